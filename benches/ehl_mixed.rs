@@ -59,7 +59,7 @@ fn one_mesh(c: &mut Criterion, language: &Language, gearbox: &Gearbox) {
     let law = made
         .slot_beside::<ToothFriction, _>("law", &part, &model["tooth_friction"])
         .unwrap();
-    let oil = part.oil.as_ref().unwrap().lubricant.at(60.0);
+    let oil = part.oil.as_ref().unwrap().lubricant.oil_at(60.0);
     let at = GearMeshAt::usual(&part, Notes::MUTED).with(|to| {
         to.torque = 50.0;
         to.speed = 4000.0 * RPM;
@@ -77,12 +77,15 @@ fn one_mesh(c: &mut Criterion, language: &Language, gearbox: &Gearbox) {
     group.bench_function("one mesh at one point, tabulated", |b| {
         b.iter(|| table.loss(black_box(&at)).unwrap().sum());
     });
-    let mean = MeanFrictionAt::of(&at, Notes::MUTED);
+    let mean = MeanFrictionAt::at_pitch_point(&at, Notes::MUTED);
     let fine = path::Path::even(&part.pair, LoadSharing::Ramp, 200);
     let mut mu = vec![0.0; 200];
     group.throughput(Throughput::Elements(200));
     group.bench_function("one mesh, 200 places", |b| {
-        b.iter(|| law.along(black_box(&fine.at(&mean, Notes::MUTED)), &mut mu).unwrap());
+        b.iter(|| {
+            law.along(black_box(&fine.at_operating_point(&mean, Notes::MUTED)), &mut mu)
+                .unwrap()
+        });
     });
     group.finish();
 }

@@ -29,7 +29,7 @@ const SPEEDS: u32 = 32;
 /// The sum of the losses at as many torques as lanes and some speeds of the two-speed example in first gear, as a map has them.
 fn side_by_side(t: &Transmission) -> impl FnMut() -> f64 {
     let case = t.case("first", &[], &["input"]).unwrap();
-    let mut scratch = t.row_scratch(&case);
+    let mut scratch = t.batch_scratch(&case);
     let torques: Vec<f64> = (1..=LANES).map(|i| 20.0 * i as f64 / LANES as f64).collect();
     move || {
         scratch.forget();
@@ -37,7 +37,7 @@ fn side_by_side(t: &Transmission) -> impl FnMut() -> f64 {
         for speed in 0..SPEEDS {
             let speeds = [(8000.0 + 22.0 * f64::from(speed)) * RPM];
             let point = point(black_box(&speeds), &[0.0]);
-            let mut row = t.row(&case, &point, &[100.0], &mut scratch);
+            let mut row = t.batch(&case, &point, &[100.0], &mut scratch);
             let block = row.follow(&torques);
             assert!(!block.alone().contains(&true));
             sum += block.losses().iter().sum::<f64>();

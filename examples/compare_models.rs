@@ -1,5 +1,5 @@
-//! One transmission under several sets of models, and with less oil: efficiency over speed. Points run on all cores, with one
-//! scratch for each thread; a point allocates nothing.
+//! Efficiency over speed of one transmission with several model sets, and with less oil. Points run in parallel, with one scratch for each
+//! thread; a point allocates nothing.
 //!
 //! `cargo run --release --example compare_models`
 #![allow(clippy::print_stdout, reason = "an example shows its numbers")]
@@ -19,13 +19,13 @@ use serde_json::json;
 const GEARBOX: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/two-speed-ev/gearbox.yaml");
 /// rad/s per 1/min.
 const RPM: f64 = PI / 30.0;
-/// At the input. \[Nm\]
+/// Input torque. \[Nm\]
 const TORQUE: f64 = 10.0;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let language = Language::linked()?;
     let gearbox = Gearbox::read(&language, Path::new(GEARBOX))?;
-    // An override names a path of the resolved description, `*` stands for one key; its value is what one would write there.
+    // An override is a path of the resolved description, in which `*` matches one key, and a value as written there.
     let harris = json!({ "type": "harris" });
     let variants = [
         ("iso14179_2", Choice::of_set("iso14179_2")),
@@ -43,7 +43,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     let mut columns = Vec::new();
     for (_, choice) in &variants {
-        // Names become indices, models are built and everything that no point changes is computed: once.
+        // Once: resolves names, builds models and computes everything that does not depend on the point.
         let transmission = gearbox.transmission(&language, choice)?;
         let case = transmission
             .case("first", &[], &["input"])
@@ -70,7 +70,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Efficiencies at speeds of the input in 1/min; absent where a loss has no value or nothing comes out.
+/// Efficiencies at input speeds in 1/min; absent if a loss has no value or there is no output power.
 fn efficiencies(transmission: &Transmission, case: &Case, rpm: &[f64]) -> Vec<Option<f64>> {
     let oil = [transmission.oil_temperature];
     rpm.par_iter()

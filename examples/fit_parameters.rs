@@ -1,6 +1,6 @@
-//! Uncertain inputs of a gearbox found from measured points, by bounded least squares, each with its 95 % interval.
+//! Identifies uncertain inputs of a gearbox from measured points by bounded least squares, with 95 % intervals.
 //!
-//! The points are synthetic: the head of `rig.csv` tells the values that are hidden in them.
+//! The points are synthetic: the head of `rig.csv` lists the true values.
 //!
 //! `cargo run --release --example fit_parameters`
 #![allow(clippy::print_stdout, reason = "an example shows its numbers")]
@@ -14,7 +14,7 @@ use gearloss::studies::identify::{Identification, Settings};
 use gearloss::studies::study::{Data, IdentifiedEntry, Quantity, Study};
 
 const STUDY: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/two-speed-ev/study.yaml");
-/// Name, path in the description or of the rig, least and greatest value in the unit of the path.
+/// Name, path in the description or of the rig, lower and upper bound in the unit of the path.
 const PARAMETERS: [(&str, &str, f64, f64); 8] = [
     ("viscosity", "lubricants.sump.viscosity.factor", 0.4, 2.5),
     ("roughness", "gears.*.surface.rq", 0.1, 1.0),
@@ -28,7 +28,7 @@ const PARAMETERS: [(&str, &str, f64, f64); 8] = [
 
 fn main() -> Result<(), Box<dyn Error>> {
     let language = Language::linked()?;
-    // The study says where the points stand, how accurate the meters are, and which models its set `complete` holds.
+    // The study defines the file of the points, the accuracy of the instruments, and the model set `complete`.
     let study = Study::read(&language, Path::new(STUDY))?;
     let (_, gearbox) = study.gearbox("gearboxes", None)?;
     let (measured, _) = study.measured("measurements", &Data::Named("rig".to_owned()), &[])?;
@@ -55,7 +55,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("{points} efficiencies, mean square of the residuals over their accuracies {misfit:.2}\n");
     println!("{:<20}{:>9}{:>10}{:>10}  unit", "parameter", "value", "from", "to");
     for (k, parameter) in identification.parameters().iter().enumerate() {
-        // A parameter that the points hold at a bound, or do not tell at all, has no interval.
+        // A parameter at an active bound, or without effect, has no interval.
         let ends = fitted.inference.interval(k, 0.95, 1.0).map(|interval| interval.ends);
         let [from, to] = ends.map_or(["-".to_owned(), "-".to_owned()], |ends| ends.map(|x| format!("{x:.4}")));
         let (value, unit) = (fitted.theta()[k], parameter.unit.symbol);

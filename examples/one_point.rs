@@ -1,4 +1,4 @@
-//! One operating point of a gearbox file under a shipped set of models: losses by component, and the efficiency.
+//! One operating point of a gearbox file with a shipped model set: losses by component, and the efficiency.
 //!
 //! `cargo run --example one_point`
 #![allow(clippy::print_stdout, reason = "an example shows its numbers")]
@@ -17,16 +17,16 @@ const GEARBOX: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/two-speed-e
 const RPM: f64 = PI / 30.0;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    // What may be written: the sections, models, catalogues and sets of everything that is linked.
+    // The sections, models, catalogues and model sets of all linked crates.
     let language = Language::linked()?;
     let gearbox = Gearbox::read(&language, Path::new(GEARBOX))?;
-    // A wrong file or set ends here, with the line, the reason and how to fix it.
+    // Errors of file or set are returned here, with line, reason and help.
     let transmission = gearbox.transmission(&language, &Choice::of_set("joint"))?;
     for warning in &transmission.warnings {
         println!("{}", gearbox.sources.render(warning));
     }
 
-    // First gear; the speed port is the gear state's own choice, the torque is given at the input.
+    // First gear; the port of the speed is the default of the gear, the torque is given at the input.
     let case = transmission
         .case("first", &[], &["input"])
         .map_err(|list| gearbox.findings(list))?;
@@ -39,7 +39,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     let solution = transmission.evaluate(&case, &point, &oil, &mut scratch);
 
-    // A loss without a value has a reason; the sum and the efficiency are absent then.
+    // If a loss has no value, the sum and the efficiency are absent.
     if let Some((part, reason)) = solution.undefined() {
         println!("{}: {reason}", part.path);
     }

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::commands::run::Shard;
+use crate::shard::Shard;
 use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
 
 /// Power losses, efficiency and operating temperature of transmissions.

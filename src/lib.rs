@@ -1,6 +1,8 @@
 //! Power losses, efficiency and operating temperature of transmissions: the program, as a library.
 //!
-//! An in-house program that adds a crate of its own models is three lines:
+//! - **Programs** use [`api`]: read from the disk or from memory, override by path, solve points, run studies, get typed outcomes.
+//! - **Models and mechanisms** of your own use [`framework::prelude`], **analyses** [`studies::prelude`].
+//! - **The program with your models** is three lines:
 //!
 //! ```no_run
 //! // use my_models as _;
@@ -8,11 +10,30 @@
 //!     gearloss::main()
 //! }
 //! ```
+//!
+//! # A first program
+//! ```
+//! use gearloss::api::{Choice, Gearbox, Given, Language, solve_point};
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! # let file = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/two-speed-ev/gearbox.yaml");
+//! let language = Language::linked()?;
+//! let gearbox = Gearbox::read(&language, file.as_ref())?;
+//! let transmission = gearbox.transmission(&language, &Choice::of_set("joint"))?;
+//! let point = solve_point(&gearbox, &transmission, "first", Given::new(10.0, 800.0))?; // Nm, rad/s
+//! println!("loss {:?} W, efficiency {:?}", point.loss, point.efficiency);
+//! # assert!(point.efficiency.is_some_and(|share| share < 1.0));
+//! # Ok(())
+//! # }
+//! ```
+//! A gearbox, and a study of it, are described in YAML; `README.md` shows one, and the folder `examples` has more. Errors list all
+//! findings with code, place and help; `docs/errors.md` explains the codes.
 
+pub mod api;
 mod args;
 mod commands;
 mod interrupt;
 mod output;
+mod shard;
 mod threads;
 
 use std::ffi::OsString;

@@ -7,7 +7,7 @@ use std::path::Path;
 use std::process::Command;
 
 use gearloss_framework::coefficients::{COEFFICIENTS, changed_from_source};
-use gearloss_framework::eval::ask;
+use gearloss_framework::eval::evaluate_input;
 use gearloss_framework::registry::Files;
 use gearloss_framework::resolve::{Choice, lookup};
 use gearloss_framework::testing::language;
@@ -99,7 +99,7 @@ fn no_value_of_a_range_makes_a_formula_undefined() {
 fn with(model: &str, key: &str, value: f64, more: &str) -> f64 {
     let name = model.split_once('/').unwrap().1;
     let input = format!("model: {{ type: {name}{more}, coefficients: {{ {key}: {value} }} }}");
-    match ask(language(), model, "input", &input, Path::new("")) {
+    match evaluate_input(language(), model, "input", &input, Path::new("")) {
         Ok(evaluated) => evaluated.total,
         Err(found) => panic!("{model}: {found}"),
     }
@@ -151,7 +151,7 @@ fn schlenk_with_other_exponents_is_the_product_of_its_powers() {
         )
     };
     let mu = |coefficients: &str| {
-        ask(
+        evaluate_input(
             language(),
             "mean_friction/schlenk",
             "input",
@@ -303,7 +303,7 @@ fn sets_and_their_components_take_coefficients() {
     assert_eq!(varied.changed_from_source(0.2), None);
     assert_eq!(
         varied.changed_from_source(0.3).unwrap(),
-        "0.3 instead of 0.2, changed from the source"
+        "0.3 instead of the published 0.2"
     );
 }
 
@@ -364,7 +364,7 @@ fn an_identification_finds_the_load_exponent_of_schlenk() {
     // Bounds are those of the coefficient.
     assert_eq!((&found["least"], &found["greatest"]), (&json!(0.1), &json!(0.4)));
     assert_eq!(found["published"], 0.2);
-    assert!(text.contains("instead of 0.2, changed from the source"), "{text}");
+    assert!(text.contains("instead of the published 0.2"), "{text}");
 }
 
 #[test]
@@ -380,7 +380,7 @@ fn analyses_move_coefficients_and_say_what_is_published() {
     );
     let (folder, text) = run("analyses", &analyses, "");
     let said =
-        format!("`{EXPONENT}`: a coefficient of a formula, published 0.2; other values are changed from the source");
+        format!("`{EXPONENT}`: a coefficient of a formula, published value 0.2; other values differ from the source");
     assert_eq!(text.matches(&said).count(), 3, "{text}");
     let note = "ours, models mine: ";
     assert!(
@@ -392,7 +392,7 @@ fn analyses_move_coefficients_and_say_what_is_published() {
     assert_eq!(changed["model_set"], "mine");
     assert_eq!(changed["coefficients"][0]["value"], 0.05);
     let page = std::fs::read_to_string(folder.join("report.html")).unwrap();
-    assert!(page.contains("Coefficients changed from the source"));
+    assert!(page.contains("Coefficients that differ from their source"));
 }
 
 /// A table that the document states, with values that have paths.
@@ -471,7 +471,7 @@ fn values_of_tables_and_lists_are_parameters() {
         .unwrap();
     let refused = gearbox.build(&language, &half).err().unwrap().render();
     assert!(
-        refused.contains("table needs `file`, or `axes` and `values`"),
+        refused.contains("table requires `file`, or `axes` and `values`"),
         "{refused}"
     );
     let misspelt = json!({ "type": "table", "axes": { "sped": [0, 1] }, "values": [1, 2] });

@@ -22,7 +22,7 @@ fn linked() -> (Vec<MechanismEntry>, Vec<Entry>) {
 }
 
 fn refused(mechanisms: Vec<MechanismEntry>, models: Vec<Entry>) -> String {
-    let faults = Registry::of(mechanisms, models, [], []).err().unwrap();
+    let faults = Registry::from_entries(mechanisms, models, [], []).err().unwrap();
     faults
         .iter()
         .map(|f| format!("{f} {}", f.notes.join(" ")))
@@ -67,17 +67,17 @@ fn two_models_of_one_name_name_both_places() {
 fn two_sets_of_one_name_and_two_rows_of_one_designation_are_told() {
     let (mechanisms, models) = linked();
     let set = *inventory::iter::<ShippedSet>().next().unwrap();
-    let found = Registry::of(mechanisms.clone(), models.clone(), [], [set, set])
+    let found = Registry::from_entries(mechanisms.clone(), models.clone(), [], [set, set])
         .err()
         .unwrap();
     assert!(
-        found[0].message.contains("two registrations of the set of models"),
+        found[0].message.contains("two registrations of the model set"),
         "{found:?}"
     );
     let bearings = *inventory::iter::<Catalogue>()
         .find(|c| c.section == "bearings")
         .unwrap();
-    let registry = Registry::of(mechanisms, models, [bearings, bearings], []).unwrap();
+    let registry = Registry::from_entries(mechanisms, models, [bearings, bearings], []).unwrap();
     let found = Language::new(registry).err().unwrap();
     assert!(
         found[0].message.contains("two catalogues of bearings have a row"),
@@ -89,7 +89,8 @@ fn two_sets_of_one_name_and_two_rows_of_one_designation_are_told() {
 fn the_order_of_registration_changes_nothing() {
     let (mut mechanisms, mut models) = linked();
     let schema = |m: Vec<MechanismEntry>, e: Vec<Entry>| {
-        let language = Language::new(Registry::of(m, e, [], []).unwrap()).unwrap_or_else(|f| panic!("{f:#?}"));
+        let language =
+            Language::new(Registry::from_entries(m, e, [], []).unwrap()).unwrap_or_else(|f| panic!("{f:#?}"));
         language.published(gearloss_framework::language::Kind::Gearbox)
     };
     let one = schema(mechanisms.clone(), models.clone());

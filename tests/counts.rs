@@ -102,11 +102,11 @@ fn points_of_a_map_mostly_take_one_pass() {
         let t = under(set);
         let case = t.case("first", &[], &["input"]).unwrap();
         let torques: [f64; LANES] = std::array::from_fn(|i| 5.0 + 0.1 * i as f64);
-        let mut scratch = t.row_scratch(&case);
+        let mut scratch = t.batch_scratch(&case);
         let mut passes = 0;
         for step in 1..=250 {
             let speed = [f64::from(80 * step) * RPM];
-            let mut row = t.row(&case, &point(&speed, &[0.0]), &[100.0], &mut scratch);
+            let mut row = t.batch(&case, &point(&speed, &[0.0]), &[100.0], &mut scratch);
             let block = row.follow(&torques);
             assert!(!block.alone().contains(&true));
             passes += block.passes().iter().sum::<usize>();

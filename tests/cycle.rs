@@ -84,12 +84,12 @@ fn energy_closes_over_both_cycles_and_in_every_second() {
             let flow = total.input - total.output - loss(&driven);
             assert!(flow.abs() < 1e-9 * total.input, "{name}: {flow}");
             assert!(
-                total.residual().abs() < 1e-9 * total.came(),
+                total.residual().abs() < 1e-9 * total.heat_input(),
                 "{name}: {}",
                 total.residual()
             );
             for s in &driven.stretches {
-                let scale = s.heats.came().max(1.0);
+                let scale = s.heats.heat_input().max(1.0);
                 assert!(
                     s.heats.residual().abs() < 1e-6 * scale,
                     "{name} {}: {}",
@@ -240,7 +240,7 @@ fn what_does_not_fit_together_is_told() {
     let trace = "{ file: drive.csv, columns: { time: t, vehicle_speed: v } }";
     assert!(refused("vehicle", trace, csv, "").contains("state the `vehicle`"));
     let oil = "{ file: drive.csv, columns: { time: t, torque: T_in, speed: n_in, oil_temperature: T } }";
-    assert!(refused("oil", oil, csv, "").contains("which the thermal network finds itself"));
+    assert!(refused("oil", oil, csv, "").contains("which the thermal network computes"));
     let two = "{ file: drive.csv, columns: { time: t, vehicle_speed: v } }\nvehicles:\n  small: { mass: 900 kg, drag_area: 0.5 m2, rolling_resistance: 0.01, tyre_radius: 300 mm, regeneration: none }\n  big: { mass: 1900 kg, drag_area: 0.6 m2, rolling_resistance: 0.01, tyre_radius: 330 mm, regeneration: none }";
     assert!(refused("vehicles", two, csv, "").contains("several vehicles: small, big"));
     let plain = "{ file: drive.csv, columns: { time: t, torque: T_in, speed: n_in } }";

@@ -115,7 +115,7 @@ fn long_documents_are_refused_before_they_are_read() {
     let folder = folder("long");
     let file = fs::File::create(folder.join("long.yaml")).unwrap();
     file.set_len(5 << 20).unwrap();
-    let long = "it has 5 MB, and no more than 4 MB are read";
+    let long = "it has 5 MB; at most 4 MB are read";
     refused(&folder, &["check", "long.yaml"], &["long.yaml", long]);
     refused(&folder, &["run", "long.yaml"], &["long.yaml", long]);
 }
@@ -174,7 +174,7 @@ fn one_run_at_a_time_writes_into_a_folder() {
     let output = gearloss(&folder, &["run", "study.yaml"]);
     assert!(output.status.success(), "{}", text(&output.stderr));
     assert!(
-        text(&output.stdout).contains("was broken off"),
+        text(&output.stdout).contains("was interrupted"),
         "{}",
         text(&output.stdout)
     );
@@ -222,7 +222,7 @@ fn a_run_that_was_killed_is_gone_on_with() {
     );
     // Files of somebody else are not taken for those of a run.
     fs::remove_file(results.join("report.html")).unwrap();
-    refused(&folder, &["run", "study.yaml"], &["no results of a study", "--force"]);
+    refused(&folder, &["run", "study.yaml"], &["not results of a study", "--force"]);
 }
 
 #[cfg(unix)]
@@ -305,16 +305,21 @@ fn names_of_devices_are_refused_where_they_become_files() {
     refused(
         &folder,
         &["run", "study.yaml"],
-        &["analyses.CON", "study.yaml:4", "device on Windows", "call it `CON_`"],
+        &[
+            "analyses.CON",
+            "study.yaml:4",
+            "device name on Windows",
+            "rename it, for example to `CON_`",
+        ],
     );
     refused(&folder, &["check", "study.yaml"], &["analyses.CON"]);
     fs::write(folder.join("study.yaml"), STUDY.replace("ours:", "lpt1:")).unwrap();
     refused(
         &folder,
         &["run", "study.yaml"],
-        &["gearboxes.lpt1", "device on Windows"],
+        &["gearboxes.lpt1", "device name on Windows"],
     );
-    refused(&folder, &["new", "plugin", "com1"], &["device on Windows"]);
+    refused(&folder, &["new", "plugin", "com1"], &["device name on Windows"]);
 }
 
 #[test]
@@ -362,7 +367,7 @@ fn analyses_that_hold_their_points_refuse_too_many_of_them() {
         refused(
             &folder,
             &["run", "study.yaml"],
-            &["more points", "than the 2000000", "analyses"],
+            &["more points", "than the maximum of 2000000", "analyses"],
         );
     }
 }

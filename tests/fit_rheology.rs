@@ -120,10 +120,10 @@ fn u3l_u3m_u3n_three_steps_through_the_command() {
     );
     // The least pressure begins at less than twice the Eyring stress.
     assert!(
-        said.contains("note: at 0.800 GPa, 60.0 degC stress begins at 1.9 times the slope"),
+        said.contains("note: at 0.800 GPa, 60.0 degC the stress starts at 1.9 times the slope"),
         "{said}"
     );
-    assert!(said.contains("the curve still rises there"), "{said}");
+    assert!(said.contains("the curve still increases there"), "{said}");
 }
 
 #[test]
@@ -333,12 +333,12 @@ fn faulty_files_are_refused_with_line_and_help() {
         (
             "both.csv",
             "pressure [GPa],temperature [degC],shear_rate [1/s],stress [MPa],mu\n1,60,1e5,12,0.012\n".to_owned(),
-            "line 1: `stress [MPa]` beside `mu`",
+            "line 1: both `stress [MPa]` and `mu`",
         ),
         (
             "unit.csv",
             format!("# rig 3\n{}{row}", head.replace("GPa", "psi")),
-            "line 2: `pressure` is in `psi`, which is no unit of it",
+            "line 2: `pressure` is in `psi`, which is not a unit of this quantity",
         ),
         (
             "dimension.csv",
@@ -358,28 +358,28 @@ fn faulty_files_are_refused_with_line_and_help() {
         (
             "zero.csv",
             format!("{head}{row}0,60,2e6,30\n"),
-            "line 4: column 1 `pressure`: 0 is not above zero",
+            "line 4: column 1 `pressure`: 0 is not positive",
         ),
         (
             "hot.csv",
             format!("{head}{row}1,333,2e6,30\n"),
-            "line 4: 333 degC is no temperature of an oil",
+            "line 4: 333 degC is not a valid oil temperature",
         ),
         (
             "cells.csv",
             format!("{head}1,60,1e5\n"),
-            "line 2: 3 cells where the header has 4",
+            "line 2: 3 cells, but the header has 4",
         ),
         ("empty.csv", head.to_owned(), "no row of numbers"),
         (
             "single.csv",
             format!("{head}1,60,1e5,12\n"),
-            "no curve whose stress rises over two shear rates",
+            "no curve with increasing stress over two shear rates",
         ),
         (
             "two.csv",
             format!("{head}{row}"),
-            "2 points for 2 parameters tell nothing of their accuracy",
+            "2 points for 2 parameters do not allow an estimate of the accuracy",
         ),
     ] {
         let file = written(name, &text);
@@ -407,26 +407,26 @@ fn faulty_files_are_refused_with_line_and_help() {
             "two_films.csv",
             "film [nm],lambda,mu,mu_film\n80,1,0.1,0.03\n",
             &[],
-            "line 1: `lambda` beside `film`",
+            "line 1: both `lambda` and `film`",
         ),
         (
             "beside.csv",
             "lambda,mu,mu_film\n1,0.1,0.03\n",
             &["--rq", "0.3 um"],
-            "line 1: `lambda` beside --rq",
+            "line 1: both `lambda` and --rq",
         ),
         (
             "rough.csv",
             "film [nm],mu,mu_film\n80,0.1,0.03\n",
             &["--rq", "0 um"],
-            "is not above zero",
+            "is not positive",
         ),
         ("without.csv", "lambda,mu\n1,0.1\n", &[], "line 1: no column `mu_film`"),
         (
             "minus.csv",
             "lambda,mu,mu_film\n1,-0.1,0.03\n",
             &[],
-            "line 2: column 2 `mu`: -0.1 is not above zero",
+            "line 2: column 2 `mu`: -0.1 is not positive",
         ),
         (
             "power.csv",

@@ -65,7 +65,7 @@ fn every_class_of_input_error_says_what_where_and_how_to_mend_it() {
             "error"
         };
         assert!(text.contains(severity), "{name} is accepted:\n{text}");
-        let one = text.matches(&format!("{severity}: ")).count() == 1;
+        let one = text.matches(&format!("{severity}[")).count() == 1;
         assert!(
             one || SEVERAL.contains(&name.as_str()),
             "{name} is one mistake and gets several messages:\n{text}"

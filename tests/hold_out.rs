@@ -2,11 +2,13 @@
 #![allow(clippy::print_stdout, reason = "the documentation quotes the table of coverage")]
 
 use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::LazyLock;
 
 use crate::common::rig::Normal;
+use crate::common::study::{Ran, run_texts};
 use crate::common::{RPM, language};
+use gearloss::api::InMemory;
 use gearloss_framework::evaluate::{Point, PowerFlow};
 use gearloss_framework::flow::Tolerance;
 use gearloss_framework::gearbox::Gearbox;
@@ -60,17 +62,10 @@ const TRUTH: [(&str, f64); 3] = [
     ("seals.D1.loss_factor", 1.3),
 ];
 
-fn folder(name: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("hold-out-{name}"));
-    let _ = std::fs::remove_dir_all(&folder);
-    std::fs::create_dir_all(&folder).unwrap();
-    std::fs::write(folder.join("gearbox.yaml"), GEARBOX).unwrap();
-    folder
-}
-
-fn gearbox(language: &Language, name: &str) -> Gearbox {
-    let file = folder(name).join("gearbox.yaml");
-    Gearbox::read(language, &file).unwrap_or_else(|f| panic!("{}", f.render()))
+fn gearbox(language: &Language) -> Gearbox {
+    let files = InMemory::default().shared();
+    let gearbox = Gearbox::from_text(language, &files, GEARBOX, "gearbox.yaml", Path::new(""));
+    gearbox.unwrap_or_else(|f| panic!("{}", f.render()))
 }
 
 /// Torque in Nm, speed in rpm and loss in W of all points, with what is hidden and further overrides.
@@ -106,8 +101,7 @@ fn points(language: &Language, gearbox: &Gearbox, overrides: &[(&str, Value)]) -
 }
 
 /// Runs a study of the gearbox on a file of points, and gives what it printed.
-fn run(name: &str, keys: &str, csv: &str) -> (PathBuf, String) {
-    let folder = folder(name);
+fn run(keys: &str, csv: &str) -> (Ran, String) {
     let study = format!(
         "gearloss: study/1
 gearboxes: {{ ours: gearbox.yaml }}
@@ -125,21 +119,13 @@ analyses:
       seal: {{ path: seals.D1.loss_factor, from: 0.1, to: 10 }}
 {keys}"
     );
-    std::fs::write(folder.join("study.yaml"), study).unwrap();
-    std::fs::write(folder.join("rig.csv"), csv).unwrap();
-    let output = std::process::Command::new(env!("CARGO_BIN_EXE_gearloss"))
-        .arg("run")
-        .arg(folder.join("study.yaml"))
-        .output()
-        .unwrap();
-    let text = String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr);
-    (folder, text)
+    let ran = run_texts(&study, &[("gearbox.yaml", GEARBOX), ("rig.csv", csv)]);
+    let text = ran.text.clone();
+    (ran, text)
 }
 
-fn found(folder: &Path) -> Value {
-    let text = std::fs::read_to_string(folder.join("results/found.json")).unwrap();
-    let value: Value = serde_json::from_str(&text).unwrap();
-    value["identifications"][0].clone()
+fn found(results: &Ran) -> Value {
+    results.json("found")["identifications"][0].clone()
 }
 
 /// Exact points, but for 10 W more at the greatest torque, with a column that holds out the same rows.
@@ -148,7 +134,7 @@ static SPOILT: LazyLock<String> = LazyLock::new(spoilt);
 fn spoilt() -> String {
     let language = language();
     let mut csv = "torque [Nm],speed [rpm],loss [W],loss_accuracy [W],use_for_test,bench\n".to_owned();
-    let gearbox = gearbox(&language, "spoilt");
+    let gearbox = gearbox(&language);
     for (i, [torque, speed, loss]) in points(&language, &gearbox, &[]).into_iter().enumerate() {
         let spoilt = torque > 55.0;
         let loss = loss + if spoilt { 10.0 } else { 0.0 };
@@ -165,8 +151,8 @@ fn spoilt() -> String {
 #[test]
 fn rows_held_out_are_not_fitted_and_are_predicted() {
     let csv: &str = &SPOILT;
-    let (folder, text) = run("condition", "    hold_out: torque > 55 Nm\n    folds: 0\n", csv);
-    let condition = found(&folder);
+    let (results, text) = run("    hold_out: torque > 55 Nm\n    folds: 0\n", csv);
+    let condition = found(&results);
     for (name, expected) in [("mesh", 1.2), ("viscosity", 0.8), ("seal", 1.3)] {
         let all = condition["parameters"].as_array().unwrap();
         let own = all.iter().find(|p| p["name"] == name).unwrap();
@@ -203,19 +189,19 @@ fn rows_held_out_are_not_fitted_and_are_predicted() {
     );
     for words in [
         "found: 6 of 36 rows are held out (torque > 55 Nm)",
-        "found: predicts the loss of the 6 points held out (torque > 55 Nm) to",
-        "0 of 6 lie inside their 95 % bands (0.0 %, 95 % interval 0.0 to 39.0 %); the bands are too narrow",
+        "found: predicts the loss of the 6 held-out points (torque > 55 Nm) with",
+        "0 of 6 are inside their 95 % bands (0.0 %, 95 % interval 0.0 to 39.0 %); the bands are too narrow",
     ] {
         assert!(text.contains(words), "{words}\n{text}");
     }
-    let table = std::fs::read_to_string(folder.join("results/found-hold-out.csv")).unwrap();
+    let table = results.csv("found-hold-out");
     assert_eq!(table.lines().count(), 7);
     assert!(table.starts_with("model_set,line,name,gear,torque_nm,speed_rpm,oil_temperature_degc,quantity,measured,predicted,band_low,band_high,inside\n"));
     assert!(table.lines().skip(1).all(|line| line.ends_with(",false")), "{table}");
-    assert!(folder.join("results/found-own-hold-out-loss-torque.svg").is_file());
+    assert!(results.draws("found-own-hold-out-loss-torque"));
     // A column that says the same gives the same.
-    let (folder, _) = run("column", "    hold_out: { column: use_for_test }\n    folds: 0\n", csv);
-    let column = found(&folder);
+    let (results, _) = run("    hold_out: { column: use_for_test }\n    folds: 0\n", csv);
+    let column = found(&results);
     assert_eq!(column["hold_out"]["points"], held["points"]);
     assert_eq!(column["hold_out"]["chosen_by"], "column `use_for_test`");
 }
@@ -259,7 +245,7 @@ fn rows_are_chosen_in_four_ways() {
 #[test]
 fn what_cannot_be_held_out_is_refused_with_its_place() {
     let csv: &str = &SPOILT;
-    for (i, (keys, place, message, help)) in [
+    for (keys, place, message, help) in [
         (
             "hold_out: torque > 55",
             "found.hold_out",
@@ -269,7 +255,7 @@ fn what_cannot_be_held_out_is_refused_with_its_place() {
         (
             "hold_out: { where: torqe > 5 Nm }",
             "found.hold_out.where",
-            "`torqe` is no measured quantity",
+            "`torqe` is neither a measured quantity",
             "`torque`",
         ),
         (
@@ -281,38 +267,43 @@ fn what_cannot_be_held_out_is_refused_with_its_place() {
         (
             "hold_out: { column: bench }",
             "found.hold_out.column",
-            "line 2: `a` in column `bench` says neither",
+            "line 2: `a` in column `bench` is neither",
             "write 1",
         ),
         (
             "hold_out: torque > 99 Nm",
             "found.hold_out",
             "none of 36 rows is held out",
-            "leave `hold_out` out",
+            "delete `hold_out`",
         ),
         (
             "hold_out: torque > 0 Nm",
             "found.hold_out",
-            "nothing is left to be fitted",
+            "no rows to fit",
             "fewer rows",
         ),
         (
             "hold_out: torque > 10 Nm or speed > 1000 rpm",
             "found.hold_out",
-            "2 rows are left to be fitted, for 3 parameters",
+            "2 rows remain for the fit of 3 parameters",
             "fewer",
         ),
-        ("hold_out: {}", "found.hold_out", "nothing says which rows", "`column`"),
+        (
+            "hold_out: {}",
+            "found.hold_out",
+            "selection of held-out rows is missing",
+            "`column`",
+        ),
         (
             "hold_out: { every: 3, random: 0.2 }",
             "found.hold_out",
-            "several ways",
+            "several selections",
             "one of",
         ),
         (
             "hold_out: { every: 3, seed: 2 }",
             "found.hold_out.seed",
-            "nothing is drawn at random",
+            "applies to random groups only",
             "`random`",
         ),
         ("hold_out: { every: 1 }", "hold_out.every", "", ""),
@@ -321,79 +312,72 @@ fn what_cannot_be_held_out_is_refused_with_its_place() {
             "folds: { by: sign }",
             "found.folds.by",
             "one group, `power in`",
-            "differs",
+            "varies",
         ),
         (
             "folds: { by: oil_temperature }",
             "found.folds.by",
-            "the data hold no `oil_temperature`",
+            "the data do not contain `oil_temperature`",
             "columns: { oil_temperature: ... }",
         ),
         (
             "folds: { by: bench, count: 2 }",
             "found.folds.count",
             "given by its values",
-            "leave `count` out",
+            "delete `count`",
         ),
         (
             "folds: { by: torque, seed: 2 }",
             "found.folds.seed",
-            "nothing is drawn",
+            "applies to random groups",
             "random",
         ),
-        ("folds: 1", "found.folds", "one group", "2 or more"),
-    ]
-    .into_iter()
-    .enumerate()
-    {
-        let (folder, text) = run(&format!("fault-{i}"), &format!("    {keys}\n"), csv);
+        ("folds: 1", "found.folds", "at least two groups", "at least 2"),
+    ] {
+        let (results, text) = run(&format!("    {keys}\n"), csv);
         assert!(
             text.contains(place) && text.contains(message) && text.contains(help),
             "{keys}\n{text}"
         );
-        assert!(!folder.join("results/found.json").is_file(), "{keys}");
+        assert!(!results.succeeded, "{keys}");
     }
 }
 
 #[test]
 fn folds_group_by_what_is_asked() {
     let csv: &str = &SPOILT;
-    for (i, (keys, by, words, groups, first)) in [
-        ("4", "torque", "its own band of torque a residual", 4, "10.0 Nm"),
+    for (keys, by, words, groups, first) in [
+        ("4", "torque", "(band of torque): predicted residual", 4, "10.0 Nm"),
         (
             "{ by: torque, count: 3 }",
             "torque",
-            "its own band of torque",
+            "(band of torque)",
             3,
             "10.0 to 20.0 Nm",
         ),
         (
             "{ by: speed, count: 3 }",
             "speed",
-            "its own band of speed",
+            "(band of speed)",
             3,
             "500 to 1000 rpm",
         ),
         (
             "{ by: random, count: 4, seed: 3 }",
             "random",
-            "its own random group",
+            "(random group)",
             4,
             "random group 1",
         ),
-        ("{ by: bench }", "bench", "its own group of `bench`", 3, "bench A"),
-        ("{ by: loss, count: 2 }", "loss", "its own group of `loss`", 2, ""),
-    ]
-    .into_iter()
-    .enumerate()
-    {
-        let (folder, text) = run(
-            &format!("folds-{i}"),
-            &format!("    folds: {keys}\n    write: [json]\n"),
-            csv,
+        ("{ by: bench }", "bench", "(group of `bench`)", 3, "bench A"),
+        ("{ by: loss, count: 2 }", "loss", "(group of `loss`)", 2, ""),
+    ] {
+        let (results, text) = run(&format!("    folds: {keys}\n    write: [json]\n"), csv);
+        let folds = &found(&results)["folds"];
+        assert!(
+            text.contains("cross-validation over ") && text.contains(words),
+            "{keys}\n{text}"
         );
-        let folds = &found(&folder)["folds"];
-        assert!(text.contains(&format!("predicted without {words}")), "{keys}\n{text}");
         let bands = folds["bands"].as_array().unwrap();
         assert_eq!((folds["by"].as_str().unwrap(), bands.len()), (by, groups), "{keys}");
         assert!(
@@ -410,12 +394,11 @@ fn folds_group_by_what_is_asked() {
         Some((torque, rest)) if i % 3 == 1 => format!("-{torque},{rest}\n"),
         _ => format!("{line}\n"),
     });
-    let (folder, text) = run(
-        "folds-sign",
+    let (results, text) = run(
         "    folds: { by: sign }\n    write: [json]\n",
         &both.collect::<String>(),
     );
-    let names: Vec<Value> = found(&folder)["folds"]["bands"]
+    let names: Vec<Value> = found(&results)["folds"]["bands"]
         .as_array()
         .unwrap()
         .iter()
@@ -560,7 +543,7 @@ fn table(all: &[Simulated]) -> Vec<f64> {
 #[test]
 fn bands_of_a_right_model_hold_what_they_promise() {
     let language = language();
-    let gearbox = gearbox(&language, "right");
+    let gearbox = gearbox(&language);
     let all = simulate(&language, &gearbox, &points(&language, &gearbox, &[]));
     assert_eq!(all.len(), 144);
     for share in table(&all) {
@@ -573,7 +556,7 @@ fn bands_of_a_right_model_hold_what_they_promise() {
 #[test]
 fn bands_of_a_wrong_model_do_not_hold_beyond_what_was_fitted() {
     let language = language();
-    let gearbox = gearbox(&language, "wrong");
+    let gearbox = gearbox(&language);
     let other = [("meshes.stage.model", json!({ "type": "anderson_loewenthal" }))];
     let all = simulate(&language, &gearbox, &points(&language, &gearbox, &other));
     table(&all);

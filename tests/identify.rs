@@ -1,9 +1,9 @@
 //! Identification: what went into made-up points comes out of them, and what cannot be identified is told with its place.
 
 use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
 
 use crate::common::rig::{SEED, TRUTH};
+use crate::common::study::{Ran, run_texts};
 use crate::common::{self, RPM, language};
 use gearloss_framework::evaluate::{Point, PowerFlow};
 use gearloss_framework::flow::Tolerance;
@@ -14,27 +14,11 @@ use gearloss_numerics::least_squares::Loss;
 use gearloss_studies::identify::Settings;
 use serde_json::{Value, json};
 
-/// Runs a study with files beside it.
-fn run_of(name: &str, study: &str, files: &[(&str, &str)], threads: &str) -> (PathBuf, String) {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("identify-{name}"));
-    let _ = std::fs::remove_dir_all(&folder);
-    std::fs::create_dir_all(&folder).unwrap();
-    std::fs::write(folder.join("study.yaml"), study).unwrap();
-    for (file, text) in files {
-        std::fs::write(folder.join(file), text).unwrap();
-    }
-    let output = std::process::Command::new(env!("CARGO_BIN_EXE_gearloss"))
-        .arg("run")
-        .arg(folder.join("study.yaml"))
-        .env("RAYON_NUM_THREADS", threads)
-        .output()
-        .unwrap();
-    let text = String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr);
-    (folder, text)
-}
-
-fn run(name: &str, study: &str, files: &[(&str, &str)]) -> (PathBuf, String) {
-    run_of(name, study, files, "2")
+/// Runs a study with files beside it; its results and what it prints.
+fn run(study: &str, files: &[(&str, &str)]) -> (Ran, String) {
+    let ran = run_texts(study, files);
+    let text = ran.text.clone();
+    (ran, text)
 }
 
 /// A study of the two-speed example under its own models at 80 degC.
@@ -46,10 +30,8 @@ fn study(analyses: &str) -> String {
     )
 }
 
-fn first(folder: &Path, name: &str) -> Value {
-    let path = folder.join(format!("results/{name}.json"));
-    let value: Value = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
-    value["identifications"][0].clone()
+fn first(results: &Ran, name: &str) -> Value {
+    results.json(name)["identifications"][0].clone()
 }
 
 /// Points of the example under its own models and further overrides: torque in Nm, speed in rpm, loss in W, torque and speed at
@@ -164,8 +146,8 @@ fn what_went_in_without_noise_comes_out() {
       mesh: { path: meshes.M1.loss_factor, from: 0.5, to: 2 }
 ",
     );
-    let (folder, text) = run("exact", &study, &[("rig.csv", &csv)]);
-    let found = first(&folder, "all");
+    let (results, text) = run(&study, &[("rig.csv", &csv)]);
+    let found = first(&results, "all");
     assert_eq!(found["search"]["status"], "converged", "{text}");
     near(&found, "viscosity", 0.8);
     near(&found, "loads at 2 Nm", 1.3);
@@ -173,12 +155,12 @@ fn what_went_in_without_noise_comes_out() {
     near(&found, "mesh", 1.2);
     assert!(found["misfit"]["quantities"][0]["rms"].as_f64().unwrap() < 0.01);
     // The values go back into a study as they were written.
-    let values = std::fs::read_to_string(folder.join("results/all-own.yaml")).unwrap();
+    let values = results.file("all-own.yaml");
     let set = values.split("conditions:\n").nth(1).unwrap().split('#').next().unwrap();
     let head = "conditions: { oil_temperature: 80 degC }\n";
     let again = study.replace(head, &format!("conditions:\n  oil_temperature: 80 degC\n{set}"));
-    let (folder, text) = run("again", &again, &[("rig.csv", &csv)]);
-    let before = first(&folder, "all")["misfit"]["quantities"][0]["rms_before"].as_f64();
+    let (results, text) = run(&again, &[("rig.csv", &csv)]);
+    let before = first(&results, "all")["misfit"]["quantities"][0]["rms_before"].as_f64();
     assert!(before.unwrap_or_else(|| panic!("{text}")) < 0.01, "{before:?}\n{again}");
 }
 
@@ -200,8 +182,8 @@ fn offsets_and_bearings_of_the_rig_are_found_at_either_port() {
     let analyses = format!(
         "analyses:\n  there: {{ type: identify, data: {{ file: rig.csv, {data} }}, residuals: [loss], folds: 0, profiles: false, parameters: {parameters} }}\n"
     );
-    let (folder, text) = run("rig", &study(&analyses), &[("rig.csv", &csv)]);
-    let found = first(&folder, "there");
+    let (results, text) = run(&study(&analyses), &[("rig.csv", &csv)]);
+    let found = first(&results, "there");
     for (name, expected) in [("offset_in", 0.05), ("offset_out", -0.4), ("support", 0.02)] {
         near(&found, name, expected);
     }
@@ -211,8 +193,8 @@ fn offsets_and_bearings_of_the_rig_are_found_at_either_port() {
     );
     let conditions = "conditions: { oil_temperature: 80 degC, torque_at: output, speed_at: output }";
     let other = study(&analyses).replace("conditions: { oil_temperature: 80 degC }", conditions);
-    let (folder, text) = run("rig-back", &other, &[("rig.csv", &back)]);
-    let found = first(&folder, "there");
+    let (results, text) = run(&other, &[("rig.csv", &back)]);
+    let found = first(&results, "there");
     for (name, expected) in [("offset_in", 0.05), ("offset_out", -0.4), ("support", 0.02)] {
         near(&found, name, expected);
     }
@@ -236,10 +218,8 @@ fn a_known_rig_is_taken_out_of_a_comparison() {
     }
     let data = "data: { file: rig.csv, rig: { torque_offset_in: 0.05 Nm, torque_offset_out: -0.4 Nm, support_in: { torque: 0.02 Nm } } }";
     let analyses = format!("analyses:\n  seen: {{ type: compare, against: [ours/own], quantity: loss, {data} }}\n");
-    let (folder, text) = run("known", &study(&analyses), &[("rig.csv", &csv)]);
-    let path = folder.join("results/seen.json");
-    let value: Value =
-        serde_json::from_str(&std::fs::read_to_string(path).unwrap_or_else(|_| panic!("{text}"))).unwrap();
+    let (results, _) = run(&study(&analyses), &[("rig.csv", &csv)]);
+    let value = results.json("seen");
     let rms = value["comparisons"][0]["difference"]["rms"].as_f64().unwrap();
     // Nothing is left but rounding of the flow, a billionth of the power.
     assert!(rms < 1e-4, "{rms}");
@@ -253,8 +233,8 @@ fn temperatures_are_fitted_where_the_model_finds_its_own() {
         gearbox.display()
     );
     let grid = "grids: { g: { gear: reducing, torque: [2 Nm, 3 Nm], speed: [1000 rpm, 2000 rpm, 3000 rpm] } }\nanalyses:\n  map: { type: map, grid: g }\n";
-    let (folder, text) = run("map", &(head.clone() + grid), &[]);
-    let map: Value = serde_json::from_str(&std::fs::read_to_string(folder.join("results/map.json")).unwrap()).unwrap();
+    let (results, text) = run(&(head.clone() + grid), &[]);
+    let map = results.json("map");
     let mut csv =
         "torque [Nm],speed [rpm],oil_temperature [degC],oil_temperature_accuracy [K],loss [W],loss_accuracy [W]\n"
             .to_owned();
@@ -280,8 +260,8 @@ fn temperatures_are_fitted_where_the_model_finds_its_own() {
       viscosity: { path: \"lubricants.*.viscosity.factor\", from: 0.3, to: 3, scale: log }
 ";
     let head = head.replace("alpha: 20 W", "alpha: 35 W");
-    let (folder, text) = run("warm", &(head + analysis), &[("rig.csv", &csv)]);
-    let found = first(&folder, "warm");
+    let (results, text) = run(&(head + analysis), &[("rig.csv", &csv)]);
+    let found = first(&results, "warm");
     assert_eq!(found["search"]["status"], "converged", "{text}");
     near(&found, "alpha", 20.0);
     near(&found, "viscosity", 1.0);
@@ -374,9 +354,9 @@ analyses:
       mesh: { path: \"meshes.*.loss_factor\", from: 0.5, to: 2 }
 ",
     );
-    let all = ["1", "2"].map(|threads| {
-        let (folder, text) = run_of(&format!("threads-{threads}"), &study, &[("rig.csv", &csv)], threads);
-        std::fs::read_to_string(folder.join("results/all.json")).unwrap_or_else(|_| panic!("{text}"))
+    let all = [1, 2].map(|threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| run_texts(&study, &[("rig.csv", &csv)]).json("all"))
     });
     assert_eq!(all[0], all[1]);
 }
@@ -396,8 +376,8 @@ fn what_the_points_do_not_see_is_told_and_the_rest_is_found() {
       held: { path: \"seals.*.loss_factor\", from: 1, to: 1 }
 ",
     );
-    let (folder, text) = run("unseen", &study, &[("rig.csv", &csv)]);
-    let found = first(&folder, "all");
+    let (results, text) = run(&study, &[("rig.csv", &csv)]);
+    let found = first(&results, "all");
     near(&found, "mesh", 1.2);
     assert_eq!(
         (&found["parameters"][1]["verdict"], &found["parameters"][2]["verdict"]),
@@ -405,7 +385,7 @@ fn what_the_points_do_not_see_is_told_and_the_rest_is_found() {
         "{text}"
     );
     assert!(
-        text.contains("`idle` is not seen") && text.contains("`held` is fixed"),
+        text.contains("`idle` has no effect") && text.contains("`held` is fixed"),
         "{text}"
     );
 }
@@ -435,21 +415,21 @@ fn what_cannot_be_identified_is_told_with_its_place_and_how_to_mend_it() {
             "",
             &csv,
             "parameters.x.path",
-            "is no number",
+            "is not a number",
         ),
         (
             "x: { path: meshes.M1.loss_factor, from: 2, to: 1 }",
             "",
             &csv,
             "parameters.x.to",
-            "the bounds cross",
+            "the bounds are reversed",
         ),
         (
             "x: { path: meshes.M1.loss_factor, from: -1, to: 1 }",
             "",
             &csv,
             "parameters.x.from",
-            "leaves what the path allows",
+            "is outside the range of the path",
         ),
         (
             "x: { path: meshes.M1.loss_factor, from: 0, to: 1, scale: log }",
@@ -512,14 +492,14 @@ fn what_cannot_be_identified_is_told_with_its_place_and_how_to_mend_it() {
             "residuals: [temperature],",
             &csv,
             "data",
-            "nothing gives a measured oil temperature",
+            "there is no measured oil temperature",
         ),
         (
             mesh,
             "residuals: [loss, loss_torque],",
             bare,
             "data",
-            "count together only by their accuracies",
+            "needs their accuracies",
         ),
         (
             mesh,
@@ -540,7 +520,7 @@ fn what_cannot_be_identified_is_told_with_its_place_and_how_to_mend_it() {
             "",
             "torque [Nm],speed [rpm],loss [W],loss_accuracy [W]\n5,4000,90,2\n",
             "data",
-            "1 measured numbers and 0 priors for 2 parameters",
+            "1 measured values and 0 priors for 2 parameters",
         ),
         (mesh, "next: { grid: nowhere },", &csv, "next.grid", "nowhere"),
         (
@@ -548,7 +528,7 @@ fn what_cannot_be_identified_is_told_with_its_place_and_how_to_mend_it() {
             "accuracy_factors: true, robust: { loss: cauchy },",
             &csv,
             "accuracy_factors",
-            "leave one of them out",
+            "delete one of them",
         ),
         (
             mesh,
@@ -562,7 +542,7 @@ fn what_cannot_be_identified_is_told_with_its_place_and_how_to_mend_it() {
             "",
             "torque [Nm],speed [rpm],loss [W],weight\n5,4000,90,0\n10,4000,130,0\n",
             "data",
-            "all points have no weight",
+            "all points have zero weight",
         ),
         (
             mesh,
@@ -577,22 +557,22 @@ fn what_cannot_be_identified_is_told_with_its_place_and_how_to_mend_it() {
             "",
             &csv,
             "parameters.x.start",
-            "is outside of",
+            "is outside",
         ),
         (
             "x: { path: meshes.M1.loss_factor, from: 0.5, to: 2, prior: { deviation: 1 } }",
             "",
             bare,
             "parameters.x.prior",
-            "count together only by their accuracies",
+            "needs accuracies",
         ),
-        (mesh, "residuals: [loss, loss],", &csv, "residuals", "stands here twice"),
+        (mesh, "residuals: [loss, loss],", &csv, "residuals", "is listed twice"),
         (
             mesh,
             "residuals: [efficiency, loss],",
             &csv,
             "residuals",
-            "has no column of its own",
+            "has no column and is computed",
         ),
         (
             "x: { path: \"bearings.*.radial_factor\", from: 0.5, to: 2, over: { port: outptu, torques: [1, 2] } }",
@@ -606,7 +586,7 @@ fn what_cannot_be_identified_is_told_with_its_place_and_how_to_mend_it() {
             "",
             &csv,
             "parameters.x.prior",
-            "is outside of",
+            "is outside",
         ),
         (
             mesh,
@@ -624,7 +604,7 @@ fn what_cannot_be_identified_is_told_with_its_place_and_how_to_mend_it() {
         let study = study(&format!(
             "analyses:\n  all: {{ type: identify, data: {{ file: rig.csv }}, {residuals} {more} parameters: {{ {parameters} }} }}\n"
         ));
-        let (_, text) = run("faults", &study, &[("rig.csv", file)]);
+        let (_, text) = run(&study, &[("rig.csv", file)]);
         assert!(
             text.contains(&format!("analyses.all.{place}"))
                 && text.contains(said)
@@ -636,7 +616,7 @@ fn what_cannot_be_identified_is_told_with_its_place_and_how_to_mend_it() {
     let named = study(
         "analyses:\n  all: { type: identify, data: nowhere, parameters: { x: { path: meshes.M1.loss_factor } } }\n",
     );
-    let (_, text) = run("named", &named, &[]);
+    let (_, text) = run(&named, &[]);
     assert!(
         text.contains("analyses.all.data") && text.contains("no measurement"),
         "{text}"

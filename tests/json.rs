@@ -79,17 +79,17 @@ fn every_finding_has_its_code_place_and_help() {
         file["findings"][0].clone()
     };
     for (case, code, line) in [
-        ("not_yaml", "syntax", true),
-        ("duplicate_key", "syntax", true),
-        ("misspelt_key", "unknown-key", true),
-        ("missing_key", "missing-key", true),
-        ("model_without_type", "missing-key", true),
-        ("unknown_type", "unknown-name", true),
-        ("wrong_unit", "value", true),
-        ("out_of_range", "value", true),
-        ("extends_missing", "unreadable", true),
-        ("unknown_designation", "choice", true),
-        ("no_overlap", "gearbox", true),
+        ("not_yaml", "E0002", true),
+        ("duplicate_key", "E0003", true),
+        ("misspelt_key", "E0101", true),
+        ("missing_key", "E0102", true),
+        ("model_without_type", "E0102", true),
+        ("unknown_type", "E0103", true),
+        ("wrong_unit", "E0106", true),
+        ("out_of_range", "E0105", true),
+        ("extends_missing", "E0001", true),
+        ("unknown_designation", "E0205", true),
+        ("no_overlap", "E0302", true),
     ] {
         let finding = of(case);
         assert_eq!(finding["code"], code, "{case}: {finding:#}");
@@ -145,7 +145,7 @@ fn options_of_gearboxes_are_refused_for_studies() {
     ] {
         let output = gearloss(&[&["check", "examples/two-speed-ev/study.yaml"], option].concat());
         let error = String::from_utf8(output.stderr).unwrap();
-        assert!(error.contains(&format!("{} has no meaning for", option[0])), "{error}");
+        assert!(error.contains(&format!("{} does not apply to", option[0])), "{error}");
         assert_eq!(output.status.code(), Some(2));
     }
 }
@@ -155,10 +155,7 @@ fn a_missing_file_is_told_beside_the_others() {
     let (value, code) = check(&["nowhere.yaml", "examples/two-speed-ev/gearbox.yaml"]);
     assert_eq!(code, 2);
     let finding = &value["files"][0]["findings"][0];
-    assert_eq!(
-        (&finding["code"], &finding["line"]),
-        (&"unreadable".into(), &Value::Null)
-    );
+    assert_eq!((&finding["code"], &finding["line"]), (&"E0001".into(), &Value::Null));
     assert_eq!(value["files"][1]["fine"], true);
 }
 

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use gearloss_framework::eval::ask;
+use gearloss_framework::eval::evaluate_input;
 use gearloss_framework::loss::Notes;
 use gearloss_framework::mechanism::auxiliary::Auxiliary;
 use gearloss_framework::mechanism::gear_drag::GearDrag;
@@ -69,7 +69,7 @@ fn seen(mechanism: &str, quantity: &str, at: &str) -> f64 {
 
 fn refused(mechanism: &str, at: &str) -> String {
     let input = format!("at: {at}");
-    let answer = ask(
+    let answer = evaluate_input(
         language(),
         &format!("{mechanism}/constant"),
         "input",
@@ -166,7 +166,7 @@ fn dips_and_speeds_of_a_pair_follow() {
 
 /// What `eval` says of a part that cannot be.
 fn impossible(model: &str, part: &str) -> String {
-    let answer = ask(language(), model, "input", &format!("part: {part}"), Path::new(""));
+    let answer = evaluate_input(language(), model, "input", &format!("part: {part}"), Path::new(""));
     answer.unwrap_err().to_string()
 }
 

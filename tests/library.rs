@@ -122,6 +122,40 @@ fn fitted_parameters_enclose_what_is_hidden_in_the_points() {
     }
 }
 
+/// What the program writes of an analysis of a study of an example.
+fn written(folder: &std::path::Path, analysis: &str) -> Value {
+    serde_json::from_slice(&std::fs::read(folder.join(format!("{analysis}.json"))).unwrap()).unwrap()
+}
+
+#[test]
+fn a_study_has_the_digits_of_the_program() {
+    let text = printed("run_study");
+    let folder = std::env::temp_dir().join(format!("gearloss-run-study-{}", std::process::id()));
+    let mut command = Command::cargo_bin("gearloss").unwrap();
+    command
+        .arg("run")
+        .arg(file("examples/two-speed-ev/town.yaml"))
+        .arg("-o")
+        .arg(&folder);
+    assert!(command.output().unwrap().status.success());
+    let mean = digits(&written(&folder, "sets")["comparisons"][0]["mean"], 1.0, 3);
+    assert!(
+        text.contains(&format!("joint minus iso14179_2, mean {mean} ")),
+        "{text}"
+    );
+    let mean = digits(&written(&folder, "town")["cycles"][0]["mean_loss_w"], 1.0, 3);
+    assert!(
+        text.contains(&format!("town under joint, mean loss {mean} W")),
+        "{text}"
+    );
+    assert!(
+        text.contains("sets: 12 rows") && text.contains("town: 100 rows"),
+        "{text}"
+    );
+    assert!(!text.contains("NaN"), "{text}");
+    std::fs::remove_dir_all(&folder).unwrap();
+}
+
 #[test]
 fn the_readme_shows_lines_of_the_examples() {
     let readme = std::fs::read_to_string(file("README.md")).unwrap();

@@ -58,8 +58,8 @@ fn split(t: &Transmission, apart: f64) -> f64 {
     // The same to the bit side by side.
     let left = -solution.torque(1) / 400.0;
     let watts: Vec<f64> = solution.watts().to_vec();
-    let mut rows = t.row_scratch(&case);
-    let mut row = t.row(&case, &point, &[80.0], &mut rows);
+    let mut rows = t.batch_scratch(&case);
+    let mut row = t.batch(&case, &point, &[80.0], &mut rows);
     let block = row.solve(&[400.0; LANES]);
     if !block.alone()[0] {
         let together: Vec<f64> = block.watts().iter().map(|watts| watts[0]).collect();

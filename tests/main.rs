@@ -2,8 +2,9 @@
 //! hundred megabytes. A module is a file or a folder beside this one; `cargo test --test all MODULE::` runs the tests of one.
 #![allow(clippy::unwrap_used)]
 
-mod abreast;
 mod analyses;
+mod api;
+mod batched;
 mod cards;
 mod coefficients;
 mod common;
@@ -15,6 +16,7 @@ mod cycle;
 mod editor;
 mod ehl_mixed;
 mod electric_drive_unit;
+mod errors;
 mod explained;
 mod files;
 mod fit_rheology;
@@ -30,6 +32,7 @@ mod limits;
 mod locked;
 mod measured;
 mod mistakes;
+mod modules;
 mod mutated;
 mod network;
 mod new;

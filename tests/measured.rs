@@ -94,7 +94,7 @@ analyses:
     );
     let text = run(&folder);
     assert!(
-        text.contains("no column holds `torque`: `torque_out` gives it at the other port"),
+        text.contains("there is no column for `torque`: `torque_out` gives it at the other port"),
         "{text}"
     );
     for name in ["rig", "half", "other"] {
@@ -133,7 +133,7 @@ analyses: { which: { type: tournament, data: rig, mechanisms: [{ mechanism: bear
     let rig = "torque_out [Nm],speed_out [rpm],loss [W]\n19,1500,50\n";
     let text = check(&folder("refused", study, &[("rig.csv", rig)]));
     assert!(
-        text.contains("analyses.which.data: rig.csv: `torque_out` alone does not give the torque"),
+        text.contains("analyses.which.data: rig.csv: `torque_out` alone does not determine the torque"),
         "{text}"
     );
     assert!(text.contains("columns: { torque: ... }"), "{text}");
@@ -158,11 +158,11 @@ analyses:
     let folder = folder("files", study, &[("first.csv", first), ("second.csv", second)]);
     let text = run(&folder);
     assert!(
-        text.contains("warm: column `T_brake` counts times 0.001, with the other sign as torque"),
+        text.contains("warm: column `T_brake` is read multiplied by 0.001, with the opposite sign as torque"),
         "{text}"
     );
     assert!(
-        text.contains("1 of 3 rows are left out by `rows: torque > 5 Nm`"),
+        text.contains("1 of 3 rows are omitted by `rows: torque > 5 Nm`"),
         "{text}"
     );
     let value = json(&folder, "fit");
@@ -251,13 +251,13 @@ analyses:
     let folder = folder("faults", study, &[("rig.csv", rig)]);
     let text = check(&folder);
     for told in [
-        "measurements.rig.columns.efficency: `efficency` is no measured quantity",
+        "measurements.rig.columns.efficency: `efficency` is not a measured quantity",
         "measurements.rig.units.torque: rig.csv: line 1: column `torque` has no unit",
-        "measurements.rig.columns.loss: rig.csv: line 1: no column is called `P_loss`",
+        "measurements.rig.columns.loss: rig.csv: line 1: there is no column `P_loss`",
         "write `P_los`",
         "measurements.rig: rig.csv: line 3, column 2 `speed`: `x` is not a number",
         "measurements.unused.file: nowhere.csv: cannot read",
-        "analyses.two.bind.p: rig.csv: line 1: no column is called `p`, which is bound",
+        "analyses.two.bind.p: rig.csv: line 1: there is no column `p`, which is bound",
     ] {
         assert_eq!(text.matches(told).count(), 1, "{told}\n{text}");
     }

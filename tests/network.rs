@@ -6,7 +6,7 @@ use gearloss_framework::flow::Tolerance;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::Language;
 use gearloss_framework::registry::{NetworkRecipe, Registry};
-use gearloss_framework::resolve::{Came, Choice, lookup};
+use gearloss_framework::resolve::{Choice, ValueSource, lookup};
 use gearloss_framework::thermal::Outcome;
 use gearloss_framework::thermal::network::{March, Moment, Scheme, Steady, StepSize, Surroundings};
 use gearloss_framework::transmission::{HeatPath, PartKind, Transmission};
@@ -209,7 +209,7 @@ fn numbers_that_were_laid_out_can_be_changed_by_path() {
     let path = "thermal.network.links.B1_casing.conductance";
     // 80 W/(m K) times 47 mm.
     assert_eq!(lookup(&resolved.value, path).and_then(Value::as_f64), Some(3.76));
-    assert_eq!(*resolved.came(path), Came::Network);
+    assert_eq!(*resolved.source_of(path), ValueSource::Network);
     let (unit, least, _) = language.number_at(&resolved.value, path).unwrap();
     assert_eq!((unit.symbol, least), ("W/K", 0.0));
 
@@ -272,7 +272,7 @@ fn a_long_march_ends_where_the_network_rests() {
         for (end, rest) in temperatures.iter().zip(&rest.steady.temperatures) {
             assert!((end - rest).abs() < 0.1, "{end} {rest}");
         }
-        assert!(heats.residual().abs() < 1e-9 * heats.came());
+        assert!(heats.residual().abs() < 1e-9 * heats.heat_input());
     }
 }
 
@@ -312,14 +312,14 @@ fn sources_of_heat_come_into_oil_and_casing() {
 fn a_program_without_one_recipe_says_so() {
     let recipe = NetworkRecipe {
         meaning: "Another.",
-        lay_out: |_, _| Ok(json!({})),
+        generate: |_, _| Ok(json!({})),
         origin: gearloss_framework::origin!(),
     };
     let language = Language::new(Registry::linked().unwrap().with_recipes([recipe])).unwrap();
     let gearbox = Gearbox::read(&language, &common::file("examples/two-speed-ev/gearbox.yaml")).unwrap();
     let said = gearbox.resolve(&language, &two_speed().choice()).unwrap_err().render();
     assert!(
-        said.contains("thermal.network: two crates lay out networks") && said.contains("help:"),
+        said.contains("thermal.network: two crates generate networks") && said.contains("help:"),
         "{said}"
     );
 }
@@ -361,7 +361,7 @@ fn a_circuit_of_oil_that_does_not_close_is_told_and_no_exchanger_cools_the_air()
     };
     let own = gearbox.transmission(&language, &Choice::default()).unwrap();
     assert!(
-        own.warnings.iter().all(|w| !w.message.contains("flows out")),
+        own.warnings.iter().all(|w| !w.message.contains("oil flow of")),
         "{:?}",
         own.warnings
     );
@@ -376,5 +376,9 @@ fn a_circuit_of_oil_that_does_not_close_is_told_and_no_exchanger_cools_the_air()
     }
     let air = with("thermal.network.exchangers.cooler.to", json!("ambient"));
     let refused = gearbox.transmission(&language, &air).err().unwrap();
-    assert!(refused.first().contains("`ambient` is held"), "{}", refused.first());
+    assert!(
+        refused.first().contains("`ambient` has a prescribed temperature"),
+        "{}",
+        refused.first()
+    );
 }

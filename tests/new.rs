@@ -170,7 +170,7 @@ fn the_study_runs_over_every_layout_with_and_without_its_options() {
         let folder = folder(&format!("study-{layout}"));
         out(&folder, &["new", "gearbox", layout]);
         let told = out(&folder, &["new", "study"]);
-        assert!(told.contains("the first that drives"), "{told}");
+        assert!(told.contains("the first that transmits torque"), "{told}");
         assert_eq!(out(&folder, &["check", "study.yaml"]), "study.yaml: fine\n");
         out(&folder, &["run", "study.yaml"]);
         for result in ["maps.csv", "models.csv", "stack.csv", "spin.csv", "report.html"] {
@@ -203,7 +203,7 @@ fn the_study_takes_the_first_state_that_drives_and_names_the_gearbox_from_where_
     let study = "first look/study.yaml";
     let told = out(&folder, &["new", "study", "--gearbox", "drive.yaml", "-o", study]);
     assert!(
-        told.contains("gear state `crawler`") && told.contains("states no `rating`"),
+        told.contains("gear `crawler`") && told.contains("has no `rating`"),
         "{told}"
     );
     assert!(told.contains("gearloss run 'first look/study.yaml'"), "{told}");
@@ -236,14 +236,14 @@ fn a_study_needs_a_gearbox_that_can_be_driven() {
     let folder = folder("no-gearbox");
     let told = refused(&folder, &["new", "study"]);
     assert!(
-        told.contains("there is no gearbox gearbox.yaml") && told.contains("gearloss new gearbox"),
+        told.contains("the gearbox gearbox.yaml does not exist") && told.contains("gearloss new gearbox"),
         "{told}"
     );
     out(&folder, &["new", "gearbox", "two-speed"]);
     let text = std::fs::read_to_string(folder.join("gearbox.yaml")).unwrap();
     let idle = text.replace("{ first: [S1], second: [S2], neutral: [] }", "{ idle: [] }");
     std::fs::write(folder.join("gearbox.yaml"), idle).unwrap();
-    assert!(refused(&folder, &["new", "study"]).contains("no gear state drives"));
+    assert!(refused(&folder, &["new", "study"]).contains("no gear is determined"));
     std::fs::write(folder.join("gearbox.yaml"), "gearloss: gearbox/1\n").unwrap();
     assert!(refused(&folder, &["new", "study"]).contains("gearbox.yaml:1"));
     assert!(!folder.join("study.yaml").exists());
@@ -261,7 +261,7 @@ fn nothing_is_overwritten_and_every_refusal_says_what_to_do() {
     assert_eq!(std::fs::read_to_string(folder.join("gearbox.yaml")).unwrap(), "mine");
     assert!(!folder.join("gearbox.schema.json").exists());
     let told = refused(&folder, &["new", "gearbox", "planetary", "-o", "nowhere/a.yaml"]);
-    assert!(told.contains("there is no folder nowhere"), "{told}");
+    assert!(told.contains("the folder nowhere does not exist"), "{told}");
     let told = refused(&folder, &["new", "gearbox", "planetary", "-o", "."]);
     assert!(told.contains("it is a folder"), "{told}");
     for wrong in [&["new", "gearbox", "cvt"][..], &["new", "gearbox"]] {
@@ -270,7 +270,7 @@ fn nothing_is_overwritten_and_every_refusal_says_what_to_do() {
             assert!(told.contains(layout), "{told}");
         }
     }
-    assert!(refused(&folder, &["new", "gearbox"]).contains("ring held"));
+    assert!(refused(&folder, &["new", "gearbox"]).contains("fixed ring"));
 }
 
 #[test]
@@ -360,7 +360,7 @@ fn a_new_crate_takes_gearloss_from_the_checkout_that_is_named() {
     let named = ["--gearloss", "gear loss"];
     let told = refused(&folder, &[&["new", "plugin", "mine"][..], &named].concat());
     assert!(
-        told.contains("there is no framework/core/Cargo.toml") && !folder.join("mine").exists(),
+        told.contains("it has no framework/core/Cargo.toml") && !folder.join("mine").exists(),
         "{told}"
     );
     std::fs::write(checkout.join("framework/core/Cargo.toml"), "").unwrap();
@@ -432,5 +432,5 @@ fn a_crate_is_written_into_a_new_or_an_empty_folder_only() {
     std::fs::write(folder.join("file"), "").unwrap();
     assert!(refused(&folder, &["new", "plugin", "file"]).contains("it is a file"));
     let told = refused(&folder, &["new", "plugin", "mine", "-o", "nowhere/mine"]);
-    assert!(told.contains("there is no folder nowhere"), "{told}");
+    assert!(told.contains("the folder nowhere does not exist"), "{told}");
 }

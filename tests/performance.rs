@@ -92,7 +92,7 @@ const ALONE: [f64; 3] = [156.0, 81.0, 15.0];
 fn passes() -> f64 {
     let t = two_speed_with(&language(), Some("joint"), &[]);
     let case = t.case("first", &[], &["input"]).unwrap();
-    let mut scratch = t.row_scratch(&case);
+    let mut scratch = t.batch_scratch(&case);
     let torques: Vec<f64> = (1..=LANES).map(|i| 20.0 * i as f64 / LANES as f64).collect();
     let mut passes = 0;
     for speed in 0..32 {
@@ -101,7 +101,7 @@ fn passes() -> f64 {
             torques: &[0.0],
             ..Point::default()
         };
-        let mut row = t.row(&case, &point, &[100.0], &mut scratch);
+        let mut row = t.batch(&case, &point, &[100.0], &mut scratch);
         let block = row.follow(&torques);
         passes += block.passes().iter().sum::<usize>();
     }
@@ -170,8 +170,8 @@ fn figures(date: &str) -> String {
     let rustc = rustc.map(|o| String::from_utf8_lossy(&o.stdout).into_owned()).ok();
     let load: Vec<&str> = load.split(' ').take(3).collect();
     let mut out = format!(
-        "Figures of {date}: gearloss {}, {}, release profile. Processor {}, {cores} cores; load average {}\nover the last 1, 5 and 15 \
-         minutes, told right after the benches: what is beyond the number of threads of a bench was other work.\n\n\
+        "Figures of {date}: gearloss {}, {}, bench profile. Processor {}, {cores} cores; load average {}\nover the last 1, 5 and 15 \
+         minutes, read right after the benches; load above the number of threads of a bench was other work.\n\n\
          | bench | median | 95 % interval | for one of |\n|---|---|---|---|\n",
         env!("CARGO_PKG_VERSION"),
         told(rustc.as_deref()),

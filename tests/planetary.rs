@@ -150,7 +150,7 @@ fn the_explanation_of_an_unequal_planet_has_the_bits_of_the_solution() {
         let (loss, trace) = solution.explain(i);
         assert_eq!(loss.watts(), *watts);
         let steps = format!("{:?}", trace.into_steps());
-        assert!(steps.contains("the most loaded planet") && steps.contains("each of the other planets"));
+        assert!(steps.contains("the most loaded planet") && steps.contains("each other planet"));
     }
 }
 
@@ -192,7 +192,7 @@ fn a_set_that_cannot_be_assembled_is_warned_of() {
     };
     assert!(!warnings("count: 3", [24, 24, 72]).contains("planets"));
     assert!(warnings("count: 5", [24, 24, 72]).contains("cannot be spaced equally"));
-    assert!(warnings("count: 7", [24, 24, 72]).contains("neighbouring planets touch"));
+    assert!(warnings("count: 7", [24, 24, 72]).contains("adjacent planets touch"));
     let text = simple([24, 24, 72], ["none", "none"], "count: 3, load_sharing: 3.5", "");
     let gearbox = Gearbox::of_text(&language, &text, "input.yaml", ".").unwrap();
     let error = gearbox
@@ -359,7 +359,7 @@ fn a_table_may_refer_to_the_input_and_belong_to_a_family() {
     let (watts, _) = drag(&t, 4000.0).unwrap();
     assert!((watts / (5.0 * 4000.0 * RPM) - 1.0).abs() < 1e-12);
     let missing = tabled(&language, csv, "", "").err().unwrap();
-    assert!(missing.contains("`size` is not known here") && missing.contains("state `size` of the planetary set"));
+    assert!(missing.contains("`size` is unknown here") && missing.contains("state `size` of the planetary set"));
     let held = tabled(&language, TABLE, ", outside: clamp", "reference: ring_shaft, ").unwrap();
     assert!(drag(&held, 800.0).is_none(), "a shaft that rests feels no moment");
 }
@@ -371,11 +371,11 @@ fn a_faulty_table_is_refused_with_line_and_column() {
     for (csv, said) in [
         (
             TABLE.replace("400,20,130,0.050\n", ""),
-            "line 6: behind it the point speed = 400 rpm, nu = 20 mm2/s, volume = 130 ml is missing",
+            "line 6: the next point, speed = 400 rpm, nu = 20 mm2/s, volume = 130 ml, is missing",
         ),
         (
             TABLE.replace("400,", "50,"),
-            "line 6, column 1 `speed [rpm]`: 50 comes up after 100",
+            "line 6, column 1 `speed [rpm]`: 50 follows 100",
         ),
         (
             TABLE.replace("[mm2/s]", "[m2/s]"),
@@ -399,11 +399,11 @@ fn a_faulty_table_is_refused_with_line_and_column() {
         ),
         (
             TABLE.replace("nu [mm2/s]", "viscosity [mm2/s]"),
-            "the axis `volume` stands behind `viscosity`",
+            "the axis `volume` follows `viscosity`",
         ),
         (
             TABLE.replace("0.050", "-0.050"),
-            "at speed = 400, nu = 20, volume = 130 the answer is -0.05, which is negative",
+            "at speed = 400, nu = 20, volume = 130 the result is -0.05, which is negative",
         ),
         (
             TABLE.replace("moment [Nm]", "moment"),
@@ -436,7 +436,7 @@ fn drag_is_not_counted_twice() {
         .unwrap()
         .render();
     assert!(
-        error.contains("churning is counted here and by `planetary_sets.set.model`"),
+        error.contains("churning is computed here and by `planetary_sets.set.model`"),
         "{error}"
     );
 }

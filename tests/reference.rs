@@ -11,21 +11,21 @@ use gearloss_framework::registry::{Entry, Files, MechanismEntry};
 use serde_json::{Map, Value};
 
 /// Models of the field that are not here.
-const LEFT_OUT: &str = "\
-## Left out, and why
-- Terekhov and Lauster-Boos (churning): the constants that are remembered give 12 to 60 times and 2 to 7 times less than every
-  other law on car gears, so a factor is wrong; no original could be opened. `dimensional` takes them from whoever has one.
-- Boness 1989 (churning): jumps of 8 and 25 % between its branches and 32 N m on a car gear near Re = 1e5; no original.
-- Swell of a gear pair, housing distances after Changenet and Velex 2008, bevel gears after Laruelle: formulas not public.
-  `swell` is the user's own share.
-- Root filling and pocketing after Seetharaman and Kahraman: not public in full; the two known terms are a model that says so.
+const OMITTED: &str = "\
+## Omitted models and reasons
+- Terekhov and Lauster-Boos (churning): with the constants quoted from memory the torque is 12 to 60 times and 2 to 7 times smaller than
+  with any other law for automotive gears, so a factor is wrong; the originals were not available. The model `dimensional` accepts the constants.
+- Boness 1989 (churning): jumps of 8 and 25 % between its branches and 32 N m for an automotive gear near Re = 1e5; the original was not available.
+- Swell of a gear pair, housing distances according to Changenet and Velex 2008, bevel gears according to Laruelle: formulas not public.
+  `swell` is user-defined.
+- Root filling and pocketing according to Seetharaman and Kahraman: not public in full; the two known terms are a model marked as incomplete.
 - Mauz with his functions of wall distance and oil volume, Walter, Butsch (FVA): not public.
-- Carrier losses after Kettler, no-load losses of planetary sets after Höhn: not public.
+- Carrier losses according to Kettler, no-load losses of planetary sets according to Höhn: not public.
 - Talboom's tooth loss factor, Doleschel's constants of standard oils: not public.
-- Drag of bearings above n d_m = 0.5e6 mm/min after Morales-Espejel and Wemekamp: not public. `beyond: hold` is a convention.
-- Raceway torques of tapered rollers after Aihara, Zhou and Hoeprich, Matsuyama, Houpert: they need the inside of the bearing.
-- Dawson's update of 1988 needs a chart that is not public. SKF diagrams of shaft seals and Engelke's model: no closed form.
-- Torque converters, belts, leakage of hydraulic actuation: outside of the program; `table` takes a measured map.
+- Drag of bearings above n d_m = 0.5e6 mm/min according to Morales-Espejel and Wemekamp: not public. `beyond: hold` is a convention.
+- Raceway torques of tapered roller bearings according to Aihara, Zhou and Hoeprich, Matsuyama, Houpert: they require the internal geometry.
+- Dawson's update of 1988 requires a chart that is not public. SKF diagrams of shaft seals and Engelke's model: no closed form.
+- Torque converters, belts, leakage of hydraulic actuation: outside the scope of the program; `table` accepts a measured map.
 ";
 
 fn head_of(entry: &Entry) -> String {
@@ -43,7 +43,7 @@ fn head_of(entry: &Entry) -> String {
     let rest = lines[1..].join("\n").trim().to_owned();
     assert!(
         lines[0].ends_with('.') && rest.starts_with(|c: char| c.is_uppercase()),
-        "{}: the first line is no sentence of its own, so that the reference would begin with: {}",
+        "{}: the first line is not a complete sentence, so the reference would begin with: {}",
         path.display(),
         rest.lines().next().unwrap_or_default()
     );
@@ -118,7 +118,13 @@ fn parameters(out: &mut String, language: &Language, entry: &Entry) {
     }
     header(
         out,
-        &["parameter", "default", "range", "what it is", "evidence of the default"],
+        &[
+            "parameter",
+            "default",
+            "range",
+            "description",
+            "evidence of the default",
+        ],
     );
     for (name, field) in fields {
         let range = match (field["minimum"].as_f64(), field["maximum"].as_f64()) {
@@ -153,7 +159,7 @@ fn coefficients(out: &mut String, entry: &Entry) {
         return;
     }
     writeln!(out, "Coefficients of the formula, published by {}:\n", entry.source).unwrap();
-    header(out, &["`coefficients`", "published", "unit", "range", "what it is"]);
+    header(out, &["`coefficients`", "published", "unit", "range", "description"]);
     for own in list {
         let range = format!("{} to {}", significant(own.least), significant(own.greatest));
         let published = own.published.to_string();
@@ -193,7 +199,7 @@ fn model(out: &mut String, language: &Language, mechanism: &MechanismEntry, entr
         let kind = if term.load_dependent {
             "load-dependent"
         } else {
-            "not load-dependent"
+            "load-independent"
         };
         writeln!(out, "- Term `{}`, {kind}.", term.name).unwrap();
     }
@@ -214,7 +220,7 @@ fn model(out: &mut String, language: &Language, mechanism: &MechanismEntry, entr
     let answer = (mechanism.eval)(language.registry(), &files, &value, &part, &Map::new()).unwrap();
     writeln!(
         out,
-        "\n```yaml\nmodel: {}\n```\n`gearloss eval {}/{}` answers {} for it at the usual point.\n",
+        "\n```yaml\nmodel: {}\n```\n`gearloss eval {}/{}` returns {} at the usual point.\n",
         entry.example,
         mechanism.key,
         entry.name,
@@ -228,16 +234,16 @@ fn model(out: &mut String, language: &Language, mechanism: &MechanismEntry, entr
 
 fn mechanism_page(language: &Language, mechanism: &MechanismEntry) -> String {
     let mut out = format!(
-        "# {}\n\n{} A model answers: {}\n\n",
+        "# {}\n\n{} Result of a model: {}\n\n",
         mechanism.key, mechanism.meaning, mechanism.answer
     );
     if let Some(section) = &mechanism.section {
-        writeln!(out, "Its parts stand in the section `{}`.\n", section.name).unwrap();
+        writeln!(out, "Section of its components: `{}`.\n", section.name).unwrap();
     }
-    out.push_str("What a model sees, and what formulas and tables may name:\n\n");
+    out.push_str("Inputs of a model, which formulas and tables may use:\n\n");
     header(
         &mut out,
-        &["quantity", "usual", "least", "greatest", "what it is", "from"],
+        &["quantity", "usual", "minimum", "maximum", "description", "source"],
     );
     for q in (mechanism.quantities)() {
         row(
@@ -258,7 +264,7 @@ fn mechanism_page(language: &Language, mechanism: &MechanismEntry) -> String {
         let laws: Vec<String> = laws.iter().map(|law| format!("`{law}`")).collect();
         writeln!(
             out,
-            "Laws between them, by which `eval` lets follow what its input does not state and refuses what contradicts: {}.\n",
+            "Laws between them, with which `eval` computes omitted quantities and rejects contradictions: {}.\n",
             laws.join("; ")
         )
         .unwrap();
@@ -277,7 +283,7 @@ fn index(language: &Language) -> String {
     let mut count = 0;
     for mechanism in language.registry().mechanisms() {
         writeln!(out, "## [{0}]({0}.md)\n\n{1}\n", mechanism.key, mechanism.meaning).unwrap();
-        header(&mut out, &["model", "what it is", "evidence", "source"]);
+        header(&mut out, &["model", "description", "evidence", "source"]);
         for entry in language.registry().models(mechanism.key) {
             let grade = entry
                 .evidence
@@ -292,10 +298,10 @@ fn index(language: &Language) -> String {
     }
     writeln!(
         out,
-        "{count} models, the four generic ones of each mechanism included.\n"
+        "{count} models, including the four generic ones of each mechanism.\n"
     )
     .unwrap();
-    out.push_str(LEFT_OUT);
+    out.push_str(OMITTED);
     out
 }
 
@@ -304,7 +310,10 @@ fn the_model_shown_to_contributors_is_the_one_that_ships() {
     let text = std::fs::read_to_string(common::file("CONTRIBUTING.md")).unwrap();
     let shown = text.split("```rust\n").nth(1).unwrap().split("\n```").next().unwrap();
     let ships = std::fs::read_to_string(common::file("plugins/src/seal/linke.rs")).unwrap();
-    assert!(ships.starts_with(shown), "CONTRIBUTING.md shows another seal/linke.rs");
+    assert!(
+        ships.starts_with(shown),
+        "CONTRIBUTING.md shows a different seal/linke.rs"
+    );
 }
 
 #[test]

@@ -329,7 +329,7 @@ fn explained(schema: &Value, path: &str) {
                 .unwrap_or_else(|| panic!("{path}/{key} says nothing"));
             assert!(said.ends_with('.') || said.ends_with(']'), "{path}/{key}: {said}");
             let unit = UNITS.iter().find(|(end, _)| key.ends_with(end));
-            let record = said.contains("beside the losses");
+            let record = said.contains("in addition to the losses");
             assert!(
                 record || unit.is_none_or(|(_, unit)| said.ends_with(unit)),
                 "{path}/{key}: {said}"

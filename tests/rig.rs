@@ -152,12 +152,12 @@ fn what_a_comparison_lacks_is_told() {
         ),
         (
             "against: [ours/own], data: { file: rig.csv, columns: { torque: T_in, speed: n_in } }".to_owned(),
-            "nothing gives a measured efficiency",
+            "there is no measured efficiency",
         ),
         (format!("against: [nobody/own], {DATA}"), "nobody"),
         (
             "against: [ours/own], data: { file: rig.csv, columns: { torque: T_in, speed: drehzahl } }".to_owned(),
-            "no column is called `drehzahl`",
+            "there is no column `drehzahl`",
         ),
     ] {
         let study = format!(

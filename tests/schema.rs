@@ -8,8 +8,13 @@ use serde_json::{Value, json};
 #[test]
 fn committed_schemas_are_not_stale() {
     let language = common::language();
-    for (kind, name) in [(Kind::Gearbox, "gearbox"), (Kind::Study, "study"), (Kind::Eval, "eval")] {
-        let own = serde_json::to_string_pretty(&language.published(kind)).unwrap() + "\n";
+    let documents = [(Kind::Gearbox, "gearbox"), (Kind::Study, "study"), (Kind::Eval, "eval")];
+    let documents = documents.map(|(kind, name)| (language.published(kind), name));
+    for (schema, name) in documents
+        .into_iter()
+        .chain([(gearloss_studies::results::schema(), "result")])
+    {
+        let own = serde_json::to_string_pretty(&schema).unwrap() + "\n";
         let path = common::file(&format!("schemas/{name}.schema.json"));
         if std::env::var_os("UPDATE").is_some() {
             std::fs::write(&path, &own).unwrap();

@@ -428,7 +428,7 @@ fn gears_in_mesh_touch() {
             _ => 0,
         };
         assert_eq!(dotted, open, "{} with {closed} that touch", picture.name);
-        let shown = picture.svg.contains("Dotted: in mesh");
+        let shown = picture.svg.contains("Dotted: gears in mesh");
         assert_eq!(shown, open > 0, "{}", picture.name);
     }
 }

@@ -137,7 +137,7 @@ fn a_sum_has_the_slopes_and_shares_of_its_terms() {
         text.contains("depends most on seals.D2.model.value") && text.contains("not influential on the mean loss: "),
         "{text}"
     );
-    assert!(text.contains("each parameter acts for itself"), "{text}");
+    assert!(text.contains("parameters do not interact"), "{text}");
     let csv = std::fs::read_to_string(folder.join("what.csv")).unwrap();
     assert!(csv.lines().count() == 1 + 3 * result["outputs"].as_array().unwrap().len());
 }
@@ -150,7 +150,7 @@ fn what_cannot_be_asked_is_told_with_its_place_and_how_to_mend_it() {
         (
             format!("samples: 1000, {one}"),
             vec![
-                "1000 samples are no power of two",
+                "the number of samples must be a power of two, not 1000",
                 "write `samples: 1024`",
                 "analyses.what.samples",
             ],
@@ -164,14 +164,14 @@ fn what_cannot_be_asked_is_told_with_its_place_and_how_to_mend_it() {
         (
             format!("parameters: [{{ path: {kv}, from: 6 mm2/s, to: 6 mm2/s }}]"),
             vec![
-                "two finite ends in order, not 6 mm2/s and 6 mm2/s",
+                "two finite ends in ascending order, not 6 mm2/s and 6 mm2/s",
                 "wider than nothing",
             ],
         ),
         (
             format!("parameters: [{{ path: {kv}, from: 7 mm2/s, to: 9 mm2/s }}]"),
             vec![
-                "`local` stands at 6.4 mm2/s, which is not in 7 mm2/s to 9 mm2/s",
+                "the value 6.4 mm2/s for `local` is not in 7 mm2/s to 9 mm2/s",
                 "methods: [morris, sobol]",
             ],
         ),
@@ -284,7 +284,7 @@ fn what_moves_loss_between_regions_is_seen_at_single_points() {
         "{text}"
     );
     assert!(
-        text.contains(&format!("influential on the loss at single points only: {kv}")),
+        text.contains(&format!("influential only on the loss at single points: {kv}")),
         "{text}"
     );
 }

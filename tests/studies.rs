@@ -134,7 +134,7 @@ fn one_power_at_every_speed_and_a_measured_total_beside_the_bars() {
     let seen = json(&folder, "seen")["breakdowns"][0].clone();
     same(number(&points(&seen)[0]["measured_loss_w"]), 155.0, 1e-12);
     assert!(points(&seen)[1]["measured_loss_w"].is_null());
-    assert!(text.contains("no torque gives a power at standstill"), "{text}");
+    assert!(text.contains("a power at standstill is not possible"), "{text}");
     assert!(text.contains("a breakdown needs either `torque` or `power`"), "{text}");
 }
 
@@ -159,7 +159,7 @@ fn losses_without_load_in_every_gear_state_and_towed() {
             .sum()
     };
     assert!(loss(&states[2]) < loss(&states[0]), "in neutral the loaded stage rests");
-    assert!(text.contains("output at rest"), "{text}");
+    assert!(text.contains("output stationary"), "{text}");
     let towed = json(&folder, "towed")["breakdowns"][0].clone();
     assert!(loss(&towed) > 0.0);
     assert!(text.contains("write `output`"), "{text}");
@@ -221,7 +221,7 @@ analyses:
         same(loss(&shares["maps"][0], i), loss(&plain["maps"][0], i), 1e-9);
     }
     let picture = std::fs::read_to_string(folder.join("shares-rated-joint-loss.svg")).unwrap();
-    assert!(picture.contains("speed over rating"));
+    assert!(picture.contains("speed / rated speed"));
     assert!(
         text.contains("add `rating: { torque: 20 Nm, speed: 22000 rpm }` to the gearbox"),
         "{text}"
@@ -339,8 +339,8 @@ analyses:
     assert!((rated - at_rated.abs()).abs() < 0.051, "{rated} {at_rated}");
     assert!(worst > 15.0, "the refusal below would prove nothing: {worst}");
     assert!(
-        text.contains("analyses.strict.export: the straight lines of `LossyGear` miss the loss torque by")
-            && text.contains("above the limit of 10 %")
+        text.contains("analyses.strict.export: the straight lines of `LossyGear` deviate from the loss torque by")
+            && text.contains("the limit is 10 %")
             && text.contains("`lossy_gear_limit: 0."),
         "{text}"
     );
@@ -424,7 +424,7 @@ analyses:
     let inputs = band["inputs"].as_array().unwrap();
     same(number(&inputs[0]["correlation_with_mean_loss"]), 1.0, 1e-5);
     assert!(number(&inputs[1]["correlation_with_mean_loss"]).abs() < 0.05);
-    for words in ["valeu", "one of `plus_minus`, `percent`", "two finite ends in order"] {
+    for words in ["valeu", "one of `plus_minus`, `percent`", "two finite ends in ascending order"] {
         assert!(text.contains(words), "{words}: {text}");
     }
 }
@@ -476,10 +476,10 @@ analyses:
     // Losses are added at the torques of the set, so a small difference is left.
     assert!(number(&best["predicted_rms"]) < 0.5, "{best}");
     for words in [
-        "left out: gear_mesh path_integral/mixed: its tooth_friction takes a further model",
-        "left out: gear_mesh tabulated: it takes another gear_mesh",
-        "left out: gear_mesh ohlendorf/schlenk: loses the same as `iso14179_2` at every point",
-        "which: best: schaeffler, diab, nothing fitted",
+        "omitted: gear_mesh path_integral/mixed: its tooth_friction needs a further model",
+        "omitted: gear_mesh tabulated: it needs another gear_mesh",
+        "omitted: gear_mesh ohlendorf/schlenk: same loss as `iso14179_2` at every point",
+        "which: best: schaeffler, diab, without fitted factors",
     ] {
         assert!(text.contains(words), "{words}: {text}");
     }
@@ -524,7 +524,7 @@ analyses:
         .map(|s| number(&s["share"]))
         .sum();
     same(shares, 1.0, 1e-12);
-    for words in ["`bearings` is no mechanism", "`bearing` stands twice"] {
+    for words in ["`bearings` is not a mechanism", "`bearing` is listed twice"] {
         assert!(text.contains(words), "{words}: {text}");
     }
 }
@@ -628,9 +628,9 @@ analyses:
     }
     for words in [
         "16 of 16 points have no accuracy in the file: 5 % of the loss",
-        "16 of 16 points have no accuracy in the file: 3 % of the loss and 2 W, as standard deviations that add as squares, stated under `errors`",
+        "16 of 16 points have no accuracy in the file: 3 % of the loss and 2 W, standard deviations, added as squares, stated under `errors`",
         "4 points have no efficiency: they count by their loss",
-        "accuracies of losses are above zero, and one at least is stated",
+        "accuracies of losses must be positive, and at least one must be stated",
         "`factors`, `gear`, `errors` and `correlation` belong to `data`",
     ] {
         assert!(text.contains(words), "{words}: {text}");
@@ -687,11 +687,11 @@ fn sets_of_an_identification_are_compared() {
     assert_eq!(number(&against["folds"]["won"]), 5.0);
     let sentence = compared["sentence"].as_str().unwrap();
     assert!(
-        sentence.starts_with("`joint` predicts points that were left out better than `bare`"),
+        sentence.starts_with("`joint` predicts left-out points better than `bare`"),
         "{sentence}"
     );
     assert!(
-        text.contains("both: the sets side by side") && text.contains(sentence),
+        text.contains("both: comparison of the model sets") && text.contains(sentence),
         "{text}"
     );
     let csv = std::fs::read_to_string(folder.join("both-sets.csv")).unwrap();
@@ -849,9 +849,12 @@ analyses:
     let rig = "torque [Nm],speed [rpm],loss [W]\n5,2000,10\n10,2000,20\n20,2000,30\n";
     let folder = written("waits", &study, &[("rig.csv", rig)]);
     let (_, text) = solved(&folder.join("study.yaml"));
-    assert!(text.contains("a robust loss is no density"), "{text}");
     assert!(
-        text.contains("the set `fitted` has no values: the analysis `found` found none"),
+        text.contains("a robust loss does not define a posterior density"),
+        "{text}"
+    );
+    assert!(
+        text.contains("the model set `fitted` has no values, because the analysis `found` produced none"),
         "{text}"
     );
     let shard = Command::new(env!("CARGO_BIN_EXE_gearloss"))
@@ -862,7 +865,9 @@ analyses:
     let text = String::from_utf8_lossy(&shard.stderr);
     // What waits for values of another analysis is left to the merge.
     assert!(
-        shard.status.success() && text.contains("a robust loss is no density") && !text.contains("has no values"),
+        shard.status.success()
+            && text.contains("a robust loss does not define a posterior density")
+            && !text.contains("has no values"),
         "{text}"
     );
 }

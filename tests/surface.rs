@@ -84,14 +84,14 @@ fn the_least_lies_at_the_values_that_made_the_points() {
     assert!(least["x_end"].is_null() && least["y_end"].is_null() && found["accuracy"].is_null());
     assert_eq!(found["pairs"].as_array().unwrap().len(), 12);
     assert!(
-        text.contains("mm, inside of the surface; within 5 % of it: ") && text.contains(" alone"),
+        text.contains("mm, inside the surface; within 5 % of the minimum: ") && text.contains(" alone"),
         "{text}"
     );
     let least = json(&folder, "short")["surfaces"][0]["least"].clone();
     assert_eq!((number(&least["x"]), &least["x_end"]), (6.4, &Value::from("upper")));
-    assert!(text.contains("the fit would go on beyond 6.4 mm2/s"), "{text}");
+    assert!(text.contains("the minimum may be above 6.4 mm2/s"), "{text}");
     let picture = std::fs::read_to_string(folder.join("all-joint.svg")).unwrap();
-    assert!(picture.contains("cross: least"));
+    assert!(picture.contains("cross: minimum"));
     let csv = std::fs::read_to_string(folder.join("all.csv")).unwrap();
     assert!(csv.starts_with(&format!("model_set,{KV},{LEVEL},points,rms_w\n")) && csv.lines().count() == 13);
 }
@@ -156,7 +156,7 @@ fn all_pairs_stand_on_the_same_points() {
         );
     }
     assert!(
-        text.contains("1 of 3 points lack a value somewhere") && text.contains("line 4: models fast, "),
+        text.contains("1 of 3 points have no value at some pair") && text.contains("line 4: models fast, "),
         "{text}"
     );
     let far = json(&folder, "far")["surfaces"][0].clone();
@@ -187,11 +187,11 @@ fn what_cannot_be_drawn_is_told_with_its_place_and_how_to_mend_it() {
         ),
         (
             replaced("5 mm2/s, 6.4 mm2/s", "7 mm2/s, 6.4 mm2/s"),
-            ["do not rise all along", "analyses.what.x.values.1"],
+            ["the values are not ascending", "analyses.what.x.values.1"],
         ),
         (
             replaced("5 mm2/s, 6.4 mm2/s", "-5 mm2/s, 6.4 mm2/s"),
-            ["-5 mm2/s is outside of", "analyses.what.x.values.0"],
+            ["-5 mm2/s is outside", "analyses.what.x.values.0"],
         ),
         (
             replaced("5 mm2/s, 6.4 mm2/s", "5 mm, 6.4 mm2/s"),
@@ -204,11 +204,11 @@ fn what_cannot_be_drawn_is_told_with_its_place_and_how_to_mend_it() {
         ),
         (
             replaced("quantity: loss", "quantity: temperature"),
-            ["nothing gives a measured oil_temperature_degc", "columns of torque"],
+            ["there is no measured oil_temperature_degc", "columns of torque"],
         ),
         (
             replaced("quantity: loss", "quantity: temperature, difference: percent"),
-            ["a temperature has no percentage", "kelvins"],
+            ["a temperature difference cannot be in percent", "kelvins"],
         ),
         (
             format!("{good}, bind: {{ kv: {KV} }}"),

@@ -54,7 +54,7 @@ fn points_of_a_file_bind_their_columns_and_stand_beside_measurements() {
     let gap = 100.0 * (number(&fast["loss_w"]) / 60.0 - 1.0);
     assert!(
         text.contains(&format!(
-            "loss minus measurement in %: mean {gap:.2}, worst {gap:.2}, 1 points"
+            "loss minus measurement in %: mean {gap:.2}, max {gap:.2}, 1 points"
         )),
         "{text}"
     );
@@ -73,7 +73,7 @@ fn a_tiny_measured_loss_has_no_deviation_in_percent() {
     let gap = 100.0 * (fast / 60.0 - 1.0);
     assert!(
         text.contains(&format!(
-            "loss minus measurement in %: mean {gap:.2}, worst {gap:.2}, 1 points"
+            "loss minus measurement in %: mean {gap:.2}, max {gap:.2}, 1 points"
         )) && text.contains("note: 1 points are omitted"),
         "{text}"
     );
@@ -88,18 +88,15 @@ fn a_faulty_file_of_points_is_refused_with_line_and_column() {
             POINTS.replace("1000,", "a,"),
             "line 3, column 2 `speed`: `a` is not a number",
         ),
-        (POINTS.replace("[rpm]", "[bar]"), "`bar` is no unit of angular speed"),
+        (POINTS.replace("[rpm]", "[bar]"), "`bar` is not a unit of angular speed"),
         (POINTS.replace("[rpm]", ""), "column `speed` has no unit"),
         (
             POINTS.replace("volume [ml]", "volume [bottles]"),
-            "`bottles` of column `volume` is no unit",
+            "`bottles` of column `volume` is not a unit",
         ),
-        (POINTS.replace("volume", "amount"), "no column is called `volume`"),
-        (POINTS.replace("speed", "slowness"), "no column holds the speed"),
-        (
-            POINTS.lines().next().unwrap().to_owned(),
-            "no point stands below the header",
-        ),
+        (POINTS.replace("volume", "amount"), "there is no column `volume`"),
+        (POINTS.replace("speed", "slowness"), "there is no column for the speed"),
+        (POINTS.lines().next().unwrap().to_owned(), "no points below the header"),
         (POINTS.replace("60,,", "-3,,"), "housing.oil.volume"),
         (POINTS.replace("3000,-16", "3000,"), "line 2, column 3 `torque`: empty"),
     ] {
@@ -218,7 +215,7 @@ analyses:
     for said in [
         "without bound values",
         "has no list of values",
-        "a temperature has no percentage",
+        "a temperature difference cannot be in percent",
     ] {
         assert!(text.contains(said), "{said}\n{text}");
     }
@@ -266,7 +263,7 @@ analyses:
     let text = String::from_utf8_lossy(&output.stdout).into_owned();
     assert_eq!(output.status.code(), Some(1));
     assert!(
-        text.contains("none_below_maximum") && text.contains("losses are greater than the heat up to 150"),
+        text.contains("none_below_maximum") && text.contains("losses exceed the transferred heat up to 150"),
         "{text}"
     );
 }

@@ -243,7 +243,7 @@ fn a_port_given_twice_is_refused() {
         (vec!["input"], vec!["input", "input"]),
     ] {
         let faults = t.case("low", &speeds, &torques).err().unwrap();
-        assert!(faults.iter().any(|f| f.message.contains("given twice")), "{faults:?}");
+        assert!(faults.iter().any(|f| f.message.contains("stated twice")), "{faults:?}");
     }
 }
 

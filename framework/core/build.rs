@@ -1,8 +1,8 @@
-//! Nothing is built here. Cargo asks a package with a `links` key for a build script; the key keeps a program from linking two
-//! versions of the framework, of which each would see its own half of the models.
+//! Empty build script. Cargo requires one for a package with a `links` key; the key prevents a program from linking two versions of
+//! the framework, each of which would have only some of the models.
 
 fn main() {
-    #[allow(clippy::print_stdout, reason = "this is how a build script speaks to Cargo")]
+    #[allow(clippy::print_stdout, reason = "build scripts instruct Cargo by printing")]
     {
         println!("cargo::rerun-if-changed=build.rs");
     }

@@ -1,4 +1,4 @@
-//! Auxiliaries: pumps and whatever else takes moment from a shaft.
+//! Auxiliaries: pumps and other components driven by a shaft.
 
 pub mod constant_power;
 pub mod pump;

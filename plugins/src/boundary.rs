@@ -1,10 +1,11 @@
-//! Where laws of friction on films end: in boundary friction.
+//! Upper bound of the friction laws: boundary friction.
 //!
-//! Most laws are powers of speed that were fitted where films carry part of the load. At creeping speeds they grow without bound, and
-//! friction does not: without a film flanks run on boundary layers, for which 0.08 to 0.135 is usual. The laws are held at `greatest`, 0.2,
-//! the bound that Benedict and Kelley's logarithm is usually given; gears that turn faster than a crawl never reach it.
+//! Most laws are powers of speed, fitted where a film carries part of the load. At creeping speeds they grow without bound; real
+//! friction does not: without a film the flanks run on boundary layers with coefficients of typically 0.08 to 0.135. The parameter
+//! `greatest` bounds the laws; its default is 0.2, the usual bound of the logarithmic law of Benedict and Kelley. Gears at normal
+//! speeds never reach it.
 
-/// Greatest coefficient of friction that a law answers with, as its default.
+/// Default upper bound of a coefficient of friction.
 pub fn greatest() -> f64 {
     0.2
 }

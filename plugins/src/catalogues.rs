@@ -7,7 +7,7 @@ inventory::submit! {
     Catalogue {
         section: "bearings",
         csv: include_str!("../catalogues/bearings.csv"),
-        source: "Public catalogue data of rolling bearings; boundary dimensions after ISO 15. Confidence stands in each row.",
+        source: "Public catalogue data of rolling bearings; boundary dimensions according to ISO 15. Each row states its confidence.",
         origin: origin!(),
     }
 }
@@ -16,7 +16,7 @@ inventory::submit! {
     Catalogue {
         section: "lubricants",
         csv: include_str!("../catalogues/lubricants.csv"),
-        source: "Typical gear oils: constants of a public gear oil library and published data sheets. Basis stands in each row.",
+        source: "Typical gear oils: constants of a public gear oil library and published data sheets. Each row states its basis.",
         origin: origin!(),
     }
 }
@@ -47,7 +47,7 @@ mod tests {
             ] {
                 let lg = line.number("A") - line.number("B") * (celsius + 273.15).log10();
                 let nu = 10.0_f64.powf(10.0_f64.powf(lg)) - 0.7;
-                // The catalogue has five digits, the source three or four.
+                // The catalogue gives five digits, the source three or four.
                 let cell = own.number(column);
                 assert!(
                     (cell / nu - 1.0).abs() < 5e-5,

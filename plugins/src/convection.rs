@@ -1,8 +1,8 @@
-//! Free and forced convection at plates and cylinders, and radiation, as textbooks have them.
+//! Textbook laws of free and forced convection at plates and cylinders, and of radiation.
 //!
-//! Sources: free convection at a vertical plate and about a horizontal cylinder, Churchill and Chu, Int. J. Heat Mass Transfer 18 (1975)
-//! 1323-1329 and 1049-1053; forced convection along a plate, laminar from Pohlhausen's solution, from Re = 5e5 on turbulent behind a
-//! laminar beginning, Incropera and DeWitt, Fundamentals of heat and mass transfer; radiation between a small grey body and its
+//! Sources: free convection at a vertical plate and about a horizontal cylinder: Churchill and Chu, Int. J. Heat Mass Transfer 18
+//! (1975) 1323-1329 and 1049-1053; forced convection along a plate: laminar according to Pohlhausen, turbulent with a laminar leading part
+//! above Re = 5e5, Incropera and DeWitt, Fundamentals of heat and mass transfer; radiation between a small grey body and its
 //! surroundings.
 
 use schemars::JsonSchema;
@@ -16,14 +16,14 @@ const GRAVITY: f64 = 9.80665;
 /// Reynolds number at which the flow along a plate becomes turbulent.
 const TURBULENT: f64 = 5e5;
 
-/// Shape of a wall about which a fluid rises.
+/// Shape of a wall for free convection.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Shape {
     /// A vertical plate, by its height.
     #[default]
     Plate,
-    /// A cylinder that lies, by its diameter.
+    /// A horizontal cylinder, by its diameter.
     Cylinder,
 }
 
@@ -59,18 +59,18 @@ pub fn along_plate(reynolds: f64, prandtl: f64) -> f64 {
 /// K.
 pub fn free(shape: Shape, size: f64, wall: f64, ambient: f64) -> (f64, f64) {
     let mean = 0.5 * (wall + ambient);
-    let air = Air::at(mean);
+    let air = Air::at_temperature(mean);
     let ra = rayleigh(1.0 / mean, wall - ambient, size, air.nu, air.nu / air.prandtl);
     (ra, shape.free(ra, air.prandtl) * air.conductivity / size)
 }
 
 /// Heat transfer coefficient of forced convection in air; speed in m/s, length in m, mean temperature in K. \[W/(m2 K)\]
 pub fn forced(v: f64, length: f64, mean: f64) -> f64 {
-    let air = Air::at(mean);
+    let air = Air::at_temperature(mean);
     along_plate(v * length / air.nu, air.prandtl) * air.conductivity / length
 }
 
-/// Free and forced convection together, as where both flow the same way. \[W/(m2 K)\]
+/// Combined free and forced convection in the same direction. \[W/(m2 K)\]
 pub fn mixed(forced: f64, free: f64) -> f64 {
     (forced.powi(3) + free.powi(3)).cbrt()
 }
@@ -88,7 +88,7 @@ mod tests {
     #[test]
     fn e4_free_convection_at_a_wall() {
         let (_, alpha) = free(Shape::Plate, 0.3, 353.15, 293.15);
-        // The check value belongs to g = 9.81 m/s2; alpha goes with about the third root of g.
+        // The check value uses g = 9.81 m/s2; alpha varies with about the cube root of g.
         assert!(
             (alpha * (9.81 / GRAVITY).cbrt() / 5.81938 - 1.0).abs() < 2e-5,
             "{alpha}"
@@ -120,7 +120,7 @@ mod tests {
     fn mixed_convection_is_the_greater_where_one_is_small() {
         assert!((mixed(30.0, 0.0) - 30.0).abs() < 1e-12 && (mixed(1.0, 30.0) / 30.0 - 1.0).abs() < 1e-4);
         assert!(forced(10.0, 0.3, 320.0) > forced(5.0, 0.3, 320.0));
-        // Nothing jumps where the flow becomes turbulent.
+        // The laminar and turbulent laws join continuously.
         let ratio = along_plate(1.0001 * TURBULENT, 0.7) / along_plate(0.9999 * TURBULENT, 0.7);
         assert!((ratio - 1.0).abs() < 1e-3, "{ratio}");
     }

@@ -1,4 +1,4 @@
-//! Heat that leaves the gearbox: by the housing to the air, by the flange, by a cooler.
+//! Heat dissipation of the gearbox: from the housing to the air, through the flange, through a cooler.
 
 pub(crate) mod air;
 pub mod constant;
@@ -19,11 +19,10 @@ fn part(cx: &Build<'_>) -> HousingPart {
     cx.part::<HeatDissipation>().copied().unwrap_or_default()
 }
 
-/// A quantity of the outside that a model cannot do without.
+/// A quantity of the housing outside that a model requires.
 fn needed(value: Option<f64>, model: &str, what: &str, example: &str, cx: &Build<'_>) -> Result<f64, Diagnostic> {
     value.ok_or_else(|| {
-        cx.error(format!("{model} needs {what}")).help(format!(
-            "add `housing: {{ outside: {{ {example} }} }}` with your figure"
-        ))
+        cx.error(format!("{model} needs {what}"))
+            .help(format!("add `housing: {{ outside: {{ {example} }} }}` with your value"))
     })
 }

@@ -25,7 +25,7 @@ fn part(cx: &Build<'_>) -> HeatLinkPart {
     cx.part::<HeatLink>().copied().unwrap_or_default()
 }
 
-/// A figure of the model's own, else of the gear that the link names; an error with what is missing and an example of it.
+/// The model's own value, else that of the gear named by the link; otherwise an error with an example of the missing key.
 fn of_gear(
     own: Option<f64>,
     gear: impl FnOnce(&GearShape) -> f64,
@@ -35,12 +35,12 @@ fn of_gear(
 ) -> Result<f64, Diagnostic> {
     own.or_else(|| part(cx).gear.as_ref().map(gear)).ok_or_else(|| {
         cx.error(format!("the link needs {what}")).help(format!(
-            "name the gear of the link, or write `{example}` beside `type`, with your figure"
+            "name the gear of the link, or write `{example}` beside `type`, with your value"
         ))
     })
 }
 
-/// A figure of the model's own, else of the housing; an error with what is missing and an example of it.
+/// The model's own value, else that of the housing; otherwise an error with an example of the missing key.
 fn of_housing(
     own: Option<f64>,
     housing: impl FnOnce(&HousingPart) -> Option<f64>,
@@ -51,12 +51,12 @@ fn of_housing(
     own.or_else(|| part(cx).housing.as_ref().and_then(housing))
         .ok_or_else(|| {
             cx.error(format!("the link needs {what}")).help(format!(
-                "write `{example}` beside `type` or in `housing: {{ outside: {{ ... }} }}`, with your figure"
+                "write `{example}` beside `type` or in `housing: {{ outside: {{ ... }} }}`, with your value"
             ))
         })
 }
 
-/// The oil at the mean temperature of both ends.
+/// The oil at the mean temperature of both nodes.
 fn oil(at: &HeatLinkAt<'_>) -> Fluid {
     Fluid {
         conductivity: at.conductivity,
@@ -75,7 +75,7 @@ mod cases {
 
     use super::*;
 
-    /// An oil of a conductivity, kinematic viscosity, density and specific heat at a speed, for the check cases.
+    /// An oil with a given conductivity, kinematic viscosity, density and specific heat at a speed, for the check cases.
     pub fn at(part: &HeatLinkPart, speed: f64, [k, nu, rho, c]: [f64; 4]) -> HeatLinkAt<'_> {
         HeatLinkAt::usual(part, Notes::MUTED).with(|to| {
             to.speed = speed;
@@ -87,7 +87,7 @@ mod cases {
         })
     }
 
-    /// What building finds for a part.
+    /// The message with which preparing a model for a part fails.
     pub fn built<T, M: HeatLinkModel>(
         prepare: fn(T, &mut Build<'_>) -> Result<M, Diagnostic>,
         params: T,

@@ -1,6 +1,6 @@
-//! The loss models, catalogues and recipes that ship with gearloss: one file per model, a folder per mechanism.
+//! The loss models, catalogues and recipes shipped with gearloss: one file per model, one folder per mechanism.
 //!
-//! The crate uses the framework exactly as an in-house crate does. A program links it by `use gearloss_plugins as _;`.
+//! The crate uses the framework exactly as an in-house crate does. A program links it with `use gearloss_plugins as _;`.
 
 pub mod auxiliary;
 pub mod bearing;

@@ -1,15 +1,15 @@
-//! The thermal network behind `network: auto`: nodes and links from shafts, bearings, gears and housing.
+//! The thermal network of `network: auto`: nodes and links derived from shafts, bearings, gears and housing.
 //!
-//! Nodes: the oil of the sump, the casing, every shaft that carries gears or bearings with the gears that are fixed to it, every
-//! loose gear, every bearing. A planet body is one node for all its copies. The heat of a mesh goes into its gears, that of a
-//! bearing into the bearing, that of a seal into its shaft, because a lip of rubber insulates; all else heats the oil.
+//! Nodes: the oil of the sump, the casing, every shaft with gears or bearings together with its fixed gears, every idler gear,
+//! every bearing. A planet body is one node for all its copies. The heat of a mesh goes into its gears, that of a bearing into the
+//! bearing, that of a seal into its shaft because the rubber lip insulates; all other heat goes into the oil.
 //!
-//! Nothing but geometry and oil is known of a gearbox, so the figures below are assumed: the conductances of bearings are those of
-//! thermal networks of drive units, which scatter by a factor of two either way. Each is written into the description, where it
+//! A description gives only geometry and oil, so the values below are assumed. The conductances of bearings are taken from thermal
+//! networks of drive units and scatter by a factor of two in either direction. Each value is written into the description, where it
 //! can be changed or identified.
 
 mod body;
-mod lay;
+mod builder;
 
 use gearloss_framework::description::{GearboxEntry, HeatInto, Mounting};
 use gearloss_framework::document::Diagnostic;
@@ -21,62 +21,62 @@ use gearloss_framework::registry::{NetworkRecipe, inventory};
 use serde_json::{Value, json};
 
 use body::{Bodies, Metal};
-use lay::Lay;
+use builder::NetworkBuilder;
 
-/// From a bearing to what runs in its bore, for each metre of the bore. \[W/(m K)\]
+/// From a bearing to the shaft or gear in its bore, per metre of bore. \[W/(m K)\]
 const TO_BORE: f64 = 90.0;
-/// From a bearing to what holds it, for each metre of its outside diameter. \[W/(m K)\]
+/// From a bearing to its seat, per metre of outside diameter. \[W/(m K)\]
 const TO_OUTSIDE: f64 = 80.0;
 /// From a bearing in oil to the sump. \[W/K\]
 const TO_OIL: f64 = 2.0;
 /// From gear to gear through the teeth in contact. \[W/K\]
 const TEETH: f64 = 10.0;
-/// From a loose gear that no bearing carries to its shaft. \[W/K\]
+/// From an idler gear without bearings to its shaft. \[W/K\]
 const PLAIN_BORE: f64 = 5.0;
-/// From what is screwed to the housing to the casing. \[W/K\]
+/// From a component bolted to the housing to the casing. \[W/K\]
 const SCREWED: f64 = 20.0;
-/// From a gear to oil and mist that stand still about it. \[W/(m2 K)\]
+/// From a stationary gear to the surrounding oil and mist. \[W/(m2 K)\]
 const AT_REST: f64 = 50.0;
-/// From oil to casing where no gear is known that splashes. \[W/(m2 K)\]
+/// From oil to casing where no splashing gear is known. \[W/(m2 K)\]
 const WITHOUT_SPLASH: f64 = 100.0;
-/// Share of the room between bore and outside diameter that the metal of a bearing fills.
+/// Share of the volume between bore and outside diameter that the metal of a bearing fills.
 const FILLED: f64 = 0.7;
-/// Volume of the oil where none is stated. \[m3\]
+/// Oil volume where none is stated. \[m3\]
 const ONE_LITRE: f64 = 1e-3;
 
 inventory::submit! {
     NetworkRecipe {
-        meaning: "Nodes for oil, casing, shafts with their gears, loose gears and bearings; conductances by size.",
-        lay_out,
+        meaning: "Nodes for oil, casing, shafts with their gears, idler gears and bearings; conductances by size.",
+        generate,
         origin: origin!(),
     }
 }
 
-/// A bearing with its place.
+/// A bearing with its position.
 struct Seated {
     id: String,
     entry: BearingEntry,
     shaft: String,
     outer: Option<String>,
-    /// Place along the shaft. \[m\]
+    /// Position along the shaft. \[m\]
     at: f64,
-    /// Equal copies, those on all planets together.
+    /// Number of equal copies, counting all planets.
     copies: f64,
-    /// True where its model says how much it loses.
+    /// True if its model computes a loss.
     loses: bool,
 }
 
-fn lay_out(entry: &GearboxEntry, value: &Value) -> Result<Value, Diagnostic> {
+fn generate(entry: &GearboxEntry, value: &Value) -> Result<Value, Diagnostic> {
     let housing = HousingPart::from(entry.housing.outside.unwrap_or_default());
     let area = outside(&housing)?;
     let bodies = Bodies::new(entry);
     let bearings = seated(value, &bodies);
-    let mut lay = Lay::default();
+    let mut builder = NetworkBuilder::default();
 
-    let sump = lay.node("sump", "oil", sump_capacity(entry));
+    let sump = builder.node("sump", "oil", sump_capacity(entry));
     let wall = Metal::of_wall(housing.wall_conductivity);
-    let casing = lay.node("casing", "wall", area * housing.wall_thickness * wall.heat_capacity());
-    lay.oil(&sump);
+    let casing = builder.node("casing", "wall", area * housing.wall_thickness * wall.heat_capacity());
+    builder.oil(&sump);
 
     for (id, shaft) in entry.shafts.iter() {
         let carried = bearings.iter().any(|b| b.shaft == id || b.outer.as_deref() == Some(id));
@@ -92,61 +92,61 @@ fn lay_out(entry: &GearboxEntry, value: &Value) -> Result<Value, Diagnostic> {
             let places = bores.map(|b| (b.entry.bore, b.at));
             gears + bodies.shaft_capacity(id, shaft, places)
         };
-        let node = lay.node(id, "shaft", bodies.copies(id) * capacity);
-        lay.member(id, &node);
+        let node = builder.node(id, "shaft", bodies.copies(id) * capacity);
+        builder.member(id, &node);
         for (gear, _) in fixed() {
-            lay.gear(gear, &node);
+            builder.gear(gear, &node);
         }
     }
     for (id, gear) in entry.gears.iter().filter(|(_, g)| !is_fixed(g.mounted)) {
-        let node = lay.node(id, "gear", bodies.copies(&gear.shaft) * bodies.capacity(id));
-        lay.member(id, &node);
-        lay.gear(id, &node);
-        if let Some(shaft) = lay.of_member(&gear.shaft)
+        let node = builder.node(id, "gear", bodies.copies(&gear.shaft) * bodies.capacity(id));
+        builder.member(id, &node);
+        builder.gear(id, &node);
+        if let Some(shaft) = builder.of_member(&gear.shaft)
             && !bearings.iter().any(|b| b.outer.as_deref() == Some(id) || b.shaft == id)
         {
-            lay.link(&format!("{id}_bore"), &node, &shaft, PLAIN_BORE);
+            builder.link(&format!("{id}_bore"), &node, &shaft, PLAIN_BORE);
         }
     }
     for bearing in &bearings {
-        bearing_node(bearing, &mut lay, &casing, &sump);
+        bearing_node(bearing, &mut builder, &casing, &sump);
     }
-    gears_to_oil(entry, &bodies, &mut lay, &sump);
+    gears_to_oil(entry, &bodies, &mut builder, &sump);
     for (id, mesh) in entry.meshes.iter() {
-        let [first, second] = mesh.gears.each_ref().map(|gear| lay.of_gear(gear));
+        let [first, second] = mesh.gears.each_ref().map(|gear| builder.of_gear(gear));
         if let (Some(first), Some(second)) = (first, second) {
             let copies = mesh
                 .gears
                 .iter()
                 .map(|gear| bodies.copies_of_gear(gear))
                 .fold(1.0, f64::max);
-            lay.link(id, &first, &second, copies * TEETH);
+            builder.link(id, &first, &second, copies * TEETH);
         }
     }
-    screwed(value, &mut lay, &casing);
-    seals(value, &mut lay, &sump);
+    screwed(value, &mut builder, &casing);
+    seals(value, &mut builder, &sump);
 
     match bodies.splashing() {
         Some(splash) => {
             let mut model = json!({ "type": "oil_casing" });
             if let Some(reach) = splash.reach {
-                model["tip_diameter"] = lay::number(1e3 * reach);
+                model["tip_diameter"] = builder::number(1e3 * reach);
             }
             let link = if splash.reach.is_some() {
                 json!({ "model": model, "shaft": splash.member })
             } else {
                 json!({ "model": model, "gear": splash.member })
             };
-            lay.law("sump_casing", &sump, &casing, link);
+            builder.law("sump_casing", &sump, &casing, link);
         }
-        None => lay.link(
+        None => builder.link(
             "sump_casing",
             &sump,
             &casing,
             WITHOUT_SPLASH * housing.oil_area.unwrap_or(area),
         ),
     }
-    lay.law(
+    builder.law(
         "casing_ambient",
         &casing,
         "ambient",
@@ -157,12 +157,12 @@ fn lay_out(entry: &GearboxEntry, value: &Value) -> Result<Value, Diagnostic> {
             HeatInto::Oil => &sump,
             HeatInto::Surface => &casing,
         };
-        lay.source(id, source.heat, into);
+        builder.source(id, source.heat, into);
     }
-    Ok(lay.written())
+    Ok(builder.written())
 }
 
-/// The area of the outside, with all else that its heat needs.
+/// The outside area of the housing; an error if other quantities for its heat transfer are missing.
 fn outside(housing: &HousingPart) -> Result<f64, Diagnostic> {
     let missing: Vec<&str> = [
         (housing.area.is_none(), "area"),
@@ -181,14 +181,14 @@ fn outside(housing: &HousingPart) -> Result<f64, Diagnostic> {
     })
 }
 
-/// Heat capacity of the oil; its values at the given temperature of the oil. \[J/K\]
+/// Heat capacity of the oil at its given temperature. \[J/K\]
 fn sump_capacity(entry: &GearboxEntry) -> f64 {
     let sump = entry.housing.oil.as_ref();
     let lubricant = match sump {
         Some(oil) => entry.lubricants.get(&oil.lubricant),
         None => entry.lubricants.iter().next().map(|(_, oil)| oil),
     };
-    // What is wrong with an oil is said where it is built.
+    // Errors of the oil are reported where it is built.
     let volumetric = lubricant.and_then(|oil| Lubricant::new(oil).ok()).map_or(0.0, |oil| {
         oil.density(entry.thermal.oil) * oil.heat_capacity(entry.thermal.oil)
     });
@@ -208,7 +208,7 @@ fn text<'a>(entry: &'a Value, key: &str) -> Option<&'a str> {
     entry.get(key).and_then(Value::as_str)
 }
 
-/// True where a component has a model that is not `none`.
+/// True if a component has a model other than `none`.
 fn loses(entry: &Value) -> bool {
     entry
         .get("model")
@@ -226,7 +226,7 @@ fn seated(value: &Value, bodies: &Bodies<'_>) -> Vec<Seated> {
                 .max(outer.as_deref().map_or(1.0, |outer| bodies.copies(outer)));
             Some(Seated {
                 id: id.clone(),
-                // What is wrong with a bearing is said where it is built.
+                // Errors of the bearing are reported where it is built.
                 entry: serde_json::from_value(bearing.clone()).ok()?,
                 shaft,
                 outer,
@@ -238,25 +238,25 @@ fn seated(value: &Value, bodies: &Bodies<'_>) -> Vec<Seated> {
         .collect()
 }
 
-fn bearing_node(bearing: &Seated, lay: &mut Lay, casing: &str, sump: &str) {
+fn bearing_node(bearing: &Seated, builder: &mut NetworkBuilder, casing: &str, sump: &str) {
     let Seated { id, entry, copies, .. } = bearing;
     let (Some(bore), Some(outside)) = (entry.bore, entry.outside) else {
         return;
     };
     let room = 0.25 * std::f64::consts::PI * (outside * outside - bore * bore).max(0.0) * entry.width.unwrap_or(0.0);
-    let node = lay.node(id, "bearing", copies * FILLED * room * Metal::STEEL.heat_capacity());
+    let node = builder.node(id, "bearing", copies * FILLED * room * Metal::STEEL.heat_capacity());
     if bearing.loses {
-        lay.part(&node, &format!("bearings.{id}"));
+        builder.part(&node, &format!("bearings.{id}"));
     }
     let around = match &bearing.outer {
-        Some(outer) => lay.of_member(outer),
+        Some(outer) => builder.of_member(outer),
         None => Some(casing.to_owned()),
     };
-    if let Some(shaft) = lay.of_member(&bearing.shaft) {
-        lay.link(&format!("{node}_{shaft}"), &node, &shaft, copies * TO_BORE * bore);
+    if let Some(shaft) = builder.of_member(&bearing.shaft) {
+        builder.link(&format!("{node}_{shaft}"), &node, &shaft, copies * TO_BORE * bore);
     }
     if let Some(around) = around {
-        lay.link(
+        builder.link(
             &format!("{node}_{around}"),
             &node,
             &around,
@@ -264,31 +264,31 @@ fn bearing_node(bearing: &Seated, lay: &mut Lay, casing: &str, sump: &str) {
         );
     }
     if entry.lubrication != Lubrication::Grease {
-        lay.link(&format!("{node}_{sump}"), &node, sump, copies * TO_OIL);
+        builder.link(&format!("{node}_{sump}"), &node, sump, copies * TO_OIL);
     }
 }
 
-/// Every gear gives heat to the oil: at rest through the oil that stands about it, in motion by what it flings off.
-fn gears_to_oil(entry: &GearboxEntry, bodies: &Bodies<'_>, lay: &mut Lay, sump: &str) {
+/// Adds the links of every gear to the oil: free convection at standstill, centrifugal film flow in motion.
+fn gears_to_oil(entry: &GearboxEntry, bodies: &Bodies<'_>, builder: &mut NetworkBuilder, sump: &str) {
     for (id, gear) in entry.gears.iter() {
-        let (Some(node), Some(size)) = (lay.of_gear(id), bodies.size(id)) else {
+        let (Some(node), Some(size)) = (builder.of_gear(id), bodies.size(id)) else {
             continue;
         };
         let copies = bodies.copies(&gear.shaft);
-        lay.link(
+        builder.link(
             &format!("{id}_{sump}_at_rest"),
             &node,
             sump,
             copies * AT_REST * size.wetted(),
         );
-        // A ring holds its oil.
+        // Centrifugal force keeps the oil in a ring gear.
         if !size.ring {
             let mut model = json!({ "type": "fling_off" });
             if copies > 1.0 {
-                // All teeth of all planets.
+                // The teeth of all planets.
                 model["teeth"] = json!(copies * f64::from(gear.z));
             }
-            lay.law(
+            builder.law(
                 &format!("{id}_{sump}"),
                 &node,
                 sump,
@@ -298,8 +298,8 @@ fn gears_to_oil(entry: &GearboxEntry, bodies: &Bodies<'_>, lay: &mut Lay, sump: 
     }
 }
 
-/// Members that a coupling or clutch can join to the housing.
-fn screwed(value: &Value, lay: &mut Lay, casing: &str) {
+/// Members that a coupling or clutch can connect to the housing.
+fn screwed(value: &Value, builder: &mut NetworkBuilder, casing: &str) {
     for (id, coupling) in section(value, "couplings").chain(section(value, "clutches")) {
         let between: Vec<&str> = coupling
             .get("between")
@@ -310,20 +310,20 @@ fn screwed(value: &Value, lay: &mut Lay, casing: &str) {
             .collect();
         if let [one, other] = between[..]
             && let Some(member) = match (one, other) {
-                ("housing", member) | (member, "housing") => lay.of_member(member),
+                ("housing", member) | (member, "housing") => builder.of_member(member),
                 _ => None,
             }
         {
-            lay.link(id, &member, casing, SCREWED);
+            builder.link(id, &member, casing, SCREWED);
         }
     }
 }
 
-fn seals(value: &Value, lay: &mut Lay, sump: &str) {
+fn seals(value: &Value, builder: &mut NetworkBuilder, sump: &str) {
     for (id, seal) in section(value, "seals").filter(|(_, seal)| loses(seal)) {
-        if let Some(node) = text(seal, "shaft").and_then(|shaft| lay.of_member(shaft)) {
-            lay.part(&node, &format!("seals.{id}"));
-            lay.oil_of(sump, &format!("seals.{id}"));
+        if let Some(node) = text(seal, "shaft").and_then(|shaft| builder.of_member(shaft)) {
+            builder.part(&node, &format!("seals.{id}"));
+            builder.oil_of(sump, &format!("seals.{id}"));
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Drag of a planetary set in oil: the carrier and the planets that orbit with it.
+//! Oil drag of a planetary set: the carrier and its orbiting planets.
 
 pub mod estimate;
 pub mod power_law;

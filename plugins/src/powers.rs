@@ -1,6 +1,6 @@
-//! Powers whose published exponents are roots or whole numbers, and stay so to the bit while nobody changes them.
+//! Powers whose published exponents are roots or whole numbers; at those values the results are exact to the bit.
 
-/// A power: by root or product where the exponent is 1/2, 1/3 or a whole number up to five.
+/// A power: by root or product if the exponent is 1/2, 1/3 or a whole number up to five.
 pub fn power(x: f64, exponent: f64) -> f64 {
     if exponent == 0.5 {
         x.sqrt()

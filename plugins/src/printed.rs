@@ -1,21 +1,20 @@
-//! Published tables, typed a second time from their sources, for tests that compare the constants of models cell by cell.
+//! Published tables, independently transcribed, for tests that compare model constants cell by cell.
 //!
-//! They lie as CSV in `tests/tables`, each with its source at its head, and were typed without a look at the code.
+//! The CSV files are in `tests/tables`, each with its source in the header. They were typed without reference to the code.
 
-/// Rows of a table: cells by the names of the columns.
+/// Rows of a table; cells are looked up by column name.
 pub struct Printed {
     columns: Vec<&'static str>,
     rows: Vec<Vec<&'static str>>,
 }
 
-/// One row.
 pub struct Row<'a> {
     columns: &'a [&'static str],
     cells: &'a [&'static str],
 }
 
 impl Printed {
-    /// Reads a table; lines that begin with `#` say where it comes from.
+    /// Reads a table; lines that begin with `#` state the source.
     #[track_caller]
     pub fn read(text: &'static str) -> Self {
         assert!(text.starts_with("# "), "a table without its source");
@@ -30,7 +29,6 @@ impl Printed {
         Self { columns, rows }
     }
 
-    /// The rows.
     pub fn rows(&self) -> impl Iterator<Item = Row<'_>> {
         self.rows.iter().map(|cells| Row {
             columns: &self.columns,
@@ -40,14 +38,13 @@ impl Printed {
 }
 
 impl Row<'_> {
-    /// A cell as it stands.
+    /// A cell as text.
     #[track_caller]
     pub fn text(&self, column: &str) -> &'static str {
         let i = self.columns.iter().position(|c| *c == column);
         self.cells[i.unwrap_or_else(|| panic!("no column `{column}` in {:?}", self.columns))]
     }
 
-    /// A number.
     #[track_caller]
     pub fn number(&self, column: &str) -> f64 {
         let text = self.text(column);
@@ -55,13 +52,13 @@ impl Row<'_> {
             .unwrap_or_else(|_| panic!("`{text}` in column `{column}` of {:?}", self.cells))
     }
 
-    /// A number, where the source has one.
+    /// A number, if the source states one.
     #[track_caller]
     pub fn cell(&self, column: &str) -> Option<f64> {
         (!self.text(column).is_empty()).then(|| self.number(column))
     }
 
-    /// Compares a constant of the code with a cell; rounding of binary numbers is all that they may differ by.
+    /// Compares a constant of the code with a cell; only binary rounding may differ.
     #[track_caller]
     pub fn is(&self, column: &str, own: f64) {
         let printed = self.number(column);

@@ -1,8 +1,8 @@
-//! Heat between a body that turns and the oil, air or mist about it.
+//! Heat transfer between a rotating body and the surrounding oil, air or mist.
 //!
 //! Sources: Olver, IMechE G 205 (1991) 35-43 (sides and track of a gear); rotating disc in free fluid, laminar and turbulent;
-//! rotating cylinder after Becker, Int. J. Heat Mass Transfer 6 (1963) 1053-1062: Nu = 0.133 Re^(2/3) Pr^(1/3) with the diameter
-//! and the speed of the surface. The mist has properties between those of oil and air by volume, its heat by mass.
+//! rotating cylinder according to Becker, Int. J. Heat Mass Transfer 6 (1963) 1053-1062: Nu = 0.133 Re^(2/3) Pr^(1/3) with the diameter
+//! and the surface speed. Mist properties are weighted by volume, its specific heat by mass.
 
 use std::f64::consts::PI;
 
@@ -19,7 +19,7 @@ pub struct Fluid {
     pub heat_capacity: f64,
 }
 
-/// Dry air of a warm gear case. Only its order of magnitude counts beside oil.
+/// Dry air in a warm gear case. Only its order of magnitude matters compared with oil.
 pub const AIR: Fluid = Fluid {
     conductivity: 0.029,
     eta: 2.1e-5,
@@ -28,7 +28,7 @@ pub const AIR: Fluid = Fluid {
 };
 
 impl Fluid {
-    /// A mist of this fluid in air, from its share of the volume.
+    /// A mist of this fluid in air, from its volume fraction.
     pub fn mist(&self, share: f64) -> Self {
         let mean = |own: f64, air: f64| share * own + (1.0 - share) * air;
         let density = mean(self.density, AIR.density);
@@ -55,7 +55,7 @@ impl Fluid {
         self.eta * self.heat_capacity / self.conductivity
     }
 
-    /// Heat transfer of a disc of a radius (m) that turns (rad/s). \[W/(m2 K)\]
+    /// Heat transfer coefficient of a disc with a radius (m) rotating at a speed (rad/s). \[W/(m2 K)\]
     pub fn disc(&self, radius: f64, speed: f64) -> f64 {
         const TURBULENT: f64 = 2.5e5;
         let (re, pr) = (speed * radius * radius / self.nu(), self.prandtl());
@@ -69,19 +69,19 @@ impl Fluid {
         nusselt * self.conductivity / radius
     }
 
-    /// Reynolds number of a cylinder of a radius (m) that turns (rad/s), with its diameter and the speed of its surface.
+    /// Reynolds number of a cylinder with a radius (m) rotating at a speed (rad/s), based on diameter and surface speed.
     pub fn cylinder_reynolds(&self, radius: f64, speed: f64) -> f64 {
         2.0 * speed * radius * radius / self.nu()
     }
 
-    /// Heat transfer of a cylinder of a radius (m) that turns (rad/s). \[W/(m2 K)\]
+    /// Heat transfer coefficient of a cylinder with a radius (m) rotating at a speed (rad/s). \[W/(m2 K)\]
     pub fn cylinder(&self, radius: f64, speed: f64) -> f64 {
         let re = self.cylinder_reynolds(radius, speed);
         0.133 * (re * re * self.prandtl()).cbrt() * self.conductivity / (2.0 * radius)
     }
 }
 
-/// What a gear shows to the fluid. SI.
+/// The surfaces of a gear that exchange heat with the fluid. SI.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Body {
     /// Outer and inner radius of its sides. \[m\]
@@ -93,7 +93,7 @@ pub struct Body {
 }
 
 impl Body {
-    /// Conductance from the body to a fluid in which it turns at a speed (rad/s); zero at rest. \[W/K\]
+    /// Conductance from the body to a fluid at a speed (rad/s); zero at standstill. \[W/K\]
     pub fn conductance(&self, fluid: &Fluid, speed: f64) -> f64 {
         let [outer, inner] = self.sides;
         let sides = 2.0 * PI * (outer * outer - inner * inner) * fluid.disc(outer, speed);
@@ -101,7 +101,7 @@ impl Body {
         sides + track
     }
 
-    /// Resistance from the body to a fluid in which it turns at a speed (rad/s). \[K/W\]
+    /// Resistance from the body to a fluid at a speed (rad/s). \[K/W\]
     pub fn resistance(&self, fluid: &Fluid, speed: f64) -> f64 {
         1.0 / self.conductance(fluid, speed)
     }
@@ -112,7 +112,7 @@ mod tests {
     use super::*;
     use crate::tooth_friction::ehl_mixed::cases::close;
 
-    /// A fluid of a conductivity, kinematic viscosity and Prandtl number.
+    /// A fluid with a given conductivity, kinematic viscosity and Prandtl number.
     fn fluid(conductivity: f64, nu: f64, pr: f64) -> Fluid {
         Fluid {
             conductivity,

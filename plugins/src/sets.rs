@@ -1,4 +1,4 @@
-//! Sets of models to choose by name.
+//! Named model sets.
 
 use gearloss_framework::origin;
 use gearloss_framework::registry::{ShippedSet, inventory};
@@ -6,7 +6,7 @@ use gearloss_framework::registry::{ShippedSet, inventory};
 inventory::submit! {
     ShippedSet {
         name: "iso14179_2",
-        meaning: "All parts after ISO/TR 14179-2, splash torque at the speed of the pinion.",
+        meaning: "All components according to ISO/TR 14179-2, splash torque at the speed of the pinion.",
         yaml: "
 gear_mesh: { type: iso14179_2 }
 gear_drag: { churning: { type: iso14179_2, speed_of: pinion } }

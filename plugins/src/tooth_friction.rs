@@ -17,7 +17,7 @@ mod accuracy;
 
 use gearloss_framework::loss::Undefined;
 
-/// The sum of the surface speeds (m/s) of a contact that entrains oil; laws that divide by it have no value without.
+/// The sum of the surface speeds (m/s) of a contact that entrains oil; laws that divide by it are undefined otherwise.
 fn entraining(sum_speed: f64) -> Result<f64, Undefined> {
     if sum_speed > 0.0 {
         Ok(sum_speed)
@@ -29,7 +29,7 @@ fn entraining(sum_speed: f64) -> Result<f64, Undefined> {
     }
 }
 
-/// A coefficient that is a number, or the reason why not.
+/// The coefficient if it is a number, else the reason why it is undefined.
 fn finite(mu: f64) -> Result<f64, Undefined> {
     if mu.is_finite() && mu >= 0.0 {
         Ok(mu)

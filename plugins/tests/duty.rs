@@ -1,4 +1,4 @@
-//! Shipped cycles: their check sums, and a duty of each.
+//! Shipped cycles: their check sums, and the duty of each.
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::registry::Registry;
@@ -83,7 +83,7 @@ fn the_check_sums_of_the_regulations_are_met() {
     }
 }
 
-/// Duty of a cycle at the motor: energies out of it and into it, root mean square of its torque, greatest and mean speed.
+/// Duty of a cycle at the motor: energies out of it and into it, root mean square of its torque, maximum and mean speed.
 fn duty(name: &str) -> [f64; 5] {
     let car = Vehicle {
         mass: 1928.0,
@@ -152,7 +152,7 @@ fn u7d_duties_of_an_electric_sedan() {
 fn an_unknown_cycle_finds_its_neighbour() {
     assert_eq!(
         cycle("wltc_class_3b").unwrap_err(),
-        "no cycle is called `wltc_class_3b` | write `wltc_class3b`"
+        "there is no cycle `wltc_class_3b` | write `wltc_class3b`"
     );
 }
 

@@ -1,5 +1,5 @@
-//! An identification whose sum of squares has kinks and jumps: a gearbox with a large oil charge, whose losses are mostly churning after a
-//! law with flow regimes. Every start ends in the same minimum, and the result says at which kink it lies.
+//! An identification whose sum of squares has kinks and jumps: a gearbox with a large oil charge, whose losses are mostly churning
+//! with a law of flow regimes. Every start ends in the same minimum, and the result names the kink at which it is.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -24,12 +24,12 @@ const RPM: f64 = std::f64::consts::PI / 30.0;
 /// Relative standard deviation of a measured loss.
 const NOISE: f64 = 0.005;
 const SEED: u64 = 20261123;
-/// Torques in Nm and speeds in rpm at the input, and temperatures of the oil in degC: 48 points. Chosen before anything was fitted, as
-/// the seed and what is hidden were.
+/// Torques in Nm and speeds in rpm at the input, and oil temperatures in degC: 48 points. Chosen before anything was fitted, like
+/// the seed and the hidden values.
 const TORQUES: [f64; 3] = [0.5, 2.0, 4.0];
 const SPEEDS: [f64; 8] = [3000.0, 6000.0, 9000.0, 12000.0, 15000.0, 18000.0, 20000.0, 22000.0];
 const OILS: [f64; 2] = [40.0, 80.0];
-/// What the models are not told.
+/// The values hidden from the models.
 const HIDDEN: [(&str, f64); 7] = [
     ("lubricants.sump.viscosity.factor", 0.85),
     ("housing.oil.level_offset", 3.0),
@@ -64,7 +64,7 @@ analyses:
       seals: { path: \"seals.*.loss_factor\", from: 0.5, to: 2 }
 ";
 
-/// Numbers of a normal distribution, always the same ones (SplitMix64, Box and Muller).
+/// Normally distributed numbers, always the same ones (SplitMix64, Box and Muller).
 struct Normal(u64);
 
 impl Normal {
@@ -82,7 +82,7 @@ impl Normal {
     }
 }
 
-/// The two-speed example with 3 l of oil that reach far up, and a law of churning.
+/// The two-speed example with 3 l of oil at a high level, and a churning law.
 fn choice(churning: &str, overrides: &[(&str, f64)]) -> Choice {
     let models = json!({
         "gear_mesh": { "type": "iso14179_2" },
@@ -112,7 +112,7 @@ fn gearbox(language: &Language) -> Gearbox {
     Gearbox::read(language, &file).unwrap_or_else(|f| panic!("{}", f.render()))
 }
 
-/// The synthetic measurement after a law of churning.
+/// The synthetic measurement with a churning law.
 fn csv(language: &Language, gearbox: &Gearbox, churning: &str) -> String {
     let t = gearbox
         .transmission(language, &choice(churning, &HIDDEN))
@@ -179,7 +179,7 @@ fn identification<'a>(
     found.unwrap_or_else(|faults| panic!("{faults}"))
 }
 
-/// Fits a law of churning to points after another one from 30 starts: no law is what was measured.
+/// Fits a churning law from 30 starts to points computed with another one: no law equals the measured one.
 fn fitted(measured: &str, churning: &str, check: impl FnOnce(&Fitted)) {
     let language = language();
     let (gearbox, study) = (gearbox(&language), study(&language));
@@ -210,8 +210,8 @@ fn fitted(measured: &str, churning: &str, check: impl FnOnce(&Fitted)) {
     check(&fitted);
 }
 
-/// Regimes by Reynolds number, where the loss jumps by 0.2 %: before there was a finish without derivatives, each of the 30 starts failed
-/// in another minimum within 0.1 % of the cost.
+/// Regimes by Reynolds number, where the loss jumps by 0.2 %: without the derivative-free finish each of the 30 starts failed in
+/// another minimum within 0.1 % of the cost.
 #[test]
 fn thirty_starts_find_the_minimum_at_a_kink() {
     fitted("changenet_2007", "changenet_2011", |fitted| {
@@ -235,12 +235,12 @@ fn thirty_starts_find_the_minimum_at_a_kink() {
             sentence.starts_with(words) && sentence.contains("between the regimes"),
             "{sentence}"
         );
-        // The kink lies across the viscosity, by which the Reynolds number changes.
+        // The kink crosses the viscosity, which changes the Reynolds number.
         assert!(fitted.is_kinked(0), "{:?}", fitted.kinks);
     });
 }
 
-/// Regimes that meet without a jump, of another slope: there are several minima, far apart, and the result says which.
+/// Regimes that meet without a jump, with different slopes: there are several minima, far apart, and the result lists them.
 #[test]
 fn minima_that_the_points_tell_apart_stay_apart() {
     fitted("changenet_2011", "changenet_2007", |fitted| {

@@ -1,4 +1,4 @@
-//! The tests of the models from outside, as one program: `cargo test -p gearloss-plugins --test all MODULE::` runs one module.
+//! Integration tests of the models as one program: `cargo test -p gearloss-plugins --test all MODULE::` runs one module.
 #![allow(clippy::unwrap_used)]
 
 mod duty;

@@ -58,7 +58,7 @@ pub fn run(args: &CheckArgs, out: &mut Out) -> Result<End, Failure> {
                 if deny.is_some_and(|deny| weakest.is_some_and(|w| w >= deny)) {
                     end = End::Finding;
                     out.line(format!(
-                        "  error (--deny {}): the lowest evidence grade is not above it",
+                        "  error (--deny {}): a result depends on evidence of this grade or lower",
                         args.deny.as_deref().unwrap_or_default()
                     ))?;
                 }

@@ -21,7 +21,7 @@ pub fn run(args: &EvalArgs, out: &mut Out) -> Result<End, Failure> {
         None => Default::default(),
     };
     let source = args.input.as_deref().unwrap_or(Path::new("")).display().to_string();
-    let evaluated = eval::ask(language, &args.model, &source, &text, &folder)?;
+    let evaluated = eval::evaluate_input(language, &args.model, &source, &text, &folder)?;
     if !evaluated.total.is_finite() {
         return Err(Failure::input(
             format!("{source}: {} has no finite result at these values", args.model),

@@ -2,6 +2,7 @@
 
 mod folder;
 mod manifest;
+mod result_files;
 mod runner;
 mod shard;
 mod shard_tasks;
@@ -10,12 +11,11 @@ mod table;
 mod task_file;
 mod write;
 
-pub use shard::Shard;
 pub(super) use shard::gather;
 pub(super) use shard_tasks::ShardTasks;
 
 use self::folder::Held;
-use self::runner::{Run, Runner};
+use self::runner::Run;
 
 use std::path::{Path, PathBuf};
 

@@ -1,5 +1,6 @@
 //! `--set PATH=VALUE`: overrides from the arguments, with their positions in errors.
 
+use gearloss_framework::codes;
 use gearloss_framework::document::{Diagnostic, Sources, Span, read_yaml};
 use gearloss_framework::gearbox::{Findings, Gearbox};
 use gearloss_framework::language::Language;
@@ -39,7 +40,8 @@ pub fn choice(args: &ChoiceArgs) -> Result<Choice, Findings> {
         let Some((path, value)) = text.split_once('=') else {
             let error = Diagnostic::error("", "an override without `=`")
                 .at(span(source, 0, text.len()))
-                .help("write `--set PATH=VALUE`");
+                .help("write `--set PATH=VALUE`")
+                .code(codes::CHOICE);
             return Err(found(vec![error], sources));
         };
         // Positions of findings are relative to the first character of the value.

@@ -52,7 +52,12 @@ pub fn run(args: &SolveArgs, out: &mut Out) -> Result<End, Failure> {
             known.first().is_some_and(|w| w.grade >= grade)
         };
         if denied {
-            out.line(format!("denied: {what}"))?;
+            let reason = if what == "extrapolation" {
+                "a model is used outside its stated range"
+            } else {
+                "the result depends on evidence of this grade or lower"
+            };
+            out.line(format!("error (--deny {what}): {reason}"))?;
             end = End::Finding;
         }
     }

@@ -36,8 +36,10 @@ pub fn work(laws: &[(EhlMixed, Path)], solution: &Solution<'_>) -> Vec<(u32, u32
         if at.torque == 0.0 || at.speed == 0.0 {
             return (0, 0, 0);
         }
-        let mean = MeanFrictionAt::of(&at, Notes::MUTED);
-        let along = path.at(&mean, Notes::MUTED).with(|to| to.bodies = at.bodies());
+        let mean = MeanFrictionAt::at_pitch_point(&at, Notes::MUTED);
+        let along = path
+            .at_operating_point(&mean, Notes::MUTED)
+            .with(|to| to.bodies = at.bodies());
         let mut mu = vec![0.0; path.len()];
         let (tally, _) = law.settle(&along, &mut mu, |_, _| {});
         (tally.runs, tally.passes, path.len())

@@ -2,6 +2,7 @@
 
 pub mod contact_work;
 pub mod rig;
+pub mod study;
 
 use std::collections::BTreeMap;
 use std::fs::File;

@@ -1,20 +1,20 @@
-//! A baffle around a dipping gear: the drag of any other model times a factor that was measured with and without the baffle.
+//! A baffle around an immersed gear: the drag of any other model times a measured factor.
 
 use gearloss_framework::prelude::*;
 
 const BAFFLED: Term = Term::no_load(0, "baffled");
-const FACTOR: Observed = Observed::new(0, "factor", "-", "Drag with the baffle over drag without it.");
+const FACTOR: Observed = Observed::new(0, "factor", "-", "Ratio of drag with and without the baffle.");
 
-/// Drag of a gear behind a baffle.
+/// Drag of a gear with a baffle.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
     /// Drag without the baffle.
     pub free: ModelRef<GearDrag>,
-    /// CSV file of the factor, a column `factor [-]` behind the quantities that it hangs on, such as `speed [rpm]`.
+    /// CSV file of the factor: columns of the quantities that it depends on, such as `speed [rpm]`, then `factor [-]`.
     pub factor: String,
 }
 
-/// Drag of a gear behind a baffle, ready: the nested model is built, the file read.
+/// Drag of a gear with a baffle, prepared: the nested model is built and the file is read.
 pub struct Baffled {
     free: Slot<GearDrag>,
     factor: Lookup<GearDrag>,
@@ -56,7 +56,7 @@ register!(GearDrag, "baffled", Params,
 mod tests {
     use gearloss_framework::testing::{assert_close, eval};
 
-    /// The file of the example says 0.8 at 1500 rpm and 0.9 at 750 rpm.
+    /// The file of the example has 0.8 at 1500 rpm, so 0.9 at 750 rpm.
     #[test]
     fn the_factor_applies_to_the_free_drag() {
         for (speed, factor) in [(1500, 0.8), (-750, 0.9)] {

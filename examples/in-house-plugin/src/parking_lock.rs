@@ -8,7 +8,7 @@ use gearloss_framework::prelude::*;
 #[derive(Debug)]
 pub enum ParkingLock {}
 
-/// Drag of an open parking lock. A model answers with a moment about its shaft.
+/// Drag of an open parking lock. A model returns a moment about its shaft.
 pub trait ParkingLockModel: Send + Sync {
     /// Loss at one operating point. Pure; must not allocate.
     fn loss(&self, at: &ParkingLockAt<'_>) -> Result<Loss, Undefined>;
@@ -23,7 +23,7 @@ pub struct ParkingLockPart {
 }
 
 context! {
-    /// All that a model of a parking lock may look at.
+    /// Inputs of a model of a parking lock.
     pub struct ParkingLockAt of ParkingLock {
         /// Speed of the wheel, signed. [rpm]
         speed: 1000.0 in -20000.0..=20000.0 from "kinematics of its shaft",
@@ -61,7 +61,7 @@ impl Component for ParkingLock {
     const SECTION: &'static str = "parking_locks";
     type Attachment = OnMember;
 
-    fn at<'a>(part: &'a ParkingLockPart, site: MemberSite<'a>, notes: Notes<'a>) -> ParkingLockAt<'a> {
+    fn context<'a>(part: &'a ParkingLockPart, site: MemberSite<'a>, notes: Notes<'a>) -> ParkingLockAt<'a> {
         ParkingLockAt {
             part,
             speed: site.speed,

@@ -1,4 +1,4 @@
-//! The moment is that of a mean force at the rim; it does not hang on speed.
+//! The moment is that of a mean force at the rim and is independent of speed.
 
 use gearloss_framework::prelude::*;
 
@@ -7,7 +7,7 @@ use crate::parking_lock::{ParkingLock, ParkingLockAt, ParkingLockModel};
 const RATTLE: Term = Term::no_load(0, "rattle");
 const SPEED: Limit = Limit::new(0, "n", "1/min", 0.0, 6000.0, "rig of the example");
 
-/// A pawl that rattles along the wheel.
+/// A pawl that rattles on the wheel.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Pawl {
     /// Mean force of the pawl on the wheel. [N]

@@ -1,4 +1,4 @@
-//! Two terms over the mean diameter, fitted to measurements of the maker's rig.
+//! Two terms over the mean diameter, fitted to measurements of the manufacturer's rig.
 
 use gearloss_framework::prelude::*;
 
@@ -14,14 +14,14 @@ coefficients! {
     }
 }
 
-/// Friction of ball bearings as measured on the rig: one part with oil and speed, one with load.
+/// Friction of ball bearings as measured on the rig: a part from oil and speed, and a part from load.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct RigLine {
-    /// Coefficient of the part with oil and speed. [-]
+    /// Coefficient of the part from oil and speed. [-]
     #[serde(default = "viscous")]
     #[schemars(range(min = 0.0, max = 20.0))]
     pub viscous: f64,
-    /// Coefficient of the part with load. [-]
+    /// Coefficient of the part from load. [-]
     #[schemars(range(min = 0.0, max = 0.01))]
     pub loaded: f64,
     #[serde(default)]
@@ -58,7 +58,7 @@ register!(Bearing, "rig_line", RigLine,
 mod tests {
     use gearloss_framework::testing::{assert_close, eval};
 
-    /// d = 40 mm, D = 80 mm: d_m = 60 mm; 32 mm2/s, 1500 rpm, 1 kN; worked by hand.
+    /// d = 40 mm, D = 80 mm: d_m = 60 mm; 32 mm2/s, 1500 rpm, 1 kN; calculated by hand.
     #[test]
     fn the_moment_of_a_6208() {
         let input = "

@@ -136,7 +136,7 @@ fn a_fault_in_the_section_is_found_like_any_other() {
 fn a_law_of_a_mesh_is_no_law_of_a_gear() {
     let nested = "gears.wheel.drag.churning.free={ type: mauz_injection, flow: 1 l/min }";
     let told = program(&["check", "gearbox.yaml", "--set", nested]).refused();
-    assert!(told.contains("asked for meshes"), "{told}");
+    assert!(told.contains("is a law for meshes"), "{told}");
 }
 
 /// A parameter of this crate is found from measured points, by its path; 4.2e-4 was hidden in them.
@@ -168,4 +168,28 @@ impl Run {
     fn json(self) -> serde_json::Value {
         serde_json::from_str(&self.fine()).unwrap()
     }
+}
+
+/// Schema, `check`, `run`, its files and the report have the analysis of this crate.
+#[test]
+fn an_analysis_of_this_crate_runs_like_any_other() {
+    let schema = program(&["schema", "study"]).json().to_string();
+    assert!(
+        schema.contains("drag_torque") && schema.contains("over the temperature of the oil"),
+        "{schema}"
+    );
+    let results = program(&["schema", "result"]).json().to_string();
+    assert!(results.contains("Torque at the first temperature over that at the last."));
+    let folder = common::folder("drag");
+    let printed = program(&["run", "study.yaml", "--force", "-o", folder.to_str().unwrap()]).fine();
+    assert!(printed.contains("drag: models own: cold oil takes"), "{printed}");
+    let rows = std::fs::read_to_string(folder.join("drag.csv")).unwrap();
+    assert!(
+        rows.starts_with("model_set,oil_temperature_degc,torque_nm\n") && rows.lines().count() == 5,
+        "{rows}"
+    );
+    let json: serde_json::Value = serde_json::from_slice(&std::fs::read(folder.join("drag.json")).unwrap()).unwrap();
+    assert_eq!(json["sets"][0]["torques"].as_array().map(Vec::len), Some(4));
+    let page = std::fs::read_to_string(folder.join("report.html")).unwrap();
+    assert!(page.contains("cold oil takes"));
 }

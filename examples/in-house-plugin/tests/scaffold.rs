@@ -67,13 +67,13 @@ fn a_new_crate_compiles_and_leaves_one_check_value_to_its_author() {
     assert_eq!(verdicts(&first), 1, "{first}");
     assert!(first.contains("test all_models_conform ... ok"), "{first}");
     assert!(
-        first.contains("TODO in src/my_bearing.rs") && first.contains("in place of 0.0"),
+        first.contains("TODO in src/my_bearing.rs") && first.contains("replace 0.0"),
         "{first}"
     );
 
     // By hand: 1e-7 * 2 * 400 * 60^3 = 17.28 N mm of oil, 3e-4 * 1000 * 60 = 18 N mm of load.
     let told = first
-        .split("The code has ")
+        .split("The code returns ")
         .nth(1)
         .unwrap()
         .split(" Nm")

@@ -1,9 +1,10 @@
-//! Where a component sits: the closed set of attachments, as types.
+//! Where a component is attached: the closed set of attachments, as types.
 //!
-//! From the attachment alone follow the relative speed, the loads, the local oil, and who feels the reaction. Each has a
-//! *place* (the keys that it adds to the component's entry), a *seat* (indices), and a *site* (the state at one point).
+//! The attachment determines the relative speed, the loads, the local oil, and which members take the reaction. Each has a *place*
+//! (the keys that it adds to the component's entry), a *seat* (indices), and a *site* (the state at one point).
 
 mod clearance;
+mod common;
 mod member;
 mod support;
 
@@ -13,36 +14,37 @@ use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
 
 pub use clearance::{Clearance, ClearancePlace, ClearanceSeat, ClearanceSite};
+pub use common::Common;
 pub use member::{MemberPlace, MemberSite, OnMember};
 pub use support::{Axial, Factor, FactorOver, Support, SupportPlace, SupportSeat, SupportSite};
 
+use crate::codes;
 use crate::document::{Diagnostic, did_you_mean};
 use crate::immersion::Height;
 use crate::loads::SupportLoad;
-use crate::registry::Common;
 
 mod sealed {
     pub trait Sealed {}
 }
 
-/// An attachment. The set is closed: mechanisms choose one, they do not make one.
+/// An attachment. The set is closed: mechanisms choose one, they do not define new ones.
 pub trait Attach: sealed::Sealed + 'static {
     /// The keys that the attachment adds to the component's entry.
     type Place: DeserializeOwned + JsonSchema;
-    /// Indices of what the place names.
+    /// Indices of the members and oils that the place names.
     type Seat: Copy + Send + Sync;
     /// The state at one operating point.
     type Site<'a>;
-    /// True where the loss may depend on torque or load.
+    /// True if the loss may depend on torque or load.
     const LOADED: bool;
-    /// Looks up the names of a place; those that dangle go to the findings.
+    /// Looks up the names of a place; unknown names become findings.
     fn seat(place: &Self::Place, names: &mut Names<'_>) -> Option<Self::Seat>;
     /// The site of a seat.
     fn site<'a>(seat: Self::Seat, spot: &Spot, state: &State<'a>) -> Self::Site<'a>;
-    /// First and second member: moments work against the speed of the first relative to the second, and both feel them.
-    /// Absent for the housing.
+    /// First and second member: moments oppose the speed of the first relative to the second, and both take the reaction. `None` is
+    /// the housing.
     fn between(seat: Self::Seat) -> [Option<u16>; 2];
-    /// Number of the support, where the attachment carries load.
+    /// Number of the support, if the attachment carries load.
     fn support(_seat: Self::Seat) -> Option<u16> {
         None
     }
@@ -64,11 +66,11 @@ pub struct Oil {
     pub nu40: f64,
     /// Pressure-viscosity coefficient. \[1/Pa\]
     pub alpha: f64,
-    /// Relative fall of the viscosity with temperature. \[1/K\]
+    /// Relative decrease of the viscosity with temperature. \[1/K\]
     pub beta: f64,
     /// Thermal conductivity. \[W/(m K)\]
     pub conductivity: f64,
-    /// Coefficient of boundary friction in rolling bearings; zero where none is stated.
+    /// Coefficient of boundary friction in rolling bearings; zero if none is stated.
     pub mu_bl: f64,
     /// Coefficient of full-film friction in rolling bearings.
     pub mu_ehl: f64,
@@ -76,29 +78,29 @@ pub struct Oil {
     pub x_l: f64,
 }
 
-/// Where a component takes its oil from and how high that stands.
+/// Oil supply of a component and its level.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Spot {
     /// Number of the oil among those of the transmission.
     pub oil: u16,
-    /// How the height of the oil above the component's axis follows.
+    /// How the oil height above the component's axis is computed.
     pub level: Level,
 }
 
-/// Height of the oil above an axis.
+/// Oil height above an axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Level {
     /// No oil reaches the place.
     Dry,
-    /// A pocket of its own, with this height above the axis. \[m\]
+    /// A separate pocket with this height above the axis. \[m\]
     Own(f64),
-    /// The sump: `(surface - height) * slope`, with the height of the place above the datum. \[m\]
+    /// The sump: `(surface - height) * slope`, with the height of the axis above the datum. \[m\]
     Sump {
-        /// Height of the place above the datum, along the upward direction. \[m\]
+        /// Height of the axis above the datum, along the upward direction. \[m\]
         height: f64,
-        /// One over the share of the upward direction across the shafts.
+        /// One over the component of the upward direction perpendicular to the shafts.
         slope: f64,
-        /// Radius of the orbit on which the axis turns about that place; zero for an axis that rests. \[m\]
+        /// Radius of the orbit of the axis about that point; zero for a stationary axis. \[m\]
         orbit: f64,
     },
 }
@@ -110,14 +112,14 @@ pub struct State<'a> {
     pub speeds: &'a [f64],
     /// Oils, by number.
     pub oils: &'a [Oil],
-    /// Temperatures of the nodes, or one for all. \[degC\]
+    /// Temperatures of the nodes, or one for all nodes. \[degC\]
     pub temperatures: &'a [f64],
-    /// Height of the oil above the datum; minus infinity without a sump. \[m\]
+    /// Oil height above the datum; minus infinity without a sump. \[m\]
     pub surface: f64,
     /// Loads of the supports.
     pub loads: &'a [SupportLoad],
-    /// How many loss models were asked.
-    pub asked: &'a Cell<usize>,
+    /// Number of loss model evaluations.
+    pub calls: &'a Cell<usize>,
 }
 
 impl<'a> State<'a> {
@@ -127,7 +129,7 @@ impl<'a> State<'a> {
         member.map_or(0.0, |m| self.speeds[m as usize])
     }
 
-    /// Difference of two members' speeds; zero where it is rounding. \[rad/s\]
+    /// Difference of two members' speeds; zero if it is rounding error. \[rad/s\]
     #[inline]
     pub fn relative(&self, a: Option<u16>, b: Option<u16>) -> f64 {
         let (a, b) = (self.speed(a), self.speed(b));
@@ -144,7 +146,7 @@ impl<'a> State<'a> {
         &self.oils[spot.oil as usize]
     }
 
-    /// Height of the oil above the axis at a spot.
+    /// Oil height above the axis at a spot.
     #[inline]
     pub fn level(&self, spot: &Spot) -> Height {
         match spot.level {
@@ -161,39 +163,39 @@ impl<'a> State<'a> {
     }
 }
 
-/// A support as seated, for statics.
+/// A support with its indices, for statics.
 #[derive(Debug, Clone)]
 pub struct SeatedSupport {
     /// Path of the component.
     pub path: String,
     /// Member inside.
     pub inner: u16,
-    /// Member outside; absent for the housing.
+    /// Member outside; `None` for the housing.
     pub outer: Option<u16>,
-    /// What was written.
+    /// Entry as written.
     pub place: SupportPlace,
 }
 
-/// A clearance as seated: gear states may close it.
+/// A clearance with its indices: gear states may close it.
 #[derive(Debug, Clone)]
 pub struct SeatedClearance {
     /// Id of the component.
     pub id: String,
     /// Path of the component.
     pub path: String,
-    /// The two members; absent for the housing.
+    /// The two members; `None` for the housing.
     pub between: [Option<u16>; 2],
 }
 
-/// Numbers an oil by lubricant and temperature offset, and says how high a place lies.
+/// Assigns a number to an oil by lubricant and temperature offset, and computes how high a place is.
 pub trait Places {
-    /// Number of the oil of a lubricant with an offset; absent and reported where the lubricant dangles.
+    /// Number of the oil of a lubricant with an offset; `None` and reported if the lubricant does not exist.
     fn oil(&mut self, path: &str, common: &Common) -> Option<u16>;
-    /// How the height of the oil follows at a place along a member's axis.
+    /// How the oil height is computed at a position along a member's axis.
     fn level(&self, member: Option<u16>, at: f64) -> Level;
 }
 
-/// The names that a component may use, while it is seated. Collects supports, clearances and findings.
+/// The names that a component may use while it is placed. Collects supports, clearances and findings.
 pub struct Names<'a> {
     members: &'a [(String, Option<u16>)],
     places: &'a mut dyn Places,
@@ -207,7 +209,7 @@ pub struct Names<'a> {
 }
 
 impl<'a> Names<'a> {
-    /// Names of members: each with its index, absent where the member itself has a fault that was reported.
+    /// Names of members, each with its index; `None` if the member itself has a fault that was reported.
     pub fn new(members: &'a [(String, Option<u16>)], places: &'a mut dyn Places) -> Self {
         Self {
             members,
@@ -222,7 +224,7 @@ impl<'a> Names<'a> {
         }
     }
 
-    /// Turns to the next component.
+    /// Starts the next component.
     pub fn turn_to(&mut self, section: &str, id: &str) {
         self.path = format!("{section}.{id}");
         id.clone_into(&mut self.id);
@@ -235,7 +237,7 @@ impl<'a> Names<'a> {
         &self.path
     }
 
-    /// A member by its id. The outer absence: reported. The inner absence: the housing.
+    /// A member by its id. The outer `None`: reported. The inner `None`: the housing.
     pub fn side(&mut self, key: &str, id: &str) -> Option<Option<u16>> {
         if id == "housing" {
             Some(None)
@@ -244,7 +246,7 @@ impl<'a> Names<'a> {
         }
     }
 
-    /// A member by its id; absent and reported where there is none.
+    /// A member by its id; `None` and reported if it does not exist.
     pub fn member(&mut self, key: &str, id: &str) -> Option<u16> {
         if let Some((_, index)) = self.members.iter().find(|(name, _)| name == id) {
             *index
@@ -252,7 +254,7 @@ impl<'a> Names<'a> {
             let ids: Vec<&str> = self.members.iter().map(|(name, _)| name.as_str()).collect();
             self.findings.push(dangling(
                 &format!("{}.{key}", self.path),
-                "shaft or loose gear",
+                "shaft or idler gear",
                 id,
                 &ids,
             ));
@@ -286,7 +288,7 @@ impl<'a> Names<'a> {
         });
     }
 
-    /// Where the component takes its oil from; after it was seated.
+    /// Oil supply of the component; after it was placed.
     pub fn spot(&mut self, common: &Common) -> Option<Spot> {
         let oil = self.places.oil(&self.path, common)?;
         let level = self
@@ -306,15 +308,15 @@ impl<'a> Names<'a> {
     }
 }
 
-/// The error for an id that nothing has.
+/// The error for an unknown id.
 pub fn dangling(path: &str, what: &str, id: &str, ids: &[&str]) -> Diagnostic {
-    let error = Diagnostic::error(path, format!("no {what} is called `{id}`"));
+    let error = Diagnostic::error(path, format!("no {what} is called `{id}`")).code(codes::UNKNOWN_NAME);
     let error = if ids.is_empty() {
         error
     } else {
-        error.note(format!("there are: {}", ids.join(", ")))
+        error.note(format!("available: {}", ids.join(", ")))
     };
-    // A neighbour of a short id is as often another part as a misspelt one.
+    // A near match of a short id is as often another component as a misspelling.
     let close = if id.len() > 2 {
         did_you_mean(id, ids.iter().copied())
     } else {
@@ -322,7 +324,7 @@ pub fn dangling(path: &str, what: &str, id: &str, ids: &[&str]) -> Diagnostic {
     };
     match close {
         Some(close) => error.help(format!("write `{close}`")),
-        None if ids.is_empty() => error.help(format!("there is none: add `{id}`, or leave the name out")),
-        None => error.help(format!("name one of them, or add `{id}`")),
+        None if ids.is_empty() => error.help(format!("none is defined: add `{id}`, or omit the name")),
+        None => error.help(format!("use one of them, or add `{id}`")),
     }
 }

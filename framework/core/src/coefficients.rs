@@ -1,9 +1,8 @@
-//! Constants and exponents of published formulas as parameters: `model.coefficients.NAME`, with the published value as
-//! default and a range that refuses what the formula cannot mean.
+//! Constants and exponents of published formulas as parameters: `model.coefficients.NAME`, with the published value as default and
+//! a range that excludes meaningless values.
 //!
-//! A model declares them with [`coefficients!`](crate::coefficients!) and holds the struct as
-//! `#[serde(default)] coefficients: X`. Everything else follows from the declaration: the schema, the resolved document,
-//! `models`, the reference, and the note of every value that was changed from the source.
+//! A model declares them with [`coefficients!`](crate::coefficients!) and holds the struct as `#[serde(default)] coefficients: X`.
+//! The schema, the resolved document, `models`, the reference, and the note of every changed value follow from the declaration.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -23,16 +22,16 @@ pub use serde;
 /// Key of the record in a model's parameters.
 pub const COEFFICIENTS: &str = "coefficients";
 
-/// What the description of every record of coefficients ends with.
-const RULES: &str = "Values as in the source, in the units of its formula; a value that is not written is the published one. A range \
-                     is an assumption of what is plausible unless the coefficient's text states where it comes from.";
+/// Rules appended to the description of every record of coefficients.
+const RULES: &str = "Values as in the source, in the units of its formula; the default is the published value. A range \
+                     is assumed to be plausible unless the text of the coefficient states its source.";
 
 /// One coefficient as its model declares it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Declared {
     /// Key in documents.
     pub name: &'static str,
-    /// What it is.
+    /// Description.
     pub doc: &'static str,
     /// Value of the source.
     pub published: f64,
@@ -44,18 +43,18 @@ pub struct Declared {
 
 /// The coefficients of one model; implemented by [`coefficients!`](crate::coefficients!).
 pub trait Coefficients: Copy + Default {
-    /// What the record is.
+    /// Description of the record.
     const ABOUT: &'static str;
     /// All coefficients in the order of their declaration.
     const LIST: &'static [Declared];
-    /// The field of a name.
+    /// Mutable access to a coefficient by name.
     fn field(&mut self, name: &str) -> Option<&mut f64>;
 }
 
 /// Writes all coefficients as a map.
 ///
 /// # Errors
-/// Those of the serializer.
+/// If the serializer fails.
 pub fn serialize<C: Coefficients, S: Serializer>(coefficients: &C, serializer: S) -> Result<S::Ok, S::Error> {
     let mut own = *coefficients;
     let mut map = serializer.serialize_map(Some(C::LIST.len()))?;
@@ -67,7 +66,7 @@ pub fn serialize<C: Coefficients, S: Serializer>(coefficients: &C, serializer: S
     map.end()
 }
 
-/// Reads coefficients from a map; those that are absent keep the published value.
+/// Reads coefficients from a map; omitted ones keep the published value.
 ///
 /// # Errors
 /// If a name is unknown or a value lies outside its range.
@@ -78,7 +77,7 @@ pub fn deserialize<'de, C: Coefficients, D: Deserializer<'de>>(deserializer: D) 
         let (Some(declared), Some(field)) = (declared, own.field(&name)) else {
             let names: Vec<&str> = C::LIST.iter().map(|declared| declared.name).collect();
             return Err(D::Error::custom(format!(
-                "unknown coefficient `{name}`; there are {}",
+                "unknown coefficient `{name}`; available: {}",
                 names.join(", ")
             )));
         };
@@ -113,8 +112,8 @@ pub fn schema<C: Coefficients>() -> Schema {
     })
 }
 
-/// Declares the coefficients of a published formula: each with its doc comment, its published value and the range in which
-/// it may be changed. No value of the range may make the formula undefined.
+/// Declares the coefficients of a published formula: each with its doc comment, its published value and the range in which it may
+/// be changed. The formula must be defined for all values in the range.
 ///
 /// ```
 /// gearloss_framework::coefficients! {
@@ -198,7 +197,7 @@ macro_rules! coefficients {
 pub struct Coefficient {
     /// Key below `coefficients`.
     pub name: String,
-    /// What it is.
+    /// Description.
     pub meaning: String,
     /// Unit; `-` for a number in the units of the formula.
     pub unit: &'static str,
@@ -211,7 +210,7 @@ pub struct Coefficient {
 }
 
 impl Entry {
-    /// The coefficients of the model's formula, as its parameters declare them.
+    /// The coefficients of the model's formula, as declared by its parameters.
     pub fn coefficients(&self) -> Vec<Coefficient> {
         let schema = (self.schema)(&mut schemars::SchemaGenerator::default()).to_value();
         let list = schema["properties"][COEFFICIENTS]["properties"].as_object();
@@ -250,7 +249,7 @@ pub struct Changed {
 }
 
 impl Changed {
-    /// The same for the models of one component alone; absent where it has none of them.
+    /// The same, restricted to the models of one component; `None` if it has none of them.
     pub fn below(&self, component: &str) -> Option<Self> {
         let inside = |path: &&String| {
             path.strip_prefix(component)
@@ -276,7 +275,7 @@ impl fmt::Display for Changed {
     }
 }
 
-/// All coefficients that a transmission uses with another value than the published one, in the order of its models.
+/// All coefficients of a transmission that differ from the published values, in the order of its models.
 pub fn changed_from_source(transmission: &Transmission, resolved: &Resolved) -> Vec<Changed> {
     let mut all: Vec<Changed> = Vec::new();
     for instance in transmission.instances() {
@@ -350,7 +349,7 @@ mod tests {
         assert!(
             read(json!({ "facto": 0.05 }))
                 .unwrap_err()
-                .contains("there are factor, speed_exponent")
+                .contains("available: factor, speed_exponent")
         );
         assert!(
             read(json!({ "factor": 0.1 }))

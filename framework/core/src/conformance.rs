@@ -1,7 +1,6 @@
-//! The conformance suite: what every model owes to the framework, checked on a grid of its mechanism's context.
+//! The conformance suite: checks the requirements of the framework on every model, on a grid of its mechanism's context.
 //!
-//! It serves built-in models and those of other crates alike: [`check_all`] in one test of a crate covers every model that
-//! is linked.
+//! It serves built-in models and those of other crates: a crate calls [`check_all`] in one test, which covers every linked model.
 
 use std::cell::Cell;
 use std::sync::Arc;
@@ -13,7 +12,7 @@ use crate::loss::{Extent, MOST_KEPT, NoteBase, Notes, Undefined};
 use crate::mechanism::{Answer, Mechanism, Quantity};
 use crate::registry::{Build, Entry, Evidence, Files, Graded, Registry, from_resolved};
 
-/// Checks every linked model on its mechanism's example part. Empty when all is well; else one line for each fault.
+/// Checks every linked model on its mechanism's example part. Returns one line for each fault.
 pub fn check_all(language: &Language) -> Vec<String> {
     let mut faults = Vec::new();
     for mechanism in language.registry().mechanisms() {
@@ -26,7 +25,7 @@ pub fn check_all(language: &Language) -> Vec<String> {
             }
             if !(q.least <= q.usual && q.usual <= q.greatest) {
                 faults.push(format!(
-                    "{}: the usual value of `{}` is outside of its range",
+                    "{}: the usual value of `{}` is outside its range",
                     mechanism.key, q.name
                 ));
             }
@@ -36,7 +35,7 @@ pub fn check_all(language: &Language) -> Vec<String> {
                 Ok((model, part)) => {
                     let files = Files::default();
                     files.put_all(entry.files);
-                    // The example of `table` names a file; a plane over the first quantity stands for it.
+                    // The example of `table` names a file; a plane over the first quantity replaces it.
                     if let Some(q) = (mechanism.quantities)().first() {
                         let unit = crate::document::Unit::of_doc(q.doc).map_or("-", |u| u.symbol);
                         let answer = crate::document::Unit::of_doc(mechanism.answer).map_or("-", |u| u.symbol);
@@ -63,7 +62,7 @@ pub fn check_all(language: &Language) -> Vec<String> {
     faults
 }
 
-/// What is wrong with one model, built from its resolved parameters, on one resolved part.
+/// The faults of one model, built from its resolved parameters, on one resolved part.
 pub fn conform<M: Mechanism>(
     registry: &Registry,
     files: &Files,
@@ -108,17 +107,17 @@ pub fn conform<M: Mechanism>(
         }
         let answer = M::answer(&slot, &at);
         let speed = M::speed(&at);
-        if !same(&answer, &M::answer(&slot, &with_notes), speed) {
-            faults.push(format!("answers differently when it is noted, at {what}"));
+        if !same_result(&answer, &M::answer(&slot, &with_notes), speed) {
+            faults.push(format!("returns a different result with notes, at {what}"));
         }
-        if let (true, Some(fault)) = (changes.len() < 2, M::side_by_side(&slot, &at, slot.notes)) {
+        if let (true, Some(fault)) = (changes.len() < 2, M::compare_batched(&slot, &at, slot.notes)) {
             faults.push(format!("{fault} at {what}"));
         }
         match answer {
-            Ok(answer) if !answer.is_sound() => faults.push(format!("the answer is negative or not finite at {what}")),
+            Ok(answer) if !answer.is_sound() => faults.push(format!("the result is negative or not finite at {what}")),
             Ok(answer) => {
                 if let Some(term) = answer.stray(entry.terms) {
-                    faults.push(format!("fills term {term}, which it does not list, at {what}"));
+                    faults.push(format!("sets term {term}, which it does not list, at {what}"));
                 }
             }
             Err(Undefined { what: "", .. }) => {
@@ -145,7 +144,7 @@ pub fn conform<M: Mechanism>(
             }
         }
     }
-    // A law that the user states himself, as `formula` and `table`, may hang on the sense of rotation.
+    // User-defined laws such as `formula` and `table` may depend on the direction of rotation.
     let stated = |g: &Graded| g.key.is_empty() && g.grade == Evidence::User;
     if !entry.evidence.iter().any(stated) {
         faults.extend(rest_and_reversal::<M>(&slot, &usual));
@@ -156,7 +155,7 @@ pub fn conform<M: Mechanism>(
     faults
 }
 
-/// What a loss owes at rest and in the other sense: no power, and the same power.
+/// Checks the loss at standstill and for the opposite direction of rotation: zero power, and equal power.
 fn rest_and_reversal<M: Mechanism>(model: &M::Model, usual: &M::At<'_>) -> Vec<String> {
     let speeds: Vec<&Quantity<M>> = M::QUANTITIES
         .iter()
@@ -177,22 +176,23 @@ fn rest_and_reversal<M: Mechanism>(model: &M::Model, usual: &M::At<'_>) -> Vec<S
         && rest.moment(speed).is_some()
         && rest.total(speed) != 0.0
     {
-        faults.push("loses power at rest".to_owned());
+        faults.push("loses power at standstill".to_owned());
     }
     match (with(|x| x), with(|x| -x)) {
         ((Ok(forward), w), (Ok(backward), v)) => {
             let (a, b) = (forward.total(w), backward.total(v));
             if (a - b).abs() > 1e-9 * a.abs() {
-                faults.push(format!("loses {a} in one sense and {b} in the other"));
+                faults.push(format!("loses {a} in one direction of rotation and {b} in the other"));
             }
         }
         ((Err(_), _), (Err(_), _)) => {}
-        _ => faults.push("is undefined in one sense only".to_owned()),
+        _ => faults.push("is undefined in one direction of rotation only".to_owned()),
     }
     faults
 }
 
-/// What a model keeps over the passes of a point must not hang on loads, which change between them, nor swallow notes.
+/// Values that a model keeps over the iterations of a point must not depend on loads, which change between them, and must not skip
+/// notes.
 fn keeping<M: Mechanism>(
     model: &M::Model,
     part: &M::Part,
@@ -201,7 +201,7 @@ fn keeping<M: Mechanism>(
 ) -> Vec<String> {
     let kept = vec![Cell::new([f64::NAN; MOST_KEPT]); instances];
     let _ = M::answer(model, &M::usual(part, Notes::muted(base).keeping(&kept)));
-    let ask = |notes, q: &Quantity<M>, value| {
+    let evaluate = |notes, q: &Quantity<M>, value| {
         let mut at = M::usual(part, notes);
         (q.set)(&mut at, q.unit().to_si(value));
         let noted = |cells: &[Cell<Extent>]| cells.iter().map(Cell::get).collect::<Vec<_>>();
@@ -210,20 +210,23 @@ fn keeping<M: Mechanism>(
     let mut faults = Vec::new();
     for q in M::QUANTITIES.iter().filter(|q| matches!(q.unit().symbol, "N" | "Nm")) {
         for value in [q.least, q.greatest] {
-            let (anew, speed, notes) = ask(Notes::fresh(cells, base), q, value);
-            let (again, _, notes_again) = ask(Notes::fresh(cells, base).keeping(&kept), q, value);
-            if !same(&anew, &again, speed) {
-                faults.push(format!("keeps what hangs on `{}` over the passes of a point", q.name));
+            let (anew, speed, notes) = evaluate(Notes::fresh(cells, base), q, value);
+            let (again, _, notes_again) = evaluate(Notes::fresh(cells, base).keeping(&kept), q, value);
+            if !same_result(&anew, &again, speed) {
+                faults.push(format!(
+                    "keeps a value that depends on `{}` over the iterations of a point",
+                    q.name
+                ));
             }
             if notes != notes_again {
-                faults.push("notes within what it keeps over the passes of a point".to_owned());
+                faults.push("writes notes inside a value that it keeps over the iterations of a point".to_owned());
             }
         }
     }
     faults
 }
 
-fn same<A: Answer>(a: &Result<A, Undefined>, b: &Result<A, Undefined>, speed: f64) -> bool {
+fn same_result<A: Answer>(a: &Result<A, Undefined>, b: &Result<A, Undefined>, speed: f64) -> bool {
     match (a, b) {
         (Ok(a), Ok(b)) => a.total(speed).to_bits() == b.total(speed).to_bits(),
         (Err(a), Err(b)) => a.what == b.what,
@@ -234,11 +237,14 @@ fn same<A: Answer>(a: &Result<A, Undefined>, b: &Result<A, Undefined>, speed: f6
 fn head(entry: &Entry) -> Vec<String> {
     let mut faults = Vec::new();
     if entry.meaning().is_empty() {
-        faults.push("has no meaning: write a doc comment on its parameters".to_owned());
+        faults.push("has no description: write a doc comment on its parameters".to_owned());
     }
     for (i, limit) in entry.limits.iter().enumerate() {
         if limit.index != i {
-            faults.push(format!("limit `{}` has index {} in place {i}", limit.name, limit.index));
+            faults.push(format!(
+                "limit `{}` has index {} at position {i}",
+                limit.name, limit.index
+            ));
         }
         if limit.least.is_nan() || limit.greatest.is_nan() || limit.least > limit.greatest {
             faults.push(format!("limit `{}` has an empty range", limit.name));
@@ -247,14 +253,14 @@ fn head(entry: &Entry) -> Vec<String> {
     for (i, observed) in entry.observed.iter().enumerate() {
         if observed.index != i {
             faults.push(format!(
-                "observed `{}` has index {} in place {i}",
+                "observed `{}` has index {} at position {i}",
                 observed.name, observed.index
             ));
         }
     }
     for (i, term) in entry.terms.iter().enumerate() {
         if term.index != i {
-            faults.push(format!("term `{}` has index {} in place {i}", term.name, term.index));
+            faults.push(format!("term `{}` has index {} at position {i}", term.name, term.index));
         }
     }
     if entry.source.trim().is_empty() {

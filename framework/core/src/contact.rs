@@ -1,7 +1,7 @@
 //! Films and mixing in line contacts, and the path of contact of a mesh, for models and analyses that need them.
 //!
-//! Sources: Dowson and Higginson 1961 (least film of a line contact); Hamrock and Dowson 1977 (central film, here for a long
-//! ellipse); thermal reduction after Gupta et al. in the form of Arana et al. 2019; weights of mixed friction after Doleschel,
+//! Sources: Dowson and Higginson 1961 (minimum film of a line contact); Hamrock and Dowson 1977 (central film, here for a long
+//! ellipse); thermal reduction according to Gupta et al. in the form of Arana et al. 2019; weights of mixed friction according to Doleschel,
 //! Matsumoto, Diab, and Olver and Spikes as collected by Arana et al. 2019.
 
 use crate::mechanism::tooth_friction::ContactAt;
@@ -10,18 +10,18 @@ use serde::{Deserialize, Serialize};
 
 pub mod path;
 
-/// Which film thickness counts.
+/// Film thickness formula.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Film {
-    /// Least film of a line contact, Dowson and Higginson.
+    /// Minimum film of a line contact, Dowson and Higginson.
     #[default]
     DowsonHigginson,
     /// Central film of a long contact, Hamrock and Dowson.
     HamrockDowson,
 }
 
-/// Least film over radius from U = eta v_e/(E' R), G = alpha E', W = w/(E' R).
+/// Minimum film over radius from U = eta v_e/(E' R), G = alpha E', W = w/(E' R).
 pub fn dowson_higginson(u: f64, g: f64, w: f64) -> f64 {
     2.65 * u.powf(0.7) * g.powf(0.54) * w.powf(-0.13)
 }
@@ -31,15 +31,15 @@ pub fn hamrock_dowson(u: f64, g: f64, w: f64) -> f64 {
     2.69 * u.powf(0.67) * g.powf(0.53) * w.powf(-0.067)
 }
 
-/// Factor by which heating at the inlet thins the film; from p_H/E', slide-roll ratio and L = eta beta v_e^2/k.
+/// Reduction factor of the film by inlet heating, from p_H/E', slide-to-roll ratio and L = eta beta v_e^2/k.
 pub fn thermal_factor(pressure: f64, slide_roll: f64, l: f64) -> f64 {
     let thinned =
         (1.0 - 13.2 * pressure * l.powf(0.42)) / (1.0 + 0.213 * (1.0 + 2.23 * slide_roll.powf(0.83)) * l.powf(0.64));
-    // Beyond the fit the numerator turns negative; a film stays a film.
+    // Beyond the fit the numerator is negative; the film stays positive.
     thinned.clamp(0.05, 1.0)
 }
 
-/// Film thickness in a contact, thinned by inlet heating where wanted; zero at standstill. \[m\]
+/// Film thickness in a contact, optionally with inlet heating; zero at standstill. \[m\]
 pub fn film(at: &ContactAt<'_>, film: Film, thermal: bool) -> f64 {
     let v_e = 0.5 * at.sum_speed;
     if v_e == 0.0 || at.line_load == 0.0 {

@@ -1,7 +1,7 @@
 //! The description of a gearbox: the typed sections that the framework itself reads.
 //!
-//! Sections of mechanisms (`bearings`, `couplings`, `seals`, ... and those of other crates) are merged in by the registry.
-//! All structs are read from the resolved document, in which every quantity is SI and every default is filled.
+//! The registry adds the sections of mechanisms (`bearings`, `couplings`, `seals`, ... and those of other crates). All structs are
+//! read from the resolved document, in which every quantity is SI and every default is filled in.
 
 pub mod gears;
 pub mod housing;
@@ -30,20 +30,20 @@ pub struct GearboxEntry {
     pub gearloss: GearboxFormat,
     /// Title for reports.
     pub title: Option<String>,
-    /// Where the description comes from.
+    /// Source of the description.
     pub source: Option<String>,
-    /// A gearbox file whose description this one takes over; `set` changes it.
+    /// A gearbox file that this one extends; `set` changes it.
     pub extends: Option<String>,
     /// Changes to the file named in `extends`: resolved path to value.
     #[serde(default)]
     pub set: Ordered<Value>,
     /// Shafts at which torque and speed are given or measured: name to shaft.
     pub ports: Ordered<String>,
-    /// Ports that turn at one speed and count as one port, `wheels`: both wheels of a driven axle on a straight road. Its torque is the
-    /// sum of theirs, which the transmission shares; where nothing decides the shares, they are equal.
+    /// Ports with equal speed that count as one port, `wheels`: both wheels of a driven axle on a straight road. Its torque is the
+    /// sum of theirs, which the transmission splits; if the split is not determined, it is equal.
     #[schemars(length(min = 2))]
     pub wheels: Option<Vec<String>>,
-    /// Shafts, planet bodies and carriers: everything that turns, apart from loose gears.
+    /// Shafts, planet bodies and carriers: all rotating members except idler gears.
     pub shafts: Ordered<ShaftEntry>,
     /// Gears.
     #[serde(default)]
@@ -51,15 +51,15 @@ pub struct GearboxEntry {
     /// Pairs of gears in mesh.
     #[serde(default)]
     pub meshes: Ordered<MeshEntry>,
-    /// Planetary sets: a carrier and the shafts that turn as planets on it.
+    /// Planetary sets: a carrier and the shafts that are planets on it.
     #[serde(default)]
     pub planetary_sets: Ordered<PlanetarySetEntry>,
     /// Differentials.
     #[serde(default)]
     pub differentials: Ordered<DifferentialEntry>,
-    /// Relative speed over that at which bodies turn together, below which their friction falls in proportion to it, to nothing where
-    /// they turn as one: gears and bearings on a carrier whose planets hardly roll, as in a differential on a straight road. Unevenness
-    /// of real drives turns the sense of such friction all the time. Zero: all of the friction at any relative speed. [-]
+    /// Relative speed, as a fraction of the common speed of the bodies, below which friction decreases linearly to zero: for gears
+    /// and bearings on a carrier whose planets hardly roll, as in a differential on a straight road. Irregularities of real drives
+    /// reverse the sign of such friction all the time. Zero: full friction at any relative speed. [-]
     #[serde(default = "uneven_running")]
     #[schemars(range(min = 0.0, max = 0.1))]
     pub locked_below: f64,
@@ -67,10 +67,10 @@ pub struct GearboxEntry {
     #[serde(default)]
     #[schemars(extend("x-digits-first" = true))]
     pub gear_states: Ordered<GearStateEntry>,
-    /// How parallel meshes on one shaft share its torque.
+    /// Torque split of parallel meshes on one shaft.
     #[serde(default)]
     pub torque_shares: Vec<TorqueShare>,
-    /// Flanks of every gear that does not state its own.
+    /// Flanks of all gears without their own.
     pub surface: Option<Surface>,
     /// Oils.
     pub lubricants: Ordered<LubricantEntry>,
@@ -80,22 +80,22 @@ pub struct GearboxEntry {
     /// Operating temperature.
     #[serde(default)]
     pub thermal: Thermal,
-    /// Loads of components from a file in place of those from statics.
+    /// Bearing loads from a file instead of the calculated ones.
     pub imported_loads: Option<ImportedLoads>,
     /// Catalogues of this gearbox, as files: catalogue to file.
     #[serde(default)]
     pub catalogues: Ordered<String>,
-    /// Largest torque and speed that the gearbox is made for; axes of grids may count in shares of them.
+    /// Design torque and speed, the largest values; axes of grids may use fractions of them.
     pub rating: Option<RatingEntry>,
-    /// What is assumed and why; shown in reports.
+    /// Assumptions and their reasons; shown in reports.
     #[serde(default)]
     pub assumed: Vec<AssumedEntry>,
-    /// Where values come from.
+    /// Sources of values.
     #[serde(default)]
     pub sources: Vec<AssumedEntry>,
 }
 
-/// Single-pitch deviations of micrometres on pitches of millimetres; assumed.
+/// Assumed: single-pitch deviations of micrometres on pitches of millimetres.
 fn uneven_running() -> f64 {
     1e-3
 }

@@ -1,4 +1,4 @@
-//! One model alone: without a gearbox, on a part and a context that the caller gives.
+//! Evaluates one model without a gearbox, on a part and a context given by the caller.
 
 use std::cell::Cell;
 use std::path::Path;
@@ -6,76 +6,48 @@ use std::sync::Arc;
 
 use serde_json::{Map, Value};
 
-use crate::document::{Diagnostic, Sources, did_you_mean, read_yaml};
+use crate::codes;
+use crate::document::{Diagnostic, Sources, classify, did_you_mean, read_yaml};
 use crate::gearbox::Findings;
 use crate::language::Language;
-use crate::loss::{Extent, Limit, Notes, Observed, Step, Trace};
+use crate::loss::{Extent, Notes, Trace};
 use crate::mechanism::{Answer, Mechanism, settle};
+pub use crate::registry::Evaluated;
 use crate::registry::{Build, Entry, Files, MechanismEntry, Registry, from_resolved};
-
-/// What a model answered.
-#[derive(Debug, Clone)]
-#[non_exhaustive]
-pub struct Evaluated {
-    /// The named values of the answer; watts for a loss.
-    pub values: Vec<(&'static str, f64)>,
-    /// Their sum.
-    pub total: f64,
-    /// Moment about the relative speed for a loss, N m; the coefficient otherwise.
-    pub moment: Option<f64>,
-    /// Observed quantities with the path of their model.
-    pub observed: Vec<(String, Observed, Extent)>,
-    /// Limits with the path of their model.
-    pub limits: Vec<(String, Limit, Extent)>,
-    /// Quantities that followed from stated ones: name, value in the documented unit, unit and law.
-    pub followed: Vec<(&'static str, f64, &'static str, &'static str)>,
-    /// Every step of the formula, with the path of the model that took it.
-    pub steps: Vec<(String, Step)>,
-}
-
-impl Evaluated {
-    /// The value of a step of the formula, in the unit of its source; the last where it was taken several times.
-    pub fn step(&self, symbol: &str) -> Option<f64> {
-        self.steps.iter().rev().find_map(|(_, step)| match step {
-            Step::Value { symbol: own, value, .. } if *own == symbol => Some(*value),
-            _ => None,
-        })
-    }
-
-    /// Names of the limits that the point lies outside of.
-    pub fn outside(&self) -> impl Iterator<Item = &'static str> {
-        self.limits
-            .iter()
-            .filter(|(_, _, e)| e.outside > 0)
-            .map(|(_, limit, _)| limit.name)
-    }
-}
 
 /// A mechanism and a model of a language by their names, `MECHANISM/MODEL`.
 ///
 /// # Errors
-/// If there is no such model; the error names those that there are, or a close one.
+/// If there is no such model; the error lists the available ones, or a close match.
 pub fn named<'a>(language: &'a Language, name: &str) -> Result<(&'a MechanismEntry, &'a Entry), Diagnostic> {
     let Some((mechanism, model)) = name.split_once('/') else {
-        return Err(
-            Diagnostic::error("", format!("`{name}` is no model")).help("write MECHANISM/MODEL, such as bearing/skf")
-        );
+        return Err(Diagnostic::error("", format!("`{name}` is not a model"))
+            .help("write MECHANISM/MODEL, such as bearing/skf"));
     };
     let mechanism = language.registry().mechanism_named(mechanism)?;
     Ok((mechanism, language.registry().model_named(mechanism.key, model)?))
 }
 
-/// Evaluates `MECHANISM/MODEL` at an input in YAML with `part`, `at` and, if wanted, `model`; what is absent is that of the
-/// example at its usual point. `source` names the input in errors; files are looked for in `folder`.
+/// Evaluates `MECHANISM/MODEL` at an input in YAML with `part`, `at` and optionally `model`; omitted quantities are those of the
+/// example at its usual point. `source` names the input in errors; `folder` is searched for files.
 ///
 /// # Errors
-/// If there is no such model, what reading the input finds, and what [`eval`] finds.
-pub fn ask(language: &Language, name: &str, source: &str, input: &str, folder: &Path) -> Result<Evaluated, Findings> {
+/// If there is no such model, or the input is invalid, or [`eval`] fails.
+pub fn evaluate_input(
+    language: &Language,
+    name: &str,
+    source: &str,
+    input: &str,
+    folder: &Path,
+) -> Result<Evaluated, Findings> {
     let mut sources = Sources::default();
     let source = sources.add(source.to_owned(), input);
-    let found = |list: Vec<Diagnostic>| Findings {
-        list,
-        sources: sources.clone(),
+    let found = |mut list: Vec<Diagnostic>| {
+        classify(&mut list, codes::EVAL);
+        Findings {
+            list,
+            sources: sources.clone(),
+        }
     };
     let (mechanism, entry) = named(language, name).map_err(|d| found(vec![d]))?;
     let (example, mut part) = language.example_of(entry).map_err(found)?;
@@ -91,7 +63,7 @@ pub fn ask(language: &Language, name: &str, source: &str, input: &str, folder: &
         if !walked.findings.is_empty() {
             return Err(found(walked.findings));
         }
-        // What is not written itself is shown where the input begins.
+        // Findings without their own position are shown at the start of the input.
         let start = read.node.span;
         let place = move |finding: Diagnostic| {
             let finding = walked.places.place(finding);
@@ -103,14 +75,14 @@ pub fn ask(language: &Language, name: &str, source: &str, input: &str, folder: &
         };
         let Value::Object(mut written) = walked.value else {
             return Err(found(vec![
-                Diagnostic::error("", "the input is no record").help("write `part`, `at` or `model`"),
+                Diagnostic::error("", "the input is not a mapping").help("write `part`, `at` or `model`"),
             ]));
         };
         if let Some(own) = written.remove("model") {
             let of = own.as_str().or_else(|| own["type"].as_str()).unwrap_or_default();
             if of != entry.name {
                 let error = Diagnostic::error("model", format!("the input is for `{of}`, not for `{}`", entry.name));
-                let help = format!("write `model: {{ type: {} }}`, or leave `model` out", entry.name);
+                let help = format!("write `model: {{ type: {} }}`, or omit `model`", entry.name);
                 return Err(found(vec![place(error.help(help))]));
             }
             model = Some(own);
@@ -124,7 +96,7 @@ pub fn ask(language: &Language, name: &str, source: &str, input: &str, folder: &
         places = Some(place);
     }
     let files = Files::beside(folder.to_path_buf());
-    // The example has its own files; to a record that somebody writes they serve where the folder has none of their name.
+    // The example has its own files; for a written record they are used if the folder has no file of that name.
     for (name, text) in entry.files {
         if model.is_none() || !folder.join(name).is_file() {
             files.put(name, text);
@@ -139,11 +111,11 @@ pub fn ask(language: &Language, name: &str, source: &str, input: &str, folder: &
     })
 }
 
-/// Evaluates a model of a mechanism on a part, at the usual context with the given quantities changed; all values SI. What is not
-/// given follows from what is, by the laws of the context.
+/// Evaluates a model of a mechanism on a part, at the usual context with the given quantities changed; all values SI. Quantities
+/// that are not given follow from the given ones by the laws of the context.
 ///
 /// # Errors
-/// If part or model cannot be built, a quantity is unknown, given ones contradict each other, or the formula has no value there.
+/// If part or model cannot be built, a quantity is unknown, given ones contradict each other, or the formula is undefined there.
 pub fn eval<M: Mechanism>(
     registry: &Registry,
     files: &Files,

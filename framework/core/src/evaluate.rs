@@ -1,14 +1,14 @@
 //! One point: speeds, torques, loads, losses. Pure; allocates nothing; never iterates on temperature.
 
+mod batch;
 mod grip;
 mod readings;
-mod row;
 mod scratch;
 mod solution;
 
+pub use batch::{Batch, BatchScratch, Block};
 pub(crate) use readings::readings;
 pub use readings::{MemberTorques, Reading};
-pub use row::{Block, Row, RowScratch};
 pub use scratch::Scratch;
 pub use solution::{PartLoss, Solution};
 
@@ -23,57 +23,58 @@ use crate::mechanism::gear_mesh::GearMeshAt;
 use crate::thermal::Unbalanced;
 use crate::transmission::{Case, Component, Sharing, Transmission};
 
-/// Passes in which nothing is noted. The torques of the first are a guess, those of the second are seldom the last; where they are, the
-/// models are asked once more.
+/// Iterations without notes. The torques of the first are a guess, those of the second are seldom the last; if they are, the models
+/// are evaluated once more.
 const SILENT: usize = 2;
 
-/// Whether losses change the torques of what comes after them.
+/// Whether torque downstream is reduced by upstream losses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum PowerFlow {
-    /// Torque after a stage is reduced by the losses before it.
+    /// Torque downstream is reduced by the losses (real power flow).
     #[default]
     Real,
-    /// Torques without losses; all losses are computed from them.
+    /// Torques without losses; all losses are computed from them (ideal power flow).
     Ideal,
 }
 
-/// What becomes of the notes of a point.
+/// Destination of the notes of a point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Noting {
     /// Nothing is noted.
     Muted,
-    /// They stand in the scratch, for `Scratch::count_seen`.
+    /// They are kept in the scratch, for `Scratch::count_seen`.
     Seen,
-    /// They count among those of all points.
+    /// They are counted among those of all points.
     Counted,
 }
 
-/// One operating point of a case. What is not said is the default: `Point { speeds: &[..], torques: &[..], ..Point::default() }`.
+/// One operating point of a case. Fields that are not set have their default: `Point { speeds: &[..], torques: &[..],
+/// ..Point::default() }`.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Point<'a> {
     /// Speeds at the case's speed ports. \[rad/s\]
     pub speeds: &'a [f64],
     /// Torques at the case's torque ports, as applied to the transmission. \[Nm\]
     pub torques: &'a [f64],
-    /// Real or ideal flow.
+    /// Real or ideal power flow.
     pub flow: PowerFlow,
-    /// How well loads and losses must agree.
+    /// Tolerance of the agreement between loads and losses.
     pub tolerance: Tolerance,
 }
 
 impl Transmission {
-    /// Space for evaluating one case; one for each thread.
+    /// Workspace for evaluating one case; one per thread.
     pub fn scratch(&self, case: &Case) -> Scratch {
         Scratch::new(self, case)
     }
 
     /// Evaluates a point at the temperatures of the nodes (degC, [`Transmission::nodes`] of them), or with one temperature for all;
-    /// the models of meshes then find those of the gears themselves.
+    /// with one temperature the mesh models compute the gear temperatures themselves.
     ///
     /// # Panics
-    /// If the point has not as many speeds and torques as the case has ports for them, or there is neither one
-    /// temperature nor one for each node: a bug of the caller.
+    /// If the number of speeds or torques does not match the ports of the case, or there is neither one temperature nor one per
+    /// node: a bug of the caller.
     pub fn evaluate<'s>(
         &'s self,
         case: &'s Case,
@@ -90,7 +91,7 @@ impl Transmission {
         }
     }
 
-    /// The sum of all losses at temperatures that are only tried: nothing is noted or counted. \[W\]
+    /// The sum of all losses at trial temperatures: without notes or counts. \[W\]
     ///
     /// # Errors
     /// Why there is none.
@@ -105,7 +106,7 @@ impl Transmission {
         Ok(scratch.sum)
     }
 
-    /// As [`Transmission::evaluate`], where a point without losses is an error.
+    /// As [`Transmission::evaluate`]; a point without losses is an error.
     ///
     /// # Errors
     /// Why there are none.
@@ -125,7 +126,7 @@ impl Transmission {
         }
     }
 
-    /// Speeds, oils and what does not hang on torque; true where nothing turns.
+    /// Computes speeds, oils and all values that are independent of torque; true if nothing rotates.
     fn settle(&self, case: &Case, point: &Point<'_>, temperatures: &[f64], s: &mut Scratch, quiet: bool) -> bool {
         assert_eq!(
             point.speeds.len(),
@@ -148,7 +149,7 @@ impl Transmission {
         );
         s.temperatures.clear();
         s.temperatures.extend_from_slice(temperatures);
-        self.oils.at(temperatures, &mut s.oils);
+        self.oils.write_states(temperatures, &mut s.oils);
         s.surface = self.oils.surface(&s.speeds);
         s.cells.fill(Extent::EMPTY);
         s.idle_drags.fill(0.0);
@@ -156,11 +157,11 @@ impl Transmission {
             kept[0] = f64::NAN;
         }
         s.passes = 0;
-        s.called += s.asked.replace(0);
+        s.called += s.calls.replace(0);
         s.loads.fill(SupportLoad::default());
         let standing = s.speeds.iter().all(|w| *w == 0.0);
 
-        // What does not hang on torque is evaluated once.
+        // Models that are independent of torque are evaluated once.
         {
             let cells = Cell::from_mut(s.cells.as_mut_slice()).as_slice_of_cells();
             let state = State {
@@ -169,7 +170,7 @@ impl Transmission {
                 temperatures: &s.temperatures,
                 surface: s.surface,
                 loads: &s.loads,
-                asked: &s.asked,
+                calls: &s.calls,
             };
             let book = Notebook {
                 cells: if quiet { &[] } else { cells },
@@ -184,7 +185,7 @@ impl Transmission {
                     continue;
                 }
                 if component.loaded {
-                    // What rests brakes nothing; it is asked once, at the end.
+                    // Stationary components have no drag; they are evaluated once, at the end.
                     if speed != 0.0 {
                         s.braking.push(i);
                     }
@@ -228,11 +229,11 @@ impl Transmission {
             idle_drags,
             relative,
             braking,
-            asked,
+            calls,
             work,
             ..
         } = s;
-        let asked = &*asked;
+        let calls = &*calls;
         let (speeds, given, oils, surface) = (&*speeds, &*given, &*oils, *surface);
         let temperatures = &temperatures[..];
         let (idle_drags, relative) = (&*idle_drags, &*relative);
@@ -251,7 +252,7 @@ impl Transmission {
                 ..Notebook::CLOSED
             };
             pass += 1;
-            // Meshes are the first rows, in their own order.
+            // Meshes are the first rows, in the same order.
             for ((mesh, tangential), multiplier) in self.meshes.iter().zip(tangential.iter_mut()).zip(flow.multipliers)
             {
                 *tangential = multiplier * mesh.force_per_multiplier;
@@ -264,7 +265,7 @@ impl Transmission {
                 temperatures,
                 surface,
                 loads,
-                asked,
+                calls,
             };
             if self.uneven {
                 for (which, loads) in uneven_loads.iter_mut().enumerate() {
@@ -278,7 +279,7 @@ impl Transmission {
             flow.drags[..idle_drags.len()].copy_from_slice(idle_drags);
             for &i in &*braking {
                 let (component, speed) = (&self.components[i], relative[i]);
-                // Kept when everything was read of it: a copy waits for all that was just written.
+                // Kept when all of it has been read: a copy waits for values that were just written.
                 let loss = loaded_loss(component, &state, uneven_loads, &book);
                 let moment = moment(&loss, speed) * self.copies(i, speeds);
                 brake(component.between, speed, moment, flow.drags);
@@ -327,7 +328,7 @@ impl Transmission {
         }
     }
 
-    /// Notes what the models see at the torques of their last answers.
+    /// Notes the contexts of the models at the torques of their last results.
     fn note(&self, s: &mut Scratch) {
         let cells = Cell::from_mut(s.cells.as_mut_slice()).as_slice_of_cells();
         let kept = Cell::from_mut(s.kept.as_mut_slice()).as_slice_of_cells();
@@ -342,7 +343,7 @@ impl Transmission {
             temperatures: &s.temperatures,
             surface: s.surface,
             loads: &s.loads,
-            asked: &s.asked,
+            calls: &s.calls,
         };
         for &i in &s.braking {
             let _ = loaded_loss(&self.components[i], &state, &s.uneven_loads, &book);
@@ -367,7 +368,7 @@ impl Transmission {
         }
     }
 
-    /// Moments of what carries load and rests.
+    /// Moments of stationary components that carry load.
     fn rest(&self, s: &mut Scratch, quiet: bool) {
         let cells = Cell::from_mut(s.cells.as_mut_slice()).as_slice_of_cells();
         let state = State {
@@ -376,7 +377,7 @@ impl Transmission {
             temperatures: &s.temperatures,
             surface: s.surface,
             loads: &s.loads,
-            asked: &s.asked,
+            calls: &s.calls,
         };
         let book = Notebook {
             cells: if quiet { &[] } else { cells },
@@ -391,11 +392,11 @@ impl Transmission {
 
     /// Loss of one drag model.
     fn drag(&self, index: usize, state: &State<'_>, book: &Notebook<'_>) -> Result<Loss, Undefined> {
-        state.asked.set(state.asked.get() + 1);
+        state.calls.set(state.calls.get() + 1);
         sound(self.drags[index].model.loss(&self.drag_at(index, state, book)))
     }
 
-    /// What a drag model sees, one copy.
+    /// The context of a drag model, one copy.
     fn drag_at<'a>(&'a self, index: usize, state: &State<'_>, book: &Notebook<'a>) -> GearDragAt<'a> {
         let drag = &self.drags[index];
         let seat = &drag.seat;
@@ -423,7 +424,7 @@ impl Transmission {
         }
     }
 
-    /// Loss of one mesh, one copy; the mean over the copies where they carry different loads.
+    /// Loss of one mesh, one copy; the mean over the copies if their loads differ.
     fn mesh(
         &self,
         index: usize,
@@ -435,7 +436,7 @@ impl Transmission {
         let mesh = &self.meshes[index];
         book.clear(mesh.model.notes);
         let one = |factor: f64| {
-            state.asked.set(state.asked.get() + 1);
+            state.calls.set(state.calls.get() + 1);
             let at = self.mesh_at(index, factor * tangential, drives, state, book);
             sound(mesh.model.loss(&at))
         };
@@ -445,7 +446,7 @@ impl Transmission {
         }
     }
 
-    /// What the model of a mesh sees, one copy.
+    /// The context of a mesh model, one copy.
     fn mesh_at<'a>(
         &'a self,
         index: usize,
@@ -456,7 +457,7 @@ impl Transmission {
     ) -> GearMeshAt<'a> {
         let mesh = &self.meshes[index];
         let oil = &state.oils[mesh.oil as usize];
-        // With one temperature for all, the bodies of the gears have none of their own.
+        // With one temperature for all nodes, the gear bodies have none of their own.
         let known = mesh.bodies.filter(|_| state.temperatures.len() > 1);
         let bodies = known.map(|nodes| nodes.map(|node| state.temperatures[node]));
         GearMeshAt {
@@ -479,7 +480,7 @@ impl Transmission {
         }
     }
 
-    /// Speed of a mesh's first gear in its carrier's frame; zero where it is rounding. \[rad/s\]
+    /// Speed of a mesh's first gear in its carrier's frame; zero if it is rounding error. \[rad/s\]
     fn mesh_speed(&self, index: usize, speeds: &[f64]) -> f64 {
         let seat = &self.meshes[index].seat;
         let (own, carrier) = (speeds[seat.members[0]], seat.carrier.map_or(0.0, |c| speeds[c]));
@@ -490,7 +491,7 @@ impl Transmission {
         }
     }
 
-    /// The gears of a drag model feel its loss.
+    /// Applies the loss of a drag model to its gears.
     fn brake_gears(&self, index: usize, loss: &Result<Loss, Undefined>, speeds: &[f64], drags: &mut [f64]) {
         let Ok(loss) = loss else { return };
         let seat = &self.drags[index].seat;
@@ -526,8 +527,8 @@ impl Transmission {
             }
         }
         for (load, factors) in loads.iter_mut().zip(&self.load_factors) {
-            load.radial *= factors.radial.at(torque);
-            load.axial *= factors.axial.at(torque);
+            load.radial *= factors.radial.value_at(torque);
+            load.axial *= factors.axial.value_at(torque);
         }
     }
 
@@ -547,10 +548,10 @@ impl Transmission {
             }
         }
         s.sum = sum;
-        // Without a flow no load has a value, and no loss a reason of its own.
+        // Without a power flow no load is defined, and no loss has its own reason.
         s.undefined = undefined.filter(|_| matches!(outcome, Outcome::Converged { .. }));
         let powers = self.ports.iter().map(|p| s.work.ports[p.member] * s.speeds[p.member]);
-        s.balance = Balance::of(powers.clone());
+        s.balance = Balance::from_powers(powers.clone());
         s.status = match outcome {
             Outcome::SelfLocking => Status::SelfLocking,
             Outcome::NoConvergence => Status::NoConvergence,
@@ -563,18 +564,18 @@ impl Transmission {
                 } else if flow == PowerFlow::Ideal && s.balance.input > 0.0 && sum > s.balance.input {
                     Status::LossAboveInput
                 } else {
-                    Status::of(powers, self.reference_port())
+                    Status::from_powers(powers, self.reference_port())
                 }
             }
         };
     }
 }
 
-/// Loss of one copy of a component. Where the shaft has thrust that nothing takes, the load of its bearings is unknown and
-/// so is their loss, unless it was switched off.
+/// Loss of one copy of a component. If no bearing of the shaft takes its thrust, the load of its bearings is unknown and so is
+/// their loss, unless it was switched off.
 #[inline]
 pub(crate) fn component_loss(component: &Component, state: &State<'_>, book: &Notebook<'_>) -> Result<Loss, Undefined> {
-    state.asked.set(state.asked.get() + 1);
+    state.calls.set(state.calls.get() + 1);
     let answer = component.placed.loss(state, book);
     let untaken = component.support.map_or(0.0, |n| state.loads[n as usize].untaken);
     match &answer {
@@ -587,7 +588,7 @@ pub(crate) fn component_loss(component: &Component, state: &State<'_>, book: &No
     }
 }
 
-/// Loss of one copy of a component that carries load; the mean over the copies where they carry different loads.
+/// Loss of one copy of a component that carries load; the mean over the copies if their loads differ.
 #[inline(always)]
 fn loaded_loss(
     component: &Component,
@@ -605,22 +606,22 @@ fn loaded_loss(
     }
 }
 
-/// The mean over the planets of a set: the most loaded one and the others, each asked once. The others add to what the first
-/// has noted.
+/// The mean over the planets of a set: the most loaded one and the others, each evaluated once. The notes of the others are added
+/// to those of the first.
 fn over_planets(
     sharing: Sharing,
     book: &Notebook<'_>,
     base: NoteBase,
-    ask: impl Fn(usize) -> Result<Loss, Undefined>,
+    evaluate: impl Fn(usize) -> Result<Loss, Undefined>,
 ) -> Result<Loss, Undefined> {
     let notes = book.notes(base);
     notes.branch("the most loaded planet");
-    let most = ask(0)?;
-    notes.branch("each of the other planets");
-    Ok(most.mean(sharing.weight, ask(1)?))
+    let most = evaluate(0)?;
+    notes.branch("each other planet");
+    Ok(most.mean(sharing.weight, evaluate(1)?))
 }
 
-/// A model's answer counts only when it is a number that is not negative.
+/// A model's result is accepted only if it is finite and not negative.
 fn sound(answer: Result<Loss, Undefined>) -> Result<Loss, Undefined> {
     match &answer {
         Ok(loss) if !loss.is_sound() => Err(unsound(loss)),
@@ -631,12 +632,12 @@ fn sound(answer: Result<Loss, Undefined>) -> Result<Loss, Undefined> {
 #[cold]
 fn unsound(loss: &Loss) -> Undefined {
     Undefined {
-        what: "answer of the model, which is negative or not finite",
+        what: "result of the model, which is negative or not finite",
         value: loss.sum(),
     }
 }
 
-/// Moment of a loss about its relative speed; zero at rest, where statics leaves friction open.
+/// Moment of a loss about its relative speed; zero at standstill, where statics does not determine friction.
 fn moment(loss: &Result<Loss, Undefined>, speed: f64) -> f64 {
     match loss {
         Ok(loss) if speed != 0.0 => loss.total_moment(speed),
@@ -644,7 +645,7 @@ fn moment(loss: &Result<Loss, Undefined>, speed: f64) -> f64 {
     }
 }
 
-/// Puts a moment between two members, against their relative speed.
+/// Applies a moment between two members, against their relative speed.
 fn brake(between: [Option<u16>; 2], speed: f64, moment: f64, drags: &mut [f64]) {
     if speed == 0.0 {
         return;

@@ -1,34 +1,34 @@
-//! Torque flow: equilibrium of every member with losses, ideal or real.
+//! Power flow: equilibrium of every member with losses, ideal or real.
 //!
-//! Constraints do no net work, so their torques are the transposed rows times multipliers. Mesh friction takes its share
-//! from the driven gear in the carrier's frame, and the carrier takes the reaction; hence the balance of power holds to
-//! rounding for whatever multipliers solve the linear system.
+//! Constraints do no net work, so their torques are the transposed rows times multipliers. Mesh friction reduces the torque of the
+//! driven gear in the carrier's frame, and the carrier takes the reaction. The power balance therefore holds to rounding for any
+//! multipliers that solve the linear system.
 
-mod abreast;
+mod batched;
 mod equilibrium;
+mod history;
 mod linear;
 mod solve;
 mod system;
-mod trail;
 mod work;
 
-pub use abreast::{FlowLanes, TaskLanes, WorkLanes};
+pub use batched::{FlowLanes, TaskLanes, WorkLanes};
+pub use history::TorqueHistory;
 pub use system::{Flow, FlowFault, MeshRow, Share};
-pub use trail::Trail;
 pub use work::{Drive, FlowState, Outcome, Tolerance, Work};
 
 /// Powers and status of one solved point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Balance {
-    /// Power that ports put in. \[W\]
+    /// Input power over the ports. \[W\]
     pub input: f64,
-    /// Power that ports take out. \[W\]
+    /// Output power over the ports. \[W\]
     pub output: f64,
 }
 
 impl Balance {
     /// Power in and out over ports; powers below 1e-12 of the input count as zero.
-    pub fn of(powers: impl Iterator<Item = f64> + Clone) -> Self {
+    pub fn from_powers(powers: impl Iterator<Item = f64> + Clone) -> Self {
         let most = powers.clone().fold(0.0_f64, f64::max);
         let (mut input, mut output) = (0.0, 0.0);
         for power in powers {
@@ -41,19 +41,19 @@ impl Balance {
         Self { input, output }
     }
 
-    /// The quotient of both as it is; absent where nothing comes out or nothing goes in.
+    /// The plain quotient of both; `None` if output or input is zero.
     pub fn efficiency_as_is(&self) -> Option<f64> {
         (self.output > 0.0 && self.input > 0.0).then(|| self.output / self.input)
     }
 
-    /// Power out over power in; absent where nothing comes out.
+    /// Output power over input power; `None` if the output is zero.
     pub fn efficiency(&self) -> Option<f64> {
         // Without losses the quotient may exceed one by rounding.
         (self.output > 0.0).then(|| (self.output / self.input).min(1.0))
     }
 }
 
-/// What a transmission does at a point.
+/// Operating state of a transmission at a point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Status {
@@ -61,26 +61,26 @@ pub enum Status {
     Drive,
     /// Power flows towards the reference port.
     Coast,
-    /// Several ports put power in.
+    /// Several ports supply power.
     Split,
-    /// Power goes in and none comes out.
+    /// There is input power, but no output power.
     Dragged,
-    /// Nothing turns.
+    /// Nothing rotates.
     Standstill,
-    /// With ideal flow: losses exceed the power that goes in, so none can come out.
+    /// With ideal power flow: losses exceed the input power, so there is no output.
     LossAboveInput,
-    /// No torque in the world holds this equilibrium in motion.
+    /// Self-locking: no torque maintains this motion.
     SelfLocking,
-    /// The iteration found no flow.
+    /// The iteration did not converge.
     NoConvergence,
-    /// A loss has no value.
+    /// A loss is undefined.
     Undefined,
 }
 
 impl Status {
-    /// The regime of a moving transmission from the powers of its ports; `reference` is the number of the reference port.
-    pub fn of(powers: impl Iterator<Item = f64> + Clone, reference: usize) -> Self {
-        let Balance { input, output } = Balance::of(powers.clone());
+    /// The regime of a rotating transmission from the powers of its ports; `reference` is the number of the reference port.
+    pub fn from_powers(powers: impl Iterator<Item = f64> + Clone, reference: usize) -> Self {
+        let Balance { input, output } = Balance::from_powers(powers.clone());
         let mut pushing = powers
             .enumerate()
             .filter(|(_, power)| *power > 1e-12 * input)
@@ -93,7 +93,7 @@ impl Status {
         }
     }
 
-    /// False where no torques were found: none of them, and no load or loss that follows from them, has a value.
+    /// False if no torques were found: then no torque, load or loss is defined.
     pub fn has_flow(self) -> bool {
         !matches!(self, Self::SelfLocking | Self::NoConvergence)
     }

@@ -1,7 +1,7 @@
-//! Formulas that users write: text to a stack program.
+//! User-defined formulas: compiles text to a stack program.
 //!
-//! Powers bind tighter than a sign and to the right: `-2^2` is -4, `2^3^2` is 512. A comparison is 1 or 0; `if(c, a, b)`
-//! takes a where c is not 0.
+//! Powers bind tighter than a sign and are right-associative: `-2^2` is -4, `2^3^2` is 512. A comparison is 1 or 0; `if(c, a, b)`
+//! is a if c is not 0.
 
 use crate::document::{did_you_mean, number_length};
 use crate::loss::Undefined;
@@ -9,12 +9,12 @@ use crate::loss::Undefined;
 /// The deepest stack that a formula may need.
 const DEEPEST: usize = 32;
 
-/// What is wrong with a formula.
+/// A fault of a formula.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct FormulaFault {
-    /// Column from one, in characters.
+    /// Column, counted from one in characters.
     pub column: usize,
-    /// What is wrong.
+    /// The problem.
     pub message: String,
     /// How to fix it.
     pub help: Option<String>,
@@ -76,7 +76,7 @@ impl Formula {
     /// Compiles a formula over named quantities.
     ///
     /// # Errors
-    /// With the column, what is wrong and how to fix it.
+    /// The column, the problem and its fix.
     pub fn compile(text: &str, names: &[&str]) -> Result<Self, FormulaFault> {
         let mut parser = Parser {
             text,
@@ -88,7 +88,7 @@ impl Formula {
         parser.comparison()?;
         parser.space();
         if parser.at < text.len() {
-            return Err(parser.fault(format!("`{}` is left over", parser.rest_word()), None));
+            return Err(parser.fault(format!("unexpected `{}` after the formula", parser.rest_word()), None));
         }
         let formula = Self {
             program: parser.program,
@@ -103,7 +103,7 @@ impl Formula {
         Ok(formula)
     }
 
-    /// True where the value may hang on a quantity, by its place among the names.
+    /// True if the value may depend on a quantity, given by its position among the names.
     pub fn uses(&self, input: usize) -> bool {
         let is_it = |op: &Op| matches!(op, Op::Input(i) if usize::from(*i) == input);
         self.program.iter().any(is_it)
@@ -126,7 +126,7 @@ impl Formula {
     /// The value at the named quantities, in the order of the names.
     ///
     /// # Errors
-    /// Where the value is not a finite number.
+    /// If the value is not a finite number.
     pub fn value(&self, inputs: &[f64]) -> Result<f64, Undefined> {
         let mut stack = [0.0_f64; DEEPEST];
         let mut top = 0;
@@ -329,7 +329,7 @@ impl Parser<'_> {
             let what = if self.rest().is_empty() {
                 "the formula ends too early".to_owned()
             } else {
-                format!("`{}` is no value", self.rest_word())
+                format!("`{}` is not a value", self.rest_word())
             };
             return Err(self.fault(what, None));
         }
@@ -430,7 +430,7 @@ mod tests {
         assert_eq!(fault("2 ** 3").help.unwrap(), "write `^`");
         assert!(fault("sqr(2)").help.unwrap().contains("sqrt"));
         assert!(fault("(1 + 2").message.contains("missing"));
-        assert!(fault("1 2").message.contains("left over"));
+        assert!(fault("1 2").message.contains("unexpected"));
         assert!(fault("").message.contains("too early"));
         assert!(fault(&"(".repeat(5000)).message.contains("deeply"));
     }

@@ -1,55 +1,65 @@
-//! From a file to a transmission: read, walk, resolve, build; findings with their places.
+//! From a file to a transmission: read, check, resolve, build; findings with their positions.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
+use serde::{Serialize, Serializer};
 use serde_json::{Map, Value};
 
-use crate::document::{Code, Diagnostic, Node, Places, Severity, Sources, Span, read_yaml};
-use crate::files::{LONGEST_TEXT, read_text};
+use crate::codes;
+use crate::document::{Diagnostic, Node, PlacedDiagnostic, Places, Severity, Sources, Span, read_yaml};
+use crate::files::{Disk, LONGEST_TEXT, SharedSource};
 use crate::language::{DRAGS, HEAT, Language};
 use crate::registry::{Files, Registry};
-use crate::resolve::{Came, Choice, Resolved, called_own, expand_set, meets, resolve, sets_of};
+use crate::resolve::{Choice, Resolved, ValueSource, called_own, expand_set, meets, resolve, sets_of};
 use crate::transmission::Transmission;
 
-/// The most files that may extend each other.
+/// Maximum number of files that may extend each other.
 const LONGEST_CHAIN: usize = 8;
 
-/// The most findings that are printed.
+/// Maximum number of findings that are printed.
 const MOST_SHOWN: usize = 100;
 
-/// A gearbox as read and walked. Resolving and building are repeated for every choice of models and overrides.
+/// A gearbox after reading and checking. Resolving and building are repeated for every choice of models and overrides.
 pub struct Gearbox {
-    /// The walked description, SI.
+    /// The checked description, SI.
     pub value: Value,
-    /// Where everything was written.
+    /// Positions of all values.
     pub places: Places,
-    /// The texts.
+    /// The source texts.
     pub sources: Sources,
-    /// Files that the description names.
+    /// Files named by the description.
     pub files: Files,
 }
 
-/// Findings with the texts that they point into.
+/// Findings with the source texts that they refer to.
+#[derive(thiserror::Error)]
+#[error("{}", self.render())]
 pub struct Findings {
-    /// What was found.
+    /// The findings.
     pub list: Vec<Diagnostic>,
-    /// The texts.
+    /// The source texts.
     pub sources: Sources,
 }
 
 impl Findings {
-    /// What the first of them says, for places that hold no more than a sentence.
+    /// The findings with file, line and column.
+    pub fn placed(&self) -> impl Iterator<Item = PlacedDiagnostic> + '_ {
+        self.list.iter().map(|finding| self.sources.placed(finding))
+    }
+
+    /// The message of the first finding, for places that take only one sentence.
     pub fn first(&self) -> String {
         self.list.first().map_or_else(String::new, |d| d.message.clone())
     }
 
-    /// All findings rendered, with their number at the end.
+    /// All findings rendered, followed by their number.
     pub fn render(&self) -> String {
         self.render_new(&mut BTreeSet::new())
     }
 
-    /// As [`Findings::render`], without what `shown` holds already: several files may include the one that is at fault.
+    /// As [`Findings::render`], without findings already in `shown`: several files may extend the faulty one.
     pub fn render_new(&self, shown: &mut BTreeSet<String>) -> String {
         let mut text = String::new();
         let mut again = 0;
@@ -71,7 +81,7 @@ impl Findings {
         text.push_str(&format!("{errors} error{plural}"));
         if again > 0 {
             text.push_str(&format!(
-                ", {again} of them printed above: a file that several extend has them"
+                ", {again} of them printed above: they are in a file that several files extend"
             ));
         }
         text.push('\n');
@@ -79,22 +89,21 @@ impl Findings {
     }
 }
 
-impl std::fmt::Display for Findings {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(&self.render())
-    }
-}
-
-/// As rendered, because a `main` that returns an error prints it so.
+/// As rendered, because a `main` that returns an error prints its debug form.
 impl std::fmt::Debug for Findings {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(&self.render())
     }
 }
 
-impl std::error::Error for Findings {}
+/// As a list of [`PlacedDiagnostic`].
+impl Serialize for Findings {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq(self.placed())
+    }
+}
 
-/// Findings without a text that they could point into.
+/// Findings without a source text.
 impl From<Vec<Diagnostic>> for Findings {
     fn from(list: Vec<Diagnostic>) -> Self {
         Self {
@@ -111,87 +120,99 @@ impl From<Diagnostic> for Findings {
 }
 
 impl Language {
-    /// The language of everything that is linked into the program: where reading begins.
+    /// The language of all linked crates; the starting point of reading.
     ///
     /// # Errors
-    /// Every fault of a linked mechanism, model, catalogue or set.
+    /// All faults of the linked mechanisms, models, catalogues and sets.
     pub fn linked() -> Result<Self, Findings> {
         Ok(Self::new(Registry::linked()?)?)
     }
 }
 
 impl Gearbox {
-    /// Reads a gearbox file and what it extends.
+    /// Reads a gearbox file of the disk and the files that it extends.
     ///
     /// # Errors
-    /// Everything that reading and the walk find.
+    /// All findings of reading and checking.
     pub fn read(language: &Language, file: &Path) -> Result<Self, Findings> {
-        let mut sources = Sources::default();
-        let text = match read_text(file, LONGEST_TEXT) {
-            Ok(text) => text,
-            Err(e) => {
-                let error = Diagnostic::error("", format!("cannot read {}: {e}", file.display()))
-                    .help("check the file name")
-                    .code(Code::Unreadable);
-                return Err(Findings {
-                    list: vec![error],
-                    sources,
-                });
-            }
-        };
-        let folder = file.parent().unwrap_or(Path::new("")).to_path_buf();
-        Self::parse(language, &text, &file.display().to_string(), folder, &mut sources)
-            .map_err(|list| Findings { list, sources })
+        Self::read_from(language, &Disk::shared(), file)
     }
 
-    /// Reads a gearbox from a text; `folder` is where the files that it names lie.
+    /// Reads a gearbox file of a source and the files that it extends. Data that the description names are read from the same source.
     ///
     /// # Errors
-    /// Everything that reading and the walk find.
-    pub fn of_text(language: &Language, text: &str, name: &str, folder: impl Into<PathBuf>) -> Result<Self, Findings> {
-        let mut sources = Sources::default();
-        Self::parse(language, text, name, folder.into(), &mut sources).map_err(|list| Findings { list, sources })
+    /// All findings of reading and checking.
+    pub fn read_from(language: &Language, source: &SharedSource, file: &Path) -> Result<Self, Findings> {
+        let text = source.read_text(file, LONGEST_TEXT).map_err(|e| {
+            Diagnostic::error("", format!("cannot read {}: {e}", file.display()))
+                .help("check the file name")
+                .code(crate::document::codes::UNREADABLE)
+        })?;
+        let folder = file.parent().unwrap_or(Path::new(""));
+        Self::from_text(language, source, &text, &file.display().to_string(), folder)
     }
 
-    fn parse(
+    /// Reads a gearbox from a text; `folder` on the disk contains the files that it names.
+    ///
+    /// # Errors
+    /// All findings of reading and checking.
+    pub fn of_text(language: &Language, text: &str, name: &str, folder: impl Into<PathBuf>) -> Result<Self, Findings> {
+        Self::from_text(language, &Disk::shared(), text, name, folder)
+    }
+
+    /// Reads a gearbox from a text; the files that it names are read from a source, relative to `folder`.
+    ///
+    /// # Errors
+    /// All findings of reading and checking.
+    pub fn from_text(
         language: &Language,
+        source: &SharedSource,
         text: &str,
         name: &str,
-        folder: PathBuf,
-        sources: &mut Sources,
-    ) -> Result<Self, Vec<Diagnostic>> {
-        let mut found = Vec::new();
-        let node = chain(text, name, &folder, sources, &mut found, &mut Vec::new(), None);
-        let Some(node) = node.filter(|_| found.is_empty()) else {
-            return Err(found);
+        folder: impl Into<PathBuf>,
+    ) -> Result<Self, Findings> {
+        let (mut sources, mut found, folder) = (Sources::default(), Vec::new(), folder.into());
+        let mut chain = Chain {
+            source,
+            sources: &mut sources,
+            found: &mut found,
+            seen: Vec::new(),
+        };
+        let node = chain.read(text, name, &folder, None);
+        let node = match node {
+            Some(node) if found.is_empty() => node,
+            _ => return Err(Findings { list: found, sources }),
         };
         let walked = language.walk_gearbox(&node);
         if !walked.findings.is_empty() {
-            return Err(walked.findings);
+            return Err(Findings {
+                list: walked.findings,
+                sources,
+            });
         }
         Ok(Self {
             value: walked.value,
             places: walked.places,
-            sources: sources.clone(),
-            files: Files::beside(folder),
+            sources,
+            files: Files::from_source(Arc::clone(source), folder),
         })
     }
 
     /// Resolves the description with a choice of models and overrides.
     ///
     /// # Errors
-    /// Everything that resolving finds, with places.
+    /// All findings of resolving, with positions.
     pub fn resolve(&self, language: &Language, choice: &Choice) -> Result<Resolved, Findings> {
         resolve(language, &self.files, &self.value, choice).map_err(|list| {
             self.findings(
                 list.into_iter()
-                    .map(|d| self.in_own_set(language, choice, d).code(Code::Choice))
+                    .map(|d| self.in_own_set(language, choice, d).code(codes::CHOICE))
                     .collect(),
             )
         })
     }
 
-    /// Reads every model set of the document, also those that nothing chooses.
+    /// Reads every model set of the document, also the unused ones.
     ///
     /// # Errors
     /// If a set extends one that does not exist, or itself.
@@ -203,7 +224,7 @@ impl Gearbox {
         found.extend(called_own(names.clone()));
         for error in names.filter_map(|name| expand_set(&sets, name).err()) {
             if found.iter().all(|other| other.path != error.path) {
-                found.push(error.code(Code::Choice));
+                found.push(error.code(codes::CHOICE));
             }
         }
         if found.is_empty() {
@@ -213,7 +234,7 @@ impl Gearbox {
         }
     }
 
-    /// A finding about a path that a set of models, or the document's own `set`, changes is told there.
+    /// Moves a finding about a path to the model set or `set` that changes it.
     fn in_own_set(&self, language: &Language, choice: &Choice, finding: Diagnostic) -> Diagnostic {
         let set = choice.set.as_ref().and_then(|name| {
             let sets = sets_of(language, &self.value, &choice.sets);
@@ -242,26 +263,26 @@ impl Gearbox {
     /// Builds the transmission of a resolved description.
     ///
     /// # Errors
-    /// Everything that building finds, with places.
+    /// All findings of building, with positions.
     pub fn build(&self, language: &Language, resolved: &Resolved) -> Result<Transmission, Findings> {
         let mut built = Transmission::new(language, &self.files, resolved).map_err(|list| {
             self.findings(
                 list.into_iter()
-                    .map(|d| self.inherited(language, resolved, d).code(Code::Gearbox))
+                    .map(|d| self.inherited(language, resolved, d).code(codes::GEARBOX))
                     .collect(),
             )
         })?;
         built.warnings = built
             .warnings
             .into_iter()
-            .map(|d| self.places.place(d).code(Code::Gearbox))
+            .map(|d| self.places.place(d).code(codes::PLAUSIBILITY))
             .collect();
         Ok(built)
     }
 
-    /// A finding about a model that a component takes from `models` also shows where that is written.
+    /// For a model that a component takes from `models`, a finding also shows where it is written.
     fn inherited(&self, language: &Language, resolved: &Resolved, finding: Diagnostic) -> Diagnostic {
-        if *resolved.came(&finding.path) != Came::Models {
+        if *resolved.source_of(&finding.path) != ValueSource::Models {
             return finding;
         }
         let mut keys = finding.path.split('.');
@@ -283,12 +304,12 @@ impl Gearbox {
     /// Resolves and builds.
     ///
     /// # Errors
-    /// Everything that either finds.
+    /// All findings of both.
     pub fn transmission(&self, language: &Language, choice: &Choice) -> Result<Transmission, Findings> {
         self.build(language, &self.resolve(language, choice)?)
     }
 
-    /// Findings with the places of their paths.
+    /// Findings with the positions of their paths.
     pub fn findings(&self, list: Vec<Diagnostic>) -> Findings {
         Findings {
             list: list.into_iter().map(|d| self.places.place(d)).collect(),
@@ -297,7 +318,7 @@ impl Gearbox {
     }
 }
 
-/// What a document is, by its first key.
+/// Kind of a document, from its first key.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum DocumentKind {
     /// The description of a gearbox.
@@ -306,89 +327,95 @@ pub enum DocumentKind {
     Study,
 }
 
-/// The one thing that is wrong with a document of the other kind.
+/// The finding for a document of the wrong kind.
 pub fn other_kind(node: &Node, wanted: DocumentKind, name: &str) -> Option<Diagnostic> {
     let key = node.get("gearloss")?;
     let written = key.text()?;
     let has = |keys: [&str; 2]| keys.iter().any(|key| node.get(key).is_some());
     let (message, help) = match wanted {
         DocumentKind::Study if written.starts_with("study") && has(["ports", "shafts"]) => (
-            "the first key says that this is a study, and the others are those of a gearbox",
+            "the first key marks a study, but the other keys are those of a gearbox",
             "write `gearloss: gearbox/1`".to_owned(),
         ),
         DocumentKind::Gearbox if written.starts_with("gearbox") && has(["gearboxes", "analyses"]) => (
-            "the first key says that this is a gearbox, and the others are those of a study",
+            "the first key marks a gearbox, but the other keys are those of a study",
             "write `gearloss: study/1`".to_owned(),
         ),
         DocumentKind::Study if written.starts_with("gearbox") => (
-            "this is a gearbox, and a study is due",
+            "this is a gearbox file; a study file is required",
             format!(
-                "`gearloss new study --gearbox {name}` writes a study of it; `check`, `solve` and `explain` take it as it is"
+                "`gearloss new study --gearbox {name}` writes a study of it; `check`, `solve` and `explain` accept the gearbox file itself"
             ),
         ),
         DocumentKind::Gearbox if written.starts_with("study") => (
-            "this is a study, and a gearbox is due",
-            "name a gearbox file, such as one under `gearboxes` of the study; `check` and `run` take the study"
+            "this is a study file; a gearbox file is required",
+            "name a gearbox file, such as one under `gearboxes` of the study; `check` and `run` accept the study"
                 .to_owned(),
         ),
         _ => return None,
     };
-    Some(Diagnostic::error("gearloss", message).at(key.span).help(help))
+    Some(
+        Diagnostic::error("gearloss", message)
+            .at(key.span)
+            .help(help)
+            .code(codes::OTHER_DOCUMENT),
+    )
 }
 
-/// A document laid over what it extends; `from` is where another one names it.
-fn chain(
-    text: &str,
-    name: &str,
-    folder: &Path,
-    sources: &mut Sources,
-    found: &mut Vec<Diagnostic>,
-    seen: &mut Vec<PathBuf>,
-    from: Option<Span>,
-) -> Option<Node> {
-    let source = sources.add(name, text);
-    let read = read_yaml(source, text);
-    if !read.findings.is_empty() {
-        found.extend(read.findings);
-        return None;
-    }
-    if let Some(error) = other_kind(&read.node, DocumentKind::Gearbox, name) {
-        found.push(match from {
-            Some(span) => Diagnostic::error(
-                "extends",
-                format!("{name} is a study, and only a gearbox can be extended"),
-            )
-            .at(span)
-            .help("name a gearbox file, such as one under `gearboxes` of that study"),
-            None => error,
-        });
-        return None;
-    }
-    let Some(base) = read.node.get("extends").and_then(Node::text) else {
-        return Some(read.node);
-    };
-    let span = read.node.get("extends").map(|n| n.span);
-    let error = |message: String| {
-        let error = Diagnostic::error("extends", message).help("name a gearbox file, relative to this one");
-        if let Some(span) = span { error.at(span) } else { error }
-    };
-    let file = folder.join(base);
-    if seen.contains(&file) || seen.len() >= LONGEST_CHAIN {
-        found.push(error(
-            "files extend each other in a circle, or too many of them".to_owned(),
-        ));
-        return None;
-    }
-    seen.push(file.clone());
-    match read_text(&file, LONGEST_TEXT) {
-        Err(e) => {
-            found.push(error(format!("cannot read {}: {e}", file.display())).code(Code::Unreadable));
-            None
+/// Documents that extend each other.
+struct Chain<'a> {
+    source: &'a SharedSource,
+    sources: &'a mut Sources,
+    found: &'a mut Vec<Diagnostic>,
+    seen: Vec<PathBuf>,
+}
+
+impl Chain<'_> {
+    /// A document merged over the one that it extends; `from` is where another one names it.
+    fn read(&mut self, text: &str, name: &str, folder: &Path, from: Option<Span>) -> Option<Node> {
+        let read = read_yaml(self.sources.add(name, text), text);
+        if !read.findings.is_empty() {
+            self.found.extend(read.findings);
+            return None;
         }
-        Ok(text) => {
-            let inner = file.parent().unwrap_or(Path::new("")).to_path_buf();
-            let base = chain(&text, &file.display().to_string(), &inner, sources, found, seen, span)?;
-            Some(read.node.merged_over(base))
+        if let Some(error) = other_kind(&read.node, DocumentKind::Gearbox, name) {
+            self.found.push(match from {
+                Some(span) => {
+                    Diagnostic::error("extends", format!("{name} is a study; only a gearbox can be extended"))
+                        .at(span)
+                        .help("name a gearbox file, such as one under `gearboxes` of that study")
+                        .code(codes::EXTENDS)
+                }
+                None => error,
+            });
+            return None;
+        }
+        let Some(base) = read.node.get("extends").and_then(Node::text) else {
+            return Some(read.node);
+        };
+        let span = read.node.get("extends").map(|n| n.span);
+        let error = |message: String| {
+            let error = Diagnostic::error("extends", message).help("name a gearbox file, relative to this one");
+            if let Some(span) = span { error.at(span) } else { error }
+        };
+        let file = folder.join(base);
+        if self.seen.contains(&file) || self.seen.len() >= LONGEST_CHAIN {
+            let circular = error("circular `extends`, or too many files".to_owned());
+            self.found.push(circular.code(codes::EXTENDS));
+            return None;
+        }
+        self.seen.push(file.clone());
+        match self.source.read_text(&file, LONGEST_TEXT) {
+            Err(e) => {
+                let message = format!("cannot read {}: {e}", file.display());
+                self.found.push(error(message).code(crate::document::codes::UNREADABLE));
+                None
+            }
+            Ok(text) => {
+                let inner = file.parent().unwrap_or(Path::new(""));
+                let base = self.read(&text, &file.display().to_string(), inner, span)?;
+                Some(read.node.merged_over(base))
+            }
         }
     }
 }

@@ -1,4 +1,4 @@
-//! `none`, `constant`, `formula` and `table`, written once for all mechanisms, those of other crates included.
+//! `none`, `constant`, `formula` and `table`, written once for all mechanisms, including those of other crates.
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
@@ -7,93 +7,15 @@ use serde_json::Value;
 use crate::description::Ordered;
 use crate::document::{Diagnostic, Unit, did_you_mean};
 use crate::formula::Formula;
-use crate::loss::{Limit, Loss, Undefined};
 use crate::mechanism::gear_drag::Scope;
-use crate::mechanism::{Mechanism, Noted, Quantity};
-use crate::registry::{Build, Built, Entry, Evidence, Graded, formula};
+pub use crate::mechanism::scalar::PLACE;
+use crate::mechanism::scalar::ScalarLaw;
+pub use crate::mechanism::{Lookup, Scalar};
+use crate::mechanism::{Mechanism, Quantity};
+use crate::registry::{Build, Built, Entry, Evidence, Graded, USER_DEFINED, formula};
 use crate::table::{self, Interpolation, Outside, Reading, Scale, Table};
 
-/// The most quantities that a context may have, for the inputs of a formula.
-const MOST_QUANTITIES: usize = 24;
-
-/// A law that answers with one number: a coefficient, a moment or a power.
-pub struct Scalar<M: Mechanism> {
-    law: Law<M>,
-    unit: &'static Unit,
-}
-
-enum Law<M: Mechanism> {
-    None,
-    /// In SI.
-    Constant(f64),
-    Formula(Formula),
-    Table(Lookup<M>),
-}
-
-impl<M: Mechanism> Scalar<M> {
-    /// The number at a context, SI.
-    ///
-    /// # Errors
-    /// Where the formula has no value, the table ends, or the number is negative.
-    pub fn value(&self, at: &M::At<'_>) -> Result<f64, Undefined> {
-        let value = match &self.law {
-            Law::None => return Ok(0.0),
-            Law::Constant(value) => return Ok(*value),
-            Law::Formula(formula) => {
-                let mut inputs = [0.0; MOST_QUANTITIES];
-                for (input, q) in inputs.iter_mut().zip(M::QUANTITIES) {
-                    *input = q.unit().from_si((q.get)(at));
-                }
-                formula.value(&inputs[..M::QUANTITIES.len()])?
-            }
-            Law::Table(lookup) => {
-                let (value, place) = lookup.value(at)?;
-                at.notes().check(&PLACE, place);
-                value
-            }
-        };
-        if value < 0.0 {
-            return Err(Undefined {
-                what: "value of the formula or table is negative",
-                value,
-            });
-        }
-        Ok(self.unit.to_si(value))
-    }
-
-    /// True where the law answers the same at every context.
-    pub fn is_constant(&self) -> bool {
-        matches!(self.law, Law::None | Law::Constant(_))
-    }
-
-    /// The number as a moment.
-    ///
-    /// # Errors
-    /// As [`Scalar::value`].
-    pub fn moment(&self, at: &M::At<'_>) -> Result<Loss, Undefined> {
-        Ok(Loss::MOMENTS.with(&M::TOTAL, self.value(at)?))
-    }
-
-    /// The number as a power.
-    ///
-    /// # Errors
-    /// As [`Scalar::value`].
-    pub fn power(&self, at: &M::At<'_>) -> Result<Loss, Undefined> {
-        Ok(Loss::POWERS.with(&M::TOTAL, self.value(at)?))
-    }
-}
-
-/// Where a point lies in a table: the first limit of every model that reads one.
-pub const PLACE: Limit = Limit::new(
-    0,
-    "place along the axis that is left farthest, 0 and 1 its ends",
-    "-",
-    0.0,
-    1.0,
-    "the ends of the table",
-);
-
-/// The entries that a mechanism has without anybody's doing.
+/// The entries that every mechanism has automatically.
 pub(crate) fn entries<M: Mechanism>() -> Vec<Entry> {
     let entry = |name,
                  example,
@@ -101,7 +23,7 @@ pub(crate) fn entries<M: Mechanism>() -> Vec<Entry> {
                  build: fn(&Value, &mut Build<'_>) -> Result<Built, Diagnostic>| Entry {
         mechanism: M::KEY,
         name,
-        source: "the user's own",
+        source: USER_DEFINED,
         example,
         part: None,
         files: &[],
@@ -120,7 +42,7 @@ pub(crate) fn entries<M: Mechanism>() -> Vec<Entry> {
             "none",
             "{ type: none }",
             <NoParams as JsonSchema>::json_schema,
-            |_, cx| built::<M>(Law::None, cx),
+            |_, cx| built::<M>(ScalarLaw::None, cx),
         ),
         entry(
             "constant",
@@ -128,7 +50,7 @@ pub(crate) fn entries<M: Mechanism>() -> Vec<Entry> {
             constant_schema::<M>,
             |value, cx| {
                 let value = value["value"].as_f64().ok_or_else(|| cx.error("`value` is missing"))?;
-                built::<M>(Law::Constant(value), cx)
+                built::<M>(ScalarLaw::Constant(value), cx)
             },
         ),
         entry(
@@ -163,23 +85,23 @@ struct FormulaParams {
 /// A table over one to four quantities of the context, from a CSV file or written in the document.
 #[derive(Deserialize, JsonSchema)]
 struct TableParams {
-    /// CSV file: a column for each axis, named as a quantity with its unit, such as `speed [rpm]`, then a column for the
-    /// answer, or several whose sum it is. One row for each point of the grid.
+    /// CSV file: a column for each axis, named as a quantity with its unit, such as `speed [rpm]`, then a column for the result, or
+    /// several that are added. One row for each point of the grid.
     file: Option<String>,
-    /// Axes of a table in the document, in place of `file`: rising values by quantity, such as `{ speed: [0, 1000] }`, in the units
-    /// that `gearloss models` lists.
+    /// Axes of a table in the document, instead of `file`: increasing values by quantity, such as `{ speed: [0, 1000] }`, in the
+    /// units listed by `gearloss models`.
     axes: Option<Axes>,
-    /// Answers of a table in the document in the unit of the mechanism's answer, the last axis running fastest. Each has a path
-    /// of its own, such as `model.values.2`. [-]
+    /// Results of a table in the document, in the unit of the mechanism's result, with the last axis varying fastest. Each has its
+    /// own path, such as `model.values.2`. [-]
     #[schemars(inner(range(min = 0.0)), length(min = 2))]
     values: Option<Vec<f64>>,
-    /// What holds beyond the ends of the table.
+    /// Extrapolation of the table.
     #[serde(default)]
     outside: Outside,
-    /// What connects the points.
+    /// Interpolation of the table.
     #[serde(default)]
     interpolation: Interpolation,
-    /// Scale of each axis by its name, and of the answer as `answer`; others are linear, or as the mechanism says.
+    /// Scale of each axis by its name, and of the result as `answer`; default: linear, or as set by the mechanism.
     #[serde(default)]
     scale: Ordered<Scale>,
 }
@@ -200,7 +122,7 @@ impl JsonSchema for Axes {
             "type": "object",
             "additionalProperties": {
                 "type": "array",
-                "description": "Rising values of one quantity.",
+                "description": "Increasing values of one quantity.",
                 "minItems": 2,
                 "items": { "type": "number", "description": "A value in the unit of the quantity. [-]" },
             },
@@ -217,7 +139,7 @@ fn constant_schema<M: Mechanism>(_: &mut SchemaGenerator) -> Schema {
     })
 }
 
-fn built<M: Mechanism>(law: Law<M>, cx: &Build<'_>) -> Result<Built, Diagnostic> {
+fn built<M: Mechanism>(law: ScalarLaw<M>, cx: &Build<'_>) -> Result<Built, Diagnostic> {
     let unit = Unit::of_doc(M::ANSWER).ok_or_else(|| cx.error("bug: the mechanism's answer has no [unit]"))?;
     Ok(Box::new(M::scalar(Scalar { law, unit })) as Built)
 }
@@ -236,42 +158,35 @@ fn build_formula<M: Mechanism>(value: &Value, cx: &mut Build<'_>) -> Result<Buil
         let needed = cx.part::<M>().and_then(|part| M::needs(part, quantity.name));
         if let (true, Some(needed)) = (formula.uses(used), needed) {
             return Err(cx
-                .error(format!("`{}` is not known here", quantity.name))
+                .error(format!("`{}` is unknown here", quantity.name))
                 .help(format!("state {needed}")));
         }
     }
-    built::<M>(Law::Formula(formula), cx)
-}
-
-/// A table over quantities of a mechanism's context, for models that read one.
-pub struct Lookup<M: Mechanism> {
-    /// One for each column of answers.
-    tables: Vec<Table>,
-    axes: Vec<&'static Quantity<M>>,
+    built::<M>(ScalarLaw::Formula(formula), cx)
 }
 
 impl<M: Mechanism> Lookup<M> {
-    /// Reads a CSV file with one column of answers in `unit`.
+    /// Reads a CSV file with one column of results in `unit`.
     ///
     /// # Errors
-    /// The file, its axes or its units, with what to write instead.
+    /// Faults of the file, its axes or its units, with the fix.
     pub fn read(file: &str, reading: &Reading, unit: &str, cx: &Build<'_>) -> Result<Self, Diagnostic> {
         let lookup = Self::read_sum(file, reading, unit, cx)?;
         if lookup.tables.len() > 1 {
             return Err(cx
                 .error(format!(
-                    "{file}: line 1: {} columns behind the axes",
+                    "{file}: line 1: {} columns after the axes",
                     lookup.tables.len()
                 ))
-                .help("leave one column for the answer; each axis is named as a quantity"));
+                .help("keep one column for the result; each axis is named as a quantity"));
         }
         Ok(lookup)
     }
 
-    /// A table that the document states: rising values of quantities in their documented units, and the answers.
+    /// A table in the document: increasing values of quantities in their documented units, and the results.
     ///
     /// # Errors
-    /// If a quantity is unknown, an axis does not rise, or the number of values does not fit.
+    /// If a quantity is unknown, an axis does not increase, or the number of values does not match.
     fn stated(
         stated: &[(String, Vec<f64>)],
         values: Vec<f64>,
@@ -285,12 +200,12 @@ impl<M: Mechanism> Lookup<M> {
                 let error = cx.error(format!("`axes`: the context of {} has no quantity `{name}`", M::KEY));
                 error.help(match did_you_mean(name, names.iter().copied()) {
                     Some(close) => format!("write `{close}`"),
-                    None => format!("name one of {}", names.join(", ")),
+                    None => format!("use one of {}", names.join(", ")),
                 })
             })?;
             if let Some(needed) = cx.part::<M>().and_then(|part| M::needs(part, quantity.name)) {
                 return Err(cx
-                    .error(format!("`axes`: `{name}` is not known here"))
+                    .error(format!("`axes`: `{name}` is unknown here"))
                     .help(format!("state {needed}")));
             }
             axes.push(quantity);
@@ -301,8 +216,9 @@ impl<M: Mechanism> Lookup<M> {
             values: values.clone(),
         });
         let table = Table::from_grid(grid.collect(), values, reading).map_err(|reason| {
-            cx.error(reason)
-                .help("write one value for each point of the grid, the last axis running fastest, and axes that rise")
+            cx.error(reason).help(
+                "write one value for each point of the grid, with the last axis varying fastest, and increasing axes",
+            )
         })?;
         Ok(Self {
             tables: vec![table],
@@ -310,7 +226,7 @@ impl<M: Mechanism> Lookup<M> {
         })
     }
 
-    /// Reads a CSV file whose answers, in `unit`, add up.
+    /// Reads a CSV file whose results, in `unit`, are added.
     ///
     /// # Errors
     /// As [`Lookup::read`].
@@ -319,7 +235,7 @@ impl<M: Mechanism> Lookup<M> {
         let fault = |fault: String| cx.error(format!("{file}: {fault}"));
         let columns = table::columns(&text).map_err(fault)?;
         let quantity = |name: &str| M::QUANTITIES.iter().find(|q| q.name == name);
-        // Behind the axes stand the answers; a first or only axis that is misspelt must not count as one.
+        // Results follow the axes; a misspelled first or only axis must not be taken for a result.
         let axes = columns.iter().take_while(|c| quantity(c).is_some()).count();
         if axes == 0 {
             let names: Vec<&str> = M::QUANTITIES.iter().map(|q| q.name).collect();
@@ -335,11 +251,11 @@ impl<M: Mechanism> Lookup<M> {
         if let Some(later) = columns[axes..].iter().find(|c| quantity(c).is_some()) {
             return Err(cx
                 .error(format!(
-                    "{file}: line 1: the axis `{later}` stands behind `{}`, which is no quantity of {}",
+                    "{file}: line 1: the axis `{later}` follows `{}`, which is not a quantity of {}",
                     columns[axes],
                     M::KEY
                 ))
-                .help("name each axis as a quantity; answers stand behind all axes"));
+                .help("name each axis as a quantity; results follow all axes"));
         }
         let tables = Table::several_from_csv(&text, reading, axes).map_err(|reason| {
             let error = fault(reason);
@@ -347,7 +263,7 @@ impl<M: Mechanism> Lookup<M> {
                 let names: Vec<&str> = M::QUANTITIES.iter().map(|q| q.name).collect();
                 let answers = columns[axes..].join("`, `");
                 error.note(format!(
-                    "`{answers}` count as answers, because {} has no such quantities: {}",
+                    "`{answers}` are taken as results, because {} has no such quantities: {}",
                     M::KEY,
                     names.join(", ")
                 ))
@@ -383,7 +299,7 @@ impl<M: Mechanism> Lookup<M> {
             }
             if let Some(needed) = cx.part::<M>().and_then(|part| M::needs(part, quantity.name)) {
                 return Err(cx
-                    .error(format!("{file}: `{}` is not known here", quantity.name))
+                    .error(format!("{file}: `{}` is unknown here", quantity.name))
                     .help(format!("state {needed}")));
             }
         }
@@ -402,35 +318,13 @@ impl<M: Mechanism> Lookup<M> {
                     .collect();
                 return Err(cx
                     .error(format!(
-                        "{file}: at {} the answer is {sum}, which is negative",
+                        "{file}: at {} the result is {sum}, which is negative",
                         at.join(", ")
                     ))
-                    .help("correct it: losses and coefficients are not negative"));
+                    .help("correct it: losses and coefficients must not be negative"));
             }
         }
         Ok(Self { tables, axes })
-    }
-
-    /// The sum of the answers at a context, in the unit of the file, and where the context lies along the axis on which it
-    /// is farthest out.
-    ///
-    /// # Errors
-    /// Where the table ends.
-    pub fn value(&self, at: &M::At<'_>) -> Result<(f64, f64), Undefined> {
-        let mut inputs = [0.0; 4];
-        for ((input, q), axis) in inputs.iter_mut().zip(&self.axes).zip(self.tables[0].axes()) {
-            *input = q.unit().from_si((q.get)(at));
-            // A table over speeds that are not negative holds for both senses of rotation.
-            if q.least < 0.0 && q.unit().symbol == "rpm" && axis.values[0] >= 0.0 {
-                *input = input.abs();
-            }
-        }
-        let inputs = &inputs[..self.axes.len()];
-        let mut sum = 0.0;
-        for table in &self.tables {
-            sum += table.value(inputs)?;
-        }
-        Ok((sum, self.tables[0].place(inputs)))
     }
 }
 
@@ -447,10 +341,10 @@ fn build_table<M: Mechanism>(value: &Value, cx: &mut Build<'_>) -> Result<Built,
         (Some(file), None, None) => Lookup::read_sum(&file, &reading, unit, cx)?,
         (None, Some(axes), Some(values)) => Lookup::stated(&axes.0.0, values, &reading, cx)?,
         _ => {
-            return Err(cx.error("table needs `file`, or `axes` and `values`").help(
+            return Err(cx.error("table requires `file`, or `axes` and `values`").help(
                 "write `file: NAME.csv`, or the table itself: `axes: { speed: [0, 1000] }, values: [0.1, 0.3]`",
             ));
         }
     };
-    built::<M>(Law::Table(lookup), cx)
+    built::<M>(ScalarLaw::Table(lookup), cx)
 }

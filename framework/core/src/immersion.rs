@@ -1,18 +1,18 @@
-//! How deep parts dip into the oil.
+//! Immersion depth of parts in the oil.
 
 use std::f64::consts::PI;
 
-/// Height of the oil above an axis that rests or orbits.
+/// Oil height above a stationary or orbiting axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Height {
-    /// Above the axis, or above the middle of its orbit; minus infinity where it is dry. \[m\]
+    /// Above the axis, or above the centre of its orbit; minus infinity if it is dry. \[m\]
     pub level: f64,
-    /// Radius of the orbit; zero for an axis that rests. \[m\]
+    /// Radius of the orbit; zero for a stationary axis. \[m\]
     pub orbit: f64,
 }
 
 impl Height {
-    /// Depth of a circle's lowest point below the oil, as a mean over the orbit. \[m\]
+    /// Immersion depth of a circle's lowest point, averaged over the orbit. \[m\]
     #[inline]
     pub fn dip(self, radius: f64) -> f64 {
         if self.orbit > 0.0 {
@@ -22,7 +22,7 @@ impl Height {
         }
     }
 
-    /// Height of the oil over the lowest point of a circle, zero where it is lower, as a mean over the orbit. \[m\]
+    /// Oil height over the lowest point of a circle, zero if it is above the oil, averaged over the orbit. \[m\]
     #[inline]
     pub fn over_bottom(self, radius: f64) -> f64 {
         if self.orbit > 0.0 {
@@ -33,19 +33,19 @@ impl Height {
     }
 }
 
-/// Depth of a circle's lowest point below the oil, for a height of the oil above its axis. \[m\]
+/// Immersion depth of a circle's lowest point, for an oil height above its axis. \[m\]
 pub fn dip(level: f64, radius: f64) -> f64 {
     (level + radius).clamp(0.0, 2.0 * radius)
 }
 
-/// Mean dip of a circle whose axis orbits, for a height of the oil above the centre of the orbit. \[m\]
+/// Mean immersion depth of a circle with an orbiting axis, for an oil height above the centre of the orbit. \[m\]
 pub fn orbiting_dip(level: f64, radius: f64, orbit: f64) -> f64 {
-    // Without a sump both heights are minus infinity, and their means zero.
+    // Without a sump both heights are minus infinity, and the means are zero.
     mean_height(level + radius, orbit) - mean_height(level - radius, orbit)
 }
 
-/// Mean over an orbit of the height of the oil above a point that stands `height` below it in the middle of the orbit;
-/// zero where the point is above the oil. \[m\]
+/// Mean over an orbit of the oil height above a point that is `height` below it at the centre of the orbit; zero where the point is
+/// above the oil. \[m\]
 fn mean_height(height: f64, orbit: f64) -> f64 {
     if height >= orbit {
         height
@@ -57,7 +57,7 @@ fn mean_height(height: f64, orbit: f64) -> f64 {
     }
 }
 
-/// Share of its orbit in which a circle touches the oil.
+/// Share of the orbit in which a circle touches the oil.
 pub fn wet_share(level: f64, radius: f64, orbit: f64) -> f64 {
     1.0 - ((level + radius) / orbit).clamp(-1.0, 1.0).acos() / PI
 }

@@ -1,6 +1,6 @@
-//! Speeds of all members: homogeneous constraint rows, degrees of freedom, and who is guilty when a state cannot move.
+//! Speeds of all members: homogeneous constraint rows, degrees of freedom, and the causes if a state cannot move.
 //!
-//! Rows are exact statements of kinematics (Willis); nothing here depends on the kind of gearbox.
+//! Rows are exact kinematic constraints (Willis); nothing here depends on the kind of gearbox.
 
 mod eliminate;
 
@@ -15,7 +15,7 @@ pub struct Row {
 }
 
 impl Row {
-    /// Gears 1 and 2 of a mesh on a carrier: `z1 (w1 - wc) + s z2 (w2 - wc) = 0`. An absent column stands still.
+    /// Gears 1 and 2 of a mesh on a carrier: `z1 (w1 - wc) + s z2 (w2 - wc) = 0`. A column of `None` is stationary.
     pub fn mesh(first: Option<usize>, z1: f64, second: Option<usize>, sz2: f64, carrier: Option<usize>) -> Self {
         let terms = [(first, z1), (second, sz2), (carrier, -(z1 + sz2))];
         Self {
@@ -26,7 +26,7 @@ impl Row {
         }
     }
 
-    /// Two columns of one speed; an absent one is the housing.
+    /// Two columns with equal speed; `None` is the housing.
     pub fn joined(a: Option<usize>, b: Option<usize>) -> Self {
         Self {
             terms: a.map(|a| (a, 1.0)).into_iter().chain(b.map(|b| (b, -1.0))).collect(),
@@ -59,15 +59,13 @@ pub struct Train {
     pub rows: Vec<Row>,
 }
 
-/// Speeds as a linear map of the prescribed ones. Made once per state and set of prescribed ports.
+/// Speeds as a linear map of the prescribed ones. Built once per state and set of prescribed ports.
 #[derive(Debug, Clone)]
 pub struct Motion {
     columns: usize,
     ports: usize,
     /// Column by column of the map, `columns` numbers for each prescribed port.
     map: Vec<f64>,
-    /// Number of independent rows.
-    pub rank: usize,
     /// Rows of each redundant loop.
     pub loops: Vec<Vec<usize>>,
 }
@@ -77,7 +75,7 @@ impl Motion {
     /// prescribed.
     ///
     /// # Errors
-    /// Every fault of the state for this prescription; redundant loops are no fault here.
+    /// Every fault of the state for this prescription; redundant loops are not a fault here.
     pub fn new(train: &Train, ports: &[usize], prescribed: &[usize]) -> Result<Self, Vec<Fault>> {
         let reduced = Reduced::new(train, ports, prescribed);
         let faults = reduced.faults(ports, prescribed);
@@ -94,7 +92,6 @@ impl Motion {
             columns: train.columns,
             ports: prescribed.len(),
             map,
-            rank: reduced.rank(),
             loops: reduced.loops(),
         })
     }

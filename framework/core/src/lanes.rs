@@ -1,9 +1,9 @@
-//! Points side by side: numbers in lanes, so that one instruction serves several points.
+//! Batched points: numbers in lanes, so that one instruction serves several points.
 //!
-//! Points that share speeds and temperatures differ in torque alone. Their losses are computed in blocks of [`LANES`] points:
-//! each quantity that hangs on torque is a [`Lane`], a number for each of them. A loop over the numbers of a lane without calls
-//! or branches becomes a few wide instructions within [`wide`]. Every operation is the one of a single point, in the same order,
-//! so that both ways have the same bits, where nothing is remembered of other points ([`Powers`]).
+//! Points with equal speeds and temperatures differ only in torque. Their losses are computed in blocks of [`LANES`] points: each
+//! quantity that depends on torque is a [`Lane`], with one number per point. A loop over the numbers of a lane without calls or
+//! branches becomes a few wide instructions within [`wide`]. Every operation is that of a single point, in the same order, so that
+//! both give the same bits unless [`Powers`] uses values of other points.
 
 mod elementary;
 mod losses;
@@ -22,7 +22,7 @@ pub(crate) use powers::REMEMBERED;
 /// Points of a block.
 pub const LANES: usize = 64;
 
-/// A number for each point of a block. It begins where wide loads and stores like it best.
+/// A number for each point of a block, aligned for wide loads and stores.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(align(64))]
 pub struct Lane([f64; LANES]);
@@ -53,14 +53,14 @@ impl DerefMut for Lane {
     }
 }
 
-/// Runs work with the widest instructions that the processor has: `wide(#[inline(always)] || ...)`. Only what is inlined into the
-/// work gets them, which functions are that say `#[inline(always)]`.
+/// Runs work with the widest instructions of the processor: `wide(#[inline(always)] || ...)`. Only code that is inlined into the
+/// work uses them, that is, functions with `#[inline(always)]`.
 #[inline(always)]
 pub fn wide<R>(work: impl FnOnce() -> R) -> R {
     pulp::Arch::new().dispatch(work)
 }
 
-/// A lane from a function of the numbers of another. What [`array::map`] does, and sure to be inlined.
+/// A lane from a function of the numbers of another; as [`array::map`], but always inlined.
 #[inline(always)]
 pub fn over(lane: &Lane, mut number: impl FnMut(f64) -> f64) -> Lane {
     let mut result = Lane::ZERO;
@@ -70,10 +70,10 @@ pub fn over(lane: &Lane, mut number: impl FnMut(f64) -> f64) -> Lane {
     result
 }
 
-/// In how many lanes something holds.
+/// Number of lanes for which a condition holds.
 #[inline(always)]
 pub fn count(mut holds: impl FnMut(usize) -> bool) -> u64 {
-    // As wide as the numbers that decide, so that they are counted several at once.
+    // As wide as the compared numbers, so that several are counted at once.
     let mut count = 0_u64;
     for i in 0..LANES {
         count += u64::from(holds(i));
@@ -81,9 +81,9 @@ pub fn count(mut holds: impl FnMut(usize) -> bool) -> u64 {
     count
 }
 
-/// A lane from sums over some items: `step` adds an item to the `N` sums of a lane, given by its place, and `end` makes its
-/// number of them, one lane after the other. The sums of several lanes at a time stay in registers over all items, where a loop over lanes for each item would write
-/// and read them again.
+/// A lane from sums over some items: `step` adds an item to the `N` sums of a lane, given by its index, and `end` computes its
+/// number from them, lane by lane. The sums of several lanes at a time stay in registers over all items; a loop over lanes for each
+/// item would write and read them again.
 #[inline(always)]
 pub fn gather<const N: usize, T: Copy>(
     items: impl Iterator<Item = T> + Clone,
@@ -91,7 +91,7 @@ pub fn gather<const N: usize, T: Copy>(
     step: impl Fn([f64; N], T, usize) -> [f64; N],
     mut end: impl FnMut([f64; N], usize) -> f64,
 ) -> Lane {
-    /// Lanes at a time: a few of the widest registers for each sum.
+    /// Lanes at a time: a few of the widest registers per sum.
     const WIDE: usize = 16;
     let mut lane = Lane::ZERO;
     let mut first = 0;
@@ -110,7 +110,7 @@ pub fn gather<const N: usize, T: Copy>(
     lane
 }
 
-/// The greatest magnitude of some lanes, each times a factor; what is no number passes by.
+/// The maximum magnitude of some lanes, each times a factor; NaN is ignored.
 #[inline(always)]
 pub(crate) fn greatest<'a>(lanes: impl Iterator<Item = (f64, &'a Lane)> + Clone) -> Lane {
     let step = |[most]: [f64; 1], (factor, lane): (f64, &Lane), i: usize| {
@@ -127,14 +127,14 @@ pub(crate) fn weighted<'a>(lanes: impl Iterator<Item = (f64, &'a Lane)> + Clone)
     gather(lanes, [0.0], step, |[sum], _| sum)
 }
 
-/// Whether all lanes have the same number.
+/// True if all lanes have the same number.
 #[inline(always)]
 pub(crate) fn is_even(lane: &Lane) -> bool {
     let first = lane[0];
     count(|i| lane[i] == first) == LANES as u64
 }
 
-/// A lane from a function of its place.
+/// A lane from a function of its index.
 #[inline(always)]
 pub fn each(mut number: impl FnMut(usize) -> f64) -> Lane {
     let mut lane = Lane::ZERO;

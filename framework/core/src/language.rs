@@ -1,4 +1,4 @@
-//! The language of documents: what the linked mechanisms and models allow to be written, composed once per program.
+//! The language of documents: the schema of everything that linked mechanisms and models accept, composed once per program.
 
 mod compose;
 mod readable;
@@ -7,8 +7,9 @@ use std::collections::BTreeMap;
 
 use serde_json::Value;
 
+use crate::codes;
 use crate::coefficients::COEFFICIENTS;
-use crate::document::{Diagnostic, Node, Schema, Shape, Unit, Walked, read_yaml, walk, walk_at, walk_shape};
+use crate::document::{Diagnostic, Node, Schema, Shape, Unit, Walked, classify, read_yaml, walk, walk_at, walk_shape};
 use crate::mechanism::Mechanism;
 use crate::mechanism::gear_drag::{GearDrag, Scope};
 use crate::mechanism::gear_mesh::GearMesh;
@@ -17,21 +18,21 @@ use crate::mechanism::planetary_drag::PlanetaryDrag;
 use crate::registry::{DocumentKind, Entry, Registry, inventory};
 use crate::resolve::CatalogueTable;
 
-/// Key of the mechanism that meshes hold.
+/// Key of the mechanism of mesh models.
 pub const MESHES: &str = GearMesh::KEY;
-/// Key of the mechanism that planetary sets hold.
+/// Key of the mechanism of planetary set models.
 pub const SETS: &str = PlanetaryDrag::KEY;
-/// Mechanisms whose models sit in sections of the framework's own: section and key.
+/// Mechanisms whose models are in sections of the framework itself: section and key.
 pub const HELD: [(&str, &str); 2] = [("meshes", MESHES), ("planetary_sets", SETS)];
-/// Key of the mechanism that gears and meshes hold by name.
+/// Key of the mechanism of named gear and mesh drag models.
 pub const DRAGS: &str = GearDrag::KEY;
 
-/// Key of the mechanism that the thermal section holds by name.
+/// Key of the mechanism of the named models in the thermal section.
 pub const HEAT: &str = HeatDissipation::KEY;
-/// Mechanisms of which models are chosen by name, several at a time.
+/// Mechanisms with several models chosen by name.
 pub const NAMED: [&str; 2] = [DRAGS, HEAT];
 
-/// Section of the oils, which has catalogues as the sections of components do.
+/// Section of the oils, which has catalogues like the sections of components.
 pub const LUBRICANTS: &str = "lubricants";
 
 /// Name of the schema of a gearbox.
@@ -50,7 +51,7 @@ pub enum Kind {
     Eval,
 }
 
-/// Registry, schemas and catalogues of one program. Made once; everything that reads documents borrows it.
+/// Registry, schemas and catalogues of one program. Built once; all readers of documents borrow it.
 pub struct Language {
     registry: Registry,
     published: BTreeMap<&'static str, Value>,
@@ -64,7 +65,7 @@ impl Language {
     /// The language of a registry.
     ///
     /// # Errors
-    /// Every construct of a schema that the walk cannot check, with mechanism, model and field; every fault of a linked
+    /// Every construct of a schema that cannot be checked, with mechanism, model and field; every fault of a linked
     /// catalogue or set.
     pub fn new(registry: Registry) -> Result<Self, Vec<Diagnostic>> {
         let mut found = Vec::new();
@@ -86,7 +87,7 @@ impl Language {
                             found.push(
                                 Diagnostic::error("", format!("two catalogues of {section} have a row `{twice}`"))
                                     .note(format!("the later one is registered at {}", catalogue.origin))
-                                    .help("leave it out of one, or state the values in the gearbox's own catalogue"),
+                                    .help("remove it from one, or state the values in the gearbox's own catalogue"),
                             );
                         }
                         known.extend(table);
@@ -98,6 +99,7 @@ impl Language {
                 }
             }
         }
+        classify(&mut found, codes::REGISTRATION);
         if documents.len() < published.len() {
             return Err(found);
         }
@@ -136,12 +138,12 @@ impl Language {
         }
     }
 
-    /// Walks a gearbox.
+    /// Checks a gearbox.
     pub fn walk_gearbox(&self, node: &Node) -> Walked {
         walk(node, self.gearbox())
     }
 
-    /// Walks a study.
+    /// Checks a study.
     ///
     /// # Panics
     /// If the crate that registers this kind of document is not linked.
@@ -153,7 +155,7 @@ impl Language {
         &self.documents[GEARBOX]
     }
 
-    /// Walks the input of `eval` for one mechanism: `model`, `part` and `at`.
+    /// Checks the input of `eval` for one mechanism: `model`, `part` and `at`.
     ///
     /// # Errors
     /// If the schema of the mechanism cannot be compiled.
@@ -165,22 +167,22 @@ impl Language {
         }
     }
 
-    /// Checks a value against the gearbox schema at a path; the value SI with defaults filled. Quantities may be texts with
-    /// a unit or numbers in the documented unit.
+    /// Checks a value against the gearbox schema at a path; returns the value in SI with defaults filled in. Quantities may be
+    /// texts with a unit or numbers in the documented unit.
     ///
     /// # Errors
-    /// What the walk finds.
+    /// All findings of the check.
     pub fn checked(&self, value: &Value, path: &str) -> Result<Value, Vec<Diagnostic>> {
         fine(walk_at(&Node::from_json(value), self.gearbox(), path))
     }
 
-    /// As [`Language::checked`], for a path of a document at hand: where a model is on the way, the keys and ranges of its
-    /// `type` count, not those of other models.
+    /// As [`Language::checked`], for a path of an existing document: inside a model, the keys and ranges of its `type` apply, not
+    /// those of other models.
     ///
     /// # Errors
-    /// What the walk finds.
+    /// All findings of the check.
     pub fn checked_in(&self, document: &Value, value: &Value, path: &str) -> Result<Value, Vec<Diagnostic>> {
-        // A new `type` is one of all, not the one that is there.
+        // A new `type` may be any model, not only the present one.
         let shape = self
             .shape_at(document, path)
             .filter(|_| path.rsplit('.').next() != Some("type"));
@@ -190,7 +192,7 @@ impl Language {
         }
     }
 
-    /// True where a resolved document has a place for a path: the keys of a model are those of its `type`.
+    /// True if a resolved document accepts a path: the keys of a model are those of its `type`.
     pub fn has_place(&self, document: &Value, path: &str) -> bool {
         self.shape_at(document, path).is_some()
     }
@@ -203,7 +205,7 @@ impl Language {
         self.gearbox().shape_at(path, tag)
     }
 
-    /// Unit, least and greatest value of the number that a resolved document has at a path; absent where it is no number.
+    /// Unit, minimum and maximum of the number that a resolved document has at a path; `None` if it is not a number.
     pub fn number_at(&self, document: &Value, path: &str) -> Option<(&'static Unit, f64, f64)> {
         match self.shape_at(document, path)? {
             Shape::Number {
@@ -225,8 +227,8 @@ impl Language {
         }
     }
 
-    /// The published value of the coefficient of a model's formula that a resolved document has at a path; absent where the
-    /// path is no coefficient.
+    /// The published value of the coefficient of a model's formula that a resolved document has at a path; `None` if the path is
+    /// not a coefficient.
     pub fn published_coefficient(&self, document: &Value, path: &str) -> Option<f64> {
         let (record, name) = path.rsplit_once('.')?;
         let (_, COEFFICIENTS) = record.rsplit_once('.')? else {
@@ -242,7 +244,7 @@ impl Language {
     /// A piece of YAML checked against the gearbox schema at a path.
     ///
     /// # Errors
-    /// What reading and the walk find.
+    /// All findings of reading and checking.
     pub fn part_of_document(&self, yaml: &str, path: &str) -> Result<Value, Vec<Diagnostic>> {
         let read = read_yaml(0, yaml);
         if !read.findings.is_empty() {
@@ -254,7 +256,7 @@ impl Language {
     /// The resolved example of a model and the resolved example part of its mechanism.
     ///
     /// # Errors
-    /// What reading and the walk find in either.
+    /// All findings of reading and checking either.
     pub fn example_of(&self, entry: &Entry) -> Result<(Value, Value), Vec<Diagnostic>> {
         let mechanism = self.registry.mechanism(entry.mechanism);
         let part = entry.part.unwrap_or_else(|| mechanism.map_or("{}", |m| m.example));
@@ -281,12 +283,12 @@ impl Language {
         self.catalogues.get(section)
     }
 
-    /// The sets of models that linked crates ship, walked.
+    /// The model sets shipped by linked crates, checked.
     pub fn shipped_sets(&self) -> &BTreeMap<String, Value> {
         &self.sets
     }
 
-    /// True where a drag model, as data, belongs to `gears` or to `meshes` by its scope.
+    /// True if the scope of a drag model, as data, is `gears` or `meshes`.
     pub fn fits_scope(&self, section: &str, model: &Value) -> bool {
         let name = model.as_str().or_else(|| model["type"].as_str()).unwrap_or("none");
         match self.registry.model(DRAGS, name).map(|entry| entry.scope) {

@@ -1,31 +1,86 @@
-//! The frame of gearloss: description, registry, kinematics, loads, evaluation. It names no concrete loss model.
+//! The framework of gearloss: description, registry, kinematics, loads, evaluation. It names no concrete loss model.
+//!
+//! # A model of your own
+//! A model is a struct with its parameters, an `impl` of the trait of its mechanism, and a registration. [`prelude`] has all names
+//! that it needs. The doc comments become the schema, the tooltips of editors and the reference; a doc comment of a quantity ends
+//! with its unit.
+//!
+//! ```
+//! use gearloss_framework::prelude::*;
+//!
+//! const DRAG: Term = Term::no_load(0, "drag");
+//!
+//! /// Seal with a friction torque proportional to the diameter.
+//! #[derive(Debug, Deserialize, JsonSchema)]
+//! struct Proportional {
+//!     /// Friction torque per diameter. [N]
+//!     #[schemars(range(min = 0.0, max = 100.0))]
+//!     force: f64,
+//! }
+//!
+//! impl SealModel for Proportional {
+//!     fn loss(&self, at: &SealAt<'_>) -> Result<Loss, Undefined> {
+//!         Ok(Loss::MOMENTS.with(&DRAG, self.force * at.part.diameter))
+//!     }
+//! }
+//!
+//! register!(Seal, "proportional", Proportional,
+//!     source: "rig report 31, 2026",
+//!     example: "{ type: proportional, force: 0.5 }",
+//!     evidence: [formula(Evidence::OneSource, "one seal, one oil")],
+//!     terms: [DRAG]);
+//!
+//! // A check value, as a test of the model has it: 0.5 N at 40 mm, in W at 1000 1/min.
+//! use gearloss_framework::testing::{assert_close, eval};
+//! let loss = eval("seal/proportional", "{ part: { diameter: 40 mm }, at: { speed: 1000 rpm } }");
+//! assert_close(loss.total, 0.5 * 0.04 * 1000.0 * std::f64::consts::PI / 30.0, 1e-12);
+//! ```
+//!
+//! The guide to models of your own (`docs/plugin-guide.md`) continues with ranges, files, nested models and mechanisms.
+//!
+//! # From a file to a point
+//! [`Language`](language::Language) holds what may be written. [`Gearbox`](gearbox::Gearbox) is a document as read and checked,
+//! [`Resolved`](resolve::Resolved) the same with catalogue values and a model for every component under a
+//! [`Choice`](resolve::Choice), [`Transmission`](transmission::Transmission) the result with indices and built models. It evaluates
+//! points without allocating. Programs find these names in `gearloss::api`.
 
-pub mod attach;
+// For authors of models.
+pub mod prelude;
+pub mod testing;
+
+// What a document says: sections, schemas, models, choices.
+pub mod codes;
 pub mod coefficients;
-pub mod conformance;
-pub mod contact;
 pub mod description;
 pub mod eval;
-pub mod evaluate;
-pub mod flow;
 pub mod formula;
 pub mod gearbox;
 pub mod generic;
-pub mod geometry;
-pub mod immersion;
-pub mod kinematics;
-pub mod lanes;
 pub mod language;
-pub mod loads;
-pub mod loss;
-pub mod lubricant;
-pub mod mechanism;
-pub mod motor;
-pub mod prelude;
 pub mod registry;
 pub mod resolve;
 pub mod table;
-pub mod testing;
+
+// What loses power: mechanisms, where their parts are attached, and what models return.
+pub mod attach;
+pub mod conformance;
+pub mod loss;
+pub mod mechanism;
+mod registration;
+
+// What models and the solver calculate with: teeth, contacts, oils, motors.
+pub mod contact;
+pub mod geometry;
+pub mod immersion;
+pub mod lubricant;
+pub mod motor;
+
+// The solver: speeds, torques, bearing loads, points, temperatures.
+pub mod evaluate;
+pub mod flow;
+mod kinematics;
+pub mod lanes;
+pub mod loads;
 pub mod thermal;
 pub mod transmission;
 

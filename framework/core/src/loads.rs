@@ -1,9 +1,9 @@
-//! Loads of supports from tooth forces, weights, outside forces and preload.
+//! Bearing loads from tooth forces, weights, external forces and preload.
 //!
-//! Radial reactions are linear in the tangential force of each mesh and in its magnitude, so unit cases are solved once;
-//! a point costs a few multiplications. Thrust switches with its sense and is distributed at every point.
+//! Radial reactions are linear in the tangential force of each mesh and in its magnitude, so unit cases are solved once; a point
+//! costs a few multiplications. The bearings that take thrust depend on its direction, so thrust is distributed at every point.
 
-mod abreast;
+mod batched;
 mod beam;
 mod layout;
 mod shaft_loads;
@@ -11,7 +11,7 @@ mod static_rating;
 mod statics;
 mod thrust;
 
-pub use abreast::LoadLanes;
+pub use batched::LoadLanes;
 pub use beam::{Beam, BeamFault, BeamLoad, BeamSupport};
 pub use layout::{Layout, LoadFault, MemberLayout, MeshLayout, PlanetBody, Section, SupportLayout};
 pub use shaft_loads::ShaftLoads;
@@ -27,7 +27,7 @@ pub struct SupportLoad {
     pub axial: f64,
     /// Tilting moment. \[Nm\]
     pub tilting: f64,
-    /// Thrust that nothing on the member takes, signed towards +x; zero when all is well. \[N\]
+    /// Thrust that nothing on the member takes, signed towards +x; zero if there is none. \[N\]
     pub untaken: f64,
 }
 

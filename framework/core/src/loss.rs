@@ -1,6 +1,6 @@
-//! What a model answers, and what it leaves behind on the way: terms, limits, observed quantities, steps.
+//! Results of a model: terms, limits, observed quantities, steps.
 //!
-//! Terms, limits and observed quantities are constants with an index. No name is compared or stored per point.
+//! Terms, limits and observed quantities are constants with an index. Names are neither compared nor stored per point.
 
 mod notebook;
 
@@ -8,20 +8,20 @@ pub use notebook::Notebook;
 
 use std::cell::{Cell, RefCell};
 
-/// The most terms that one model may have.
+/// Maximum number of terms of one model.
 pub const MOST_TERMS: usize = 5;
 
-/// The most numbers that a model may keep over the passes of one point, and over all points that differ in torque alone.
+/// Maximum number of values that a model may keep over the iterations of one point, and over all points that differ in torque only.
 pub const MOST_KEPT: usize = 6;
 
-/// One named share of a loss, such as rolling, sliding or drag.
+/// One named part of a loss, such as rolling, sliding or drag.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Term {
-    /// Place of the term among the terms of its model.
+    /// Index of the term among the terms of its model.
     pub index: usize,
-    /// Name in the words of the source.
+    /// Name as in the source.
     pub name: &'static str,
-    /// True when the term vanishes with the load.
+    /// True if the term vanishes with the load.
     pub load_dependent: bool,
 }
 
@@ -48,7 +48,7 @@ impl Term {
 }
 
 /// Whether the values of a loss are moments about the attachment's relative speed or powers.
-// As wide as the values beside it, so that a loss is copied in whole words.
+// As wide as the adjacent values, so that a loss is copied in whole words.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(u64)]
 pub enum Measure {
@@ -68,14 +68,14 @@ pub struct Loss {
 }
 
 impl Loss {
-    /// An answer in moments, N m, about the relative speed of the attachment; every term is zero.
+    /// A result in moments, N m, about the relative speed of the attachment; every term is zero.
     pub const MOMENTS: Self = Self {
         measure: Measure::Moment,
         values: [0.0; MOST_TERMS],
         first_share: 0.5,
         first_heat: 0.5,
     };
-    /// An answer in powers, W; every term is zero.
+    /// A result in powers, W; every term is zero.
     pub const POWERS: Self = Self {
         measure: Measure::Power,
         ..Self::MOMENTS
@@ -88,34 +88,34 @@ impl Loss {
         self
     }
 
-    /// Says which share of a loss between two gears the first gear feels as torque; without it, half. From 0 to 1.
+    /// Sets the share of a loss between two gears that reduces the torque of the first gear; default: half. From 0 to 1.
     #[inline]
     pub fn felt_by_first(mut self, share: f64) -> Self {
         self.first_share = share;
         self
     }
 
-    /// The share of the power that the first gear of a pair feels as torque. \[-\]
+    /// The share of the power that reduces the torque of the first gear of a pair. \[-\]
     #[inline]
     pub fn first_share(&self) -> f64 {
         self.first_share
     }
 
-    /// Says which share of the heat of a loss between two gears goes into the body of the first; without it, half. Where the
-    /// bodies differ in temperature heat also passes from one to the other, so that a share may lie beyond zero and one.
+    /// Sets the share of the heat of a loss between two gears that enters the body of the first; default: half. If the body
+    /// temperatures differ, heat also flows from one to the other, so that the share may be outside zero to one.
     #[inline]
     pub fn heats_first(mut self, share: f64) -> Self {
         self.first_heat = share;
         self
     }
 
-    /// The share of the heat that goes into the body of the first gear of a pair. \[-\]
+    /// The share of the heat that enters the body of the first gear of a pair. \[-\]
     #[inline]
     pub fn first_heat(&self) -> f64 {
         self.first_heat
     }
 
-    /// The mean of two answers of one model, with the weight of this one; the weight of the other is what is left to one.
+    /// The mean of two results of one model, with the weight of this one; the other has the remaining weight.
     #[inline]
     pub fn mean(self, weight: f64, other: Self) -> Self {
         let mut mean = self;
@@ -126,12 +126,12 @@ impl Loss {
         mean
     }
 
-    /// Whether the answer is in moments or powers.
+    /// Whether the result is in moments or powers.
     pub fn measure(&self) -> Measure {
         self.measure
     }
 
-    /// Value of one term as answered: N m or W.
+    /// Value of one term as returned: N m or W.
     #[inline]
     pub fn value(&self, index: usize) -> f64 {
         self.values[index]
@@ -146,7 +146,7 @@ impl Loss {
         }
     }
 
-    /// Sum of all terms as answered: N m or W. Terms are added in their order.
+    /// Sum of all terms as returned: N m or W. Terms are added in their order.
     #[inline]
     pub fn sum(&self) -> f64 {
         self.values.iter().fold(0.0, |sum, v| sum + v)
@@ -171,46 +171,39 @@ impl Loss {
         }
     }
 
-    /// True when every term is a finite number that is not negative.
+    /// True if every term is finite and not negative.
     #[inline]
     pub fn is_sound(&self) -> bool {
-        // What is negative or no number fails the first comparison, infinity the second.
+        // Negative values and NaN fail the first comparison, infinity the second.
         let [a, b, c, d, e] = self.values;
         a >= 0.0 && b >= 0.0 && c >= 0.0 && d >= 0.0 && e >= 0.0 && self.sum() < f64::INFINITY
     }
 }
 
-/// A formula has no value here. Small and without text of its own, so that it costs nothing in a map.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// A formula is undefined. Small and without an owned text, so that it is free in a map.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[error("undefined: {what} = {value:.6}")]
 pub struct Undefined {
-    /// The quantity or condition that has left the formula's domain.
+    /// The quantity or condition that is outside the formula's domain.
     pub what: &'static str,
-    /// Its value, in the unit that `what` names.
+    /// Its value, in the unit stated by `what`.
     pub value: f64,
 }
 
-impl std::fmt::Display for Undefined {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "undefined: {} = {:.6}", self.what, self.value)
-    }
-}
-
-impl std::error::Error for Undefined {}
-
-/// The range in which a source states its formula to hold. Outside of it the model still answers, and it is noted.
+/// The range in which a source states its formula to be valid. Outside it the model still returns a result, and this is noted.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limit {
-    /// Place among the limits of its model.
+    /// Index among the limits of its model.
     pub index: usize,
     /// Symbol or name of the quantity.
     pub name: &'static str,
     /// Unit of the range.
     pub unit: &'static str,
-    /// Least value in the stated range.
+    /// Minimum of the stated range.
     pub least: f64,
-    /// Greatest value in the stated range.
+    /// Maximum of the stated range.
     pub greatest: f64,
-    /// Where the range comes from.
+    /// Source of the range.
     pub origin: &'static str,
 }
 
@@ -235,16 +228,16 @@ impl Limit {
     }
 }
 
-/// A quantity that a model lets the reader see, such as a coefficient of friction or a film ratio.
+/// A quantity that a model reports, such as a coefficient of friction or a film ratio.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Observed {
-    /// Place among the observed quantities of its model.
+    /// Index among the observed quantities of its model.
     pub index: usize,
     /// Symbol.
     pub name: &'static str,
     /// Unit.
     pub unit: &'static str,
-    /// What it is, as a sentence.
+    /// Description, as a sentence.
     pub meaning: &'static str,
 }
 
@@ -260,21 +253,21 @@ impl Observed {
     }
 }
 
-/// What was seen of one limit or observed quantity. Extents merge in any order to the same bits.
+/// Observed extent of one limit or observed quantity. Extents merge in any order to the same bits.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Extent {
-    /// Least value seen.
+    /// Minimum observed value.
     pub least: f64,
-    /// Greatest value seen.
+    /// Maximum observed value.
     pub greatest: f64,
-    /// How often it was seen.
+    /// Number of observations.
     pub seen: u32,
-    /// How often it was outside of its limit; a value that is not a number counts as outside.
+    /// Number of observations outside the limit; NaN counts as outside.
     pub outside: u32,
 }
 
 impl Extent {
-    /// Nothing seen yet.
+    /// No observation.
     pub const EMPTY: Self = Self {
         least: f64::INFINITY,
         greatest: f64::NEG_INFINITY,
@@ -284,7 +277,7 @@ impl Extent {
 
     #[inline]
     fn add(self, x: f64, outside: bool) -> Self {
-        // What is no number passes by, as with `min` and `max`, which promise more and cost more.
+        // NaN is ignored, as in `min` and `max`, which promise more and cost more.
         Self {
             least: if x < self.least { x } else { self.least },
             greatest: if x > self.greatest { x } else { self.greatest },
@@ -293,7 +286,7 @@ impl Extent {
         }
     }
 
-    /// One point, with the least and the greatest value that it has.
+    /// One point, with its minimum and maximum value.
     #[inline]
     pub(crate) fn point(least: f64, greatest: f64, outside: bool) -> Self {
         Self::EMPTY.add(least, false).add(greatest, false).once_if(outside)
@@ -308,7 +301,7 @@ impl Extent {
         }
     }
 
-    /// Counts as many operating points as said: seen at all, outside at all.
+    /// Counts the given number of operating points: observed, outside.
     #[inline]
     pub(crate) fn times(self, points: u32) -> Self {
         Self {
@@ -337,7 +330,7 @@ impl Extent {
         }
     }
 
-    /// Counts one operating point: seen at all, outside at all.
+    /// Counts one operating point: observed, outside.
     #[inline]
     pub fn once(self) -> Self {
         Self {
@@ -366,7 +359,7 @@ pub enum Step {
     Branch {
         /// Number of the model instance that took it.
         instance: usize,
-        /// Which branch.
+        /// Description of the branch.
         taken: &'static str,
     },
 }
@@ -387,7 +380,7 @@ pub struct Trace {
 }
 
 impl Trace {
-    /// Out of the way of models, which are explained once and evaluated ever so often.
+    // Cold: models are explained once and evaluated very often.
     #[cold]
     #[inline(never)]
     fn write(&self, step: Step) {
@@ -400,10 +393,10 @@ impl Trace {
     }
 }
 
-/// Where the notes of one model instance stand among all cells.
+/// Position of the notes of one model instance among all cells.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct NoteBase {
-    // As small as they may be, because every call of a model copies them.
+    // As small as possible, because every call of a model copies it.
     instance: u32,
     limits: u32,
     observed: u32,
@@ -411,7 +404,7 @@ pub struct NoteBase {
 }
 
 impl NoteBase {
-    /// The place of an instance by number that notes so many limits and observed quantities from some cell on.
+    /// The position of an instance by number, with its numbers of limits and observed quantities, from a first cell.
     pub(crate) fn new(instance: usize, first: usize, limits: usize, observed: usize) -> Self {
         Self {
             instance: instance as u32,
@@ -421,7 +414,7 @@ impl NoteBase {
         }
     }
 
-    /// The same with the cells of the models nested in it, which end before a cell.
+    /// The same including the cells of its nested models, up to an end cell.
     pub(crate) fn until(self, end: usize) -> Self {
         Self {
             end: end as u32,
@@ -447,16 +440,16 @@ impl NoteBase {
         self.observed as usize
     }
 
-    /// The cell behind its own and those of the models nested in it.
+    /// The end of its own cells and those of its nested models.
     #[inline]
     pub fn end(self) -> usize {
         self.end as usize
     }
 }
 
-/// Where one model instance writes its notes. Muted when it has no cells.
-// In this order both parts are copied in the same pieces alone and as one; a copy in other pieces than those just written waits
-// for them, in every call of a model.
+/// Where one model instance writes its notes. Muted if it has no cells.
+// The field order makes both parts copy in the same pieces alone and together; a copy in other pieces than those just written
+// stalls, in every call of a model.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct Notes<'a> {
@@ -465,7 +458,7 @@ pub struct Notes<'a> {
 }
 
 impl<'a> Notes<'a> {
-    /// Notes that nobody reads.
+    /// Muted notes.
     pub const MUTED: Notes<'static> = Notes {
         base: NoteBase {
             instance: 0,
@@ -486,13 +479,13 @@ impl<'a> Notes<'a> {
         Self { base, book }
     }
 
-    /// Notes of one instance that nobody reads.
+    /// Muted notes of one instance.
     #[inline]
     pub(crate) fn muted(base: NoteBase) -> Self {
         Self::new(&[], base)
     }
 
-    /// The same notes, with every step written down.
+    /// The same notes, recording every step.
     pub fn traced(self, trace: &'a Trace) -> Self {
         let book = Notebook {
             trace: Some(trace),
@@ -501,53 +494,55 @@ impl<'a> Notes<'a> {
         Self { book, ..self }
     }
 
-    /// Notes of one instance into the cells of a scratch, with nothing noted there yet.
+    /// Notes of one instance into the cells of a scratch, initially empty.
     #[inline]
     pub fn fresh(cells: &'a [Cell<Extent>], base: NoteBase) -> Self {
         Self::new(cells, base).anew()
     }
 
-    /// The same with nothing noted there yet.
+    /// The same notes, initially empty.
     #[inline]
     pub(crate) fn anew(self) -> Self {
         self.book.clear(self.base);
         self
     }
 
-    /// The same place to write, seen by a nested instance. It keeps nothing, because it may be asked at several speeds or in several oils.
+    /// The same target for a nested instance. It keeps nothing, because it may be evaluated at several speeds or with several oils.
     #[inline]
-    pub fn of(self, base: NoteBase) -> Self {
-        self.within(base).forgetting()
+    pub fn nested(self, base: NoteBase) -> Self {
+        self.nested_at_same_state(base).forgetting()
     }
 
-    /// The same for a nested instance that is asked at the speed, the oil and the level of this one alone, so that it may keep numbers too.
+    /// The same for a nested instance that is only evaluated at the speed, oil and level of this one, so that it may keep values,
+    /// too.
     #[inline]
-    pub fn within(self, base: NoteBase) -> Self {
+    pub fn nested_at_same_state(self, base: NoteBase) -> Self {
         Self { base, ..self }
     }
 
-    /// The same instance, noting into other cells.
+    /// The same instance with other cells.
     pub(crate) fn into(self, cells: &'a [Cell<Extent>]) -> Self {
         let book = Notebook { cells, ..self.book };
         Self { book, ..self }
     }
 
-    /// The same notes, with places for what each instance computes [`once`](Self::once); not a number where nothing was yet.
+    /// The same notes with space for the values that each instance computes [`once`](Self::once); NaN if not yet computed.
     #[inline]
     pub(crate) fn keeping(self, kept: &'a [Cell<[f64; MOST_KEPT]>]) -> Self {
         let book = Notebook { kept, ..self.book };
         Self { book, ..self }
     }
 
-    /// The same notes for an instance that is asked several times at a point, at other speeds or in other oil: nothing is kept.
+    /// The same notes for an instance that is evaluated several times at a point, at other speeds or with other oils: nothing is
+    /// kept.
     #[inline]
     pub(crate) fn forgetting(self) -> Self {
         self.keeping(&[])
     }
 
-    /// Numbers that follow from speed, oil and its level alone. The passes of one point and all points that differ in torque alone
-    /// share them; without a place to keep them they are computed anew. Each instance has one place, so that it asks for the same
-    /// numbers always. Limits and observed quantities are noted elsewhere.
+    /// Values that depend only on speed, oil and its level. The iterations of one point and all points that differ in torque only
+    /// share them; without space to keep them they are computed again. Each instance has one slot, so it must always compute the
+    /// same values. Limits and observed quantities are noted elsewhere.
     #[inline]
     pub fn once<const N: usize>(&self, numbers: impl FnOnce() -> [f64; N]) -> [f64; N] {
         const { assert!(0 < N && N <= MOST_KEPT) };
@@ -563,19 +558,13 @@ impl<'a> Notes<'a> {
         std::array::from_fn(|i| kept[i].get())
     }
 
-    /// True where nobody reads what is noted.
+    /// True if the notes are not used.
     #[inline]
     pub fn is_muted(&self) -> bool {
         self.book.cells.is_empty() && self.book.trace.is_none()
     }
 
-    /// True when the steps are written down.
-    #[inline]
-    pub fn is_traced(&self) -> bool {
-        self.book.trace.is_some()
-    }
-
-    /// Notes whether a value, in the limit's unit, lies in its stated range. Returns the value.
+    /// Notes whether a value, in the limit's unit, is in its stated range. Returns the value.
     #[inline]
     pub fn check(&self, limit: &Limit, x: f64) -> f64 {
         if let Some(cell) = self.book.cells.get(self.base.limits() + limit.index) {
@@ -596,15 +585,14 @@ impl<'a> Notes<'a> {
         x
     }
 
-    /// Shows an intermediate of the formula, in the source's symbol and unit, when an explanation was asked for.
-    /// Returns the value.
+    /// Shows an intermediate of the formula in an explanation, in the source's symbol and unit. Returns the value.
     #[inline]
     pub fn show(&self, symbol: &'static str, unit: &'static str, x: f64) -> f64 {
         self.step(symbol, unit, x);
         x
     }
 
-    /// Says which branch of the formula was taken, when an explanation was asked for.
+    /// Names the branch of the formula in an explanation.
     #[inline]
     pub fn branch(&self, taken: &'static str) {
         if let Some(trace) = self.book.trace {

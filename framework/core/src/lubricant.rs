@@ -1,4 +1,4 @@
-//! Oils: viscosity and density over temperature, behaviour under pressure, thermal and friction properties.
+//! Oils: viscosity and density over temperature, pressure behaviour, thermal and friction properties.
 
 pub mod density;
 pub mod index;
@@ -23,10 +23,10 @@ use walther::{Form, Walther};
 /// Zero of the Celsius scale. \[K\]
 pub const ZERO_CELSIUS: f64 = 273.15;
 
-/// Least viscosity for which ASTM D341 with a constant, and DIN 51563, hold. \[mm2/s\]
+/// Minimum viscosity for which ASTM D341 with a constant, and DIN 51563, are valid. \[mm2/s\]
 const THINNEST: f64 = 2.0;
 
-/// The key that is wrong or missing, why, and how to fix it.
+/// The wrong or missing key, the reason, and the fix.
 type Fault = (&'static str, String, String);
 
 /// A law of viscosity.
@@ -36,14 +36,14 @@ enum Law {
     Vogel(Vogel),
 }
 
-/// A law with the factor on what it says.
+/// A law with a factor on its result.
 #[derive(Debug, Clone)]
 struct Viscosity {
     law: Law,
     factor: f64,
 }
 
-/// An oil with its laws fitted.
+/// An oil with its fitted laws.
 #[derive(Debug, Clone)]
 pub struct Lubricant {
     viscosity: Viscosity,
@@ -58,11 +58,11 @@ pub struct Lubricant {
     rheology: RheologyEntry,
 }
 
-/// Usual properties of a kind of oil.
+/// Typical properties of a kind of oil.
 struct Usual {
-    /// Gold's constants s and t, after Gold et al. 2001.
+    /// Gold's constants s and t, according to Gold et al. 2001.
     gold: (f64, f64),
-    /// Thermal expansion, in the middle of the usual range. \[1/K\]
+    /// Thermal expansion, middle of the typical range. \[1/K\]
     expansion: f64,
     /// Density at 15 degC. \[kg/m3\]
     density: f64,
@@ -87,15 +87,15 @@ fn usual(kind: LubricantKind) -> Usual {
     }
 }
 
-/// The points of a viscosity law, degC and mm2/s, from what was written.
+/// The points of a viscosity law, degC and mm2/s, from the written values.
 fn points(entry: &ViscosityEntry) -> Result<Vec<(f64, f64)>, Fault> {
     let shop = |nu: f64| nu * 1e6;
     if !entry.points.is_empty() {
         if entry.kv40.is_some() || entry.kv100.is_some() || entry.vi.is_some() {
             return Err((
                 "viscosity",
-                "points beside kv40, kv100 or vi".to_owned(),
-                "give the one or the other".to_owned(),
+                "`points` is combined with `kv40`, `kv100` or `vi`".to_owned(),
+                "state either the points or two of `kv40`, `kv100`, `vi`".to_owned(),
             ));
         }
         let mut points: Vec<(f64, f64)> = entry.points.iter().map(|p| (p.at, shop(p.value))).collect();
@@ -103,8 +103,8 @@ fn points(entry: &ViscosityEntry) -> Result<Vec<(f64, f64)>, Fault> {
         if points.windows(2).any(|w| w[1].1 >= w[0].1 || w[1].0 <= w[0].0) {
             return Err((
                 "viscosity.points",
-                "viscosity does not fall from one temperature to the next".to_owned(),
-                "correct a point, or leave out one of two at the same temperature".to_owned(),
+                "viscosity does not decrease from one temperature to the next".to_owned(),
+                "correct a point, or remove one of two at the same temperature".to_owned(),
             ));
         }
         return Ok(points);
@@ -116,7 +116,7 @@ fn points(entry: &ViscosityEntry) -> Result<Vec<(f64, f64)>, Fault> {
                 (
                     "viscosity.vi",
                     format!("the viscosity index is not defined at kv100 {kv100} mm2/s"),
-                    "give kv40 and kv100".to_owned(),
+                    "state `kv40` and `kv100`".to_owned(),
                 )
             })?,
             kv100,
@@ -126,8 +126,8 @@ fn points(entry: &ViscosityEntry) -> Result<Vec<(f64, f64)>, Fault> {
             index::kv100(kv40, vi).ok_or_else(|| {
                 (
                     "viscosity.vi",
-                    format!("no kv100 belongs to kv40 {kv40} mm2/s and this index"),
-                    "give kv40 and kv100".to_owned(),
+                    format!("no kv100 exists for kv40 {kv40} mm2/s and this index"),
+                    "state `kv40` and `kv100`".to_owned(),
                 )
             })?,
         ),
@@ -136,16 +136,16 @@ fn points(entry: &ViscosityEntry) -> Result<Vec<(f64, f64)>, Fault> {
             return Err((
                 "viscosity",
                 format!(
-                    "three values for a law of two: kv40 {kv40} and kv100 {kv100} mm2/s have the index {own}, not {vi}"
+                    "three values for a law with two parameters: kv40 {kv40} and kv100 {kv100} mm2/s give the index {own}, not {vi}"
                 ),
-                "leave one of them out".to_owned(),
+                "remove one of them".to_owned(),
             ));
         }
         _ => {
             return Err((
                 "viscosity",
-                "one value for a law of two".to_owned(),
-                "give two of kv40, kv100, vi".to_owned(),
+                "one value for a law with two parameters".to_owned(),
+                "state two of `kv40`, `kv100`, `vi`".to_owned(),
             ));
         }
     };
@@ -153,7 +153,7 @@ fn points(entry: &ViscosityEntry) -> Result<Vec<(f64, f64)>, Fault> {
         return Err((
             "viscosity",
             format!("kv100 {kv100} mm2/s is not below kv40 {kv40} mm2/s"),
-            "exchange them or correct one".to_owned(),
+            "swap them or correct one".to_owned(),
         ));
     }
     Ok(vec![(40.0, kv40), (100.0, kv100)])
@@ -171,7 +171,10 @@ fn law(entry: &ViscosityEntry, density: &Density) -> Result<Law, Fault> {
         ViscosityLaw::Din51563 => Form::Din51563,
         ViscosityLaw::AstmD341Low => Form::AstmD341Low,
         ViscosityLaw::Vogel => {
-            let etas: Vec<(f64, f64)> = points.iter().map(|(t, nu)| (*t, nu * density.at(*t) * 1e-3)).collect();
+            let etas: Vec<(f64, f64)> = points
+                .iter()
+                .map(|(t, nu)| (*t, nu * density.rho_at(*t) * 1e-3))
+                .collect();
             return match etas[..] {
                 [first, second] if first.0 + entry.vogel_c > 1.0 => {
                     Ok(Law::Vogel(Vogel::through(first, second, entry.vogel_c)))
@@ -182,15 +185,15 @@ fn law(entry: &ViscosityEntry, density: &Density) -> Result<Law, Fault> {
                         .ok_or_else(|| {
                             (
                                 "viscosity.points",
-                                "the three points do not follow the law of Vogel".to_owned(),
+                                "no Vogel law fits the three points".to_owned(),
                                 "correct a point, or choose `law: astm_d341` with two of them".to_owned(),
                             )
                         })
                 }
                 _ => Err((
                     "viscosity.points",
-                    "the law of Vogel needs two or three points above its pole".to_owned(),
-                    "give two points, or three".to_owned(),
+                    "Vogel's law requires two or three points above its pole".to_owned(),
+                    "state two or three points".to_owned(),
                 )),
             };
         }
@@ -198,16 +201,16 @@ fn law(entry: &ViscosityEntry, density: &Density) -> Result<Law, Fault> {
     if let (Form::AstmD341 | Form::Din51563, Some((t, nu))) = (form, points.iter().find(|p| p.1 < THINNEST)) {
         return Err((
             "viscosity",
-            format!("{nu:.3} mm2/s at {t} degC is below the {THINNEST} mm2/s from which this law holds"),
-            "write `law: astm_d341_low`, which holds from 0.21 mm2/s".to_owned(),
+            format!("{nu:.3} mm2/s at {t} degC is below {THINNEST} mm2/s, the minimum of this law"),
+            "write `law: astm_d341_low`, which is valid from 0.21 mm2/s".to_owned(),
         ));
     }
     match points[..] {
         [first, second] => Ok(Law::Walther(Walther::through(first, second, form))),
         _ => Err((
             "viscosity.points",
-            format!("{} points for a law of two", points.len()),
-            "give two points, or `law: vogel` with three".to_owned(),
+            format!("{} points for a law with two parameters", points.len()),
+            "state two points, or `law: vogel` with three".to_owned(),
         )),
     }
 }
@@ -225,7 +228,7 @@ impl Lubricant {
     /// An oil from its entry.
     ///
     /// # Errors
-    /// The key that is wrong or missing, why, and how to fix it.
+    /// The wrong or missing key, the reason, and the fix.
     pub fn new(entry: &LubricantEntry) -> Result<Self, (&'static str, String, String)> {
         let usual = usual(entry.kind.unwrap_or_default());
         let written_density = entry.density.unwrap_or_default();
@@ -233,14 +236,14 @@ impl Lubricant {
             return Err((
                 "viscosity",
                 "no viscosity is stated".to_owned(),
-                "add `viscosity: { kv40: 32 mm2/s, kv100: 6 mm2/s }` with your figures, or a `designation`".to_owned(),
+                "add `viscosity: { kv40: 32 mm2/s, kv100: 6 mm2/s }` with your values, or a `designation`".to_owned(),
             ));
         };
         if written_density.law != DensityLaw::Linear && written_density.expansion.is_some() {
             return Err((
                 "density.expansion",
-                "an expansion beside a law that has its own".to_owned(),
-                "leave `expansion` out, or write `law: linear`".to_owned(),
+                "`expansion` is combined with a law that defines its own expansion".to_owned(),
+                "omit `expansion`, or write `law: linear`".to_owned(),
             ));
         }
         let density = density(&written_density, &usual);
@@ -254,7 +257,7 @@ impl Lubricant {
                 },
                 PressureViscosityLaw::Wooster => PressureViscosity::Wooster,
                 PressureViscosityLaw::SoKlaus => {
-                    let nu = |t: f64| (t, viscosity.nu_eta(t, density.at(t)).0);
+                    let nu = |t: f64| (t, viscosity.nu_eta(t, density.rho_at(t)).0);
                     PressureViscosity::SoKlaus {
                         slope: Walther::through(nu(40.0), nu(100.0), Form::AstmD341).b,
                     }
@@ -262,7 +265,7 @@ impl Lubricant {
             },
         };
         Ok(Self {
-            nu40: viscosity.nu_eta(40.0, density.at(40.0)).0 * 1e-6,
+            nu40: viscosity.nu_eta(40.0, density.rho_at(40.0)).0 * 1e-6,
             viscosity,
             density,
             pressure,
@@ -277,7 +280,7 @@ impl Lubricant {
 
     /// Density at a temperature in degC. \[kg/m3\]
     pub fn density(&self, temperature: f64) -> f64 {
-        self.density.at(temperature)
+        self.density.rho_at(temperature)
     }
 
     /// Specific heat at a temperature in degC. \[J/(kg K)\]
@@ -286,15 +289,15 @@ impl Lubricant {
             .unwrap_or_else(|| thermal::heat_capacity(self.density.rho15(), temperature))
     }
 
-    /// What is stated of its behaviour in a contact.
+    /// The stated behaviour in a contact.
     pub fn rheology(&self) -> &RheologyEntry {
         &self.rheology
     }
 
-    /// The law of Roelands that has the oil's viscosity at 40 and 100 degC, with an exponent over pressure; absent, the stated
-    /// one, else the one that gives the oil's pressure-viscosity coefficient at 40 degC.
+    /// Roelands' law through the oil's viscosity at 40 and 100 degC, with an exponent over pressure; default: the stated one, else
+    /// the one that reproduces the oil's pressure-viscosity coefficient at 40 degC.
     pub fn roelands(&self, z: Option<f64>) -> Roelands {
-        let [cold, hot] = [40.0, 100.0].map(|t| self.at(t));
+        let [cold, hot] = [40.0, 100.0].map(|t| self.oil_at(t));
         let z = z.or(self.rheology.z);
         Roelands::through(
             (cold.temperature, cold.eta),
@@ -309,7 +312,7 @@ impl Lubricant {
     }
 
     /// The oil at a temperature in degC.
-    pub fn at(&self, temperature: f64) -> Oil {
+    pub fn oil_at(&self, temperature: f64) -> Oil {
         let rho = self.density(temperature);
         let (nu, eta, beta) = match &self.viscosity.law {
             Law::Walther(law) => {
@@ -391,14 +394,14 @@ mod tests {
         ] {
             let oil = oil(kind);
             assert!(
-                (oil.at(100.0).alpha / at10 - 1.0).abs() < 1e-5,
+                (oil.oil_at(100.0).alpha / at10 - 1.0).abs() < 1e-5,
                 "{kind:?} {}",
-                oil.at(100.0).alpha
+                oil.oil_at(100.0).alpha
             );
             assert!(
-                (oil.at(40.0).alpha / at100 - 1.0).abs() < 1e-5,
+                (oil.oil_at(40.0).alpha / at100 - 1.0).abs() < 1e-5,
                 "{kind:?} {}",
-                oil.at(40.0).alpha
+                oil.oil_at(40.0).alpha
             );
         }
     }
@@ -410,11 +413,11 @@ mod tests {
         entry.viscosity.as_mut().unwrap().factor = 0.8;
         let thinned = Lubricant::new(&entry).unwrap();
         for t in [-20.0, 40.0, 70.0, 130.0] {
-            assert!((thinned.at(t).nu / stated.at(t).nu - 0.8).abs() < 1e-12);
+            assert!((thinned.oil_at(t).nu / stated.oil_at(t).nu - 0.8).abs() < 1e-12);
             assert!((thinned.eta(t) / stated.eta(t) - 0.8).abs() < 1e-12);
             assert_eq!(
-                (thinned.at(t).beta, thinned.at(t).rho),
-                (stated.at(t).beta, stated.at(t).rho)
+                (thinned.oil_at(t).beta, thinned.oil_at(t).rho),
+                (stated.oil_at(t).beta, stated.oil_at(t).rho)
             );
         }
     }
@@ -457,7 +460,7 @@ mod tests {
         };
         let two = [(100.0, 5.9), (40.0, 27.3)];
         let three = [(40.0, 27.3), (80.0, 8.85), (100.0, 5.9)];
-        let nu = |oil: &Lubricant, t: f64| oil.at(t).nu * 1e6;
+        let nu = |oil: &Lubricant, t: f64| oil.oil_at(t).nu * 1e6;
         for law in [
             ViscosityLaw::AstmD341,
             ViscosityLaw::Din51563,
@@ -465,7 +468,7 @@ mod tests {
             ViscosityLaw::Vogel,
         ] {
             let oil = with(&two, law).unwrap();
-            // The inverse of the thin-oil form is a fit of its own, good to some 1e-4.
+            // The inverse of the thin-oil form is a separate fit, accurate to about 1e-4.
             assert!((nu(&oil, 40.0) / 27.3 - 1.0).abs() < 3e-4, "{law:?}");
             assert!((nu(&oil, 100.0) / 5.9 - 1.0).abs() < 3e-4, "{law:?}");
         }
@@ -475,7 +478,7 @@ mod tests {
             with(&[(40.0, 5.0), (100.0, 6.0)], ViscosityLaw::AstmD341)
                 .unwrap_err()
                 .1
-                .contains("fall")
+                .contains("decrease")
         );
     }
 
@@ -484,7 +487,7 @@ mod tests {
         let alpha = |law, value| {
             let mut entry = entry(Some(100.0), Some(11.0), None);
             entry.pressure_viscosity = PressureViscosityEntry { law, value };
-            Lubricant::new(&entry).unwrap().at(40.0).alpha
+            Lubricant::new(&entry).unwrap().oil_at(40.0).alpha
         };
         for law in [
             PressureViscosityLaw::Gold,
@@ -502,7 +505,7 @@ mod tests {
 
     #[test]
     fn every_usual_property_is_that_of_its_source() {
-        // Typed a second time from the sources, without a look at `usual`.
+        // Independently transcribed from the sources.
         let table = include_str!("../tests/tables/oil_kinds.csv");
         let lines: Vec<Vec<&str>> = table
             .lines()

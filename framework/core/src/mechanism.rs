@@ -1,8 +1,7 @@
-//! Mechanisms: physical causes of loss, each with its own trait, context and answer.
+//! Mechanisms: physical causes of loss, each with its own trait, context and result.
 //!
-//! A mechanism is written once and read often: an empty marker type, a plain trait that models implement, a context that
-//! lists each quantity once ([`context!`](crate::context)), and, where its parts have a section in the document, an
-//! attachment ([`crate::attach`]).
+//! A mechanism consists of an empty marker type, a plain trait that models implement, a context that lists each quantity once
+//! ([`context!`](crate::context)), and, if its parts have a section in the document, an attachment ([`crate::attach`]).
 
 pub mod auxiliary;
 pub mod bearing;
@@ -14,11 +13,15 @@ pub mod heat_link;
 mod law;
 pub mod mean_friction;
 pub mod planetary_drag;
+pub mod scalar;
 pub mod seal;
+mod slot;
 pub mod synchronizer;
 pub mod tooth_friction;
 
 pub use law::{Follows, Law, ROUNDED, settle};
+pub use scalar::{Lookup, Scalar};
+pub use slot::{ModelRef, NamedSlots, Slot};
 
 use std::sync::Arc;
 
@@ -27,7 +30,6 @@ use serde::de::DeserializeOwned;
 
 use crate::attach::Attach;
 use crate::document::Unit;
-use crate::generic::Scalar;
 use crate::lanes::{LaneNotes, LossLanes};
 use crate::loads::{LoadLanes, StaticRating};
 use crate::loss::{Loss, NoteBase, Notes, Term, Undefined};
@@ -36,82 +38,86 @@ use crate::loss::{Loss, NoteBase, Notes, Term, Undefined};
 pub trait Mechanism: Sized + 'static {
     /// Name in documents: snake_case, a noun.
     const KEY: &'static str;
-    /// What the mechanism is, as a sentence.
+    /// Description, as a sentence.
     const MEANING: &'static str;
-    /// What a model answers, for `constant`, `formula` and `table`. Ends in its \[unit\].
+    /// Result of a model, for `constant`, `formula` and `table`. Ends with its \[unit\].
     const ANSWER: &'static str;
-    /// A part that the conformance suite and `eval` may take, in YAML.
+    /// An example part for the conformance suite and `eval`, in YAML.
     const EXAMPLE: &'static str;
     /// The quantities of the context, as listed by [`context!`](crate::context).
     const QUANTITIES: &'static [Quantity<Self>];
     /// The laws between them, as listed by [`context!`](crate::context).
     const LAWS: &'static [Law<Self>] = &[];
-    /// The term that `constant`, `formula` and `table` fill.
+    /// The term set by `constant`, `formula` and `table`.
     const TOTAL: Term = Term::no_load(0, "total");
-    /// What the component is: the typed fields of its entry. [`NoPart`] where there is none. Derived values are
-    /// computed while it is deserialised (`serde(try_from)`), so that a part is ready when it exists.
+    /// The component: the typed fields of its entry. [`NoPart`] if there is none. Derived values are computed during
+    /// deserialisation (`serde(try_from)`), so that an existing part is complete.
     type Part: DeserializeOwned + JsonSchema + Send + Sync;
-    /// All that a model may look at; made by [`context!`](crate::context).
+    /// All inputs of a model; defined by [`context!`](crate::context).
     type At<'a>: Copy + Noted<'a>;
     /// A [`Loss`], or an `f64` for a coefficient.
     type Answer: Answer;
     /// The plain trait that a model implements, as `dyn`.
     type Model: ?Sized + Send + Sync;
 
-    /// Axes of tables, and `answer`, that count by their logarithms where all values are above zero.
+    /// Table axes, and `answer`, that are logarithmic if all values are positive.
     const LOGARITHMIC: &'static [&'static str] = &[];
-    /// Names among `none`, `constant`, `formula` and `table` that models of the mechanism's own take.
+    /// Names among `none`, `constant`, `formula` and `table` that the mechanism's own models use.
     const OWN: &'static [&'static str] = &[];
 
-    /// What to state so that a quantity is known for a part; absent where it is known. Tables and formulas ask.
+    /// What to state so that a quantity is known for a part; `None` if it is known. Used by tables and formulas.
     fn needs(_part: &Self::Part, _quantity: &str) -> Option<&'static str> {
         None
     }
-    /// A context at its usual point, from which `eval` and the conformance grid depart.
+    /// A context at its usual point, the base point of `eval` and the conformance grid.
     fn usual<'a>(part: &'a Self::Part, notes: Notes<'a>) -> Self::At<'a>;
     /// Calls the model.
     fn answer(model: &Self::Model, at: &Self::At<'_>) -> Result<Self::Answer, Undefined>;
-    /// The relative speed that the answer's moments work against. \[rad/s\] One for a coefficient.
+    /// The relative speed opposed by the moments of the result. \[rad/s\] One for a coefficient.
     fn speed(_at: &Self::At<'_>) -> f64 {
         1.0
     }
-    /// What is wrong with the answers of a model side by side, beside those at single points around a context; for mechanisms whose
-    /// models may have a way of their own to several points.
-    fn side_by_side(_model: &Self::Model, _at: &Self::At<'_>, _notes: NoteBase) -> Option<&'static str> {
+    /// Compares the batched results of models with those at single points around a context; for mechanisms whose models may
+    /// implement batched evaluation. Returns the faults.
+    fn compare_batched(_model: &Self::Model, _at: &Self::At<'_>, _notes: NoteBase) -> Option<&'static str> {
         None
     }
-    /// The door through which `none`, `constant`, `formula` and `table` serve this mechanism.
+    /// The adapter through which `none`, `constant`, `formula` and `table` serve this mechanism.
     fn scalar(law: Scalar<Self>) -> Arc<Self::Model>;
 }
 
-/// A context that carries notes; [`context!`](crate::context) implements it.
+/// A context with notes; [`context!`](crate::context) implements it.
 pub trait Noted<'a> {
-    /// Where limits, observed quantities and steps are noted.
+    /// Target of limits, observed quantities and steps.
     fn notes(&self) -> Notes<'a>;
 }
 
-/// A mechanism whose parts have a section of their own in the document.
+/// A mechanism whose parts have their own section in the document.
 pub trait Component: Mechanism<Answer = Loss> {
     /// Name of the section: the plural of the part.
     const SECTION: &'static str;
-    /// Where its parts sit; decides relative speed, loads, oil and who feels the reaction.
+    /// Attachment of its parts; determines relative speed, loads, oil and which members take the reaction.
     type Attachment: Attach;
     /// The context of a part at its site.
-    fn at<'a>(part: &'a Self::Part, site: <Self::Attachment as Attach>::Site<'a>, notes: Notes<'a>) -> Self::At<'a>;
-    /// Losses at several loads of the support side by side, where all else is as at `at`; false where the mechanism has no way
-    /// of its own, so that its models are asked once for each load.
+    fn context<'a>(
+        part: &'a Self::Part,
+        site: <Self::Attachment as Attach>::Site<'a>,
+        notes: Notes<'a>,
+    ) -> Self::At<'a>;
+    /// Batched losses at several loads of the support, with all other quantities as in `at`; false if the mechanism has no batched
+    /// evaluation, so that its models are evaluated once per load.
     fn losses(_model: &Self::Model, _at: &Self::At<'_>, _loads: &LoadLanes, _losses: &mut LossLanes) -> bool {
         false
     }
-    /// False where nothing that a model notes hangs on the load.
+    /// False if no note of a model depends on the load.
     fn notes_hang_on_load(_model: &Self::Model) -> bool {
         true
     }
-    /// Static load rating of a part that carries load, where it is known.
+    /// Static load rating of a part that carries load, if known.
     fn static_rating(_part: &Self::Part) -> Option<StaticRating> {
         None
     }
-    /// Notes what models note at these loads; false where [`losses`](Self::losses) has no way of its own.
+    /// Writes the notes of models at these loads; false if [`losses`](Self::losses) has no batched evaluation.
     fn note(_model: &Self::Model, _at: &Self::At<'_>, _loads: &LoadLanes, _notes: LaneNotes<'_>) -> bool {
         false
     }
@@ -122,23 +128,23 @@ pub trait Component: Mechanism<Answer = Loss> {
 pub struct NoPart {}
 
 mod sealed {
-    /// Nothing outside of the framework implements what this bounds.
+    /// Sealed: only the framework implements the traits bounded by it.
     pub trait Sealed {}
     impl Sealed for crate::loss::Loss {}
     impl Sealed for f64 {}
 }
 
-/// What a mechanism's models answer: a [`Loss`] or a coefficient; the framework has no use for another.
+/// The result of a mechanism's models: a [`Loss`] or a coefficient. Sealed.
 pub trait Answer: sealed::Sealed + Copy + Send + Sync {
-    /// The named values of the answer at a relative speed: for a loss, the power of each term. \[W or the answer's unit\]
+    /// The named values of the result at a relative speed: for a loss, the power of each term. \[W or the unit of the result\]
     fn values(&self, terms: &'static [Term], speed: f64) -> Vec<(&'static str, f64)>;
-    /// True when the answer is finite and not negative.
+    /// True if the result is finite and not negative.
     fn is_sound(&self) -> bool;
-    /// One number that stands for the whole answer: the power, or the coefficient.
+    /// One number for the whole result: the power, or the coefficient.
     fn total(&self, speed: f64) -> f64;
-    /// The moment about a relative speed; absent for a coefficient. \[Nm\]
+    /// The moment about a relative speed; `None` for a coefficient. \[Nm\]
     fn moment(&self, speed: f64) -> Option<f64>;
-    /// Index of a term that is filled but not listed.
+    /// Index of a term that is set but not listed.
     fn stray(&self, terms: &[Term]) -> Option<usize>;
 }
 
@@ -178,19 +184,19 @@ impl Answer for f64 {
     }
 }
 
-/// One entry of a mechanism's context. It can be read and set, because `eval` and the conformance grid make contexts.
+/// One entry of a mechanism's context. It can be read and set, because `eval` and the conformance grid build contexts.
 pub struct Quantity<M: Mechanism> {
     /// Name in formulas, tables and `eval`.
     pub name: &'static str,
-    /// What it is and, at the end, its \[unit\].
+    /// Description, with its \[unit\] at the end.
     pub doc: &'static str,
     /// Usual value in the documented unit.
     pub usual: f64,
-    /// Least value at which models are tested, in the documented unit. The framework does not clip.
+    /// Minimum value at which models are tested, in the documented unit. The framework does not clip.
     pub least: f64,
-    /// Greatest value at which models are tested, in the documented unit. The framework does not clip.
+    /// Maximum value at which models are tested, in the documented unit. The framework does not clip.
     pub greatest: f64,
-    /// Where the framework takes the value from.
+    /// Source of the value in the framework.
     pub from: &'static str,
     /// Reads the value, SI.
     pub get: for<'a, 'b> fn(&'b M::At<'a>) -> f64,
@@ -202,7 +208,7 @@ impl<M: Mechanism> Quantity<M> {
     /// The documented unit.
     ///
     /// # Panics
-    /// If the doc comment does not end in a unit; the conformance suite finds that.
+    /// If the doc comment does not end with a unit; the conformance suite finds that.
     pub fn unit(&self) -> &'static Unit {
         Unit::of_doc(self.doc).unwrap_or_else(|| panic!("the doc comment of `{}` does not end in a [unit]", self.name))
     }
@@ -213,31 +219,31 @@ impl<M: Mechanism> Quantity<M> {
 pub struct QuantityDoc {
     /// Name.
     pub name: &'static str,
-    /// Meaning and unit.
+    /// Description and unit.
     pub doc: &'static str,
     /// Usual value in the documented unit.
     pub usual: f64,
-    /// Least value in the documented unit.
+    /// Minimum value in the documented unit.
     pub least: f64,
-    /// Greatest value in the documented unit.
+    /// Maximum value in the documented unit.
     pub greatest: f64,
-    /// Where the framework takes the value from.
+    /// Source of the value in the framework.
     pub from: &'static str,
 }
 
-/// Declares the context of a mechanism: each quantity once, with its meaning and unit in the doc comment, its usual value,
-/// the range in which models are tested, and where the value comes from. The fields are SI; the three numbers are in the
-/// documented unit. A description may lead out of the range, and the framework does not clip: a model answers there too, or
-/// says that it is undefined.
+/// Declares the context of a mechanism: each quantity once, with its description and unit in the doc comment, its usual value, the
+/// range in which models are tested, and the source of the value. The fields are SI; the three numbers are in the documented unit.
+/// A description may exceed the range, and the framework does not clip: a model returns a result there too, or reports that it is
+/// undefined.
 ///
 /// The same list feeds rustdoc, `models`, the schema and input of `eval`, the variables of `formula`, the axes of `table`
 /// and the grid of the conformance suite.
 ///
-/// Quantities that hang on each other stand below in `laws`: a [`Law`] as one writes it, and for each of its quantities what
-/// follows from the others; `usually` before the brace where it need not hold.
+/// Quantities that depend on each other are listed below in `laws`: a [`Law`] in its written form, and for each of its quantities
+/// the value from the others; `usually` before the brace if the law need not hold.
 ///
-/// A context may gain quantities, so other crates do not write it out (`#[non_exhaustive]`): they take the usual one, or the
-/// one at hand, and change what they know (`with`, `nested`).
+/// A context may gain quantities, so other crates do not construct it (`#[non_exhaustive]`): they start from the usual context or
+/// an existing one, and change the known quantities (`with`, `nested`).
 #[macro_export]
 macro_rules! context {
     ($(#[doc = $head:literal])+ pub struct $At:ident of $M:ty {
@@ -249,7 +255,7 @@ macro_rules! context {
         #[derive(Clone, Copy)]
         #[non_exhaustive]
         pub struct $At<'a> {
-            /// What the component is.
+            /// The component.
             pub part: &'a <$M as $crate::mechanism::Mechanism>::Part,
             $(
                 $(#[doc = $doc])+
@@ -258,7 +264,7 @@ macro_rules! context {
                     stringify!($greatest), ". From ", $from, ".")]
                 pub $name: f64,
             )+
-            /// Where limits, observed quantities and steps are noted.
+            /// Target of limits, observed quantities and steps.
             pub notes: $crate::loss::Notes<'a>,
         }
 
@@ -282,7 +288,7 @@ macro_rules! context {
 
             /// The context at its usual point.
             pub fn usual(part: &'a <$M as $crate::mechanism::Mechanism>::Part, notes: $crate::loss::Notes<'a>) -> Self {
-                // Models ask others at contexts of their own in every point, so units are looked up once.
+                // Models evaluate others at their own contexts at every point, so units are looked up once.
                 static USUAL: ::std::sync::OnceLock<[f64; <$At<'static>>::QUANTITIES.len()]> = ::std::sync::OnceLock::new();
                 let [$($name),+] = *USUAL.get_or_init(|| {
                     ::std::array::from_fn(|i| {
@@ -300,13 +306,13 @@ macro_rules! context {
                 self
             }
 
-            /// The same for the model of a nested slot, which has notes of its own.
+            /// The same for the model of a nested slot, which has its own notes.
             #[inline]
-            pub fn nested(&self, slot: &$crate::registry::Slot<$M>) -> Self {
-                self.with(|to| to.notes = self.notes.of(slot.notes))
+            pub fn nested(&self, slot: &$crate::mechanism::Slot<$M>) -> Self {
+                self.with(|to| to.notes = self.notes.nested(slot.notes))
             }
 
-            /// Notes whether a value lies in the range of a limit; returns the value.
+            /// Notes whether a value is in the range of a limit; returns the value.
             #[inline]
             pub fn check(&self, limit: &$crate::loss::Limit, x: f64) -> f64 {
                 self.notes.check(limit, x)
@@ -324,14 +330,14 @@ macro_rules! context {
                 self.notes.show(symbol, unit, x)
             }
 
-            /// Numbers that follow from speed, oil and its level alone, computed once for all passes of a point and all
-            /// points that differ in torque alone.
+            /// Values that depend only on speed, oil and its level, computed once for all iterations of a point and all points that
+            /// differ in torque only.
             #[inline]
             pub fn once<const N: usize>(&self, numbers: impl FnOnce() -> [f64; N]) -> [f64; N] {
                 self.notes.once(numbers)
             }
 
-            /// Names the branch that was taken in an explanation.
+            /// Names the branch in an explanation.
             #[inline]
             pub fn branch(&self, taken: &'static str) {
                 self.notes.branch(taken);
@@ -340,7 +346,7 @@ macro_rules! context {
     };
 }
 
-/// Shop units at the point of use: an empirical formula shows its units where it is written.
+/// Unit conversions for empirical formulas, which then show their units at the point of use.
 pub trait ShopUnits: sealed::Sealed {
     /// rad/s to revolutions per minute.
     fn rpm(self) -> f64;

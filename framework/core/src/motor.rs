@@ -13,9 +13,9 @@ use crate::table::{Axis, Interpolation, Outside, Reading, Table, clamped};
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct MotorEntry {
     /// CSV file, relative to this one: `speed [rpm]`, `torque [Nm]`, and `efficiency [-]` or `loss [W]`; with `temperature [degC]`, one
-    /// map for each temperature. Rows of negative torque are generating.
+    /// map for each temperature. Rows with negative torque are for generating.
     pub map: String,
-    /// Share of the losses that arises in the rotor.
+    /// Share of the losses that occurs in the rotor.
     #[serde(default)]
     pub rotor_share: RotorShare,
     /// Port that the motor drives.
@@ -27,20 +27,20 @@ pub struct MotorEntry {
     pub stator: String,
 }
 
-/// Share of the losses of a motor that arises in its rotor.
+/// Share of the losses of a motor that occurs in its rotor.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum RotorShare {
     /// The same at all speeds. [-]
     One(#[schemars(range(min = 0.0, max = 1.0))] f64),
-    /// Over the speed: straight lines between the values, constant beyond.
+    /// Over speed: linear between the values, constant beyond.
     Over(#[schemars(length(min = 1))] Vec<RotorShareAt>),
 }
 
 /// Share at a speed.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RotorShareAt {
-    /// Speed of the motor; rises along the list. [rpm]
+    /// Speed of the motor; increases along the list. [rpm]
     #[schemars(range(min = 0.0, max = 1e6))]
     pub speed: f64,
     /// Share. [-]
@@ -53,7 +53,7 @@ fn input() -> String {
 }
 
 impl Default for RotorShare {
-    // Assumed: motors with magnets inside have 0.1 to 0.3, rising with speed.
+    // Assumed: motors with interior magnets have 0.1 to 0.3, increasing with speed.
     fn default() -> Self {
         Self::One(0.2)
     }
@@ -63,13 +63,13 @@ impl RotorShare {
     /// The share at a speed \[rad/s\] of either sign. \[-\]
     ///
     /// # Errors
-    /// If the speeds of the list do not rise.
-    pub fn at(&self, speed: f64) -> Result<f64, MeasuredFault> {
+    /// If the speeds of the list do not increase.
+    pub fn share_at(&self, speed: f64) -> Result<f64, MeasuredFault> {
         match self {
             Self::One(share) => Ok(*share),
             Self::Over(list) => {
                 if list.windows(2).any(|pair| pair[1].speed <= pair[0].speed) {
-                    return Err(fault("the speeds of `rotor_share` do not rise", "sort them"));
+                    return Err(fault("the speeds of `rotor_share` do not increase", "sort them"));
                 }
                 let speeds: Vec<f64> = list.iter().map(|s| s.speed).collect();
                 let shares: Vec<f64> = list.iter().map(|s| s.share).collect();
@@ -84,21 +84,21 @@ impl RotorShare {
 pub struct MotorLoss {
     /// \[W\]
     pub loss: f64,
-    /// True where speed, torque or temperature lie outside the map, whose end then holds.
+    /// True if speed, torque or temperature is outside the map, whose end value is then used.
     pub outside: bool,
 }
 
-/// Losses over speed, torque and, where the file has it, temperature.
+/// Losses over speed, torque and, if the file has it, temperature.
 ///
-/// The loss is interpolated, not the efficiency, which has no value where no power flows. Below the slowest speed and the
-/// smallest torque the loss of the nearest node holds; so it does in corners that the motor does not reach, where the largest
-/// torque at that speed tells it. At standstill without torque the motor is off: there is no loss.
+/// The loss is interpolated, not the efficiency, which is undefined without power. Below the lowest speed and the smallest torque
+/// the loss of the nearest node is used. The same applies in corners that the motor does not reach, where it is that of the largest
+/// torque at that speed. At standstill without torque the motor is off: the loss is zero.
 #[derive(Debug, Clone)]
 pub struct MotorMap {
     motoring: Quadrant,
-    /// Absent, generating loses what motoring does at the same torque.
+    /// `None`: generating has the losses of motoring at the same torque.
     generating: Option<Quadrant>,
-    /// How the file was understood, in sentences.
+    /// How the file was interpreted, in sentences.
     pub notes: Vec<String>,
 }
 
@@ -108,11 +108,11 @@ struct Quadrant {
     table: Table,
     /// Speeds and the largest torque at each that the file holds.
     reach: (Vec<f64>, Vec<f64>),
-    /// First and last temperature, where the file has several.
+    /// First and last temperature, if the file has several.
     temperatures: Option<(f64, f64)>,
 }
 
-/// One row; the torque without its sign.
+/// One row; magnitude of the torque.
 #[derive(Clone, Copy)]
 struct Node {
     line: u64,
@@ -136,19 +136,19 @@ const QUANTITIES: [Wanted; 5] = [
     ("temperature", "degC"),
 ];
 
-/// How to fix a header.
+/// Fix for a wrong header.
 const COLUMNS: &str = "a map has columns `speed [rpm],torque [Nm],loss [W]`, or `efficiency [-]`";
 
-/// A grid with fewer of its nodes stated than this is none: speeds or torques of the rows differ where they should be equal.
+/// Minimum share of stated nodes of a grid; below it, speeds or torques of the rows differ that should be equal.
 const LEAST_FILLED: f64 = 0.3;
 
 impl MotorMap {
-    /// Reads the bytes of a CSV file: `speed [rpm]`, `torque [Nm]`, `efficiency [-]` or `loss [W]`, and if wanted
-    /// `temperature [degC]`. The loss counts where both stand. Rows of an efficiency without speed or torque say nothing and
-    /// are left out.
+    /// Reads the bytes of a CSV file: `speed [rpm]`, `torque [Nm]`, `efficiency [-]` or `loss [W]`, and optionally `temperature
+    /// [degC]`. If both are given, the loss is used. Rows with an efficiency and without speed or torque carry no information and
+    /// are skipped.
     ///
     /// # Errors
-    /// What is wrong, with line and column.
+    /// The problem, with line and column.
     pub fn read(bytes: &[u8]) -> Result<Self, Vec<MeasuredFault>> {
         let none = Ordered::default();
         let sheet = Sheet::open(bytes, Form::default(), &QUANTITIES, (&none, &none)).map_err(in_header)?;
@@ -175,34 +175,34 @@ impl MotorMap {
             }
         }
         if !faulty.is_empty() {
-            return Err(limited_faults(faulty, "correct the cell, or leave the row out"));
+            return Err(limited_faults(faulty, "correct the cell, or remove the row"));
         }
         let mut notes = sheet.notes.clone();
         if silent > 0 {
             notes.push(format!(
-                "{silent} rows without speed or torque left out: an efficiency tells no loss there"
+                "{silent} rows without speed or torque skipped: an efficiency defines no loss there"
             ));
         }
         let [motoring, generating] = quadrants;
         Ok(Self {
-            motoring: Quadrant::of(&motoring, "motoring").map_err(|f| vec![f])?,
+            motoring: Quadrant::from_nodes(&motoring, "motoring").map_err(|f| vec![f])?,
             generating: if generating.is_empty() {
-                notes.push("no negative torques: generating loses what motoring does at the same torque".to_owned());
+                notes.push("no negative torques: generating has the losses of motoring at the same torque".to_owned());
                 None
             } else {
-                Some(Quadrant::of(&generating, "generating").map_err(|f| vec![f])?)
+                Some(Quadrant::from_nodes(&generating, "generating").map_err(|f| vec![f])?)
             },
             notes,
         })
     }
 
-    /// True where the losses of motoring depend on the temperature.
+    /// True if the motoring losses depend on temperature.
     pub fn has_temperature(&self) -> bool {
         self.motoring.temperatures.is_some()
     }
 
-    /// The loss at a speed \[rad/s\], a torque \[Nm\] and a temperature \[degC\], which a map without temperatures leaves aside.
-    /// Torque against the speed is generating. In a map with temperatures each quadrant holds those of its own rows.
+    /// The loss at a speed \[rad/s\], a torque \[Nm\] and a temperature \[degC\], which a map without temperatures ignores. Torque
+    /// against the speed is generating. In a map with temperatures each quadrant uses those of its own rows.
     pub fn loss(&self, speed: f64, torque: f64, temperature: f64) -> MotorLoss {
         if speed == 0.0 && torque == 0.0 {
             return MotorLoss {
@@ -219,14 +219,14 @@ impl MotorMap {
         quadrant.loss(speed.abs(), torque.abs(), temperature)
     }
 
-    /// The nodes of the motoring map that the file and its filled corners give: speed \[rad/s\], torque \[Nm\], temperature \[degC\]
-    /// where the map has it, and loss \[W\].
+    /// The nodes of the motoring map, including filled corners: speed \[rad/s\], torque \[Nm\], temperature \[degC\] if the map has
+    /// it, and loss \[W\].
     pub fn nodes(&self) -> Vec<(Vec<f64>, f64)> {
         self.motoring.table.points()
     }
 }
 
-/// A map has its units in the header: there is no other place to state them.
+/// A map must have its units in the header: they cannot be stated elsewhere.
 fn in_header(faults: Vec<MeasuredFault>) -> Vec<MeasuredFault> {
     let unit = |f: MeasuredFault| {
         if f.help.starts_with("state it") {
@@ -243,7 +243,7 @@ fn lacking(sheet: &Sheet, what: &str) -> MeasuredFault {
     fault(missing.message, COLUMNS)
 }
 
-/// A node and whether it is generating; none where an efficiency tells no loss.
+/// A node and whether it is generating; `None` if an efficiency defines no loss.
 fn node(sheet: &Sheet, row: usize) -> Result<Option<(Node, bool)>, String> {
     let speed = sheet.not_negative(row, SPEED)?.unwrap_or(0.0);
     let torque = sheet.number(row, TORQUE)?.unwrap_or(0.0);
@@ -258,7 +258,7 @@ fn node(sheet: &Sheet, row: usize) -> Result<Option<(Node, bool)>, String> {
         let least = if torque < 0.0 { 0.0 } else { 1e-3 };
         if !(least..=1.0).contains(&efficiency) {
             return Err(format!(
-                "{}: an efficiency of {efficiency}; it lies between 0 and 1, or 0 and 100 %",
+                "{}: an efficiency of {efficiency}; it must be between 0 and 1, or 0 and 100 %",
                 sheet.at(row, EFFICIENCY)
             ));
         }
@@ -278,7 +278,7 @@ fn node(sheet: &Sheet, row: usize) -> Result<Option<(Node, bool)>, String> {
     Ok(Some((node, torque < 0.0)))
 }
 
-/// The different values, rising.
+/// The distinct values, increasing.
 fn rising(values: impl Iterator<Item = f64>) -> Vec<f64> {
     let mut values: Vec<f64> = values.collect();
     values.sort_by(f64::total_cmp);
@@ -287,21 +287,21 @@ fn rising(values: impl Iterator<Item = f64>) -> Vec<f64> {
     values
 }
 
-/// Place of a value among the different ones.
+/// Index of a value among the distinct ones.
 fn place(values: &[f64], x: f64) -> usize {
     let after = values.partition_point(|v| *v < x - 1e-9 * x.abs());
     after.min(values.len() - 1)
 }
 
 impl Quadrant {
-    fn of(nodes: &[Node], what: &str) -> Result<Self, MeasuredFault> {
+    fn from_nodes(nodes: &[Node], what: &str) -> Result<Self, MeasuredFault> {
         let speeds = rising(nodes.iter().map(|n| n.speed));
         let torques = rising(nodes.iter().map(|n| n.torque));
         let temperatures = rising(nodes.iter().map(|n| n.temperature));
         if speeds.len() < 2 || torques.len() < 2 {
             return Err(fault(
                 format!(
-                    "the {what} part has {} speeds and {} torques; a map needs two of each",
+                    "the {what} part has {} speeds and {} torques; a map requires two of each",
                     speeds.len(),
                     torques.len()
                 ),
@@ -313,11 +313,11 @@ impl Quadrant {
         if (nodes.len() as f64) < LEAST_FILLED * count as f64 {
             return Err(fault(
                 format!(
-                    "the {what} part has {} rows for {} speeds, {m} torques and {k} temperatures, which is no grid",
+                    "the {what} part has {} rows for {} speeds, {m} torques and {k} temperatures, which is not a grid",
                     nodes.len(),
                     speeds.len()
                 ),
-                "write the same torques at each speed; leave out those that the motor does not reach",
+                "write the same torques at each speed; omit those that the motor does not reach",
             ));
         }
         let mut cells: Vec<Option<Node>> = vec![None; count];
@@ -327,10 +327,10 @@ impl Quadrant {
             if let Some(first) = cell {
                 return Err(fault(
                     format!(
-                        "line {}: this speed and torque stand already in line {}",
+                        "line {}: this speed and torque are already in line {}",
                         node.line, first.line
                     ),
-                    "leave one of them out",
+                    "remove one of them",
                 ));
             }
             *cell = Some(*node);
@@ -376,7 +376,7 @@ impl Quadrant {
 
     fn loss(&self, speed: f64, torque: f64, temperature: f64) -> MotorLoss {
         let point = [speed, torque, temperature];
-        // A clamped table is defined at every number; a number that is none counts as the map's begin.
+        // A clamped table is defined at every number; NaN is treated as the start of the map.
         let loss = self.table.value(&point[..self.table.axes().len()]).unwrap_or(0.0);
         let (speeds, torques) = &self.reach;
         let beyond = |x: f64, most: f64| x > most * (1.0 + 1e-9);
@@ -389,8 +389,8 @@ impl Quadrant {
     }
 }
 
-/// Losses of all cells. An empty one takes that of the nearest smaller torque at its speed and temperature, or, below all, of
-/// the nearest larger one. The fault is the place of a temperature at which a speed has no row.
+/// Losses of all cells. An empty cell takes the value of the nearest smaller torque at its speed and temperature, or, below all, of
+/// the nearest larger one. The fault is the index of a temperature at which a speed has no row.
 fn filled(cells: &[Option<Node>], speeds: usize, torques: usize, temperatures: usize) -> Result<Vec<f64>, usize> {
     let mut values = Vec::with_capacity(cells.len());
     for i in 0..speeds {

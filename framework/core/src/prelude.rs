@@ -1,13 +1,12 @@
-//! All that a crate of loss models names: `use gearloss_framework::prelude::*;`.
+//! The names used by crates of loss models: `use gearloss_framework::prelude::*;`.
 //!
-//! This is the part of the framework that keeps its promises to other crates (CONTRIBUTING.md, "Stability").
+//! This is the part of the framework with stability guarantees for other crates (CONTRIBUTING.md, "Stability").
 
 pub use schemars::JsonSchema;
 pub use serde::Deserialize;
 
 pub use crate::attach::{Clearance, ClearanceSite, MemberSite, Oil, OnMember, Support, SupportSite};
 pub use crate::document::Diagnostic;
-pub use crate::generic::{Lookup, Scalar};
 pub use crate::loss::{Limit, Loss, Notes, Observed, Term, Undefined};
 pub use crate::mechanism::auxiliary::{Auxiliary, AuxiliaryAt, AuxiliaryModel};
 pub use crate::mechanism::bearing::{Bearing, BearingAt, BearingKind, BearingModel, BearingPart, Lubrication};
@@ -25,9 +24,9 @@ pub use crate::mechanism::synchronizer::{CouplingKind, CouplingPart, Synchronize
 pub use crate::mechanism::tooth_friction::{
     Along, ContactAt, PathAt, PathExtent, PathNode, ToothFriction, ToothFrictionModel, WeightedFriction,
 };
-pub use crate::mechanism::{Component, Mechanism, NoPart, Quantity, ShopUnits};
-pub use crate::registry::{
-    Build, Catalogue, Evidence, ModelRef, NamedSlots, ShippedCycle, ShippedSet, Slot, default_of, formula, inventory,
+pub use crate::mechanism::{
+    Component, Lookup, Mechanism, ModelRef, NamedSlots, NoPart, Quantity, Scalar, ShopUnits, Slot,
 };
+pub use crate::registry::{Build, Catalogue, Evidence, ShippedCycle, ShippedSet, default_of, formula, inventory};
 pub use crate::table::{Interpolation, Outside, Reading};
 pub use crate::{coefficients, context, origin, register, register_component, register_mechanism};

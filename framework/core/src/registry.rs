@@ -1,12 +1,12 @@
-//! The registry: every linked mechanism, model and catalogue, found without a line anywhere else.
+//! The registry: collects every linked mechanism, model and catalogue automatically.
 //!
-//! Entries are not generic, because an outside crate could not collect a generic entry for its own mechanism. Each holds an
-//! erased build function, which is downcast once per resolve.
+//! Entries are not generic, because another crate could not collect a generic entry for its own mechanism. Each holds a type-erased
+//! build function, which is downcast once per resolve.
 
 mod build;
+mod evaluated;
 mod placed;
 mod recipe;
-mod slot;
 
 use std::any::Any;
 
@@ -15,18 +15,17 @@ use serde::de::DeserializeOwned;
 use serde_json::{Map, Value};
 
 pub use build::{Build, Files, Instance};
+pub use evaluated::Evaluated;
 pub(crate) use placed::sealed::Sealed;
-pub use placed::{Common, Placed, Section};
+pub use placed::{Placed, Section};
 pub use recipe::NetworkRecipe;
-pub use slot::{ModelRef, NamedSlots, Slot};
 
-use crate::conformance;
+use crate::codes;
 use crate::document::{Diagnostic, did_you_mean};
-use crate::eval::{self, Evaluated};
-use crate::generic;
 use crate::loss::{Limit, Observed, Term};
+use crate::mechanism::QuantityDoc;
 use crate::mechanism::gear_drag::Scope;
-use crate::mechanism::{Component, Mechanism, QuantityDoc};
+pub use crate::mechanism::{ModelRef, NamedSlots, Slot};
 
 pub use inventory;
 
@@ -50,7 +49,7 @@ impl std::fmt::Display for Package {
 pub struct Origin {
     /// The crate.
     pub package: Package,
-    /// Its file, as the compiler was told it.
+    /// Its file, as reported by the compiler.
     pub file: &'static str,
     /// Line in the file.
     pub line: u32,
@@ -62,7 +61,7 @@ impl std::fmt::Display for Origin {
     }
 }
 
-/// The place of the invocation.
+/// The source location of the invocation.
 #[macro_export]
 macro_rules! origin {
     () => {
@@ -77,7 +76,7 @@ macro_rules! origin {
     };
 }
 
-/// How well a formula, a default value or an option is known; the weakest comes last.
+/// Evidence grade of a formula, a default value or an option; the lowest comes last.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Evidence {
@@ -87,11 +86,11 @@ pub enum Evidence {
     Derived,
     /// One source.
     OneSource,
-    /// The user's own value.
+    /// Stated by the user.
     User,
-    /// From memory of a source that was not at hand.
+    /// Quoted from memory, not checked against the source.
     Recalled,
-    /// Put together from parts of sources.
+    /// Reconstructed from parts of sources.
     Reconstructed,
     /// Sources disagree.
     Disputed,
@@ -135,11 +134,11 @@ impl Evidence {
 /// The grade of one thing in a model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Graded {
-    /// Key of the parameter whose default is graded; empty for the formula itself. A written parameter is graded `user`.
+    /// Key of the parameter whose default is graded; empty for the formula itself. A parameter set by the user is graded `user`.
     pub key: &'static str,
     /// The grade.
     pub grade: Evidence,
-    /// What it rests on.
+    /// The basis of the grade.
     pub because: &'static str,
 }
 
@@ -157,7 +156,10 @@ pub const fn default_of(key: &'static str, grade: Evidence, because: &'static st
     Graded { key, grade, because }
 }
 
-/// An `Arc<M::Model>` in disguise.
+/// Source of a model whose law the user states, such as `formula` and `table`.
+pub const USER_DEFINED: &str = "user-defined";
+
+/// A type-erased `Arc<M::Model>`.
 pub type Built = Box<dyn Any + Send + Sync>;
 
 /// One model.
@@ -171,21 +173,21 @@ pub struct Entry {
     pub source: &'static str,
     /// A valid `model:` record, in YAML flow style.
     pub example: &'static str,
-    /// A part that the example is made for, in YAML; absent, that of the mechanism.
+    /// A part that the example is intended for, in YAML; default: that of the mechanism.
     pub part: Option<&'static str>,
     /// Files that the example names, with their text.
     pub files: &'static [(&'static str, &'static str)],
     /// Ranges in which the source states the formula to hold.
     pub limits: &'static [Limit],
-    /// Named shares of the answer.
+    /// Named parts of the result.
     pub terms: &'static [Term],
-    /// Quantities that the reader may look at.
+    /// Quantities reported to the reader.
     pub observed: &'static [Observed],
-    /// How well formula and defaults are known.
+    /// Evidence grades of formula and defaults.
     pub evidence: &'static [Graded],
-    /// Whether a drag model is asked once for each gear or once for each mesh; without meaning for other mechanisms.
+    /// Whether a drag model is evaluated once for each gear or once for each mesh; unused for other mechanisms.
     pub scope: Scope,
-    /// False for a mesh model that serves any pair of gears and looks at no tooth; without meaning for other mechanisms.
+    /// False for a mesh model that applies to any pair of gears and does not use the tooth geometry; unused for other mechanisms.
     pub geometry: bool,
     /// Where it is registered.
     pub origin: Origin,
@@ -198,7 +200,7 @@ pub struct Entry {
 inventory::collect!(Entry);
 
 impl Entry {
-    /// Keys of the models that this one cannot do without, each with its mechanism: `tooth_friction` of a mesh model. Read from the schema
+    /// Keys of the models that this one requires, each with its mechanism: `tooth_friction` of a mesh model. Read from the schema
     /// of the parameters, where the slot of a model is a reference to the models of its mechanism.
     pub fn required_slots(&self) -> Vec<(String, String)> {
         let schema = (self.schema)(&mut SchemaGenerator::default()).to_value();
@@ -221,7 +223,12 @@ impl Entry {
             .collect()
     }
 
-    /// What it is, as a sentence: the first paragraph of the doc comment of its parameters.
+    /// True if the user states the law of the model: it has no published source.
+    pub fn is_user_defined(&self) -> bool {
+        self.source == USER_DEFINED
+    }
+
+    /// Description, as a sentence: the first paragraph of the doc comment of its parameters.
     pub fn meaning(&self) -> String {
         let schema = (self.schema)(&mut SchemaGenerator::default());
         let doc = schema.get("description").and_then(Value::as_str).unwrap_or_default();
@@ -234,19 +241,19 @@ impl Entry {
 pub struct MechanismEntry {
     /// Name in documents.
     pub key: &'static str,
-    /// What it is.
+    /// Description.
     pub meaning: &'static str,
-    /// What its models answer, with unit.
+    /// Result of its models, with unit.
     pub answer: &'static str,
     /// A part in YAML.
     pub example: &'static str,
     /// Where it is registered.
     pub origin: Origin,
-    /// Section of its parts, where it has one.
+    /// Section of its parts, if it has one.
     pub section: Option<Section>,
     /// The quantities of its context.
     pub quantities: fn() -> Vec<QuantityDoc>,
-    /// The laws between them, as one writes them.
+    /// The laws between them, in their written form.
     pub laws: fn() -> Vec<&'static str>,
     /// `none`, `constant`, `formula` and `table` for this mechanism.
     pub generics: fn() -> Vec<Entry>,
@@ -254,62 +261,20 @@ pub struct MechanismEntry {
     pub part: fn(&mut SchemaGenerator) -> Schema,
     /// Evaluates a model alone: resolved model, part and quantities in their documented units.
     pub eval: fn(&Registry, &Files, &Value, &Value, &Map<String, Value>) -> Result<Evaluated, Diagnostic>,
-    /// What the conformance suite finds wrong with a model on a part.
+    /// Faults of a model on a part, from the conformance suite.
     pub conform: fn(&Registry, &Files, &Entry, &Value, &Value) -> Vec<String>,
 }
 
 inventory::collect!(MechanismEntry);
 
-impl MechanismEntry {
-    /// The entry of a mechanism without a section of its own.
-    pub const fn of<M: Mechanism>(origin: Origin) -> Self {
-        Self {
-            key: M::KEY,
-            meaning: M::MEANING,
-            answer: M::ANSWER,
-            example: M::EXAMPLE,
-            origin,
-            section: None,
-            quantities: quantities::<M>,
-            laws: || M::LAWS.iter().map(|law| law.text).collect(),
-            generics: generic::entries::<M>,
-            part: |generator| <M::Part as schemars::JsonSchema>::json_schema(generator),
-            eval: eval::eval::<M>,
-            conform: conformance::conform::<M>,
-        }
-    }
-
-    /// The entry of a mechanism whose parts have a section.
-    pub const fn component<C: Component>(origin: Origin) -> Self {
-        Self {
-            section: Some(Section::of::<C>()),
-            ..Self::of::<C>(origin)
-        }
-    }
-}
-
-fn quantities<M: Mechanism>() -> Vec<QuantityDoc> {
-    M::QUANTITIES
-        .iter()
-        .map(|q| QuantityDoc {
-            name: q.name,
-            doc: q.doc,
-            usual: q.usual,
-            least: q.least,
-            greatest: q.greatest,
-            from: q.from,
-        })
-        .collect()
-}
-
-/// A catalogue: values that fill the absent keys of a component by its designation.
+/// A catalogue: values that fill the omitted keys of a component by its designation.
 #[derive(Debug, Clone, Copy)]
 pub struct Catalogue {
     /// Section whose components it fills.
     pub section: &'static str,
     /// CSV text: `designation`, then keys of the section with their unit in the header, then `confidence` and `basis`.
     pub csv: &'static str,
-    /// Where it comes from and under which licence.
+    /// Its source and licence.
     pub source: &'static str,
     /// Where it is registered.
     pub origin: Origin,
@@ -317,12 +282,12 @@ pub struct Catalogue {
 
 inventory::collect!(Catalogue);
 
-/// A set of models that a crate ships by name.
+/// A model set that a crate ships by name.
 #[derive(Debug, Clone, Copy)]
 pub struct ShippedSet {
     /// Name in `--models` and in studies.
     pub name: &'static str,
-    /// What it is.
+    /// Description.
     pub meaning: &'static str,
     /// The set in YAML, as under `model_sets`.
     pub yaml: &'static str,
@@ -339,7 +304,7 @@ pub struct ShippedCycle {
     pub name: &'static str,
     /// CSV text: `time [s],speed [km/h]`, the vehicle's speed.
     pub csv: &'static str,
-    /// Where it comes from.
+    /// Its source.
     pub source: &'static str,
     /// Where it is registered.
     pub origin: Origin,
@@ -347,7 +312,7 @@ pub struct ShippedCycle {
 
 inventory::collect!(ShippedCycle);
 
-/// A kind of document that another crate reads along a schema of its own, such as a study.
+/// A kind of document that another crate reads with its own schema, such as a study.
 #[derive(Debug, Clone, Copy)]
 pub struct DocumentKind {
     /// Name of its schema.
@@ -358,7 +323,7 @@ pub struct DocumentKind {
 
 inventory::collect!(DocumentKind);
 
-/// All mechanisms and models at hand, in the order of their names.
+/// All available mechanisms and models, sorted by name.
 #[derive(Clone)]
 pub struct Registry {
     mechanisms: Vec<MechanismEntry>,
@@ -370,12 +335,12 @@ pub struct Registry {
 }
 
 impl Registry {
-    /// Everything that is linked into the program.
+    /// All linked mechanisms and models.
     ///
     /// # Errors
-    /// If nothing is linked, or two entries have one name; each error names modules and lines.
+    /// If nothing is linked, or two entries have the same name; each error names modules and lines.
     pub fn linked() -> Result<Self, Vec<Diagnostic>> {
-        Self::of(
+        Self::from_entries(
             inventory::iter::<MechanismEntry>().copied(),
             inventory::iter::<Entry>().copied(),
             inventory::iter::<Catalogue>().copied(),
@@ -396,7 +361,7 @@ impl Registry {
     /// The same with driving cycles.
     ///
     /// # Errors
-    /// If two cycles have one name; each error names modules and lines.
+    /// If two cycles have the same name; each error names modules and lines.
     pub fn with_cycles(mut self, cycles: impl IntoIterator<Item = ShippedCycle>) -> Result<Self, Vec<Diagnostic>> {
         self.cycles.extend(cycles);
         self.cycles
@@ -414,7 +379,7 @@ impl Registry {
     ///
     /// # Errors
     /// As [`Registry::linked`].
-    pub fn of(
+    pub fn from_entries(
         mechanisms: impl IntoIterator<Item = MechanismEntry>,
         models: impl IntoIterator<Item = Entry>,
         catalogues: impl IntoIterator<Item = Catalogue>,
@@ -439,7 +404,7 @@ impl Registry {
             }
         }
         for pair in models.windows(2) {
-            // Two mechanisms of one key bring their generic models twice, which needs no words of its own.
+            // Two mechanisms with one key register their generic models twice, which needs no separate error.
             let clear = mechanisms.iter().filter(|m| m.key == pair[0].mechanism).count() < 2;
             if clear && (pair[0].mechanism, pair[0].name) == (pair[1].mechanism, pair[1].name) {
                 let what = format!("{} model", pair[0].mechanism);
@@ -452,7 +417,7 @@ impl Registry {
                     Diagnostic::error(
                         "",
                         format!(
-                            "model `{}` belongs to the unknown mechanism `{}`",
+                            "model `{}` refers to the unknown mechanism `{}`",
                             model.name, model.mechanism
                         ),
                     )
@@ -465,7 +430,7 @@ impl Registry {
         sets.sort_by_key(|s| (s.name, s.origin.package, s.origin.file, s.origin.line));
         for pair in sets.windows(2) {
             if pair[0].name == pair[1].name {
-                found.push(twice("set of models", pair[0].name, pair[0].origin, pair[1].origin));
+                found.push(twice("model set", pair[0].name, pair[0].origin, pair[1].origin));
             }
         }
         let mut catalogues: Vec<_> = catalogues.into_iter().collect();
@@ -504,10 +469,10 @@ impl Registry {
         self.models.iter().find(|m| m.mechanism == mechanism && m.name == name)
     }
 
-    /// One mechanism by the key that somebody wrote.
+    /// One mechanism by a key from user input.
     ///
     /// # Errors
-    /// If there is none; names those that there are, or a close one.
+    /// If there is none; lists the available ones, or a close match.
     pub fn mechanism_named(&self, key: &str) -> Result<&MechanismEntry, Diagnostic> {
         self.mechanism(key).ok_or_else(|| {
             let names: Vec<&str> = self.mechanisms.iter().map(|m| m.key).collect();
@@ -515,7 +480,7 @@ impl Registry {
         })
     }
 
-    /// One model of a mechanism by the name that somebody wrote.
+    /// One model of a mechanism by a name from user input.
     ///
     /// # Errors
     /// As [`Registry::mechanism_named`].
@@ -526,7 +491,7 @@ impl Registry {
         })
     }
 
-    /// The mechanisms that have a section of their own.
+    /// The mechanisms that have their own section.
     pub fn sections(&self) -> impl Iterator<Item = (&MechanismEntry, &Section)> {
         self.mechanisms
             .iter()
@@ -538,12 +503,12 @@ impl Registry {
         self.catalogues.iter().filter(move |c| c.section == section)
     }
 
-    /// The sets of models that linked crates ship.
+    /// The model sets that linked crates ship.
     pub fn shipped_sets(&self) -> &[ShippedSet] {
         &self.sets
     }
 
-    /// The driving cycles that linked crates ship, in the order of their names.
+    /// The driving cycles that linked crates ship, sorted by name.
     pub fn cycles(&self) -> &[ShippedCycle] {
         &self.cycles
     }
@@ -553,15 +518,15 @@ impl Registry {
         self.cycles.iter().find(|c| c.name == name)
     }
 
-    /// The recipe that lays out thermal networks.
+    /// The recipe that generates thermal networks.
     ///
     /// # Errors
-    /// Where no crate ships one, or two do.
+    /// If no crate ships one, or two do.
     pub fn network_recipe(&self) -> Result<&NetworkRecipe, Diagnostic> {
         recipe::only(&self.recipes)
     }
 
-    /// Crates that registered something, in the order of their names.
+    /// Crates that registered something, sorted by name.
     pub fn packages(&self) -> Vec<Package> {
         let models = self.models.iter().map(|m| m.origin);
         let mut packages: Vec<Package> = models
@@ -579,19 +544,22 @@ impl Registry {
 }
 
 fn missing(message: String, name: &str, names: &[&str]) -> Diagnostic {
-    Diagnostic::error("", message).help(match did_you_mean(name, names.iter().copied()) {
-        Some(close) => format!("write {close}"),
-        None => format!("name one of {}", names.join(", ")),
-    })
+    Diagnostic::error("", message)
+        .code(codes::UNKNOWN_NAME)
+        .help(match did_you_mean(name, names.iter().copied()) {
+            Some(close) => format!("write {close}"),
+            None => format!("use one of {}", names.join(", ")),
+        })
 }
 
 fn twice(what: &str, name: &str, one: Origin, other: Origin) -> Diagnostic {
     Diagnostic::error("", format!("two registrations of the {what} `{name}`"))
         .note(format!("one at {one}, the other at {other}"))
         .help("rename one of them")
+        .code(codes::REGISTRATION)
 }
 
-/// Reads a struct from a resolved value, which cannot fail but for a bug. `type` is the framework's key, not the model's.
+/// Reads a struct from a resolved value; a failure is a bug. `type` is the framework's key, not the model's.
 pub fn from_resolved<T: DeserializeOwned>(value: &Value) -> Result<T, serde_json::Error> {
     let fields = value
         .as_object()
@@ -602,11 +570,11 @@ pub fn from_resolved<T: DeserializeOwned>(value: &Value) -> Result<T, serde_json
     T::deserialize(serde::de::value::MapDeserializer::new(fields))
 }
 
-/// Registers a mechanism that has no section of its own.
+/// Registers a mechanism without its own section.
 #[macro_export]
 macro_rules! register_mechanism {
     ($M:ty) => {
-        $crate::registry::inventory::submit! { $crate::registry::MechanismEntry::of::<$M>($crate::origin!()) }
+        $crate::registry::inventory::submit! { $crate::registry::MechanismEntry::new::<$M>($crate::origin!()) }
     };
 }
 
@@ -618,8 +586,8 @@ macro_rules! register_component {
     };
 }
 
-/// Registers a model: mechanism, name in documents, parameters, then its head. What the model is stands in the doc comment of
-/// its parameters. Without `prepare` the parameters are the model; with it, `prepare(parameters, &mut Build)` makes the model.
+/// Registers a model: mechanism, name in documents, parameters, then its metadata. The doc comment of its parameters describes the
+/// model. Without `prepare` the parameters are the model; with it, `prepare(parameters, &mut Build)` builds the model.
 #[macro_export]
 macro_rules! register {
     ($M:ty, $name:literal, $Params:ty,

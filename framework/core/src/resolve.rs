@@ -1,7 +1,7 @@
-//! From the walked description to the resolved one: still pure data with paths.
+//! From the checked description to the resolved one: still pure data with paths.
 //!
-//! Every component gets its own model, catalogue values and defaults; `models` and `model_sets` are gone afterwards. A
-//! written path is an override of this document, so a change is: write it, resolve again, build again.
+//! Every component gets its own model, catalogue values and defaults; `models` and `model_sets` are then removed. A written path is
+//! an override of this document, so a change is: write it, resolve again, build again.
 
 mod catalogue;
 mod choice;
@@ -19,14 +19,15 @@ pub use paths::{lookup, matches};
 
 pub use paths::{meets, no_match};
 
+use crate::codes;
 use crate::document::{Diagnostic, did_you_mean};
 use crate::language::{DRAGS, HEAT, Language};
 use crate::registry::Files;
 
-/// Where a value of the resolved document comes from.
+/// Origin of a value of the resolved document.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Came {
-    /// Written in the document, or the default of a key that was not written; the places of the walk tell which.
+pub enum ValueSource {
+    /// Written in the document, or the default of an omitted key; the positions of the check distinguish them.
     Document,
     /// From a catalogue.
     Catalogue {
@@ -50,36 +51,36 @@ pub enum Came {
 /// The resolved document.
 #[derive(Debug, Clone)]
 pub struct Resolved {
-    /// SI, total, plain data.
+    /// Complete plain data in SI.
     pub value: Value,
-    /// Where values come from, by path; a path stands for everything below it. What is not listed comes from the document.
-    pub came: BTreeMap<String, Came>,
-    /// Models of the set in use that no component took, because each has its own or there is none.
+    /// Origins of values by path; a path covers everything below it. Values that are not listed come from the document.
+    pub sources: BTreeMap<String, ValueSource>,
+    /// Models of the set in use that no component uses, because each has its own or there is none.
     pub unreached: Vec<String>,
-    /// Components that nobody chose a model for, not even `none`: they count no loss. One line for each section.
+    /// Components without a chosen model, not even `none`: their loss is zero. One line for each section.
     pub without: Vec<String>,
 }
 
 impl Resolved {
-    /// Where the value at a path comes from.
-    pub fn came(&self, path: &str) -> &Came {
+    /// Origin of the value at a path.
+    pub fn source_of(&self, path: &str) -> &ValueSource {
         let mut end = path.len();
         loop {
-            if let Some(came) = self.came.get(&path[..end]) {
-                return came;
+            if let Some(source) = self.sources.get(&path[..end]) {
+                return source;
             }
             match path[..end].rfind('.') {
                 Some(dot) => end = dot,
-                None => return &Came::Document,
+                None => return &ValueSource::Document,
             }
         }
     }
 }
 
-/// Resolves a walked description with a set of models and overrides.
+/// Resolves a checked description with a model set and overrides.
 ///
 /// # Errors
-/// All findings at once: unknown designations, sets that do not exist, overrides that meet nothing or do not fit.
+/// All findings at once: unknown designations, sets that do not exist, overrides that match nothing or are invalid.
 pub fn resolve(
     language: &Language,
     files: &Files,
@@ -88,7 +89,7 @@ pub fn resolve(
 ) -> Result<Resolved, Vec<Diagnostic>> {
     let mut found = Vec::new();
     let mut value = walked.clone();
-    let mut came = BTreeMap::new();
+    let mut sources = BTreeMap::new();
     let mut unreached = Vec::new();
 
     let set = match &choice.set {
@@ -101,27 +102,27 @@ pub fn resolve(
         .chain(of_set.map(|(path, value, _)| (path.clone(), value.clone())))
         .chain(choice.overrides.iter().cloned())
         .partition(|(path, _)| path.ends_with(".designation"));
-    apply(language, &mut value, &first, &mut came, &mut found);
-    catalogue::fill(language, files, &mut value, &mut came, &mut found);
-    surfaces(&mut value, &mut came);
+    apply(language, &mut value, &first, &mut sources, &mut found);
+    catalogue::fill(language, files, &mut value, &mut sources, &mut found);
+    surfaces(&mut value, &mut sources);
 
     let own = value.get("models").cloned().unwrap_or(Value::Null);
-    let without = give_models(language, &mut value, &own, set.as_ref(), &mut came, &mut unreached);
+    let without = give_models(language, &mut value, &own, set.as_ref(), &mut sources, &mut unreached);
     if let Some(document) = value.as_object_mut() {
         for key in ["models", "model_sets", "extends", "set"] {
             document.shift_remove(key);
         }
     }
-    // A network that is laid out sees all other changes, and those inside it change what was laid out.
+    // A generated network depends on all other changes, and changes inside it are applied afterwards.
     let (inside, later): (Vec<_>, Vec<_>) = later.into_iter().partition(|(path, _)| network::meets_inside(path));
-    apply(language, &mut value, &later, &mut came, &mut found);
-    if network::expand(language, &mut value, &mut came, &mut found) {
-        apply(language, &mut value, &inside, &mut came, &mut found);
+    apply(language, &mut value, &later, &mut sources, &mut found);
+    if network::expand(language, &mut value, &mut sources, &mut found) {
+        apply(language, &mut value, &inside, &mut sources, &mut found);
     }
     if found.is_empty() {
         Ok(Resolved {
             value,
-            came,
+            sources,
             unreached,
             without,
         })
@@ -130,7 +131,7 @@ pub fn resolve(
     }
 }
 
-/// Overrides that the document itself states beside `extends`.
+/// Overrides that the document itself states with `extends`.
 fn own_overrides(value: &Value) -> Vec<(String, Value)> {
     let set = value.get("set").and_then(Value::as_object);
     set.into_iter()
@@ -139,14 +140,14 @@ fn own_overrides(value: &Value) -> Vec<(String, Value)> {
         .collect()
 }
 
-fn surfaces(value: &mut Value, came: &mut BTreeMap<String, Came>) {
+fn surfaces(value: &mut Value, sources: &mut BTreeMap<String, ValueSource>) {
     let Some(surface) = value.get("surface").filter(|s| s.is_object()).cloned() else {
         return;
     };
     for (id, gear) in entries_mut(value, "gears") {
         if gear.get("surface").is_none_or(Value::is_null) {
             gear.insert("surface".to_owned(), surface.clone());
-            came.insert(format!("gears.{id}.surface"), Came::Surface);
+            sources.insert(format!("gears.{id}.surface"), ValueSource::Surface);
         }
     }
 }
@@ -167,22 +168,27 @@ fn absent(entry: &Map<String, Value>, key: &str) -> bool {
     entry.get(key).is_none_or(Value::is_null)
 }
 
-/// Gives every component its model: its own, the set's where the set names the component, the set's default, the
-/// gearbox's default, or `none`. Says which have none that anybody chose.
+/// Gives every component its model: its own, the set's for that component, the set's default, the gearbox's default, or `none`.
+/// Lists components without any chosen model.
 fn give_models(
     language: &Language,
     value: &mut Value,
     own: &Value,
     set: Option<&(String, ModelSet)>,
-    came: &mut BTreeMap<String, Came>,
+    sources: &mut BTreeMap<String, ValueSource>,
     unreached: &mut Vec<String>,
 ) -> Vec<String> {
     let mut without = Vec::new();
     let named = |path: &str| set.and_then(|(name, s)| s.named(path).map(|model| (name, model)));
-    let default_of = |key: &str| -> Option<(Value, Came)> {
+    let default_of = |key: &str| -> Option<(Value, ValueSource)> {
         match set {
-            Some((name, s)) if s.models.contains_key(key) => Some((s.models[key].clone(), Came::Set(name.clone()))),
-            _ => own.get(key).filter(|v| !v.is_null()).map(|v| (v.clone(), Came::Models)),
+            Some((name, s)) if s.models.contains_key(key) => {
+                Some((s.models[key].clone(), ValueSource::Set(name.clone())))
+            }
+            _ => own
+                .get(key)
+                .filter(|v| !v.is_null())
+                .map(|v| (v.clone(), ValueSource::Models)),
         }
     };
     for (section, key) in language.sections() {
@@ -193,22 +199,22 @@ fn give_models(
             let path = format!("{section}.{id}.model");
             if let Some((name, model)) = named(&path) {
                 entry.insert("model".to_owned(), model.clone());
-                came.insert(path, Came::Set(name.clone()));
+                sources.insert(path, ValueSource::Set(name.clone()));
             } else if absent(entry, "model") {
                 taken += 1;
                 if default.is_none() {
                     bare.push(id.clone());
                 }
-                let (model, from) = default.clone().unwrap_or((Value::from("none"), Came::Models));
+                let (model, from) = default.clone().unwrap_or((Value::from("none"), ValueSource::Models));
                 entry.insert("model".to_owned(), model);
-                came.insert(path, from);
+                sources.insert(path, from);
             } else {
                 kept.push(id.clone());
             }
         }
         if !bare.is_empty() {
             without.push(format!(
-                "{section}: no model is chosen for {}, so no loss counts",
+                "{section}: no model is chosen for {}, so the loss is zero",
                 bare.join(", ")
             ));
         }
@@ -219,14 +225,14 @@ fn give_models(
                     kept.join(", ")
                 ));
             } else if s.models.contains_key(key) && taken == 0 && s.models[key] != "none" {
-                unreached.push(format!("`{name}` states a {key} model, and no component takes it"));
+                unreached.push(format!("`{name}` states a {key} model, but no component uses it"));
             }
         }
     }
-    // Named slots: a gear's, a mesh's or the housing's own slots replace the defaults of the same name. The defaults of drags
-    // go to one place in the document, because only the model's scope tells whether gears or meshes carry them.
+    // Named slots: the slots of a gear, a mesh or the housing replace the defaults of the same name. The defaults of drags are in
+    // one place in the document, because only the model's scope determines whether they belong to gears or meshes.
     let slots_of = |key: &str| {
-        let (slots, from) = default_of(key).unwrap_or((Value::Null, Came::Models));
+        let (slots, from) = default_of(key).unwrap_or((Value::Null, ValueSource::Models));
         (slots.as_object().cloned().unwrap_or_default(), from)
     };
     let (ways, from) = slots_of(HEAT);
@@ -253,13 +259,13 @@ fn give_models(
         }
         for (slot, model) in ways.iter().filter(|(slot, _)| !own.contains_key(*slot)) {
             slots.insert(slot.clone(), model.clone());
-            came.insert(path(slot), from.clone());
+            sources.insert(path(slot), from.clone());
         }
         slots.extend(own);
         for (slot, model) in &mut slots {
             if let Some((name, named)) = named(&path(slot)) {
                 *model = named.clone();
-                came.insert(path(slot), Came::Set(name.clone()));
+                sources.insert(path(slot), ValueSource::Set(name.clone()));
             }
         }
         thermal.insert(HEAT.to_owned(), Value::Object(slots));
@@ -276,7 +282,7 @@ fn give_models(
             for (slot, model) in &drags {
                 if !own.contains_key(slot) && language.fits_scope(section, model) {
                     slots.insert(slot.clone(), model.clone());
-                    came.insert(format!("{section}.{id}.drag.{slot}"), from.clone());
+                    sources.insert(format!("{section}.{id}.drag.{slot}"), from.clone());
                 }
             }
             slots.extend(own);
@@ -285,7 +291,7 @@ fn give_models(
                     let path = format!("{section}.{id}.drag.{slot}");
                     if let Some((_, model)) = named(&path) {
                         slots.insert(slot, model.clone());
-                        came.insert(path, Came::Set(name.clone()));
+                        sources.insert(path, ValueSource::Set(name.clone()));
                     }
                 }
             }
@@ -295,12 +301,12 @@ fn give_models(
     without
 }
 
-/// Writes overrides into the resolved document, each checked against the schema at its place.
+/// Writes overrides into the resolved document, each checked against the schema at its path.
 fn apply(
     language: &Language,
     value: &mut Value,
     overrides: &[(String, Value)],
-    came: &mut BTreeMap<String, Came>,
+    sources: &mut BTreeMap<String, ValueSource>,
     found: &mut Vec<Diagnostic>,
 ) {
     for (pattern, new) in overrides {
@@ -309,7 +315,7 @@ fn apply(
             found.push(paths::no_match(value, pattern));
             continue;
         }
-        // A key that the chosen `type` does not have would be ignored; of several matches those that have it count.
+        // A key that the chosen `type` does not have would be ignored; of several matches those with the key are used.
         hits.retain(|path| language.has_place(value, path));
         if hits.is_empty() {
             let key = pattern.rsplit('.').next().unwrap_or(pattern);
@@ -323,7 +329,7 @@ fn apply(
                         found.push(Diagnostic::error(&path, "cannot be set here").help("set the key above it"));
                         break;
                     }
-                    came.insert(path, Came::Override);
+                    sources.insert(path, ValueSource::Override);
                 }
                 Err(more) => {
                     found.extend(more);
@@ -334,9 +340,9 @@ fn apply(
     }
 }
 
-/// The error for a path whose last key nothing has: the key that was probably meant, or where the keys are listed.
+/// The error for a path whose last key does not exist: suggests a similar key, or where the keys are listed.
 fn no_place(value: &Value, pattern: &str, key: &str) -> Diagnostic {
-    let error = Diagnostic::error(pattern, format!("nothing here has a key `{key}`"));
+    let error = Diagnostic::error(pattern, format!("the key `{key}` does not exist here")).code(codes::UNKNOWN_PATH);
     let above = pattern.rsplit_once('.').map_or("", |(above, _)| above);
     let records = matches(value, above);
     let record = records.iter().find_map(|path| lookup(value, path)?.as_object());

@@ -1,31 +1,31 @@
-//! Tables over one to four axes: linear or monotone cubic in between, exact at the points, on linear or logarithmic scales.
+//! Tables over one to four axes: linear or monotone cubic interpolation, exact at the points, on linear or logarithmic scales.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::loss::Undefined;
 
-/// What holds beyond the ends of a table.
+/// Extrapolation of a table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Outside {
-    /// The answer is undefined.
+    /// The result is undefined.
     #[default]
     Error,
     /// The value at the end.
     Clamp,
-    /// The last slope goes on.
+    /// Linear extrapolation.
     Extrapolate,
 }
 
-/// How an axis or the answer counts between points.
+/// Scale of an axis or of the result.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Scale {
-    /// By its value.
+    /// Linear.
     #[default]
     Linear,
-    /// By its logarithm; above zero.
+    /// Logarithmic; all values must be positive.
     Log,
 }
 
@@ -38,28 +38,27 @@ impl Scale {
     }
 }
 
-/// What connects the points.
+/// Interpolation between the points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Interpolation {
-    /// Straight lines, along each axis in turn.
+    /// Linear along each axis in turn.
     #[default]
     Linear,
-    /// Smooth curves that rise and fall only where the points do (Fritsch and Butland 1984), along each axis in turn.
+    /// Monotone cubic (Fritsch and Butland 1984) along each axis in turn.
     MonotoneCubic,
 }
 
-/// How a table is read.
+/// Options of a table.
 #[derive(Debug, Clone, Default)]
 pub struct Reading {
-    /// What holds beyond the ends.
+    /// Extrapolation.
     pub outside: Outside,
-    /// What connects the points.
+    /// Interpolation.
     pub interpolation: Interpolation,
-    /// Scales by the name of an axis; `answer` names the answer. Others are linear.
+    /// Scales by the name of an axis; `answer` is the result. Default: linear.
     pub scales: Vec<(String, Scale)>,
-    /// Names among axes and `answer` that are logarithmic where all of their values are above zero, unless `scales` names
-    /// them.
+    /// Names among axes and `answer` that are logarithmic if all their values are positive, unless `scales` names them.
     pub usually_log: &'static [&'static str],
 }
 
@@ -73,7 +72,7 @@ impl Reading {
     }
 }
 
-/// Name of the answer among the scales.
+/// Name of the result among the scales.
 const ANSWER: &str = "answer";
 
 /// One axis.
@@ -83,7 +82,7 @@ pub struct Axis {
     pub name: String,
     /// Unit, as in the header.
     pub unit: String,
-    /// Rising values.
+    /// Increasing values.
     pub values: Vec<f64>,
 }
 
@@ -94,7 +93,7 @@ pub struct Table {
     /// Values of each axis on its scale.
     places: Vec<Vec<f64>>,
     scales: Vec<Scale>,
-    /// Answers on their scale; the last axis runs fastest.
+    /// Results on their scale; the last axis varies fastest.
     values: Vec<f64>,
     answer: Scale,
     outside: Outside,
@@ -103,20 +102,20 @@ pub struct Table {
 }
 
 impl Table {
-    /// A table from axes and values, the last axis running fastest.
+    /// A table from axes and values, the last axis varying fastest.
     ///
     /// # Errors
-    /// If an axis does not rise, the number of values does not fit, or a scale does not.
+    /// If an axis does not increase, the number of values does not match, or a scale is invalid.
     pub fn from_grid(axes: Vec<Axis>, values: Vec<f64>, reading: &Reading) -> Result<Self, String> {
         if axes.is_empty() || axes.len() > 4 {
             return Err(format!("{} axes; a table has one to four", axes.len()));
         }
         for axis in &axes {
             if axis.values.windows(2).any(|w| w[1] <= w[0]) || axis.values.iter().any(|x| !x.is_finite()) {
-                return Err(format!("axis `{}` does not rise", axis.name));
+                return Err(format!("axis `{}` does not increase", axis.name));
             }
             if axis.values.len() < 2 {
-                return Err(format!("axis `{}` has one value; a table needs two", axis.name));
+                return Err(format!("axis `{}` has one value; a table requires two", axis.name));
             }
         }
         let count: usize = axes.iter().fold(1, |n: usize, a| n.saturating_mul(a.values.len()));
@@ -127,7 +126,7 @@ impl Table {
             if name != ANSWER && axes.iter().all(|a| a.name != *name) {
                 let names: Vec<&str> = axes.iter().map(|a| a.name.as_str()).collect();
                 return Err(format!(
-                    "`scale` names `{name}`, but the axes are {}; the answer is `answer`",
+                    "`scale` names `{name}`, but the axes are {}; the result is `answer`",
                     names.join(", ")
                 ));
             }
@@ -136,14 +135,14 @@ impl Table {
         for (axis, scale) in axes.iter().zip(&scales) {
             if *scale == Scale::Log && axis.values[0] <= 0.0 {
                 return Err(format!(
-                    "axis `{}` is logarithmic and has {}",
+                    "axis `{}` is logarithmic but has {}",
                     axis.name, axis.values[0]
                 ));
             }
         }
         let answer = reading.scale(ANSWER, &values);
         if let (Scale::Log, Some(value)) = (answer, values.iter().find(|v| **v <= 0.0)) {
-            return Err(format!("the answer is logarithmic and has {value}"));
+            return Err(format!("`answer` is logarithmic but has {value}"));
         }
         Ok(Self {
             places: axes
@@ -161,18 +160,18 @@ impl Table {
         })
     }
 
-    /// A table from CSV: a column `name [unit]` for each axis, then one column for the value; one row for each point of
-    /// the full grid, in the order of rising axes. Lines that begin with # are comments.
+    /// A table from CSV: a column `name [unit]` for each axis, then one column for the value; one row for each point of the full
+    /// grid, in the order of increasing axes. Lines that begin with # are comments.
     ///
     /// # Errors
-    /// The line, the column and what is wrong there.
+    /// The line, the column and the problem.
     pub fn from_csv(text: &str, reading: &Reading) -> Result<Self, String> {
         let header = header(text)?;
         let mut tables = Self::several_from_csv(text, reading, header.len().saturating_sub(1))?;
         tables.pop().ok_or_else(|| "line 1: no column".to_owned())
     }
 
-    /// As [`Table::from_csv`], with a stated number of axes; every column behind them is a table of its own.
+    /// As [`Table::from_csv`], with a stated number of axes; every column after them is a separate table.
     ///
     /// # Errors
     /// As [`Table::from_csv`].
@@ -215,7 +214,7 @@ impl Table {
                 place * axis.values.len() + axis.values.partition_point(|v| v < x)
             });
             if filled[place].is_some() {
-                return Err(format!("line {line}: this point stands twice"));
+                return Err(format!("line {line}: this point occurs twice"));
             }
             filled[place] = Some(i);
         }
@@ -223,7 +222,7 @@ impl Table {
             let missing = filled.iter().filter(|f| f.is_none()).count();
             let after = filled[..place].iter().flatten().max().map_or(1, |row| rows[*row].1);
             return Err(format!(
-                "line {after}: behind it the point {} is missing, {missing} of {count} points in all",
+                "line {after}: the next point, {}, is missing; {missing} of {count} points are missing in all",
                 named(&grid, place)
             ));
         }
@@ -244,7 +243,7 @@ impl Table {
             .collect()
     }
 
-    /// Where a point lies along the axis on which it is farthest out: from zero to one inside, by the scale of the axis.
+    /// Position of a point along the axis on which it is farthest outside: from zero to one inside, on the scale of the axis.
     pub fn place(&self, point: &[f64]) -> f64 {
         let mut farthest = 0.5;
         for ((x, places), scale) in point.iter().zip(&self.places).zip(&self.scales) {
@@ -257,12 +256,12 @@ impl Table {
         farthest
     }
 
-    /// Unit of the values, where the header states it.
+    /// Unit of the values, if the header states it.
     pub fn unit(&self) -> Option<&str> {
         self.unit.as_deref()
     }
 
-    /// The points of the grid: coordinates and answer.
+    /// The points of the grid: coordinates and result.
     pub fn points(&self) -> Vec<(Vec<f64>, f64)> {
         let mut points = Vec::with_capacity(self.values.len());
         for (place, value) in self.values.iter().enumerate() {
@@ -295,7 +294,7 @@ impl Table {
     /// The value at a point, one coordinate for each axis.
     ///
     /// # Errors
-    /// Beyond an end, where that is an error; at a coordinate that is not a number, or has no logarithm.
+    /// Outside the axes, if that is an error; at a coordinate that is NaN, or has no logarithm.
     pub fn value(&self, point: &[f64]) -> Result<f64, Undefined> {
         let mut cell = [(0_usize, 0.0_f64); 4];
         for (k, (x, cell)) in point.iter().zip(&mut cell).enumerate() {
@@ -322,14 +321,14 @@ impl Table {
         })
     }
 
-    /// Interpolates along one axis and, at the points it needs, along those behind it.
+    /// Interpolates along one axis and, at the required points, along those after it.
     fn along(&self, axis: usize, place: usize, cells: &[(usize, f64); 4]) -> f64 {
         let Some(xs) = self.places.get(axis) else {
             return self.values[place];
         };
         let (i, x) = cells[axis];
         let at = |j: usize| self.along(axis + 1, place * xs.len() + j, cells);
-        // Exact at the points, and no cost along an axis that stands on one.
+        // Exact at the points, and free along an axis whose coordinate is a point.
         if x == xs[i] {
             return at(i);
         }
@@ -384,7 +383,7 @@ fn reader(text: &str) -> csv::Reader<&[u8]> {
         .from_reader(text.as_bytes())
 }
 
-/// All numbers of a CSV text with the lines on which they stand.
+/// All numbers of a CSV text with their line numbers.
 fn rows(text: &str, header: &[String]) -> Result<Vec<(Vec<f64>, u64)>, String> {
     let mut rows = Vec::new();
     for record in reader(text).records() {
@@ -408,7 +407,7 @@ fn rows(text: &str, header: &[String]) -> Result<Vec<(Vec<f64>, u64)>, String> {
     Ok(rows)
 }
 
-/// The values of an axis, which must come up in rising order.
+/// The values of an axis, which must occur in increasing order.
 fn rising(rows: &[(Vec<f64>, u64)], column: usize, name: &str) -> Result<Vec<f64>, String> {
     let mut values: Vec<f64> = Vec::new();
     for (row, line) in rows {
@@ -416,7 +415,7 @@ fn rising(rows: &[(Vec<f64>, u64)], column: usize, name: &str) -> Result<Vec<f64
         match values.last() {
             Some(last) if x <= *last && values.binary_search_by(|v| v.total_cmp(&x)).is_err() => {
                 return Err(format!(
-                    "line {line}, column {} `{name}`: {x} comes up after {last}; the values of an axis rise",
+                    "line {line}, column {} `{name}`: {x} follows {last}; the values of an axis must increase",
                     column + 1
                 ));
             }
@@ -427,7 +426,7 @@ fn rising(rows: &[(Vec<f64>, u64)], column: usize, name: &str) -> Result<Vec<f64
     if values.len() < 2 {
         let line = rows.last().map_or(1, |(_, line)| *line);
         return Err(format!(
-            "line {line}, column {} `{name}`: {} up to here; a table needs two values on each axis",
+            "line {line}, column {} `{name}`: {} up to here; a table requires two values on each axis",
             column + 1,
             if values.is_empty() { "no value" } else { "one value" },
         ));
@@ -452,7 +451,7 @@ fn named(grid: &[Axis], place: usize) -> String {
     words.join(", ")
 }
 
-/// Slope at a point between two pieces of lengths and slopes: none at a turn, else a weighted harmonic mean.
+/// Slope at a point between two intervals with lengths and slopes: zero at an extremum, else a weighted harmonic mean.
 fn inner_slope(h_1: f64, d_1: f64, h_2: f64, d_2: f64) -> f64 {
     if d_1 * d_2 <= 0.0 {
         return 0.0;
@@ -461,7 +460,7 @@ fn inner_slope(h_1: f64, d_1: f64, h_2: f64, d_2: f64) -> f64 {
     (w_1 + w_2) / (w_1 / d_1 + w_2 / d_2)
 }
 
-/// Slope at an end, from its piece and the next: a parabola's, held so that nothing overshoots.
+/// Slope at an end, from its interval and the next: that of a parabola, limited to avoid overshoot.
 fn end_slope(h_1: f64, d_1: f64, h_2: f64, d_2: f64) -> f64 {
     let slope = ((2.0 * h_1 + h_2) * d_1 - h_1 * d_2) / (h_1 + h_2);
     if slope * d_1 <= 0.0 {
@@ -473,7 +472,7 @@ fn end_slope(h_1: f64, d_1: f64, h_2: f64, d_2: f64) -> f64 {
     }
 }
 
-/// Linear between points, constant beyond the ends. The first list rises and both are of one length.
+/// Linear between points, constant beyond the ends. The first list increases and both have the same length.
 pub fn clamped(xs: &[f64], ys: &[f64], x: f64) -> f64 {
     let last = xs.len() - 1;
     if x <= xs[0] {
@@ -562,7 +561,7 @@ mod tests {
         let tables = Table::several_from_csv(text, &reading, 2).unwrap();
         assert_eq!((tables.len(), tables[1].unit()), (2, Some("Nm")));
         assert_eq!(columns(text).unwrap(), ["n", "t", "pressure", "viscous"]);
-        // The first answer is above zero everywhere and goes by its logarithm, the second is not.
+        // The first result is positive everywhere and becomes logarithmic, the second is not.
         assert!((tables[0].value(&[100.0, 20.0]).unwrap() - 3.0_f64.sqrt()).abs() < 1e-12);
         assert!((tables[1].value(&[100.0, 20.0]).unwrap() - 6.0).abs() < 1e-12);
         for (point, place) in [([100.0, 30.0], 0.5), ([100.0, 60.0], 2.0), ([1.0, 30.0], -0.5)] {
@@ -580,7 +579,7 @@ mod tests {
         let table = line(&steep, &cubic);
         let at = |x: f64| table.value(&[x]).unwrap();
         assert_eq!((at(0.5), at(1.5), at(2.5)), (0.0, 0.5, 1.0));
-        // Harmonic means cost accuracy for safety: a tenth of the first step at most.
+        // Harmonic means trade accuracy for monotonicity: an error of at most a tenth of the first step.
         let square = line(&[0.0, 1.0, 2.0, 3.0, 4.0].map(|x| (x, x * x)), &cubic);
         for x in [0.3, 1.5, 2.7, 3.6] {
             assert!((square.value(&[x]).unwrap() - x * x).abs() < 0.1, "{x}");
@@ -592,14 +591,14 @@ mod tests {
         let fault = |text: &str| Table::from_csv(text, &reading(Outside::Error)).unwrap_err();
         assert!(fault("x [mm],y\n0,1\n1,a\n").contains("line 3, column 2 `y`: `a` is not a number"));
         assert!(fault("x [mm],y\n0,1\nNaN,2\n").contains("line 3, column 1 `x [mm]`: `NaN` is not a number"));
-        assert!(fault("x [mm],y\n0,1\n2,2\n1,3\n").contains("line 4, column 1 `x [mm]`: 1 comes up after 2"));
+        assert!(fault("x [mm],y\n0,1\n2,2\n1,3\n").contains("line 4, column 1 `x [mm]`: 1 follows 2"));
         assert!(fault("x [mm],y\n0,1\n").contains("line 2, column 1 `x [mm]`: one value up to here"));
         assert!(fault("x [mm],y\n").contains("line 1, column 1 `x [mm]`: no value up to here"));
         assert!(
             fault("# a\na [mm],b [s],y\n0,0,1\n0,1,1\n1,0,1\n")
-                .contains("line 5: behind it the point a = 1 mm, b = 1 s is missing, 1 of 4")
+                .contains("line 5: the next point, a = 1 mm, b = 1 s, is missing; 1 of 4")
         );
-        assert!(fault("x [mm],y\n0,1\n0,2\n1,1\n").contains("line 3: this point stands twice"));
+        assert!(fault("x [mm],y\n0,1\n0,2\n1,1\n").contains("line 3: this point occurs twice"));
         assert!(fault("x,y\n0,1\n").contains("no [unit]"));
         assert!(fault("a [mm],b [mm],y\n0,0,1\n1,1,1\n").contains("missing"));
         assert!(fault("a [mm],y\n0,1,2\n").contains("line 2: 3 columns where the header has 2"));

@@ -1,4 +1,4 @@
-//! What the tests of a crate of models need: check values, and the conformance suite over everything that is linked.
+//! Test support for crates of models: check values, and the conformance suite over all linked models.
 //!
 //! ```no_run
 //! use gearloss_framework::testing::{assert_close, eval};
@@ -11,13 +11,13 @@ use std::path::Path;
 use std::sync::OnceLock;
 
 use crate::conformance::check_all;
-use crate::eval::{Evaluated, ask};
+use crate::eval::{Evaluated, evaluate_input};
 use crate::language::Language;
 
-/// The language of everything that is linked into this test, composed once.
+/// The language of everything linked into this test, composed once.
 ///
 /// # Panics
-/// If what is linked does not fit together.
+/// If the linked crates are inconsistent.
 pub fn language() -> &'static Language {
     static LANGUAGE: OnceLock<Language> = OnceLock::new();
     LANGUAGE.get_or_init(|| match Language::linked() {
@@ -26,20 +26,20 @@ pub fn language() -> &'static Language {
     })
 }
 
-/// One model alone, `MECHANISM/MODEL`, at an input as `gearloss eval --input` takes it: `part`, `at` and `model` in YAML, each
-/// optional. Files that a model names lie beside Cargo.toml of the crate under test.
+/// Evaluates one model, `MECHANISM/MODEL`, at an input as for `gearloss eval --input`: `part`, `at` and `model` in YAML, each
+/// optional. Files that a model names are relative to Cargo.toml of the crate under test.
 ///
 /// # Panics
-/// With the errors of the input, or with the reason why the model has no value there.
+/// With the errors of the input, or with the reason why the model is undefined there.
 #[track_caller]
 pub fn eval(model: &str, input: &str) -> Evaluated {
-    match ask(language(), model, "input", input, Path::new("")) {
+    match evaluate_input(language(), model, "input", input, Path::new("")) {
         Ok(evaluated) => evaluated,
         Err(findings) => panic!("{model}: {findings}"),
     }
 }
 
-/// Puts every linked model through the conformance suite.
+/// Runs the conformance suite on every linked model.
 ///
 /// # Panics
 /// With a line for each fault.

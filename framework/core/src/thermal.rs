@@ -1,4 +1,4 @@
-//! Operating temperature: losses and the heat that leaves, in balance. It stands outside of the evaluation of a point.
+//! Operating temperature: balance of losses and heat dissipation. It is separate from the evaluation of a point.
 
 mod balance;
 mod equilibrium;

@@ -1,4 +1,4 @@
-//! The transmission: immutable, validated, indices in place of names, models built, everything precomputed.
+//! The transmission: immutable, validated, with indices instead of names, built models and precomputed values.
 
 mod build;
 mod case;
@@ -9,6 +9,7 @@ mod nodes;
 mod oils;
 mod planets;
 mod plausible;
+mod seats;
 mod stage;
 mod states;
 mod statics;
@@ -17,9 +18,9 @@ use std::sync::Arc;
 
 pub use case::Case;
 pub use drags::DragSeat;
-pub use gearing::{GearSeat, MeshSeat};
 pub use nodes::{AMBIENT, HeatPath};
 pub use oils::{Oils, Surface};
+pub use seats::{GearSeat, MeshSeat};
 pub use stage::Stage;
 pub use states::GearState;
 
@@ -32,13 +33,14 @@ use crate::description::{RatingEntry, ThermalMode};
 use crate::document::Diagnostic;
 use crate::loads::{ShaftLoads, StaticRating};
 use crate::loss::NoteBase;
+use crate::mechanism::Slot;
 use crate::mechanism::gear_drag::{DragPart, GearDrag};
 use crate::mechanism::gear_mesh::{GearMesh, MeshPart};
-use crate::registry::{Instance, Placed, Slot};
+use crate::registry::{Instance, Placed};
 use crate::thermal::Housing;
 use crate::thermal::network::Network;
 
-/// What a part is.
+/// Kind of a part.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PartKind {
     /// A component of a mechanism's section; its number among the placed components.
@@ -49,24 +51,24 @@ pub enum PartKind {
     Drag(usize),
 }
 
-/// One part that loses power.
+/// One part with a power loss.
 #[derive(Debug, Clone)]
 pub struct PartInfo {
     /// Path of the component, such as `bearings.B1`; for drags with the slot, such as `gears.G4.drag.churning`.
     pub path: String,
     /// Key of the mechanism.
     pub mechanism: &'static str,
-    /// What it is.
+    /// Kind.
     pub kind: PartKind,
     /// Number of equal copies.
     pub count: f64,
     /// Factor on the loss of the model.
     pub loss_factor: f64,
-    /// Where the notes of its model stand.
+    /// Position of the notes of its model.
     pub notes: NoteBase,
 }
 
-/// Name of the port that the ports of `wheels` become.
+/// Name of the port that combines the ports of `wheels`.
 pub const WHEELS: &str = "wheels";
 
 /// A port.
@@ -74,7 +76,7 @@ pub const WHEELS: &str = "wheels";
 pub struct Port {
     /// Name.
     pub name: String,
-    /// Member; the number behind the last one for the axle of [`WHEELS`].
+    /// Member; the number after the last one for the axle of [`WHEELS`].
     pub member: usize,
 }
 
@@ -84,17 +86,17 @@ pub(crate) struct MeshModel {
     pub part: Arc<MeshPart>,
     pub model: Slot<GearMesh>,
     pub oil: u16,
-    /// Nodes of the bodies of both gears, where a thermal network has them.
+    /// Nodes of the bodies of both gears, if a thermal network has them.
     pub bodies: Option<[usize; 2]>,
     /// Factor on the loss of the model.
     pub loss_factor: f64,
-    /// Sharing of the set, where its planets carry different loads.
+    /// Load sharing among planets, if the planets of its set carry different loads.
     pub sharing: Option<Sharing>,
     /// Tangential force of one copy per multiplier of its row. \[1/m\]
     pub force_per_multiplier: f64,
 }
 
-/// One drag model with its seat.
+/// One drag model with its indices.
 pub(crate) struct DragModel {
     pub seat: DragSeat,
     pub part: Arc<DragPart>,
@@ -107,26 +109,26 @@ pub(crate) struct DragModel {
 /// A component with its number of copies.
 pub(crate) struct Component {
     pub placed: Box<dyn Placed>,
-    /// The two members that feel its reaction.
+    /// The two members that take its reaction.
     pub between: [Option<u16>; 2],
-    /// True where its loss may depend on torque or load.
+    /// True if its loss may depend on torque or load.
     pub loaded: bool,
-    /// False where its model notes the same at all loads.
+    /// False if the notes of its model are the same at all loads.
     pub notes_hang_on_load: bool,
-    /// True where its model is `none`.
+    /// True if its model is `none`.
     pub off: bool,
-    /// Number of its support, where it carries load.
+    /// Number of its support, if it carries load.
     pub support: Option<u16>,
-    /// Sharing of the set, where it sits on a planet and the planets carry different loads.
+    /// Load sharing among planets, if it is on a planet and the planets carry different loads.
     pub sharing: Option<Sharing>,
-    /// Where the notes of its model stand.
+    /// Position of the notes of its model.
     pub notes: NoteBase,
     /// Number of copies, times the factor on the loss.
     pub count: f64,
 }
 
 impl Component {
-    /// A placed component. Unequal sharing counts only where the loss may depend on load.
+    /// A placed component. Unequal load sharing matters only if the loss may depend on load.
     fn new(placed: Box<dyn Placed>, count: f64, sharing: Option<Sharing>) -> Self {
         Self {
             between: placed.between(),
@@ -142,14 +144,14 @@ impl Component {
     }
 }
 
-/// A support whose static load rating is known.
+/// A support with a known static load rating.
 #[derive(Debug, Clone, Copy)]
 pub struct RatedSupport {
     /// Its number.
     pub support: usize,
     /// Rating of one bearing.
     pub rating: StaticRating,
-    /// True where it sits on a planet of a set whose planets carry different loads.
+    /// True if it is on a planet of a set whose planets carry different loads.
     pub uneven: bool,
 }
 
@@ -158,7 +160,7 @@ pub struct Transmission {
     pub(crate) title: String,
     pub(crate) members: Vec<String>,
     pub(crate) ports: Vec<Port>,
-    /// Ports that turn at one speed and are one among `ports`; mostly none.
+    /// Ports with equal speed that are one among `ports`; usually empty.
     pub(crate) wheels: Vec<Port>,
     pub(crate) states: Vec<GearState>,
     pub(crate) gears: Vec<GearSeat>,
@@ -169,25 +171,25 @@ pub struct Transmission {
     pub(crate) instances: Vec<Instance>,
     /// Cells of notes: those of the models, then the static safety of each rated support.
     pub(crate) cells: usize,
-    /// Supports whose static load rating is known.
+    /// Supports with a known static load rating.
     pub(crate) rated: Vec<RatedSupport>,
     pub(crate) oils: Oils,
     pub(crate) loads: ShaftLoads,
-    /// For each support; empty where all are one.
+    /// Load correction factors of each support; empty if all are one.
     pub(crate) load_factors: Vec<statics::LoadFactors>,
     pub(crate) imported: Option<statics::Imported>,
     pub(crate) supports: Vec<String>,
-    /// True where the planets of a set carry different loads.
+    /// True if the planets of a set carry different loads.
     pub(crate) uneven: bool,
-    /// Relative speed over that at which bodies turn together, below which they hold each other.
+    /// Relative speed, as a fraction of the common speed, below which friction between two bodies decreases.
     pub(crate) locked_below: f64,
-    /// Findings that do not keep the transmission from being evaluated.
+    /// Findings that do not prevent evaluation.
     pub warnings: Vec<Diagnostic>,
-    /// Temperature of the oil as described, where it is not found by balance. \[degC\]
+    /// Oil temperature as described, if it is given. \[degC\]
     pub oil_temperature: f64,
-    /// How the temperature is found, as described.
+    /// Temperature mode as described.
     pub thermal_mode: ThermalMode,
-    /// Largest torque and speed that it is made for. \[Nm and rad/s\]
+    /// Design torque and speed. \[Nm and rad/s\]
     pub rating: Option<RatingEntry>,
     pub(crate) housing: Housing,
     pub(crate) network: Option<Network>,
@@ -198,7 +200,7 @@ impl Transmission {
     pub fn title(&self) -> &str {
         &self.title
     }
-    /// Names of shafts and loose gears, by number.
+    /// Names of shafts and idler gears, by number.
     pub fn members(&self) -> &[String] {
         &self.members
     }
@@ -206,11 +208,11 @@ impl Transmission {
     pub fn ports(&self) -> &[Port] {
         &self.ports
     }
-    /// Ports that turn at one speed and are one among [`Transmission::ports`]; mostly none.
+    /// Ports with equal speed that are one among [`Transmission::ports`]; usually empty.
     pub fn wheels(&self) -> &[Port] {
         &self.wheels
     }
-    /// Gear states, neutral included.
+    /// Gear states, including neutral.
     pub fn states(&self) -> &[GearState] {
         &self.states
     }
@@ -226,11 +228,11 @@ impl Transmission {
     pub fn instances(&self) -> &[Instance] {
         &self.instances
     }
-    /// Cell of notes of the first rated support; models have those before.
+    /// Cell of notes of the first rated support; the cells of models precede it.
     pub fn rated_cells(&self) -> usize {
         self.cells - self.rated.len()
     }
-    /// Supports whose static load rating is known.
+    /// Supports with a known static load rating.
     pub fn rated(&self) -> &[RatedSupport] {
         &self.rated
     }
@@ -238,7 +240,7 @@ impl Transmission {
     pub fn supports(&self) -> &[String] {
         &self.supports
     }
-    /// Numbers of the gears of every mesh, and whether a carrier turns it, in the order of [`Transmission::meshes`].
+    /// Numbers of the gears of every mesh, and whether it is on a rotating carrier, in the order of [`Transmission::meshes`].
     pub fn mesh_seats(&self) -> impl Iterator<Item = ([usize; 2], bool)> {
         self.meshes.iter().map(|m| (m.seat.gears, m.seat.carrier.is_some()))
     }
@@ -246,25 +248,25 @@ impl Transmission {
     pub fn meshes(&self) -> impl Iterator<Item = (&str, &MeshPart)> {
         self.meshes.iter().map(|m| (m.seat.path.as_str(), m.part.as_ref()))
     }
-    /// Ids of both gears of a mesh by its path; none where there is no such mesh.
+    /// Ids of both gears of a mesh by its path; `None` if there is no such mesh.
     pub fn gears_of_mesh(&self, path: &str) -> Vec<&str> {
         let mesh = self.meshes.iter().find(|m| m.seat.path == path);
         let gears = mesh.into_iter().flat_map(|m| m.seat.gears);
         gears.map(|g| self.gears[g].id.as_str()).collect()
     }
-    /// Path of the first mesh that a gear is part of.
+    /// Path of the first mesh of a gear.
     pub fn mesh_of_gear(&self, gear: &str) -> Option<&str> {
         let index = self.gears.iter().position(|g| g.id == gear)?;
         let mesh = self.meshes.iter().find(|m| m.seat.gears.contains(&index))?;
         Some(&mesh.seat.path)
     }
-    /// Name of the first member that feels the reaction of a placed component.
+    /// Name of the first member that takes the reaction of a placed component.
     pub fn member_of_component(&self, component: usize) -> Option<&str> {
         let [first, second] = self.components.get(component)?.between;
         let member = first.or(second)?;
         self.members.get(member as usize).map(String::as_str)
     }
-    /// The ways on which heat leaves.
+    /// The heat transfer paths to the surroundings.
     pub fn housing(&self) -> &Housing {
         &self.housing
     }
@@ -276,14 +278,14 @@ impl Transmission {
     pub fn network(&self) -> Option<&Network> {
         self.network.as_ref()
     }
-    /// Number of the temperature nodes.
+    /// Number of temperature nodes.
     pub fn nodes(&self) -> usize {
         self.network.as_ref().map_or(1, |n| n.names().len())
     }
     /// Number of a gear state by its name.
     ///
     /// # Errors
-    /// Where there is none, with the names of the others.
+    /// If there is none, with the available names.
     pub fn state(&self, name: &str) -> Result<usize, Diagnostic> {
         self.states.iter().position(|s| s.name == name).ok_or_else(|| {
             let names: Vec<&str> = self.states.iter().map(|s| s.name.as_str()).collect();
@@ -293,7 +295,7 @@ impl Transmission {
     /// Number of a port by its name.
     ///
     /// # Errors
-    /// Where there is none, with the names of the others.
+    /// If there is none, with the available names.
     pub fn port(&self, name: &str) -> Result<usize, Diagnostic> {
         self.ports.iter().position(|p| p.name == name).ok_or_else(|| {
             let names: Vec<&str> = self.ports.iter().map(|p| p.name.as_str()).collect();

@@ -1,10 +1,10 @@
 //! Findings: message, place and help.
 
-use std::fmt;
-
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 use serde::Serialize;
 
+use super::code::Code;
+use super::codes;
 use super::node::Span;
 
 /// Severity of a finding.
@@ -17,35 +17,9 @@ pub enum Severity {
     Warning,
 }
 
-/// Kind of a finding, for programs: it remains the same if the message is reworded. A reading stage assigns its code to findings without
-/// one.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Code {
-    /// A file cannot be read.
-    Unreadable,
-    /// The text is not valid YAML for documents.
-    Syntax,
-    /// An unknown key.
-    UnknownKey,
-    /// A missing key.
-    MissingKey,
-    /// An unknown `type` or word.
-    UnknownName,
-    /// A value of the wrong kind, unit or range.
-    Value,
-    /// An invalid model, catalogue value, model set or override.
-    Choice,
-    /// The described transmission cannot be built, or should be checked.
-    Gearbox,
-    /// An invalid study, or invalid data of a study.
-    Study,
-    /// Anything else.
-    Other,
-}
-
 /// One finding.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("{}", self.line())]
 pub struct Diagnostic {
     /// Severity.
     pub severity: Severity,
@@ -91,6 +65,11 @@ impl Diagnostic {
         self
     }
 
+    /// The code; [`codes::OTHER`] where neither its author nor a stage has given one.
+    pub fn code_or_other(&self) -> Code {
+        self.code.unwrap_or(codes::OTHER)
+    }
+
     /// Adds a place in the text.
     pub fn at(self, span: Span) -> Self {
         self.label(span, "")
@@ -132,19 +111,69 @@ impl Diagnostic {
             format!("{}: {}", self.path, self.message)
         }
     }
-}
 
-impl fmt::Display for Diagnostic {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.title())?;
-        if let Some(help) = &self.help {
-            write!(f, " (help: {help})")?;
+    /// The finding in one line with its help.
+    fn line(&self) -> String {
+        let title = self.title();
+        match &self.help {
+            Some(help) => format!("{title} (help: {help})"),
+            None => title,
         }
-        Ok(())
     }
 }
 
-impl std::error::Error for Diagnostic {}
+/// Gives a code to all findings that have none.
+pub fn classify(findings: &mut [Diagnostic], code: Code) {
+    for finding in findings {
+        finding.code.get_or_insert(code);
+    }
+}
+
+/// A finding with its places in files, which it keeps without the texts. Serialised it is a finding of `check --format json`.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PlacedDiagnostic {
+    /// How bad it is.
+    pub severity: Severity,
+    /// Its kind.
+    pub code: Code,
+    /// Path in the document; empty where there is none.
+    pub path: String,
+    /// What is wrong.
+    pub message: String,
+    /// How to fix it.
+    pub help: Option<String>,
+    /// More about it.
+    pub notes: Vec<String>,
+    /// File.
+    pub file: Option<String>,
+    /// Line, from one.
+    pub line: Option<usize>,
+    /// Column in characters, from one.
+    pub column: Option<usize>,
+    /// Other places that explain it.
+    pub related: Vec<RelatedPlace>,
+}
+
+/// A place that explains a finding.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct RelatedPlace {
+    /// The place.
+    #[serde(flatten)]
+    pub place: FilePlace,
+    /// What it has to do with the finding.
+    pub message: String,
+}
+
+/// A place in a file.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct FilePlace {
+    /// File.
+    pub file: String,
+    /// Line, from one.
+    pub line: usize,
+    /// Column in characters, from one.
+    pub column: usize,
+}
 
 /// The texts that spans point into, by number.
 #[derive(Debug, Clone, Default)]
@@ -173,6 +202,38 @@ impl Sources {
         Some((name, line, column))
     }
 
+    /// A finding with its places as file, line and column, to be serialised.
+    pub fn placed(&self, finding: &Diagnostic) -> PlacedDiagnostic {
+        let place = |span: Span| {
+            self.locate(span).map(|(file, line, column)| FilePlace {
+                file: file.to_owned(),
+                line,
+                column,
+            })
+        };
+        let first = finding.spans.first().and_then(|(span, _)| place(*span));
+        let related = finding.spans.iter().skip(1);
+        PlacedDiagnostic {
+            severity: finding.severity,
+            code: finding.code_or_other(),
+            path: finding.path.clone(),
+            message: finding.message.clone(),
+            help: finding.help.clone(),
+            notes: finding.notes.clone(),
+            file: first.as_ref().map(|place| place.file.clone()),
+            line: first.as_ref().map(|place| place.line),
+            column: first.as_ref().map(|place| place.column),
+            related: related
+                .filter_map(|(span, label)| {
+                    Some(RelatedPlace {
+                        place: place(*span)?,
+                        message: label.clone(),
+                    })
+                })
+                .collect(),
+        }
+    }
+
     /// A finding with an excerpt of its text, without colours.
     pub fn render(&self, finding: &Diagnostic) -> String {
         let level = match finding.severity {
@@ -182,6 +243,7 @@ impl Sources {
         let title = finding.title();
         let mut group = level
             .primary_title(title.as_str())
+            .id(finding.code_or_other().id())
             .elements(std::iter::empty::<annotate_snippets::Padding>());
         let mut by_source: Vec<(u16, Vec<(bool, &Span, &str)>)> = Vec::new();
         for (i, (span, label)) in finding.spans.iter().enumerate() {
@@ -330,7 +392,7 @@ mod tests {
             .help("write `30 mm`");
         let text = sources.render(&finding);
         assert!(
-            text.contains("error: b: a torque") && text.contains("gear.yaml:2:4") && text.contains("^^^^^"),
+            text.contains("error[E0000]: b: a torque") && text.contains("gear.yaml:2:4") && text.contains("^^^^^"),
             "{text}"
         );
         assert!(text.contains("help: write `30 mm`"), "{text}");

@@ -1,8 +1,12 @@
 //! The only module that opens files of users: regular files with a limited length.
+//! A [`FileSource`] replaces the disk by texts in memory, an archive or a database.
 
+use std::collections::BTreeMap;
+use std::fmt;
 use std::fs::{File, FileType};
-use std::io::{Error, Read as _, Result};
-use std::path::Path;
+use std::io::{Error, ErrorKind, Read as _, Result};
+use std::path::{Component, Path, PathBuf};
+use std::sync::Arc;
 
 /// Maximum length of a description, study, input of `eval` or template of a report. \[byte\]
 ///
@@ -13,6 +17,111 @@ pub const LONGEST_TEXT: u64 = 4 << 20;
 ///
 /// The cells of a table need up to twenty times the length of its text.
 pub const LONGEST_DATA: u64 = 256 << 20;
+
+/// Where the files that documents name are read from. The readers of gearboxes and studies read through it only.
+pub trait FileSource: fmt::Debug + Send + Sync {
+    /// The bytes of a file of at most `longest` bytes. The path is that of the document's folder, joined with the name in the
+    /// document.
+    ///
+    /// # Errors
+    /// The reason why the file cannot be read, such as that there is none or that it is longer.
+    fn read(&self, path: &Path, longest: u64) -> Result<Vec<u8>>;
+
+    /// The text of a file of at most `longest` bytes.
+    ///
+    /// # Errors
+    /// As [`FileSource::read`], or that it is no UTF-8.
+    fn read_text(&self, path: &Path, longest: u64) -> Result<String> {
+        text_from(self.read(path, longest)?)
+    }
+}
+
+/// A [`FileSource`] that documents share.
+pub type SharedSource = Arc<dyn FileSource>;
+
+/// The files of the system: regular files of a stated length.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Disk;
+
+impl Disk {
+    /// The files of the system, to be shared.
+    pub fn shared() -> SharedSource {
+        Arc::new(Self)
+    }
+}
+
+impl FileSource for Disk {
+    fn read(&self, path: &Path, longest: u64) -> Result<Vec<u8>> {
+        read_bytes(path, longest)
+    }
+}
+
+/// Files in memory, by path. Nothing else can be read.
+///
+/// ```
+/// use std::path::Path;
+/// use gearloss_document::files::{FileSource, InMemory};
+///
+/// let files = InMemory::new([("data/rig.csv", "torque,speed\n1,2\n")]);
+/// assert!(files.read_text(Path::new("./data/rig.csv"), 1000).is_ok());
+/// assert!(files.read_text(Path::new("/etc/hostname"), 1000).is_err());
+/// ```
+#[derive(Clone, Default)]
+pub struct InMemory(BTreeMap<PathBuf, Vec<u8>>);
+
+impl InMemory {
+    /// Files with their content.
+    pub fn new<P: AsRef<Path>, B: Into<Vec<u8>>>(files: impl IntoIterator<Item = (P, B)>) -> Self {
+        let mut new = Self::default();
+        for (path, content) in files {
+            new.add(path, content);
+        }
+        new
+    }
+
+    /// The files, to be shared by documents.
+    pub fn shared(self) -> SharedSource {
+        Arc::new(self)
+    }
+
+    /// Adds a file, or replaces the one of that path.
+    pub fn add(&mut self, path: impl AsRef<Path>, content: impl Into<Vec<u8>>) {
+        self.0.insert(without_dots(path.as_ref()), content.into());
+    }
+}
+
+/// Paths and lengths, because contents are long.
+impl fmt::Debug for InMemory {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_map()
+            .entries(self.0.iter().map(|(path, bytes)| (path, bytes.len())))
+            .finish()
+    }
+}
+
+impl FileSource for InMemory {
+    fn read(&self, path: &Path, longest: u64) -> Result<Vec<u8>> {
+        let bytes = self.0.get(&without_dots(path));
+        let bytes = bytes.ok_or_else(|| Error::new(ErrorKind::NotFound, "there is no such file in memory"))?;
+        within(bytes.len() as u64, longest)?;
+        Ok(bytes.clone())
+    }
+}
+
+/// A path without `.`, and without `..` where a folder is before it.
+fn without_dots(path: &Path) -> PathBuf {
+    let mut plain = PathBuf::new();
+    for component in path.components() {
+        match component {
+            Component::CurDir => {}
+            Component::ParentDir if plain.file_name().is_some() => {
+                plain.pop();
+            }
+            other => plain.push(other),
+        }
+    }
+    plain
+}
 
 /// Opens a file for reading. A link to a file is followed.
 ///
@@ -50,13 +159,18 @@ pub fn read_bytes(path: &Path, longest: u64) -> Result<Vec<u8>> {
         // The reported length of a file may be wrong.
         file.take(longest + 1).read_to_end(&mut bytes)?;
     }
-    let length = told.max(bytes.len() as u64);
-    if length > longest {
-        let [length, longest] = [length, longest].map(|bytes| bytes.div_ceil(1 << 20));
-        let message = format!("it has {length} MB; at most {longest} MB are read");
-        return Err(Error::other(message));
-    }
+    within(told.max(bytes.len() as u64), longest)?;
     Ok(bytes)
+}
+
+/// Refuses a file that is too long.
+fn within(length: u64, longest: u64) -> Result<()> {
+    if length <= longest {
+        return Ok(());
+    }
+    let [length, longest] = [length, longest].map(|bytes| bytes.div_ceil(1 << 20));
+    let message = format!("it has {length} MB; at most {longest} MB are read");
+    Err(Error::other(message))
 }
 
 /// The text of a regular file of at most `longest` bytes.
@@ -64,8 +178,11 @@ pub fn read_bytes(path: &Path, longest: u64) -> Result<Vec<u8>> {
 /// # Errors
 /// As [`read_bytes`], or if it is not UTF-8.
 pub fn read_text(path: &Path, longest: u64) -> Result<String> {
-    let bytes = read_bytes(path, longest)?;
-    String::from_utf8(bytes).map_err(|_| Error::new(std::io::ErrorKind::InvalidData, "it is not UTF-8 text"))
+    text_from(read_bytes(path, longest)?)
+}
+
+fn text_from(bytes: Vec<u8>) -> Result<String> {
+    String::from_utf8(bytes).map_err(|_| Error::new(ErrorKind::InvalidData, "it is not UTF-8 text"))
 }
 
 #[cfg(test)]
@@ -85,12 +202,25 @@ mod tests {
         std::fs::write(&file, "sixteen letters.").unwrap();
         assert_eq!(read_text(&file, 16).unwrap(), "sixteen letters.");
         std::fs::write(&file, "seventeen letters").unwrap();
-        assert_eq!(refused(&file), "it has 1 MB, and no more than 1 MB are read");
+        assert_eq!(refused(&file), "it has 1 MB; at most 1 MB are read");
         std::fs::write(&file, [0xff]).unwrap();
         assert_eq!(refused(&file), "it is not UTF-8 text");
         assert_eq!(refused(&folder), "it is a folder, not a file");
         assert!(refused(folder.join("nowhere")).contains("No such file") || cfg!(windows));
         std::fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[test]
+    fn files_in_memory_are_found_by_any_spelling_of_their_path() {
+        let files = InMemory::new([("./cases/../rig.csv", "a,b")]);
+        assert_eq!(files.read_text(Path::new("rig.csv"), 16).unwrap(), "a,b");
+        assert_eq!(files.read_text(Path::new("cases/./../rig.csv"), 16).unwrap(), "a,b");
+        assert_eq!(
+            files.read(Path::new("rig"), 16).unwrap_err().kind(),
+            ErrorKind::NotFound
+        );
+        let long = files.read(Path::new("rig.csv"), 2).unwrap_err().to_string();
+        assert_eq!(long, "it has 1 MB; at most 1 MB are read");
     }
 
     #[cfg(unix)]

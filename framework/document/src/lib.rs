@@ -1,6 +1,8 @@
 //! Documents: from YAML text to nodes with places, and to values in SI by one walk along a compiled schema that collects all errors.
 
 mod by_type;
+mod code;
+pub mod codes;
 pub mod data;
 mod diagnostic;
 pub mod files;
@@ -16,8 +18,11 @@ mod walk;
 mod yaml;
 
 pub use by_type::records_by_type;
+pub use code::{Code, CodeEntry};
 pub use diagnostic::distance;
-pub use diagnostic::{Code, Diagnostic, Severity, Sources, did_you_mean};
+pub use diagnostic::{
+    Diagnostic, FilePlace, PlacedDiagnostic, RelatedPlace, Severity, Sources, classify, did_you_mean,
+};
 pub use node::{Content, Key, Node, Span};
 pub use ordered::Ordered;
 pub use places::{Place, Places};

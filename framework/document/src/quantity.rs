@@ -3,7 +3,8 @@
 use super::unit::{Dimension, Unit};
 
 /// An error in a quantity.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("{message}")]
 pub struct QuantityFault {
     /// Message.
     pub message: String,

@@ -1,7 +1,6 @@
 //! The published schema, compiled for the walk. Constructs that the walk cannot check are errors.
 
 use std::collections::BTreeMap;
-use std::fmt;
 
 use serde_json::{Map, Value};
 
@@ -78,18 +77,13 @@ pub struct Field {
 }
 
 /// A construct that the walk cannot check.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{place}: {why}")]
 pub struct Unsupported {
     /// Place in the schema: mechanism, model and field.
     pub place: String,
     /// Why.
     pub why: String,
-}
-
-impl fmt::Display for Unsupported {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}", self.place, self.why)
-    }
 }
 
 /// A compiled schema.

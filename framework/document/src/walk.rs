@@ -3,7 +3,9 @@
 
 use serde_json::{Map, Value};
 
-use super::diagnostic::{Code, Diagnostic, did_you_mean};
+use super::code::Code;
+use super::codes;
+use super::diagnostic::{Diagnostic, did_you_mean};
 use super::misplaced;
 use super::node::{Content, Key, Node};
 use super::places::{Place, Places};
@@ -102,9 +104,11 @@ pub fn walk_shape<'a>(node: &Node, schema: &'a Schema, shape: &'a Shape, path: &
     }
 }
 
-/// Findings of a walk; the default code is `Value`.
+/// Findings of a walk; the default code is [`codes::WRONG_TYPE`].
 fn found(list: Vec<Diagnostic>) -> Vec<Diagnostic> {
-    list.into_iter().map(|finding| finding.code(Code::Value)).collect()
+    list.into_iter()
+        .map(|finding| finding.code(codes::WRONG_TYPE))
+        .collect()
 }
 
 /// Name of the `type` of a record, with all possible types.
@@ -146,6 +150,13 @@ impl<'a> Walker<'a> {
     fn report(&mut self, node: &Node, message: impl Into<String>, help: impl Into<String>) {
         let finding = Diagnostic::error(self.path.clone(), message).at(node.span).help(help);
         self.findings.push(finding);
+    }
+
+    /// The finding that was just reported has this code.
+    fn last_is(&mut self, code: Code) {
+        if let Some(last) = self.findings.last_mut() {
+            last.code = Some(code);
+        }
     }
 
     fn within<T>(&mut self, key: &str, walk: impl FnOnce(&mut Self) -> T) -> T {
@@ -220,6 +231,7 @@ impl<'a> Walker<'a> {
                         fault.message,
                         fault.help.unwrap_or_else(|| "write a smaller number".to_owned()),
                     );
+                    self.last_is(codes::WRONG_UNIT);
                     return None;
                 }
             },
@@ -234,6 +246,7 @@ impl<'a> Walker<'a> {
         };
         if !shown.is_finite() {
             self.report(node, "the number is too large", "write a number of realistic size");
+            self.last_is(codes::OUT_OF_BOUNDS);
             return None;
         }
         // A text is compared after a round-trip conversion: allow for rounding.
@@ -258,6 +271,7 @@ impl<'a> Walker<'a> {
                 format!("{}{unit_name} is out of range", tidy(shown)),
                 format!("write {range}"),
             );
+            self.last_is(codes::OUT_OF_BOUNDS);
             return None;
         }
         if whole {
@@ -307,7 +321,7 @@ impl<'a> Walker<'a> {
                 .at(node.span)
                 .note(format!("allowed values: {}", words.join(", ")))
                 .help(close.map_or_else(|| "write one of them".to_owned(), |close| format!("write `{close}`")));
-            self.findings.push(finding.code(Code::UnknownName));
+            self.findings.push(finding.code(codes::UNKNOWN_TYPE));
             return None;
         }
         Some(Value::from(text.as_str()))
@@ -415,6 +429,7 @@ impl<'a> Walker<'a> {
                     };
                     w.findings
                         .push(Diagnostic::error(w.path.clone(), message).at(key.span).help(help));
+                    w.last_is(codes::WRONG_NAME);
                 }
                 w.places.0.insert(
                     w.path.clone(),
@@ -486,7 +501,7 @@ impl<'a> Walker<'a> {
                         .at(node.span)
                         .note(format!("linked: {}", names().collect::<Vec<_>>().join(", ")))
                         .help("`model:` replaces the complete default: add its `type`");
-                    self.findings.push(finding.code(Code::MissingKey));
+                    self.findings.push(finding.code(codes::MISSING_KEY));
                     None
                 }
                 Some(tag) => match tag.text() {
@@ -519,7 +534,7 @@ impl<'a> Walker<'a> {
                 Some(close) => format!("write `{close}`"),
                 None => "choose one of them; `gearloss models` describes them".to_owned(),
             });
-        self.findings.push(finding.code(Code::UnknownName));
+        self.findings.push(finding.code(codes::UNKNOWN_TYPE));
     }
 
     fn either(&mut self, node: &Node, shapes: &'a [Shape]) -> Option<Value> {
@@ -618,7 +633,7 @@ impl<'a> Walker<'a> {
                         let finding = Diagnostic::error(self.path.clone(), format!("`{name}` is missing"))
                             .at(node.span)
                             .help(format!("add `{name}:` ({first_sentence})"));
-                        self.findings.push(finding.code(Code::MissingKey));
+                        self.findings.push(finding.code(codes::MISSING_KEY));
                         None
                     }
                     None => None,
@@ -683,7 +698,7 @@ impl<'a> Walker<'a> {
                     .help("choose one of these keys, or remove it"),
             }
         };
-        self.findings.push(finding.at(key.span).code(Code::UnknownKey));
+        self.findings.push(finding.at(key.span).code(codes::UNKNOWN_KEY));
         meant
     }
 

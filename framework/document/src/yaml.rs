@@ -5,7 +5,8 @@
 
 use granit_parser::{Event, Parser, ScalarStyle};
 
-use super::diagnostic::{Code, Diagnostic};
+use super::codes;
+use super::diagnostic::Diagnostic;
 use super::node::{Content, Key, Node, Span};
 use super::quantity::number_length;
 use crate::files::LONGEST_TEXT;
@@ -37,7 +38,7 @@ pub fn read_yaml(source: u16, text: &str) -> Read {
                 content: Content::Null,
                 span,
             },
-            findings: vec![error.at(span).help(help).code(Code::Syntax)],
+            findings: vec![error.at(span).help(help).code(codes::UNREADABLE)],
         };
     }
     let mut reader = Reader {
@@ -59,7 +60,7 @@ pub fn read_yaml(source: u16, text: &str) -> Read {
         findings: reader
             .findings
             .into_iter()
-            .map(|finding| finding.code(Code::Syntax))
+            .map(|finding| finding.code(codes::SYNTAX))
             .collect(),
     }
 }
@@ -233,6 +234,7 @@ impl<'a> Reader<'a> {
                 Some((key, _)) => self.findings.push(
                     Diagnostic::error("", format!("the key `{name}` occurs twice"))
                         .at(key_span)
+                        .code(codes::DUPLICATE_KEY)
                         .label(key.span, "first occurrence")
                         .help("rename one of them or merge them"),
                 ),
@@ -298,10 +300,10 @@ mod tests {
         for (text, word) in [
             ("a: &x 1", "anchor"),
             ("a: !!str 1", "tag"),
-            ("a: 1\na: 2", "stands twice"),
+            ("a: 1\na: 2", "occurs twice"),
             ("a: 1\n---\nb: 2", "second document"),
             ("", "empty"),
-            ("a: [1, 2", "not YAML"),
+            ("a: [1, 2", "not valid YAML"),
             ("? [a, b]\n: 1", "key that is not a text"),
         ] {
             let read = read_yaml(0, text);

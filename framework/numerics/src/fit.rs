@@ -92,12 +92,12 @@ mod tests {
         assert!(
             power_law(&[point(1.0, 2.0), point(2.0, 4.0), point(4.0, 8.0)])
                 .unwrap_err()
-                .contains("apart")
+                .contains("do not identify")
         );
         assert!(
             power_law(&[point(1.0, 2.0), point(2.0, 2.0), point(4.0, 2.0)])
                 .unwrap_err()
-                .contains("apart")
+                .contains("do not identify")
         );
         assert!(
             power_law(&[point(1.0, 2.0), point(2.0, 3.0)])

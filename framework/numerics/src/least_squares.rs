@@ -29,6 +29,7 @@
 
 mod bounded_linear;
 mod cone;
+mod context;
 mod difference;
 mod dogleg;
 mod evaluate;
@@ -39,6 +40,7 @@ mod iterate;
 mod kink;
 mod linear;
 mod linearised;
+mod model;
 mod multistart;
 mod noise;
 mod optimality;
@@ -56,14 +58,12 @@ mod unite;
 
 pub use bounded_linear::bounded_linear;
 pub use fault::{Fault, Finding};
-pub use fit::{Counts, Derivative, Fit, Iteration, Reason, Side, Status};
-pub use kink::Kink;
+pub use fit::{Counts, Derivative, Fit, How, Iteration, Kink, Reason, Side, Status};
 pub use multistart::{Kinship, Minima, Minimum, multistart};
-pub use options::{Differences, Noise, Options, Steps, Subproblem, Tolerances};
+pub use options::{Differences, Noise, OneSearch, Options, Searches, Steps, Subproblem, Tolerances};
 pub use points::{halton, spread};
 pub use problem::{Parameter, Prior, Problem, Scale};
 pub use robust::Loss;
 pub(crate) use robust::{FLOOR, median_spread};
 pub use solve::{SINGULAR, solve};
-pub use subproblem::How;
 pub use unite::UNTOLD;

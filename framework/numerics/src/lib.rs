@@ -1,10 +1,15 @@
 //! Numerical methods of gearloss, independent of gears: least squares, inference, sampling, sensitivity.
 
-pub mod design;
+// Fits and what they say.
 pub mod fit;
 pub mod inference;
 pub mod least_squares;
-pub mod sampling;
 pub mod selection;
+
+// Which points to take or to vary.
+pub mod design;
+pub mod sampling;
 pub mod sensitivity;
+
+// What all of them use.
 pub mod statistics;

@@ -10,4 +10,5 @@ mod screening;
 
 pub use indices::{Estimate, VarianceShares, variance_shares};
 pub use local::{Local, gradients, local};
+pub use run::{Evaluate, PointOf};
 pub use screening::{Effect, Influence, Screening, screening};

@@ -15,11 +15,11 @@ fn check_2_9_what_makes_no_sense_is_told_at_once() {
     three[1] = three[1].clone().log().prior(-1.0, 0.0);
     let text = fault(&Problem::new(|_: &[f64]| Ok(vec![0.0; 9]), three));
     for part in [
-        "parameter `x1`: its lower bound 2 lies above its upper bound 0; exchange them",
+        "parameter `x1`: its lower bound 2 is above its upper bound 0; exchange them",
         "parameter `x2`: its lower bound 0 has no logarithm",
         "parameter `x2`: its start -1 has no logarithm",
-        "parameter `x2`: the deviation 0 of its prior is not above zero",
-        "parameter `x2`: the mean -1 of its prior has no value",
+        "parameter `x2`: the deviation 0 of its prior is not positive",
+        "parameter `x2`: the mean -1 of its prior is not possible on its scale",
         "parameter `x3`: its start is NaN; give a number",
     ] {
         assert!(text.contains(part), "{part} is not in\n{text}");
@@ -32,7 +32,7 @@ fn check_2_9_what_makes_no_sense_is_told_at_once() {
         ..Options::fit()
     };
     let text = solve(&problem(rosenbrock, &[1.0, 2.0], &[-INF; 2], &[INF; 2]), &options).unwrap_err();
-    assert!(text.to_string().contains("option loss_scale: 0 is not above zero"));
+    assert!(text.to_string().contains("option loss_scale: 0 is not positive"));
 }
 
 #[test]
@@ -75,7 +75,7 @@ fn check_2_9_residuals_without_value() {
     let fit = solve(&Problem::new(lone, vec![Parameter::new("a", 1.0)]), &Options::fit()).unwrap();
     assert_eq!((fit.status, fit.reason), (Status::Failed, Reason::DerivativeNotFinite));
     assert!(
-        fit.notes.iter().any(|n| n.contains("beside `a` = 1: off the rails")),
+        fit.notes.iter().any(|n| n.contains("near `a` = 1: off the rails")),
         "{:?}",
         fit.notes
     );
@@ -99,7 +99,7 @@ fn check_2_9_residuals_without_value() {
     let calls = AtomicUsize::new(0);
     let fickle = |x: &[f64]| Ok(vec![x[0]; 2 + calls.fetch_add(1, Ordering::Relaxed)]);
     let fit = solve(&Problem::new(fickle, vec![Parameter::new("a", 1.0)]), &Options::fit()).unwrap();
-    assert!(!fit.converged() && fit.notes.iter().any(|n| n.contains("residuals where there were 2")));
+    assert!(!fit.converged() && fit.notes.iter().any(|n| n.contains("residuals, but 2")));
 }
 
 #[test]
@@ -108,7 +108,7 @@ fn check_2_9_a_parameter_that_is_not_seen() {
     let fit = solve(&problem(law, &[3.0, 7.0], &[-INF; 2], &[INF; 2]), &Options::fit()).unwrap();
     assert!(fit.converged() && (fit.theta[0] - 1.2).abs() < 1e-9 && fit.theta[1] == 7.0);
     assert_eq!(fit.derivative.unwrap().unseen, [false, true]);
-    assert!(fit.notes.iter().any(|n| n.contains("`x2` is not seen")));
+    assert!(fit.notes.iter().any(|n| n.contains("`x2` has no effect on any residual")));
     // Unseen at the start only: it joins.
     let law: Residual = |x| vec![x[0] - 3.0, (x[0] - 1.0).max(0.0) * (x[1] - 2.0), 0.1];
     let fit = solve(&problem(law, &[0.0, 7.0], &[-INF; 2], &[INF; 2]), &Options::fit()).unwrap();

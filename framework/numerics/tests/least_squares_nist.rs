@@ -267,5 +267,5 @@ fn check_2_9_a_parameter_that_is_lost_on_the_way_is_no_success() {
     let lost = vec![Parameter::new("b1", 100.0), Parameter::new("b2", 1e4)];
     let fit = problem.solve(lost, &Options::exact());
     assert_eq!(fit.derivative.as_ref().unwrap().unseen, [false, true]);
-    assert!(fit.notes[0].contains("`b2` is not seen"));
+    assert!(fit.notes[0].contains("`b2` has no effect on any residual"));
 }

@@ -1,6 +1,7 @@
 //! A checked gearbox: text and record; findings as records.
 
-use gearloss_framework::document::{Code, Diagnostic, Sources, Span};
+use gearloss_framework::codes;
+use gearloss_framework::document::{Diagnostic, PlacedDiagnostic, Sources};
 use gearloss_framework::language::Language;
 use gearloss_framework::transmission::{GearState, Transmission};
 use gearloss_studies::checked::{CheckedGearbox, overloaded};
@@ -96,8 +97,8 @@ pub fn checked_json(checked: &CheckedGearbox, with_resolved: bool) -> Map<String
     built
 }
 
-/// Warnings of a checked gearbox as records, overloaded bearings among them.
-pub fn warnings_json(checked: &CheckedGearbox) -> Vec<Value> {
+/// Warnings of a checked gearbox with their places, overloaded bearings among them.
+pub fn warnings(checked: &CheckedGearbox) -> Vec<PlacedDiagnostic> {
     let transmission = &checked.transmission;
     let overloaded = overloaded(transmission).into_iter().map(|note| {
         let message = format!(
@@ -108,11 +109,11 @@ pub fn warnings_json(checked: &CheckedGearbox) -> Vec<Value> {
         checked.gearbox.places.place(
             Diagnostic::warning(note.path, message)
                 .help("use a larger bearing, or check the rating")
-                .code(Code::Gearbox),
+                .code(codes::OVERLOADED),
         )
     });
     let warnings: Vec<Diagnostic> = transmission.warnings.iter().cloned().chain(overloaded).collect();
-    findings_json(&warnings, &checked.gearbox.sources)
+    placed(&warnings, &checked.gearbox.sources)
 }
 
 /// The ratio from the reference port to each other port for each gear.
@@ -128,41 +129,6 @@ fn ratios(t: &Transmission) -> Value {
 }
 
 /// Findings with file, line and column instead of spans.
-pub fn findings_json(list: &[Diagnostic], sources: &Sources) -> Vec<Value> {
-    let place = |span: Span| {
-        sources
-            .locate(span)
-            .map_or([Value::Null, Value::Null, Value::Null], |(file, line, column)| {
-                [file.into(), line.into(), column.into()]
-            })
-    };
-    list.iter()
-        .map(|finding| {
-            let [file, line, column] = finding
-                .spans
-                .first()
-                .map_or([Value::Null, Value::Null, Value::Null], |(span, _)| place(*span));
-            let related: Vec<Value> = finding
-                .spans
-                .iter()
-                .skip(1)
-                .map(|(span, label)| {
-                    let [file, line, column] = place(*span);
-                    json!({ "file": file, "line": line, "column": column, "message": label })
-                })
-                .collect();
-            json!({
-                "severity": finding.severity,
-                "code": finding.code.unwrap_or(Code::Other),
-                "path": finding.path,
-                "message": finding.message,
-                "help": finding.help,
-                "notes": finding.notes,
-                "file": file,
-                "line": line,
-                "column": column,
-                "related": related,
-            })
-        })
-        .collect()
+pub fn placed(list: &[Diagnostic], sources: &Sources) -> Vec<PlacedDiagnostic> {
+    list.iter().map(|finding| sources.placed(finding)).collect()
 }

@@ -7,6 +7,7 @@ mod lossy_gear;
 mod matlab;
 mod vecto;
 
+use crate::codes;
 use gearloss_framework::document::Diagnostic;
 use gearloss_studies::analyses::map::{ExportMap, MapOfSet, MapOutcome};
 
@@ -42,7 +43,11 @@ pub fn add(outcome: &MapOutcome, page: &mut Page) {
                 }
                 Err(refusal) => {
                     let path = format!("analyses.{}.export", outcome.head.analysis);
-                    return page.fault(Diagnostic::error(path, refusal.message).help(refusal.help));
+                    return page.fault(
+                        Diagnostic::error(path, refusal.message)
+                            .help(refusal.help)
+                            .code(codes::EXPORT),
+                    );
                 }
             }
         }

@@ -3,6 +3,7 @@
 mod gearbox;
 mod point;
 
+use crate::codes;
 use gearloss_framework::description::AssumedEntry;
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::evaluate::PowerFlow;
@@ -169,7 +170,9 @@ fn template_fault(fault: minijinja::Error) -> Diagnostic {
         ),
         _ => format!("{fault:#}"),
     };
-    Diagnostic::error("", format!("the template of the report: {words}")).help("correct it, or omit --template")
+    Diagnostic::error("", format!("the template of the report: {words}"))
+        .help("correct it, or omit --template")
+        .code(codes::TEMPLATE)
 }
 
 impl Report {

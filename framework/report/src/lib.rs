@@ -1,22 +1,31 @@
 //! Text, figures, pages and files of results.
+//!
+//! A view turns an outcome into a [`Page`](page::Page): text, verdicts and figures. It registers itself with
+//! [`register_view!`](crate::register_view); an outcome without one is shown as its tables.
 
+// Outcomes, points and models as text and pages.
 pub mod card;
 pub mod check;
-mod contours;
-pub mod csv;
-pub mod deviations;
+pub mod codes;
 pub mod eval;
-pub mod exports;
-pub mod figure;
 pub mod html;
 pub mod models;
 pub mod page;
-pub mod parquet;
-pub mod plot;
 pub mod point;
-mod schematic;
 pub mod text;
-pub mod views;
+mod views;
+
+// Figures as data and as SVG.
+mod contours;
+mod deviations;
+pub mod figure;
+pub mod plot;
+mod schematic;
+
+// Tables as files, also for other programs.
+pub mod csv;
+pub mod exports;
+pub mod parquet;
 
 pub use figure::{Cloud, Figure, Map};
 pub use schematic::schematic;

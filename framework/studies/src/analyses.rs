@@ -1,6 +1,6 @@
-//! Analyses: what a study writes of each, how it is computed, and what comes out.
+//! Analyses: their entries in a study, computation and outcomes.
 //!
-//! An analysis registers itself with [`register_analysis!`](crate::register_analysis), as a model does, so that the schema, `run`, the
+//! Like a model, an analysis registers itself with [`register_analysis!`](crate::register_analysis), so that the schema, `run`, the
 //! reference and the report find it.
 
 pub mod axes;
@@ -54,77 +54,77 @@ use crate::analysis::Note;
 use crate::study::{Then, Uses, Write};
 use crate::table::Table;
 
-/// What a study writes of an analysis.
+/// The entry of an analysis in a study.
 pub trait Entry: DeserializeOwned + JsonSchema + fmt::Debug + Send + Sync + 'static {
     /// Value of the key `type`.
     const TYPE: &'static str;
     /// Description of the analysis as a sentence.
     const MEANING: &'static str;
 
-    /// The names that it uses, to be looked up before anything is solved.
+    /// The names that it uses, which are checked before anything is solved.
     fn uses(&self) -> Uses<'_>;
 
-    /// The model set that it leaves for later analyses.
+    /// The model set that it provides for later analyses.
     fn then(&self) -> Option<Then<'_>> {
         None
     }
 }
 
-/// An analysis: what is written of it, and how its outcome is computed.
+/// An analysis: its entry and the computation of its outcome.
 ///
-/// It prints nothing, writes no file and keeps nothing between two runs.
+/// It prints nothing, writes no files and has no state between runs.
 pub trait Analysis: Entry {
-    /// What comes out.
+    /// Outcome.
     type Outcome: Outcome;
 
     /// Computes the outcome.
     ///
     /// # Errors
-    /// Everything that is wrong with the input, and an interruption by the caller. Where the analysis is only checked it ends with
-    /// [`Stopped::Checked`] before it computes.
+    /// All errors of the input, and an interruption by the caller. If the analysis is only checked, it ends with [`Stopped::Checked`]
+    /// before it computes.
     fn run(&self, cx: &Context<'_>) -> Result<Self::Outcome, Stopped>;
 
-    /// Files that the study asks for.
+    /// Requested files.
     fn formats(&self) -> &[Write];
 }
 
-/// What comes out of an analysis.
+/// The outcome of an analysis.
 pub trait Outcome: Serialize + JsonSchema + fmt::Debug + Send + Sync + 'static {
-    /// Where it comes from.
+    /// Provenance.
     fn head(&self) -> &Head;
 
-    /// Its numbers as columns; the first table is that of the analysis.
+    /// Its numbers as columns; the first table has the name of the analysis.
     fn tables(&self) -> Vec<Table>;
 
-    /// What models noted: stated ranges that were left, quantities that were observed.
+    /// Notes of models: quantities outside their stated ranges, observed quantities.
     fn notes(&self) -> Vec<&Note>;
 
-    /// Stated ranges that samples left, of which no more is known: path and quantity.
+    /// Quantities outside their stated ranges in samples, without details: path and quantity.
     fn left_at_samples(&self) -> Vec<(&str, &str)> {
         Vec::new()
     }
 
-    /// Number of stated ranges that models left which [`Outcome::notes`] does not list; they count for `--deny extrapolation`.
+    /// Number of quantities outside their stated ranges that [`Outcome::notes`] does not list; they count for `--deny extrapolation`.
     fn unlisted(&self) -> usize {
         0
     }
 
-    /// Values of the model set that the analysis leaves for later ones ([`Entry::then`]): resolved path to value.
+    /// Values of the model set for later analyses ([`Entry::then`]): resolved path to value.
     fn found(&self) -> Vec<(String, Value)> {
         Vec::new()
     }
 
-    /// Why it is not whole, although what there is counts; it is shown and written first.
+    /// Why it is incomplete, although the existing part is valid; it is shown and written first.
     fn fault(&self) -> Option<Diagnostic> {
         None
     }
 
-    /// Why parts of the outcome are missing. The rest is shown and written, but the analysis has failed.
+    /// Why parts of the outcome are missing. The remainder is shown and written, but the analysis has failed.
     fn failures(&self) -> &[Findings] {
         &[]
     }
 
-    /// Further files of text, such as values for a study, that are written whatever formats the study asks for.
+    /// Further text files, such as values for a study, that are always written.
     fn files(&self) -> Vec<TextFile> {
         Vec::new()
     }
@@ -135,25 +135,25 @@ pub trait Outcome: Serialize + JsonSchema + fmt::Debug + Send + Sync + 'static {
 pub struct TextFile {
     /// Name with extension.
     pub name: String,
-    /// What is in it.
+    /// Content.
     pub text: String,
 }
 
 /// An [`Outcome`] of any type.
 pub trait AnyOutcome: fmt::Debug + Send + Sync {
-    /// Where it comes from.
+    /// Provenance.
     fn head(&self) -> &Head;
     /// Its numbers as columns.
     fn tables(&self) -> Vec<Table>;
-    /// What models noted.
+    /// Notes of models.
     fn notes(&self) -> Vec<&Note>;
-    /// Stated ranges that samples left.
+    /// Quantities outside their stated ranges in samples.
     fn left_at_samples(&self) -> Vec<(&str, &str)>;
-    /// Number of stated ranges that models left and that no note lists.
+    /// Number of quantities outside their stated ranges that no note lists.
     fn unlisted(&self) -> usize;
-    /// Values of the model set that it leaves for later analyses.
+    /// Values of its model set for later analyses.
     fn found(&self) -> Vec<(String, Value)>;
-    /// Why it is not whole.
+    /// Why it is incomplete.
     fn fault(&self) -> Option<Diagnostic>;
     /// Why parts of it are missing.
     fn failures(&self) -> &[Findings];
@@ -164,8 +164,20 @@ pub trait AnyOutcome: fmt::Debug + Send + Sync {
     /// Writes it as JSON.
     ///
     /// # Errors
-    /// What the writer says.
+    /// Errors of the writer.
     fn write_json(&self, to: &mut dyn io::Write) -> serde_json::Result<()>;
+}
+
+impl dyn AnyOutcome {
+    /// The outcome as its type; absent where it is that of another analysis.
+    pub fn get<O: Outcome>(&self) -> Option<&O> {
+        self.as_any().downcast_ref()
+    }
+
+    /// A table by its name; the first one has the name of the analysis.
+    pub fn table(&self, name: &str) -> Option<Table> {
+        self.tables().into_iter().find(|table| table.name == name)
+    }
 }
 
 impl<O: Outcome> AnyOutcome for O {
@@ -224,7 +236,7 @@ impl<E: Entry> Written for E {
 pub struct AnalysisKind {
     /// Value of the key `type`.
     pub name: &'static str,
-    /// What it is, as a sentence.
+    /// Description as a sentence.
     pub meaning: &'static str,
     /// Where it is registered.
     pub origin: Origin,
@@ -260,14 +272,14 @@ impl AnalysisKind {
     /// All that are linked, in the order of their names.
     ///
     /// # Panics
-    /// If two have one name: a fault of the program, found when it first reads a study.
+    /// If two have the same name: a bug of the program, found when it first reads a study.
     pub fn linked() -> Vec<&'static Self> {
         let mut all: Vec<&'static Self> = inventory::iter::<Self>.into_iter().collect();
         all.sort_by_key(|kind| kind.name);
         for pair in all.windows(2) {
             assert!(
                 pair[0].name != pair[1].name,
-                "two analyses are called `{}`: {} and {}",
+                "two analyses have the name `{}`: {} and {}",
                 pair[0].name,
                 pair[0].origin,
                 pair[1].origin
@@ -277,7 +289,7 @@ impl AnalysisKind {
     }
 }
 
-/// The entry that a kind has read.
+/// The entry of this kind.
 fn own<A: Analysis>(entry: &dyn Any) -> &A {
     entry.downcast_ref().expect("a kind runs the entries that it has read")
 }
@@ -292,7 +304,7 @@ macro_rules! register_analysis {
     };
 }
 
-/// An analysis as a study writes it.
+/// An analysis as an entry of a study.
 #[derive(Debug, Clone)]
 pub struct AnalysisEntry {
     kind: &'static AnalysisKind,
@@ -306,12 +318,12 @@ impl fmt::Debug for AnalysisKind {
 }
 
 impl AnalysisEntry {
-    /// Which analysis it is.
+    /// The kind of analysis.
     pub fn kind(&self) -> &'static AnalysisKind {
         self.kind
     }
 
-    /// The entry, where it is of the type.
+    /// The entry if it has this type.
     pub fn entry<E: Entry>(&self) -> Option<&E> {
         let written: &dyn Any = self.written.as_ref();
         written.downcast_ref()
@@ -325,7 +337,7 @@ impl AnalysisEntry {
         (self.kind.run)(self.written.as_ref(), cx)
     }
 
-    /// Files that the study asks for.
+    /// Requested files.
     pub fn formats(&self) -> &[Write] {
         (self.kind.formats)(self.written.as_ref())
     }
@@ -335,7 +347,7 @@ impl AnalysisEntry {
         self.written.uses()
     }
 
-    /// The model set that it leaves for later analyses.
+    /// The model set that it provides for later analyses.
     pub fn then(&self) -> Option<Then<'_>> {
         self.written.then()
     }
@@ -350,7 +362,7 @@ impl<'de> Deserialize<'de> for AnalysisEntry {
         let Some(kind) = kinds.iter().copied().find(|kind| kind.name == name) else {
             let close = did_you_mean(name, kinds.iter().map(|kind| kind.name));
             let help = close.map_or_else(String::new, |close| format!(", did you mean `{close}`?"));
-            return Err(D::Error::custom(format!("no analysis is called `{name}`{help}")));
+            return Err(D::Error::custom(format!("there is no analysis `{name}`{help}")));
         };
         let written = (kind.read)(value).map_err(D::Error::custom)?;
         Ok(Self { kind, written })

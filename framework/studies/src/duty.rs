@@ -1,8 +1,7 @@
-//! Duties over time: driving cycles, recorded series of loads, load spectra, the vehicle between wheels and road, and the
-//! losses of an electric motor.
+//! Cycles: driving cycles, recorded load series, load spectra, and the vehicle.
 //!
-//! A duty becomes a list of intervals. Each says what is asked of the transmission, at one of its ports or at the wheels; how the
-//! transmission answers, and how warm it gets, is not decided here.
+//! A cycle is converted into a list of intervals. Each states the demand at a port of the transmission or at the wheels; the response of
+//! the transmission and its temperature are computed elsewhere.
 
 mod cycle;
 mod spectrum;
@@ -17,7 +16,7 @@ pub use vehicle::{
     input_torque,
 };
 
-/// What is asked of the transmission over an interval; SI.
+/// Demand on the transmission over an interval; SI.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Demand {
     /// Torque and speed at a port, as recorded.
@@ -27,19 +26,18 @@ pub enum Demand {
         /// \[rad/s\]
         speed: f64,
     },
-    /// Torque wanted at the wheels, negative while braking and before any limit of regeneration, and their speed. The
-    /// transmission decides the rest.
+    /// Demanded torque at the wheels, negative while braking and before any limit of regeneration, and their speed.
     Wheel {
         /// Of all driven wheels together. \[Nm\]
         torque: f64,
         /// \[rad/s\]
         speed: f64,
     },
-    /// Nothing turns and nothing is loaded.
+    /// Standstill without load.
     Rest,
 }
 
-/// What the surroundings and the driver give beside the demand, as far as it is known.
+/// Known boundary conditions in addition to the demand.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Given {
     /// Speed of the vehicle. \[m/s\]
@@ -50,24 +48,24 @@ pub struct Given {
     pub oil_temperature: Option<f64>,
     /// Mass flow of the coolant. \[kg/s\]
     pub coolant_flow: Option<f64>,
-    /// Temperature of the coolant that comes in. \[degC\]
+    /// Inlet temperature of the coolant. \[degC\]
     pub coolant_temperature: Option<f64>,
-    /// Temperature of the air. \[degC\]
+    /// Air temperature. \[degC\]
     pub ambient: Option<f64>,
     /// Gear state.
     pub gear: Option<String>,
 }
 
-/// A stretch of time over which the duty counts as constant.
+/// An interval of time with constant demand.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Interval {
-    /// Time at its begin. \[s\]
+    /// Time at its start. \[s\]
     pub start: f64,
     /// \[s\]
     pub duration: f64,
-    /// What is asked of the transmission.
+    /// Demand on the transmission.
     pub demand: Demand,
-    /// What else is known.
+    /// Boundary conditions.
     pub given: Given,
 }
 

@@ -1,8 +1,6 @@
-//! Identification: parameters of a gearbox and its rig that bring the summed losses to what was measured.
+//! Identification of parameters of a gearbox and its rig from measured total losses.
 //!
-//! [`Identification`] joins measured points, a gearbox and parameters to a least-squares problem; [`Identification::fit`]
-//! solves it and says what the points tell; [`Identification::predict`] predicts rows that were not
-//! fitted; [`Identification::next`] ranks points that would tell more.
+//! [`Identification`] combines measured points, a gearbox and parameters into a least-squares problem; [`Identification::fit`] solves it with inference; [`Identification::predict`] predicts rows that were not fitted; [`Identification::next`] ranks further measurements.
 
 mod fit;
 mod hold_out;

@@ -1,15 +1,27 @@
-//! Studies of gearloss: their documents, measured data, duties, identification and analyses.
+//! Studies of gearloss: documents, measured data, cycles, identification and analyses.
 
-pub mod analyses;
-pub mod analysis;
-pub mod checked;
+// For authors of analyses.
+pub mod prelude;
+
+// The document of a study, its data and its duties.
+pub mod codes;
 pub mod duty;
-pub mod fit;
-pub mod identify;
 pub mod measured;
-pub mod needs;
-pub mod results;
 pub mod study;
+
+// Analyses: how a study is run, entries and outcomes, results as columns.
+pub mod analyses;
+pub mod results;
+pub mod run;
 pub mod table;
 pub mod tasks;
+
+// What `check` finds and `models --needs` lists.
+pub mod checked;
+pub mod needs;
+
+// What analyses share: points, varied quantities, identification, fits of columns.
+pub mod analysis;
+pub mod fit;
+pub mod identify;
 pub mod varied;

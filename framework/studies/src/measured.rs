@@ -1,6 +1,6 @@
-//! Measured data as rigs write it: separators, decimal commas, encodings, unit rows, faulty rows.
+//! Measured data files of rigs: separators, decimal commas, encodings, unit rows, faulty rows.
 //!
-//! What a file looks like is recognised and told, or stated; a unit that stands nowhere is an error, not a guess.
+//! The format of a file is detected and reported, or stated; a missing unit is an error.
 
 mod accuracies;
 mod columns;
@@ -32,49 +32,47 @@ pub use rig::{Instruments, PortSpeeds, Powers, Rig, RigEntry, StatedAs, SupportL
 pub use seen::{Seen, counted};
 pub use steady::{SteadyEntry, SteadyLimitsEntry, Stretch};
 
-/// Files of measured points, and how to read them.
+/// Files of measured points and their settings.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct MeasuredEntry {
-    /// CSV file beside the study, or a list of files with the same quantities.
+    /// CSV file relative to the study, or a list of files with the same quantities.
     pub file: MeasuredFiles,
-    /// What a reader of the report has to know of these data: where they come from, or that they are synthetic.
+    /// Note for the report: origin of these data, or that they are synthetic.
     pub about: Option<String>,
-    /// Column of each quantity, where it is not named as the quantity: `torque: T_in`, or with a factor and a sign
-    /// `torque: { column: T_in, scale: 0.001, sign: -1 }`. Quantities: `torque` and `speed` at the
-    /// ports of the conditions, `torque_out`, `speed_out`, `efficiency`, `loss`, `loss_torque`, `oil_temperature`,
-    /// `surface_temperature`, `weight`, `gear`, `name`, and accuracies such as `efficiency_accuracy`. Torque and speed may
-    /// both be given at the other port alone, by `torque_out` and `speed_out`.
+    /// Column of each quantity, unless it has the name of the quantity: `torque: T_in`, or with a factor and a sign `torque: { column:
+    /// T_in, scale: 0.001, sign: -1 }`. Quantities: `torque` and `speed` at the ports of the conditions, `torque_out`, `speed_out`,
+    /// `efficiency`, `loss`, `loss_torque`, `oil_temperature`, `surface_temperature`, `weight`, `gear`, `name`, and accuracies such as
+    /// `efficiency_accuracy`. Torque and speed may both be given at the other port alone, by `torque_out` and `speed_out`.
     #[serde(default)]
     pub columns: Ordered<ColumnEntry>,
-    /// Unit of each quantity, where neither the header nor a row of units states it: `efficiency: "%"`.
+    /// Unit of each quantity, unless the header or a row of units states it: `efficiency: "%"`.
     #[serde(default)]
     pub units: Ordered<String>,
-    /// What separates cells; absent, it is recognised.
+    /// Cell separator; default: detected.
     pub separator: Option<Separator>,
-    /// Decimal sign; absent, it is recognised.
+    /// Decimal sign; default: detected.
     pub decimal: Option<Decimal>,
-    /// Encoding; absent, UTF-8, and Latin-1 where that fails.
+    /// Encoding; default: UTF-8, or Latin-1 if that fails.
     pub encoding: Option<Encoding>,
-    /// What happens to a row with blanks or text where a number is due.
+    /// Treatment of rows with blanks or text instead of a number.
     #[serde(default)]
     pub faulty_rows: FaultyRows,
-    /// Condition on the rows that count: `torque > 10 Nm and speed < 3000 rpm`. Quantities, bound columns and headers; `==`, `!=`,
-    /// `<`, `<=`, `>`, `>=`, `and`, `or`, `not`, parentheses. Of a time series it chooses among the steady stretches.
+    /// Condition on the rows that are used: `torque > 10 Nm and speed < 3000 rpm`. Quantities, bound columns and headers; `==`, `!=`, `<`,
+    /// `<=`, `>`, `>=`, `and`, `or`, `not`, parentheses. For a time series it selects among the steady stretches.
     pub rows: Option<String>,
     /// Steady stretches of a time series: each becomes one point.
     pub steady: Option<SteadyEntry>,
-    /// What accuracies in columns, of quantities and of the instruments mean.
+    /// Meaning of accuracies in columns, of quantities and of the instruments.
     #[serde(default)]
     pub stated_as: StatedAs,
     /// Coverage factor of expanded accuracies. [-]
     #[serde(default = "two")]
     #[schemars(range(min = 1.0, max = 10.0))]
     pub coverage_factor: f64,
-    /// Accuracy of measured quantities in percent of the reading and of the full scale. A column such as `loss_accuracy` takes
-    /// precedence.
+    /// Accuracy of measured quantities in percent of the reading and of the full scale. A column such as `loss_accuracy` has priority.
     #[serde(default)]
     pub accuracies: AccuraciesEntry,
-    /// The rig: what its meters and bearings add, and how accurate it is where no column says it.
+    /// The rig: offsets of its torque meters, drag of its bearings, and its accuracy if no column states it.
     #[serde(default)]
     pub rig: RigEntry,
 }
@@ -83,106 +81,104 @@ fn two() -> f64 {
     2.0
 }
 
-/// What happens to a row with blanks or text where a number is due.
+/// Treatment of rows with blanks or text instead of a number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum FaultyRows {
-    /// The file is refused.
+    /// The file is rejected.
     #[default]
     Refuse,
-    /// The row is left out, and told.
+    /// The row is omitted with a note.
     Skip,
-    /// A blank leaves out its quantity and no more; torque, speed and bound columns need a number all the same, and text is
-    /// refused.
+    /// A blank omits only its quantity; torque, speed and bound columns still need a number, and text is an error.
     Keep,
 }
 
 /// One measured point; SI, temperatures in degC.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Row {
-    /// Number of its file among [`Measured::files`].
+    /// Index of its file in [`Measured::files`].
     pub file: usize,
-    /// Line in the file; the first one where several were averaged.
+    /// Line in the file; the first line of averaged rows.
     pub line: u64,
-    /// Name, where the file has names.
+    /// Name, if the file has names.
     pub name: Option<String>,
-    /// Gear state, where the file has them.
+    /// Gear, if the file has gears.
     pub gear: Option<String>,
-    /// Values by the places of [`Measured::quantities`]; a gap where the cell is blank.
+    /// Values in the order of [`Measured::quantities`]; absent if the cell is blank.
     pub values: Vec<Option<f64>>,
     /// Bound values as written, with their units.
     pub bound: Vec<String>,
-    /// All cells of the row by the places of [`Measured::columns`], numbers with a decimal point; means where several rows were
-    /// averaged.
+    /// All cells of the row in the order of [`Measured::columns`], numbers with a decimal point; means of averaged rows.
     pub cells: Vec<String>,
-    /// What was averaged, where the point is a steady stretch of a time series.
+    /// The averaged samples, if the point is a steady stretch of a time series.
     pub stretch: Option<Stretch>,
 }
 
-/// A column of a file as its header states it.
+/// A column of a file.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct FileColumn {
     /// Name in the header.
     pub header: String,
-    /// Name under which it is bound, where it is.
+    /// Bound name, if bound.
     pub bound: Option<String>,
-    /// Symbol of its unit, where header, row of units or `units` state one.
+    /// Symbol of its unit, if the header, the row of units or `units` states one.
     pub unit: Option<String>,
-    /// The quantity that it is read as, where it is read as one.
+    /// Its quantity, if it is read as one.
     pub quantity: Option<&'static str>,
 }
 
-/// What was read.
+/// The measured data.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Measured {
     /// Names of the files in messages.
     pub files: Vec<String>,
-    /// Names of the numeric quantities that the file holds.
+    /// Names of the numeric quantities of the file.
     pub quantities: Vec<&'static str>,
-    /// All columns of the file, of the first one where there are several.
+    /// All columns of the (first) file.
     pub columns: Vec<FileColumn>,
     /// The points.
     pub rows: Vec<Row>,
-    /// How the file was understood, and which rows were left out, in sentences.
+    /// Notes on the detected format and on omitted rows.
     pub notes: Vec<String>,
-    /// What stated accuracies are divided by to give standard deviations.
+    /// Divisor from stated accuracies to standard deviations.
     pub divisor: f64,
-    /// What the rig adds to what its meters show.
+    /// Contribution of the rig to its readings.
     pub rig: Rig,
-    /// Instruments, where both torque meters are stated.
+    /// Instruments, if both torque meters are stated.
     pub instruments: Option<Instruments>,
-    /// Accuracies of quantities, where no column states them.
+    /// Accuracies of quantities without an accuracy column.
     pub accuracies: Accuracies,
-    /// Standard deviation of the oil's temperature, where no column says it. \[K\]
+    /// Standard deviation of the oil temperature, if no column states it. \[K\]
     pub oil_temperature: Option<f64>,
-    /// True where `torque` was read from `torque_out`: the torque at the other port than that of the conditions, positive where
-    /// power leaves a driven transmission there.
+    /// True if `torque` was read from `torque_out`: the torque at the port other than that of the conditions, positive if power leaves a
+    /// driven transmission there.
     pub torque_at_other_port: bool,
-    /// True where `speed` was read from `speed_out`: the speed at the other port than that of the conditions, positive where the
-    /// port of the conditions turns forward.
+    /// True if `speed` was read from `speed_out`: the speed at the port other than that of the conditions, positive if the port of the
+    /// conditions turns forward.
     pub speed_at_other_port: bool,
 }
 
 impl Measured {
-    /// A quantity of a row; absent where the file or the row does not hold it.
+    /// A quantity of a row; absent if the file or the row does not have it.
     pub fn value(&self, row: &Row, quantity: &str) -> Option<f64> {
         row.values.get(self.place(quantity)?).copied().flatten()
     }
 
-    /// Place of a column by the name under which it is bound, or by its header.
+    /// Index of a column by its bound name or its header.
     pub fn column(&self, name: &str) -> Option<usize> {
         let bound = self.columns.iter().position(|c| c.bound.as_deref() == Some(name));
         bound.or_else(|| self.columns.iter().position(|c| c.header == name))
     }
 
-    /// True where the file holds a quantity.
+    /// True if the file has a quantity.
     pub fn holds(&self, quantity: &str) -> bool {
         self.quantities.contains(&quantity)
     }
 
-    /// The torque of a row as it is applied to the transmission at the port where it was measured. A meter at the other port
-    /// counts positive where power leaves a driven transmission: there the torque that is applied has the other sign, or the
-    /// same one where the transmission turns the sense of rotation. \[Nm\]
+    /// The torque of a row applied to the transmission at the port of the measurement. A meter at the other port is positive if power
+    /// leaves a driven transmission: the applied torque there has the opposite sign, or the same sign if the transmission reverses the
+    /// direction of rotation. \[Nm\]
     pub fn applied_torque(&self, torque: f64, point: &PointResult) -> f64 {
         if self.torque_at_other_port {
             -torque * sense(point.reference_speed * point.output_speed.unwrap_or(1.0))
@@ -195,7 +191,7 @@ impl Measured {
         self.quantities.iter().position(|q| *q == quantity)
     }
 
-    /// Where a row stands, for messages: its line, with the file where there are several.
+    /// Place of a row for messages: its line, with the file if there are several.
     pub fn origin(&self, row: &Row) -> String {
         match self.file(row) {
             Some(file) => format!("{file}, line {}", row.line),
@@ -203,7 +199,7 @@ impl Measured {
         }
     }
 
-    /// The line of a row for tables: with the file before a colon where there are several.
+    /// The line of a row for tables, with the file before a colon if there are several.
     pub fn line(&self, row: &Row) -> String {
         match self.file(row) {
             Some(file) => format!("{file}:{}", row.line),
@@ -211,19 +207,19 @@ impl Measured {
         }
     }
 
-    /// Name of the file of a row, where there are several.
+    /// Name of the file of a row, if there are several.
     pub fn file(&self, row: &Row) -> Option<&str> {
         let file = self.files.get(row.file).filter(|_| self.files.len() > 1);
         file.map(String::as_str)
     }
 
-    /// Accuracy of a quantity in a row as it is stated, from its column or from `accuracies` at a reading.
+    /// Stated accuracy of a quantity in a row, from its column or from `accuracies` at a reading.
     pub fn stated_accuracy(&self, row: &Row, quantity: &str, reading: Option<f64>) -> Option<f64> {
         self.value(row, &format!("{quantity}_accuracy"))
             .or_else(|| self.accuracies.stated(quantity, reading?))
     }
 
-    /// Standard error of the mean of a quantity, where the row is an average over a steady stretch.
+    /// Standard error of the mean of a quantity, if the row is an average over a steady stretch.
     pub fn standard_error(&self, row: &Row, quantity: &str) -> Option<f64> {
         let stretch = row.stretch.as_ref()?;
         stretch.standard_errors.get(self.place(quantity)?).copied().flatten()
@@ -305,14 +301,14 @@ pub(crate) mod tests {
         let plain = entry(&[], &[]);
         assert!(refused(&plain, "torque,speed [rpm]\n1,2\n").contains("column `torque` has no unit"));
         assert!(refused(&plain, "torque [Nm],speed [rpm],efficiency\n1,2,0.9\n").contains("percent"));
-        assert!(refused(&plain, "torque [rpm],speed [rpm]\n1,2\n").contains("`rpm` is no unit of torque"));
-        assert!(refused(&plain, "torque [Nm],n [rpm]\n1,2\n").contains("no column holds the speed"));
+        assert!(refused(&plain, "torque [rpm],speed [rpm]\n1,2\n").contains("`rpm` is not a unit of torque"));
+        assert!(refused(&plain, "torque [Nm],n [rpm]\n1,2\n").contains("there is no column for the speed"));
         assert!(
-            refused(&entry(&[("speed", "n")], &[]), "torque [Nm],m [rpm]\n1,2\n").contains("no column is called `n`")
+            refused(&entry(&[("speed", "n")], &[]), "torque [Nm],m [rpm]\n1,2\n").contains("there is no column `n`")
         );
         assert!(
             refused(&entry(&[("spede", "n")], &[]), "torque [Nm],n [rpm]\n1,2\n")
-                .contains("`spede` is no measured quantity")
+                .contains("`spede` is not a measured quantity")
         );
         assert!(refused(&plain, "torque [Nm],speed [rpm]\n").contains("no point"));
         assert!(refused(&plain, "").contains("empty"));
@@ -337,7 +333,7 @@ pub(crate) mod tests {
         assert!(
             read.notes
                 .iter()
-                .any(|n| n.contains("2 rows left out") && n.contains("line 4, column 2 `speed`: `x`"))
+                .any(|n| n.contains("2 rows omitted") && n.contains("line 4, column 2 `speed`: `x`"))
         );
     }
 
@@ -369,7 +365,7 @@ pub(crate) mod tests {
         assert!(close(read.value(&read.rows[0], "torque").unwrap(), 100.0));
         assert!(
             read.notes
-                .contains(&"column `T_wheel` counts times 0.5, with the other sign as torque".to_owned()),
+                .contains(&"column `T_wheel` is read multiplied by 0.5, with the opposite sign as torque".to_owned()),
             "{:?}",
             read.notes
         );
@@ -451,13 +447,13 @@ pub(crate) mod tests {
         // The column of the torque has another header here.
         assert_eq!(read.rows[2].cells, ["", "30", "7"].map(str::to_owned));
         assert!(
-            read.notes[0].starts_with("second: 1 rows left out: line 3"),
+            read.notes[0].starts_with("second: 1 rows omitted: line 3"),
             "{:?}",
             read.notes
         );
         let other: [&[u8]; 2] = [contents[0], b"speed [rpm],T,loss [W]\n30,3,7\n"];
         let fault = rig.read_files(&other, &[], &[]).unwrap_err().remove(0);
-        assert_eq!(fault.message, "second: unlike a.csv it holds `loss` beside");
+        assert_eq!(fault.message, "second: unlike a.csv it also has `loss`");
         let twice = changed(json!({ "file": ["a.csv", "a.csv"] }));
         let fault = twice
             .read_files(&[contents[0], contents[0]], &[], &[])
@@ -491,14 +487,14 @@ pub(crate) mod tests {
         let read = rig.read(text, &[]).unwrap();
         assert_eq!(read.rows.iter().map(|row| row.line).collect::<Vec<_>>(), [3]);
         assert!(
-            read.notes.iter().any(|note| note.contains("2 of 3 rows are left out")),
+            read.notes.iter().any(|note| note.contains("2 of 3 rows are omitted")),
             "{:?}",
             read.notes
         );
         for (rows, told) in [
             ("torque > 10", "no unit"),
             ("torqe > 1 Nm", "torqe"),
-            ("torque > 100 Nm", "no row meets"),
+            ("torque > 100 Nm", "no row satisfies"),
         ] {
             let rig = changed(json!({ "file": "rig.csv", "rows": rows }));
             let fault = rig.read(text, &[]).unwrap_err().remove(0);

@@ -5,7 +5,7 @@
 use gearloss_framework::gearbox::{Findings, Gearbox};
 use gearloss_framework::language::{DRAGS, HELD, Language};
 use gearloss_framework::registry::{Entry, MechanismEntry};
-use gearloss_framework::resolve::{Came, Choice, Resolved, lookup};
+use gearloss_framework::resolve::{Choice, Resolved, ValueSource, lookup};
 use gearloss_framework::transmission::Transmission;
 use serde_json::Value;
 
@@ -35,7 +35,7 @@ pub fn needs(language: &Language, gearbox: &Gearbox, only: Option<&str>) -> Resu
             continue;
         }
         let models = language.registry().models(mechanism.key);
-        for entry in models.filter(|e| e.source != "the user's own") {
+        for entry in models.filter(|e| !e.is_user_defined()) {
             let Ok((example, _)) = language.example_of(entry) else {
                 continue;
             };
@@ -203,12 +203,12 @@ fn state(gearbox: &Gearbox, resolved: &Resolved, path: &str) -> String {
                 .filter_map(Value::as_str)
                 .any(|pattern| covers(pattern, path))
         });
-    match resolved.came(path) {
-        Came::Catalogue {
+    match resolved.source_of(path) {
+        ValueSource::Catalogue {
             designation,
             confidence,
         } => format!("derived (catalogue {designation}, confidence {confidence})"),
-        Came::Network => "derived (network: auto)".to_owned(),
+        ValueSource::Network => "derived (network: auto)".to_owned(),
         _ if assumed => "assumed".to_owned(),
         _ if gearbox.places.is_written(path) => "given".to_owned(),
         _ => "default".to_owned(),

@@ -1,4 +1,4 @@
-//! The schema of results: the head, and one record of results for each analysis that is linked.
+//! The schema of results: the head, and one record of results for each linked analysis.
 
 use schemars::Schema;
 use schemars::generate::SchemaSettings;
@@ -10,7 +10,7 @@ use crate::analyses::AnalysisKind;
 /// Format of a result.
 pub const FORMAT: &str = "gearloss-result/1";
 
-/// The JSON Schema (draft-07) of what is written of one analysis.
+/// The JSON Schema (draft-07) of the result of one analysis.
 pub fn schema() -> Value {
     let mut generator = SchemaSettings::draft07().for_serialize().into_generator();
     let outcomes: Vec<Schema> = AnalysisKind::linked()
@@ -27,13 +27,13 @@ pub fn schema() -> Value {
     json!({
         "$schema": "http://json-schema.org/draft-07/schema#",
         "title": FORMAT,
-        "description": "What `gearloss run` writes of one analysis: a head, and the results under keys of the analysis' own.",
+        "description": "Result of one analysis from `gearloss run`: a head, and the results under keys of the analysis.",
         "anyOf": outcomes,
         "definitions": definitions.into_iter().collect::<serde_json::Map<String, Value>>(),
     })
 }
 
-/// Records have no other keys than theirs. One of several forms of a record has the keys of all forms, too.
+/// Records have no additional keys. A record with several forms has the keys of all forms.
 fn close(schema: &mut Schema) {
     let forms = ["anyOf", "oneOf"].into_iter().find(|key| schema.get(*key).is_some());
     if let (Some(key), Some(Value::Object(shared))) = (forms, schema.get("properties").cloned()) {

@@ -51,32 +51,31 @@ pub struct StudyEntry {
     pub gearloss: StudyFormat,
     /// Title for reports.
     pub title: Option<String>,
-    /// The question that the study answers; it stands first in the report.
+    /// The question of the study, shown at the top of the report.
     pub question: Option<String>,
-    /// Operating point at which the report shows forces, the balance of powers, and what losses rest on; absent, the greatest
-    /// torque and speed of the first grid.
+    /// Operating point for forces, power balance and evidence of losses in the report; default: maximum torque and speed of the first grid.
     pub report_at: Option<ReportAt>,
     /// Gearbox files by name, relative to the study.
     pub gearboxes: Ordered<String>,
-    /// What every analysis starts from.
+    /// Conditions of all analyses.
     #[serde(default)]
     pub conditions: Conditions,
-    /// Measured points by name, for all analyses that use them.
+    /// Measured points by name.
     #[serde(default)]
     pub measurements: Ordered<MeasuredEntry>,
-    /// Parameters by name, for all analyses that take them over: `parameters: [viscosity, roughness]`.
+    /// Parameters by name, for analyses that refer to them: `parameters: [viscosity, roughness]`.
     #[serde(default)]
     pub parameters: Ordered<IdentifiedEntry>,
-    /// Duties by name: shipped driving cycles, recorded series, load spectra.
+    /// Cycles by name: shipped driving cycles, recorded series, load spectra.
     #[serde(default)]
     pub cycles: Ordered<CycleEntry>,
-    /// Vehicles by name, for duties that tell a speed alone.
+    /// Vehicles by name, for cycles with a vehicle speed only.
     #[serde(default)]
     pub vehicles: Ordered<VehicleEntry>,
     /// Grids of operating points by name.
     #[serde(default)]
     pub grids: Ordered<Grid>,
-    /// Analyses by name; the names become folders and file names.
+    /// Analyses by name; the names are used for folders and files.
     pub analyses: Ordered<AnalysisEntry>,
 }
 
@@ -93,7 +92,7 @@ pub enum StudyFormat {
 /// The operating point of a report.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct ReportAt {
-    /// Gear state; absent, the first.
+    /// Gear; default: the first.
     pub gear: Option<String>,
     /// Torque. [Nm]
     #[schemars(range(min = -1e9, max = 1e9))]
@@ -103,23 +102,23 @@ pub struct ReportAt {
     pub speed: f64,
 }
 
-/// What every analysis starts from.
+/// Conditions of all analyses.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct Conditions {
-    /// Port at which the torque is given, as applied to the transmission.
+    /// Port of the given torque, which is applied to the transmission.
     #[serde(default = "input")]
     pub torque_at: String,
-    /// Port at which the speed is given.
+    /// Port with given speed.
     #[serde(default = "input")]
     pub speed_at: String,
-    /// Ports of the gearbox that turn at one speed and count as one port, `wheels`: both wheels of a driven axle on a straight road.
-    /// Absent, those of the gearbox.
+    /// Ports of the gearbox that turn at one speed and are combined into one port, `wheels`: both wheels of a driven axle on a straight
+    /// road. Default: from the gearbox.
     #[schemars(length(min = 2))]
     pub wheels: Option<Vec<String>>,
-    /// Temperature of the oil; absent, that of the gearbox: the one stated there, or that of the balance at each point. [degC]
+    /// Oil temperature; default: from the gearbox, given or by heat balance at each point. [degC]
     #[schemars(range(min = -60.0, max = 250.0))]
     pub oil_temperature: Option<f64>,
-    /// Whether losses change the torques of what comes after them.
+    /// Whether torque downstream is reduced by upstream losses.
     #[serde(default)]
     pub power_flow: PowerFlow,
     /// Overrides: resolved path to value.
@@ -147,28 +146,28 @@ fn input() -> String {
 /// A grid of operating points: every torque at every speed.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct Grid {
-    /// Gear state, or several; absent, the first.
+    /// Gear, or several; default: the first.
     #[serde(default)]
     pub gear: Gears,
-    /// Torques: one, a list, or from, to and step; or shares of the rating of the gearbox.
+    /// Torques: one, a list, or from, to and step; or fractions of the rating of the gearbox.
     pub torque: TorqueAxis,
-    /// Speeds: one, a list, or from, to and step; or shares of the rating of the gearbox.
+    /// Speeds: one, a list, or from, to and step; or fractions of the rating of the gearbox.
     pub speed: SpeedAxis,
-    /// Largest torque over speed; points beyond it are left out.
+    /// Maximum torque over speed; points outside are omitted.
     pub envelope: Option<Envelope>,
-    /// Values that change from point to point beside torque and speed: resolved path to values, such as
-    /// `housing.oil.volume: [60 ml, 90 ml]`. Every combination is solved.
+    /// Further varied values in addition to torque and speed: resolved path to values, such as `housing.oil.volume: [60 ml, 90 ml]`. Every
+    /// combination is solved.
     #[serde(default)]
     pub bind: Ordered<Value>,
 }
 
-/// One gear state or several.
+/// One or several gears.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum Gears {
     /// One.
     One(String),
-    /// Several, one after the other.
+    /// Several.
     List(#[schemars(length(min = 1))] Vec<String>),
 }
 
@@ -179,7 +178,7 @@ impl Default for Gears {
 }
 
 impl Gears {
-    /// The names as written; none for the first of the gearbox.
+    /// The names as written; empty for the first of the gearbox.
     pub fn names(&self) -> &[String] {
         match self {
             Self::One(name) => std::slice::from_ref(name),
@@ -187,7 +186,7 @@ impl Gears {
         }
     }
 
-    /// The names for a gearbox: its first gear state where none is written.
+    /// The names for a gearbox: its first gear if none is written.
     pub fn selected(&self, transmission: &Transmission) -> Vec<String> {
         match (self.names(), transmission.states()) {
             ([], [first, ..]) => vec![first.name.clone()],
@@ -197,10 +196,10 @@ impl Gears {
 }
 
 impl Grid {
-    /// Every combination of the bound values, as overrides; one without any where nothing is bound.
+    /// Every combination of the bound values, as overrides; a single empty one if nothing is bound.
     ///
     /// # Errors
-    /// The path of which no values are listed.
+    /// The path without a list of values.
     pub fn combinations(&self) -> Result<Vec<Vec<(String, Value)>>, String> {
         let mut all: Vec<Vec<(String, Value)>> = vec![Vec::new()];
         for (path, values) in self.bind.iter() {
@@ -223,20 +222,20 @@ impl Grid {
     }
 }
 
-/// The names that an analysis uses.
+/// Names used by an analysis.
 #[derive(Debug, Clone)]
 pub struct Uses<'a> {
-    /// Gearbox; absent, the first.
+    /// Gearbox; default: the first.
     pub gearbox: Option<&'a String>,
     /// Grid.
     pub grid: Option<&'a String>,
-    /// Key that names it.
+    /// Its key.
     pub grid_key: &'static str,
     /// Sets of models.
     pub sets: Vec<&'a String>,
-    /// Gear states, beside those of the grid.
+    /// Gears, in addition to those of the grid.
     pub gears: Vec<&'a String>,
-    /// Data, each with the key that names it.
+    /// Data, each with its key.
     pub data: Vec<(&'static str, &'a Data)>,
     /// Columns of the data that change the gearbox.
     pub bind: Option<&'a Ordered<String>>,
@@ -247,7 +246,7 @@ pub struct Uses<'a> {
 }
 
 impl<'a> Uses<'a> {
-    /// Those of a gearbox under sets of models.
+    /// For a gearbox with model sets.
     pub fn new(gearbox: Option<&'a String>, sets: impl IntoIterator<Item = &'a String>) -> Self {
         Self {
             gearbox,
@@ -285,13 +284,13 @@ impl<'a> Uses<'a> {
         }
     }
 
-    /// Columns of the data at a key that change the gearbox; measured points beside the points of a map bind none.
+    /// Columns of the data at a key that change the gearbox; measured points of a map bind none.
     pub fn bound_of(&self, key: &str) -> Vec<&'a str> {
         let bind = self.bind.filter(|_| key != "measured");
         bind.map_or_else(Vec::new, |bind| bind.ids().collect())
     }
 
-    /// With gear states.
+    /// With gears.
     pub fn at(self, gears: impl IntoIterator<Item = &'a String>) -> Self {
         let gears = gears.into_iter().collect();
         Self { gears, ..self }

@@ -1,7 +1,7 @@
-//! Results as columns: each with its name, its unit and what it means.
+//! Results as columns with name, unit and meaning.
 //!
-//! Columns are plain vectors: numbers as NumPy and Arrow hold them, with NaN for a gap; texts as codes into the texts that occur, as in
-//! an Arrow dictionary, because most columns of texts repeat a few.
+//! Columns are plain vectors: numbers as in NumPy and Arrow, with NaN for missing values; texts as codes into a dictionary as in Arrow,
+//! because most columns repeat few texts.
 
 use std::borrow::Cow;
 use std::ops::Range;
@@ -14,7 +14,7 @@ use crate::analyses::Stopped;
 /// A table of results.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Table {
-    /// Name; the first table of an analysis has that of the analysis.
+    /// Name; the first table of an analysis has the name of the analysis.
     pub name: String,
     /// Columns of one length.
     pub columns: Vec<Column>,
@@ -23,17 +23,17 @@ pub struct Table {
 /// A column of a table.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Column {
-    /// Name, as in the header of a file.
+    /// Name in the header of a file.
     pub name: String,
     /// Unit; `-` for a number without one, empty for texts.
     pub unit: Cow<'static, str>,
-    /// What it is.
+    /// Kind.
     pub meaning: Cow<'static, str>,
     /// The cells.
     pub values: Values,
 }
 
-/// The cells of a column; a copy shares them.
+/// The cells of a column, shared by copies.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Values {
     /// Numbers; NaN is a gap.
@@ -42,7 +42,7 @@ pub enum Values {
     Texts(Arc<Texts>),
 }
 
-/// Texts of which many are the same.
+/// Texts with many repetitions.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Texts {
     kinds: Vec<String>,
@@ -101,7 +101,7 @@ impl Column {
         }
     }
 
-    /// A cell as a file of texts has it: all digits of a number, nothing for a gap.
+    /// A cell as text: all digits of a number, empty for a gap.
     pub fn cell(&self, row: usize) -> Cow<'_, str> {
         match &self.values {
             Values::Numbers(numbers) if numbers[row].is_nan() => Cow::Borrowed(""),
@@ -117,7 +117,7 @@ impl Texts {
         self.codes[row].map(|code| self.kinds[code as usize].as_str())
     }
 
-    /// The texts that occur; those of the codes.
+    /// The distinct texts, indexed by the codes.
     pub fn kinds(&self) -> &[String] {
         &self.kinds
     }
@@ -127,7 +127,7 @@ impl Texts {
         &self.codes
     }
 
-    /// So many times the same text.
+    /// The same text, repeated.
     pub fn repeated(text: &str, count: usize) -> Self {
         let code = (!text.is_empty()).then_some(0);
         Self {
@@ -136,7 +136,7 @@ impl Texts {
         }
     }
 
-    /// The codes of other texts among these.
+    /// Codes of other texts in this dictionary.
     fn codes_of(&mut self, other: &Self) -> Vec<u32> {
         let code = |kind: &String| {
             let known = self.kinds.iter().position(|own| own == kind);
@@ -152,7 +152,7 @@ impl Texts {
         if text.is_empty() {
             return self.codes.push(None);
         }
-        // Mostly the text of the row before.
+        // Usually the text of the previous row.
         let known = self.kinds.iter().rposition(|kind| kind == text);
         let code = known.unwrap_or_else(|| {
             self.kinds.push(text.to_owned());
@@ -194,10 +194,10 @@ impl Values {
         Self::Texts(Arc::new(texts.collect()))
     }
 
-    /// Adds cells of others, in an order: number of one of them, and which of its cells follow.
+    /// Appends cells of others in order: index of one of them, and range of its cells.
     ///
     /// # Panics
-    /// If numbers and texts meet: a bug of the caller.
+    /// If numbers and texts are mixed: a bug of the caller.
     fn extend(&mut self, others: &[&Self], order: &[(usize, Range<usize>)]) {
         match self {
             Self::Numbers(own) => {
@@ -251,7 +251,7 @@ impl Table {
         self.columns.iter().find(|column| column.name == name)
     }
 
-    /// Adds rows of parts that have values for every column, in an order: number of a part, and which of its rows follow.
+    /// Appends rows of parts with values for every column, in order: index of a part, and range of its rows.
     ///
     /// # Panics
     /// If a part has other columns: a bug of the caller.
@@ -277,7 +277,7 @@ impl Table {
     /// Adds a row.
     ///
     /// # Panics
-    /// If the cells are not as many as the columns, or of another kind: a bug of the caller.
+    /// If the number of cells differs from the number of columns, or a kind differs: a bug of the caller.
     pub fn push<'c>(&mut self, cells: impl IntoIterator<Item = Cell<'c>>) {
         let mut columns = self.columns.iter_mut();
         for cell in cells {
@@ -297,12 +297,12 @@ impl Table {
     }
 }
 
-/// Takes the rows of a table that is too large to be held, some at a time.
+/// Receives the rows of a large table in batches.
 pub trait RowSink: Sync {
-    /// Takes rows that follow those before; the name says of which table.
+    /// Receives the next rows of the table with this name.
     ///
     /// # Errors
-    /// [`Stopped::Unwritten`] where they cannot be kept.
+    /// [`Stopped::Unwritten`] if they cannot be written.
     fn take(&self, rows: &Table) -> Result<(), Stopped>;
 }
 

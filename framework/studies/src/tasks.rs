@@ -1,10 +1,15 @@
-//! The work of an analysis in tasks, so that results are kept from run to run and computed on several machines.
+//! Tasks of an analysis, so that results can be stored and computed on several machines.
 //!
-//! An analysis solves its points in stages, each of many tasks that do not depend on each other ([`Context::solve_pieces`]). Other
-//! work is not split ([`Context::undivided`]). Without kept results all tasks run on the threads of this process. With them a run computes the tasks that are its own, keeps
-//! their results, and goes on to the next stage only if all results of a stage are there.
+//! An analysis computes in stages of many tasks that do not depend on each other: pieces of points ([`Context::solve_pieces`]), and
+//! samples, pairs of values or starts ([`Context::each`]). Parts of an analysis such as model sets do not wait for each other
+//! ([`Context::part`]). Other work is not split ([`Context::undivided`]).
+//!
+//! Without stored results all tasks run on the threads of this process. With them a run computes its own tasks, stores their
+//! results, and continues with the next stage only if all results of a stage are there.
 //!
 //! [`Context::solve_pieces`]: crate::analyses::Context::solve_pieces
+//! [`Context::each`]: crate::analyses::Context::each
+//! [`Context::part`]: crate::analyses::Context::part
 //! [`Context::undivided`]: crate::analyses::Context::undivided
 
 use crate::analyses::Stopped;
@@ -14,9 +19,11 @@ use crate::analyses::Stopped;
 pub struct Task<'a> {
     /// Name of the analysis.
     pub analysis: &'a str,
-    /// Number of the stage, in the order in which the analysis comes to them.
+    /// Number of the part of the analysis; 0 outside all parts.
+    pub part: usize,
+    /// Number of the stage in its part, in the order in which the analysis comes to them.
     pub stage: usize,
-    /// Number of the task in its stage.
+    /// Index of the task in its stage.
     pub number: usize,
 }
 
@@ -25,21 +32,21 @@ pub trait TaskResults: Sync {
     /// Whether this run computes a task.
     fn is_own(&self, task: Task<'_>) -> bool;
 
-    /// Whether the result of a task is there.
+    /// Whether the result of a task exists.
     fn is_kept(&self, task: Task<'_>) -> bool;
 
-    /// Whether this run computes stages to the end whose results are not all there, and keeps none.
+    /// Whether this run completes stages with missing results, without storing any.
     fn completes(&self) -> bool;
 
     /// The result of a task.
     ///
     /// # Errors
-    /// [`Stopped::Unwritten`] where it cannot be read.
+    /// [`Stopped::Unwritten`] if it cannot be read.
     fn read(&self, task: Task<'_>) -> Result<Vec<u8>, Stopped>;
 
-    /// Keeps the result of a task.
+    /// Stores the result of a task.
     ///
     /// # Errors
-    /// [`Stopped::Unwritten`] where it cannot be written.
+    /// [`Stopped::Unwritten`] if it cannot be written.
     fn keep(&self, task: Task<'_>, result: &[u8]) -> Result<(), Stopped>;
 }

@@ -1,38 +1,39 @@
-//! Quantities of a description that a study varies: uncertain, unknown, swept.
+//! Varied quantities of a description: uncertain, unknown, swept.
 
+use crate::codes;
 use serde_json::Value;
 
 use gearloss_framework::document::{Diagnostic, Dimension, Unit};
 use gearloss_framework::language::Language;
 use gearloss_framework::resolve::{Resolved, lookup, matches};
 
-/// How a pattern that meets several quantities moves them.
+/// How a pattern with several matches changes them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Tie {
-    /// All take one value.
+    /// All have the same value.
     #[default]
     Value,
-    /// Each keeps its own value, times one factor; those without a value stay so.
+    /// Each value is multiplied by a common factor; quantities without a value are unchanged.
     Factor,
 }
 
-/// A number of the resolved description, or several that are tied, with unit and range of the schema.
+/// A number of the resolved description, or several tied numbers, with unit and range of the schema.
 #[derive(Debug, Clone)]
 pub struct Varied {
     /// The pattern as written.
     pub pattern: String,
-    /// What it meets.
+    /// Matched paths.
     pub paths: Vec<String>,
-    /// Unit of values; that of the schema. A factor has none.
+    /// Unit of values from the schema; a factor has none.
     pub unit: &'static Unit,
-    /// Value of each in the description, in that unit; absent where none is stated.
+    /// Value of each in the description, in that unit; absent if not stated.
     pub base: Vec<Option<f64>>,
-    /// Least and greatest value that the schema allows for all of them.
+    /// Minimum and maximum allowed by the schema for all of them.
     pub range: [f64; 2],
-    /// How several move.
+    /// How several quantities change together.
     pub tie: Tie,
-    /// Published value of each that is a coefficient of a model's formula.
+    /// Published values of coefficients of formulas.
     pub published: Vec<Option<f64>>,
 }
 
@@ -40,20 +41,20 @@ impl Varied {
     /// Looks a pattern up in a resolved description.
     ///
     /// # Errors
-    /// If it meets nothing, or something that is no number; with `Tie::Factor`, where a value is not stated.
+    /// If it matches nothing, or something other than a number; with `Tie::Factor`, if no value is stated.
     pub fn new(language: &Language, resolved: &Resolved, pattern: &str, tie: Tie) -> Result<Self, Diagnostic> {
         let mut paths = matches(&resolved.value, pattern);
         if paths.is_empty() {
             return Err(gearloss_framework::resolve::no_match(&resolved.value, pattern));
         }
-        // Models differ in their keys: those that have this one count.
+        // Models differ in their keys: only those with this key match.
         paths.retain(|path| language.has_place(&resolved.value, path));
         if paths.is_empty() {
             let key = pattern.rsplit('.').next().unwrap_or(pattern);
-            return Err(Diagnostic::error(pattern, format!("nothing here has a key `{key}`"))
+            return Err(varied_error(pattern, format!("nothing here has a key `{key}`"))
                 .help("`gearloss check --resolved` prints every path"));
         }
-        // Of several, a factor moves those that have a value.
+        // A factor changes only those with a value.
         let has_value = |path: &String| lookup(&resolved.value, path).is_some_and(|value| !value.is_null());
         if tie == Tie::Factor && paths.iter().any(has_value) {
             paths.retain(has_value);
@@ -69,18 +70,16 @@ impl Varied {
         };
         for path in paths {
             let Some((unit, least, greatest)) = language.number_at(&resolved.value, &path) else {
-                return Err(Diagnostic::error(pattern, format!("`{path}` is no number"))
-                    .help("name the path of a quantity; `gearloss check --resolved` prints every path"));
+                return Err(varied_error(pattern, format!("`{path}` is not a number"))
+                    .help("use the path of a quantity; `gearloss check --resolved` prints every path"));
             };
             let base = lookup(&resolved.value, &path)
                 .and_then(Value::as_f64)
                 .map(|si| unit.from_si(si));
             match tie {
                 Tie::Factor if base.is_none() => {
-                    return Err(
-                        Diagnostic::error(pattern, format!("`{path}` has no value to be multiplied"))
-                            .help("state it in the gearbox, or leave `tie: factor` out"),
-                    );
+                    return Err(varied_error(pattern, format!("`{path}` has no value to multiply"))
+                        .help("state it in the gearbox, or delete `tie: factor`"));
                 }
                 Tie::Factor => {}
                 Tie::Value => {
@@ -97,7 +96,7 @@ impl Varied {
         Ok(varied)
     }
 
-    /// The value that the description gives: of the first where several differ; one for a factor.
+    /// The value of the description: of the first if several differ; one for a factor.
     pub fn start(&self) -> Option<f64> {
         match self.tie {
             Tie::Value => self.base.iter().flatten().next().copied(),
@@ -105,7 +104,7 @@ impl Varied {
         }
     }
 
-    /// The published value, where it moves coefficients of formulas: of the first where several differ, one for a factor.
+    /// The published value, if it changes coefficients of formulas: of the first if several differ, one for a factor.
     pub fn published(&self) -> Option<f64> {
         let first = self.published.iter().flatten().next().copied();
         match self.tie {
@@ -114,17 +113,17 @@ impl Varied {
         }
     }
 
-    /// What a value changes of the source, in words; absent where it changes no coefficient of a formula.
+    /// The difference of a value from the source as text; absent if it changes no coefficient of a formula.
     pub fn changed_from_source(&self, value: f64) -> Option<String> {
         self.overrides(value)
             .zip(&self.published)
             .find_map(|((_, own), published)| {
                 let (own, published) = (own.as_f64()?, (*published)?);
-                (own != published).then(|| format!("{own} instead of {published}, changed from the source"))
+                (own != published).then(|| format!("{own} instead of the published {published}"))
             })
     }
 
-    /// The overrides that write a value to all of them.
+    /// Overrides that set all of them to a value.
     pub fn overrides(&self, value: f64) -> impl Iterator<Item = (String, Value)> + '_ {
         self.paths.iter().zip(&self.base).map(move |(path, base)| {
             let own = match self.tie {
@@ -135,10 +134,10 @@ impl Varied {
         })
     }
 
-    /// A quantity of this kind as written in a study: a number in the unit of the path, or a text with a unit. \[unit of the path\]
+    /// Reads a quantity of this kind from a study: a number in the unit of the path, or a text with a unit. \[unit of the path\]
     ///
     /// # Errors
-    /// What is wrong with it.
+    /// The error.
     pub fn quantity(&self, written: &Value, difference: bool) -> Result<f64, String> {
         let unit = if difference && self.unit.dimension == Dimension::Temperature {
             Unit::of_symbol("K").unwrap_or(self.unit)
@@ -156,7 +155,7 @@ impl Varied {
         if number.is_finite() {
             Ok(number)
         } else {
-            Err(format!("{written} is no {}", unit.dimension.name()))
+            Err(format!("{written} is not a valid {}", unit.dimension.name()))
         }
     }
 
@@ -175,4 +174,9 @@ pub(crate) fn words(unit: &Unit, value: f64) -> String {
     } else {
         format!("{digits} {}", unit.symbol)
     }
+}
+
+/// A finding about a varied quantity.
+fn varied_error(path: impl Into<String>, message: impl Into<String>) -> Diagnostic {
+    Diagnostic::error(path, message).code(codes::VARIED)
 }

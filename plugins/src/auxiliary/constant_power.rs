@@ -1,12 +1,12 @@
-//! An auxiliary that takes the same power at any speed, such as an alternator under control.
+//! An auxiliary with the same power at any speed, such as a controlled alternator.
 //!
-//! The user's own. At rest it takes none; at vanishing speed its moment grows without bound, so below `least_speed` the moment
-//! of that speed stays.
+//! User-defined. At standstill it consumes no power. At vanishing speed its torque would grow without bound, so below `least_speed`
+//! the torque stays at its value at that speed.
 
 use gearloss_framework::loss::{Loss, Term, Undefined};
 use gearloss_framework::mechanism::auxiliary::{Auxiliary, AuxiliaryAt, AuxiliaryModel};
 use gearloss_framework::register;
-use gearloss_framework::registry::{Evidence, default_of, formula};
+use gearloss_framework::registry::{Evidence, USER_DEFINED, default_of, formula};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -18,14 +18,14 @@ pub struct ConstantPower {
     /// Power taken from the shaft. [W]
     #[schemars(range(min = 0.0, max = 1e6))]
     pub power: f64,
-    /// Speed below which the moment stays. [rpm]
-    #[serde(default = "least")]
+    /// Speed below which the torque is constant. [rpm]
+    #[serde(default = "default_least_speed")]
     #[schemars(range(min = 0.01, max = 1e5))]
     pub least_speed: f64,
 }
 
-/// One hundred revolutions per minute. \[rad/s\]
-fn least() -> f64 {
+/// 100 rpm. \[rad/s\]
+fn default_least_speed() -> f64 {
     100.0 * std::f64::consts::PI / 30.0
 }
 
@@ -36,11 +36,11 @@ impl AuxiliaryModel for ConstantPower {
 }
 
 register!(Auxiliary, "constant_power", ConstantPower,
-    source: "the user's own",
+    source: USER_DEFINED,
     example: "{ type: constant_power, power: 150 W }",
     evidence: [
         formula(Evidence::User, "the user states it"),
-        default_of("least_speed", Evidence::Assumed, "keeps the moment finite"),
+        default_of("least_speed", Evidence::Assumed, "keeps the torque finite"),
     ],
     terms: [POWER]);
 

@@ -1,8 +1,8 @@
-//! Shaft moment of an oil pump from pressure, flow and efficiency.
+//! Shaft torque of an oil pump from pressure, flow and efficiency.
 //!
-//! Source: P = dp Q/eta (textbook; ISO/TR 14179-1 uses it with about 0.85). Either a flow that does not change with speed, as a pump
-//! behind a regulator delivers it, or a displacement per turn: T = dp V_g/(2 pi eta_hm), with the flow n V_g eta_vol for information.
-//! The whole power ends as heat in the oil where the pressure is throttled inside the gearbox.
+//! Source: P = dp Q/eta (textbook; ISO/TR 14179-1 uses it with about 0.85). Either with a flow that is independent of speed, as
+//! behind a flow regulator, or with a displacement per turn: T = dp V_g/(2 pi eta_hm), with the flow n V_g eta_vol for information.
+//! All of the power heats the oil if the pressure is throttled inside the gearbox.
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::{Loss, Observed, Term, Undefined};
@@ -21,31 +21,31 @@ pub struct Params {
     /// Pressure rise. [bar]
     #[schemars(range(min = 0.0, max = 500.0))]
     pub pressure: f64,
-    /// Flow at any speed, in place of a displacement. [l/min]
+    /// Flow at any speed, instead of a displacement. [l/min]
     #[schemars(range(min = 0.0, max = 10000.0))]
     pub flow: Option<f64>,
     /// Displacement per turn. [cm3]
     #[schemars(range(min = 0.0, max = 10000.0))]
     pub displacement: Option<f64>,
-    /// Whole efficiency with a flow, hydraulic-mechanical efficiency with a displacement. [-]
+    /// Overall efficiency with a flow, hydraulic-mechanical efficiency with a displacement. [-]
     #[schemars(range(min = 0.01, max = 1.0))]
     pub efficiency: f64,
     /// Volumetric efficiency with a displacement. [-]
-    #[serde(default = "one")]
+    #[serde(default = "default_one")]
     #[schemars(range(min = 0.01, max = 1.0))]
     pub volumetric_efficiency: f64,
-    /// Speed below which the moment stays, with a flow. [rpm]
-    #[serde(default = "least")]
+    /// Speed below which the torque is constant, with a flow. [rpm]
+    #[serde(default = "default_least_speed")]
     #[schemars(range(min = 0.01, max = 1e5))]
     pub least_speed: f64,
 }
 
-fn one() -> f64 {
+fn default_one() -> f64 {
     1.0
 }
 
-/// One hundred revolutions per minute. \[rad/s\]
-fn least() -> f64 {
+/// 100 rpm. \[rad/s\]
+fn default_least_speed() -> f64 {
     100.0 * std::f64::consts::PI / 30.0
 }
 
@@ -67,7 +67,7 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Pump, Diagnostic> {
             per_radian: volume * params.volumetric_efficiency / turn,
         }),
         _ => Err(cx
-            .error("pump needs one of `flow` and `displacement`")
+            .error("pump requires either `flow` or `displacement`")
             .help("write `flow: 8 l/min` or `displacement: 12 cm3`")),
     }
 }
@@ -93,8 +93,8 @@ register!(Auxiliary, "pump", Params,
     example: "{ type: pump, pressure: 5 bar, flow: 8 l/min, efficiency: 0.5 }",
     evidence: [
         formula(Evidence::SeveralSources, "textbook"),
-        default_of("volumetric_efficiency", Evidence::Assumed, "no leakage; it changes the flow only"),
-        default_of("least_speed", Evidence::Assumed, "keeps the moment finite"),
+        default_of("volumetric_efficiency", Evidence::Assumed, "no leakage; affects the flow only"),
+        default_of("least_speed", Evidence::Assumed, "keeps the torque finite"),
     ],
     terms: [PUMP], observed: [FLOW], prepare: prepare);
 
@@ -115,7 +115,7 @@ mod tests {
         let at = AuxiliaryAt::usual(&NoPart {}, Notes::MUTED);
         let watts = pump.loss(&at).unwrap().total_watts(at.speed);
         assert!((watts / 133.333 - 1.0).abs() < 1e-5, "{watts}");
-        // The same pump by its displacement at that speed.
+        // The same pump, described by its displacement at that speed.
         let turn = at.speed / (2.0 * std::f64::consts::PI);
         let volume = 8e-3 / 60.0 / turn;
         let by_volume = Pump::Displacement {

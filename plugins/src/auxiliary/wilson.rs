@@ -1,6 +1,6 @@
-//! Shaft moment of a displacement pump with friction by pressure, viscosity and a constant, after Wilson.
+//! Shaft torque of a displacement pump with pressure-dependent, viscous and constant friction, according to Wilson.
 //!
-//! Source: Wilson 1946, recalled: T = V_g/(2 pi) (dp (1 + C_f) + C_v eta w) + T_c. The coefficients are those of the pump.
+//! Source: Wilson 1946, quoted from memory: T = V_g/(2 pi) (dp (1 + C_f) + C_v eta w) + T_c. The user states the coefficients of the pump.
 
 use gearloss_framework::loss::{Loss, Term, Undefined};
 use gearloss_framework::mechanism::auxiliary::{Auxiliary, AuxiliaryAt, AuxiliaryModel};
@@ -13,7 +13,7 @@ const PRESSURE: Term = Term::no_load(0, "pressure");
 const VISCOUS: Term = Term::no_load(1, "viscous");
 const CONSTANT: Term = Term::no_load(2, "constant");
 
-/// Displacement pump with friction by pressure, viscosity and a constant, after Wilson.
+/// Displacement pump with pressure-dependent, viscous and constant friction, according to Wilson.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Wilson {
     /// Pressure rise. [bar]
@@ -22,13 +22,13 @@ pub struct Wilson {
     /// Displacement per turn. [cm3]
     #[schemars(range(min = 0.0, max = 10000.0))]
     pub displacement: f64,
-    /// Friction coefficient C_f with pressure. [-]
+    /// Coefficient C_f of pressure-dependent friction. [-]
     #[schemars(range(min = 0.0, max = 10.0))]
     pub c_f: f64,
-    /// Friction coefficient C_v with viscosity. [-]
+    /// Coefficient C_v of viscous friction. [-]
     #[schemars(range(min = 0.0, max = 1e8))]
     pub c_v: f64,
-    /// Constant moment. [Nm]
+    /// Constant torque. [Nm]
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1000.0))]
     pub t_c: f64,
@@ -50,7 +50,7 @@ register!(Auxiliary, "wilson", Wilson,
     source: "Wilson 1946",
     example: "{ type: wilson, pressure: 5 bar, displacement: 8 cm3, c_f: 0.05, c_v: 1e5, t_c: 0.05 Nm }",
     evidence: [
-        formula(Evidence::Recalled, "recalled; the coefficients are the user's"),
+        formula(Evidence::Recalled, "quoted from memory, not checked; the user states the coefficients"),
         default_of("t_c", Evidence::Assumed, "no constant part"),
     ],
     terms: [PRESSURE, VISCOUS, CONSTANT]);

@@ -1,8 +1,8 @@
-//! Rolling bearings after Harris, in Palmgren's form.
+//! Rolling bearings according to Harris, in Palmgren's form.
 //!
-//! Source: Harris, Kotzalas: Rolling Bearing Analysis, recalled: M0 as SKF 1994; M1 = z (Fs/Cs)^y F_b dm with deep groove z 0.0004 (light)
+//! Source: Harris, Kotzalas: Rolling Bearing Analysis, quoted from memory: M0 as SKF 1994; M1 = z (Fs/Cs)^y F_b dm with deep groove z 0.0004 (light)
 //! to 0.0006, y 0.55; angular contact 0.001, 0.33; self-aligning 0.0003, 0.40; thrust ball 0.0008, 0.33; rollers as SKF 1994. F_b =
-//! max(Fr, 0.9 Fa cot(alpha) - 0.1 Fr) with a contact angle, 3 Fa - 0.1 Fr without, max(Fr, 0.8 Fa cot(alpha)) for rollers, Fa for
+//! max(Fr, 0.9 Fa cot(alpha) - 0.1 Fr) for bearings with a contact angle, 3 Fa - 0.1 Fr for others, max(Fr, 0.8 Fa cot(alpha)) for rollers, Fa for
 //! thrust bearings. Flanges of cylindrical rollers as SKF 1994.
 
 use gearloss_framework::document::Diagnostic;
@@ -15,17 +15,17 @@ use serde::Deserialize;
 use super::palmgren::{AXIAL_RATIO, Constants, F0, LOAD, NO_LOAD, P1, Palmgren, RADIAL_RATIO};
 use super::rows::{self, Lack, LoadLaw, Rule};
 
-/// Rolling bearings after Harris, in Palmgren's form.
+/// Rolling bearings according to Harris, in Palmgren's form.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
-    /// Factor of the load-independent moment; absent, by kind, series and lubrication. [-]
+    /// Factor f0 of the load-independent moment; default: by kind, series and lubrication. [-]
     #[schemars(range(min = 0.0, max = 50.0))]
     pub f0: Option<f64>,
-    /// Factor z; absent, by kind and series. [-]
+    /// Factor z; default: by kind and series. [-]
     #[schemars(range(min = 0.0, max = 0.1))]
     pub z: Option<f64>,
-    /// Contact angle of angular contact, self-aligning, tapered and spherical bearings; absent, 40, 10, 14 and 10 deg. Other
-    /// kinds have none. [deg]
+    /// Contact angle of angular contact, self-aligning, tapered and spherical bearings; default: 40, 10, 14 and 10 deg. Not used for
+    /// other kinds. [deg]
     #[schemars(range(min = 1.0, max = 80.0))]
     pub contact_angle: Option<f64>,
     #[serde(default)]
@@ -36,7 +36,7 @@ impl Params {
     fn model(&self, part: &BearingPart) -> Result<Palmgren, Lack> {
         use BearingKind as K;
         let cot = |usual: f64| 1.0 / self.contact_angle.unwrap_or(usual.to_radians()).tan();
-        // Static factor of angular contact bearings: 0.26 at 40 deg grows as the cotangent; twice that for two rows.
+        // Static factor of angular contact bearings: 0.26 at 40 deg, proportional to the cotangent; twice that for two rows.
         let ball = |z, y, usual: f64| {
             let y0 = part.y0.unwrap_or(0.22 * cot(usual));
             LoadLaw::new(
@@ -90,10 +90,10 @@ register!(Bearing, "harris", Params,
     source: "Harris, Kotzalas, Rolling Bearing Analysis",
     example: "{ type: harris }",
     evidence: [
-        formula(Evidence::Recalled, "from memory of the book"),
-        default_of("f0", Evidence::Recalled, "table recalled"),
+        formula(Evidence::Recalled, "quoted from memory, not checked against the book"),
+        default_of("f0", Evidence::Recalled, "table quoted from memory"),
         default_of("z", Evidence::Disputed, "three published variants for deep groove balls"),
-        default_of("contact_angle", Evidence::Assumed, "usual designs"),
+        default_of("contact_angle", Evidence::Assumed, "typical designs"),
     ],
     limits: [AXIAL_RATIO, RADIAL_RATIO], terms: [LOAD, NO_LOAD], observed: [P1], prepare: prepare);
 
@@ -153,8 +153,8 @@ mod tests {
             };
             moments(&params.model(&part).unwrap(), &part, 0.0)[0]
         };
-        // By hand: Fr 3000 N, Fa 1000 N, d_m 60 mm, C0 26000 N; Fs = 3000 N, so that f1 = 0.001 (3000/26000)^0.33 = 4.9035297e-4.
-        // F_b at 12 deg is 0.9 1000 cot 12 deg - 0.1 3000 = 3934.1671 N; at 40 deg that is 772.6 N, so that Fr counts.
+        // By hand: Fr 3000 N, Fa 1000 N, d_m 60 mm, C0 26000 N; Fs = 3000 N, hence f1 = 0.001 (3000/26000)^0.33 = 4.9035297e-4. F_b
+        // at 12 deg is 0.9 1000 cot 12 deg - 0.1 3000 = 3934.1671 N; at 40 deg it is 772.6 N, hence Fr applies.
         assert!((load(12.0) / 115.747831 - 1.0).abs() < 1e-5, "{}", load(12.0));
         assert!((load(40.0) / 88.2635344 - 1.0).abs() < 1e-5, "{}", load(40.0));
     }

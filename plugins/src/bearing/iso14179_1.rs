@@ -1,9 +1,9 @@
-//! Rolling bearings after ISO/TR 14179-1, of AGMA origin: Palmgren's form with f0 by the depth of the oil.
+//! Rolling bearings according to ISO/TR 14179-1, of AGMA origin: Palmgren's form with f0 depending on the oil level.
 //!
-//! Source: ISO/TR 14179-1:2001, recalled: the load-dependent moment is that of ISO/TR 14179-2; f0 = f0_min + (f0_max - f0_min) H/H_max
-//! with f0_min where no rolling element dips and f0_max for a covered bearing. The report's table of both could not be opened:
-//! by a convention of this program they are the values for oil mist and for an oil jet of the table of ISO/TR 14179-2, and H_max is
-//! the height of the outer raceway.
+//! Source: ISO/TR 14179-1:2001, quoted from memory: the load-dependent moment is that of ISO/TR 14179-2; f0 = f0_min + (f0_max - f0_min)
+//! H/H_max with f0_min if no rolling element is immersed and f0_max for a fully immersed bearing. The report's table of both was
+//! not available. By a convention of this program they are the values for oil mist and for an oil jet in the table of ISO/TR
+//! 14179-2, and H_max is the height of the outer raceway.
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::mechanism::bearing::{Bearing, BearingPart, Lubrication};
@@ -15,13 +15,13 @@ use serde::Deserialize;
 use super::palmgren::{AXIAL_RATIO, Constants, F0, LOAD, NO_LOAD, P1, Palmgren, RADIAL_RATIO};
 use super::rows::{self, Lack};
 
-/// Palmgren's form with the load-independent factor by the depth of the oil, as in ISO/TR 14179-1.
+/// Palmgren's form with a load-independent factor that depends on the oil level, as in ISO/TR 14179-1.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
-    /// Least f0, where no rolling element dips; absent, that of oil mist. [-]
+    /// Minimum f0, with no rolling element immersed; default: that of oil mist. [-]
     #[schemars(range(min = 0.0, max = 50.0))]
     pub f0_min: Option<f64>,
-    /// Greatest f0, covered; absent, that of an oil jet. [-]
+    /// Maximum f0, fully immersed; default: that of an oil jet. [-]
     #[schemars(range(min = 0.0, max = 50.0))]
     pub f0_max: Option<f64>,
     #[serde(default)]
@@ -57,9 +57,9 @@ register!(Bearing, "iso14179_1", Params,
     source: "ISO/TR 14179-1:2001",
     example: "{ type: iso14179_1 }",
     evidence: [
-        formula(Evidence::Recalled, "structure recalled and met in one program"),
-        default_of("f0_min", Evidence::Assumed, "the report's table could not be opened"),
-        default_of("f0_max", Evidence::Assumed, "the report's table could not be opened"),
+        formula(Evidence::Recalled, "quoted from memory, not checked; one program uses the same structure"),
+        default_of("f0_min", Evidence::Assumed, "the report's table was not available"),
+        default_of("f0_max", Evidence::Assumed, "the report's table was not available"),
     ],
     limits: [AXIAL_RATIO, RADIAL_RATIO], terms: [LOAD, NO_LOAD], observed: [P1], prepare: prepare);
 
@@ -105,7 +105,7 @@ mod tests {
         .model(&part)
         .unwrap();
         let no_load = |height| moments(&model, &part, height)[1];
-        // 69.4883 N mm belongs to f0 = 2.
+        // 69.4883 N mm is the moment for f0 = 2.
         assert!((no_load(0.0) / (69.4883 / 2.0) - 1.0).abs() < 1e-5);
         assert!((no_load(1.0) / (69.4883 * 2.0) - 1.0).abs() < 1e-5);
         assert!((no_load(part.raceway) / (69.4883 * 1.25) - 1.0).abs() < 1e-5);

@@ -1,11 +1,11 @@
-//! Rolling bearings after Palmgren, as ISO/TR 14179-2 uses him.
+//! Rolling bearings according to Palmgren, as in ISO/TR 14179-2.
 //!
 //! Source: ISO/TR 14179-2:2001; SKF General Catalogue 1994; Palmgren 1957: M = M0 + M1 (+ M2 for cylindrical rollers under axial
 //! load), N mm: M0 = 1e-7 f0 (nu n)^(2/3) dm^3 from nu n = 2000, 160e-7 f0 dm^3 below; M1 = f1 P1^a dm^b with a = b = 1 except for
 //! spherical rollers; M2 = f2 Fa dm.
-//! The step of 0.8 % at nu n = 2000 is published and kept. Steady speed, normal clearance.
-//! f0 and f1 are tables by kind, series and lubrication; a range stands for light to heavy series. Where the table has no
-//! value, or a row needs a series or a load factor that is not given, building fails and says what to give.
+//! The step of 0.8 % at nu n = 2000 is in the published formula and is retained. Steady speed, normal clearance. f0 and f1 are
+//! tables by kind, series and lubrication; a range covers light to heavy series. If the table has no value, or a row requires a
+//! series or a load factor that is not given, building fails and names the missing value.
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::mechanism::bearing::{Bearing, BearingPart};
@@ -17,24 +17,24 @@ use serde::Deserialize;
 use super::palmgren::{AXIAL_RATIO, Constants, F0, LOAD, NO_LOAD, P1, Palmgren, RADIAL_RATIO, flanged};
 use super::rows::{self, Lack};
 
-/// Load-dependent and load-independent moment after Palmgren, as in ISO/TR 14179-2.
+/// Load-dependent and load-independent moment according to Palmgren, as in ISO/TR 14179-2.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Iso14179 {
-    /// Factor of the load-independent moment; absent, by kind, series and lubrication. [-]
+    /// Factor f0 of the load-independent moment; default: by kind, series and lubrication. [-]
     #[schemars(range(min = 0.0, max = 50.0))]
     pub f0: Option<f64>,
-    /// Factor z of f1 = z (P0/C0)^y for ball bearings, or f1 itself for rollers; absent, by kind and series. [-]
+    /// Factor z of f1 = z (P0/C0)^y for ball bearings, or f1 itself for roller bearings; default: by kind and series. [-]
     #[schemars(range(min = 0.0, max = 0.1))]
     pub f1: Option<f64>,
-    /// Exponent y of deep groove ball bearings: 0.55 after SKF and Harris, 0.5 after Schaeffler. [-]
+    /// Exponent y of deep groove ball bearings: 0.55 according to SKF and Harris, 0.5 according to Schaeffler. [-]
     #[serde(default = "exponent")]
     #[schemars(range(min = 0.1, max = 1.0))]
     pub exponent: f64,
-    /// Factor k of P1 = k Fa - 0.1 Fr of deep groove ball bearings: 3 after SKF and Harris, 3.3 after Schaeffler. [-]
+    /// Factor k of P1 = k Fa - 0.1 Fr of deep groove ball bearings: 3 according to SKF and Harris, 3.3 according to Schaeffler. [-]
     #[serde(default = "axial_factor")]
     #[schemars(range(min = 0.5, max = 5.0))]
     pub axial_factor: f64,
-    /// Factor of the moment from axial load on cylindrical rollers; absent, by kind and lubrication. [-]
+    /// Factor f2 of the moment of axially loaded cylindrical roller bearings; default: by kind and lubrication. [-]
     #[schemars(range(min = 0.0, max = 0.1))]
     pub f2: Option<f64>,
     #[serde(default)]
@@ -54,8 +54,11 @@ impl Iso14179 {
         let mut law = rows::load_law(part, self.exponent, self.axial_factor, self.f1.is_some())?;
         law.z = self.f1.unwrap_or(law.z);
         if self.f2.is_some() && !flanged(part) {
-            let help = "leave f2 out; f1 counts the axial load of other bearings";
-            return Err(("f2 belongs to cylindrical roller bearings".to_owned(), help.to_owned()));
+            let help = "omit `f2`; for other bearings f1 includes the axial load";
+            return Err((
+                "`f2` applies to cylindrical roller bearings only".to_owned(),
+                help.to_owned(),
+            ));
         }
         let f0 = self.f0.map_or_else(|| rows::f0(part), Ok)?;
         Palmgren::new(
@@ -79,12 +82,12 @@ register!(Bearing, "iso14179_2", Iso14179,
     source: "ISO/TR 14179-2:2001; SKF General Catalogue 1994",
     example: "{ type: iso14179_2 }",
     evidence: [
-        formula(Evidence::SeveralSources, "the formula stands in catalogues and standard alike"),
-        default_of("f0", Evidence::Recalled, "table recalled; ranges picked by series"),
-        default_of("f1", Evidence::Disputed, "three published variants for deep groove balls; needles differ by a factor of four"),
-        default_of("exponent", Evidence::Disputed, "0.55 after SKF and Harris, 0.5 after Schaeffler"),
-        default_of("axial_factor", Evidence::Disputed, "3 after SKF and Harris, 3.3 after Schaeffler"),
-        default_of("f2", Evidence::Recalled, "table recalled; flanges of the EC design"),
+        formula(Evidence::SeveralSources, "catalogues and standard give the same formula"),
+        default_of("f0", Evidence::Recalled, "table quoted from memory, not checked; the series selects within a range"),
+        default_of("f1", Evidence::Disputed, "three published variants for deep groove balls; factors for needle roller bearings differ by four"),
+        default_of("exponent", Evidence::Disputed, "0.55 according to SKF and Harris, 0.5 according to Schaeffler"),
+        default_of("axial_factor", Evidence::Disputed, "3 according to SKF and Harris, 3.3 according to Schaeffler"),
+        default_of("f2", Evidence::Recalled, "table quoted from memory, not checked; flanges of the EC design"),
     ],
     limits: [AXIAL_RATIO, RADIAL_RATIO], terms: [LOAD, NO_LOAD], observed: [P1], prepare: prepare);
 
@@ -153,7 +156,7 @@ mod tests {
         let part = part(BearingKind::DeepGrooveBall, "63", 40.0, 90.0, Some(24000.0));
         let model = params().model(&part).unwrap();
         close(moments(&model, &part, 100.0, 15.0, 0.0, 0.0)[1], 8.78800);
-        // The published step: the upper branch begins 0.8 % lower.
+        // The published step: the upper branch starts 0.8 % lower.
         let below = moments(&model, &part, 1999.9 / 15.0, 15.0, 0.0, 0.0)[1];
         let above = moments(&model, &part, 2000.1 / 15.0, 15.0, 0.0, 0.0)[1];
         assert!((above / below - 158.74 / 160.0).abs() < 1e-4);
@@ -186,7 +189,7 @@ mod tests {
     fn a_missing_series_or_an_empty_cell_says_what_to_give() {
         let nameless = part(BearingKind::DeepGrooveBall, "", 40.0, 90.0, Some(24000.0));
         assert!(params().model(&nameless).unwrap_err().1.contains("63"));
-        // With f1 written and a single f0 for the bath no series is asked for.
+        // With a written f1 and a single f0 for the bath, no series is required.
         assert!(
             Iso14179 {
                 f1: Some(0.0009),

@@ -1,7 +1,7 @@
-//! The form of Palmgren that four models share: M = M0 + M1 + M2, N mm.
+//! Palmgren's form, shared by four models: M = M0 + M1 + M2, N mm.
 //!
-//! M0 = 1e-7 f0 (nu n)^(2/3) dm^3 from nu n = 2000, 160e-7 f0 dm^3 below (the published step of 0.8 % is kept); M1 = f1 P1^a dm^b with
-//! f1 = z (P0/C0)^y; M2 = f2 Fa dm of cylindrical rollers under axial load.
+//! M0 = 1e-7 f0 (nu n)^(2/3) dm^3 from nu n = 2000, 160e-7 f0 dm^3 below (the published step of 0.8 % is retained); M1 = f1 P1^a
+//! dm^b with f1 = z (P0/C0)^y; M2 = f2 Fa dm for axially loaded cylindrical roller bearings.
 
 use gearloss_framework::coefficients;
 use gearloss_framework::lanes::{Lane, LaneNotes, LossLanes, cube_root, each, exp, ln, over, wide};
@@ -23,18 +23,18 @@ pub const RADIAL_RATIO: Limit = Limit::new(
     0.55,
     "radial load on spherical roller thrust bearings, SKF 1994",
 );
-pub const P1: Observed = Observed::new(0, "P1", "N", "Load that decides the load-dependent moment.");
+pub const P1: Observed = Observed::new(0, "P1", "N", "Equivalent load of the load-dependent moment.");
 
 coefficients! {
     /// Constants of the load-independent moment M0 in N mm, from mm2/s, 1/min and mm.
     pub struct Constants {
-        /// Factor of f0 (nu n)^(2/3) d_m^3 where oil is sheared.
+        /// Factor of f0 (nu n)^(2/3) d_m^3 in the viscous regime.
         viscous_factor = 1e-7, in 0.5e-7..=2e-7;
-        /// Exponent of viscosity times speed there.
+        /// Exponent of viscosity times speed in the viscous regime.
         viscous_exponent = 2.0 / 3.0, in 0.5..=1.0;
         /// Factor of f0 d_m^3 at low viscosity times speed.
         constant_factor = 160e-7, in 80e-7..=320e-7;
-        /// Viscosity times speed from which oil is sheared.
+        /// Viscosity times speed at which the viscous regime starts.
         viscous_from = 2000.0, in 1000.0..=4000.0;
     }
 }
@@ -42,15 +42,14 @@ coefficients! {
 /// Factor of the load-independent moment.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum F0 {
-    /// One factor.
     Fixed(f64),
-    /// From nothing to full depth in the oil, linear in the height over a height in m.
+    /// From no immersion to full immersion, linear in the oil height; heights in m.
     Dip {
-        /// Without oil among the rolling elements.
+        /// No rolling element immersed.
         least: f64,
-        /// Covered.
+        /// Fully immersed.
         most: f64,
-        /// Height at which the bearing is covered. \[m\]
+        /// Oil height of full immersion. \[m\]
         covered: f64,
     },
 }
@@ -69,7 +68,7 @@ pub struct Palmgren {
     cube: f64,
     /// d_m to the power b of the load law.
     d_m_b: f64,
-    /// Rollers that carry axial load on flanges.
+    /// True for rollers that carry axial load on flanges.
     flanged: bool,
     spherical_thrust: bool,
 }
@@ -78,11 +77,11 @@ impl Palmgren {
     /// A bearing with its factors.
     ///
     /// # Errors
-    /// Where the load law asks for a rating that is not given.
+    /// If a rating that the load law needs is missing.
     pub fn new(part: &BearingPart, f0: F0, law: LoadLaw, f2: f64, coefficients: Constants) -> Result<Self, Lack> {
         let c0 = match part.c0 {
             Some(c0) => c0,
-            // A constant f1 does not ask for it.
+            // A constant f1 does not need it.
             None if law.exponent == 0.0 => 1.0,
             None => {
                 let help = "add `c0:`, or a `designation` of a catalogue";
@@ -113,7 +112,7 @@ pub fn flanged(part: &BearingPart) -> bool {
     )
 }
 
-/// Ratio of two loads; without bound where the second is absent.
+/// Ratio of two loads; infinite if the second is zero.
 fn ratio(load: f64, other: f64) -> f64 {
     if other > 0.0 {
         load / other
@@ -225,7 +224,7 @@ impl BearingModel for Palmgren {
             #[inline(always)]
             || {
                 let (p0, p1) = self.law.rule.lanes(&loads.radial, &loads.axial);
-                // Asked outside of the loops, or both sides are computed in them.
+                // Evaluated outside the loops, unless both branches are computed in them.
                 let f1 = if self.law.exponent == 0.0 {
                     Lane::all(self.law.z)
                 } else {

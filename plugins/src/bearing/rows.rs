@@ -3,10 +3,10 @@
 use gearloss_framework::lanes::{LANES, Lane};
 use gearloss_framework::mechanism::bearing::{BearingKind, BearingPart, Lubrication};
 
-/// What is missing, and what the user can write.
+/// What is missing, and how to fix it.
 pub type Lack = (String, String);
 
-/// How P0 and P1 follow from the loads.
+/// How P0 and P1 are computed from the loads.
 #[derive(Debug, Clone, Copy)]
 pub enum Rule {
     DeepGroove {
@@ -30,17 +30,17 @@ pub enum Rule {
         y: f64,
     },
     Thrust,
-    /// P1 = k Fa cot(alpha) - 0.1 Fr of balls, after Harris; P0 as angular contact bearings.
+    /// P1 = k Fa cot(alpha) - 0.1 Fr of balls, according to Harris; P0 as for angular contact bearings.
     Ball {
         k_cot: f64,
         y0: f64,
     },
-    /// The same of two rows: P0 = Fr + y0 Fa.
+    /// The same for two rows: P0 = Fr + y0 Fa.
     BallTwoRows {
         k_cot: f64,
         y0: f64,
     },
-    /// P1 = k Fa cot(alpha), after Harris.
+    /// P1 = k Fa cot(alpha), according to Harris.
     Roller {
         k_cot: f64,
     },
@@ -79,7 +79,7 @@ impl Rule {
             }
             (p0, p1)
         }
-        // Each rule has a loop of its own, without the choice between them.
+        // One loop per rule, so that the loops have no branches.
         match self {
             Self::DeepGroove { k } => each(Self::DeepGroove { k }, fr, fa),
             Self::Angular { y0 } => each(Self::Angular { y0 }, fr, fa),
@@ -106,7 +106,7 @@ pub struct LoadLaw {
 }
 
 impl LoadLaw {
-    /// A law with a power of one.
+    /// A law with both exponents one.
     pub fn new(z: f64, exponent: f64, rule: Rule) -> Self {
         Self {
             z,
@@ -118,7 +118,7 @@ impl LoadLaw {
     }
 }
 
-/// Where a series stands between light and heavy cross sections.
+/// Position of a series between light and heavy cross sections.
 const LIGHT: [&str; 23] = [
     "10", "60", "630", "160", "161", "617", "618", "619", "628", "637", "638", "639", "130", "139", "18", "320 X",
     "320", "329", "230", "238", "239", "240", "292E",
@@ -132,12 +132,12 @@ const HEAVY: [&str; 18] = [
     "33 A",
 ];
 
-/// z of deep groove ball bearings of light series, within the catalogue's 0.0006 to 0.0009.
+/// z of light series of deep groove ball bearings, within the catalogue's 0.0006 to 0.0009.
 const Z_LIGHT: f64 = 0.0007;
 /// z of the other deep groove ball bearings.
 const Z_OTHERS: f64 = 0.0009;
 
-/// Spherical roller bearings: series, f1, power of P1, power of d_m.
+/// Spherical roller bearings: series, f1, exponent of P1, exponent of d_m.
 const SPHERICAL: [(&str, f64, f64, f64); 9] = [
     ("213", 0.00022, 1.35, 0.2),
     ("222", 0.00015, 1.35, 0.3),
@@ -150,7 +150,7 @@ const SPHERICAL: [(&str, f64, f64, f64); 9] = [
     ("241", 0.001, 1.5, -0.2),
 ];
 
-/// Series as the tables name it: spherical roller bearings of the E design share the row of their series.
+/// Series as the tables name it; spherical roller bearings of the E design use the row of their series.
 fn series(part: &BearingPart) -> Option<&str> {
     let series = part.series.as_deref()?.trim();
     Some(match part.kind {
@@ -175,19 +175,19 @@ fn no_series(part: &BearingPart, what: &str, known: &str) -> Lack {
 /// f0 of the load-independent moment.
 ///
 /// # Errors
-/// A cell that the table leaves empty; a range without a series to choose from it.
+/// If the table has no value for this bearing, or has a range and no series selects from it.
 pub fn f0(part: &BearingPart) -> Result<f64, Lack> {
     f0_under(part, part.lubrication)
 }
 
-/// f0 under another lubrication than the bearing's own.
+/// f0 with a lubrication other than the bearing's own.
 ///
 /// # Errors
 /// As [`f0`].
 pub fn f0_under(part: &BearingPart, lubrication: Lubrication) -> Result<f64, Lack> {
     use BearingKind as K;
     let one = |x: f64| Some((x, x));
-    // Grease, oil and air, bath, jet; a range stands for light to heavy series.
+    // Grease, oil and air, bath, jet; a range covers light to heavy series.
     let [grease, air, bath, jet] = match part.kind {
         K::DeepGrooveBall => [Some((0.75, 2.0)), one(1.0), one(2.0), one(4.0)],
         K::DeepGrooveBallDoubleRow => [one(3.0), one(2.0), one(4.0), one(8.0)],
@@ -215,7 +215,7 @@ pub fn f0_under(part: &BearingPart, lubrication: Lubrication) -> Result<f64, Lac
     let (low, high) = cell.ok_or_else(|| {
         (
             format!("the table has no f0 for this kind of bearing under {lubrication}"),
-            "write `f0:` (`f0_min:` and `f0_max:` of iso14179_1) in the model with your figure, or another `lubrication:`"
+            "write `f0:` (`f0_min:` and `f0_max:` of iso14179_1) in the model with your value, or another `lubrication:`"
                 .to_owned(),
         )
     })?;
@@ -237,7 +237,7 @@ pub fn f0_under(part: &BearingPart, lubrication: Lubrication) -> Result<f64, Lac
 /// Law of the load-dependent moment; exponent and axial factor are those of deep groove ball bearings.
 ///
 /// # Errors
-/// A series or a load factor that the row needs.
+/// If a series or a load factor required by the row is missing.
 pub fn load_law(part: &BearingPart, exponent: f64, axial_factor: f64, z_given: bool) -> Result<LoadLaw, Lack> {
     use BearingKind as K;
     let need = |value: Option<f64>, key: &str, hint: &str| {
@@ -289,7 +289,7 @@ pub fn load_law(part: &BearingPart, exponent: f64, axial_factor: f64, z_given: b
         K::ToroidalRoller | K::ToroidalRollerFullComplement => {
             return Err((
                 "the tables of Palmgren's form have no toroidal roller bearings".to_owned(),
-                "give this bearing a model of its own, such as `model: { type: skf }`".to_owned(),
+                "give this bearing its own model, such as `model: { type: skf }`".to_owned(),
             ));
         }
         K::CylindricalRollerThrust | K::NeedleRollerThrust => LoadLaw::new(0.0015, 0.0, Rule::Thrust),
@@ -309,7 +309,7 @@ pub fn load_law(part: &BearingPart, exponent: f64, axial_factor: f64, z_given: b
 /// Load law of a spherical roller bearing with a rule for its loads.
 ///
 /// # Errors
-/// A series that the table does not have.
+/// If the table does not list the series.
 pub fn spherical(part: &BearingPart, rule: Rule) -> Result<LoadLaw, Lack> {
     let name = series(part).unwrap_or("");
     let known = || SPHERICAL.map(|row| row.0).join(", ");
@@ -326,7 +326,7 @@ pub fn spherical(part: &BearingPart, rule: Rule) -> Result<LoadLaw, Lack> {
     })
 }
 
-/// f2 of the moment from axial load on cylindrical rollers with flanges of the EC design; zero for other kinds.
+/// f2 of axially loaded cylindrical roller bearings with flanges of the EC design; zero for other kinds.
 pub fn f2(part: &BearingPart) -> f64 {
     let grease = part.lubrication == Lubrication::Grease;
     match part.kind {
@@ -477,7 +477,7 @@ mod tests {
         let table = Printed::read(include_str!("../../tests/tables/flange_f2.csv"));
         let mut met = 0;
         for line in table.rows() {
-            // The other designs are the user's to state.
+            // For other designs the user states the value.
             let kind = match line.text("type") {
                 "cage with EC flange" => BearingKind::CylindricalRoller,
                 "full complement single row" => BearingKind::CylindricalRollerFullComplement,

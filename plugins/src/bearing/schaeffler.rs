@@ -1,8 +1,9 @@
-//! Rolling bearings after the catalogue of Schaeffler (INA, FAG), in Palmgren's form with factors of its own.
+//! Rolling bearings according to the Schaeffler catalogue (INA, FAG): Palmgren's form with its own factors.
 //!
-//! Source: Schaeffler, Wälzlager HR 1, recalled; f0 as behind the thermal reference speed of ISO 15312: columns for grease or mist,
-//! and for an oil bath or circulation. Deep groove f1 = 0.0005 to 0.0009 (P0/C0)^0.5 with P1 = 3.3 Fa - 0.1 Fr. Needles have a quarter of
-//! the f1 of SKF 1994, which is disputed. Axial load on the flanges of cylindrical rollers counts with the f2 of SKF 1994.
+//! Source: Schaeffler, Wälzlager HR 1, quoted from memory; f0 as used for the thermal reference speed of ISO 15312: one column for grease or
+//! mist, one for an oil bath or circulation. Deep groove f1 = 0.0005 to 0.0009 (P0/C0)^0.5 with P1 = 3.3 Fa - 0.1 Fr. Needle roller
+//! bearings have a quarter of the f1 of SKF 1994, which is disputed. Axial load on the flanges of cylindrical rollers uses the f2
+//! of SKF 1994.
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::mechanism::bearing::{Bearing, BearingKind, BearingPart, Lubrication};
@@ -17,10 +18,10 @@ use super::rows::{self, Lack, LoadLaw, Rule};
 /// Rolling bearings after the catalogue of Schaeffler, in Palmgren's form.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
-    /// Factor of the load-independent moment; absent, by kind, series and lubrication. [-]
+    /// Factor f0 of the load-independent moment; default: by kind, series and lubrication. [-]
     #[schemars(range(min = 0.0, max = 50.0))]
     pub f0: Option<f64>,
-    /// Factor z of f1 = z (P0/C0)^y of ball bearings, or f1 itself; absent, by kind and series. [-]
+    /// Factor z of f1 = z (P0/C0)^y of ball bearings, or f1 itself; default: by kind and series. [-]
     #[schemars(range(min = 0.0, max = 0.1))]
     pub f1: Option<f64>,
     #[serde(default)]
@@ -39,7 +40,7 @@ fn row(part: &BearingPart) -> Result<Row, Lack> {
     let none = || {
         (
             format!("schaeffler has no row for this kind of bearing with series `{series}`"),
-            "set `series` as the catalogue names it, or give the bearing a model of its own".to_owned(),
+            "write `series` as in the catalogue, or give the bearing its own model".to_owned(),
         )
     };
     let need = |value: Option<f64>, key: &str| {
@@ -132,9 +133,9 @@ register!(Bearing, "schaeffler", Params,
     source: "Schaeffler (INA, FAG), Wälzlager HR 1; ISO 15312",
     example: "{ type: schaeffler }",
     evidence: [
-        formula(Evidence::OneSource, "form and one f1 met in a program"),
-        default_of("f0", Evidence::Recalled, "table recalled; the middle of a range for needles"),
-        default_of("f1", Evidence::Disputed, "three published variants for deep groove balls; needles differ by a factor of four"),
+        formula(Evidence::OneSource, "one program uses the same form and one f1"),
+        default_of("f0", Evidence::Recalled, "table quoted from memory, not checked; middle of a range for needle roller bearings"),
+        default_of("f1", Evidence::Disputed, "three published variants for deep groove balls; factors for needle roller bearings differ by four"),
     ],
     limits: [AXIAL_RATIO, RADIAL_RATIO], terms: [LOAD, NO_LOAD], observed: [P1], prepare: prepare);
 

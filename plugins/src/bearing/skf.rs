@@ -1,22 +1,22 @@
-//! Frictional moment after the SKF catalogue: rolling, sliding, drag and seals, for every kind of bearing in its tables.
+//! Frictional moment according to the SKF catalogue: rolling, sliding, drag and seals, for all bearing kinds in its tables.
 //!
 //! Source: SKF, Rolling bearings, PUB BU/P1 10000 (2013) and 17000 (2018), "The SKF model for calculating the frictional
-//! moment": M = M_rr + M_sl + M_seal + M_drag, N mm. Catalogues 5000 and 6000 (2004, 2008) share all but the drag.
+//! moment": M = M_rr + M_sl + M_seal + M_drag, N mm. Catalogues 5000 and 6000 (2004, 2008) differ only in the drag.
 //! Steady load above the minimum load, normal clearance, speed below the limiting speed, large oil bath.
-//! Not for n d_m far above 0.5e6 mm/min, where the drag stops growing with the square of speed; the law that replaces it
-//! (Morales-Espejel and Wemekamp) is not public. `beyond: hold` keeps the speed of the drag there, by a convention of this program.
-//! At vanishing axial load the formulas of deep groove ball bearings do not join, as published: `blend_to` joins them.
-//! Needle roller bearings have no row; double rows count the whole load once.
-//! Load-independent is what remains without load: drag, seals, and in angular contact, four-point and self-aligning ball bearings
-//! what the centrifugal force of the balls adds to G_rr and G_sl (term `centrifugal`: both at Fr = Fa = 0). All else is
-//! load-dependent. In all other kinds G_rr and G_sl vanish with the load, so a dry one without seals has no load-independent
-//! loss, where Palmgren's form has its M0. No-load losses of both are compared at zero torque, not by this split.
-//! Full-film friction is 0.02 for "cylindrical roller bearings" and 0.002 for "tapered roller bearings"; other bearings take it from
-//! the oil. Cylindrical and needle roller thrust bearings count as others: both tables of the chapter name them apart from
-//! "cylindrical roller bearings", and their rollers slide over their whole length, which those of radial bearings do not. This is a
-//! reading of a sentence: the constant coefficient of 0.0050 that the chapter states for both does not decide it, of which a
-//! 40 x 68 x 19 bearing at 8 kN, 3000 rpm and 20 mm2/s has 1.3 times with 0.05 and 0.8 times with 0.02.
-//! Editions differ in the coefficient of boundary friction: 0.15, and 0.12 running in 2018.
+//! Not valid for n d_m far above 0.5e6 mm/min, where the drag no longer grows with the square of speed; the law that replaces it
+//! (Morales-Espejel and Wemekamp) is not public. `beyond: hold` keeps the drag at its speed limit there, by a convention of this
+//! program. The published formulas of deep groove ball bearings are discontinuous at vanishing axial load; `blend_to` makes them
+//! continuous. Needle roller bearings have no row; double rows carry the whole load once. Load-independent losses are those that
+//! remain without load: drag, seals, and in angular contact, four-point and self-aligning ball bearings the contribution of the
+//! centrifugal force of the balls to G_rr and G_sl (term `centrifugal`: both at Fr = Fa = 0). All other losses are load-dependent.
+//! In all other kinds G_rr and G_sl vanish with the load, so a dry bearing without seals has no load-independent loss, whereas
+//! Palmgren's form has M0. Compare the no-load losses of both models at zero torque, not by this split. Full-film friction is 0.02
+//! for "cylindrical roller bearings" and 0.002 for "tapered roller bearings"; for other bearings it depends on the oil. Cylindrical
+//! and needle roller thrust bearings are treated as other bearings: both tables of the chapter list them separately from
+//! "cylindrical roller bearings", and their rollers slide over their whole length, unlike those of radial bearings. This is an
+//! interpretation. The constant coefficient of 0.0050 that the chapter states for both does not decide it: a 40 x 68 x 19 bearing
+//! at 8 kN, 3000 rpm and 20 mm2/s has 1.3 times that moment with 0.05 and 0.8 times with 0.02. Editions differ in the coefficient
+//! of boundary friction: 0.15, and 0.12 for running bearings in 2018.
 
 mod drag;
 mod rows;
@@ -42,7 +42,7 @@ const SLIDING: Term = Term::load(1, "sliding");
 const DRAG: Term = Term::no_load(2, "drag");
 const SEAL: Term = Term::no_load(3, "seal");
 const CENTRIFUGAL: Term = Term::no_load(4, "centrifugal");
-const SPEED: Limit = Limit::new(0, "n d_m", "mm/min", 0.0, 0.5e6, "above, drag follows other laws");
+const SPEED: Limit = Limit::new(0, "n d_m", "mm/min", 0.0, 0.5e6, "above, drag follows a different law");
 const VISCOSITY: Limit = Limit::new(
     1,
     "nu",
@@ -65,12 +65,12 @@ const OUTER: Limit = Limit::new(
     "1/min",
     0.0,
     0.0,
-    "drag and starvation were measured with a resting outer ring",
+    "drag and starvation were measured with a stationary outer ring",
 );
 const MU_SL: Observed = Observed::new(0, "mu_sl", "-", "Coefficient of sliding friction.");
 const PHI_BL: Observed = Observed::new(1, "phi_bl", "-", "Weight of boundary friction.");
 
-/// Speed beyond which the drag follows other laws. \[mm/min\]
+/// Speed above which the drag follows a different law. \[mm/min\]
 const FASTEST: f64 = 0.5e6;
 
 /// Edition of the catalogue.
@@ -88,14 +88,14 @@ pub enum Edition {
     Y2018,
 }
 
-/// What the drag does beyond n d_m = 0.5e6 mm/min.
+/// The drag above n d_m = 0.5e6 mm/min.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Beyond {
-    /// It goes on with the formula.
+    /// The formula continues.
     #[default]
     Extrapolate,
-    /// Its moment stays.
+    /// The moment is constant.
     Hold,
 }
 
@@ -118,7 +118,7 @@ fn two() -> u32 {
 }
 
 coefficients! {
-    /// Constants of the factors of the SKF model that all bearings share.
+    /// Constants that all bearings of the SKF model share.
     struct Constants {
         /// Factor of the inlet shear heating, phi_ish.
         inlet_factor = 1.84e-9, in 0.92e-9..=3.68e-9;
@@ -138,49 +138,50 @@ coefficients! {
         mixed_exponent = 1.4, in 0.7..=2.1;
         /// Coefficient of sliding friction at standstill.
         starting_friction = 0.15, in 0.075..=0.3;
-        /// Factor of the resistance of the oil in the drag of a bath, beside V_M.
+        /// Factor of the oil resistance in the drag of a bath, beside V_M.
         bath_factor = 1.093e-7, in 0.5465e-7..=2.186e-7;
-        /// Exponent of n d_m^2 f_t over viscosity in the same.
+        /// Exponent of n d_m^2 f_t over viscosity in the oil resistance.
         bath_exponent = -1.379, in -1.9..=-0.6895;
     }
 }
 
-/// Rolling, sliding, drag and seal moment after the SKF catalogue, for every kind in its tables.
+/// Rolling, sliding, drag and seal moment according to the SKF catalogue, for all bearing kinds in its tables.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 pub struct Skf {
-    /// Edition of the catalogue, in quotes; sets the coefficient of boundary friction and the form of the drag.
+    /// Edition of the catalogue, in quotes; selects the coefficient of boundary friction and the form of the drag.
     #[serde(default)]
     pub edition: Edition,
-    /// Coefficient of boundary friction; absent, that of the oil, else that of the edition. [-]
+    /// Coefficient of boundary friction; default: that of the oil, else that of the edition. [-]
     #[schemars(range(min = 0.01, max = 0.3))]
     pub mu_bl: Option<f64>,
-    /// Coefficient of full-film friction; absent, 0.02 of radial cylindrical and needle and 0.002 of tapered rollers, else that of the
-    /// oil. [-]
+    /// Coefficient of full-film friction; default: 0.02 for radial cylindrical and needle roller bearings, 0.002 for tapered roller
+    /// bearings, else that of the oil. [-]
     #[schemars(range(min = 0.001, max = 0.2))]
     pub mu_ehl: Option<f64>,
-    /// Diameter of a ball or roller; counts under an oil jet only. Absent, 0.3 times the difference of outside and bore. [mm]
+    /// Diameter of a ball or roller; used under an oil jet only. Default: 0.3 times the difference of outside diameter and bore.
+    /// [mm]
     #[schemars(range(min = 0.1, max = 500.0))]
     pub ball: Option<f64>,
-    /// Share of the width in the oil of a vertical shaft; absent, the shaft is horizontal. [-]
+    /// Immersed share of the width on a vertical shaft; default: the shaft is horizontal. [-]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub vertical: Option<f64>,
     /// Drag variable V_M of the edition of 2004, whose diagram is not public: 1.49e-4 under a jet. [-]
     #[schemars(range(min = 0.0, max = 0.01))]
     pub v_m: Option<f64>,
-    /// What the drag does beyond n d_m = 0.5e6 mm/min.
+    /// The drag above n d_m = 0.5e6 mm/min.
     #[serde(default)]
     pub beyond: Beyond,
-    /// Share of axial to radial load of deep groove ball bearings up to which the purely radial form passes smoothly into the
-    /// combined one; absent, as published. [-]
+    /// Ratio of axial to radial load of deep groove ball bearings below which the purely radial form blends smoothly into the
+    /// combined one; default: as published. [-]
     #[schemars(range(min = 0.001, max = 1.0))]
     pub blend_to: Option<f64>,
     /// Contact seals.
     pub seals: Option<Seals>,
-    /// Needle roller bearings count as cylindrical ones of full complement.
+    /// Needle roller bearings are treated as full-complement cylindrical roller bearings.
     #[serde(default)]
     pub needle_as_full_complement: bool,
-    /// No starvation, as where the oil stands above the centre of the lowest rolling element and keeps the raceway replenished.
-    /// This is not taken from the level.
+    /// No starvation, as with an oil level above the centre of the lowest rolling element that keeps the raceway replenished. This
+    /// is not derived from the level.
     #[serde(default)]
     pub full_replenishment: bool,
     #[serde(default)]
@@ -196,7 +197,7 @@ struct Model {
     ln_d_m: f64,
     variables: Variables,
     blend: Option<f64>,
-    /// Greatest axial load of deep groove ball bearings; without bound for others. \[N\]
+    /// Maximum axial load of deep groove ball bearings; infinite for others. \[N\]
     axial: f64,
     /// Exponent of starvation per viscosity and speed.
     starvation: f64,
@@ -204,7 +205,7 @@ struct Model {
     edition_mu_bl: f64,
     mu_ehl: Option<f64>,
     drag: Option<Drag>,
-    /// Speed that the drag is held at. \[1/min\]
+    /// Speed at which the drag is held. \[1/min\]
     fastest: f64,
     /// \[N mm\]
     seals: f64,
@@ -229,7 +230,7 @@ impl Model {
             variables: row.variables,
             blend: params.blend_to,
             axial: match row.variables {
-                // 24.6 (Fa/C0)^0.24 degrees reach 90 at Fa = 222 C0; far before, no bearing lives.
+                // 24.6 (Fa/C0)^0.24 degrees reach 90 at Fa = 222 C0, far above the load that any bearing survives.
                 Variables::DeepGroove { c0, .. } => 10.0 * c0,
                 _ => f64::INFINITY,
             },
@@ -256,8 +257,8 @@ fn drag_of(params: &Skf, part: &BearingPart, row: &rows::Row) -> Result<Option<D
     let (d, big_d) = (part.bore.mm(), part.outside.mm());
     if params.vertical.is_some() && part.lubrication != Lubrication::Bath {
         return Err((
-            "`vertical` belongs to an oil bath".to_owned(),
-            "leave `vertical` out, or write `lubrication: bath` at the bearing".to_owned(),
+            "`vertical` applies to an oil bath only".to_owned(),
+            "omit `vertical`, or write `lubrication: bath` for the bearing".to_owned(),
         ));
     }
     let bath = match (part.lubrication, params.vertical) {
@@ -271,13 +272,13 @@ fn drag_of(params: &Skf, part: &BearingPart, row: &rows::Row) -> Result<Option<D
         (Edition::Y2004, None) => {
             return Err((
                 "the diagram of V_M of the edition of 2004 is not public".to_owned(),
-                "write `v_m:` with your figure, such as 1.49e-4 under a jet, or choose another edition".to_owned(),
+                "write `v_m:` with your value, such as 1.49e-4 under a jet, or choose another edition".to_owned(),
             ));
         }
         (_, Some(_)) => {
             return Err((
-                "`v_m` belongs to the edition of 2004".to_owned(),
-                "leave `v_m` out; later editions state it by the level of the oil".to_owned(),
+                "`v_m` applies to the edition of 2004 only".to_owned(),
+                "omit `v_m`; later editions derive it from the oil level".to_owned(),
             ));
         }
         (_, None) => None,
@@ -287,8 +288,9 @@ fn drag_of(params: &Skf, part: &BearingPart, row: &rows::Row) -> Result<Option<D
         Some(k_l) => {
             let width = part.width.ok_or_else(|| {
                 (
-                    "the drag of rollers needs `width`".to_owned(),
-                    "add `width:`; the total width of a tapered, the height of a thrust bearing".to_owned(),
+                    "the drag of roller bearings requires `width`".to_owned(),
+                    "add `width:` (the total width of a tapered roller bearing, the height of a thrust bearing)"
+                        .to_owned(),
                 )
             })?;
             Some((k_l, width.mm()))
@@ -321,7 +323,7 @@ impl Model {
         };
     }
 
-    /// What hangs on speed and oil alone; the speed in 1/min, not zero.
+    /// The terms that depend only on speed and oil; the speed in 1/min, not zero.
     fn moments(&self, at: &BearingAt<'_>, n: f64) -> Moments {
         let nu = at.nu.mm2_s();
         let [phi_ish, phi_rs, phi_bl, viscous, drag] = at.once(|| {
@@ -370,13 +372,13 @@ impl BearingModel for Model {
         }
         let n = at.speed.abs().rpm();
         let nu = at.show("nu", "mm2/s", at.nu.mm2_s());
-        let (g_rr, g_sl) = self.variables.at(fr, fa, n, nu, self.blend);
+        let (g_rr, g_sl) = self.variables.evaluate(fr, fa, n, nu, self.blend);
         at.show("G_rr", "-", g_rr);
         at.show("G_sl", "-", g_sl);
         self.check_speeds(at, n);
         let seals = self.seals.nmm_in_nm();
         if n == 0.0 {
-            at.branch("at rest: starting friction");
+            at.branch("at standstill: starting friction");
             return Ok(Loss::MOMENTS
                 .with(&SLIDING, (self.coefficients.starting_friction * g_sl).nmm_in_nm())
                 .with(&SEAL, seals));
@@ -404,7 +406,7 @@ impl BearingModel for Model {
         at.show("H", "mm", at.oil_height.mm());
         self.check_viscosity(at);
         if n > self.fastest {
-            at.branch("n d_m above 0.5e6: the speed of the drag is held there");
+            at.branch("n d_m above 0.5e6: drag held at that speed");
         }
         Ok(loss.with(&DRAG, at.show("M_drag", "N mm", moments.drag).nmm_in_nm()))
     }
@@ -456,7 +458,7 @@ impl BearingModel for Model {
     }
 }
 
-/// What the moments have in common under all loads.
+/// The load-independent factors of the moments.
 #[derive(Debug, Clone, Copy)]
 struct Moments {
     phi_ish: f64,
@@ -473,15 +475,15 @@ register!(Bearing, "skf", Skf,
     source: "SKF Rolling bearings, PUB 10000 (2013) and PUB 17000 (2018)",
     example: "{ type: skf, edition: \"2018\" }",
     evidence: [
-        formula(Evidence::SeveralSources, "catalogue pages and two or three transcriptions agree but for S2 of C22 and C23 and R1 of series H"),
+        formula(Evidence::SeveralSources, "catalogue pages and two or three transcriptions agree, except for S2 of C22 and C23 and R1 of series H"),
         default_of("edition", Evidence::SeveralSources, "both editions are printed"),
-        default_of("ball", Evidence::Assumed, "usual share of the section"),
-        default_of("mu_bl", Evidence::SeveralSources, "0.15 in 2013, 0.12 running in 2018, unless the oil states its own"),
-        default_of("mu_ehl", Evidence::SeveralSources, "by the kind of oil: 0.05 mineral, 0.04 synthetic, 0.10 transmission fluid; that roller thrust bearings take it too is a reading of the catalogue, whose tables name them apart from cylindrical roller bearings"),
-        default_of("vertical", Evidence::OneSource, "horizontal shafts; the share of the width has one source"),
+        default_of("ball", Evidence::Assumed, "typical share of the cross-section"),
+        default_of("mu_bl", Evidence::SeveralSources, "0.15 in 2013, 0.12 for running bearings in 2018, unless the oil states its own"),
+        default_of("mu_ehl", Evidence::SeveralSources, "by the kind of oil: 0.05 mineral, 0.04 synthetic, 0.10 transmission fluid; its use for roller thrust bearings is an interpretation of the catalogue, whose tables list them separately from cylindrical roller bearings"),
+        default_of("vertical", Evidence::OneSource, "horizontal shafts; one source for the share of the width"),
         default_of("v_m", Evidence::OneSource, "one published point of an earlier diagram"),
-        default_of("beyond", Evidence::Assumed, "the law beyond is not public; the limit is noted"),
-        default_of("blend_to", Evidence::SeveralSources, "as published, with its step"),
+        default_of("beyond", Evidence::Assumed, "the law above the limit is not public; exceeding the limit is noted"),
+        default_of("blend_to", Evidence::SeveralSources, "as published, with the discontinuity"),
         default_of("needle_as_full_complement", Evidence::Assumed, "no row is published"),
         default_of("full_replenishment", Evidence::OneSource, "starvation as in the catalogue"),
     ],
@@ -532,7 +534,7 @@ mod tests {
     fn a3_1_deep_groove_6308_in_a_low_bath() {
         let part = part();
         let model = Model::new(&params(), &part).unwrap();
-        let (g_rr, g_sl) = model.variables.at(3000.0, 1000.0, 3000.0, 15.0, None);
+        let (g_rr, g_sl) = model.variables.evaluate(3000.0, 1000.0, 3000.0, 15.0, None);
         close(g_rr, 0.206651);
         close(g_sl, 1220.21);
         let loss = model.loss(&at(&part, 3000.0, 1000.0, 10.0)).unwrap();
@@ -547,7 +549,7 @@ mod tests {
         let (g_rr, g_sl) = Model::new(&params(), &part())
             .unwrap()
             .variables
-            .at(3000.0, 0.0, 3000.0, 15.0, None);
+            .evaluate(3000.0, 0.0, 3000.0, 15.0, None);
         close(g_rr, 0.0998062);
         close(g_sl, 598.636);
     }
@@ -585,8 +587,8 @@ mod tests {
             loaded.value(CENTRIFUGAL.index).to_bits(),
             unloaded.value(CENTRIFUGAL.index).to_bits()
         );
-        // The split moves nothing between model and sum: 4 additions of positive numbers round by at most 4 epsilon.
-        let (g_rr, g_sl) = model.variables.at(2000.0, 1500.0, 3000.0, 15.0, None);
+        // The split does not change the sum: 4 additions of positive numbers round by at most 4 epsilon.
+        let (g_rr, g_sl) = model.variables.evaluate(2000.0, 1500.0, 3000.0, 15.0, None);
         let whole = (moments.rolling * g_rr + moments.mu_sl * g_sl) * 1e-3;
         assert!((loaded.sum() / whole - 1.0).abs() < 4.0 * f64::EPSILON);
         assert!(loaded.value(0) > 0.0 && loaded.value(1) > 0.0);
@@ -635,7 +637,7 @@ mod tests {
     fn other_kinds_are_refused_with_a_way_out() {
         let mut part = part();
         part.kind = BearingKind::NeedleCage;
-        assert!(Model::new(&params(), &part).unwrap_err().1.contains("model of its own"));
+        assert!(Model::new(&params(), &part).unwrap_err().1.contains("its own model"));
     }
 
     #[test]
@@ -658,7 +660,7 @@ mod tests {
         let (bath, _) = rolling(Lubrication::Bath, false);
         close(bath, full * 0.969573);
         close(rolling(Lubrication::Bath, true).0, full);
-        // Grease and oil-air starve twice as fast and drag no bath along.
+        // Grease and oil-air starve twice as fast and have no bath drag.
         for lubrication in [Lubrication::Grease, Lubrication::OilAir] {
             let (rolling, drag) = rolling(lubrication, false);
             close(rolling, full * 0.969573 * 0.969573);
@@ -731,7 +733,7 @@ mod tests {
         close(drag, 2.72196);
     }
 
-    /// And the figures in the head: the catalogue's constant coefficient is M = 0.0050 F d / 2.
+    /// And the values in the module documentation: the catalogue's constant coefficient gives M = 0.0050 F d / 2.
     #[test]
     fn roller_thrust_bearings_take_the_friction_of_the_oil_and_radial_ones_do_not() {
         let moment = |kind, mu_ehl| {
@@ -795,7 +797,7 @@ mod tests {
             number: 2,
         });
         let model = Model::new(&Skf { seals, ..params() }, &part).unwrap();
-        // An outside diameter of 90 mm has K_S2 = 15 in place of 20.
+        // An outside diameter of 90 mm has K_S2 = 15 instead of 20.
         close(
             model.loss(&at(&part, 1000.0, 0.0, 0.0)).unwrap().value(3) * 1e3,
             154.119 - 5.0,

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Seal and the bearing that it sits in.
+/// Seal type and kind of bearing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Code {
@@ -39,9 +39,9 @@ impl SealRow {
     /// The constants for an outside diameter in mm and one or two seals.
     ///
     /// # Errors
-    /// Where the table has no row for that diameter: what is wrong, and how to fix it.
+    /// If the table has no row for that diameter: the problem and how to fix it.
     pub fn new(code: Code, outside: f64, seals: u32) -> Result<Self, (String, String)> {
-        // Least and greatest outside diameter, beta, K_S1, K_S2.
+        // Minimum and maximum outside diameter, beta, K_S1, K_S2.
         let rows: &[(f64, f64, f64, f64, f64)] = match code {
             Code::RslDeepGroove => &[(0.0, 25.0, 0.0, 0.0, 0.0), (25.0, 52.0, 2.25, 0.0018, 0.0)],
             Code::RshDeepGroove => &[(0.0, 52.0, 2.25, 0.028, 2.0)],
@@ -57,13 +57,13 @@ impl SealRow {
             Code::CsSpherical => &[(62.0, 300.0, 2.0, 0.057, 50.0)],
             Code::CsCarb => &[(42.0, 340.0, 2.0, 0.057, 50.0)],
         };
-        // The upper end belongs to a row: RS1 of 62 mm is that of smaller bearings.
+        // The upper end is included: RS1 of 62 mm is that of smaller bearings.
         let row = rows.iter().find(|row| outside <= row.1 && outside >= row.0);
         let Some((_, _, beta, k_s1, k_s2)) = row else {
             return Err((
                 format!("the catalogue has no such seal for an outside diameter of {outside} mm"),
                 format!(
-                    "it states {} to {} mm; choose another seal",
+                    "it covers {} to {} mm; choose another seal",
                     rows[0].0,
                     rows[rows.len() - 1].1
                 ),
@@ -125,7 +125,7 @@ mod tests {
                 line.is("K_S2", own.k_s2);
                 assert_eq!(own.share, 1.0);
             }
-            // No seal beyond the last row of its table, nor below the first.
+            // No seal above the last row of its table, nor below the first.
             if code != Code::Rs1DeepGroove && up_to > 25.0 {
                 assert!(SealRow::new(code, up_to + 0.01, 2).is_err());
             }

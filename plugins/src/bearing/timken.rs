@@ -1,9 +1,9 @@
-//! Tapered roller bearings after the Timken catalogue.
+//! Tapered roller bearings according to the Timken catalogue.
 //!
-//! Source: Timken, Bearing engineering manual, recalled: M = 2.56e-6 G1 (n mu)^0.62 F^0.3 in N m; n in 1/min, mu in mPa s, F in N, G1 a
+//! Source: Timken, Bearing engineering manual, quoted from memory: M = 2.56e-6 G1 (n mu)^0.62 F^0.3 in N m; n in 1/min, mu in mPa s, F in N, G1 a
 //! geometry factor of the bearing from the catalogue (10 to 100 for bores of 25 to 60 mm), with K = 0.389 cot(half cup angle) =
 //! Y/1.028: F = Fa for K Fa/Fr above 2, 0.06 Fr/K below 0.47. Between them the catalogue has a chart; by a convention of this
-//! program F = f Fr/K with f linear in K Fa/Fr from 0.06 to 2. Single row. Below a least speed of the catalogue the torque stays
+//! program F = f Fr/K with f linear in K Fa/Fr from 0.06 to 2. Single row. Below a minimum speed of the catalogue the torque is
 //! nearly constant.
 
 use gearloss_framework::coefficients;
@@ -17,7 +17,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 const LOAD: Term = Term::load(0, "load");
-const FORCE: Observed = Observed::new(0, "F_eff", "N", "Load that decides the torque.");
+const FORCE: Observed = Observed::new(0, "F_eff", "N", "Equivalent load of the torque.");
 
 coefficients! {
     /// Constants of the formula of Timken.
@@ -28,25 +28,25 @@ coefficients! {
         speed_exponent = 0.62, in 0.31..=1.24;
         /// Exponent of the load.
         load_exponent = 0.3, in 0.15..=0.6;
-        /// K Fa/Fr from which the axial load alone counts.
+        /// K Fa/Fr above which only the axial load counts.
         thrust_ratio = 2.0, in 1.0..=4.0;
-        /// K Fa/Fr up to which the radial load alone counts.
+        /// K Fa/Fr below which only the radial load counts.
         radial_ratio = 0.47, in 0.235..=0.94;
-        /// Factor of Fr/K there.
+        /// Factor of Fr/K below that value.
         radial_factor = 0.06, in 0.03..=0.12;
     }
 }
 
-/// Tapered roller bearings after the Timken catalogue.
+/// Tapered roller bearings according to the Timken catalogue.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
     /// Geometry factor G1 of the bearing. [-]
     #[schemars(range(min = 0.1, max = 100_000.0))]
     pub g1: f64,
-    /// Factor K of the bearing; absent, its axial factor Y over 1.028. [-]
+    /// Factor K of the bearing; default: its axial factor Y over 1.028. [-]
     #[schemars(range(min = 0.1, max = 5.0))]
     pub k: Option<f64>,
-    /// Speed below which the torque stays. [rpm]
+    /// Speed below which the torque is constant. [rpm]
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1e5))]
     pub least_speed: f64,
@@ -65,11 +65,11 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Timken, Diagnostic> {
     let part = cx.part::<Bearing>().ok_or_else(|| cx.error("bug: no part"))?;
     if part.kind != BearingKind::TaperedRoller {
         return Err(cx
-            .error("timken covers tapered roller bearings")
-            .help("give this bearing a model of its own, such as `model: { type: skf }`"));
+            .error("timken applies to tapered roller bearings only")
+            .help("give this bearing its own model, such as `model: { type: skf }`"));
     }
     let k = params.k.or(part.y.map(|y| y / 1.028)).ok_or_else(|| {
-        cx.error("timken needs `k`, or `y` of the bearing")
+        cx.error("timken requires `k`, or `y` of the bearing")
             .help("add `k:` to the model or `y:` to the bearing")
     })?;
     if k <= 0.0 {
@@ -123,9 +123,9 @@ register!(Bearing, "timken", Params,
     example: "{ type: timken, g1: 20, k: 1.6 }",
     part: "{ kind: tapered_roller, series: \"302\", bore: 30 mm, outside: 62 mm, width: 17.25 mm, c0: 44000 N, y: 1.6 }",
     evidence: [
-        formula(Evidence::Recalled, "recalled; a chart is replaced by a straight line"),
-        default_of("k", Evidence::Recalled, "relation to Y"),
-        default_of("least_speed", Evidence::Assumed, "the catalogue's factors are the user's"),
+        formula(Evidence::Recalled, "quoted from memory, not checked; a straight line replaces a chart"),
+        default_of("k", Evidence::Recalled, "relation to Y quoted from memory, not checked"),
+        default_of("least_speed", Evidence::Assumed, "the user takes it from the catalogue"),
     ],
     terms: [LOAD], observed: [FORCE], prepare: prepare);
 

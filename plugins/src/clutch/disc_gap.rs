@@ -1,14 +1,14 @@
 //! Open wet multi-disc clutch or brake: shear of the oil between the discs.
 //!
-//! Derived from laminar flow between parallel discs, fed at the inner radius. Full film: T = N pi eta dw (r_o^4 - r_i^4)/(2 h).
-//! Centrifugal pumping draws more oil outwards than is fed: dp/dr = rho C r - 6 eta Q/(pi r h^3) with C = 0.3 w1^2 + 0.4 w1 w2 + 0.3 w2^2.
-//! `coverage`: from r_c = sqrt(6 eta Q/(pi rho C h^3)) on the oil covers the share (r_c/r)^2 of the gap only:
-//! T = N (pi eta dw (r*^4 - r_i^4)/(2 h) + 6 eta^2 dw Q (r_o^2 - r*^2)/(rho C h^4)), r* = r_c held between r_i and r_o. The drag
-//! rises with speed, peaks where r_c leaves the disc, then falls with 1/w, as measured drag does.
-//! `pressure_balance`: the film ends where the pressure has fallen to that of the housing, and there is only mist beyond; it
-//! collapses within some 15 % of speed, as on plates without grooves.
-//! Kitabayashi 2003, Rao 2011 and Iqbal 2013 have the same mechanism; their coefficients are not public, so their names are
-//! not used. Not for plates that touch, for gaps that flutter, or for turbulent flow (rho w r h/eta above about 1000).
+//! Derived for laminar flow between parallel discs, fed at the inner radius. Full film: T = N pi eta dw (r_o^4 - r_i^4)/(2 h).
+//! Centrifugal pumping draws more oil outwards than is supplied: dp/dr = rho C r - 6 eta Q/(pi r h^3) with C = 0.3 w1^2 + 0.4 w1 w2 + 0.3 w2^2.
+//! `coverage`: beyond r_c = sqrt(6 eta Q/(pi rho C h^3)) the oil covers only the share (r_c/r)^2 of the gap:
+//! T = N (pi eta dw (r*^4 - r_i^4)/(2 h) + 6 eta^2 dw Q (r_o^2 - r*^2)/(rho C h^4)), r* = r_c limited to r_i to r_o. The drag
+//! rises with speed, peaks when r_c reaches the outer radius, then falls with 1/w, as measured drag does.
+//! `pressure_balance`: the film ends where its pressure has fallen to that of the housing, with mist beyond; it
+//! collapses within about 15 % of speed, as on plates without grooves.
+//! Kitabayashi 2003, Rao 2011 and Iqbal 2013 describe the same mechanism; their coefficients are not public, so their names are
+//! not used. Not for touching plates, axially vibrating plates, or turbulent flow (rho w r h/eta above about 1000).
 
 use gearloss_framework::coefficients;
 use gearloss_framework::document::Diagnostic;
@@ -24,21 +24,21 @@ const SHEAR: Term = Term::no_load(0, "shear");
 const REYNOLDS: Limit = Limit::new(0, "Re", "-", 0.0, 1000.0, "laminar flow in the gap");
 const RADIUS: Observed = Observed::new(0, "r*", "mm", "Radius to which the oil fills the gap.");
 
-/// What becomes of the film once it is flung off.
+/// Shape of the film once centrifugal pumping exceeds the supply.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Film {
-    /// It covers a part of the circumference.
+    /// It covers part of the circumference.
     #[default]
     Coverage,
-    /// It ends where its pressure has fallen; mist beyond.
+    /// It ends where its pressure has fallen to that of the housing; mist beyond.
     PressureBalance,
-    /// It stays whole at any speed.
+    /// It remains complete at any speed.
     Full,
 }
 
 coefficients! {
-    /// Constants of the centrifugal pumping C after Hashimoto and others.
+    /// Constants of the centrifugal pumping C according to Hashimoto and others.
     struct Constants {
         /// Factor of the square of either speed in C.
         own_pumping = 0.3, in 0.15..=0.6;
@@ -50,17 +50,17 @@ coefficients! {
 /// Open wet multi-disc clutch or brake: shear of the oil between the discs.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
-    /// What becomes of the film once it is flung off.
+    /// Shape of the film once centrifugal pumping exceeds the supply.
     #[serde(default)]
     pub film: Film,
-    /// Flow to all gaps together; not needed for a full film. [l/min]
+    /// Total flow to all gaps; not used for a full film. [l/min]
     #[schemars(range(min = 0.0, max = 1000.0))]
     pub flow: Option<f64>,
-    /// Share of the faces that grooves take. [-]
+    /// Share of the faces taken up by grooves. [-]
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 0.95))]
     pub groove_share: f64,
-    /// Viscosity of the mist beyond the film, for the pressure balance. [mPa s]
+    /// Viscosity of the mist beyond the film, for `pressure_balance`. [mPa s]
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub mist_viscosity: f64,
@@ -85,23 +85,23 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Discs, Diagnostic> {
     let part = cx.part::<Clutch>().ok_or_else(|| cx.error("bug: no part"))?;
     let (Some(inner), Some(outer), Some(gap)) = (part.inner_diameter, part.outer_diameter, part.gap) else {
         return Err(cx
-            .error("disc_gap needs `inner_diameter`, `outer_diameter` and `gap` of the clutch")
+            .error("disc_gap requires `inner_diameter`, `outer_diameter` and `gap` of the clutch")
             .help("add them to the clutch"));
     };
     if outer <= inner {
         return Err(cx
-            .error("the outer diameter is not greater than the inner")
-            .help("exchange `inner_diameter` and `outer_diameter`, or correct one"));
+            .error("the outer diameter does not exceed the inner diameter")
+            .help("swap `inner_diameter` and `outer_diameter`, or correct one"));
     }
     if params.film == Film::Full && params.flow.is_some() {
         return Err(cx
-            .error("a full film needs no `flow`")
-            .help("leave `flow` out, or choose `film: coverage`"));
+            .error("`flow` is not used for a full film")
+            .help("omit `flow`, or choose `film: coverage`"));
     }
     if params.film != Film::PressureBalance && params.mist_viscosity > 0.0 {
         return Err(cx
-            .error("`mist_viscosity` belongs to the pressure balance")
-            .help("leave it out, or choose `film: pressure_balance`"));
+            .error("`mist_viscosity` applies to `film: pressure_balance` only")
+            .help("omit it, or choose `film: pressure_balance`"));
     }
     let faces = f64::from(part.faces);
     let flow = match (params.flow, params.film) {
@@ -109,8 +109,8 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Discs, Diagnostic> {
         (None, Film::Full) => 0.0,
         (None, _) => {
             return Err(cx
-                .error("disc_gap needs `flow`, the oil fed to the gaps")
-                .help("add `flow: 3 l/min` with your figure, or choose `film: full`"));
+                .error("disc_gap requires `flow`, the oil supplied to the gaps")
+                .help("add `flow: 3 l/min` with your value, or choose `film: full`"));
         }
     };
     Ok(Discs {
@@ -139,7 +139,7 @@ impl Discs {
             own_pumping,
             cross_pumping,
         } = self.coefficients;
-        // The least of the form lies at opposite speeds, and is not negative for published constants.
+        // The quadratic form has its minimum at opposite speeds; it is not negative for the published constants.
         let pumping = own_pumping * w_1 * w_1 + cross_pumping * w_1 * w_2 + own_pumping * w_2 * w_2;
         let feed = 6.0 * eta * q / (std::f64::consts::PI * h.powi(3));
         let (r_i, r_o) = (self.r_i, self.r_o);
@@ -160,14 +160,14 @@ impl Discs {
         self.faces * self.face_share * one
     }
 
-    /// Where pumping balances the feed: rho C (r^2 - r_i^2)/2 = feed ln(r/r_i), by bisection; r_o where it never does.
+    /// Radius at which pumping balances the supply: rho C (r^2 - r_i^2)/2 = feed ln(r/r_i), by bisection; r_o if there is none.
     fn film_end(&self, pumping: f64, feed: f64) -> f64 {
         let (r_i, r_o) = (self.r_i, self.r_o);
         let surplus = |r: f64| 0.5 * pumping * (r * r - r_i * r_i) - feed * (r / r_i).ln();
         if surplus(r_o) <= 0.0 {
             return r_o;
         }
-        // Just outside of r_i the surplus has the sign of pumping r_i^2 - feed.
+        // Just outside r_i the surplus has the sign of pumping r_i^2 - feed.
         if pumping * r_i * r_i >= feed {
             return r_i;
         }
@@ -196,11 +196,11 @@ impl ClutchModel for Discs {
 }
 
 register!(Clutch, "disc_gap", Params,
-    source: "derived: laminar flow between discs with centrifugal pumping (0.3 w^2 after Hashimoto et al. 1984)",
+    source: "derived: laminar flow between discs with centrifugal pumping (0.3 w^2 according to Hashimoto et al. 1984)",
     example: "{ type: disc_gap, flow: 3 l/min }",
     evidence: [
         formula(Evidence::Derived, "full film is textbook; coverage follows from continuity"),
-        default_of("film", Evidence::Derived, "the trend of measured drag"),
+        default_of("film", Evidence::Derived, "matches the trend of measured drag"),
         default_of("groove_share", Evidence::Assumed, "plain plates"),
         default_of("mist_viscosity", Evidence::Assumed, "no mist"),
     ],
@@ -256,7 +256,7 @@ mod tests {
         let (moment, radius) = at(Film::Coverage, 1200.0, 400.0);
         close(moment, 1.44934);
         close(radius, 0.0620877);
-        // Opposite speeds pump least but never inwards.
+        // Pumping has its minimum at opposite speeds, but never reverses.
         assert!(at(Film::Coverage, 1000.0, -1000.0).0.is_finite());
         assert_eq!(at(Film::Coverage, 0.0, 0.0).0, 0.0);
     }

@@ -1,7 +1,7 @@
-//! Windage of one gear in air-oil mist after Anderson and Loewenthal.
+//! Windage of one gear in air-oil mist according to Anderson and Loewenthal.
 //!
-//! Source: Anderson, Loewenthal, NASA TP-1622 (1980), recalled: P = 2.82e-7 (1 + 2.3 b/R) n^2.8 R^4.6 (0.028 eta + 0.019)^0.2 in kW; n in
-//! 1/min, R and b in m, eta in mPa s. The constants assume a mist; without viscosity only the viscous part falls away.
+//! Source: Anderson, Loewenthal, NASA TP-1622 (1980), quoted from memory: P = 2.82e-7 (1 + 2.3 b/R) n^2.8 R^4.6 (0.028 eta + 0.019)^0.2 in kW; n in
+//! 1/min, R and b in m, eta in mPa s. The constants assume a mist; for air alone only the viscous term is omitted.
 
 use gearloss_framework::coefficients;
 use gearloss_framework::loss::{Loss, Term, Undefined};
@@ -29,17 +29,17 @@ coefficients! {
         radius_exponent = 4.6, in 3.5..=5.5;
         /// Factor of the viscosity in mPa s.
         viscosity_factor = 0.028, in 0.014..=0.056;
-        /// What the air adds to it.
+        /// Constant for the air, added to the viscous term.
         air_constant = 0.019, in 0.0095..=0.038;
         /// Exponent of the sum of both.
         viscosity_exponent = 0.2, in 0.1..=0.4;
     }
 }
 
-/// Windage of one gear in air-oil mist after Anderson and Loewenthal.
+/// Windage of one gear in air-oil mist according to Anderson and Loewenthal.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct AndersonLoewenthal {
-    /// Oil mist counts with its viscosity; else air alone.
+    /// Oil mist with its viscosity; otherwise air alone.
     #[serde(default = "yes")]
     pub mist: bool,
     #[serde(default)]

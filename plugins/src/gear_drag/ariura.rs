@@ -1,8 +1,8 @@
-//! Torque of an oil jet that hits a gear: its momentum.
+//! Torque of an oil jet on a gear, from its momentum.
 //!
-//! Source: Ariura, Ueno, Sunamoto 1973; the momentum balance: T = C rho Q r_w (v_t + v_s) with the jet against the motion of the
-//! rim, v_t - v_s along it; C from 0.85 to 1. Once for each gear that is hit. A jet faster than the rim along its motion would
-//! drive the gear; that counts as no loss.
+//! Source: Ariura, Ueno, Sunamoto 1973; the momentum balance: T = C rho Q r_w (v_t + v_s) for a jet against the motion of the rim,
+//! v_t - v_s for a jet along it; C from 0.85 to 1. Computed once for each gear hit by a jet. A jet along the motion and faster than
+//! the rim would drive the gear; the loss is then zero.
 
 use gearloss_framework::loss::{Loss, Term, Undefined};
 use gearloss_framework::mechanism::gear_drag::{Covers, GearDrag, GearDragAt, GearDragModel};
@@ -15,7 +15,7 @@ use gearloss_framework::mechanism::gear_drag::Scope;
 
 const IMPULSE: Term = Term::no_load(0, "impulse");
 
-/// Torque of an oil jet that hits a gear: its momentum.
+/// Torque of an oil jet on a gear, from its momentum.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Ariura {
     /// Flow that hits the gear. [l/min]
@@ -25,13 +25,13 @@ pub struct Ariura {
     #[serde(default)]
     #[schemars(range(min = -200.0, max = 200.0))]
     pub jet_speed: f64,
-    /// Share of the momentum that counts: 0.85 to 1. [-]
-    #[serde(default = "one")]
+    /// Share of the momentum that acts on the gear: 0.85 to 1. [-]
+    #[serde(default = "default_one")]
     #[schemars(range(min = 0.0, max = 2.0))]
     pub c: f64,
 }
 
-fn one() -> f64 {
+fn default_one() -> f64 {
     1.0
 }
 
@@ -49,7 +49,7 @@ impl GearDragModel for Ariura {
     fn loss(&self, at: &GearDragAt<'_>) -> Result<Loss, Undefined> {
         let r_w = 0.5 * at.part.gear.working_diameter;
         if at.speed == 0.0 {
-            at.branch("at rest: no loss");
+            at.branch("at standstill: no loss");
             return Ok(Loss::MOMENTS);
         }
         let torque = self.torque(at.rho, r_w, at.show("v_t", "m/s", at.speed.abs() * r_w));
@@ -62,8 +62,8 @@ register!(GearDrag, "ariura", Ariura,
     example: "{ type: ariura, flow: 2.5 l/min, jet_speed: 0.4 m/s }",
     evidence: [
         formula(Evidence::Derived, "the momentum balance; one open source agrees"),
-        default_of("jet_speed", Evidence::Assumed, "slow beside the rim"),
-        default_of("c", Evidence::Derived, "all of the momentum"),
+        default_of("jet_speed", Evidence::Assumed, "slow compared with the rim"),
+        default_of("c", Evidence::Derived, "the full momentum"),
     ],
     terms: [IMPULSE], scope: Scope::Gear);
 

@@ -3,7 +3,7 @@
 //! Source: Changenet, Velex: A model for the prediction of churning losses in geared transmissions, J. Mech. Des. 129 (2007)
 //! 128-133: T = 1/2 rho w^2 R^3 S_m C_m with C_m = 1.366 (h/D)^0.45 (V/D^3)^0.1 Fr^-0.6 Re^-0.21 below Re = w R b/nu = 6000 and
 //! 3.644 (h/D)^0.1 (V/D^3)^-0.35 Fr^-0.88 (b/D)^0.85 above 9000, linear in between.
-//! For narrow gears it lies up to four times above `changenet_2011` at low speed, because it switches on Re alone.
+//! For narrow gears at low speed it is up to four times `changenet_2011`, because only Re selects the regime.
 
 use gearloss_framework::coefficients;
 use gearloss_framework::document::Diagnostic;
@@ -26,27 +26,27 @@ coefficients! {
     struct Constants {
         /// Factor of C_m at low Reynolds numbers.
         slow_factor = 1.366, in 0.683..=2.732;
-        /// Exponent of h/D there.
+        /// Exponent of h/D at low Reynolds numbers.
         slow_dip_exponent = 0.45, in 0.225..=0.9;
-        /// Exponent of V/D^3 there.
+        /// Exponent of V/D^3 at low Reynolds numbers.
         slow_volume_exponent = 0.1, in 0.05..=0.2;
-        /// Exponent of the Froude number there.
+        /// Exponent of the Froude number at low Reynolds numbers.
         slow_froude_exponent = -0.6, in -1.2..=-0.3;
-        /// Exponent of the Reynolds number there.
+        /// Exponent of the Reynolds number at low Reynolds numbers.
         slow_reynolds_exponent = -0.21, in -0.42..=-0.105;
         /// Factor of C_m at high Reynolds numbers.
         fast_factor = 3.644, in 1.822..=7.288;
-        /// Exponent of h/D there.
+        /// Exponent of h/D at high Reynolds numbers.
         fast_dip_exponent = 0.1, in 0.05..=0.2;
-        /// Exponent of V/D^3 there.
+        /// Exponent of V/D^3 at high Reynolds numbers.
         fast_volume_exponent = -0.35, in -0.7..=-0.175;
-        /// Exponent of the Froude number there.
+        /// Exponent of the Froude number at high Reynolds numbers.
         fast_froude_exponent = -0.88, in -1.76..=-0.44;
-        /// Exponent of b/D there.
+        /// Exponent of b/D at high Reynolds numbers.
         fast_width_exponent = 0.85, in 0.425..=1.7;
-        /// Reynolds number up to which the first form holds.
+        /// Reynolds number up to which the first form applies.
         slow_reynolds = 6000.0, in 3000.0..=7400.0;
-        /// Reynolds number from which the second form holds; linear in between.
+        /// Reynolds number from which the second form applies; linear in between.
         fast_reynolds = 9000.0, in 7500.0..=18000.0;
     }
 }
@@ -54,7 +54,7 @@ coefficients! {
 /// Churning of one gear by Reynolds number.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
-    /// Share of the torque that is added where the gear's lowest point moves towards its mate: 0 to 0.5. [-]
+    /// Relative increase of the torque if the gear's lowest point moves towards its mate: 0 to 0.5. [-]
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 5.0))]
     pub swell: f64,
@@ -72,8 +72,8 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Changenet, Diagnostic> 
     let part = cx.part::<GearDrag>().ok_or_else(|| cx.error("bug: no part"))?;
     let Some(volume) = part.oil_volume else {
         return Err(cx
-            .error("changenet_2007 needs the oil volume")
-            .help("add `housing: { oil: { volume: 1.2 l } }` with your figure"));
+            .error("changenet_2007 requires the oil volume")
+            .help("add `housing: { oil: { volume: 1.2 l } }` with your value"));
     };
     Ok(Changenet {
         coefficients: params.coefficients,
@@ -145,7 +145,7 @@ register!(GearDrag, "changenet_2007", Params,
     source: "Changenet, Velex, J. Mech. Des. 129 (2007) 128-133",
     example: "{ type: changenet_2007 }",
     evidence: [
-        formula(Evidence::OneSource, "one open transcription, which divides at other Reynolds numbers"),
+        formula(Evidence::OneSource, "one public transcription, which uses other limits of Re"),
         default_of("swell", Evidence::Assumed, "no public formula"),
     ],
     terms: [TERM], observed: [C_M, REYNOLDS], prepare: prepare);

@@ -3,9 +3,10 @@
 //! Source: Changenet, Leprince, Ville, Velex: A note on flow regimes and churning loss modeling, J. Mech. Des. 133 (2011)
 //! 121009: T = 1/2 rho w^2 R^3 S_m C_m; C_m by Reynolds number w R b/nu (4000) and speed parameter w^2 (R b m_n)^(1/3)
 //! (750 and 1250 m/s2, linear in between). Dip at the reference circle; wetted surface of faces, rim and teeth.
-//! Single gear in a roomy case, car sizes (R 40 to 110 mm, module 1.5 to 5 mm, b 14 to 40 mm, to about 7000 rpm).
-//! A pair whose gears swell oil towards the mesh loses more; no trustworthy formula is public, so `swell` is the user's own
-//! share, added where the gear's lowest point moves towards its mate.
+//! (750 and 1250 m/s2, linear in between). Immersion depth at the reference circle; wetted surface of faces, rim and teeth. Single
+//! gear in a spacious case, automotive sizes (R 40 to 110 mm, module 1.5 to 5 mm, b 14 to 40 mm, to about 7000 rpm). A pair whose
+//! gears raise the oil towards the mesh loses more; no reliable formula is public, so the user states the increase `swell`, which
+//! applies if the gear's lowest point moves towards its mate.
 
 use gearloss_framework::coefficients;
 use gearloss_framework::document::Diagnostic;
@@ -21,7 +22,7 @@ use super::dipping::Dipping;
 use super::{CHURNING, GRAVITY};
 
 const TERM: Term = Term::no_load(0, "churning");
-const RANGE: &str = "gears of the tests, recalled";
+const RANGE: &str = "gears of the tests, quoted from memory";
 const RADIUS: Limit = Limit::new(0, "R_p", "mm", 40.0, 110.0, RANGE);
 const MODULE: Limit = Limit::new(1, "m_n", "mm", 1.5, 5.0, RANGE);
 const WIDTH: Limit = Limit::new(2, "b", "mm", 14.0, 40.0, RANGE);
@@ -38,11 +39,11 @@ coefficients! {
         slow_factor = 0.239, in 0.1195..=0.478;
         /// Exponent of h/D at a low speed parameter.
         slow_dip_exponent = 0.45, in 0.225..=0.9;
-        /// Exponent of V/D^3 there.
+        /// Exponent of V/D^3 at a low speed parameter.
         slow_volume_exponent = 0.1, in 0.05..=0.2;
-        /// Exponent of the Froude number there.
+        /// Exponent of the Froude number at a low speed parameter.
         slow_froude_exponent = -0.6, in -1.2..=-0.3;
-        /// Exponent of b/D there.
+        /// Exponent of b/D at a low speed parameter.
         slow_width_exponent = 0.21, in 0.105..=0.42;
         /// Factor of C_m at a high speed parameter and a low Reynolds number.
         fast_viscous_factor = 20.797, in 10.3985..=41.594;
@@ -50,19 +51,19 @@ coefficients! {
         fast_factor = 3.644, in 1.822..=7.288;
         /// Exponent of h/D at a high speed parameter.
         fast_dip_exponent = 0.1, in 0.05..=0.2;
-        /// Exponent of V/D^3 there.
+        /// Exponent of V/D^3 at a high speed parameter.
         fast_volume_exponent = -0.35, in -0.7..=-0.175;
-        /// Exponent of the Froude number there.
+        /// Exponent of the Froude number at a high speed parameter.
         fast_froude_exponent = -0.88, in -1.76..=-0.44;
-        /// Exponent of b/D there.
+        /// Exponent of b/D at a high speed parameter.
         fast_width_exponent = 0.85, in 0.425..=1.7;
-        /// Exponent of the Reynolds number where it is low.
+        /// Exponent of the Reynolds number in the viscous regime.
         reynolds_exponent = -0.21, in -0.42..=-0.105;
-        /// Reynolds number below which it counts.
+        /// Reynolds number below which the flow is viscous.
         viscous_reynolds = 4000.0, in 2000.0..=8000.0;
-        /// Speed parameter in m/s2 up to which gears are slow.
+        /// Speed parameter in m/s2 up to which the slow regime applies.
         slow_speed_parameter = 750.0, in 375.0..=900.0;
-        /// Speed parameter in m/s2 from which they are fast; linear in between.
+        /// Speed parameter in m/s2 from which the fast regime applies; linear in between.
         fast_speed_parameter = 1250.0, in 1000.0..=2500.0;
     }
 }
@@ -70,7 +71,7 @@ coefficients! {
 /// Churning of one gear by flow regimes.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Changenet {
-    /// Share of the torque that is added where the gear's lowest point moves towards its mate: 0 to 0.5. [-]
+    /// Relative increase of the torque if the gear's lowest point moves towards its mate: 0 to 0.5. [-]
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 5.0))]
     pub swell: f64,
@@ -89,8 +90,8 @@ fn prepare(params: Changenet, cx: &mut Build<'_>) -> Result<Churning, Diagnostic
     let part = cx.part::<GearDrag>().ok_or_else(|| cx.error("bug: no part"))?;
     let Some(volume) = part.oil_volume else {
         return Err(cx
-            .error("changenet_2011 needs the oil volume")
-            .help("add `housing: { oil: { volume: 1.2 l } }` with your figure"));
+            .error("changenet_2011 requires the oil volume")
+            .help("add `housing: { oil: { volume: 1.2 l } }` with your value"));
     };
     Ok(Churning {
         coefficients: params.coefficients,
@@ -182,7 +183,7 @@ impl GearDragModel for Churning {
         );
         let torque = dipping.torque(at.rho, c_m);
         let swell = if at.towards_mesh > 0.0 && self.swell > 0.0 {
-            at.branch("the lowest point moves towards the mate: swell is added");
+            at.branch("the lowest point moves towards the mate: swell applies");
             1.0 + self.swell
         } else {
             1.0
@@ -195,7 +196,7 @@ register!(GearDrag, "changenet_2011", Changenet,
     source: "Changenet, Leprince, Ville, Velex, J. Mech. Des. 133 (2011) 121009",
     example: "{ type: changenet_2011 }",
     evidence: [
-        formula(Evidence::OneSource, "one open transcription; both lines meet at Re 4000, which confirms it"),
+        formula(Evidence::OneSource, "one public transcription; both branches meet at Re 4000, which confirms it"),
         default_of("swell", Evidence::Assumed, "no public formula"),
     ],
     limits: [RADIUS, MODULE, WIDTH, SPEED], terms: [TERM], observed: [C_M, REYNOLDS], prepare: prepare);

@@ -1,8 +1,8 @@
-//! Windage of one gear after Dawson.
+//! Windage of one gear according to Dawson.
 //!
-//! Source: Dawson: Windage loss in larger high-speed gears, Proc. IMechE 198A (1984) 51-59, recalled:
+//! Source: Dawson: Windage loss in larger high-speed gears, Proc. IMechE 198A (1984) 51-59, quoted from memory:
 //! P = 1e-20 n^2.9 (0.16 D^3.9 + D^2.9 b^0.75 m^1.15) Phi lambda in kW; n in 1/min, D root diameter, b and m in mm.
-//! Phi is 1 in air and more in oil mist; lambda is 1 for a free gear, 0.7 in a loose and 0.5 to 0.6 in a tight case.
+//! Phi is 1 in air and more in oil mist; lambda is 1 for a free gear, 0.7 in a loose and 0.5 to 0.6 in a tight enclosure.
 
 use gearloss_framework::coefficients;
 use gearloss_framework::loss::{Loss, Term, Undefined};
@@ -24,11 +24,11 @@ coefficients! {
         factor = 1e-20, in 0.5e-20..=2e-20;
         /// Exponent of the speed.
         speed_exponent = 2.9, in 2.0..=3.5;
-        /// Factor of the faces against the teeth.
+        /// Factor of the face term relative to the tooth term.
         faces_factor = 0.16, in 0.08..=0.32;
-        /// Exponent of the root diameter at the faces.
+        /// Exponent of the root diameter in the face term.
         faces_diameter_exponent = 3.9, in 3.0..=4.5;
-        /// Exponent of the root diameter at the teeth.
+        /// Exponent of the root diameter in the tooth term.
         teeth_diameter_exponent = 2.9, in 2.0..=3.5;
         /// Exponent of the face width.
         width_exponent = 0.75, in 0.375..=1.5;
@@ -37,27 +37,27 @@ coefficients! {
     }
 }
 
-/// Windage of one gear after Dawson.
+/// Windage of one gear according to Dawson.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Dawson {
     /// Factor of the medium: 1 in air, more in oil mist. [-]
-    #[serde(default = "one")]
+    #[serde(default = "default_one")]
     #[schemars(range(min = 0.1, max = 10.0))]
     pub phi: f64,
-    /// Factor of the case: 1 free, 0.7 loose, 0.5 to 0.6 tight. [-]
-    #[serde(default = "one")]
+    /// Factor of the enclosure: 1 free, 0.7 loose, 0.5 to 0.6 tight. [-]
+    #[serde(default = "default_one")]
     #[schemars(range(min = 0.1, max = 1.0))]
     pub lambda: f64,
     #[serde(default)]
     coefficients: Constants,
 }
 
-fn one() -> f64 {
+fn default_one() -> f64 {
     1.0
 }
 
 impl Dawson {
-    /// Power from shop units. \[W\]
+    /// Power from min-1 and mm. \[W\]
     fn power(&self, n: f64, d: f64, b: f64, m: f64) -> f64 {
         let c = &self.coefficients;
         let teeth = d.powf(c.teeth_diameter_exponent) * b.powf(c.width_exponent) * m.powf(c.module_exponent);

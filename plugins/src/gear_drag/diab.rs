@@ -1,11 +1,11 @@
-//! Windage of one gear after Diab, by dimensional analysis or from faces and teeth.
+//! Windage of one gear according to Diab, by dimensional analysis or from faces and teeth.
 //!
-//! Source: Diab, Ville, Velex, Changenet: Windage losses in high speed gears, J. Mech. Des. 126 (2004) 903-908, recalled.
+//! Source: Diab, Ville, Velex, Changenet: Windage losses in high speed gears, J. Mech. Des. 126 (2004) 903-908, quoted from memory.
 //! Dimensional: C_t = 60 Re^-0.25 (b/R)^0.8 z^-0.4 ((h1/R)^0.56 + (h2/R)^0.56), P = 1/2 C_t rho w^3 R^5, Re = rho w R^2/mu, h1 and h2 the
 //! distances of flanges, 0.5 R where there are none.
 //! Analytical: faces C_f = 2 n1 pi/(5 - 2 m1) (R*/R)^5/Re*^m1 + 2 n2 pi/(5 - 2 m2) (Re^-m2 - (R*/R)^5/Re*^m2), n1 1.293, m1 0.5, n2 0.074,
 //! m2 0.2, Re* = 3e5; teeth C_l = xi z/4 (b/R) (r_a/R)^4 (1 - cos phi)(1 + cos phi)^3, phi = pi/z - 2 (inv alpha_p - inv alpha_A).
-//! The medium is air at the temperature of the oil, with a share of oil by volume for mist.
+//! The medium is air at oil temperature, with a volume fraction of oil for mist.
 
 use gearloss_framework::coefficients;
 use gearloss_framework::document::Diagnostic;
@@ -45,35 +45,35 @@ coefficients! {
         width_exponent = 0.8, in 0.4..=1.6;
         /// Exponent of the number of teeth in C_t.
         teeth_exponent = -0.4, in -0.8..=-0.2;
-        /// Exponent of the distances of flanges over R in C_t.
+        /// Exponent of the flange distances over R in C_t.
         flange_exponent = 0.56, in 0.28..=1.12;
-        /// Factor n1 of the laminar flow at the faces, of the analytical law.
+        /// Factor n1 of laminar flow at the faces, in the analytical law.
         laminar_factor = 1.293, in 0.6465..=2.586;
-        /// Exponent m1 of the Reynolds number there.
+        /// Exponent m1 of the Reynolds number in laminar flow.
         laminar_exponent = 0.5, in 0.25..=1.0;
-        /// Factor n2 of the turbulent flow at the faces.
+        /// Factor n2 of turbulent flow at the faces.
         turbulent_factor = 0.074, in 0.037..=0.148;
-        /// Exponent m2 of the Reynolds number there.
+        /// Exponent m2 of the Reynolds number in turbulent flow.
         turbulent_exponent = 0.2, in 0.1..=0.4;
         /// Reynolds number Re* at which the flow at the faces becomes turbulent.
         critical_reynolds = 3e5, in 1.5e5..=6e5;
     }
 }
 
-/// Windage of one gear after Diab, by dimensional analysis or from faces and teeth.
+/// Windage of one gear according to Diab, by dimensional analysis or from faces and teeth.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Diab {
     /// Which of the two laws.
     #[serde(default)]
     pub form: Form,
-    /// Distances of flanges from both faces, for the dimensional law; absent, half of the radius. [mm]
+    /// Axial distances of flanges from both faces, for the dimensional law; default: half of the radius. [mm]
     #[schemars(inner(range(min = 0.1, max = 10000.0)))]
     pub flanges: Option<[f64; 2]>,
-    /// Factor of deflectors on the teeth, for the analytical law: 1 free. [-]
-    #[serde(default = "one")]
+    /// Factor for deflectors on the teeth, for the analytical law; 1 without deflectors. [-]
+    #[serde(default = "default_one")]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub xi: f64,
-    /// Share of oil in the air, by volume. [-]
+    /// Volume fraction of oil in the air. [-]
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 0.5))]
     pub oil_fraction: f64,
@@ -81,7 +81,7 @@ pub struct Diab {
     coefficients: Constants,
 }
 
-fn one() -> f64 {
+fn default_one() -> f64 {
     1.0
 }
 
@@ -139,7 +139,7 @@ impl GearDragModel for Diab {
         let gear = &at.part.gear;
         let omega = at.speed.abs();
         if omega == 0.0 {
-            at.branch("at rest: no windage");
+            at.branch("at standstill: no windage");
             return Ok(Loss::POWERS);
         }
         let r = 0.5 * gear.reference_diameter;
@@ -167,13 +167,13 @@ impl GearDragModel for Diab {
 fn prepare(params: Diab, cx: &mut Build<'_>) -> Result<Diab, Diagnostic> {
     if params.form == Form::Analytical && params.flanges.is_some() {
         return Err(cx
-            .error("`flanges` belong to the dimensional law")
-            .help("leave `flanges` out, or write `form: dimensional`"));
+            .error("`flanges` applies to the dimensional law only")
+            .help("omit `flanges`, or write `form: dimensional`"));
     }
     if params.form == Form::Dimensional && params.xi != 1.0 {
         return Err(cx
-            .error("`xi` belongs to the analytical law")
-            .help("leave `xi` out, or write `form: analytical`"));
+            .error("`xi` applies to the analytical law only")
+            .help("omit `xi`, or write `form: analytical`"));
     }
     Ok(params)
 }
@@ -183,7 +183,7 @@ register!(GearDrag, "diab", Diab,
     example: "{ type: diab, form: analytical }",
     evidence: [
         formula(Evidence::Recalled, "four independent windage laws agree within a factor of two"),
-        default_of("form", Evidence::Recalled, "both laws are his"),
+        default_of("form", Evidence::Recalled, "both laws are Diab's"),
         default_of("flanges", Evidence::Recalled, "no flanges"),
         default_of("xi", Evidence::Recalled, "a free gear"),
         default_of("oil_fraction", Evidence::Assumed, "dry air"),

@@ -1,4 +1,4 @@
-//! Churning of one gear with a dimensionless torque of the user.
+//! Churning of one gear with a user-defined dimensionless torque.
 //!
 //! The common form of the laws by dimensional analysis: T = 1/2 rho w^2 R^3 S_m C_m, with R the radius of the reference circle and S_m
 //! the wetted surface of faces, rim and teeth. C_m is a formula of Re = w R b/nu, Fr = w^2 R/g, and the ratios h/D, V/D^3 and
@@ -20,10 +20,10 @@ use super::{CHURNING, GRAVITY};
 const TERM: Term = Term::no_load(0, "churning");
 const C_M: Observed = Observed::new(0, "C_m", "-", "Dimensionless churning torque.");
 
-/// Churning of one gear with a dimensionless torque of the user.
+/// Churning of one gear with a user-defined dimensionless torque.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
-    /// Formula of the dimensionless torque over `re`, `fr`, `h`, `v`, `b`, such as `0.1 * fr^-0.6 * h^0.5`.
+    /// Formula of the dimensionless torque in `re`, `fr`, `h`, `v`, `b`, such as `0.1 * fr^-0.6 * h^0.5`.
     pub c_m: String,
 }
 
@@ -37,7 +37,7 @@ const NAMES: [&str; 5] = ["re", "fr", "h", "b", "v"];
 fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Dimensional, Diagnostic> {
     let part = cx.part::<GearDrag>().ok_or_else(|| cx.error("bug: no part"))?;
     let volume = part.oil_volume;
-    // Without an oil volume the formula cannot name it.
+    // Without an oil volume the formula must not use it.
     let names = &NAMES[..if volume.is_some() { 5 } else { 4 }];
     let c_m = Formula::compile(&params.c_m, names).map_err(|fault| {
         let error = cx.error(format!("c_m, column {}: {}", fault.column, fault.message));
@@ -88,7 +88,7 @@ impl GearDragModel for Dimensional {
 }
 
 register!(GearDrag, "dimensional", Params,
-    source: "the user's own; the form of Changenet, Boness and others",
+    source: "user-defined; the form of Changenet, Boness and others",
     example: "{ type: dimensional, c_m: \"0.1 * fr^-0.6 * h^0.5\" }",
     evidence: [formula(Evidence::User, "the user states it")],
     terms: [TERM], observed: [C_M], prepare: prepare);

@@ -1,33 +1,33 @@
-//! What the dimensional churning laws share: T = 1/2 rho w^2 R^3 S_m C_m of a dipping gear.
+//! Common part of the dimensional churning laws: T = 1/2 rho w^2 R^3 S_m C_m of an immersed gear.
 
 use gearloss_framework::mechanism::gear_drag::GearDragAt;
 
 use super::wetted::Wetted;
 
-/// A gear that dips and turns.
+/// A rotating, immersed gear.
 pub struct Dipping {
-    /// Speed, magnitude. \[rad/s\]
+    /// Magnitude of the speed. \[rad/s\]
     pub omega: f64,
     /// Radius of the reference circle. \[m\]
     pub radius: f64,
-    /// Depth of the reference circle, at most its diameter. \[m\]
+    /// Immersion depth of the reference circle, at most its diameter. \[m\]
     pub dip: f64,
     /// Wetted surface. \[m2\]
     pub surface: f64,
 }
 
 impl Dipping {
-    /// The gear; absent where it is dry or rests, so that nothing is lost.
+    /// The gear; `None` if it is dry or at standstill, so that nothing is lost.
     pub fn of(at: &GearDragAt<'_>) -> Option<Self> {
         let gear = &at.part.gear;
         let omega = at.speed.abs();
         if at.dip <= 0.0 || omega == 0.0 {
-            at.branch("dry or at rest: no churning");
+            at.branch("dry or at standstill: no churning");
             return None;
         }
         let radius = 0.5 * gear.reference_diameter;
         let height = 0.5 * (gear.tip_diameter - gear.root_diameter).abs();
-        // A gear that is covered dips by its diameter, however deep it lies.
+        // The immersion depth of a fully immersed gear is its diameter.
         let dip = at.show("h", "m", at.dip.min(gear.reference_diameter));
         let surface = Wetted::new(
             radius,

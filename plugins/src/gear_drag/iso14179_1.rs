@@ -1,13 +1,13 @@
-//! Churning of one gear after ISO/TR 14179-1, of AGMA origin.
+//! Churning of one gear according to ISO/TR 14179-1, of AGMA origin.
 //!
-//! The report calls it windage and churning, but a gear that does not dip loses nothing.
+//! The report calls it windage and churning, but a gear that is not immersed loses nothing.
 //!
-//! Source: ISO/TR 14179-1:2001, recalled: both sides 1.474 f_g nu n^3 D^5.7/(A_g 1e26) and tooth surface
+//! Source: ISO/TR 14179-1:2001, quoted from memory: sides 1.474 f_g nu n^3 D^5.7/(A_g 1e26) and tooth surface
 //! 7.37 f_g nu n^3 D^4.7 b (R_f/sqrt(tan beta))/(A_g 1e26) in kW, nu in mm2/s, n in 1/min, lengths in mm;
-//! R_f = 7.93 - 4.648/m_t, below 10 deg helix angle 10 deg counts, A_g = 0.2. The dip factor f_g rises from 0 without oil to 1 for
-//! a covered gear, linear in the depth of the tip circle. Shafts, which the report counts too, do not count here.
-//! It grows with viscosity and the cube of speed: far below other laws for a thin oil, far above for a thick one at speed.
-//! For industrial units; R_f is held at zero for transverse modules below 0.586 mm.
+//! R_f = 7.93 - 4.648/m_t, beta at least 10 deg, A_g = 0.2. The immersion factor f_g rises from 0 without oil to 1 for a fully
+//! immersed gear, linear in the immersion depth of the tip circle. The shaft losses of the report are not included. The loss grows
+//! with viscosity and the cube of speed: far below other laws for a thin oil, far above for a thick one at high speed. For
+//! industrial units; R_f is limited to zero for transverse modules below 0.586 mm.
 
 use gearloss_framework::coefficients;
 use gearloss_framework::loss::{Loss, Term, Undefined};
@@ -44,7 +44,7 @@ coefficients! {
     }
 }
 
-/// Windage and churning of one gear after ISO/TR 14179-1, of AGMA origin.
+/// Windage and churning of one gear according to ISO/TR 14179-1, of AGMA origin.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Iso14179 {
     /// Arrangement constant. [-]
@@ -60,14 +60,14 @@ fn a_g() -> f64 {
 }
 
 impl Iso14179 {
-    /// Power of both sides from shop units. \[W\]
+    /// Power of both sides from mm2/s, min-1 and mm. \[W\]
     fn sides(&self, f_g: f64, nu: f64, n: f64, d: f64) -> f64 {
         let c = &self.coefficients;
         let speed = power(n, c.speed_exponent);
         c.sides_factor * f_g * nu * speed * d.powf(c.sides_diameter_exponent) / (self.a_g * 1e26) * 1e3
     }
 
-    /// Power of the tooth surface from shop units and helix angle in rad. \[W\]
+    /// Power of the tooth surface from mm2/s, min-1, mm and helix angle in rad. \[W\]
     #[allow(clippy::too_many_arguments)]
     fn teeth(&self, f_g: f64, nu: f64, n: f64, d: f64, b: f64, m_t: f64, beta: f64) -> f64 {
         let c = &self.coefficients;
@@ -102,8 +102,8 @@ register!(GearDrag, "iso14179_1", Iso14179,
     source: "ISO/TR 14179-1:2001",
     example: "{ type: iso14179_1 }",
     evidence: [
-        formula(Evidence::Recalled, "constants recalled"),
-        default_of("a_g", Evidence::Recalled, "recalled"),
+        formula(Evidence::Recalled, "constants quoted from memory"),
+        default_of("a_g", Evidence::Recalled, "quoted from memory, not checked"),
     ],
     terms: [SIDES, TEETH]);
 

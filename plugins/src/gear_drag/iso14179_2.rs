@@ -1,11 +1,11 @@
-//! Splash torque of a dipping gear stage after ISO/TR 14179-2.
+//! Splash torque of an immersed gear stage according to ISO/TR 14179-2.
 //!
 //! Source: ISO/TR 14179-2:2001: T_H = C_Sp C_1 exp(C_2 v_t/10), C_1 = 0.063 (h_e1 + h_e2)/10 + 0.0128 (b/10)^3,
 //! C_2 = (h_e1 + h_e2)/800 + 0.2, C_Sp = (4 h_max/(3 h_C))^1.5 2 h_C/l_h with l_h = 4 A_G/U_M; lengths in mm, v_t in m/s.
-//! One horizontal stage, dips at the tip circles. The torque does not depend on viscosity and does not vanish with speed.
-//! It has to be multiplied by the speed of one shaft of the pair, and sources differ on which: `speed_of` has no default.
-//! Where the sump supplies the mesh itself (both gears dip) C_Sp is one. Without any dip the b^3 term would remain; the loss
-//! is zero then. Not for face widths far above 100 mm, where that term explodes.
+//! One horizontal stage, immersion depths at the tip circles. The torque is independent of viscosity and does not vanish with
+//! speed. It must be multiplied by the speed of one shaft of the pair; sources differ on which one, so `speed_of` has no default.
+//! If the sump itself supplies the mesh (both gears immersed), C_Sp is one. Without immersion the b^3 term would remain; the loss
+//! is then set to zero. Not for face widths far above 100 mm, where the b^3 term becomes unrealistic.
 
 use gearloss_framework::coefficients;
 use gearloss_framework::document::Diagnostic;
@@ -21,10 +21,10 @@ use crate::powers::power;
 
 const SPLASH: Term = Term::no_load(0, "splash");
 const PITCH_SPEED: Limit = Limit::new(0, "v_t", "m/s", 0.0, 60.0, "ISO/TR 14179-2");
-const WIDTH: Limit = Limit::new(1, "b", "mm", 0.0, 100.0, "the b^3 term explodes above");
+const WIDTH: Limit = Limit::new(1, "b", "mm", 0.0, 100.0, "above, the b^3 term is unrealistically large");
 const TORQUE: Observed = Observed::new(0, "T_H", "Nm", "Splash torque.");
 
-/// Whose speed the splash torque is multiplied by.
+/// Gear whose speed multiplies the splash torque.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum SpeedOf {
@@ -37,25 +37,25 @@ pub enum SpeedOf {
 coefficients! {
     /// Constants of the formula of ISO/TR 14179-2.
     struct Constants {
-        /// Factor of the dips over 10 mm in C_1.
+        /// Factor of the immersion depths over 10 mm in C_1.
         dip_factor = 0.063, in 0.0315..=0.126;
         /// Factor of the power of the face width over 10 mm in C_1.
         width_factor = 0.0128, in 0.0064..=0.0256;
         /// Exponent of the face width over 10 mm in C_1.
         width_exponent = 3.0, in 1.5..=3.5;
-        /// Length in mm that the dips are divided by in C_2.
+        /// Length in mm that divides the immersion depths in C_2.
         dip_length = 800.0, in 400.0..=1600.0;
-        /// Constant of C_2, the growth with v_t over 10 m/s.
+        /// Constant of C_2, the exponent over v_t/(10 m/s).
         speed_constant = 0.2, in 0.1..=0.4;
         /// Exponent of 4 h_max/(3 h_C) in the splash factor C_Sp.
         splash_exponent = 1.5, in 0.75..=3.0;
     }
 }
 
-/// Splash torque of a dipping gear stage after ISO/TR 14179-2.
+/// Splash torque of an immersed gear stage according to ISO/TR 14179-2.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Iso14179 {
-    /// Whose speed the splash torque is multiplied by. Sources differ, and the loss differs by the gear ratio.
+    /// Gear whose speed multiplies the splash torque. Sources differ, and the loss differs by the gear ratio.
     pub speed_of: SpeedOf,
     #[serde(default)]
     coefficients: Constants,
@@ -66,7 +66,7 @@ struct Splash {
     coefficients: Constants,
     /// Characteristic length of the gear case. \[mm\]
     l_h: f64,
-    /// True where the first gear's speed counts.
+    /// True if the speed of the first gear applies.
     first: bool,
 }
 
@@ -74,13 +74,13 @@ fn prepare(params: Iso14179, cx: &mut Build<'_>) -> Result<Splash, Diagnostic> {
     let part = cx.part::<GearDrag>().ok_or_else(|| cx.error("bug: no part"))?;
     let Some(mate) = &part.mate else {
         return Err(cx
-            .error("iso14179_2 is asked for a pair")
+            .error("iso14179_2 requires a gear pair")
             .help("add `mate:` to the part"));
     };
     let (Some(area), Some(perimeter)) = (part.section_area, part.section_perimeter) else {
         return Err(cx
-            .error("iso14179_2 needs the section of the gear case")
-            .help("add `housing: { section: { area: 420 cm2, perimeter: 85 cm } }` with your figures"));
+            .error("iso14179_2 requires the cross-section of the housing")
+            .help("add `housing: { section: { area: 420 cm2, perimeter: 85 cm } }` with your values"));
     };
     let pinion_first = part.gear.z <= mate.z;
     Ok(Splash {
@@ -90,7 +90,7 @@ fn prepare(params: Iso14179, cx: &mut Build<'_>) -> Result<Splash, Diagnostic> {
     })
 }
 
-/// Splash torque from shop units, N m; dips, face width, contact height and case length in mm, speed in m/s.
+/// Splash torque, N m; immersion depths, face width, contact height and case length in mm, speed in m/s.
 fn torque(c: &Constants, dips: f64, b: f64, v_t: f64, c_sp: f64) -> f64 {
     let c_1 = c.dip_factor * dips / 10.0 + c.width_factor * power(b / 10.0, c.width_exponent);
     let c_2 = dips / c.dip_length + c.speed_constant;
@@ -114,7 +114,7 @@ impl GearDragModel for Splash {
         let (h_1, h_2) = (at.tip_dip.mm(), at.tip_dip_2.mm());
         let share = f64::from(u8::from(self.first));
         if h_1 + h_2 == 0.0 {
-            at.branch("no gear dips: no splash");
+            at.branch("no gear immersed: no splash");
             return Ok(Loss::POWERS.felt_by_first(share));
         }
         at.show("h_e1", "mm", h_1);
@@ -123,7 +123,7 @@ impl GearDragModel for Splash {
         let b = at.check(&WIDTH, part.gear.facewidth.min(mate.facewidth).mm());
         let v_t = at.check(&PITCH_SPEED, at.speed.abs() * 0.5 * part.gear.working_diameter);
         let c_sp = if h_1 > 0.0 && h_2 > 0.0 {
-            at.branch("both gears dip: C_Sp is one");
+            at.branch("both gears immersed: C_Sp is one");
             1.0
         } else {
             let (deepest, body) = if h_1 > h_2 { (h_1, &part.gear) } else { (h_2, mate) };
@@ -148,7 +148,7 @@ impl GearDragModel for Splash {
 register!(GearDrag, "iso14179_2", Iso14179,
     source: "ISO/TR 14179-2:2001",
     example: "{ type: iso14179_2, speed_of: wheel }",
-    evidence: [formula(Evidence::Disputed, "form printed, constants recalled; sources differ on the shaft")],
+    evidence: [formula(Evidence::Disputed, "form published, constants quoted from memory; sources differ on the shaft")],
     limits: [PITCH_SPEED, WIDTH], terms: [SPLASH], observed: [TORQUE], scope: Scope::Mesh, prepare: prepare);
 
 #[cfg(test)]
@@ -185,7 +185,7 @@ mod tests {
     }
 
     fn at(part: &DragPart, dips: [f64; 2]) -> GearDragAt<'_> {
-        // Pitch speed 20 m/s.
+        // Pitch line velocity 20 m/s.
         let speed = 20.0 / 0.028;
         let speed_2 = -speed * 31.0 / 96.0;
         GearDragAt::usual(part, Notes::MUTED).with(|to| {
@@ -210,7 +210,7 @@ mod tests {
     fn c2_power_is_felt_by_the_gear_whose_speed_counts() {
         let part = pair();
         let at = at(&part, [0.0, 0.045]);
-        // A section of 0.01 m2 and 0.2 m has l_h 200 mm.
+        // A section of 0.01 m2 with a perimeter of 0.2 m has l_h = 200 mm.
         let l_h = (4.0 * 0.01_f64 / 0.2).mm();
         let pinion = Splash {
             coefficients: Constants::PUBLISHED,

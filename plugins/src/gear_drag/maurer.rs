@@ -1,6 +1,6 @@
-//! Ventilation of one gear after Maurer.
+//! Windage and churning of one gear according to Maurer.
 //!
-//! Source: Maurer 1994, as a public gearbox program quotes him: T = 1.37e-9 v_t^1.9 d^1.6 b^0.52 m_n^0.69 in N m; v_t in m/s, d, b, m_n in mm.
+//! Source: Maurer 1994, as quoted by a public gearbox program: T = 1.37e-9 v_t^1.9 d^1.6 b^0.52 m_n^0.69 in N m; v_t in m/s, d, b, m_n in mm.
 
 use gearloss_framework::coefficients;
 use gearloss_framework::loss::{Loss, Term, Undefined};
@@ -31,7 +31,7 @@ coefficients! {
     }
 }
 
-/// Ventilation of one gear after Maurer.
+/// Windage and churning of one gear according to Maurer.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Maurer {
     #[serde(default)]

@@ -1,11 +1,11 @@
-//! Splash torque of one gear after Mauz, in a reconstructed scale.
+//! Splash torque of one gear according to Mauz, with a reconstructed scale.
 //!
-//! Source: Mauz 1987, as Shen and Rinderknecht quote him: T = K_0 (eta/eta_0)^-1.255 (r_a/r_0) C_WZ C_WA C_M C_V eta v_t A_B with
-//! C_M = (m_n/4.5 mm)^(1/7) and r_0 = 54 mm. The quotation leaves eta_0 open and its K_0 = 1.86e-3 gives torques a hundred times
-//! too small; K_0 = 1.86e3 with eta_0 = 1 mPa s is the only reading found that lands where he is said to lie, at a third to all of
-//! ISO/TR 14179-2. So the scale is reconstructed: identify `k_0`. The functions of wall distance and oil volume are not public;
-//! they are factors of the user, which count above 10 m/s where the gap is below 1.3 tip radii (at any gap that is not stated).
-//! A_B is the wetted surface of faces and rim at the tip circle. For modules of 3 to 6 mm.
+//! Source: Mauz 1987, as quoted by Shen and Rinderknecht: T = K_0 (eta/eta_0)^-1.255 (r_a/r_0) C_WZ C_WA C_M C_V eta v_t A_B with
+//! C_M = (m_n/4.5 mm)^(1/7) and r_0 = 54 mm. The quotation does not state eta_0, and its K_0 = 1.86e-3 gives torques that are a
+//! hundred times too small. K_0 = 1.86e3 with eta_0 = 1 mPa s is the only interpretation found that gives the stated level, a third
+//! to all of ISO/TR 14179-2. The scale is therefore reconstructed: identify `k_0`. The functions of wall distance and oil volume
+//! are not public; they are user-defined factors that apply above 10 m/s if the gap is below 1.3 tip radii (or not stated). A_B is
+//! the wetted surface of faces and rim at the tip circle. For modules of 3 to 6 mm.
 
 use gearloss_framework::coefficients;
 use gearloss_framework::loss::{Limit, Loss, Term, Undefined};
@@ -26,34 +26,34 @@ const SPEED: Limit = Limit::new(1, "v_t", "m/s", 0.0, 60.0, "Mauz as quoted");
 coefficients! {
     /// Constants of the formula of Mauz; its scale is the parameter `k_0`.
     struct Constants {
-        /// Exponent of the viscosity over that of the reference, beside which the viscosity itself counts.
+        /// Exponent of the viscosity over its reference; the viscosity itself is a further factor.
         viscosity_exponent = -1.255, in -1.5..=-0.6;
         /// Exponent of the module over 4.5 mm.
         module_exponent = 1.0 / 7.0, in 1.0 / 14.0..=2.0 / 7.0;
-        /// Speed in m/s above which walls count.
+        /// Speed in m/s above which the wall factors apply.
         wall_speed = 10.0, in 5.0..=20.0;
-        /// Gap to a wall over the tip radius below which the wall counts.
+        /// Ratio of wall gap to tip radius below which the wall factors apply.
         wall_gap = 1.3, in 1.0..=2.6;
     }
 }
 
-/// Splash torque of one gear after Mauz, in a reconstructed scale.
+/// Splash torque of one gear according to Mauz, with a reconstructed scale.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Mauz {
     /// Scale, reconstructed. [-]
     #[serde(default = "k_0")]
     #[schemars(range(min = 1.0, max = 1e5))]
     pub k_0: f64,
-    /// Factor of the distance to the wall at the circumference. [-]
-    #[serde(default = "one")]
+    /// Factor for the distance to the wall at the circumference. [-]
+    #[serde(default = "default_one")]
     #[schemars(range(min = 0.0, max = 10.0))]
     pub c_wz: f64,
-    /// Factor of the distance to the wall at the faces. [-]
-    #[serde(default = "one")]
+    /// Factor for the distance to the wall at the faces. [-]
+    #[serde(default = "default_one")]
     #[schemars(range(min = 0.0, max = 10.0))]
     pub c_wa: f64,
-    /// Factor of the oil volume. [-]
-    #[serde(default = "one")]
+    /// Factor for the oil volume. [-]
+    #[serde(default = "default_one")]
     #[schemars(range(min = 0.0, max = 10.0))]
     pub c_v: f64,
     #[serde(default)]
@@ -63,12 +63,12 @@ pub struct Mauz {
 fn k_0() -> f64 {
     1.86e3
 }
-fn one() -> f64 {
+fn default_one() -> f64 {
     1.0
 }
 
 impl Mauz {
-    /// Factors of both walls at a speed, for gaps and tip radius in m.
+    /// Factors for both walls at a speed, from gaps and tip radius in m.
     fn walls(&self, v_t: f64, r_a: f64, radial: Option<f64>, axial: Option<f64>) -> f64 {
         let c = &self.coefficients;
         let near = |gap: Option<f64>| v_t > c.wall_speed && gap.is_none_or(|gap| gap < c.wall_gap * r_a);
@@ -76,7 +76,7 @@ impl Mauz {
         factor(near(radial), self.c_wz) * factor(near(axial), self.c_wa)
     }
 
-    /// Torque from viscosity (Pa s), speed (m/s), wetted surface (m2), tip radius (m), module (m) and the factors of the walls.
+    /// Torque from viscosity (Pa s), speed (m/s), wetted surface (m2), tip radius (m), module (m) and the wall factors.
     /// \[Nm\]
     fn torque(&self, eta: f64, v_t: f64, surface: f64, r_a: f64, module: f64, walls: f64) -> f64 {
         let c = &self.coefficients;
@@ -93,7 +93,7 @@ impl GearDragModel for Mauz {
     fn loss(&self, at: &GearDragAt<'_>) -> Result<Loss, Undefined> {
         let gear = &at.part.gear;
         if at.tip_dip <= 0.0 || at.speed == 0.0 {
-            at.branch("dry or at rest: no churning");
+            at.branch("dry or at standstill: no churning");
             return Ok(Loss::MOMENTS);
         }
         let r_a = 0.5 * gear.tip_diameter;
@@ -112,8 +112,8 @@ register!(GearDrag, "mauz", Mauz,
     source: "Mauz 1987, as quoted by Shen and Rinderknecht",
     example: "{ type: mauz }",
     evidence: [
-        formula(Evidence::Reconstructed, "the printed constants give a hundredth of the torque"),
-        default_of("k_0", Evidence::Reconstructed, "chosen so that the level is the stated one"),
+        formula(Evidence::Reconstructed, "the quoted constants give a hundredth of the torque"),
+        default_of("k_0", Evidence::Reconstructed, "chosen to match the stated level"),
         default_of("c_wz", Evidence::Assumed, "the function is not public"),
         default_of("c_wa", Evidence::Assumed, "the function is not public"),
         default_of("c_v", Evidence::Assumed, "the function is not public"),

@@ -1,8 +1,8 @@
-//! Torque of oil that is sprayed into a mesh and squeezed out of it, after Mauz.
+//! Squeezing torque of oil that is injected into a mesh, according to Mauz.
 //!
-//! Source: Mauz 1987, recalled: T = 4.12 rho Q^0.75 r_w v_t^1.25 b^0.25 m_n^0.25 (nu/nu_0)^0.25 (h_Z/h_Z0)^0.5, SI; dimensionally exact.
-//! nu_0 and h_Z0 are not public, so both ratios are numbers of the user. Once for each mesh, at the first gear. Oil that is
-//! sprayed at the outgoing side is not squeezed.
+//! Source: Mauz 1987, quoted from memory: T = 4.12 rho Q^0.75 r_w v_t^1.25 b^0.25 m_n^0.25 (nu/nu_0)^0.25 (h_Z/h_Z0)^0.5, SI; dimensionally exact.
+//! nu_0 and h_Z0 are not public, so the user states both ratios. Computed once for each mesh, at the first gear. Oil injected at
+//! the outgoing side is not squeezed.
 
 use gearloss_framework::coefficients;
 use gearloss_framework::loss::{Loss, Term, Undefined};
@@ -36,39 +36,39 @@ coefficients! {
     }
 }
 
-/// Side of the mesh that is sprayed.
+/// Injection side of the mesh.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Side {
-    /// Where the teeth come together.
+    /// Ingoing side.
     #[default]
     Ingoing,
-    /// Where they part; nothing is squeezed.
+    /// Outgoing side; no oil is squeezed.
     Outgoing,
 }
 
-/// Torque of oil that is sprayed into a mesh and squeezed out of it, after Mauz.
+/// Squeezing torque of oil that is injected into a mesh, according to Mauz.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct MauzInjection {
     /// Flow into the mesh. [l/min]
     #[schemars(range(min = 0.0, max = 10000.0))]
     pub flow: f64,
-    /// Side that is sprayed.
+    /// Injection side.
     #[serde(default)]
     pub side: Side,
     /// Viscosity over its reference. [-]
-    #[serde(default = "one")]
+    #[serde(default = "default_one")]
     #[schemars(range(min = 0.001, max = 1000.0))]
     pub viscosity_ratio: f64,
     /// Tooth height over its reference. [-]
-    #[serde(default = "one")]
+    #[serde(default = "default_one")]
     #[schemars(range(min = 0.001, max = 1000.0))]
     pub tooth_height_ratio: f64,
     #[serde(default)]
     coefficients: Constants,
 }
 
-fn one() -> f64 {
+fn default_one() -> f64 {
     1.0
 }
 
@@ -90,7 +90,7 @@ impl GearDragModel for MauzInjection {
 
     fn loss(&self, at: &GearDragAt<'_>) -> Result<Loss, Undefined> {
         if self.side == Side::Outgoing || at.speed == 0.0 {
-            at.branch("sprayed at the outgoing side, or at rest: nothing is squeezed");
+            at.branch("injected at the outgoing side, or at standstill: no squeezing loss");
             return Ok(Loss::MOMENTS);
         }
         let gear = &at.part.gear;
@@ -109,8 +109,8 @@ register!(GearDrag, "mauz_injection", MauzInjection,
     source: "Mauz 1987",
     example: "{ type: mauz_injection, flow: 2 l/min }",
     evidence: [
-        formula(Evidence::Recalled, "recalled; the dimensions are exact"),
-        default_of("side", Evidence::Assumed, "the side that counts"),
+        formula(Evidence::Recalled, "quoted from memory, not checked; dimensionally exact"),
+        default_of("side", Evidence::Assumed, "the side with a loss"),
         default_of("viscosity_ratio", Evidence::Assumed, "the reference is not public"),
         default_of("tooth_height_ratio", Evidence::Assumed, "the reference is not public"),
     ],

@@ -1,10 +1,10 @@
-//! Rim and faces of one dipping gear after Seetharaman and Kahraman, without oil in the root spaces.
+//! Rim and faces of one immersed gear according to Seetharaman and Kahraman, without oil in the root spaces.
 //!
-//! Source: Seetharaman, Kahraman: Load-independent spin power losses of a spur gear pair, J. Tribol. 131 (2009), recalled in part:
+//! Source: Seetharaman, Kahraman: Load-independent spin power losses of a spur gear pair, J. Tribol. 131 (2009), partly quoted from memory:
 //! P_rim = 4 eta b r_o^2 w^2 phi; each face 0.41 rho nu^0.5 U^2.5 A/sqrt(r_o sin phi) to Re = 2 r_o sin phi U/nu = 1e5,
 //! 0.025 rho nu^0.14 U^2.86 A/(r_o sin phi)^0.14 from 1e6, blended in lg Re between; phi = acos(1 - h/r_o), U = w r_o, A the
-//! immersed area of a face. The laminar constant is that of a flat plate. The terms of filling and pocketing are missing, so the
-//! model is incomplete; at high speed it runs far above measurements, because oil is thrown off. For research.
+//! immersed area of a face. The laminar constant is that of a flat plate. The root filling and pocketing terms are missing, so the
+//! model is incomplete; at high speed it overpredicts measurements by far, because oil is thrown off. For research.
 
 use gearloss_framework::coefficients;
 use gearloss_framework::loss::{Loss, Term, Undefined};
@@ -28,23 +28,23 @@ coefficients! {
         rim_factor = 4.0, in 2.0..=8.0;
         /// Factor of a face in laminar flow.
         laminar_factor = 0.41, in 0.205..=0.82;
-        /// Exponent of viscosity over chord in laminar flow; that of the speed is three less it.
+        /// Exponent of viscosity over chord in laminar flow; the exponent of the speed is three minus this.
         laminar_exponent = 0.5, in 0.25..=0.75;
         /// Factor of a face in turbulent flow.
         turbulent_factor = 0.025, in 0.0125..=0.05;
-        /// Exponent of viscosity over chord in turbulent flow; that of the speed is three less it.
+        /// Exponent of viscosity over chord in turbulent flow; the exponent of the speed is three minus this.
         turbulent_exponent = 0.14, in 0.07..=0.28;
     }
 }
 
-/// Rim and faces of one dipping gear after Seetharaman and Kahraman; incomplete.
+/// Rim and faces of one immersed gear according to Seetharaman and Kahraman; incomplete.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct SeetharamanKahraman {
     #[serde(default)]
     coefficients: Constants,
 }
 
-/// Half of the angle under oil. \[rad\]
+/// Half of the immersed angle. \[rad\]
 fn angle(depth: f64) -> f64 {
     (1.0 - depth.clamp(0.0, 2.0)).acos()
 }
@@ -61,7 +61,7 @@ fn face(c: &Constants, rho: f64, nu: f64, r: f64, omega: f64, depth: f64) -> f64
         return 0.0;
     }
     let half = std::f64::consts::FRAC_PI_2;
-    // Both parts of a sliver cancel to rounding.
+    // For a small segment both terms cancel to rounding.
     let area = r * r * (half - (1.0 - h).asin() - (1.0 - h) * (h * (2.0 - h)).sqrt()).max(0.0);
     let (m, n) = (c.laminar_exponent, c.turbulent_exponent);
     let laminar = c.laminar_factor * rho * power(nu, m) * speed.powf(3.0 - m) * area / power(chord, m);
@@ -103,7 +103,7 @@ impl GearDragModel for SeetharamanKahraman {
 register!(GearDrag, "seetharaman_kahraman", SeetharamanKahraman,
     source: "Seetharaman, Kahraman, J. Tribol. 131 (2009)",
     example: "{ type: seetharaman_kahraman }",
-    evidence: [formula(Evidence::Recalled, "two of four terms recalled; the laminar constant is derived")],
+    evidence: [formula(Evidence::Recalled, "two of four terms quoted from memory, not checked; the laminar constant is derived")],
     terms: [RIM, FACES]);
 
 #[cfg(test)]

@@ -1,10 +1,11 @@
-//! Churning of one gear in a cylindrical case, from an inertia run-down rig to 90 m/s.
+//! Churning of one gear in a cylindrical case, from inertia run-down tests up to 90 m/s.
 //!
 //! Source: Shore, Kadiric et al.: Optimization of electric vehicle drivetrain fluid, Tribol. Trans., equations 7 and 8:
 //! C = 0.38 rho nu^0.05 R_a^8.51 R_p^-5.90 b^0.20 d_r^0.08 d_x^0.34 h_eff^1.10 w^0.81 g^0.57 in N m, SI throughout, with
 //! h_eff = h_0 (phi + (1 - phi) tanh(0.2 + Re^0.4/Fr)), Re = w R_p^2/nu, Fr = w^2 R_p/g, g = 9.8. Dimensionally exact.
-//! The exponents of R_a and R_p hide the tooth size: one percent in R_a/R_p moves the torque by eight, so radii must be exact.
-//! The dip counts at the reference circle. Single gear; whether d_x is one side or both is not said, one side is assumed.
+//! The exponents of R_a and R_p make it sensitive to tooth height: a change of one percent in R_a/R_p changes the torque by eight
+//! percent, so the radii must be exact. Immersion depth at the reference circle. Single gear; the source does not state whether d_x
+//! is the gap of one side or both; one side is assumed.
 
 use gearloss_framework::coefficients;
 use gearloss_framework::document::Diagnostic;
@@ -19,8 +20,8 @@ use serde::Deserialize;
 use super::CHURNING;
 
 const TERM: Term = Term::no_load(0, "churning");
-const SPEED: Limit = Limit::new(0, "v", "m/s", 0.0, 90.0, "pitch line speeds of the rig");
-const H_EFF: Observed = Observed::new(0, "h_eff", "mm", "Depth that remains once the oil is thrown about.");
+const SPEED: Limit = Limit::new(0, "v", "m/s", 0.0, 90.0, "pitch line velocities of the rig");
+const H_EFF: Observed = Observed::new(0, "h_eff", "mm", "Effective immersion depth while the gear rotates.");
 
 /// The source rounds gravity. \[m/s2\]
 const G: f64 = 9.8;
@@ -55,13 +56,13 @@ coefficients! {
     }
 }
 
-/// Churning of one gear in a cylindrical case, from an inertia run-down rig to 90 m/s.
+/// Churning of one gear in a cylindrical case, from inertia run-down tests up to 90 m/s.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
-    /// Share of the case that oil fills at rest. [-]
+    /// Share of the case filled with oil at standstill. [-]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub fill: f64,
-    /// Share of the torque that is added where the gear's lowest point moves towards its mate: 0 to 0.5. [-]
+    /// Relative increase of the torque if the gear's lowest point moves towards its mate: 0 to 0.5. [-]
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 5.0))]
     pub swell: f64,
@@ -82,8 +83,8 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Shore, Diagnostic> {
     let part = cx.part::<GearDrag>().ok_or_else(|| cx.error("bug: no part"))?;
     let (Some(radial), Some(axial)) = (part.radial_clearance, part.axial_clearance) else {
         return Err(cx
-            .error("shore needs the gaps between gear and wall")
-            .help("add `housing: { clearance: { radial: 8 mm, axial: 12 mm } }` with your figures"));
+            .error("shore requires the gaps between gear and wall")
+            .help("add `housing: { clearance: { radial: 8 mm, axial: 12 mm } }` with your values"));
     };
     Ok(Shore {
         coefficients: params.coefficients,
@@ -121,7 +122,7 @@ impl GearDragModel for Shore {
         let gear = &at.part.gear;
         let omega = at.speed.abs();
         if at.dip <= 0.0 || omega == 0.0 {
-            at.branch("dry or at rest: no churning");
+            at.branch("dry or at standstill: no churning");
             return Ok(Loss::MOMENTS);
         }
         let (r_a, r_p) = (0.5 * gear.tip_diameter, 0.5 * gear.reference_diameter);
@@ -138,7 +139,7 @@ register!(GearDrag, "shore", Params,
     source: "Shore, Kadiric et al., Tribol. Trans., equations 7 and 8",
     example: "{ type: shore, fill: 0.35 }",
     evidence: [
-        formula(Evidence::OneSource, "one article; the dimensions are exact"),
+        formula(Evidence::OneSource, "one article; dimensionally exact"),
         default_of("swell", Evidence::Assumed, "no public formula"),
     ],
     limits: [SPEED], terms: [TERM], observed: [H_EFF], prepare: prepare);

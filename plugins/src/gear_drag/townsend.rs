@@ -1,7 +1,7 @@
-//! Windage of a smooth rotor of the gear's size, after Townsend.
+//! Windage of a smooth rotor of the gear's size, according to Townsend.
 //!
-//! Source: Townsend (ed.): Dudley's Gear Handbook, 2nd ed., 1991, recalled: P = n^3 D^5 L^0.7/1e17 in hp, n in 1/min, D and L in inches.
-//! A rotor without teeth: it lies below the laws for gears.
+//! Source: Townsend (ed.): Dudley's Gear Handbook, 2nd ed., 1991, quoted from memory: P = n^3 D^5 L^0.7/1e17 in hp, n in 1/min, D and L in inches.
+//! A rotor without teeth: the loss is below the laws for gears.
 
 use gearloss_framework::coefficients;
 use gearloss_framework::loss::{Loss, Term, Undefined};
@@ -67,7 +67,7 @@ impl GearDragModel for Townsend {
 register!(GearDrag, "townsend", Townsend,
     source: "Townsend (ed.), Dudley's Gear Handbook, 1991",
     example: "{ type: townsend }",
-    evidence: [formula(Evidence::Recalled, "below the laws for gears, as a smooth rotor is")],
+    evidence: [formula(Evidence::Recalled, "below the laws for gears, as expected of a smooth rotor")],
     terms: [TERM]);
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
-//! Wetted surface of a gear that dips into oil.
+//! Wetted surface of an immersed gear.
 
-/// Faces, rim and teeth of a gear: radius of the reference circle, dip below it, face width (m), teeth, tooth
-/// height (m), normal pressure angle and helix angle (rad).
+/// Faces, rim and teeth of a gear from the radius of the reference circle, its immersion depth, face width (m), number of teeth,
+/// tooth height (m), normal pressure angle and helix angle (rad).
 pub struct Wetted {
     /// Both faces. \[m2\]
     pub side: f64,
@@ -43,7 +43,7 @@ mod tests {
             20.0_f64.to_radians(),
             15.0_f64.to_radians(),
         );
-        // The faces follow from the dip angle 0.898076 rad.
+        // The faces correspond to an immersion angle of 0.898076 rad.
         close(w.side, 0.00520477);
         close(w.rim, 0.00285948);
         close(w.teeth, 0.00435379);

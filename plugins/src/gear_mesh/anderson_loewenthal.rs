@@ -1,12 +1,12 @@
-//! Mesh loss of spur gears from one point of the path after Anderson and Loewenthal.
+//! Loss of spur gear meshes evaluated at one point of the path of contact, according to Anderson and Loewenthal.
 //!
 //! Source: Anderson, Loewenthal: Spur gear system efficiency at part and full load, NASA TP-1622 (1980) with its errata sheet,
-//! recalled: sliding with the friction of Benedict and Kelley, and rolling with the film of Hamrock and Dowson, both a quarter
+//! quoted from memory: sliding with the friction of Benedict and Kelley, and rolling with the film of Hamrock and Dowson, both a quarter
 //! of the path away from the pitch point. v_S = 0.02618 n_p (1 + m_g)/m_g l, v_T = 0.2094 n_p (D_p/2 sin phi - 0.125 (m_g - 1)/m_g l),
 //! f = 0.0127 lg(0.02966 (W/b)/(eta v_S v_T^2)), P_S = f W v_S, h = 2.051e-7 (v_T eta)^0.67 W^-0.067 R^0.464,
-//! P_R = 9e7 h b v_T eps_alpha. The speed constants are exact; the full load W counts at a mean sliding speed.
-//! The original holds f between 0.01 and 0.02 as far as remembered, which is an option here.
-//! External spur gears of steel; a rough model, above the path integral as a rule.
+//! P_R = 9e7 h b v_T eps_alpha. The speed constants are exact; the full load W acts at a mean sliding speed. The original limits f
+//! to 0.01 to 0.02 (quoted from memory, not checked); here that is an option. External spur gears of steel; a rough model that
+//! usually gives more than the path integral.
 
 use gearloss_framework::coefficients;
 use gearloss_framework::document::Diagnostic;
@@ -50,10 +50,10 @@ coefficients! {
     }
 }
 
-/// Sliding and rolling loss of spur gears from one point of the path.
+/// Sliding and rolling loss of spur gears from one point of the path of contact.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
-    /// Least and greatest coefficient of friction; absent, no limits. [-]
+    /// Minimum and maximum coefficient of friction; default: no limits. [-]
     #[schemars(inner(range(min = 0.0, max = 0.2)))]
     pub f_limits: Option<[f64; 2]>,
     #[serde(default)]
@@ -105,7 +105,7 @@ impl OnePoint {
         let c = &self.coefficients;
         let (m, l) = (self.ratio, self.path);
         let sin = self.angle.sin();
-        // The printed 0.02618 and 0.2094 are a quarter and twice of one rpm in rad/s.
+        // The published 0.02618 and 0.2094 are a quarter of and twice one rpm in rad/s.
         let v_s = 0.25 * speed * (1.0 + m) / m * l;
         let v_t = 2.0 * speed * (0.5 * self.diameter * sin - 0.125 * (m - 1.0) / m * l);
         let load = 2.0 * torque / (self.diameter * self.angle.cos() * self.cos_base_helix);
@@ -132,15 +132,17 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<OnePoint, Diagnostic> {
     let part = cx.part::<GearMesh>().ok_or_else(|| cx.error("bug: no pair"))?;
     if part.pair.internal {
         return Err(cx
-            .error("anderson_loewenthal is for external pairs")
-            .help("give this mesh a model of its own, such as `wimmer`"));
+            .error("anderson_loewenthal applies to external gear pairs only")
+            .help("give this mesh its own model, such as `wimmer`"));
     }
     if params.f_limits.is_some_and(|[least, most]| least > most) {
-        return Err(cx.error("`f_limits` fall").help("write the least coefficient first"));
+        return Err(cx
+            .error("the values of `f_limits` do not increase")
+            .help("write the minimum first"));
     }
     let model = OnePoint::new(&part.pair, params.f_limits, params.coefficients);
     if model.ratio * 0.5 * model.diameter * model.angle.sin() <= 0.25 * model.path {
-        return Err(cx.error("the point a quarter of the path from the pitch point lies below the base circle"));
+        return Err(cx.error("the point at a quarter of the path from the pitch point is inside the base circle"));
     }
     Ok(model)
 }
@@ -167,8 +169,8 @@ register!(GearMesh, "anderson_loewenthal", Params,
     source: "Anderson, Loewenthal, NASA TP-1622 (1980) and its errata sheet",
     example: "{ type: anderson_loewenthal }",
     evidence: [
-        formula(Evidence::Recalled, "speed constants derived, the others recalled"),
-        default_of("f_limits", Evidence::Disputed, "the original seems to hold f between 0.01 and 0.02"),
+        formula(Evidence::Recalled, "speed constants derived, the others quoted from memory, not checked"),
+        default_of("f_limits", Evidence::Disputed, "the original seems to limit f to 0.01 to 0.02"),
     ],
     limits: [HELIX], terms: [SLIDING, ROLLING], observed: [F, FILM], prepare: prepare);
 
@@ -220,7 +222,7 @@ mod tests {
             ..point(None)
         };
         let answer = model.answer(20.0, 6000.0 * std::f64::consts::PI / 30.0, 20e-3);
-        // The printed values carry more digits of 0.02966 than the formula.
+        // The published values carry more digits of 0.02966 than the formula.
         assert!((answer.f / 0.027152 - 1.0).abs() < 2e-5, "{}", answer.f);
         close(answer.film * 1e6, 0.569523);
         assert!((answer.sliding / 56.4821 - 1.0).abs() < 2e-5, "{}", answer.sliding);

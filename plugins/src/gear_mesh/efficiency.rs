@@ -1,14 +1,14 @@
-//! Mesh loss by a known efficiency: a number, or a table over the quantities of the mesh.
+//! Mesh loss from a known efficiency: a number, or a table over the quantities of the mesh.
 //!
-//! The user's own: P = (1 - eta) P_in. For pairs whose loss was measured or computed elsewhere. A table of powers instead of
-//! efficiencies is the model `table`.
+//! User-defined: P = (1 - eta) P_in. For pairs whose loss has been measured or computed by other means. For a table of power losses
+//! instead of efficiencies use the model `table`.
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::generic::{Lookup, PLACE};
 use gearloss_framework::loss::{Loss, Observed, Term, Undefined};
 use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt, GearMeshModel};
 use gearloss_framework::register;
-use gearloss_framework::registry::{Build, Evidence, formula};
+use gearloss_framework::registry::{Build, Evidence, USER_DEFINED, formula};
 use gearloss_framework::table::{Interpolation, Outside, Reading};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -16,18 +16,18 @@ use serde::Deserialize;
 const SLIDING: Term = Term::load(0, "sliding");
 const EFFICIENCY: Observed = Observed::new(0, "eta", "-", "Efficiency of the mesh.");
 
-/// Mesh loss by a known efficiency: a number, or a table over quantities of the mesh.
+/// Mesh loss from a known efficiency: a number, or a table over quantities of the mesh.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
-    /// Efficiency, in place of a table. [-]
+    /// Efficiency, instead of a table. [-]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub value: Option<f64>,
     /// CSV file with the efficiency over one to four quantities, such as `torque [Nm]` and `speed [rpm]`.
     pub file: Option<String>,
-    /// What holds beyond the ends of the table.
+    /// Extrapolation of the table.
     #[serde(default)]
     pub outside: Outside,
-    /// What connects the points of the table.
+    /// Interpolation of the table.
     #[serde(default)]
     pub interpolation: Interpolation,
 }
@@ -49,7 +49,7 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Efficiency, Diagnostic>
             Ok(Efficiency::Table(Lookup::read(&file, &reading, "-", cx)?))
         }
         _ => Err(cx
-            .error("efficiency needs one of `value` and `file`")
+            .error("efficiency requires either `value` or `file`")
             .help("write `value: 0.985`, or `file:` with a table")),
     }
 }
@@ -81,7 +81,7 @@ impl GearMeshModel for Efficiency {
 }
 
 register!(GearMesh, "efficiency", Params,
-    source: "the user's own",
+    source: USER_DEFINED,
     example: "{ type: efficiency, value: 0.985 }",
     evidence: [formula(Evidence::User, "the user states it")],
     limits: [PLACE], terms: [SLIDING], observed: [EFFICIENCY], geometry: false, prepare: prepare);
@@ -129,7 +129,7 @@ mod tests {
             build(&serde_json::json!({ "type": "efficiency" }))
                 .err()
                 .unwrap()
-                .contains("one of")
+                .contains("either")
         );
     }
 }

@@ -1,8 +1,8 @@
-//! Mesh loss by the tooth loss factor of an evenly spread load and a law of mean friction.
+//! Mesh loss from a mean friction law and the tooth loss factor of an evenly shared load.
 //!
-//! Derived: P = P_in mu_m H_v with every pair at its even share 1/eps_alpha all along the path:
-//! H_v = pi (u + 1)/(z1 u cos beta_b) (eps_1^2 + eps_2^2)/eps_alpha, with u - 1 for internal pairs. The limit of helical gears with a
-//! large overlap ratio, and 10 to 25 % above Ohlendorf: the upper bracket.
+//! Derived: P = P_in mu_m H_v with every pair carrying the share 1/eps_alpha along the whole path: H_v = pi (u + 1)/(z1 u cos
+//! beta_b) (eps_1^2 + eps_2^2)/eps_alpha, with u - 1 for internal pairs. This is the limit of helical gears with a large overlap
+//! ratio and 10 to 25 % above Ohlendorf: an upper bound.
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::{Loss, Undefined};
@@ -15,7 +15,7 @@ use serde::Deserialize;
 
 use super::factor::{Factor, LOSS_FACTOR, MU, SLIDING};
 
-/// Mesh loss by the tooth loss factor of an evenly spread load and a law of mean friction.
+/// Mesh loss from a mean friction law and the tooth loss factor of an evenly shared load.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
     /// Law of the mean coefficient of friction.
@@ -40,9 +40,9 @@ impl GearMeshModel for EvenShare {
 }
 
 register!(GearMesh, "even_share", Params,
-    source: "derived; equals the geometry factor of ISO/TR 14179-1 for spur gears",
+    source: "derived; equal to the geometry factor of ISO/TR 14179-1 for spur gears",
     example: "{ type: even_share, mean_friction: { type: schlenk } }",
-    evidence: [formula(Evidence::Derived, "follows from the even share; equals 1/M of ISO/TR 14179-1 for spur gears")],
+    evidence: [formula(Evidence::Derived, "follows from even load sharing; equals 1/M of ISO/TR 14179-1 for spur gears")],
     terms: [SLIDING], observed: [MU, LOSS_FACTOR], prepare: prepare);
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! Power times mean friction times a tooth loss factor, which several models share.
+//! Power times mean friction times a tooth loss factor, shared by several models.
 
 use gearloss_framework::loss::{Loss, Observed, Term, Undefined};
 use gearloss_framework::mechanism::gear_mesh::GearMeshAt;
@@ -9,7 +9,7 @@ pub const SLIDING: Term = Term::load(0, "sliding");
 pub const MU: Observed = Observed::new(0, "mu_m", "-", "Mean coefficient of friction.");
 pub const LOSS_FACTOR: Observed = Observed::new(1, "H_v", "-", "Tooth loss factor.");
 
-/// A loss factor with its law of mean friction.
+/// A loss factor with its mean friction law.
 pub struct Factor {
     pub value: f64,
     pub friction: Slot<MeanFriction>,
@@ -21,9 +21,10 @@ impl Factor {
             at.branch("no speed or no torque: no loss");
             return Ok(Loss::POWERS);
         }
-        let mu = self
-            .friction
-            .mu(&MeanFrictionAt::of(at, at.notes.of(self.friction.notes)))?;
+        let mu = self.friction.mu(&MeanFrictionAt::at_pitch_point(
+            at,
+            at.notes.nested(self.friction.notes),
+        ))?;
         let mu = at.observe(&MU, mu);
         let factor = at.observe(&LOSS_FACTOR, self.value);
         let input = at.show("P_in", "W", at.torque * at.speed.abs());

@@ -1,10 +1,10 @@
-//! Mesh loss after ISO/TR 14179-1, of AGMA origin.
+//! Mesh loss according to ISO/TR 14179-1, of AGMA origin.
 //!
-//! Source: ISO/TR 14179-1:2001, recalled: P = f_m T1 n1 cos^2 beta_w/(9549 M) in kW, M = 2 cos alpha_w (H_s + H_t)/(H_s^2 + H_t^2),
+//! Source: ISO/TR 14179-1:2001, quoted from memory: P = f_m T1 n1 cos^2 beta_w/(9549 M) in kW, M = 2 cos alpha_w (H_s + H_t)/(H_s^2 + H_t^2),
 //! f_m = nu^-0.223 K^-0.40/(3.239 v^0.70), K = 1000 T1 (z1 + z2)/(2 b r_w1^2 z2) in N/mm2; z2 - z1 for internal pairs. Gear 1 is the
-//! one with fewer teeth. The geometry factor 1/M is that of an evenly spread load, which a derivation confirms for spur gears.
-//! For oils of ISO VG 150 to 460, 2 to 25 m/s and K from 1.4 to 14 N/mm2. Its friction falls with load, against other laws, and
-//! lies at about a third of theirs.
+//! one with fewer teeth. The geometry factor 1/M is that of an evenly shared load, which a derivation confirms for spur gears. For
+//! oils of ISO VG 150 to 460, 2 to 25 m/s and K from 1.4 to 14 N/mm2. Its friction falls with load, contrary to other laws, and is
+//! about a third of theirs.
 
 use gearloss_framework::coefficients;
 use gearloss_framework::geometry::Pair;
@@ -36,10 +36,10 @@ coefficients! {
     }
 }
 
-/// Mesh loss after ISO/TR 14179-1, of AGMA origin.
+/// Mesh loss according to ISO/TR 14179-1, of AGMA origin.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Iso14179 {
-    /// Greatest coefficient of friction, which bounds the growth of the formula at creeping speeds. [-]
+    /// Maximum coefficient of friction; bounds the growth of the formula at creeping speeds. [-]
     #[serde(default = "greatest")]
     #[schemars(range(min = 0.01, max = 10.0))]
     pub greatest: f64,
@@ -47,12 +47,12 @@ pub struct Iso14179 {
     coefficients: Constants,
 }
 
-/// Not boundary friction, which the formula already exceeds under light loads at usual speeds.
+/// Higher than boundary friction, which the formula already exceeds under light loads at normal speeds.
 fn greatest() -> f64 {
     1.0
 }
 
-/// Sliding ratios at the start and end of approach and recess, H_s and H_t.
+/// Sliding ratios at the start of approach and the end of recess, H_s and H_t.
 fn sliding_ratios(pair: &Pair) -> [f64; 2] {
     let (cos, sin) = (pair.working_angle.cos(), pair.working_angle.sin());
     let tip = |gear: usize| (0.5 * pair.tip_diameter[gear] / pair.working_radius[gear]).powi(2);
@@ -106,8 +106,8 @@ register!(GearMesh, "iso14179_1", Iso14179,
     source: "ISO/TR 14179-1:2001",
     example: "{ type: iso14179_1 }",
     evidence: [
-        formula(Evidence::Recalled, "coefficients of f_m recalled; the geometry factor is derived"),
-        default_of("greatest", Evidence::Assumed, "above what the formula answers under light loads at 0.1 m/s, far outside of its range"),
+        formula(Evidence::Recalled, "coefficients of f_m quoted from memory; the geometry factor is derived"),
+        default_of("greatest", Evidence::Assumed, "above the value of the formula under light loads at 0.1 m/s, far outside its range"),
     ],
     limits: [SPEED, K_FACTOR], terms: [SLIDING], observed: [F_M, M]);
 
@@ -135,7 +135,7 @@ mod tests {
             to.speed = speed;
             to.nu = 50e-6;
         });
-        // The printed 9549 stands for 30000/pi = 9549.297.
+        // The published 9549 is 30000/pi = 9549.297.
         let watts = Iso14179 {
             coefficients: Constants::PUBLISHED,
             greatest: greatest(),

@@ -1,11 +1,11 @@
-//! Mesh loss by a loss factor and one mean coefficient of friction, as ISO/TR 14179-2 does.
+//! Mesh loss from a loss factor and one mean coefficient of friction, as in ISO/TR 14179-2.
 //!
 //! Sources: loss factor of Ohlendorf (1958); mean friction of Schlenk (1994) as in ISO/TR 14179-2:2001:
 //! P = T w mu H_v, mu = 0.048 (F_bt/b/(v_SC rho_redC))^0.2 eta^-0.05 Ra^0.25 X_L; F_bt/b in N/mm, v_SC in m/s, rho_redC in mm,
 //! eta in mPa s at oil temperature, Ra in um as the mean of both flanks.
-//! Dip-lubricated, case-hardened, ground gears. The two clamps of the method are options, because open programs leave them
-//! out: below 150 N/mm the friction stays that of 150 N/mm, above 50 m/s that of 50 m/s.
-//! Not for superfinished flanks (the exponent of Ra overrates them) nor for pitch points outside of the path of contact.
+//! Dip-lubricated, case-hardened, ground gears. The two clamps of the method are options, because public programs omit them: below
+//! 150 N/mm the friction is that at 150 N/mm, above 50 m/s that at 50 m/s. Not for superfinished flanks (the exponent of Ra
+//! overestimates their friction) nor for pitch points outside the path of contact.
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::geometry::Pair;
@@ -24,39 +24,39 @@ use crate::mean_friction::schlenk::{
 
 const SLIDING: Term = Term::load(0, "sliding");
 const CONTACT_RATIO: Limit = Limit::new(3, "eps_alpha", "-", 1.0, 2.0, "one to two pairs in contact");
-const ADDENDUM: Limit = Limit::new(4, "eps_1, eps_2", "-", 0.0, 1.0, "the pitch point lies on the path");
+const ADDENDUM: Limit = Limit::new(4, "eps_1, eps_2", "-", 0.0, 1.0, "pitch point on the path of contact");
 const LOSS_FACTOR: Observed = Observed::new(1, "H_v", "-", "Tooth loss factor.");
 
-/// Which loss factor counts.
+/// Loss factor.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum LossFactor {
-    /// Halved load in double contact, after Ohlendorf.
+    /// After Ohlendorf: half of the load on each pair in double contact.
     #[default]
     Ohlendorf,
-    /// Evenly spread load, the upper bracket of helical gears.
+    /// Evenly shared load, the upper bound for helical gears.
     Uniform,
 }
 
 /// Loss factor of Ohlendorf and mean friction of Schlenk, as in ISO/TR 14179-2.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Iso14179 {
-    /// Lubricant factor; absent, that of `oil`, else that of the lubricant. [-]
+    /// Lubricant factor; default: that of `oil`, else that of the lubricant. [-]
     #[schemars(range(min = 0.1, max = 2.0))]
     pub x_l: Option<f64>,
-    /// Oil type whose lubricant factor counts.
+    /// Oil type that selects the lubricant factor.
     pub oil: Option<OilType>,
-    /// Below 150 N/mm the friction stays that of 150 N/mm.
+    /// Below 150 N/mm the friction is that at 150 N/mm.
     #[serde(default = "yes")]
     pub clamp_line_load: bool,
-    /// Which speed the upper clamp holds.
+    /// Speed that the upper clamp limits.
     #[serde(default)]
     pub clamp_speed: SpeedClamp,
-    /// Greatest coefficient of friction: where boundary friction ends the growth of the formula at creeping speeds. [-]
+    /// Maximum coefficient of friction; boundary friction limits the growth of the formula at creeping speeds. [-]
     #[serde(default = "greatest")]
     #[schemars(range(min = 0.01, max = 1.0))]
     pub greatest: f64,
-    /// Which loss factor counts.
+    /// Loss factor.
     #[serde(default)]
     pub loss_factor: LossFactor,
     #[serde(default)]
@@ -72,7 +72,7 @@ struct Mean {
     friction: Schlenk,
     loss_factor: f64,
     ohlendorf: bool,
-    /// Sum of the surface speeds at the pitch point over the pitch line speed.
+    /// Ratio of the sum velocity at the pitch point to the pitch line velocity.
     sum_per_speed: f64,
 }
 
@@ -136,13 +136,13 @@ register!(GearMesh, "iso14179_2", Iso14179,
     source: "ISO/TR 14179-2:2001; Ohlendorf 1958; Schlenk 1994",
     example: "{ type: iso14179_2 }",
     evidence: [
-        formula(Evidence::SeveralSources, "formula and loss factor agree in several open sources"),
+        formula(Evidence::SeveralSources, "formula and loss factor agree in several public sources"),
         default_of("x_l", Evidence::Disputed, "tables of X_L differ between standards and tests"),
         default_of("oil", Evidence::Disputed, "tables of X_L differ between standards and tests"),
-        default_of("loss_factor", Evidence::SeveralSources, "as the method"),
-        default_of("clamp_line_load", Evidence::Recalled, "the clamp stands in the method but not in open programs"),
-        default_of("clamp_speed", Evidence::Disputed, "two readings of the clamp"),
-        default_of("greatest", Evidence::Assumed, "above boundary friction of lubricated steel"),
+        default_of("loss_factor", Evidence::SeveralSources, "as in the method"),
+        default_of("clamp_line_load", Evidence::Recalled, "the method has the clamp, public programs omit it"),
+        default_of("clamp_speed", Evidence::Disputed, "two interpretations of the clamp"),
+        default_of("greatest", Evidence::Assumed, "above the boundary friction of lubricated steel"),
     ],
     limits: [LINE_LOAD, PITCH_SPEED, VISCOSITY, CONTACT_RATIO, ADDENDUM], terms: [SLIDING], observed: [MU, LOSS_FACTOR], prepare: prepare);
 

@@ -1,8 +1,9 @@
-//! Mesh loss by the tooth loss factor of Ohlendorf and a law of mean friction.
+//! Mesh loss from the tooth loss factor of Ohlendorf and a mean friction law.
 //!
 //! Source: Ohlendorf 1958; Niemann/Winter: P = P_in mu_m H_v, H_v = pi (u + 1)/(z1 u cos beta_b) (1 - eps_alpha + eps_1^2 + eps_2^2),
-//! with u - 1 for internal pairs. It is the exact mean over the mesh cycle where the load is halved in double contact, friction
-//! is constant, the pitch point lies on the path and one to two pairs touch. Elsewhere take `wimmer` or `path_integral`.
+//! with u - 1 for internal pairs. It is the exact mean over the mesh cycle if each pair carries half of the load in double contact,
+//! friction is constant, the pitch point is on the path of contact and one to two pairs are in contact. Otherwise use `wimmer` or
+//! `path_integral`.
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::{Limit, Loss, Undefined};
@@ -16,9 +17,9 @@ use serde::Deserialize;
 use super::factor::{Factor, LOSS_FACTOR, MU, SLIDING};
 
 const CONTACT_RATIO: Limit = Limit::new(0, "eps_alpha", "-", 1.0, 2.0, "one to two pairs in contact");
-const ADDENDUM: Limit = Limit::new(1, "eps_1, eps_2", "-", 0.0, 1.0, "the pitch point lies on the path");
+const ADDENDUM: Limit = Limit::new(1, "eps_1, eps_2", "-", 0.0, 1.0, "pitch point on the path of contact");
 
-/// Mesh loss by the tooth loss factor of Ohlendorf and a law of mean friction.
+/// Mesh loss from the tooth loss factor of Ohlendorf and a mean friction law.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
     /// Law of the mean coefficient of friction.

@@ -1,21 +1,21 @@
-//! Mesh loss by integrating local friction along the path of contact.
+//! Mesh loss from local friction integrated along the path of contact.
 //!
-//! Source: sliding power mu K F_bn v_g at each place, averaged over one base pitch of the mesh cycle (Niemann/Winter,
-//! Maschinenelemente 2; Wimmer 2006). With constant friction it equals mean friction times the local loss factor.
-//! An option averages over the travel of one tooth with double contact counted twice, as equation 3 of Shen and Rinderknecht
-//! (Modelling of transmission losses with parameter identification) prints it: for constant friction that is 20 % above the
-//! cycle average of an FZG C gear, because double contact counts twice.
-//! Assumes rigid teeth with a stated sharing of the load. The line load is that of the pair over the face width, with
-//! `contact_lines` over the inclined lines.
-//! Rolling friction is optional: Goksem and Hargreaves, J. Lubr. Tech. 100 (1978) 346-352, times the factor by which heating at the
-//! inlet thins the film (after Gupta et al. in the form of Arana et al. 2019; a twentieth at least, beyond which the fit ends), for the
-//! isothermal law runs away with viscosity and speed; or 9e7 N/m2 times film
-//! and width after Crook 1963 as Anderson and Loewenthal use it, with the least film of Dowson and Higginson, times the sum
-//! of the surface speeds (some authors take half of it, which is an option). Without torque nothing is lost; rolling hardly
-//! depends on load, so with it the loss jumps there by a watt or so.
-//! The integral is within 1e-4 of its limit, for whatever law of friction: each smooth piece of the path between A, B, C, D and E, and
-//! between the kinks of the load sharing, has as many points as the law asks for, closer at its ends. Rolling after Crook, whose film
-//! grows without bound where load sets in as a ramp, is within 2e-3.
+//! Source: sliding power mu K F_bn v_g at each point, averaged over one base pitch of the mesh cycle (Niemann/Winter,
+//! Maschinenelemente 2; Wimmer 2006). For constant friction it equals mean friction times the local loss factor.
+//! An option averages over the travel of one tooth with double contact counted twice, as in equation 3 of Shen and Rinderknecht
+//! (Modelling of transmission losses with parameter identification); for constant friction the result is 20 % above the mesh-cycle
+//! average of an FZG C gear.
+//! Assumes rigid teeth with a stated load sharing among pairs of teeth. The line load is that of the pair over the face width; with
+//! `contact_lines` it is that over the inclined lines of contact.
+//! Rolling friction is optional. One law is Goksem and Hargreaves, J. Lubr. Tech. 100 (1978) 346-352, times the factor for film
+//! thinning by inlet heating (Gupta et al. in the form of Arana et al. 2019; at least a twentieth, where the fit ends), because the
+//! isothermal law grows too fast with viscosity and speed. The other is 9e7 N/m2 times film thickness and face width according to Crook
+//! 1963 as used by Anderson and Loewenthal, with the minimum film thickness of Dowson and Higginson, times the sum velocity (some
+//! authors use half of it, which is an option). Without torque the loss is zero; rolling friction hardly depends on load, so with
+//! it the loss jumps at zero torque by about a watt.
+//! The integral is within 1e-4 of its limit for any law of friction: each smooth section of the path between A, B, C, D and E, and
+//! between the kinks of the load sharing, has as many nodes as the law requires, denser at its ends. Rolling friction according to Crook,
+//! whose film grows without bound where the load ramp starts, is within 2e-3.
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::geometry::LoadSharing;
@@ -42,7 +42,7 @@ const MU_MEAN: Observed = Observed::new(
 );
 const LOSS_FACTOR: Observed = Observed::new(1, "H_vL", "-", "Local tooth loss factor of the load sharing.");
 
-/// Over what the loss is averaged.
+/// Domain of averaging.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Average {
@@ -53,48 +53,48 @@ pub enum Average {
     ToothTravel,
 }
 
-/// Whether rolling friction counts.
+/// Rolling friction law.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Rolling {
-    /// It does not count.
+    /// None.
     #[default]
     None,
     /// Goksem and Hargreaves.
     GoksemHargreaves,
-    /// Crook, as Anderson and Loewenthal use him.
+    /// Crook, as used by Anderson and Loewenthal.
     Crook,
 }
 
-/// Which speed the rolling force of Crook works against.
+/// Velocity that multiplies the rolling force of Crook.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum RollingSpeed {
-    /// The sum of the surface speeds.
+    /// The sum velocity.
     #[default]
     Sum,
-    /// Their mean, which halves the loss.
+    /// The mean velocity, which halves the loss.
     Mean,
 }
 
 /// Local friction integrated along the path of contact.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct PathIntegral {
-    /// How pairs in contact at once share the load.
+    /// Load sharing among pairs of teeth in contact.
     #[serde(default)]
     pub load_sharing: LoadSharing,
-    /// Over what the loss is averaged.
+    /// Domain of averaging.
     #[serde(default)]
     pub average: Average,
-    /// Law of friction between the flanks.
+    /// Local friction law of the flanks.
     pub tooth_friction: ModelRef<ToothFriction>,
-    /// Whether rolling friction counts.
+    /// Rolling friction law.
     #[serde(default)]
     pub rolling_friction: Rolling,
-    /// Heating at the inlet lowers the rolling force of Goksem and Hargreaves; without it their law is isothermal.
+    /// Inlet heating lowers the rolling force of Goksem and Hargreaves; otherwise their law is isothermal.
     #[serde(default = "yes")]
     pub rolling_thermal: bool,
-    /// Which speed the rolling force of Crook works against.
+    /// Velocity that multiplies the rolling force of Crook.
     #[serde(default)]
     pub rolling_speed: RollingSpeed,
 }
@@ -106,7 +106,7 @@ fn yes() -> bool {
 /// The path of one mesh, prepared.
 struct Integral {
     path: Path,
-    /// Sliding power per friction, normal force and speed of the first gear, by node. \[m\]
+    /// Sliding power per friction, normal force and speed of the first gear, at each node. \[m\]
     weights: Vec<f64>,
     /// Their sum.
     weight: f64,
@@ -114,7 +114,7 @@ struct Integral {
     rolling_weights: Vec<f64>,
     loss_factor: f64,
     friction: Slot<ToothFriction>,
-    /// The sum of friction by `weights`, where the law knows a short way.
+    /// Closed evaluation of the friction summed by `weights`, if the law provides one.
     short: Option<Box<dyn WeightedFriction>>,
     rolling: Rolling,
     rolling_thermal: bool,
@@ -189,11 +189,11 @@ impl GearMeshModel for Integral {
         }
         let pair = &at.part.pair;
         let speed = at.speed.abs();
-        let mean = MeanFrictionAt::of(at, at.notes);
+        let mean = MeanFrictionAt::at_pitch_point(at, at.notes);
         let normal = at.show("F_bn", "N", mean.normal_force);
         let path = self
             .path
-            .at(&mean, at.notes.within(self.friction.notes))
+            .at_operating_point(&mean, at.notes.nested_at_same_state(self.friction.notes))
             .with(|to| to.bodies = at.bodies());
         let line_load = at.show("F_bn/b", "N/m", path.line_load);
         let short = self.short.as_ref().map_or(f64::NAN, |short| short.sum(&path));
@@ -275,7 +275,7 @@ impl GearMeshModel for Integral {
             #[inline(always)]
             |path, line_loads| {
                 let short = self.short.as_ref()?;
-                let own = notes.of(self.friction.notes);
+                let own = notes.nested(self.friction.notes);
                 if !short.note(path, line_loads, own) {
                     let noted = self.path.with_lanes(|mu| {
                         let wide = self.friction.along_lanes(path, line_loads, mu);
@@ -301,7 +301,7 @@ impl GearMeshModel for Integral {
 }
 
 impl Integral {
-    /// Does something with the path and the line loads (N/m) of all lanes; absent where that has no way.
+    /// Applies a function to the path and the line loads (N/m) of all lanes; `None` if it has no batched evaluation.
     fn in_lanes<R>(
         &self,
         at: &GearMeshAt<'_>,
@@ -312,9 +312,12 @@ impl Integral {
             return None;
         }
         let pair = &at.part.pair;
-        let mean = MeanFrictionAt::of(at, Notes::MUTED);
-        let notes = at.notes.within(self.friction.notes);
-        let path = self.path.at(&mean, notes).with(|to| to.bodies = at.bodies());
+        let mean = MeanFrictionAt::at_pitch_point(at, Notes::MUTED);
+        let notes = at.notes.nested_at_same_state(self.friction.notes);
+        let path = self
+            .path
+            .at_operating_point(&mean, notes)
+            .with(|to| to.bodies = at.bodies());
         wide(
             #[inline(always)]
             || {
@@ -334,10 +337,10 @@ register!(GearMesh, "path_integral", PathIntegral,
     evidence: [
         formula(Evidence::Derived, "equals friction times loss factor for constant friction"),
         default_of("load_sharing", Evidence::Assumed, "rigid teeth"),
-        default_of("average", Evidence::Derived, "the mean over time"),
-        default_of("rolling_friction", Evidence::OneSource, "usually neglected beside sliding"),
-        default_of("rolling_thermal", Evidence::OneSource, "factor from one open source and memory; the law was published with one"),
-        default_of("rolling_speed", Evidence::Recalled, "Crook's coefficient as Anderson and Loewenthal use it"),
+        default_of("average", Evidence::Derived, "mean over time"),
+        default_of("rolling_friction", Evidence::OneSource, "usually neglected compared with sliding"),
+        default_of("rolling_thermal", Evidence::OneSource, "factor from one public source and from memory; the original law includes one"),
+        default_of("rolling_speed", Evidence::Recalled, "Crook's coefficient as used by Anderson and Loewenthal, quoted from memory"),
     ],
     terms: [SLIDING, ROLLING], observed: [MU_MEAN, LOSS_FACTOR], prepare: prepare);
 
@@ -412,7 +415,7 @@ pub(crate) mod tests {
         MeshPart::new(Pair::new(&spec).unwrap(), [0.4e-6; 2], [0.35e-6; 2], 206e9, 0.3)
     }
 
-    /// The loss factor that a model with mean friction uses on a pair: its loss over power and constant friction.
+    /// Effective loss factor of a mean friction model for a pair: its loss over power and constant friction.
     pub fn loss_factor(model: &Value, kind: Kind) -> f64 {
         let registry = Registry::linked().unwrap();
         let files = Files::default();
@@ -461,7 +464,7 @@ pub(crate) mod tests {
     #[test]
     fn b5_local_friction_on_fzg_c14() {
         let friction = json!({ "type": "xu", "roughness": "composite_rms" });
-        // The check was integrated to its limit and has six digits.
+        // The check value was integrated to convergence and has six digits.
         let cycle = watts(&model(friction.clone(), "base_pitch"));
         assert!((cycle / 183.716 - 1.0).abs() < 1e-5, "{cycle}");
         let travel = watts(&model(friction, "tooth_travel"));
@@ -481,7 +484,7 @@ pub(crate) mod tests {
                 let slot = build.slot_at::<GearMesh>("model", &part, &model).unwrap();
                 for torque in [0.01, 2.0, 300.0] {
                     let at = GearMeshAt::usual(&part, Notes::MUTED).with(|to| to.torque = torque);
-                    let fault = GearMesh::side_by_side(&*slot, &at, slot.notes);
+                    let fault = GearMesh::compare_batched(&*slot, &at, slot.notes);
                     assert_eq!(fault, None, "{sharing} {kind:?} {torque}");
                 }
             }
@@ -507,7 +510,7 @@ pub(crate) mod tests {
             watts(&model)
         };
         let (crook, goksem) = (rolling("crook", "sum"), rolling("goksem_hargreaves", "sum"));
-        // Two laws of one effect: some watts beside 300 W sliding.
+        // Two laws of the same effect: a few watts beside 300 W of sliding loss.
         assert!((0.25..4.0).contains(&(crook / goksem)), "{crook} {goksem}");
         assert!((rolling("crook", "mean") / crook - 0.5).abs() < 1e-12);
     }
@@ -517,7 +520,7 @@ pub(crate) mod tests {
         let registry = Registry::linked().unwrap();
         let files = Files::default();
         let part = Arc::new(fzg_c14(0.4e-6, 0.5e-6));
-        // Rolling alone at 2000 rpm and a kinematic viscosity in mm2/s.
+        // Rolling loss at 2000 rpm and a kinematic viscosity in mm2/s.
         let watts = |thermal: bool, nu: f64| {
             let mut model = model(json!({ "type": "constant", "value": 0.0 }), "base_pitch");
             (model["rolling_friction"], model["rolling_thermal"]) = ("goksem_hargreaves".into(), thermal.into());
@@ -531,7 +534,7 @@ pub(crate) mod tests {
             slot.loss(&at).unwrap().total_watts(at.speed)
         };
         let [thin, thick] = [10.0, 1e4].map(|nu| (watts(true, nu), watts(false, nu)));
-        // Hot oil is hardly heated further; isothermal, rolling grows with the power 0.658 of the viscosity.
+        // Hot oil is hardly heated at the inlet; isothermally, rolling grows with viscosity to the power 0.658.
         assert!((0.85..1.0).contains(&(thin.0 / thin.1)), "{thin:?}");
         assert!((thick.1 / thin.1 / 1000.0_f64.powf(0.658) - 1.0).abs() < 1e-9);
         assert!((0.05..0.5).contains(&(thick.0 / thick.1)), "{thick:?}");

@@ -1,23 +1,21 @@
-//! The loss of another model, computed beforehand and interpolated.
+//! Precomputed, interpolated loss of another mesh model.
 //!
-//! Derived. Friction of films that warm themselves costs some thousand times what a closed formula does, and a drive cycle asks
-//! for it thousands of times. This model asks the other one at some hundred nodes when it is first needed and interpolates from
-//! then on. What is interpolated is the loss over the power, which is bounded and smooth, over the logarithms of speed, torque
-//! and viscosity, by cubic splines (de Boor). Over the viscosity friction bends evenly, over the temperature it does not; and
-//! splines keep a bend to where it is, which Chebyshev polynomials carry through the whole table.
-//! With `ehl_mixed` on two stages of an electric axle and the usual nodes the error is 0.5 % rms and 4 % at most; over 20 to 12000
-//! rpm, 1 to 300 Nm and 0 to 120 degC it is 0.15 and 1.2 %.
-//! Where the temperatures of the gears' bodies are known and the other model looks at them, a second table runs over their mean,
-//! with oil and both bodies equally warm; the heat that passes between bodies that differ is tabulated as a conduction, and
-//! what goes into the first gear is bounded as `ehl_mixed` bounds it. Rolling friction in the other model follows the oil and not
-//! the bodies: the stated error then says how far that is off.
-//! The error is found, not assumed: the other model is asked again in the middles of cells spread over the table, and, where
-//! bodies are known, with oil up to 30 K colder and bodies up to 20 K apart. Each point notes what was found, and whether the
-//! other model leaves ranges that its sources state at the nearest node.
-//! Beyond the ends of the table, and for a mesh without an oil of its own, the other model itself is asked. The terms of the other
-//! model are one. The table holds for either sense of rotation and either driving gear, which the models that it may stand
-//! for do not look at. A gearbox that is built anew, as in a study of its parameters, builds its tables anew, each in the time
-//! of some 500 points, or 1000 where bodies are known; with fewer points than that the other model alone is quicker.
+//! Derived. A thermal film friction model costs about a thousand times as much as a closed formula, and a drive cycle evaluates it
+//! thousands of times. This model evaluates the other one at some hundred nodes when it is first needed and interpolates
+//! afterwards. It interpolates the loss over the power, which is bounded and smooth, over the logarithms of speed, torque and
+//! viscosity, by cubic splines (de Boor). Friction is a smoother function of viscosity than of temperature. Splines keep a kink
+//! local; Chebyshev polynomials spread it over the whole table. With `ehl_mixed` on two stages of an electric axle and the default
+//! nodes the error is 0.5 % rms and 4 % at most; over 20 to 12000 rpm, 1 to 300 Nm and 0 to 120 degC it is 0.15 and 1.2 %. If the
+//! body temperatures of the gears are known and the other model uses them, a second table uses their mean, with oil and both bodies
+//! at equal temperature. The heat between bodies at different temperatures is tabulated as a conductance, and the heat into the
+//! first gear is bounded as in `ehl_mixed`. Rolling friction in the other model depends on the oil and not on the bodies; the
+//! stated error includes this. The error is measured, not assumed: the other model is evaluated again at cell centres across the
+//! table and, if the body temperatures are known, with oil up to 30 K colder and bodies up to 20 K apart. Each operating point
+//! notes the measured error, and whether the nearest node is outside the ranges stated for the other model. Outside the table, and
+//! for a mesh without its own oil, the other model is evaluated directly. Its terms are combined into one. The table holds for both
+//! directions of rotation and for either driving gear; the tabulated models do not depend on them. A rebuilt gearbox, as in a
+//! parameter study, rebuilds its tables. Each takes the time of about 500 points, or 1000 with known body temperatures; for fewer
+//! points direct evaluation is faster.
 
 pub mod spline;
 pub mod table;
@@ -36,7 +34,7 @@ use gearloss_framework::registry::{Build, Evidence, ModelRef, Slot, default_of, 
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use table::{Asked, Extents, Table};
+use table::{DirectModel, Extents, Table};
 
 const TOTAL: Term = Term::load(0, "total");
 
@@ -46,44 +44,49 @@ const LEFT: Limit = Limit::new(
     "-",
     0.0,
     0.0,
-    "what the sources of the tabulated model state; ask it alone to see which",
+    "ranges of the tabulated model; evaluate it directly to see which",
 );
 
-const GREATEST: Observed = Observed::new(0, "greatest error", "%", "Greatest error of the table at its checks.");
+const GREATEST: Observed = Observed::new(
+    0,
+    "greatest error",
+    "%",
+    "Maximum error of the table at its check points.",
+);
 const RMS: Observed = Observed::new(
     1,
     "rms error",
     "%",
-    "Root mean square of the error of the table at its checks.",
+    "Root mean square error of the table at its check points.",
 );
 const SHARE: Observed = Observed::new(
     2,
     "error of the heat share",
     "-",
-    "Greatest error at the checks of the share of the heat that goes into the first gear.",
+    "Maximum error of the heat share of the first gear at the check points.",
 );
 
-/// Models that are as quick as a table.
+/// Models that are as fast as a table.
 const QUICK: [&str; 6] = ["none", "constant", "formula", "table", "efficiency", "tabulated"];
 
-/// Tangential force over module and face width up to which a table reaches where nothing is stated: what teeth of hardened
-/// steel bear at most, rounded. \[Pa\]
+/// Tangential force over module and face width up to which a table extends by default: the approximate maximum for hardened teeth.
+/// \[Pa\]
 const BORNE: f64 = 200e6;
 
-/// The loss of another model, computed beforehand and interpolated.
+/// Precomputed, interpolated loss of another mesh model.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
-    /// The model whose loss is tabulated.
+    /// Model to tabulate.
     pub of: ModelRef<GearMesh>,
-    /// Least and greatest speed of the first gear, in either sense. [rpm]
+    /// Minimum and maximum speed of the first gear, in either direction. [rpm]
     #[serde(default = "speeds")]
     #[schemars(inner(range(min = 1e-3, max = 1e6)))]
     pub speeds: [f64; 2],
-    /// Least and greatest torque of the first gear; absent, up to a tangential force of 200 N/mm2 times module and face width, and
-    /// down to a thousandth of it. [Nm]
+    /// Minimum and maximum torque of the first gear; default: a tangential force of 200 N/mm2 times module and face width, and a
+    /// thousandth of it. [Nm]
     #[schemars(inner(range(min = 1e-6, max = 1e7)))]
     pub torques: Option<[f64; 2]>,
-    /// Least and greatest temperature of the oil, or the mean of both bodies. [degC]
+    /// Minimum and maximum temperature of the oil, or mean temperature of both bodies. [degC]
     #[serde(default = "temperatures")]
     #[schemars(inner(range(min = -60.0, max = 250.0)))]
     pub temperatures: [f64; 2],
@@ -91,7 +94,7 @@ pub struct Params {
     #[serde(default = "nodes")]
     #[schemars(inner(range(min = 4, max = 40)))]
     pub nodes: [u32; 3],
-    /// Number of points between the nodes at which the error is found. [-]
+    /// Number of check points between the nodes that measure the error. [-]
     #[serde(default = "checks")]
     #[schemars(range(min = 1, max = 10000))]
     pub checks: u32,
@@ -115,9 +118,9 @@ struct Tabulated {
     extents: Extents,
     nodes: [usize; 3],
     checks: u32,
-    /// Once it was needed.
+    /// Built on first use.
     over_oil: OnceLock<Result<Table, Undefined>>,
-    /// Once it was needed; none where the model does not look at bodies.
+    /// Built on first use; `None` if the model does not depend on body temperatures.
     over_bodies: OnceLock<Option<Result<Table, Undefined>>>,
 }
 
@@ -125,8 +128,8 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Tabulated, Diagnostic> 
     let name = params.of.value.as_str().or_else(|| params.of.value["type"].as_str());
     if let Some(quick) = name.filter(|name| QUICK.contains(name)) {
         return Err(cx
-            .error(format!("`{quick}` is as quick itself as a table of it"))
-            .help(format!("write `type: {quick}` in place of `tabulated`")));
+            .error(format!("`{quick}` is as fast as a table of it"))
+            .help(format!("write `type: {quick}` instead of `tabulated`")));
     }
     let of = cx.slot("of", &params.of)?;
     let part = cx.part::<GearMesh>().ok_or_else(|| cx.error("bug: no pair"))?;
@@ -142,8 +145,8 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Tabulated, Diagnostic> 
     ] {
         if least >= greatest {
             return Err(cx
-                .error(format!("`{key}` does not rise from its first to its second value"))
-                .help("write the least and then the greatest"));
+                .error(format!("`{key}` does not increase from its first to its second value"))
+                .help("write the minimum, then the maximum"));
         }
     }
     if let Some(oil) = &part.oil {
@@ -151,10 +154,10 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Tabulated, Diagnostic> 
         if !(cold.is_finite() && hot > 0.0 && cold > hot) {
             return Err(cx
                 .error(format!(
-                    "the viscosity of `{}` does not fall over `temperatures`",
+                    "the viscosity of `{}` does not decrease over `temperatures`",
                     oil.id
                 ))
-                .help("narrow `temperatures` to where the oil's law of viscosity holds"));
+                .help("narrow `temperatures` to the range of the oil's viscosity law"));
         }
     }
     Ok(Tabulated {
@@ -167,7 +170,7 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Tabulated, Diagnostic> 
     })
 }
 
-/// Torques of the first gear for which a pair is made. \[Nm\]
+/// Minimum and maximum torque of the first gear of a pair. \[Nm\]
 fn torques(part: &MeshPart) -> [f64; 2] {
     let pair = &part.pair;
     let most = BORNE * pair.normal_module * pair.facewidth * pair.working_radius[0];
@@ -175,13 +178,13 @@ fn torques(part: &MeshPart) -> [f64; 2] {
 }
 
 impl Tabulated {
-    /// The table for a point, built when it is first needed, and the temperatures over whose mean it runs.
-    fn table(&self, at: &GearMeshAt<'_>, asked: &Asked<'_>) -> Result<(&Table, [f64; 2]), Undefined> {
-        let build = |known| Table::new(asked, &self.extents, self.nodes, self.checks, known);
+    /// The table for a point, built on first use, and the temperatures whose mean is its axis.
+    fn table(&self, at: &GearMeshAt<'_>, direct: &DirectModel<'_>) -> Result<(&Table, [f64; 2]), Undefined> {
+        let build = |known| Table::new(direct, &self.extents, self.nodes, self.checks, known);
         if let Some([first, second]) = at.bodies() {
             let table = self
                 .over_bodies
-                .get_or_init(|| asked.follows_bodies(&self.extents).then(|| build(true)));
+                .get_or_init(|| direct.follows_bodies(&self.extents).then(|| build(true)));
             if let Some(table) = table {
                 return built(table).map(|table| (table, [first, second]));
             }
@@ -198,10 +201,10 @@ impl Tabulated {
     }
 }
 
-/// The table, or why there is none.
+/// The table, or the reason why there is none.
 fn built(table: &Result<Table, Undefined>) -> Result<&Table, Undefined> {
     table.as_ref().map_err(|inside| Undefined {
-        what: "the tabulated model inside of its table (narrow `speeds`, `torques` or `temperatures`), which has no value at",
+        what: "a value inside the table (narrow `speeds`, `torques` or `temperatures`), which the tabulated model does not have at",
         value: inside.value,
     })
 }
@@ -213,15 +216,15 @@ impl GearMeshModel for Tabulated {
             return Ok(Loss::POWERS);
         }
         let Some(oil) = &at.part.oil else {
-            at.branch("no oil of its own: the tabulated model itself");
+            at.branch("no own oil: the tabulated model itself");
             return self.itself(at);
         };
-        let asked = Asked {
+        let direct = DirectModel {
             model: &self.of,
             part: at.part,
             lubricant: &oil.lubricant,
         };
-        let (table, [first, second]) = self.table(at, &asked)?;
+        let (table, [first, second]) = self.table(at, &direct)?;
         let speed = at.speed.abs();
         let place = table.place([speed, at.torque, 0.5 * (first + second)], &oil.lubricant);
         let farthest = place.iter().fold(
@@ -229,7 +232,7 @@ impl GearMeshModel for Tabulated {
             |far: f64, x| if (x - 0.5).abs() > (far - 0.5).abs() { *x } else { far },
         );
         if !(0.0..=1.0).contains(&at.check(&PLACE, farthest)) {
-            at.branch("beyond the ends of the table: the tabulated model itself");
+            at.branch("outside the table: the tabulated model itself");
             return self.itself(at);
         }
         let input = at.show("P_in", "W", at.torque * speed);
@@ -248,11 +251,11 @@ register!(GearMesh, "tabulated", Params,
     source: "derived; splines after de Boor, A Practical Guide to Splines",
     example: "{ type: tabulated, of: { type: path_integral, tooth_friction: { type: xu } } }",
     evidence: [
-        formula(Evidence::Derived, "interpolates the other model, with the error found beside it"),
-        default_of("speeds", Evidence::Assumed, "from creeping to the fastest electric motors"),
-        default_of("torques", Evidence::Assumed, "beyond what hardened teeth bear"),
-        default_of("temperatures", Evidence::Assumed, "of most gearboxes"),
-        default_of("nodes", Evidence::Derived, "leave some 0.5 % rms with `ehl_mixed` on two stages of an electric axle"),
-        default_of("checks", Evidence::Derived, "of other points some 1 % err more than the greatest of 100"),
+        formula(Evidence::Derived, "interpolates the other model; the measured error is reported"),
+        default_of("speeds", Evidence::Assumed, "from creeping speed to the fastest electric motors"),
+        default_of("torques", Evidence::Assumed, "beyond the capacity of hardened teeth"),
+        default_of("temperatures", Evidence::Assumed, "the range of most gearboxes"),
+        default_of("nodes", Evidence::Derived, "about 0.5 % rms error with `ehl_mixed` on two stages of an electric axle"),
+        default_of("checks", Evidence::Derived, "at about 1 % of other points the error exceeds the maximum of 100 check points"),
     ],
     limits: [PLACE, LEFT], terms: [TOTAL], observed: [GREATEST, RMS, SHARE], prepare: prepare);

@@ -1,8 +1,8 @@
-//! Mesh loss by the local tooth loss factor and a law of mean friction.
+//! Mesh loss from the local tooth loss factor and a mean friction law.
 //!
 //! Source: Wimmer 2006: P = P_in mu_m H_vL, H_vL = 1/p_et integral of K(x)/cos(beta_b) v_g/v_tb dx along the path of contact, v_tb
-//! the speed of the base circle. With halved load in double contact it equals the factor of Ohlendorf; it also holds where
-//! that one does not: pitch point off the path, more than two pairs, any sharing of the load.
+//! the speed of the base circle. With half of the load on each pair in double contact it equals the factor of Ohlendorf. It is also
+//! valid if the pitch point is outside the path of contact, for more than two pairs, and for any load sharing.
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::geometry::LoadSharing;
@@ -16,10 +16,10 @@ use serde::Deserialize;
 
 use super::factor::{Factor, LOSS_FACTOR, MU, SLIDING};
 
-/// Mesh loss by the local tooth loss factor and a law of mean friction.
+/// Mesh loss from the local tooth loss factor and a mean friction law.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
-    /// How pairs in contact at once share the load.
+    /// Load sharing among pairs of teeth in contact.
     #[serde(default)]
     pub load_sharing: LoadSharing,
     /// Law of the mean coefficient of friction.
@@ -73,7 +73,7 @@ mod tests {
 
     #[test]
     fn contact_lines_lie_between_rigid_and_even_share() {
-        // Overlap ratio 1.54: the lines' length varies by half as much as that of spur gears.
+        // Overlap ratio 1.54: the total length of the lines of contact varies half as much as that of spur gears.
         let factor = |sharing: &str| {
             loss_factor(
                 &serde_json::json!({ "type": "wimmer", "load_sharing": sharing }),

@@ -16,7 +16,7 @@ pub struct Air {
 
 impl Air {
     /// Air at a temperature in K.
-    pub fn at(kelvin: f64) -> Self {
+    pub fn at_temperature(kelvin: f64) -> Self {
         let mu = 1.458e-6 * kelvin.powf(1.5) / (kelvin + 110.4);
         let rho = 101_325.0 / (287.05 * kelvin);
         let conductivity = 0.02624 * (kelvin / 300.0).powf(0.8646);
@@ -34,7 +34,7 @@ mod tests {
 
     #[test]
     fn e4_air_at_50_degc() {
-        let air = Air::at(323.15);
+        let air = Air::at_temperature(323.15);
         assert!((air.nu / 1.78842e-5 - 1.0).abs() < 1e-5, "{}", air.nu);
         assert!((0.68..0.73).contains(&air.prandtl));
     }

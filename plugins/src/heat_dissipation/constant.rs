@@ -1,7 +1,7 @@
 //! A constant heat transfer coefficient over an area.
 //!
 //! Source: Q = alpha A (T_surface - T_sink); Concli 2015 measured 24.7 W/(m2 K) over the surface of a small planetary gearbox on
-//! its flange, with the temperature of the surface.
+//! its flange, based on the surface temperature.
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::Undefined;
@@ -15,14 +15,14 @@ use serde::{Deserialize, Serialize};
 
 use super::{needed, part};
 
-/// Which temperature the coefficient belongs to.
+/// Temperature that the coefficient refers to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Side {
-    /// That of the surface.
+    /// The surface temperature.
     #[default]
     Surface,
-    /// That of the oil.
+    /// The oil temperature.
     Oil,
 }
 
@@ -32,13 +32,13 @@ pub struct Params {
     /// Heat transfer coefficient. [W/(m2 K)]
     #[schemars(range(min = 0.0, max = 1e5))]
     pub alpha: f64,
-    /// Area; absent, that of the outside of the housing. [cm2]
+    /// Area; default: that of the housing outside. [cm2]
     #[schemars(range(min = 0.01, max = 1e8))]
     pub area: Option<f64>,
-    /// Which temperature the coefficient belongs to.
+    /// Temperature that the coefficient refers to.
     #[serde(default)]
     pub side: Side,
-    /// Temperature of what takes the heat, such as a flange; absent, that of the surroundings. [degC]
+    /// Temperature of the heat sink, such as a flange; default: the ambient temperature. [degC]
     #[schemars(range(min = -60.0, max = 250.0))]
     pub sink: Option<f64>,
 }
@@ -78,7 +78,7 @@ impl HeatDissipationModel for Constant {
 register!(HeatDissipation, "constant", Params,
     source: "Newton's law; Concli 2015, eq. 11",
     example: "{ type: constant, alpha: 24.7 W/(m2 K), area: 500 cm2 }",
-    evidence: [formula(Evidence::User, "the coefficient is the user's; one article measured 24.7")],
+    evidence: [formula(Evidence::User, "the user states the coefficient; one article measured 24.7")],
     prepare: prepare);
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! A finned part of the housing.
 //!
-//! Source: straight fins of constant thickness: eta_f = tanh(m L_c)/(m L_c), m = sqrt(2 alpha/(lambda t)), L_c = L + t/2; Q = alpha (A_base + eta_f
-//! A_fins) (T_surface - T_ambient); any textbook of heat transfer. It also serves shafts and feet, as fins of their own.
+//! Source: straight fins of constant thickness: eta_f = tanh(m L_c)/(m L_c), m = sqrt(2 alpha/(lambda t)), L_c = L + t/2; Q = alpha
+//! (A_base + eta_f A_fins) (T_surface - T_ambient); any textbook on heat transfer. Shafts and feet can be modelled as fins, too.
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::{Observed, Undefined};
@@ -27,7 +27,7 @@ pub struct Params {
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1e8))]
     pub base_area: f64,
-    /// Area of the fins, both sides. [cm2]
+    /// Total area of both sides of the fins. [cm2]
     #[schemars(range(min = 0.01, max = 1e8))]
     pub fin_area: f64,
     /// Length of the fins from the housing. [mm]
@@ -36,8 +36,8 @@ pub struct Params {
     /// Thickness of the fins. [mm]
     #[schemars(range(min = 0.1, max = 1e3))]
     pub fin_thickness: f64,
-    /// Heat transfer coefficient; absent, convection of the textbooks over the height and length of the housing, without
-    /// radiation. [W/(m2 K)]
+    /// Heat transfer coefficient; default: textbook convection over the height and length of the housing, without radiation.
+    /// [W/(m2 K)]
     #[schemars(range(min = 0.1, max = 1e5))]
     pub alpha: Option<f64>,
 }
@@ -66,7 +66,7 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Ready, Diagnostic> {
     })
 }
 
-/// Efficiency of a fin from coefficient, conductivity, thickness and length.
+/// Fin efficiency from heat transfer coefficient, conductivity, thickness and length.
 fn efficiency(alpha: f64, lambda: f64, t: f64, l: f64) -> f64 {
     let ml = (2.0 * alpha / (lambda * t)).sqrt() * (l + 0.5 * t);
     if ml < 1e-6 { 1.0 } else { ml.tanh() / ml }

@@ -1,6 +1,6 @@
-//! Overall heat transfer coefficients after ISO/TR 14179-1.
+//! Overall heat transfer coefficients according to ISO/TR 14179-1.
 //!
-//! Source: ISO/TR 14179-1:2001, as recalled: Q = k A (T_oil - T_ambient); k in W/(m2 K): small confined space, air of about 0.6 m/s, 10 to
+//! Source: ISO/TR 14179-1:2001, quoted from memory: Q = k A (T_oil - T_ambient); k in W/(m2 K): small confined space, air of about 0.6 m/s, 10 to
 //! 14; large indoor hall, 1.4 m/s, 16 to 20; outdoors, 3.7 m/s, 18 to 21; with a fan on the shaft 15, 24, 42, 58 at 2.5, 5, 10, 15 m/s, linear
 //! in between. A is the free outer surface that oil touches inside and air outside, without fins, bolts and foundation.
 
@@ -16,10 +16,10 @@ use serde::{Deserialize, Serialize};
 
 use super::{needed, part};
 
-const AIR: Limit = Limit::new(0, "v_air", "m/s", 2.5, 15.0, "table of the report, recalled");
+const AIR: Limit = Limit::new(0, "v_air", "m/s", 2.5, 15.0, "table of the report, quoted from memory");
 const FAN: [(f64, f64); 4] = [(2.5, 15.0), (5.0, 24.0), (10.0, 42.0), (15.0, 58.0)];
 
-/// Where the gearbox stands.
+/// Location of the gearbox.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Place {
@@ -30,17 +30,17 @@ pub enum Place {
     Indoor,
     /// Outdoors.
     Outdoor,
-    /// A fan on the shaft blows; the speed of the air is that of `housing.outside`.
+    /// A fan on the shaft; the air speed is that of `housing.outside`.
     ShaftFan,
 }
 
-/// Overall heat transfer coefficients by the place of the gearbox.
+/// Overall heat transfer coefficients by the location of the gearbox.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
-    /// Where the gearbox stands.
+    /// Location of the gearbox.
     #[serde(default)]
     pub place: Place,
-    /// Where in the range of the place the coefficient lies: 0 least, 1 greatest. [-]
+    /// Position within the range of the coefficient: 0 minimum, 1 maximum. [-]
     #[serde(default = "half")]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub within: f64,
@@ -52,7 +52,7 @@ fn half() -> f64 {
 
 struct Ready {
     k: f64,
-    /// Speed of the air of a fan.
+    /// Air speed of a fan.
     air: Option<f64>,
     area: f64,
 }
@@ -76,8 +76,8 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Ready, Diagnostic> {
         Place::ShaftFan if part.air_speed > 0.0 => (fan(part.air_speed), Some(part.air_speed)),
         Place::ShaftFan => {
             return Err(cx
-                .error("iso14179_1 needs the speed of the air that the fan blows")
-                .help("add `housing: { outside: { air_speed: 5 m/s } }` with your figure"));
+                .error("iso14179_1 requires the air speed of the fan")
+                .help("add `housing: { outside: { air_speed: 5 m/s } }` with your value"));
         }
     };
     Ok(Ready { k, air, area })
@@ -100,7 +100,7 @@ register!(HeatDissipation, "iso14179_1", Params,
     source: "ISO/TR 14179-1:2001",
     example: "{ type: iso14179_1 }",
     evidence: [
-        formula(Evidence::Recalled, "the table is recalled"),
+        formula(Evidence::Recalled, "table quoted from memory, not checked"),
         default_of("within", Evidence::Assumed, "the middle of the range"),
     ],
     limits: [AIR], prepare: prepare);

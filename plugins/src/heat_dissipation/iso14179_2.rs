@@ -1,11 +1,11 @@
-//! Heat of the housing after ISO/TR 14179-2 (Funck).
+//! Heat dissipation of the housing according to ISO/TR 14179-2 (Funck).
 //!
-//! Source: ISO/TR 14179-2:2001, after Funck 1985, partly recalled: Q = k A_ca (T_oil - T_ambient), 1/k = A_ca/(alpha_oil A_oil) + s/lambda +
+//! Source: ISO/TR 14179-2:2001, according to Funck 1985, partly quoted from memory: Q = k A_ca (T_oil - T_ambient), 1/k = A_ca/(alpha_oil A_oil) + s/lambda +
 //! 1/alpha_ca, alpha_ca = alpha_con + alpha_rad; alpha_rad = 0.23e-6 eps ((T_wall + T_amb)/2)^3; free: alpha_con = 18 h^-0.1 ((T_wall -
 //! T_amb)/T_amb)^0.3; forced: alpha_con = 0.0086 Re'^0.64/l_x, Re' = sqrt(Re^2 + Gr/2.5); T in K, lengths in m. T_wall follows from
-//! T_wall = T_amb + k (T_oil - T_amb)/alpha_ca, here in three steps from the temperature of the oil.
+//! T_wall = T_amb + k (T_oil - T_amb)/alpha_ca, here in three iterations from the oil temperature.
 //!
-//! Free convection comes out at about twice the textbooks' value: the air of a workshop moves.
+//! Its free convection is about twice the textbook value, because the air in a workshop moves.
 
 use gearloss_framework::coefficients;
 use gearloss_framework::document::Diagnostic;
@@ -37,18 +37,18 @@ coefficients! {
         free_factor = 18.0, in 9.0..=36.0;
         /// Exponent of the height in m in free convection.
         height_exponent = -0.1, in -0.2..=-0.05;
-        /// Exponent of the difference of temperature over the ambient in free convection.
+        /// Exponent of the temperature difference over the ambient temperature in free convection.
         difference_exponent = 0.3, in 0.15..=0.6;
         /// Factor of forced convection.
         forced_factor = 0.0086, in 0.0043..=0.0172;
         /// Exponent of the Reynolds number in forced convection.
         forced_exponent = 0.64, in 0.32..=0.9;
-        /// Divisor of the Grashof number that adds to the squared Reynolds number.
+        /// Divisor of the Grashof number, which is added to the squared Reynolds number.
         buoyancy_divisor = 2.5, in 1.25..=5.0;
     }
 }
 
-/// Heat of the housing with free or forced convection, radiation, wall and oil inside.
+/// Heat dissipation of the housing with free or forced convection, radiation, wall and oil inside.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
     /// Heat transfer coefficient from splashing oil to the wall. [W/(m2 K)]
@@ -56,7 +56,7 @@ pub struct Params {
     #[schemars(range(min = 1.0, max = 1e5))]
     pub alpha_oil: f64,
     /// Factor on convection to the air. [-]
-    #[serde(default = "one")]
+    #[serde(default = "default_one")]
     #[schemars(range(min = 0.01, max = 100.0))]
     pub factor: f64,
     #[serde(default)]
@@ -67,7 +67,7 @@ fn splash() -> f64 {
     200.0
 }
 
-fn one() -> f64 {
+fn default_one() -> f64 {
     1.0
 }
 
@@ -76,7 +76,7 @@ struct Ready {
     part: HousingPart,
     area: f64,
     oil_area: f64,
-    /// Height for free convection, length along the flow for forced.
+    /// Height for free convection, length along the flow for forced convection.
     size: f64,
 }
 
@@ -121,7 +121,7 @@ fn radiation(emissivity: f64, wall: f64, ambient: f64) -> f64 {
     0.23e-6 * emissivity * (0.5 * (wall + ambient)).powi(3)
 }
 
-/// k over the outside; alpha of oil and air, areas, wall thickness over conductivity. \[W/(m2 K)\]
+/// k over the outside area; alpha of oil and air, areas, wall thickness over conductivity. \[W/(m2 K)\]
 fn overall(alpha_oil: f64, alpha_ca: f64, area: f64, oil_area: f64, wall: f64) -> f64 {
     1.0 / (area / (alpha_oil * oil_area) + wall + 1.0 / alpha_ca)
 }
@@ -137,7 +137,7 @@ impl HeatDissipationModel for Ready {
         let (mut wall, mut k, mut alpha) = (oil, 0.0, 0.0);
         for _ in 0..3 {
             let convection = if self.part.air_speed > 0.0 {
-                let air = Air::at(0.5 * (wall + ambient));
+                let air = Air::at_temperature(0.5 * (wall + ambient));
                 forced(
                     &self.params.coefficients,
                     self.part.air_speed,
@@ -151,7 +151,7 @@ impl HeatDissipationModel for Ready {
             };
             alpha = self.params.factor * convection + radiation(self.part.emissivity, wall, ambient);
             if alpha <= 0.0 {
-                // No difference of temperature, still air and no radiation: nothing flows.
+                // Equal temperatures, still air and no radiation: no heat flows.
                 return Ok(0.0);
             }
             k = overall(self.params.alpha_oil, alpha, self.area, self.oil_area, wall_resistance);
@@ -165,10 +165,10 @@ impl HeatDissipationModel for Ready {
 }
 
 register!(HeatDissipation, "iso14179_2", Params,
-    source: "ISO/TR 14179-2:2001, after Funck",
+    source: "ISO/TR 14179-2:2001, according to Funck",
     example: "{ type: iso14179_2 }",
     evidence: [
-        formula(Evidence::Recalled, "free and forced convection are recalled; radiation is derived"),
+        formula(Evidence::Recalled, "free and forced convection quoted from memory, not checked; radiation derived"),
         default_of("alpha_oil", Evidence::Recalled, "dip lubrication, about 200"),
     ],
     observed: [WALL, ALPHA], prepare: prepare);

@@ -1,7 +1,7 @@
-//! An oil cooler by its effectiveness.
+//! An oil cooler, described by its effectiveness.
 //!
-//! Source: effectiveness and number of transfer units, textbooks (Kays and London): C = rho c_p V', Q = eps C_min (T_oil - T_cold,in), as for
-//! heat exchangers of a thermal network.
+//! Source: effectiveness and number of transfer units, textbooks (Kays and London): C = rho c_p V', Q = eps C_min (T_oil -
+//! T_cold,in), as for the heat exchangers of a thermal network.
 
 use gearloss_framework::loss::{Observed, Undefined};
 use gearloss_framework::mechanism::heat_dissipation::{
@@ -15,7 +15,7 @@ use serde::Deserialize;
 
 const EFFECTIVENESS: Observed = Observed::new(0, "eps", "-", "Effectiveness of the cooler.");
 
-/// An oil cooler by its effectiveness.
+/// An oil cooler, described by its effectiveness.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct OilCooler {
     /// Conductance between oil and coolant, UA. [W/K]
@@ -27,7 +27,7 @@ pub struct OilCooler {
     /// Flow of the coolant. [l/min]
     #[schemars(range(min = 0.001, max = 1e7))]
     pub coolant_flow: f64,
-    /// Temperature at which the coolant comes in. [degC]
+    /// Inlet temperature of the coolant. [degC]
     #[schemars(range(min = -60.0, max = 200.0))]
     pub coolant_temperature: f64,
     /// Density of the coolant. [kg/m3]
@@ -38,7 +38,7 @@ pub struct OilCooler {
     #[serde(default = "glycol_heat")]
     #[schemars(range(min = 500.0, max = 5000.0))]
     pub coolant_heat_capacity: f64,
-    /// How oil and coolant flow.
+    /// Flow arrangement of oil and coolant.
     #[serde(default)]
     pub arrangement: Arrangement,
 }

@@ -1,9 +1,9 @@
-//! Free and forced convection with radiation, as textbooks have them.
+//! Textbook free and forced convection with radiation.
 //!
-//! Source: free convection at a vertical wall after Churchill and Chu 1975, Nu = (0.825 + 0.387 Ra^(1/6)/(1 + (0.492/Pr)^(9/16))^(8/27))^2; forced
-//! convection along a plate, laminar Nu = 0.664 Re^0.5 Pr^(1/3), from Re = 5e5 on with a laminar beginning Nu = (0.037 Re^0.8 - 871) Pr^(1/3), which
-//! goes on where the laminar law ends; mixed (alpha_f^3 + alpha_n^3)^(1/3); radiation eps sigma (T_w^2 + T_a^2)(T_w + T_a). Air at the mean
-//! temperature of wall and surroundings.
+//! Source: free convection at a vertical wall according to Churchill and Chu 1975, Nu = (0.825 + 0.387 Ra^(1/6)/(1 + (0.492/Pr)^(9/16))^(8/27))^2; forced
+//! convection along a plate, laminar Nu = 0.664 Re^0.5 Pr^(1/3), above Re = 5e5 with a laminar leading part Nu = (0.037 Re^0.8 -
+//! 871) Pr^(1/3), which joins the laminar law continuously; combined (alpha_f^3 + alpha_n^3)^(1/3); radiation eps sigma (T_w^2 +
+//! T_a^2)(T_w + T_a). Air at the mean temperature of wall and surroundings.
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::{Limit, Observed, Undefined};
@@ -25,12 +25,12 @@ const ALPHA: Observed = Observed::new(0, "alpha", "W/(m2 K)", "Heat transfer coe
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
     /// Factor on convection, such as 2 for the moving air of a workshop. [-]
-    #[serde(default = "one")]
+    #[serde(default = "default_one")]
     #[schemars(range(min = 0.01, max = 100.0))]
     pub factor: f64,
 }
 
-fn one() -> f64 {
+fn default_one() -> f64 {
     1.0
 }
 
@@ -60,7 +60,7 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Ready, Diagnostic> {
     })
 }
 
-/// Length along the flow; it only counts where air moves.
+/// Length along the flow; used only with moving air.
 pub(super) fn length(part: &HousingPart, model: &str, cx: &Build<'_>) -> Result<f64, Diagnostic> {
     match part.length {
         None if part.air_speed == 0.0 => Ok(1.0),
@@ -98,5 +98,5 @@ impl HeatDissipationModel for Ready {
 register!(HeatDissipation, "textbook", Params,
     source: "Churchill and Chu 1975; flat plate; Stefan-Boltzmann",
     example: "{ type: textbook }",
-    evidence: [formula(Evidence::SeveralSources, "textbooks agree; a housing is no plate")],
+    evidence: [formula(Evidence::SeveralSources, "textbooks agree; a housing is not a flat plate")],
     limits: [RAYLEIGH], observed: [ALPHA], prepare: prepare);

@@ -1,13 +1,14 @@
-//! Gap between a shaft or rotor that turns and its bore, such as that of an electric motor.
+//! Gap between a rotating shaft or rotor and its bore, such as the air gap of an electric motor.
 //!
-//! Source: Becker and Kaye, J. Heat Transfer 84 (1962) 97-104, recalled: with Ta^2 = omega^2 r_m d^3/nu^2, r_m = r_i + d/2 and the factor of the
-//! gap F_g, X = Ta^2/F_g gives Nu = 2 below 1700, 0.128 X^0.367 up to 1e4, 0.409 X^0.241 up to 1e7; alpha = Nu k/(2 d) belongs to the whole
-//! difference between rotor and bore and counts on the mean circumference. Nu = 2 is conduction through the gap.
+//! Source: Becker and Kaye, J. Heat Transfer 84 (1962) 97-104, quoted from memory: with Ta^2 = omega^2 r_m d^3/nu^2, r_m = r_i + d/2 and the
+//! gap factor F_g, X = Ta^2/F_g gives Nu = 2 below 1700, 0.128 X^0.367 up to 1e4, 0.409 X^0.241 up to 1e7; alpha = Nu k/(2 d)
+//! refers to the total temperature difference between rotor and bore, with the area at the mean circumference. Nu = 2 is conduction
+//! through the gap.
 //!
-//! The data are for air. In oil the two upper branches count (Pr/0.7)^0.3 times more, after Aoki, Nohira and Arai, Bull. JSME 10 (1967)
-//! 523-532, recalled, who measured from X = 5e3 on; from the onset of vortices to there the exponent rises from zero, so that nothing
-//! jumps. No flow along the gap, smooth surfaces; slots raise the heat. The oil counts with its values at the mean temperature of both
-//! ends; a mixture with air is between both by volume, its heat by mass.
+//! The data are for air. In oil the two upper branches are multiplied by (Pr/0.7)^0.3 according to Aoki, Nohira and Arai, Bull. JSME 10
+//! (1967) 523-532, quoted from memory, who measured from X = 5e3 on. Between the onset of vortices and that value the exponent rises from
+//! zero, so that the law is continuous. No axial flow, smooth surfaces; slots increase the heat transfer. Oil properties are taken
+//! at the mean temperature of both nodes; properties of a mixture with air are weighted by volume, its specific heat by mass.
 
 use std::f64::consts::PI;
 
@@ -21,54 +22,54 @@ use serde::{Deserialize, Serialize};
 
 use super::oil;
 
-const TAYLOR: Limit = Limit::new(0, "Ta^2/F_g", "-", 0.0, 1e7, "Becker and Kaye 1962, recalled");
+const TAYLOR: Limit = Limit::new(0, "Ta^2/F_g", "-", 0.0, 1e7, "Becker and Kaye 1962, quoted from memory");
 const NUSSELT: Observed = Observed::new(0, "Nu", "-", "Nusselt number over twice the gap.");
 const ALPHA: Observed = Observed::new(
     1,
     "alpha",
     "W/(m2 K)",
-    "Heat transfer coefficient for the whole difference of temperature.",
+    "Heat transfer coefficient for the total temperature difference.",
 );
 
 /// Onset of vortices in the gap.
 const ONSET: f64 = 1700.0;
-/// Where the second branch of vortices begins.
+/// Start of the second vortex branch.
 const DEVELOPED: f64 = 1e4;
-/// Prandtl number of the air of the data.
+/// Prandtl number of air in the data.
 const OF_AIR: f64 = 0.7;
-/// Least X of the data in liquids.
+/// Minimum X of the data for liquids.
 const LIQUIDS: f64 = 5e3;
 
-/// Which part of the gap the link crosses.
+/// Part of the gap that the link crosses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Sides {
     /// From the rotor to the bore.
     #[default]
     Both,
-    /// From one of them to a node in the middle of the gap, such as the oil in it: twice the coefficient.
+    /// From rotor or bore to a node in the middle of the gap, such as the oil in it: twice the coefficient.
     One,
 }
 
-/// Gap between a shaft or rotor that turns and its bore.
+/// Gap between a rotating shaft or rotor and its bore.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
     /// Radius of the rotor. [mm]
     #[schemars(range(min = 1.0, max = 1e4))]
     pub radius: f64,
-    /// Gap, radially. [mm]
+    /// Radial gap. [mm]
     #[schemars(range(min = 0.01, max = 1000.0))]
     pub gap: f64,
     /// Length of the gap. [mm]
     #[schemars(range(min = 1.0, max = 1e4))]
     pub length: f64,
-    /// Share of oil in the volume of the gap: 0 air, 1 full of oil. [-]
+    /// Volume fraction of oil in the gap: 0 air, 1 full of oil. [-]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub oil_fraction: f64,
-    /// Which part of the gap the link crosses.
+    /// Part of the gap that the link crosses.
     #[serde(default)]
     pub sides: Sides,
-    /// Vortices in oil carry more heat than in air, by its Prandtl number.
+    /// Apply the Prandtl number correction: vortices in oil transfer more heat than in air.
     #[serde(default = "yes")]
     pub prandtl_correction: bool,
 }
@@ -83,7 +84,7 @@ struct Annulus {
     factor: f64,
 }
 
-/// Factor of the gap F_g, about one for thin gaps, from gap over mean radius.
+/// Gap factor F_g from gap over mean radius, about one for thin gaps.
 fn gap_factor(ratio: f64) -> f64 {
     let inner = 1.0 - 0.5 * ratio;
     let p = 1.0 - 0.652 * ratio / inner;
@@ -91,7 +92,7 @@ fn gap_factor(ratio: f64) -> f64 {
     PI.powi(4) / 1697.0 / (p * inner * inner)
 }
 
-/// Nusselt number over twice the gap from X = Ta^2/F_g, with a factor of the vortices by the Prandtl number.
+/// Nusselt number over twice the gap from X = Ta^2/F_g, with a Prandtl number factor on the vortices.
 fn nusselt(x: f64, prandtl: f64) -> f64 {
     if x <= ONSET {
         return 2.0;
@@ -102,14 +103,14 @@ fn nusselt(x: f64, prandtl: f64) -> f64 {
         0.409 * x.powf(0.241)
     };
     let risen = ((x / ONSET).ln() / (LIQUIDS / ONSET).ln()).min(1.0);
-    // The branches meet within 2 %; vortices do not take away from conduction.
+    // The branches meet within 2 %; vortices do not reduce conduction.
     (air * (prandtl / OF_AIR).powf(0.3 * risen)).max(2.0)
 }
 
 fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Annulus, Diagnostic> {
     if params.gap > params.radius {
         return Err(cx
-            .error("the gap is wider than the radius of the rotor, which no data cover")
+            .error("the gap exceeds the rotor radius; no data cover this")
             .help("check the units of `gap` and `radius`"));
     }
     let mean_radius = params.radius + 0.5 * params.gap;
@@ -149,9 +150,9 @@ register!(HeatLink, "annulus", Params,
     source: "Becker, Kaye, J. Heat Transfer 84 (1962) 97-104",
     example: "{ type: annulus, radius: 75 mm, gap: 0.8 mm, length: 134 mm, oil_fraction: 0.2 }",
     evidence: [
-        formula(Evidence::Recalled, "recalled; the branches join within 2 %, which supports the constants"),
-        default_of("sides", Evidence::User, "a link of the rotor with the stator"),
-        default_of("prandtl_correction", Evidence::Recalled, "Aoki, Nohira, Arai 1967; how it sets in is assumed"),
+        formula(Evidence::Recalled, "quoted from memory, not checked; the branches join within 2 %, which supports the constants"),
+        default_of("sides", Evidence::User, "a link from rotor to stator"),
+        default_of("prandtl_correction", Evidence::Recalled, "Aoki, Nohira, Arai 1967; its onset is assumed"),
     ],
     limits: [TAYLOR], observed: [NUSSELT, ALPHA], prepare: prepare);
 
@@ -198,7 +199,7 @@ mod tests {
             close(nusselt(taylor / factor, OF_AIR), nusselt_number);
             let area = 2.0 * PI * mean * 0.134;
             close(link(gap(Sides::Both), rpm, nu), h * area);
-            // Two links to a node in the middle, one behind the other, are the whole gap.
+            // Two links in series through a node in the middle equal the whole gap.
             close(0.5 * link(gap(Sides::One), rpm, nu), h * area);
         }
     }
@@ -234,6 +235,6 @@ mod tests {
             gap: 0.1,
             ..gap(Sides::Both)
         };
-        assert!(built(prepare, wide).err().unwrap().contains("wider"));
+        assert!(built(prepare, wide).err().unwrap().contains("exceeds"));
     }
 }

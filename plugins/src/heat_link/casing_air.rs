@@ -1,11 +1,11 @@
-//! Casing to the air: free and forced convection with radiation.
+//! Casing to ambient air: free and forced convection with radiation.
 //!
-//! Sources: free convection at a vertical plate or about a cylinder that lies, Churchill and Chu 1975; forced convection along a plate,
-//! Nu = 0.664 Re^0.5 Pr^(1/3), from Re = 5e5 on (0.037 Re^0.8 - 871) Pr^(1/3); both together alpha^3 = alpha_n^3 + alpha_f^3; radiation
-//! eps sigma (T_1^2 + T_2^2)(T_1 + T_2). Air at the mean temperature of both ends; it does not matter which end is the casing.
+//! Sources: free convection at a vertical plate or about a horizontal cylinder, Churchill and Chu 1975; forced convection along a
+//! plate, Nu = 0.664 Re^0.5 Pr^(1/3), above Re = 5e5 (0.037 Re^0.8 - 871) Pr^(1/3); combined alpha^3 = alpha_n^3 + alpha_f^3;
+//! radiation eps sigma (T_1^2 + T_2^2)(T_1 + T_2). Air at the mean temperature of both nodes; the law is symmetric in the nodes.
 //!
-//! A vehicle blows with a share of its speed, 0.3 to 0.7 under its floor. A casing is no plate and its ribs are not in it: a factor of
-//! two either way is common. The ends of a cylinder count with its `area`.
+//! In a vehicle the air speed is a share of the vehicle speed, 0.3 to 0.7 under the floor. A casing is not a flat plate and its
+//! ribs are not modelled: a factor of two in either direction is common. The end faces of a cylinder are included in its `area`.
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::{Limit, Observed, Undefined};
@@ -23,31 +23,31 @@ const RAYLEIGH: Limit = Limit::new(0, "Ra", "-", 0.0, 1e12, "Churchill and Chu 1
 const ALPHA: Observed = Observed::new(0, "alpha", "W/(m2 K)", "Heat transfer coefficient with radiation.");
 const AIR: Observed = Observed::new(1, "u", "m/s", "Speed of the air along the casing.");
 
-/// Casing to the air: free and forced convection with radiation.
+/// Casing to ambient air: free and forced convection with radiation.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
     /// Shape for free convection.
     #[serde(default)]
     pub shape: Shape,
-    /// Area that gives heat to the air; absent, that of the housing. [cm2]
+    /// Area that dissipates heat to the air; default: that of the housing. [cm2]
     #[schemars(range(min = 0.1, max = 1e8))]
     pub area: Option<f64>,
-    /// Height of a plate; absent, that of the housing. [mm]
+    /// Height of a plate; default: that of the housing. [mm]
     #[schemars(range(min = 1.0, max = 1e5))]
     pub height: Option<f64>,
     /// Diameter of a cylinder. [mm]
     #[schemars(range(min = 1.0, max = 1e5))]
     pub diameter: Option<f64>,
-    /// Length along the flow of the air; absent, that of the housing. [mm]
+    /// Length along the air flow; default: that of the housing. [mm]
     #[schemars(range(min = 1.0, max = 1e5))]
     pub length: Option<f64>,
-    /// Emissivity: 0.9 painted, 0.1 to 0.3 bare aluminium; absent, that of the housing. [-]
+    /// Emissivity: 0.9 painted, 0.1 to 0.3 bare aluminium; default: that of the housing. [-]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub emissivity: Option<f64>,
-    /// Speed of the air while the vehicle stands; absent, that of the housing, else still. [m/s]
+    /// Air speed with the vehicle at standstill; default: that of the housing, else still air. [m/s]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub air_speed: Option<f64>,
-    /// Share of the speed of the vehicle that the air has along the casing. [-]
+    /// Ratio of air speed along the casing to vehicle speed. [-]
     #[serde(default = "under_the_floor")]
     #[schemars(range(min = 0.0, max = 2.0))]
     pub vehicle_share: f64,
@@ -74,25 +74,25 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Casing, Diagnostic> {
         (Shape::Cylinder, None, Some(diameter)) => diameter,
         (Shape::Cylinder, None, None) => {
             return Err(cx
-                .error("the link needs the diameter of the cylinder")
-                .help("write `diameter: 250 mm` with your figure, or `shape: plate`"));
+                .error("the link requires the diameter of the cylinder")
+                .help("write `diameter: 250 mm` with your value, or `shape: plate`"));
         }
         (Shape::Plate, _, Some(_)) => {
             return Err(cx
                 .error("a plate has no diameter")
-                .help("write `shape: cylinder`, or leave `diameter` out"));
+                .help("write `shape: cylinder`, or omit `diameter`"));
         }
         (Shape::Cylinder, Some(_), _) => {
             return Err(cx
-                .error("a cylinder that lies has no height of its own")
-                .help("write its `diameter` in place of `height`"));
+                .error("a horizontal cylinder has no `height`")
+                .help("write `diameter` instead of `height`"));
         }
     };
     let air_speed = params
         .air_speed
         .or_else(|| part(cx).housing.map(|h| h.air_speed))
         .unwrap_or(0.0);
-    // The length only counts where air moves.
+    // The length matters only with moving air.
     let length = if air_speed == 0.0 && params.vehicle_share == 0.0 {
         params.length.unwrap_or(size)
     } else {
@@ -139,9 +139,9 @@ register!(HeatLink, "casing_air", Params,
     source: "Churchill and Chu 1975; flat plate; Stefan-Boltzmann",
     example: "{ type: casing_air }",
     evidence: [
-        formula(Evidence::SeveralSources, "textbooks agree; a casing is no plate"),
-        default_of("shape", Evidence::Assumed, "the walls of a casing stand"),
-        default_of("vehicle_share", Evidence::Assumed, "in the middle of 0.3 to 0.7 under the floor of a car"),
+        formula(Evidence::SeveralSources, "textbooks agree; a casing is not a flat plate"),
+        default_of("shape", Evidence::Assumed, "casing walls are mostly vertical"),
+        default_of("vehicle_share", Evidence::Assumed, "middle of 0.3 to 0.7 under the floor of a car"),
     ],
     limits: [RAYLEIGH], observed: [ALPHA, AIR], prepare: prepare);
 
@@ -275,7 +275,7 @@ mod tests {
             let error = built(prepare, params).err().unwrap();
             assert!(error.contains(words), "{error}");
         }
-        // In still air the length does not count.
+        // In still air the length does not matter.
         let still = Params {
             length: None,
             vehicle_share: 0.0,

@@ -1,6 +1,6 @@
-//! Conduction along a shaft, through a wall or another body of one cross-section.
+//! Conduction along a shaft, through a wall or another body of constant cross-section.
 //!
-//! Source: Fourier's law, R = l/(k A). One dimension: the heat enters and leaves over the whole cross-section.
+//! Source: Fourier's law, R = l/(k A). One-dimensional: the heat enters and leaves over the whole cross-section.
 
 use std::f64::consts::PI;
 
@@ -14,19 +14,19 @@ use serde::Deserialize;
 
 use super::STEEL;
 
-/// Conduction along a shaft, through a wall or another body of one cross-section.
+/// Conduction along a shaft, through a wall or another body of constant cross-section.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
-    /// Length on the way of the heat. [mm]
+    /// Length of the heat path. [mm]
     #[schemars(range(min = 0.001, max = 1e5))]
     pub length: f64,
-    /// Area of the cross-section; or its `diameter`. [mm2]
+    /// Cross-section area, unless `diameter` is given. [mm2]
     #[schemars(range(min = 0.001, max = 1e9))]
     pub area: Option<f64>,
     /// Diameter of a shaft. [mm]
     #[schemars(range(min = 0.01, max = 1e4))]
     pub diameter: Option<f64>,
-    /// Bore of a shaft; absent, it is solid. [mm]
+    /// Bore of a shaft; default: it is solid. [mm]
     #[schemars(range(min = 0.0, max = 1e4))]
     pub inner_diameter: Option<f64>,
     /// Thermal conductivity: 46 steel, 50 grey cast iron, 150 cast aluminium, 390 copper. [W/(m K)]
@@ -50,13 +50,13 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Conduction, Diagnostic>
         (None, Some(diameter)) if bore < diameter => 0.25 * PI * (diameter * diameter - bore * bore),
         (None, Some(_)) => {
             return Err(cx
-                .error("the bore is as wide as the shaft")
-                .help("make `inner_diameter` less than `diameter`"));
+                .error("the bore is not smaller than the shaft diameter")
+                .help("reduce `inner_diameter` below `diameter`"));
         }
         (None, None) => {
             return Err(cx
-                .error("the link needs its cross-section")
-                .help("write `diameter: 40 mm` or `area: 500 mm2` with your figure"));
+                .error("the link requires a cross-section")
+                .help("write `diameter: 40 mm` or `area: 500 mm2` with your value"));
         }
         (Some(_), _) => {
             return Err(cx
@@ -80,7 +80,7 @@ register!(HeatLink, "conduction", Params,
     example: "{ type: conduction, length: 120 mm, diameter: 40 mm }",
     evidence: [
         formula(Evidence::SeveralSources, "textbooks agree"),
-        default_of("conductivity", Evidence::SeveralSources, "hardened steel; alloyed steels from 30 on"),
+        default_of("conductivity", Evidence::SeveralSources, "hardened steel; 30 and more for alloyed steels"),
     ],
     prepare: prepare);
 
@@ -107,7 +107,7 @@ mod tests {
         close(1.0 / solid.conductance, 2.075934);
         let of_area = built(prepare, shaft(Some(PI * 4e-4), None, None)).unwrap();
         close(of_area.conductance, solid.conductance);
-        // A bore of half the diameter takes a quarter of the section.
+        // A bore of half the diameter removes a quarter of the section.
         let hollow = built(prepare, shaft(None, Some(0.040), Some(0.020))).unwrap();
         close(hollow.conductance, 0.75 * solid.conductance);
     }

@@ -1,12 +1,12 @@
-//! Oil that wets the teeth and is flung off: the heat that it takes with each turn.
+//! Centrifugal film cooling of wetted teeth: the heat removed in each revolution.
 //!
-//! Source: DeWinter and Blok, J. Eng. Ind. 96 (1974) 60-70, as used by Townsend and Akin, J. Mech. Des. 103 (1981) 219-226: a film on a
-//! flank drains under omega^2 R until it is as thin as the heat has come, t* = sqrt(nu H/(chi omega^2 R)); up to then it has taken
-//! q sqrt(k rho c t*) for each degree, so alpha = sqrt(omega)/(2 pi) sqrt(k rho c) (nu H/(chi R))^(1/4) q, over the flanks of all teeth. The
-//! oil counts with its values at the mean temperature of both ends.
+//! Source: DeWinter and Blok, J. Eng. Ind. 96 (1974) 60-70, as used by Townsend and Akin, J. Mech. Des. 103 (1981) 219-226: a film
+//! on a flank drains under omega^2 R until its thickness equals the thermal penetration depth, t* = sqrt(nu H/(chi omega^2 R));
+//! until then it has absorbed q sqrt(k rho c t*) per kelvin, so alpha = sqrt(omega)/(2 pi) sqrt(k rho c) (nu H/(chi R))^(1/4) q,
+//! over the flanks of all teeth. Oil properties are taken at the mean temperature of both nodes.
 //!
-//! Only for gears that a jet or the sump wets anew in each turn. Some write omega in front of the root: that form has omega^2 in the
-//! bracket as well, mixed they do not have the dimension of a heat transfer coefficient.
+//! Only for gears that are wetted by a jet or the sump in every revolution. Some authors write omega in front of the root: that
+//! form has omega^2 in the bracket as well; a mixture of both does not have the dimension of a heat transfer coefficient.
 
 use std::f64::consts::{PI, TAU};
 
@@ -28,36 +28,36 @@ const ALPHA: Observed = Observed::new(
     "Heat transfer coefficient on the wetted flanks.",
 );
 
-/// Oil that wets the teeth and is flung off, from gear to oil.
+/// Centrifugal film cooling of wetted teeth, from gear to oil.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
-    /// Number of teeth; absent, that of the gear. [-]
+    /// Number of teeth; default: that of the gear. [-]
     #[schemars(range(min = 1.0, max = 2000.0))]
     pub teeth: Option<f64>,
-    /// Height of the teeth; absent, that of the gear. [mm]
+    /// Tooth height; default: that of the gear. [mm]
     #[schemars(range(min = 0.05, max = 500.0))]
     pub tooth_height: Option<f64>,
-    /// Diameter of the pitch circle; absent, that of the gear. [mm]
+    /// Pitch diameter; default: that of the gear. [mm]
     #[schemars(range(min = 1.0, max = 10000.0))]
     pub pitch_diameter: Option<f64>,
-    /// Face width; absent, that of the gear. [mm]
+    /// Face width; default: that of the gear. [mm]
     #[schemars(range(min = 0.1, max = 2000.0))]
     pub facewidth: Option<f64>,
-    /// Wetted flanks of each tooth. [-]
-    #[serde(default = "one")]
+    /// Number of wetted flanks per tooth. [-]
+    #[serde(default = "default_one")]
     #[schemars(range(min = 1, max = 2))]
     pub flanks: u32,
-    /// Heat that the film takes over sqrt(k rho c t*), for each degree. [-]
+    /// Normalised cooling q: heat absorbed by the film over sqrt(k rho c t*), per kelvin. [-]
     #[serde(default = "half_space")]
     #[schemars(range(min = 0.1, max = 3.0))]
     pub normalised_cooling: f64,
 }
 
-fn one() -> u32 {
+fn default_one() -> u32 {
     1
 }
 
-/// A half space that takes heat until t*.
+/// Half space that absorbs heat until t*.
 fn half_space() -> f64 {
     2.0 / PI.sqrt()
 }
@@ -80,14 +80,14 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<FlingOff, Diagnostic> {
     let tooth_height = of_gear(
         params.tooth_height,
         |g| g.tooth_height,
-        "the height of the teeth",
+        "the tooth height",
         "tooth_height: 4 mm",
         cx,
     )?;
     let pitch_diameter = of_gear(
         params.pitch_diameter,
         |g| g.pitch_diameter,
-        "the diameter of the pitch circle",
+        "the pitch diameter",
         "pitch_diameter: 60 mm",
         cx,
     )?;
@@ -106,7 +106,7 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<FlingOff, Diagnostic> {
     })
 }
 
-/// Heat transfer coefficient from height and radius of the teeth (m), speed (rad/s) and normalised cooling. \[W/(m2 K)\]
+/// Heat transfer coefficient from tooth height and radius (m), speed (rad/s) and normalised cooling. \[W/(m2 K)\]
 fn coefficient(oil: &Fluid, height: f64, radius: f64, speed: f64, cooling: f64) -> f64 {
     let effusivity = (oil.conductivity * oil.density * oil.heat_capacity).sqrt();
     speed.sqrt() / TAU * effusivity * (oil.prandtl() * height / radius).sqrt().sqrt() * cooling
@@ -129,7 +129,7 @@ register!(HeatLink, "fling_off", Params,
     source: "DeWinter, Blok, J. Eng. Ind. 96 (1974) 60-70",
     example: "{ type: fling_off }",
     evidence: [
-        formula(Evidence::Reconstructed, "structure of the article, scale derived"),
+        formula(Evidence::Reconstructed, "structure from the article, scale derived"),
         default_of("flanks", Evidence::Assumed, "a jet or the sump wets one side"),
         default_of("normalised_cooling", Evidence::Derived, "half space until t*; tables of the literature have 0.6 to 1.2"),
     ],
@@ -185,7 +185,7 @@ mod tests {
         };
         let error = built(prepare, params).err().unwrap();
         assert!(
-            error.contains("height of the teeth") && error.contains("tooth_height: 4 mm"),
+            error.contains("tooth height") && error.contains("tooth_height: 4 mm"),
             "{error}"
         );
     }

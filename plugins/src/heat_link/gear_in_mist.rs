@@ -1,12 +1,12 @@
-//! A gear that turns in oil, air or a mist of both: its sides and its toothed face.
+//! A gear rotating in oil, air or a mist of both: its sides and its toothed face.
 //!
 //! Sources: Olver, IMechE G 205 (1991) 35-43 (sides and track of a gear); rotating disc in free fluid, laminar and turbulent; rotating
-//! cylinder after Becker, Int. J. Heat Mass Transfer 6 (1963) 1053-1062, Nu = 0.133 Re^(2/3) Pr^(1/3) with the diameter and the speed of
-//! the surface, 1e3 < Re < 1e5. The mist has properties between those of oil and air by volume, its heat by mass. At rest nothing is
-//! exchanged: free convection is not in it.
+//! cylinder according to Becker, Int. J. Heat Mass Transfer 6 (1963) 1053-1062, Nu = 0.133 Re^(2/3) Pr^(1/3) with the diameter and the speed of
+//! the surface, 1e3 < Re < 1e5. Mist properties are weighted by volume, its specific heat by mass. At standstill the heat transfer
+//! is zero: free convection is not included.
 //!
-//! The least certain of all links: the pinion of a small stage at 2000 rpm has 0.064 K/W in pure oil and about 3 K/W in air. Some write
-//! Becker's Reynolds number twice as large, which gives 1.6 times the heat on the toothed face.
+//! The least certain of all links: the pinion of a small stage at 2000 rpm has 0.064 K/W in pure oil and about 3 K/W in air. Some
+//! authors use twice Becker's Reynolds number, which gives 1.6 times the heat transfer on the toothed face.
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::{Limit, Undefined};
@@ -21,20 +21,20 @@ use crate::rotating::Body;
 
 const REYNOLDS: Limit = Limit::new(0, "Re_D", "-", 1e3, 1e5, "Becker 1963, toothed face as a cylinder");
 
-/// A gear that turns in oil, air or a mist of both: its sides and its toothed face.
+/// A gear rotating in oil, air or a mist of both: its sides and its toothed face.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
-    /// Tip diameter; absent, that of the gear. [mm]
+    /// Tip diameter; default: that of the gear. [mm]
     #[schemars(range(min = 1.0, max = 10000.0))]
     pub tip_diameter: Option<f64>,
-    /// Face width; absent, that of the gear. [mm]
+    /// Face width; default: that of the gear. [mm]
     #[schemars(range(min = 0.1, max = 2000.0))]
     pub facewidth: Option<f64>,
-    /// Share of oil in the volume of the mist: 0.02 to 0.2 splash, 1 submerged. [-]
+    /// Volume fraction of oil in the mist: 0.02 to 0.2 splash, 1 submerged. [-]
     #[serde(default = "mist")]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub oil_fraction: f64,
-    /// Radius of the shaft or hub over that of the tip, inside of which the sides do not cool. [-]
+    /// Ratio of the shaft or hub radius to the tip radius; the sides do not dissipate heat inside it. [-]
     #[serde(default = "hub")]
     #[schemars(range(min = 0.0, max = 0.95))]
     pub hub_ratio: f64,
@@ -91,9 +91,9 @@ register!(HeatLink, "gear_in_mist", Params,
     source: "Olver 1991; Becker, Int. J. Heat Mass Transfer 6 (1963) 1053-1062",
     example: "{ type: gear_in_mist }",
     evidence: [
-        formula(Evidence::Disputed, "the Reynolds number of the cylinder is written in two ways; a gear is no smooth cylinder"),
-        default_of("oil_fraction", Evidence::Assumed, "splash lubrication, in the middle of 0.02 to 0.2"),
-        default_of("hub_ratio", Evidence::Assumed, "a common solid gear"),
+        formula(Evidence::Disputed, "two definitions of the cylinder's Reynolds number exist; a gear is not a smooth cylinder"),
+        default_of("oil_fraction", Evidence::Assumed, "splash lubrication, middle of 0.02 to 0.2"),
+        default_of("hub_ratio", Evidence::Assumed, "a typical solid gear"),
     ],
     limits: [REYNOLDS], prepare: prepare);
 

@@ -1,14 +1,15 @@
-//! Spots of Hertzian contact: heat narrows to them and spreads behind them.
+//! Hertzian contact spots: constriction resistance on both sides.
 //!
-//! Sources: spot at rest between two half spaces, R = 1/(4 k1 a) + 1/(4 k2 a), for an ellipse with K(e)/(2 pi a) in place of 1/(4 a), Carslaw
-//! and Jaeger, Conduction of heat in solids; by Gauss's mean K(e)/(2 pi a) is 1/(4 M(a, b)), so the arithmetic-geometric mean of both
-//! semi-axes is the radius that counts. Spot that moves, as between a rolling element and its raceway: the law of fast bands of Blok 1937
-//! and Jaeger 1942 on the area pi a b with the mean chord in the direction of motion, R = 4/3/(pi a b) sqrt(pi/2 a_r/(pi k rho c U)) for each
-//! body. Of both laws the smaller resistance counts in each body: a spot hardly moves below a Peclet number of 0.1 and is fast above 5;
+//! Sources: stationary spot between two half spaces, R = 1/(4 k1 a) + 1/(4 k2 a), for an ellipse with K(e)/(2 pi a) instead of 1/(4
+//! a), Carslaw and Jaeger, Conduction of heat in solids; K(e)/(2 pi a) equals 1/(4 M(a, b)), with Gauss's arithmetic-geometric mean
+//! of both semi-axes as the equivalent radius. Moving spot, as between a rolling element and its raceway: the law of fast bands of
+//! Blok 1937 and Jaeger 1942 on the area pi a b with the mean chord in the direction of motion, R = 4/3/(pi a b) sqrt(pi/2 a_r/(pi
+//! k rho c U)) for each body. In each body the smaller of both resistances applies: a spot is nearly stationary below a Peclet
+//! number of 0.1 and fast above 5; between these limits the true value is below both.
 //! between them the truth lies below both.
 //!
-//! Spots in parallel: of the Z elements of a bearing about Z/3 carry a radial load, all carry an axial one. Both contacts of an element
-//! stand one behind the other, so they are two links, or one with half the `count`.
+//! Spots in parallel: of the Z elements of a bearing about Z/3 carry a radial load, all carry an axial load. Both contacts of an
+//! element are in series, so they are two links, or one link with half the `count`.
 
 use std::f64::consts::PI;
 
@@ -24,20 +25,20 @@ use super::STEEL;
 
 const PECLET: Observed = Observed::new(0, "Pe", "-", "Peclet number of the spot in the first body.");
 
-/// Spots of Hertzian contact, at rest or moving, such as between rolling elements and raceways.
+/// Hertzian contact spots, stationary or moving, such as between rolling elements and raceways.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
-    /// Semi-axis of the spot in the direction of motion; of a circle its radius. [mm]
+    /// Semi-axis of the spot in the direction of motion; for a circle its radius. [mm]
     #[schemars(range(min = 1e-4, max = 100.0))]
     pub along: f64,
-    /// Semi-axis across it; absent, the spot is a circle. [mm]
+    /// Semi-axis perpendicular to the motion; default: the spot is a circle. [mm]
     #[schemars(range(min = 1e-4, max = 100.0))]
     pub across: Option<f64>,
-    /// Radius that gives the speed of the spot with that of the shaft; absent, the spot rests. [mm]
+    /// Radius that gives the spot velocity from the shaft speed; default: the spot is stationary. [mm]
     #[schemars(range(min = 0.0, max = 1e4))]
     pub radius: Option<f64>,
-    /// Number of such spots side by side. [-]
-    #[serde(default = "one")]
+    /// Number of such spots in parallel. [-]
+    #[serde(default = "default_one")]
     #[schemars(range(min = 0.1, max = 1000.0))]
     pub count: f64,
     /// Thermal conductivities of both bodies. [W/(m K)]
@@ -54,7 +55,7 @@ pub struct Params {
     pub heat_capacities: [f64; 2],
 }
 
-fn one() -> f64 {
+fn default_one() -> f64 {
     1.0
 }
 fn conductivities() -> [f64; 2] {
@@ -70,17 +71,17 @@ fn heat_capacities() -> [f64; 2] {
 struct Spots {
     radius: f64,
     count: f64,
-    /// Resistance at rest for each body. \[K/W\]
+    /// Stationary resistance of each body. \[K/W\]
     resting: [f64; 2],
-    /// Resistance at 1 m/s for each body. \[K/W\]
+    /// Resistance of each body at 1 m/s. \[K/W\]
     moving: [f64; 2],
-    /// Peclet number at 1 m/s in the first body.
+    /// Peclet number in the first body at 1 m/s.
     peclet: f64,
 }
 
-/// Arithmetic-geometric mean of two positive numbers. The iteration doubles its digits with each step.
+/// Arithmetic-geometric mean of two positive numbers. Each iteration doubles the number of correct digits.
 fn gauss_mean(mut a: f64, mut b: f64) -> f64 {
-    // Semi-axes of one to a million are equal to the last digit after seven steps.
+    // Seven iterations are exact to the last digit for axis ratios up to a million.
     for _ in 0..8 {
         (a, b) = (0.5 * (a + b), (a * b).sqrt());
     }
@@ -124,7 +125,7 @@ register!(HeatLink, "hertz_spot", Params,
     source: "Carslaw, Jaeger, Conduction of heat in solids; Blok 1937; Jaeger 1942",
     example: "{ type: hertz_spot, along: 0.2 mm, across: 1.5 mm, radius: 32 mm, count: 3 }",
     evidence: [
-        formula(Evidence::Derived, "the spot at rest from several sources, the ellipse that moves derived from the band"),
+        formula(Evidence::Derived, "stationary spot from several sources, moving ellipse derived from the band"),
         default_of("count", Evidence::User, "one spot"),
         default_of("conductivities", Evidence::SeveralSources, "hardened steel; silicon nitride about 25"),
         default_of("densities", Evidence::SeveralSources, "steel"),
@@ -173,7 +174,7 @@ mod tests {
         close(PI / 2.0 / gauss_mean(1.0, b), 1.854_074_677);
         let resistance = 2.0 * 1.854_074_677 / (2.0 * PI * 1e-4 * STEEL);
         close(1.0 / at_speed(spots(1e-4, Some(1e-4 * b)), 0.0), resistance);
-        // At rest it does not count which axis is which.
+        // At standstill the axes can be swapped.
         close(
             at_speed(spots(2e-4, Some(1e-3)), 0.0),
             at_speed(spots(1e-3, Some(2e-4)), 0.0),

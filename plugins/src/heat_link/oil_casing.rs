@@ -1,11 +1,11 @@
-//! Oil to the casing inside: splash of a gear that dips, free convection at rest.
+//! Oil to casing inside: splash of an immersed gear, free convection at standstill.
 //!
-//! Sources: flow along a plate of the casing's height with the speed of the gear's tips, Nu = 0.664 Re^0.5 Pr^(1/3), as in the thermal
-//! networks of Changenet, Oviedo-Marlot and Velex, J. Mech. Des. 128 (2006) 618-625, recalled; free convection of the oil after Churchill
-//! and Chu 1975, which is what is left at rest; both together alpha^3 = alpha_n^3 + alpha_f^3. The wetted area grows with the speed of
-//! the tips: A = A_rest + (A_inside - A_rest) min(1, u/u_full).
+//! Sources: flow along a plate of the casing height at the tip speed of the gear, Nu = 0.664 Re^0.5 Pr^(1/3), as in the thermal
+//! networks of Changenet, Oviedo-Marlot and Velex, J. Mech. Des. 128 (2006) 618-625, quoted from memory; free convection of the oil after
+//! Churchill and Chu 1975, which remains at standstill; combined alpha^3 = alpha_n^3 + alpha_f^3. The wetted area grows with the
+//! tip speed: A = A_rest + (A_inside - A_rest) min(1, u/u_full).
 //!
-//! The oil counts with its values at the mean temperature of both ends. Splash usually gives 100 to 400 W/(m2 K).
+//! Oil properties are taken at the mean temperature of both nodes. Splash usually gives 100 to 400 W/(m2 K).
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::{Limit, Observed, Undefined};
@@ -22,27 +22,27 @@ const RAYLEIGH: Limit = Limit::new(0, "Ra", "-", 0.0, 1e12, "Churchill and Chu 1
 const ALPHA: Observed = Observed::new(0, "alpha", "W/(m2 K)", "Heat transfer coefficient from oil to casing.");
 const REYNOLDS: Observed = Observed::new(1, "Re", "-", "Reynolds number over the height of the casing.");
 
-/// Oil to the casing inside: splash of a gear that dips, free convection at rest.
+/// Oil to casing inside: splash of an immersed gear, free convection at standstill.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
-    /// Tip diameter of the gear that dips; absent, that of the gear that the link names. [mm]
+    /// Tip diameter of the immersed gear; default: that of the gear named by the link. [mm]
     #[schemars(range(min = 1.0, max = 10000.0))]
     pub tip_diameter: Option<f64>,
-    /// Height of the casing; absent, that of the housing. [mm]
+    /// Height of the casing; default: that of the housing. [mm]
     #[schemars(range(min = 1.0, max = 1e5))]
     pub height: Option<f64>,
-    /// Area inside that oil wets when it splashes everywhere; absent, that of the housing. [cm2]
+    /// Inside area wetted when oil splashes everywhere; default: that of the housing. [cm2]
     #[schemars(range(min = 0.1, max = 1e8))]
     pub oil_area: Option<f64>,
-    /// Share of that area which the sump wets at rest. [-]
+    /// Share of that area wetted by the sump at standstill. [-]
     #[serde(default = "sump")]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub rest_share: f64,
-    /// Speed of the tips from which on oil splashes everywhere. [m/s]
+    /// Tip speed above which oil splashes everywhere. [m/s]
     #[serde(default = "everywhere")]
     #[schemars(range(min = 0.01, max = 200.0))]
     pub full_speed: f64,
-    /// Thermal expansion of the oil. [1/K]
+    /// Thermal expansion coefficient of the oil. [1/K]
     #[serde(default = "expansion")]
     #[schemars(range(min = 1e-5, max = 1e-2))]
     pub expansion: f64,
@@ -71,7 +71,7 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Inside, Diagnostic> {
     let diameter = of_gear(
         params.tip_diameter,
         |g| g.tip_diameter,
-        "the tip diameter of the gear that dips",
+        "the tip diameter of the immersed gear",
         "tip_diameter: 150 mm",
         cx,
     )?;
@@ -87,7 +87,7 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Inside, Diagnostic> {
         area: of_housing(
             params.oil_area,
             |h| h.oil_area,
-            "the area that oil wets",
+            "the wetted area",
             "oil_area: 3500 cm2",
             cx,
         )?,
@@ -98,7 +98,7 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Inside, Diagnostic> {
 }
 
 impl Inside {
-    /// Wetted area at a speed of the tips in m/s. \[m2\]
+    /// Wetted area at a tip speed in m/s. \[m2\]
     fn wetted(&self, speed: f64) -> f64 {
         self.area * (self.rest_share + (1.0 - self.rest_share) * (speed / self.full_speed).min(1.0))
     }
@@ -125,9 +125,9 @@ register!(HeatLink, "oil_casing", Params,
     source: "Changenet, Oviedo-Marlot, Velex, J. Mech. Des. 128 (2006) 618-625; Churchill and Chu 1975",
     example: "{ type: oil_casing }",
     evidence: [
-        formula(Evidence::Recalled, "the plate is recalled, the growth of the wetted area is assumed"),
+        formula(Evidence::Recalled, "plate law quoted from memory, not checked; growth of the wetted area assumed"),
         default_of("rest_share", Evidence::Assumed, "a sump of about a third of the height"),
-        default_of("full_speed", Evidence::Assumed, "splash fills common casings from about 10 m/s on"),
+        default_of("full_speed", Evidence::Assumed, "splash reaches all of a typical casing above about 10 m/s"),
         default_of("expansion", Evidence::SeveralSources, "mineral and synthetic oils 6.5e-4 to 8e-4"),
     ],
     limits: [RAYLEIGH], observed: [ALPHA, REYNOLDS], prepare: prepare);
@@ -160,7 +160,7 @@ mod tests {
         model.conductance(&at(&part, speed, OIL)).unwrap()
     }
 
-    /// 15 m/s at the tips give Re = 3e5 over the height; 80 and 60 degC.
+    /// 15 m/s tip speed gives Re = 3e5 over the height; 80 and 60 degC.
     #[test]
     fn splash_and_rest_by_hand() {
         let prandtl = 1.5e-5 * 820.0 * 2100.0 / 0.14;

@@ -1,7 +1,7 @@
-//! Conduction through rings, from inside to outside.
+//! Radial conduction through rings.
 //!
-//! Source: Fourier's law in a ring, R = ln(r_o/r_i)/(2 pi k B). For bearing rings, bushes and press fits; both faces let no heat through.
-//! A joint between two rings has a resistance of its own, which is not in it.
+//! Source: Fourier's law in a ring, R = ln(r_o/r_i)/(2 pi k B). For bearing rings, bushes and press fits; both faces are adiabatic.
+//! The contact resistance of the joint between two rings is not included.
 
 use std::f64::consts::PI;
 
@@ -15,7 +15,7 @@ use serde::Deserialize;
 
 use super::STEEL;
 
-/// Conduction through rings, from inside to outside.
+/// Radial conduction through rings.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
     /// Inner diameter. [mm]
@@ -31,8 +31,8 @@ pub struct Params {
     #[serde(default = "steel")]
     #[schemars(range(min = 0.01, max = 1000.0))]
     pub conductivity: f64,
-    /// Number of such rings side by side. [-]
-    #[serde(default = "one")]
+    /// Number of such rings in parallel. [-]
+    #[serde(default = "default_one")]
     #[schemars(range(min = 1, max = 1000))]
     pub count: u32,
 }
@@ -41,7 +41,7 @@ fn steel() -> f64 {
     STEEL
 }
 
-fn one() -> u32 {
+fn default_one() -> u32 {
     1
 }
 
@@ -53,7 +53,7 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Ring, Diagnostic> {
     if params.outer_diameter <= params.inner_diameter {
         return Err(cx
             .error("the ring has no thickness")
-            .help("make `outer_diameter` greater than `inner_diameter`"));
+            .help("increase `outer_diameter` above `inner_diameter`"));
     }
     let around = 2.0 * PI * params.conductivity * params.width;
     Ok(Ring {

@@ -1,13 +1,13 @@
-//! Oil sprayed on a surface, such as the windings of a motor: the heat that the stream can take.
+//! Oil sprayed on a surface, such as the windings of a motor: limited by the heat capacity of the stream.
 //!
-//! Sources: stream along a wall of one temperature, G = C (1 - exp(-alpha A/C)) with the heat capacity flow C of the stream, between the wall
-//! and the oil that arrives; textbooks. Coefficient of a jet from its size and speed after Metzger, Cummings and Ruby, 5th Int. Heat
-//! Transfer Conf. 1974, recalled: St Pr^0.487 = 2.74 Re^-0.348 (L/d)^-0.774, St = alpha/(rho c v), Re = v d/nu.
+//! Sources: stream along an isothermal wall, G = C (1 - exp(-alpha A/C)) with the heat capacity flow C of the stream, between the
+//! wall and the arriving oil; textbooks. Coefficient of a jet from its size and speed according to Metzger, Cummings and Ruby, 5th Int.
+//! Heat Transfer Conf. 1974, quoted from memory: St Pr^0.487 = 2.74 Re^-0.348 (L/d)^-0.774, St = alpha/(rho c v), Re = v d/nu.
 //!
-//! L is read as the radius of the surface that the jet cools, and d as the diameter of the nozzle.
+//! L is interpreted as the radius of the surface cooled by the jet, and d as the nozzle diameter.
 //!
-//! Jets and drops on windings have 500 to 2500 W/(m2 K), over that part of the surface that oil wets. The oil counts with its values at
-//! the mean temperature of both ends.
+//! Jets and drops on windings have 500 to 2500 W/(m2 K) over the wetted part of the surface. Oil properties are taken at the mean
+//! temperature of both nodes.
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::{Observed, Undefined};
@@ -26,7 +26,12 @@ const ALPHA: Observed = Observed::new(
     "W/(m2 K)",
     "Heat transfer coefficient on the wetted surface.",
 );
-const EFFECTIVENESS: Observed = Observed::new(1, "eps", "-", "Heat taken over the most that the stream can take.");
+const EFFECTIVENESS: Observed = Observed::new(
+    1,
+    "eps",
+    "-",
+    "Ratio of the heat removed to the maximum that the stream can remove.",
+);
 
 /// A jet of oil.
 #[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
@@ -34,32 +39,32 @@ pub struct Jet {
     /// Diameter of the nozzle. [mm]
     #[schemars(range(min = 0.05, max = 100.0))]
     pub diameter: f64,
-    /// Radius of the surface that the jet cools, about the place that it hits. [mm]
+    /// Radius of the surface cooled by the jet, about the point of impact. [mm]
     #[schemars(range(min = 0.05, max = 1e4))]
     pub radius: f64,
-    /// Speed at the nozzle. [m/s]
+    /// Velocity at the nozzle. [m/s]
     #[schemars(range(min = 0.01, max = 200.0))]
     pub speed: f64,
 }
 
-/// Oil sprayed on a surface, from the surface to the oil that arrives.
+/// Oil sprayed on a surface, from the surface to the arriving oil.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
-    /// Area that the oil wets. [cm2]
+    /// Wetted area. [cm2]
     #[schemars(range(min = 0.01, max = 1e8))]
     pub area: f64,
-    /// Share of the oil's flow that comes here. [-]
-    #[serde(default = "all")]
+    /// Share of the oil flow that reaches the surface. [-]
+    #[serde(default = "default_share")]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub share: f64,
-    /// Heat transfer coefficient; or a `jet`. [W/(m2 K)]
+    /// Heat transfer coefficient, unless a `jet` is given. [W/(m2 K)]
     #[schemars(range(min = 0.1, max = 1e5))]
     pub alpha: Option<f64>,
-    /// A jet, from which the coefficient follows.
+    /// Jet that determines the coefficient.
     pub jet: Option<Jet>,
 }
 
-fn all() -> f64 {
+fn default_share() -> f64 {
     1.0
 }
 
@@ -89,8 +94,8 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Spray, Diagnostic> {
         (None, Some(jet)) => Coefficient::Of(jet),
         (None, None) => {
             return Err(cx
-                .error("the link needs a heat transfer coefficient")
-                .help("write `alpha: 1000 W/(m2 K)` or `jet: { diameter: 2 mm, radius: 10 mm, speed: 5 m/s }` with your figures"));
+                .error("the link requires a heat transfer coefficient")
+                .help("write `alpha: 1000 W/(m2 K)` or `jet: { diameter: 2 mm, radius: 10 mm, speed: 5 m/s }` with your values"));
         }
         (Some(_), Some(_)) => {
             return Err(cx
@@ -114,7 +119,7 @@ impl HeatLinkModel for Spray {
         let alpha = at.observe(&ALPHA, alpha);
         let stream = at.show("C", "W/K", at.oil_flow * self.share * at.heat_capacity);
         if stream <= 0.0 {
-            at.branch("no oil comes here");
+            at.branch("no oil reaches the surface");
             return Ok(0.0);
         }
         let effectiveness = at.observe(&EFFECTIVENESS, -(-alpha * self.area / stream).exp_m1());
@@ -126,8 +131,8 @@ register!(HeatLink, "spray", Params,
     source: "effectiveness of a stream, textbooks; Metzger, Cummings, Ruby 1974",
     example: "{ type: spray, area: 600 cm2, share: 0.5, alpha: 1000 W/(m2 K) }",
     evidence: [
-        formula(Evidence::Derived, "the stream is derived; the jet is recalled from one article"),
-        default_of("share", Evidence::User, "all oil of the circuit comes here"),
+        formula(Evidence::Derived, "stream derived; jet quoted from memory of one article, not checked"),
+        default_of("share", Evidence::User, "all oil of the circuit reaches the surface"),
     ],
     observed: [ALPHA, EFFECTIVENESS], prepare: prepare);
 
@@ -166,7 +171,7 @@ mod tests {
     #[test]
     fn a_stream_takes_no_more_than_its_heat_capacity() {
         close(link(spray(Some(1000.0), None), 0.1), 100.0 * (1.0 - (-0.6_f64).exp()));
-        // Much oil: the surface alone counts; little: the stream.
+        // Large flow: only the surface limits; small flow: the stream.
         close(link(spray(Some(1000.0), None), 1e7), 60.0);
         close(link(spray(Some(1000.0), None), 1e-4), 0.1);
         assert!(link(spray(Some(1000.0), None), 0.0).abs() < f64::MIN_POSITIVE);

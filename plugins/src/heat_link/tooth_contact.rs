@@ -1,11 +1,11 @@
-//! Heat from gear to gear through the teeth in contact.
+//! Heat conducted from gear to gear through the teeth in contact.
 //!
-//! Sources: Blok 1937; Jaeger, Proc. R. Soc. NSW 76 (1942) 203-224: mean rise of a flank under a fast band of contact of evenly spread
-//! heat, B = 0.752/(L sqrt(2 a k rho c U)), half width a, length L, rolling speed U; the resistance of a pair of teeth is that of both
-//! flanks, pairs stand side by side by the contact ratio. Blok's own coefficient is 0.767.
+//! Sources: Blok 1937; Jaeger, Proc. R. Soc. NSW 76 (1942) 203-224: mean temperature rise of a flank under a fast band of contact
+//! with uniform heat, B = 0.752/(L sqrt(2 a k rho c U)), half width a, length L, rolling speed U. The resistance of a pair of teeth
+//! is the sum of both flanks; the number of pairs in parallel is the contact ratio. Blok's own coefficient is 0.767.
 //!
-//! The law is made for Peclet numbers U a rho c/(2 k) above 5 and within 6 % of the solution for any speed down to 0.15; slower teeth
-//! count as if at that limit. It conducts beside the heat of friction, which belongs to the sources of both gears.
+//! The law is intended for Peclet numbers U a rho c/(2 k) above 5 and is within 6 % of the exact solution down to 0.15; slower
+//! teeth are treated as at that limit. The link adds to the friction heat, which belongs to the sources of both gears.
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::{Limit, Undefined};
@@ -21,14 +21,14 @@ use crate::tooth_friction::ehl_mixed::temperature::{FAST, Flank};
 const PECLET: Limit = Limit::new(0, "Pe", "-", FAST, f64::INFINITY, "fast bands of contact, derived");
 /// Sine of a pressure angle of 20 deg.
 const SINE: f64 = 0.342_020_143_325_668_7;
-/// Coefficient of Blok over that of evenly spread heat, 4/3/sqrt(pi).
+/// Ratio of Blok's coefficient to that of uniform heat, 4/3/sqrt(pi).
 const BLOK: f64 = 0.767 / 0.752_252_778_063_675;
 
 /// Coefficient of the band of contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Band {
-    /// Heat spread evenly over the band: 0.752.
+    /// Uniform heat over the band: 0.752.
     #[default]
     Even,
     /// After Blok: 0.767.
@@ -38,14 +38,14 @@ pub enum Band {
 /// Heat from gear to gear through the teeth in contact.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
-    /// Half the width of the band of contact. [mm]
+    /// Half width of the band of contact. [mm]
     #[schemars(range(min = 1e-4, max = 10.0))]
     pub half_width: f64,
-    /// Length of the line of contact; absent, the face width of the gear. [mm]
+    /// Length of the line of contact; default: the face width of the gear. [mm]
     #[schemars(range(min = 0.1, max = 2000.0))]
     pub length: Option<f64>,
-    /// Radius of curvature of the flank, which gives the rolling speed with that of the gear; absent, that at the pitch point
-    /// for a pressure angle of 20 deg. [mm]
+    /// Radius of curvature of the flank, which gives the rolling speed from the gear speed; default: that at the pitch point for a
+    /// pressure angle of 20 deg. [mm]
     #[schemars(range(min = 0.01, max = 1e4))]
     pub radius: Option<f64>,
     /// Pairs of teeth in contact on average. [-]
@@ -125,7 +125,7 @@ impl HeatLinkModel for Teeth {
     fn conductance(&self, at: &HeatLinkAt<'_>) -> Result<f64, Undefined> {
         let speed = at.show("U", "m/s", at.speed * self.radius);
         at.check(&PECLET, self.flank.peclet(self.half_width, speed));
-        // Both flanks roll at about one speed, exactly so at the pitch point.
+        // Both flanks have about the same rolling speed, exactly the same at the pitch point.
         let pair = 2.0 * self.factor * self.flank.resistance(self.half_width, self.length, speed);
         at.show("R", "K/W", pair);
         Ok(at.show("G", "W/K", self.contact_ratio / pair))
@@ -136,9 +136,9 @@ register!(HeatLink, "tooth_contact", Params,
     source: "Blok 1937; Jaeger 1942",
     example: "{ type: tooth_contact, half_width: 0.13 mm }",
     evidence: [
-        formula(Evidence::SeveralSources, "fast bands, derived anew"),
-        default_of("contact_ratio", Evidence::Assumed, "a middling transverse contact ratio"),
-        default_of("band", Evidence::Derived, "follows from evenly spread heat; the literature of gears has Blok's, 2 % more"),
+        formula(Evidence::SeveralSources, "fast bands, derivation repeated"),
+        default_of("contact_ratio", Evidence::Assumed, "a typical transverse contact ratio"),
+        default_of("band", Evidence::Derived, "follows from uniform heat; gear literature uses Blok's, 2 % higher"),
         default_of("conductivity", Evidence::SeveralSources, "hardened steel"),
         default_of("density", Evidence::SeveralSources, "steel"),
         default_of("heat_capacity", Evidence::SeveralSources, "steel"),

@@ -1,9 +1,10 @@
-//! Mean friction of a mesh after Fernandes, FEUP.
+//! Mean friction of a mesh according to Fernandes, FEUP.
 //!
-//! Source: Fernandes, Marques, Martins, Seabra, Tribol. Int. 2015, as in his public programs: mu = 0.014 (1/S_p)^0.25 S_g^0.25 X_L
-//! with S_p = v_SC eta alpha^0.5/F_bn^0.5 and S_g = Ra/(l rho_redC)^0.5, SI throughout; l is the least length of all lines of
-//! contact. X_L was fitted to wind-turbine gear oils: 0.846 mineral, 0.65 polyalphaolefin and ester, 0.585 polyglycol.
-//! An older script has Ra^2/(eps_alpha l rho) with half the exponent: eps_alpha^-0.125 more.
+//! Source: Fernandes, Marques, Martins, Seabra, Tribol. Int. 2015, as in the author's public programs: mu = 0.014 (1/S_p)^0.25
+//! S_g^0.25 X_L with S_p = v_SC eta alpha^0.5/F_bn^0.5 and S_g = Ra/(l rho_redC)^0.5, SI throughout; l is the minimum total length
+//! of the lines of contact. X_L was fitted to wind-turbine gear oils: 0.846 mineral, 0.65 polyalphaolefin and ester, 0.585
+//! polyglycol.
+//! An older script uses Ra^2/(eps_alpha l rho) with half the exponent: a factor of eps_alpha^-0.125.
 
 use gearloss_framework::coefficients;
 use gearloss_framework::document::Diagnostic;
@@ -16,7 +17,7 @@ use serde::Deserialize;
 
 use crate::boundary::greatest;
 
-const PITCH_SPEED: Limit = Limit::new(0, "v_t", "m/s", 0.5, 20.0, "FZG tests behind X_L, recalled");
+const PITCH_SPEED: Limit = Limit::new(0, "v_t", "m/s", 0.5, 20.0, "FZG tests behind X_L, quoted from memory");
 const MU: Observed = Observed::new(0, "mu_m", "-", "Mean coefficient of friction.");
 
 coefficients! {
@@ -31,16 +32,17 @@ coefficients! {
     }
 }
 
-/// Mean friction of a mesh after Fernandes, from a dimensionless load and roughness.
+/// Mean friction of a mesh according to Fernandes, from a dimensionless load and roughness.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
-    /// Lubricant factor; absent, that of the oil. [-]
+    /// Lubricant factor; default: that of the oil. [-]
     #[schemars(range(min = 0.1, max = 2.0))]
     pub x_l: Option<f64>,
-    /// Least length of all lines of contact; absent, that of one pair: face width over the cosine of the base helix. [mm]
+    /// Minimum total length of the lines of contact; default: that of one pair: face width over the cosine of the base helix angle.
+    /// [mm]
     #[schemars(range(min = 0.1, max = 5000.0))]
     pub contact_length: Option<f64>,
-    /// Greatest coefficient of friction: where boundary friction ends the growth of the formula at creeping speeds. [-]
+    /// Maximum coefficient of friction; boundary friction limits the growth of the formula at creeping speeds. [-]
     #[serde(default = "greatest")]
     #[schemars(range(min = 0.01, max = 1.0))]
     pub greatest: f64,
@@ -120,9 +122,9 @@ register!(MeanFriction, "fernandes", Params,
     example: "{ type: fernandes, x_l: 0.846 }",
     evidence: [
         formula(Evidence::OneSource, "public programs of the author; an older script differs by eps_alpha^-0.125"),
-        default_of("x_l", Evidence::Disputed, "the formula was fitted with factors of its own, 0.585 to 0.846"),
-        default_of("contact_length", Evidence::Assumed, "one pair; of spur gears the least length"),
-        default_of("greatest", Evidence::Assumed, "above boundary friction of lubricated steel"),
+        default_of("x_l", Evidence::Disputed, "the formula was fitted with its own factors, 0.585 to 0.846"),
+        default_of("contact_length", Evidence::Assumed, "one pair; for spur gears the minimum length"),
+        default_of("greatest", Evidence::Assumed, "above the boundary friction of lubricated steel"),
     ],
     limits: [PITCH_SPEED], observed: [MU], prepare: prepare);
 

@@ -1,8 +1,8 @@
-//! Mean friction of a mesh after ISO/TR 13989-1, meant for scuffing.
+//! Mean friction of a mesh according to ISO/TR 13989-1, intended for scuffing.
 //!
-//! Source: ISO/TR 13989-1:2000 and ISO/TS 6336-20, recalled: mu = 0.060 (w_Bt/(v_SC rho_relC))^0.2 X_L X_R with
+//! Source: ISO/TR 13989-1:2000 and ISO/TS 6336-20, quoted from memory: mu = 0.060 (w_Bt/(v_SC rho_relC))^0.2 X_L X_R with
 //! X_R = ((Ra1 + Ra2)/2)^0.25 and X_L = X_L0 eta^-0.05; w_Bt in N/mm, v_SC in m/s, rho_relC in mm, eta in mPa s, Ra in um.
-//! It is the formula of Schlenk a quarter higher: conservative for scuffing, too much for efficiency.
+//! It equals the formula of Schlenk with a factor of 1.25: conservative for scuffing, too high for efficiency.
 
 use gearloss_framework::coefficients;
 use gearloss_framework::loss::{Limit, Observed, Undefined};
@@ -21,7 +21,7 @@ const PITCH_SPEED: Limit = Limit::new(
     "m/s",
     0.5,
     60.0,
-    "no source states it: assumed, as for Schlenk's formula, which has its form",
+    "assumed, not stated by a source: as for Schlenk's formula of the same form",
 );
 const MU: Observed = Observed::new(0, "mu_m", "-", "Mean coefficient of friction.");
 
@@ -30,7 +30,7 @@ coefficients! {
     struct Constants {
         /// Factor of the formula.
         factor = 0.060, in 0.03..=0.12;
-        /// Exponent of the line load over sum speed and radius of curvature.
+        /// Exponent of the line load over sum velocity and radius of curvature.
         load_exponent = 0.2, in 0.1..=0.4;
         /// Exponent of the dynamic viscosity in mPa s, in X_L.
         viscosity_exponent = -0.05, in -0.2..=-0.01;
@@ -39,7 +39,7 @@ coefficients! {
     }
 }
 
-/// Oil type for X_L0.
+/// Oil type that selects X_L0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum OilType {
@@ -47,13 +47,13 @@ pub enum OilType {
     Mineral,
     /// Polyalphaolefin: 0.8.
     Polyalphaolefin,
-    /// Polyglycol that does not mix with water: 0.7.
+    /// Polyglycol not miscible with water: 0.7.
     Polyglycol,
-    /// Polyglycol that mixes with water: 0.6.
+    /// Polyglycol miscible with water: 0.6.
     WaterSolublePolyglycol,
-    /// Traction fluid: 1.5, for which ISO/TR 14179-2 says 1.3.
+    /// Traction fluid: 1.5; ISO/TR 14179-2 gives 1.3.
     TractionFluid,
-    /// Phosphate ester: 1.3, for which ISO/TR 14179-2 says 1.5.
+    /// Phosphate ester: 1.3; ISO/TR 14179-2 gives 1.5.
     PhosphateEster,
 }
 
@@ -70,15 +70,15 @@ impl OilType {
     }
 }
 
-/// Mean friction of a mesh after ISO/TR 13989-1, conservative for scuffing.
+/// Mean friction of a mesh according to ISO/TR 13989-1, conservative for scuffing.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Iso13989 {
-    /// Lubricant factor X_L0; absent, that of `oil`, else that of the lubricant. [-]
+    /// Lubricant factor X_L0; default: that of `oil`, else that of the lubricant. [-]
     #[schemars(range(min = 0.1, max = 2.0))]
     pub x_l: Option<f64>,
-    /// Oil type whose lubricant factor counts.
+    /// Oil type that selects the lubricant factor.
     pub oil: Option<OilType>,
-    /// Greatest coefficient of friction: where boundary friction ends the growth of the formula at creeping speeds. [-]
+    /// Maximum coefficient of friction; boundary friction limits the growth of the formula at creeping speeds. [-]
     #[serde(default = "greatest")]
     #[schemars(range(min = 0.01, max = 1.0))]
     pub greatest: f64,
@@ -86,7 +86,7 @@ pub struct Iso13989 {
     coefficients: Constants,
 }
 
-/// Friction from shop units: N/mm, m/s, mm, mPa s, um.
+/// Friction from line load in N/mm, speed in m/s, radius in mm, viscosity in mPa s and roughness in um.
 fn mu(c: &Constants, line_load: f64, sum_speed: f64, radius: f64, eta: f64, ra: f64, x_l: f64) -> f64 {
     c.factor
         * (line_load / (sum_speed * radius)).powf(c.load_exponent)
@@ -117,10 +117,10 @@ register!(MeanFriction, "iso_13989", Iso13989,
     source: "ISO/TR 13989-1:2000; ISO/TS 6336-20",
     example: "{ type: iso_13989, oil: mineral }",
     evidence: [
-        formula(Evidence::Recalled, "from memory of the standard"),
+        formula(Evidence::Recalled, "formula quoted from memory, not checked against the standard"),
         default_of("x_l", Evidence::Disputed, "tables of X_L differ between standards"),
         default_of("oil", Evidence::Disputed, "tables of X_L differ between standards"),
-        default_of("greatest", Evidence::Assumed, "above boundary friction of lubricated steel"),
+        default_of("greatest", Evidence::Assumed, "above the boundary friction of lubricated steel"),
     ],
     limits: [PITCH_SPEED], observed: [MU]);
 

@@ -1,8 +1,8 @@
-//! A local law of friction for a whole mesh: its average along the path of contact, or its value at the pitch point.
+//! A local friction law as mean friction of a mesh: averaged along the path of contact, or evaluated at the pitch point.
 //!
-//! The average weighs every place by its share of the load and its sliding speed, so that mean friction times the local loss
-//! factor is the loss of the path integral. At the pitch point there is rolling alone: meant for laws of mixed friction
-//! whose publications evaluate them there.
+//! The average weights every point by its load share and sliding velocity, so that mean friction times the local loss factor equals
+//! the loss of the path integral. The pitch point has pure rolling: that option is intended for laws of mixed friction whose
+//! publications evaluate them there.
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::geometry::LoadSharing;
@@ -29,26 +29,26 @@ const SLIDING_LAWS: [&str; 6] = [
     "ehl_mixed",
 ];
 
-/// Where the local law counts.
+/// Where the local law is evaluated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Where {
-    /// Everywhere on the path, weighted by load and sliding speed.
+    /// Along the path of contact, weighted by load and sliding velocity.
     #[default]
     Path,
-    /// At the pitch point, under the whole load.
+    /// At the pitch point, under the full load.
     PitchPoint,
 }
 
-/// A local law of friction, averaged along the path of contact or taken at the pitch point.
+/// A local friction law, averaged along the path of contact or evaluated at the pitch point.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
-    /// Law of friction between the flanks.
+    /// Local friction law of the flanks.
     pub tooth_friction: ModelRef<ToothFriction>,
-    /// Where it counts.
+    /// Where the law is evaluated.
     #[serde(default)]
     pub at: Where,
-    /// How pairs in contact at once share the load.
+    /// Load sharing among pairs of teeth in contact.
     #[serde(default)]
     pub load_sharing: LoadSharing,
 }
@@ -65,7 +65,7 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Local, Diagnostic> {
     if params.at == Where::PitchPoint && SLIDING_LAWS.contains(&law) {
         return Err(cx
             .error(format!(
-                "`{law}` is a law of sliding, and nothing slides at the pitch point"
+                "`{law}` is a law of sliding friction, and the pitch point has no sliding"
             ))
             .help("write `at: path`, or choose a law of mixed friction"));
     }
@@ -86,10 +86,10 @@ impl MeanFrictionModel for Local {
                 value: 0.0,
             });
         }
-        let notes = at.notes.of(self.friction.notes);
+        let notes = at.notes.nested(self.friction.notes);
         let mu = match self.at {
             Where::Path => self.path.with_space(|mu| {
-                self.friction.along(&self.path.at(at, notes), mu)?;
+                self.friction.along(&self.path.at_operating_point(at, notes), mu)?;
                 Ok(self.path.average(mu))
             })?,
             Where::PitchPoint => self.friction.mu(&ContactAt::usual(&NoPart {}, notes).with(|to| {
@@ -120,7 +120,7 @@ register!(MeanFriction, "local", Params,
     example: "{ type: local, tooth_friction: { type: xu } }",
     evidence: [
         formula(Evidence::Derived, "the average that gives the loss of the path integral"),
-        default_of("at", Evidence::Derived, "the average keeps the loss"),
+        default_of("at", Evidence::Derived, "the average preserves the loss"),
         default_of("load_sharing", Evidence::Assumed, "rigid teeth"),
     ],
     observed: [MU], prepare: prepare);

@@ -1,8 +1,8 @@
-//! Mean friction of a mesh after Michaelis, as in DIN 3990-4.
+//! Mean friction of a mesh according to Michaelis, as in DIN 3990-4.
 //!
-//! Source: DIN 3990-4:1987 after Michaelis 1987, recalled: mu = 0.045 (w_Bt/(v_SC rho_redC))^0.2 eta^-0.05 X_R X_L with
+//! Source: DIN 3990-4:1987 according to Michaelis 1987, quoted from memory: mu = 0.045 (w_Bt/(v_SC rho_redC))^0.2 eta^-0.05 X_R X_L with
 //! X_R = 2.2 (Ra/rho_redC)^0.25; w_Bt in N/mm and at least 150, v_SC in m/s, rho_redC in mm, eta in mPa s, Ra in um.
-//! The load factors of the standard (K_A and others) are the user's: this is the nominal load.
+//! The load factors of the standard (K_A and others) are not applied: this is the nominal load.
 
 use gearloss_framework::coefficients;
 use gearloss_framework::loss::{Limit, Observed, Undefined};
@@ -22,7 +22,7 @@ const PITCH_SPEED: Limit = Limit::new(
     "m/s",
     0.5,
     60.0,
-    "no source states it: assumed, as for Schlenk's formula, which has its form",
+    "assumed, not stated by a source: as for Schlenk's formula of the same form",
 );
 const MU: Observed = Observed::new(0, "mu_m", "-", "Mean coefficient of friction.");
 
@@ -31,7 +31,7 @@ coefficients! {
     struct Constants {
         /// Factor of the formula.
         factor = 0.045, in 0.0225..=0.09;
-        /// Exponent of the line load over sum speed and radius of curvature.
+        /// Exponent of the line load over sum velocity and radius of curvature.
         load_exponent = 0.2, in 0.1..=0.4;
         /// Exponent of the dynamic viscosity in mPa s.
         viscosity_exponent = -0.05, in -0.2..=-0.01;
@@ -39,21 +39,21 @@ coefficients! {
         roughness_factor = 2.2, in 1.1..=4.4;
         /// Exponent of the roughness in um over the radius of curvature in mm, in X_R.
         roughness_exponent = 0.25, in 0.0..=0.5;
-        /// Line load in N/mm below which the friction stays, where `clamp_line_load` is true.
+        /// Line load in N/mm below which the friction is constant, if `clamp_line_load` is true.
         least_line_load = 150.0, in 1.0..=1000.0;
     }
 }
 
-/// Mean friction of a mesh after Michaelis, as in DIN 3990-4.
+/// Mean friction of a mesh according to Michaelis, as in DIN 3990-4.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Michaelis {
-    /// Lubricant factor; absent, that of the oil. [-]
+    /// Lubricant factor; default: that of the oil. [-]
     #[schemars(range(min = 0.1, max = 2.0))]
     pub x_l: Option<f64>,
-    /// Below 150 N/mm the friction stays that of 150 N/mm.
+    /// Below 150 N/mm the friction is that at 150 N/mm.
     #[serde(default = "yes")]
     pub clamp_line_load: bool,
-    /// Greatest coefficient of friction: where boundary friction ends the growth of the formula at creeping speeds. [-]
+    /// Maximum coefficient of friction; boundary friction limits the growth of the formula at creeping speeds. [-]
     #[serde(default = "greatest")]
     #[schemars(range(min = 0.01, max = 1.0))]
     pub greatest: f64,
@@ -65,7 +65,7 @@ fn yes() -> bool {
     true
 }
 
-/// Friction from shop units: N/mm, m/s, mm, mPa s, um.
+/// Friction from line load in N/mm, speed in m/s, radius in mm, viscosity in mPa s and roughness in um.
 fn mu(c: &Constants, line_load: f64, sum_speed: f64, radius: f64, eta: f64, ra: f64, x_l: f64) -> f64 {
     let x_r = c.roughness_factor * (ra / radius).powf(c.roughness_exponent);
     c.factor * (line_load / (sum_speed * radius)).powf(c.load_exponent) * eta.powf(c.viscosity_exponent) * x_r * x_l
@@ -97,10 +97,10 @@ register!(MeanFriction, "michaelis", Michaelis,
     source: "Michaelis 1987; DIN 3990-4:1987",
     example: "{ type: michaelis }",
     evidence: [
-        formula(Evidence::Recalled, "from memory of the standard"),
+        formula(Evidence::Recalled, "formula quoted from memory, not checked against the standard"),
         default_of("x_l", Evidence::Disputed, "tables of X_L differ between standards and tests"),
-        default_of("clamp_line_load", Evidence::Recalled, "from memory of the standard"),
-        default_of("greatest", Evidence::Assumed, "above boundary friction of lubricated steel"),
+        default_of("clamp_line_load", Evidence::Recalled, "quoted from memory, not checked against the standard"),
+        default_of("greatest", Evidence::Assumed, "above the boundary friction of lubricated steel"),
     ],
     limits: [LINE_LOAD, PITCH_SPEED], observed: [MU]);
 

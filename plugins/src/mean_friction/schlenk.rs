@@ -1,12 +1,11 @@
-//! Mean friction of a mesh after Schlenk, as in ISO/TR 14179-2.
+//! Mean friction of a mesh according to Schlenk, as in ISO/TR 14179-2.
 //!
 //! Source: Schlenk 1994; ISO/TR 14179-2:2001; Niemann/Winter: mu = 0.048 (F_bt/b/(v_SC rho_redC))^0.2 eta^-0.05 Ra^0.25 X_L;
 //! F_bt/b in N/mm, v_SC in m/s, rho_redC in mm, eta in mPa s at oil temperature, Ra in um as the mean of both flanks.
-//! Dip-lubricated, case-hardened, ground gears. Two clamps belong to the method, and open programs leave them out, so they
-//! are options: below 150 N/mm the friction stays that of 150 N/mm, above 50 m/s that of 50 m/s. Which speed is meant is
-//! disputed: the sum of the surface speeds, or the pitch line speed.
-//! X_L by oil type differs between the standards and fits of test gears; polyglycol falls with speed in ISO/TR 14179-2.
-//! Not for superfinished flanks, whose friction the exponent of Ra overrates.
+//! Dip-lubricated, case-hardened, ground gears. The method has two clamps, which public programs omit; here they are options: below
+//! 150 N/mm the friction is that at 150 N/mm, above 50 m/s that at 50 m/s. Sources differ on the limited speed: the sum velocity,
+//! or the pitch line velocity. X_L by oil type differs between the standards and fits of test gears; polyglycol falls with speed in
+//! ISO/TR 14179-2. Not for superfinished flanks, whose friction the exponent of Ra overestimates.
 
 use gearloss_framework::coefficients;
 use gearloss_framework::loss::{Limit, Notes, Observed, Undefined};
@@ -26,9 +25,16 @@ pub(crate) const PITCH_SPEED: Limit = Limit::new(
     "m/s",
     0.5,
     60.0,
-    "tests behind the method; the lower end as in FZG efficiency tests, recalled",
+    "tests behind the method; lower end as in FZG efficiency tests, quoted from memory",
 );
-pub(crate) const VISCOSITY: Limit = Limit::new(2, "eta", "mPa s", 5.0, 500.0, "tests behind the method, recalled");
+pub(crate) const VISCOSITY: Limit = Limit::new(
+    2,
+    "eta",
+    "mPa s",
+    5.0,
+    500.0,
+    "tests behind the method, quoted from memory",
+);
 pub(crate) const MU: Observed = Observed::new(0, "mu_m", "-", "Mean coefficient of friction.");
 
 coefficients! {
@@ -36,33 +42,33 @@ coefficients! {
     pub struct Constants {
         /// Factor of the formula.
         factor = 0.048, in 0.024..=0.096;
-        /// Exponent of the line load over sum speed and radius of curvature.
+        /// Exponent of the line load over sum velocity and radius of curvature.
         load_exponent = 0.2, in 0.1..=0.4;
         /// Exponent of the dynamic viscosity in mPa s.
         viscosity_exponent = -0.05, in -0.2..=-0.01;
         /// Exponent of the roughness in um.
         roughness_exponent = 0.25, in 0.0..=0.5;
-        /// Line load in N/mm below which the friction stays, where `clamp_line_load` is true.
+        /// Line load in N/mm below which the friction is constant, if `clamp_line_load` is true.
         least_line_load = 150.0, in 1.0..=1000.0;
-        /// Speed in m/s above which the friction stays, as `clamp_speed` says.
+        /// Speed in m/s above which the friction is constant, according to `clamp_speed`.
         greatest_speed = 50.0, in 5.0..=200.0;
     }
 }
 
-/// Which speed the upper clamp holds.
+/// Speed that the upper clamp limits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum SpeedClamp {
-    /// The sum of the surface speeds at the pitch point stays at 50 m/s.
+    /// Limits the sum velocity at the pitch point to 50 m/s.
     #[default]
     SumSpeed,
-    /// The sum of the surface speeds stays at that of 50 m/s pitch line speed.
+    /// Limits the sum velocity to its value at 50 m/s pitch line velocity.
     PitchSpeed,
     /// No clamp.
     None,
 }
 
-/// Oil type for X_L.
+/// Oil type that selects X_L.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum OilType {
@@ -74,9 +80,9 @@ pub enum OilType {
     Ester,
     /// Polyglycol: 0.75 (6/v_SC)^0.2.
     Polyglycol,
-    /// Traction fluid: 1.3, for which ISO 13989 says 1.5.
+    /// Traction fluid: 1.3; ISO 13989 gives 1.5.
     TractionFluid,
-    /// Phosphate ester: 1.5, for which ISO 13989 says 1.3.
+    /// Phosphate ester: 1.5; ISO 13989 gives 1.3.
     PhosphateEster,
     /// Mineral wind-turbine oil in FEUP tests: 0.846.
     MineralFeup,
@@ -87,7 +93,7 @@ pub enum OilType {
 }
 
 impl OilType {
-    /// X_L at a sum of the surface speeds in m/s.
+    /// X_L at a sum velocity in m/s.
     pub fn x_l(self, sum_speed: f64) -> f64 {
         match self {
             Self::Mineral => 1.0,
@@ -102,21 +108,21 @@ impl OilType {
     }
 }
 
-/// Mean friction of a mesh after Schlenk, as in ISO/TR 14179-2.
+/// Mean friction of a mesh according to Schlenk, as in ISO/TR 14179-2.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Schlenk {
-    /// Lubricant factor; absent, that of `oil`, else that of the lubricant. [-]
+    /// Lubricant factor; default: that of `oil`, else that of the lubricant. [-]
     #[schemars(range(min = 0.1, max = 2.0))]
     pub x_l: Option<f64>,
-    /// Oil type whose lubricant factor counts.
+    /// Oil type that selects the lubricant factor.
     pub oil: Option<OilType>,
-    /// Below 150 N/mm the friction stays that of 150 N/mm.
+    /// Below 150 N/mm the friction is that at 150 N/mm.
     #[serde(default = "yes")]
     pub clamp_line_load: bool,
-    /// Which speed the upper clamp holds.
+    /// Speed that the upper clamp limits.
     #[serde(default)]
     pub clamp_speed: SpeedClamp,
-    /// Greatest coefficient of friction: where boundary friction ends the growth of the formula at creeping speeds. [-]
+    /// Maximum coefficient of friction; boundary friction limits the growth of the formula at creeping speeds. [-]
     #[serde(default = "greatest")]
     #[schemars(range(min = 0.01, max = 1.0))]
     pub greatest: f64,
@@ -128,13 +134,13 @@ fn yes() -> bool {
     true
 }
 
-/// The mesh as the formula sees it, in shop units.
+/// The quantities of the mesh in the units of the formula.
 pub(crate) struct Mesh {
     /// F_bt/b. \[N/mm\]
     pub line_load: f64,
     /// \[m/s\]
     pub pitch_speed: f64,
-    /// Sum of the surface speeds over the pitch line speed.
+    /// Ratio of sum velocity to pitch line velocity.
     pub sum_per_speed: f64,
     /// rho_redC. \[mm\]
     pub radius: f64,
@@ -142,15 +148,15 @@ pub(crate) struct Mesh {
     pub eta: f64,
     /// \[um\]
     pub ra: f64,
-    /// Lubricant factor that the oil states.
+    /// Lubricant factor stated by the oil.
     pub x_l: f64,
 }
 
-/// Friction from shop units: N/mm, m/s, mm, mPa s, um.
+/// Friction from line load in N/mm, speed in m/s, radius in mm, viscosity in mPa s and roughness in um.
 pub(crate) fn mu(c: &Constants, line_load: f64, sum_speed: f64, radius: f64, eta: f64, ra: f64, x_l: f64) -> f64 {
     let load = line_load / (sum_speed * radius);
     let powers = if [c.load_exponent, c.viscosity_exponent, c.roughness_exponent] == [0.2, -0.05, 0.25] {
-        // One root in place of three powers: the published exponents are multiples of 0.05.
+        // One root instead of three powers: the published exponents are multiples of 0.05.
         (load.powi(4) / eta * ra.powi(5)).powf(0.05)
     } else {
         load.powf(c.load_exponent) * eta.powf(c.viscosity_exponent) * ra.powf(c.roughness_exponent)
@@ -222,12 +228,12 @@ register!(MeanFriction, "schlenk", Schlenk,
     source: "Schlenk 1994; ISO/TR 14179-2:2001; Niemann/Winter, Maschinenelemente 2",
     example: "{ type: schlenk, oil: polyalphaolefin }",
     evidence: [
-        formula(Evidence::SeveralSources, "the formula agrees in several open sources"),
+        formula(Evidence::SeveralSources, "several public sources give the same formula"),
         default_of("x_l", Evidence::Disputed, "tables of X_L differ between standards and tests"),
         default_of("oil", Evidence::Disputed, "tables of X_L differ between standards and tests"),
-        default_of("clamp_line_load", Evidence::Recalled, "the clamp stands in the method but not in open programs"),
-        default_of("clamp_speed", Evidence::Disputed, "two readings of the clamp"),
-        default_of("greatest", Evidence::Assumed, "above boundary friction of lubricated steel"),
+        default_of("clamp_line_load", Evidence::Recalled, "the method has the clamp, public programs omit it"),
+        default_of("clamp_speed", Evidence::Disputed, "two interpretations of the clamp"),
+        default_of("greatest", Evidence::Assumed, "above the boundary friction of lubricated steel"),
     ],
     limits: [LINE_LOAD, PITCH_SPEED, VISCOSITY], observed: [MU]);
 
@@ -272,7 +278,7 @@ mod tests {
         });
         close(law(true, SpeedClamp::SumSpeed).mu(&at).unwrap(), 0.0223151);
         close(law(false, SpeedClamp::None).mu(&at).unwrap(), 0.0188501);
-        // With a sum as fast as the pitch line both readings clamp alike.
+        // If the sum velocity equals the pitch line velocity, both clamps agree.
         close(law(true, SpeedClamp::PitchSpeed).mu(&at).unwrap(), 0.0223151);
         assert!(
             law(true, SpeedClamp::None)
@@ -299,7 +305,7 @@ mod tests {
             law.mu(&at).unwrap()
         };
         assert_eq!(mu(5e-6), 0.2);
-        // It goes over continuously, and a gear that turns has the friction of the formula.
+        // The bound joins continuously, and at normal speeds the friction is that of the formula.
         let border = (1..4000).map(|i| mu(1e-5 * f64::from(i))).collect::<Vec<_>>();
         assert!(
             border
@@ -332,7 +338,7 @@ mod tests {
                     continue;
                 }
             };
-            // At 6 m/s that of polyglycol has its printed figure.
+            // At 6 m/s polyglycol has its published value.
             line.is("iso14179_2", iso.x_l(6.0));
             assert_eq!(line.cell("feup"), feup.map(|oil| oil.x_l(6.0)));
         }

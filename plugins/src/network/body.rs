@@ -1,15 +1,15 @@
-//! Sizes and heat capacities of gears and shafts, as far as a description tells them.
+//! Sizes and heat capacities of gears and shafts, as far as the description defines them.
 
 use std::f64::consts::PI;
 
 use gearloss_framework::description::{GearKind, GearboxEntry, ShaftEntry};
 
-/// Share of the disc below its tip that the metal of a gear fills: webs are thinner than rims.
+/// Share of the disc below the tip diameter that is metal: webs are thinner than rims.
 const WEB: f64 = 0.6;
-/// Thickness of the rim of a ring, in modules.
+/// Rim thickness of a ring gear, in modules.
 const RIM: f64 = 4.0;
 
-/// A metal, as far as heat goes.
+/// A metal, by its heat capacity.
 #[derive(Clone, Copy)]
 pub struct Metal {
     /// \[kg/m3\]
@@ -29,7 +29,7 @@ impl Metal {
         specific_heat: 900.0,
     };
 
-    /// The metal of a wall of a thermal conductivity: aluminium from 90 W/(m K) on, else iron.
+    /// The metal of a wall with a thermal conductivity: aluminium from 90 W/(m K), otherwise iron.
     pub fn of_wall(conductivity: f64) -> Self {
         if conductivity >= 90.0 {
             Self::ALUMINIUM
@@ -53,12 +53,12 @@ pub struct Size {
     module: f64,
     /// Face width. \[m\]
     width: f64,
-    /// Internal teeth.
+    /// True for internal teeth.
     pub ring: bool,
 }
 
 impl Size {
-    /// Surface that oil touches: both sides and the teeth, of a ring only the teeth. \[m2\]
+    /// Oil-wetted surface: both sides and the teeth, for a ring gear only the teeth. \[m2\]
     pub fn wetted(&self) -> f64 {
         let sides = if self.ring {
             0.0
@@ -78,11 +78,11 @@ impl Size {
     }
 }
 
-/// What splashes oil at the casing.
+/// The component that splashes oil on the casing.
 pub struct Splash<'a> {
     /// Gear or carrier.
     pub member: &'a str,
-    /// Diameter that planets reach; absent for a gear. \[m\]
+    /// Outer diameter of the planets; `None` for a gear. \[m\]
     pub reach: Option<f64>,
 }
 
@@ -93,7 +93,7 @@ pub struct Bodies<'a> {
 }
 
 impl<'a> Bodies<'a> {
-    /// The bodies of a description; a gear without a mesh has no size.
+    /// The bodies of a description; a gear without a mesh has no known size.
     pub fn new(entry: &'a GearboxEntry) -> Self {
         let size = |(id, gear): (&'a str, &gearloss_framework::description::GearEntry)| {
             let (_, mesh) = entry.meshes.iter().find(|(_, m)| m.gears.iter().any(|g| g == id))?;
@@ -121,8 +121,8 @@ impl<'a> Bodies<'a> {
         self.size(gear).map_or(0.0, Size::volume) * Metal::STEEL.heat_capacity()
     }
 
-    /// Heat capacity of a shaft without gears: of its sections, else of a bar between its outermost bearings and gears, as thick
-    /// as its bearings' bores on average. Bearings by bore and place. \[J/K\]
+    /// Heat capacity of a shaft without gears: from its sections, else of a bar between its outermost bearings and gears with the
+    /// mean bore of its bearings as diameter. Takes the bearings by bore and position. \[J/K\]
     pub fn shaft_capacity(
         &self,
         id: &str,
@@ -164,7 +164,7 @@ impl<'a> Bodies<'a> {
         volume * Metal::STEEL.heat_capacity()
     }
 
-    /// Equal copies of a shaft: as many as planets where it is a planet body. Also takes a loose gear on one.
+    /// Number of equal copies of a shaft: the number of planets for a planet body. Also accepts an idler gear on one.
     pub fn copies(&self, member: &str) -> f64 {
         let shaft = self.entry.gears.get(member).map_or(member, |gear| gear.shaft.as_str());
         let mut sets = self.entry.planetary_sets.iter();
@@ -172,12 +172,12 @@ impl<'a> Bodies<'a> {
         own.map_or(1.0, |(_, set)| f64::from(set.count))
     }
 
-    /// Equal copies of a gear.
+    /// Number of equal copies of a gear.
     pub fn copies_of_gear(&self, gear: &str) -> f64 {
         self.entry.gears.get(gear).map_or(1.0, |gear| self.copies(&gear.shaft))
     }
 
-    /// What splashes: what reaches farthest, a gear on an axis of its own or the planets on their carrier.
+    /// The component with the largest reach: a gear on its own axis, or the planets on their carrier.
     pub fn splashing(&self) -> Option<Splash<'a>> {
         let mut farthest: Option<(f64, Splash<'a>)> = None;
         let mut offer = |reach: f64, splash: Splash<'a>| {
@@ -211,7 +211,7 @@ impl<'a> Bodies<'a> {
         farthest.map(|(_, splash)| splash)
     }
 
-    /// Diameter of the circle on which the axis of a planet runs, from its mesh with a sun or a ring. \[m\]
+    /// Diameter of the planet orbit, from the mesh with a sun or a ring. \[m\]
     fn orbit(&self, planet: &str) -> Option<f64> {
         let own = self.size(planet)?.diameter;
         let mates = self.entry.meshes.iter().filter_map(|(_, mesh)| {

@@ -1,9 +1,9 @@
-//! A first estimate of the drag of carrier and planets, from churning of a gear and friction of a disc.
+//! A first estimate of the drag of carrier and planets, from gear churning and disc friction.
 //!
-//! Source: none. Published laws for planetary sets (Kettler; Höhn) are not at hand. The planets count as gears that turn at their
-//! speed in the housing's frame and dip as deep as a mean over the orbit; how they shove oil along on their orbit is left
-//! out. The carrier counts as discs in oil by the disc friction of Diab et al. 2004 (J. Mech. Des. 126, 903-908), P = 1/2 C_f rho w^3
-//! R^5 for both faces, with the share of the faces that the oil covers. A factor of three either way is to be expected.
+//! Source: none. Published laws for planetary sets (Kettler; Höhn) were not available. The planets are treated as gears that rotate
+//! at their speed in the housing frame, with the mean immersion depth over the orbit; the drag of their orbital motion is
+//! neglected. The carrier is treated as discs in oil with the disc friction of Diab et al. 2004 (J. Mech. Des. 126, 903-908), P =
+//! 1/2 C_f rho w^3 R^5 for both faces, times the oil-covered share of the faces. Expect a factor of three in either direction.
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::immersion::{dip, orbiting_dip};
@@ -21,15 +21,15 @@ use crate::gear_drag::wetted::Wetted;
 
 const PLANETS: Term = Term::no_load(0, "planets");
 const CARRIER: Term = Term::no_load(1, "carrier");
-const SHARE: Observed = Observed::new(0, "A_wet/A", "-", "Share of the carrier's faces that the oil covers.");
+const SHARE: Observed = Observed::new(0, "A_wet/A", "-", "Oil-covered share of the carrier faces.");
 const REYNOLDS: Observed = Observed::new(1, "Re", "-", "Reynolds number of the carrier in oil.");
 
-/// A first estimate of carrier and planets in oil; expect a factor of three either way.
+/// A first estimate of carrier and planets in oil; expect a factor of three in either direction.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
-    /// Churning law of the planets: one that is asked for a single gear; `none` where `gear_drag` counts them.
+    /// Churning law of the planets, which must be a law for a single gear; `none` if `gear_drag` covers them.
     pub planet: ModelRef<GearDrag>,
-    /// Outer diameter of the carrier's discs; absent, they reach to the outermost point of the planets. [mm]
+    /// Outer diameter of the carrier discs; default: that of the circle around the planets. [mm]
     #[schemars(range(min = 1.0, max = 10000.0))]
     pub diameter: Option<f64>,
     /// Number of discs. [-]
@@ -59,19 +59,19 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Estimate, Diagnostic> {
         .clone();
     if !part.has_level {
         return Err(cx
-            .error("estimate needs the level of the oil")
+            .error("estimate requires the oil level")
             .help("state `housing.oil.level` and `housing.oil.measured_from`"));
     }
     let name = params.planet.value["type"].as_str().unwrap_or("none").to_owned();
     if part.bodies > 1 && name != "none" {
         return Err(cx
-            .error("estimate knows the speed of one planet body only")
-            .help("write `planet: none` and give the planets' gears a churning model of their own"));
+            .error("estimate supports one planet body only")
+            .help("write `planet: none` and give the planet gears their own churning model"));
     }
     if cx.is_pair(&name) {
         return Err(cx
-            .error(format!("`{name}` is asked for meshes, not for a single gear"))
-            .help("choose a law of a single gear, such as `changenet_2011`"));
+            .error(format!("`{name}` is a law for meshes, not for a single gear"))
+            .help("choose a law for a single gear, such as `changenet_2011`"));
     }
     let reach = part.planets.iter().map(|p| p.gear.tip_diameter).fold(0.0, f64::max);
     let mut planets = Vec::new();
@@ -102,7 +102,7 @@ impl PlanetaryDragModel for Estimate {
         let mut planets = 0.0;
         for (slot, planet) in self.planets.iter().zip(&at.part.planets) {
             let depth = |diameter: f64| orbiting_dip(at.level, 0.5 * diameter, at.part.orbit);
-            let loss = slot.loss(&GearDragAt::usual(planet, at.notes.of(slot.notes)).with(|to| {
+            let loss = slot.loss(&GearDragAt::usual(planet, at.notes.nested(slot.notes)).with(|to| {
                 to.speed = at.planet_speed;
                 to.speed_2 = at.planet_speed;
                 to.tip_dip = depth(planet.gear.tip_diameter);
@@ -137,12 +137,12 @@ impl PlanetaryDragModel for Estimate {
 }
 
 register!(PlanetaryDrag, "estimate", Params,
-    source: "put together from single gears and discs",
+    source: "composed of laws for single gears and discs",
     example: "{ type: estimate, planet: { type: changenet_2011 } }",
     evidence: [
-        formula(Evidence::Assumed, "no law of planetary sets is published in full; uncalibrated"),
-        default_of("diameter", Evidence::Assumed, "the discs reach to the outermost point of the planets"),
-        default_of("discs", Evidence::Assumed, "a disc on either side of the planets"),
+        formula(Evidence::Assumed, "no law for planetary sets is published in full; uncalibrated"),
+        default_of("diameter", Evidence::Assumed, "the discs cover the planets"),
+        default_of("discs", Evidence::Assumed, "one disc on each side of the planets"),
     ],
     terms: [PLANETS, CARRIER], observed: [SHARE, REYNOLDS], prepare: prepare);
 

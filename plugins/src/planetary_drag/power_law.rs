@@ -1,8 +1,8 @@
 //! A power law of speed, viscosity and oil volume.
 //!
-//! Source: the user's own figures, as fitted to simulations or measurements (Concli 2015 interpolates the drag of planetary
-//! gearboxes over speed, temperature and oil level so): T = T_0 (n/n_0)^a (nu/nu_0)^b (V/V_0)^c. Written about a point of
-//! reference, the factor is a moment and not a number whose unit hangs on the exponents.
+//! Source: user-defined, fitted to simulations or measurements (Concli 2015 interpolates the drag of planetary gearboxes over
+//! speed, temperature and oil level in this way): T = T_0 (n/n_0)^a (nu/nu_0)^b (V/V_0)^c. With a reference point the factor is a
+//! torque; otherwise its unit would depend on the exponents.
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::generic::PLACE;
@@ -10,7 +10,7 @@ use gearloss_framework::loss::{Loss, Term, Undefined};
 use gearloss_framework::mechanism::gear_drag::Covers;
 use gearloss_framework::mechanism::planetary_drag::{PlanetaryDrag, PlanetaryDragAt, PlanetaryDragModel};
 use gearloss_framework::register;
-use gearloss_framework::registry::{Build, Evidence, formula};
+use gearloss_framework::registry::{Build, Evidence, USER_DEFINED, formula};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -19,16 +19,16 @@ const TERM: Term = Term::no_load(0, "drag");
 /// A power law of speed, viscosity and oil volume, fitted to simulations or measurements.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct PowerLaw {
-    /// Moment on the reference shaft at the point of reference. [Nm]
+    /// Torque on the reference shaft at the reference point. [Nm]
     #[schemars(range(min = 0.0, max = 1e6))]
     pub moment: f64,
-    /// Speed of the reference shaft at the point of reference. [rpm]
+    /// Speed of the reference shaft at the reference point. [rpm]
     #[schemars(range(min = 0.1, max = 1e6))]
     pub speed: f64,
-    /// Kinematic viscosity at the point of reference. [mm2/s]
+    /// Kinematic viscosity at the reference point. [mm2/s]
     #[schemars(range(min = 0.1, max = 1e6))]
     pub nu: f64,
-    /// Volume of the oil at the point of reference; absent, the volume does not count. [ml]
+    /// Oil volume at the reference point; default: the volume has no effect. [ml]
     #[schemars(range(min = 0.1, max = 1e7))]
     pub volume: Option<f64>,
     /// Exponent of the speed. [-]
@@ -42,13 +42,13 @@ pub struct PowerLaw {
     #[serde(default)]
     #[schemars(range(min = -5.0, max = 5.0))]
     pub volume_exponent: f64,
-    /// Least and greatest speed of the points behind the law; beyond them is noted. [rpm]
+    /// Speed range of the underlying points; exceeding it is noted. [rpm]
     #[schemars(inner(range(min = 0.0, max = 1e6)))]
     pub speeds: Option<[f64; 2]>,
-    /// Least and greatest viscosity of the points behind the law. [mm2/s]
+    /// Viscosity range of the underlying points. [mm2/s]
     #[schemars(inner(range(min = 0.0, max = 1e6)))]
     pub viscosities: Option<[f64; 2]>,
-    /// Least and greatest volume of the points behind the law. [ml]
+    /// Oil volume range of the underlying points. [ml]
     #[schemars(inner(range(min = 0.0, max = 1e7)))]
     pub volumes: Option<[f64; 2]>,
 }
@@ -57,19 +57,19 @@ fn prepare(law: PowerLaw, cx: &mut Build<'_>) -> Result<PowerLaw, Diagnostic> {
     let known = cx.part::<PlanetaryDrag>().is_none_or(|part| part.oil_volume.is_some());
     if law.volume.is_some() && !known {
         return Err(cx
-            .error("the law counts the volume of the oil, which is not known here")
-            .help("state `housing.oil.volume`, or leave `volume` and `volume_exponent` out"));
+            .error("the law depends on the oil volume, which is not known here")
+            .help("state `housing.oil.volume`, or omit `volume` and `volume_exponent`"));
     }
     if law.volume.is_none() && (law.volume_exponent != 0.0 || law.volumes.is_some()) {
         return Err(cx
             .error("`volume_exponent` or `volumes` without `volume`")
-            .help("state the volume at the point of reference"));
+            .help("state the volume at the reference point"));
     }
     let rising = |range: Option<[f64; 2]>| range.is_none_or(|[least, greatest]| least < greatest);
     if ![law.speeds, law.viscosities, law.volumes].into_iter().all(rising) {
         return Err(cx
-            .error("a range of the law does not rise")
-            .help("write the least value first"));
+            .error("a range of the law does not increase")
+            .help("write the minimum first"));
     }
     Ok(law)
 }
@@ -110,7 +110,7 @@ impl PlanetaryDragModel for PowerLaw {
 }
 
 register!(PlanetaryDrag, "power_law", PowerLaw,
-    source: "the user's own",
+    source: USER_DEFINED,
     example: "{ type: power_law, moment: 0.05 Nm, speed: 300 rpm, nu: 100 mm2/s, volume: 90 ml, speed_exponent: 0.6, \
               viscosity_exponent: 0.4, volume_exponent: 0.8 }",
     evidence: [formula(Evidence::User, "the user states it")],

@@ -1,6 +1,6 @@
-//! Radial lip seals after ISO/TR 14179-1, of AGMA origin.
+//! Radial lip seals according to ISO/TR 14179-1, of AGMA origin.
 //!
-//! Source: ISO/TR 14179-1:2001, recalled: T = 3.737e-3 d for fluoro rubber, 2.429e-3 d for nitrile rubber, in N m with d in mm; one lip.
+//! Source: ISO/TR 14179-1:2001, quoted from memory: T = 3.737e-3 d for fluoro rubber, 2.429e-3 d for nitrile rubber, in N m with d in mm; one lip.
 
 use gearloss_framework::coefficients;
 use gearloss_framework::loss::{Loss, Term, Undefined};
@@ -26,14 +26,14 @@ pub enum Material {
 coefficients! {
     /// Constants of the formula of ISO/TR 14179-1.
     struct Constants {
-        /// Moment in N m per mm of diameter, fluoro rubber.
+        /// Torque in N m per mm of diameter, fluoro rubber.
         fkm = 3.737e-3, in 1.8685e-3..=7.474e-3;
-        /// Moment in N m per mm of diameter, nitrile rubber.
+        /// Torque in N m per mm of diameter, nitrile rubber.
         nbr = 2.429e-3, in 1.2145e-3..=4.858e-3;
     }
 }
 
-/// Radial lip seals after ISO/TR 14179-1: moment with diameter and material.
+/// Radial lip seals according to ISO/TR 14179-1: torque from diameter and material.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Iso14179 {
     /// Material of the lip.
@@ -43,7 +43,7 @@ pub struct Iso14179 {
 }
 
 impl Iso14179 {
-    /// Friction moment from the diameter in mm. \[Nm\]
+    /// Friction torque from the diameter in mm. \[Nm\]
     fn moment(&self, d: f64) -> f64 {
         match self.material {
             Material::Fkm => self.coefficients.fkm * d,
@@ -65,7 +65,7 @@ impl SealModel for Iso14179 {
 register!(Seal, "iso14179_1", Iso14179,
     source: "ISO/TR 14179-1:2001",
     example: "{ type: iso14179_1, material: fkm }",
-    evidence: [formula(Evidence::Recalled, "recalled; the law of Linke lies between both materials at 40 mm")],
+    evidence: [formula(Evidence::Recalled, "quoted from memory, not checked; the law of Linke is between both materials at 40 mm")],
     terms: [LIP]);
 
 #[cfg(test)]

@@ -1,9 +1,8 @@
-//! Radial lip seals after ISO/TR 14179-2.
+//! Radial lip seals according to ISO/TR 14179-2.
 //!
 //! Source: ISO/TR 14179-2:2001, clause on seals: P = [145 - 1.6 T + 350 lg lg(nu40 + 0.8)] d^2 n 1e-7, in W with T in degC,
-//! nu40 in mm2/s, d in mm, n in 1/min. The power is linear in speed, so the moment is constant.
-//! Assumes one lip. The bracket falls with temperature and is held at zero where it would turn negative.
-//! Not for seals without contact, which lose nothing here.
+//! nu40 in mm2/s, d in mm, n in 1/min. The power is linear in speed, so the torque is constant. Assumes one lip. The bracket falls
+//! with temperature and is limited to zero. Not for non-contact seals, which have no loss here.
 
 use gearloss_framework::coefficients;
 use gearloss_framework::loss::{Limit, Loss, Term, Undefined};
@@ -16,15 +15,15 @@ use serde::Deserialize;
 
 const LIP: Term = Term::no_load(0, "lip");
 
-/// Below zero the formula would answer with a gain: beyond about 128 degC with 30 mm2/s at 40 degC, or 157 degC with
-/// 100 mm2/s. The upper end lies above every value that oils reach.
+/// Above, the formula would give a negative loss: above about 128 degC with 30 mm2/s at 40 degC, or 157 degC with 100 mm2/s. The
+/// upper end exceeds any oil temperature.
 const BRACKET: Limit = Limit::new(
     0,
     "bracket",
     "-",
     0.0,
     1000.0,
-    "below, the power would turn negative; it is held at zero",
+    "below, the power would be negative; it is set to zero",
 );
 
 coefficients! {
@@ -32,14 +31,14 @@ coefficients! {
     struct Constants {
         /// Constant of the bracket.
         constant = 145.0, in 72.5..=290.0;
-        /// How much the bracket falls per degC.
+        /// Decrease of the bracket per degC.
         temperature_factor = 1.6, in 0.8..=3.2;
         /// Factor of lg lg(nu40 + 0.8).
         viscosity_factor = 350.0, in 175.0..=700.0;
     }
 }
 
-/// Radial lip seals after ISO/TR 14179-2.
+/// Radial lip seals according to ISO/TR 14179-2.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Iso14179 {
     #[serde(default)]
@@ -49,7 +48,7 @@ pub struct Iso14179 {
 impl SealModel for Iso14179 {
     fn loss(&self, at: &SealAt<'_>) -> Result<Loss, Undefined> {
         if at.part.kind == SealKind::NonContact {
-            at.branch("seal without contact");
+            at.branch("non-contact seal");
             return Ok(Loss::MOMENTS);
         }
         let lg = (at.nu40.mm2_s() + 0.8).log10().log10();
@@ -57,7 +56,7 @@ impl SealModel for Iso14179 {
         let bracket =
             c.constant - c.temperature_factor * at.show("T_oil", "degC", at.temperature) + c.viscosity_factor * lg;
         if bracket < 0.0 {
-            at.branch("the bracket is negative: held at zero");
+            at.branch("the bracket is negative: set to zero");
         }
         let bracket = at.check(&BRACKET, bracket).max(0.0);
         let d = at.show("d", "mm", at.part.diameter.mm());
@@ -70,7 +69,7 @@ impl SealModel for Iso14179 {
 register!(Seal, "iso14179_2", Iso14179,
     source: "ISO/TR 14179-2:2001",
     example: "{ type: iso14179_2 }",
-    evidence: [formula(Evidence::OneSource, "one printed source, watt level checked against Linke's diagram")],
+    evidence: [formula(Evidence::OneSource, "one published source; magnitude checked against Linke's diagram")],
     limits: [BRACKET], terms: [LIP]);
 
 #[cfg(test)]
@@ -115,7 +114,7 @@ mod tests {
             .loss(&at)
             .map_or(f64::NAN, |loss| loss.total_moment(speed))
         };
-        // The power is linear in speed, so the moment has a finite limit at rest.
+        // The power is linear in speed, so the torque has a finite limit at standstill.
         assert!(moment(SealKind::RadialLip, 0.0) > 0.0);
         assert_eq!(moment(SealKind::RadialLip, 0.0), moment(SealKind::RadialLip, -300.0));
         assert_eq!(moment(SealKind::NonContact, 300.0), 0.0);

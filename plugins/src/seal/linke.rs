@@ -1,7 +1,7 @@
-//! Radial lip seals after Linke.
+//! Radial lip seals according to Linke.
 //!
-//! Source: Linke, Stirnradverzahnung: P = 7.69e-6 d^2 n in W, d in mm, n in 1/min; one lip. The moment does not depend on speed, oil or
-//! temperature. Some programs print it under the name of ISO/TR 14179-2, which it is not.
+//! Source: Linke, Stirnradverzahnung: P = 7.69e-6 d^2 n in W, d in mm, n in 1/min; one lip. The torque is independent of speed, oil
+//! and temperature. Some programs attribute it to ISO/TR 14179-2, incorrectly.
 
 use gearloss_framework::coefficients;
 use gearloss_framework::loss::{Loss, Term, Undefined};
@@ -22,14 +22,14 @@ coefficients! {
     }
 }
 
-/// Radial lip seals after Linke: moment with the square of the diameter.
+/// Radial lip seals according to Linke: torque from the square of the diameter.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Linke {
     #[serde(default)]
     coefficients: Constants,
 }
 
-/// Friction moment from the diameter in mm. \[Nm\]
+/// Friction torque from the diameter in mm. \[Nm\]
 fn moment(factor: f64, d: f64) -> f64 {
     factor * d * d / (std::f64::consts::PI / 30.0)
 }
@@ -50,7 +50,7 @@ impl SealModel for Linke {
 register!(Seal, "linke", Linke,
     source: "Linke, Stirnradverzahnung",
     example: "{ type: linke }",
-    evidence: [formula(Evidence::SeveralSources, "a public program, a method list and memory agree")],
+    evidence: [formula(Evidence::SeveralSources, "a public program, a list of methods and memory agree")],
     terms: [LIP]);
 
 #[cfg(test)]

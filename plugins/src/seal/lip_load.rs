@@ -1,6 +1,6 @@
-//! Radial lip seals from line load and friction of the lip.
+//! Radial lip seals from line load and friction coefficient of the lip.
 //!
-//! Derived: T = mu q pi d^2/2 with the radial load q per length of the lip, 50 to 150 N/m as a rule, and a coefficient of friction
+//! Derived: T = mu q pi d^2/2 with the radial load q per length of the lip, typically 50 to 150 N/m, and a coefficient of friction
 //! of 0.2 to 0.5 when lubricated.
 
 use gearloss_framework::loss::{Loss, Term, Undefined};
@@ -13,19 +13,19 @@ use serde::Deserialize;
 
 const LIP: Term = Term::no_load(0, "lip");
 
-/// Radial lip seals from line load and friction of the lip.
+/// Radial lip seals from line load and friction coefficient of the lip.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct LipLoad {
-    /// Radial load per length of the lip: 50 to 150 N/m as a rule. [N/m]
+    /// Radial load per length of the lip, typically 50 to 150 N/m. [N/m]
     #[schemars(range(min = 0.0, max = 5000.0))]
     pub line_load: f64,
-    /// Coefficient of friction: 0.2 to 0.5 as a rule. [-]
+    /// Coefficient of friction, typically 0.2 to 0.5. [-]
     #[schemars(range(min = 0.0, max = 2.0))]
     pub mu: f64,
 }
 
 impl LipLoad {
-    /// Friction moment from the diameter in m. \[Nm\]
+    /// Friction torque from the diameter in m. \[Nm\]
     fn moment(&self, d: f64) -> f64 {
         self.mu * self.line_load * std::f64::consts::PI * d * d / 2.0
     }
@@ -45,7 +45,7 @@ impl SealModel for LipLoad {
 register!(Seal, "lip_load", LipLoad,
     source: "derived: Coulomb friction of a loaded ring",
     example: "{ type: lip_load, line_load: 100 N/m, mu: 0.3 }",
-    evidence: [formula(Evidence::Derived, "load and friction are the user's")],
+    evidence: [formula(Evidence::Derived, "the user states load and friction")],
     terms: [LIP]);
 
 #[cfg(test)]

@@ -1,8 +1,8 @@
-//! Radial lip seals after Niemann and Winter, with a coefficient of the user.
+//! Radial lip seals according to Niemann and Winter, with a user-defined coefficient.
 //!
-//! Source: Niemann/Winter, Maschinenelemente 2, as Concli quotes it: P = lambda_L d^2 n/1000 in W, d in mm, n in 1/min. No value of
-//! lambda_L is printed; it depends on temperature and wear. 7.69e-3 gives the law of Linke. A number, or a table over
-//! quantities of the seal such as `temperature [degC]`.
+//! Source: Niemann/Winter, Maschinenelemente 2, as quoted by Concli: P = lambda_L d^2 n/1000 in W, d in mm, n in 1/min. No value of
+//! lambda_L is published; it depends on temperature and wear. 7.69e-3 gives the law of Linke. A number, or a table over quantities
+//! of the seal such as `temperature [degC]`.
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::generic::{Lookup, PLACE};
@@ -17,15 +17,15 @@ use serde::Deserialize;
 
 const LIP: Term = Term::no_load(0, "lip");
 
-/// Radial lip seals with a coefficient of the user, a number or a table.
+/// Radial lip seals with a user-defined coefficient, a number or a table.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
-    /// Coefficient lambda_L, in place of a table. [-]
+    /// Coefficient lambda_L, instead of a table. [-]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub lambda_l: Option<f64>,
     /// CSV file with lambda_L over one to four quantities.
     pub file: Option<String>,
-    /// What holds beyond the ends of the table.
+    /// Extrapolation of the table.
     #[serde(default)]
     pub outside: Outside,
 }
@@ -46,12 +46,12 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<NiemannWinter, Diagnost
             Ok(NiemannWinter::Table(Lookup::read(&file, &reading, "-", cx)?))
         }
         _ => Err(cx
-            .error("niemann_winter needs one of `lambda_l` and `file`")
-            .help("write `lambda_l: 7.69e-3`, which is the law of Linke, or your own figure")),
+            .error("niemann_winter requires either `lambda_l` or `file`")
+            .help("write `lambda_l: 7.69e-3`, which is the law of Linke, or your own value")),
     }
 }
 
-/// Friction moment from the coefficient and the diameter in mm. \[Nm\]
+/// Friction torque from the coefficient and the diameter in mm. \[Nm\]
 fn moment(lambda: f64, d: f64) -> f64 {
     lambda * d * d * 1e-3 / (std::f64::consts::PI / 30.0)
 }
@@ -82,9 +82,9 @@ impl SealModel for NiemannWinter {
 }
 
 register!(Seal, "niemann_winter", Params,
-    source: "Niemann/Winter, Maschinenelemente 2, as Concli 2015 quotes it",
+    source: "Niemann/Winter, Maschinenelemente 2, as quoted by Concli 2015",
     example: "{ type: niemann_winter, lambda_l: 7.69e-3 }",
-    evidence: [formula(Evidence::OneSource, "one article; the coefficient is the user's")],
+    evidence: [formula(Evidence::OneSource, "one article; the user states the coefficient")],
     limits: [PLACE], terms: [LIP], prepare: prepare);
 
 #[cfg(test)]

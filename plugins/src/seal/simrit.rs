@@ -1,6 +1,6 @@
-//! Radial lip seals by a rule of thumb of a maker of seals: an upper bracket.
+//! Radial lip seals by a seal manufacturer's rule of thumb: an upper bound.
 //!
-//! Source: Freudenberg/Simrit, recalled: P = 0.5 d v in W, d in mm, v circumferential speed in m/s. Three to four times the law of Linke.
+//! Source: Freudenberg/Simrit, quoted from memory: P = 0.5 d v in W, d in mm, v circumferential speed in m/s. Three to four times the law of Linke.
 
 use gearloss_framework::coefficients;
 use gearloss_framework::loss::{Loss, Term, Undefined};
@@ -16,19 +16,19 @@ const LIP: Term = Term::no_load(0, "lip");
 coefficients! {
     /// The constant of the rule.
     struct Constants {
-        /// Power in W per mm of diameter and m/s of circumferential speed; laws of others lie at a third to a quarter.
+        /// Power in W per mm of diameter and m/s of circumferential speed; other laws give a third to a quarter.
         factor = 0.5, in 0.1..=1.0;
     }
 }
 
-/// Radial lip seals by a rule of thumb of a maker: an upper bracket.
+/// Radial lip seals by a manufacturer's rule of thumb: an upper bound.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Simrit {
     #[serde(default)]
     coefficients: Constants,
 }
 
-/// Friction moment from the diameter in m. \[Nm\]
+/// Friction torque from the diameter in m. \[Nm\]
 fn moment(factor: f64, d: f64) -> f64 {
     factor * d.mm() * 0.5 * d
 }
@@ -49,7 +49,7 @@ impl SealModel for Simrit {
 register!(Seal, "simrit", Simrit,
     source: "Freudenberg/Simrit",
     example: "{ type: simrit }",
-    evidence: [formula(Evidence::Disputed, "recalled, and three to four times other laws")],
+    evidence: [formula(Evidence::Disputed, "quoted from memory, not checked; three to four times other laws")],
     terms: [LIP]);
 
 #[cfg(test)]

@@ -1,9 +1,9 @@
-//! Contact seals of rolling bearings after the SKF catalogue, as seals of their own.
+//! Contact seals of rolling bearings according to the SKF catalogue, as separate seals.
 //!
 //! Source: SKF Rolling bearings, PUB 10000 (2013) and 17000 (2018): M = K_S1 d_s^beta + K_S2 in N mm for both seals of a bearing,
-//! d_s the diameter of the counterface in mm; constants by seal, bearing and outside diameter. One seal alone takes half, but
-//! RSL above 25 mm the whole. Seals without contact lose nothing. `diameter` of the seal is d_s. In a bearing's own model
-//! `skf` the same seals are its parameter `seals`.
+//! d_s the diameter of the counterface in mm; constants by seal, bearing and outside diameter. A single seal has half of the
+//! moment, but RSL above 25 mm all of it. Non-contact seals have no loss. `diameter` of the seal is d_s. The bearing model `skf`
+//! covers the same seals with its parameter `seals`.
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::{Loss, Term, Undefined};
@@ -18,10 +18,10 @@ use crate::bearing::skf_seal::{Code, SealRow};
 
 const LIP: Term = Term::no_load(0, "lip");
 
-/// Contact seals of rolling bearings after the SKF catalogue.
+/// Contact seals of rolling bearings according to the SKF catalogue.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
-    /// Seal and bearing.
+    /// Seal type and kind of bearing.
     pub code: Code,
     /// Outside diameter of the bearing. [mm]
     #[schemars(range(min = 1.0, max = 5000.0))]

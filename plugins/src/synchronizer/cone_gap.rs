@@ -1,9 +1,9 @@
 //! Drag of open synchronizers: Couette flow in the gap between cones.
 //!
 //! Source: derived from laminar shear flow between two cones, Newtonian oil at oil temperature:
-//! T = z phi pi eta dw (r2^4 - r1^4)/(2 h sin a). The ends of the cone follow from its mean diameter, width and half angle.
-//! Assumes the whole speed difference over one gap (a floating ring would halve it) and a gap filled by the share phi.
-//! Not for turbulent gaps: beyond the stated Reynolds and Taylor numbers the drag is underrated.
+//! T = z phi pi eta dw (r2^4 - r1^4)/(2 h sin a). Mean diameter, width and half angle define the ends of the cone. Assumes the full
+//! speed difference over one gap (a floating ring would halve it) and a gap filled by the share phi. Not for turbulent gaps: above
+//! the stated Reynolds and Taylor numbers the drag is underpredicted.
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::{Limit, Loss, Term, Undefined};
@@ -17,13 +17,13 @@ const SHEAR: Term = Term::no_load(0, "shear");
 const REYNOLDS: Limit = Limit::new(0, "Re", "-", 0.0, 1000.0, "laminar gap flow");
 const TAYLOR: Limit = Limit::new(1, "Ta", "-", 0.0, 41.3, "onset of Taylor vortices");
 
-/// Shear of oil in the gap between the cones of an open synchronizer.
+/// Oil shear in the gap between the cones of an open synchronizer.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct ConeGap {}
 
 /// The oil in the gap of one synchronizer, prepared.
 struct Film {
-    /// Moment per viscosity and speed. \[m3\]
+    /// Torque per viscosity and speed. \[m3\]
     factor: f64,
     radius: f64,
     gap: f64,
@@ -33,22 +33,22 @@ fn prepare(_params: ConeGap, cx: &mut Build<'_>) -> Result<Film, Diagnostic> {
     let part = cx.part::<Synchronizer>().ok_or_else(|| cx.error("bug: no part"))?;
     if part.kind != CouplingKind::Synchronizer {
         return Err(cx
-            .error("cone_gap is for synchronizers")
-            .help("write `model: { type: ring_gap }` for a ring or a dog clutch with a gap, `model: none` for one without drag"));
+            .error("cone_gap applies to synchronizers only")
+            .help("write `model: { type: ring_gap }` for a ring or a dog clutch with a gap, `model: none` for a coupling without drag"));
     }
     let (Some(diameter), Some(width), Some(angle), Some(gap)) =
         (part.cone_diameter, part.cone_width, part.cone_angle, part.gap)
     else {
         return Err(cx
-            .error("cone_gap needs cone_diameter, cone_width, cone_angle and gap")
+            .error("cone_gap requires `cone_diameter`, `cone_width`, `cone_angle` and `gap`")
             .help("add them to the coupling"));
     };
     let half = 0.5 * width * angle.tan();
     let (r1, r2) = (0.5 * diameter - half, 0.5 * diameter + half);
     if r1 < 0.0 {
         return Err(cx
-            .error("the cone is wider than its tip allows: its small end would have a negative radius")
-            .help("correct cone_diameter (mean), cone_width (along the axis) or cone_angle (half angle)"));
+            .error("the cone is too wide: its small end would have a negative radius")
+            .help("correct `cone_diameter` (mean), `cone_width` (along the axis) or `cone_angle` (half angle)"));
     }
     Ok(Film {
         factor: part.oil_fill * f64::from(part.cones) * cone(r1, r2, angle, gap),
@@ -57,7 +57,7 @@ fn prepare(_params: ConeGap, cx: &mut Build<'_>) -> Result<Film, Diagnostic> {
     })
 }
 
-/// Moment per viscosity and speed of one flooded cone between two radii. \[m3\]
+/// Torque per viscosity and speed of one flooded cone between two radii. \[m3\]
 fn cone(r1: f64, r2: f64, angle: f64, gap: f64) -> f64 {
     std::f64::consts::PI * (r2.powi(4) - r1.powi(4)) / (2.0 * gap * angle.sin())
 }
@@ -76,7 +76,7 @@ impl SynchronizerModel for Film {
 register!(Synchronizer, "cone_gap", ConeGap,
     source: "derived: laminar Couette flow between cones",
     example: "{ type: cone_gap }",
-    evidence: [formula(Evidence::Derived, "shear flow; the filling of the gap is the user's")],
+    evidence: [formula(Evidence::Derived, "shear flow; the user states the filling of the gap")],
     limits: [REYNOLDS, TAYLOR], terms: [SHEAR], prepare: prepare);
 
 #[cfg(test)]
@@ -107,7 +107,7 @@ mod tests {
         let flooded = cone(0.030, 0.032, 6.5_f64.to_radians(), 0.15e-3) * 0.012 * speed;
         assert!((flooded / 0.0554672 - 1.0).abs() < 1e-5, "{flooded}");
         assert!((0.3 * flooded / 0.0166402 - 1.0).abs() < 1e-5);
-        // With a small angle the cone is a ring of the slant length.
+        // At a small angle the cone is a cylinder of the slant length.
         let ring =
             2.0 * std::f64::consts::PI * 0.012 * speed * 0.031_f64.powi(3) * (0.002 / 6.5_f64.to_radians().sin())
                 / 0.15e-3;
@@ -142,7 +142,7 @@ mod tests {
             build(&part(r#"{"kind":"dog"}"#))
                 .err()
                 .unwrap()
-                .contains("for synchronizers")
+                .contains("to synchronizers")
         );
         let wide = r#"{"cone_diameter":0.01,"cone_width":0.1,"cone_angle":0.5,"gap":1.5e-4}"#;
         assert!(build(&part(wide)).err().unwrap().contains("negative radius"));

@@ -1,8 +1,8 @@
-//! Drag of a cylindrical gap: a wheel on a plain shaft, a bush, the ring of a dog clutch.
+//! Drag of a cylindrical gap: an idler gear on a plain shaft, a bush, the ring of a dog clutch.
 //!
 //! Source: derived from laminar shear flow between cylinders: T = phi 2 pi eta dw r^3 L/h (Petroff).
-//! Assumes concentric cylinders, the whole speed difference over one gap, and a gap filled by the share phi. A cone counts as
-//! a cylinder of its mean radius and slant length, about 0.1 % below the cone itself; several cones add up.
+//! Assumes concentric cylinders, the full speed difference over one gap, and a gap filled by the share phi. A cone is treated as a
+//! cylinder with its mean radius and slant length, about 0.1 % below the cone itself; the drag of several cones adds up.
 //! Not for turbulent gaps.
 
 use gearloss_framework::document::Diagnostic;
@@ -17,13 +17,13 @@ const SHEAR: Term = Term::no_load(0, "shear");
 const REYNOLDS: Limit = Limit::new(0, "Re", "-", 0.0, 1000.0, "laminar gap flow");
 const TAYLOR: Limit = Limit::new(1, "Ta", "-", 0.0, 41.3, "onset of Taylor vortices");
 
-/// Shear of oil in a cylindrical gap.
+/// Oil shear in a cylindrical gap.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct RingGap {}
 
 /// The oil in the gap, prepared.
 struct Film {
-    /// Moment per viscosity and speed. \[m3\]
+    /// Torque per viscosity and speed. \[m3\]
     factor: f64,
     radius: f64,
     gap: f64,
@@ -33,7 +33,7 @@ fn prepare(_params: RingGap, cx: &mut Build<'_>) -> Result<Film, Diagnostic> {
     let part = cx.part::<Synchronizer>().ok_or_else(|| cx.error("bug: no part"))?;
     let (Some(diameter), Some(length), Some(gap)) = (part.cone_diameter, part.cone_width, part.gap) else {
         return Err(cx
-            .error("ring_gap needs cone_diameter (of the gap), cone_width (its length) and gap")
+            .error("ring_gap requires `cone_diameter` (of the gap), `cone_width` (its length) and `gap`")
             .help("add them to the coupling"));
     };
     let slant = length / part.cone_angle.unwrap_or(0.0).cos();
@@ -45,7 +45,7 @@ fn prepare(_params: RingGap, cx: &mut Build<'_>) -> Result<Film, Diagnostic> {
     })
 }
 
-/// Moment per viscosity and speed of a flooded ring. \[m3\]
+/// Torque per viscosity and speed of a flooded ring. \[m3\]
 fn ring(radius: f64, length: f64, gap: f64) -> f64 {
     2.0 * std::f64::consts::PI * radius.powi(3) * length / gap
 }
@@ -64,7 +64,7 @@ impl SynchronizerModel for Film {
 register!(Synchronizer, "ring_gap", RingGap,
     source: "Petroff 1883; derived: laminar Couette flow between cylinders",
     example: "{ type: ring_gap }",
-    evidence: [formula(Evidence::Derived, "shear flow; the filling of the gap is the user's")],
+    evidence: [formula(Evidence::Derived, "shear flow; the user states the filling of the gap")],
     limits: [REYNOLDS, TAYLOR], terms: [SHEAR], prepare: prepare);
 
 #[cfg(test)]
@@ -121,7 +121,7 @@ mod tests {
             to.speed = speed;
             to.eta = 0.012;
         });
-        // Two cones, each half filled, are one that is flooded.
+        // Two half-filled cones equal one flooded cone.
         let moment = build(&part).unwrap().loss(&at).unwrap().sum();
         assert!((moment / 0.0554096 - 1.0).abs() < 1e-5, "{moment}");
     }

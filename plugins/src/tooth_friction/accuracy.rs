@@ -1,5 +1,4 @@
-//! How far the quadrature along the path is from its limit: every law under every load sharing over broad random geometries, loads,
-//! speeds and oils.
+//! Quadrature error along the path: every law under every load sharing over broad random geometries, loads, speeds and oils.
 #![allow(clippy::unwrap_used)]
 
 use gearloss_framework::contact::path::Path;
@@ -14,7 +13,7 @@ use gearloss_numerics::sampling::Sobol;
 use serde_json::{Value, json};
 use std::sync::Arc;
 
-/// What the laws state: of the loss, and of the mean coefficient of friction where that is next to nothing.
+/// Stated error, of the loss, and of the mean coefficient of friction where the loss nearly vanishes.
 const LOSS: f64 = 1e-4;
 const FRICTION: f64 = 1e-6;
 
@@ -27,12 +26,12 @@ const SHARINGS: [LoadSharing; 6] = [
     LoadSharing::ContactLines,
 ];
 
-/// A quantity spread evenly over its logarithm.
+/// A log-uniformly distributed quantity.
 fn spread(t: f64, low: f64, high: f64) -> f64 {
     low * (high / low).powf(t)
 }
 
-/// A mesh at an operating point, from fifteen numbers between zero and one; absent where its gears are impossible.
+/// A mesh at an operating point, from fifteen numbers between zero and one; `None` if its gears are impossible.
 struct Case {
     part: Arc<MeshPart>,
     t: Vec<f64>,
@@ -76,13 +75,13 @@ impl Case {
         })
     }
 
-    /// The first cases of an endless list.
+    /// The first cases of an infinite sequence.
     fn list(number: usize) -> impl Iterator<Item = Self> {
         let sobol = Sobol::new(15).unwrap();
         (1..).filter_map(move |i| Self::new(sobol.point(i))).take(number)
     }
 
-    fn at(&self) -> GearMeshAt<'_> {
+    fn context(&self) -> GearMeshAt<'_> {
         let (pair, t) = (&self.part.pair, &self.t);
         let eta = spread(t[12], 2e-3, 0.5);
         GearMeshAt::usual(&self.part, Notes::MUTED).with(|to| {
@@ -125,24 +124,24 @@ fn laws() -> Vec<Value> {
     laws
 }
 
-/// The errors of a law over some cases, in units of what is stated, and the numbers of the cases; the greatest last.
+/// The errors of a law over some cases, in units of the stated error, with the case numbers; sorted, the maximum last.
 fn errors(registry: &Registry, law: &Value, sharing: LoadSharing, cases: &[Case]) -> Vec<(f64, usize)> {
     let files = Files::default();
     let mut errors = vec![(0.0, 0)];
     for (i, case) in cases.iter().enumerate() {
         let mut build = Build::new(registry, &files);
         let slot = build.slot_beside::<ToothFriction, _>("law", &case.part, law).unwrap();
-        let at = case.at();
-        let mean = MeanFrictionAt::of(&at, Notes::MUTED);
+        let at = case.context();
+        let mean = MeanFrictionAt::at_pitch_point(&at, Notes::MUTED);
         let sum = |path: &Path| {
             let mut mu = vec![0.0; path.len()];
-            slot.along(&path.at(&mean, Notes::MUTED), &mut mu)
+            slot.along(&path.at_operating_point(&mean, Notes::MUTED), &mut mu)
                 .map(|_| path.sliding(&mu))
         };
         let pair = &case.part.pair;
         let path = Path::new(pair, sharing, slot.order()).unwrap();
         let fine = 4 * slot.order();
-        // Undefined at some place, whatever the number of places.
+        // Undefined at some point, for any number of nodes.
         let Ok(exact) = sum(&Path::from_points(pair, pair.graded_path(sharing, fine))) else {
             continue;
         };
@@ -163,7 +162,7 @@ fn every_law_is_as_close_to_its_limit_as_stated() {
         for sharing in SHARINGS {
             let errors = errors(&registry, &law, sharing, &cases);
             let (error, i) = errors[errors.len() - 1];
-            // The one law for which many places are too costly states it for nine of ten points, and fifty times that for the others.
+            // The one law that is too expensive for many nodes states its error for nine of ten points, and fifty times that for the others.
             let (usual, least) = (
                 errors[errors.len() * 9 / 10].0,
                 if law["type"] == "ehl_mixed" { 50.0 } else { 1.0 },
@@ -178,13 +177,13 @@ fn every_law_is_as_close_to_its_limit_as_stated() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// With three points on each piece laws are off by up to a thousandth.
+/// With three nodes on each section the errors reach a thousandth.
 #[test]
 fn few_points_are_not_enough() {
     let case = Case::list(48).map(|case| {
         let pair = case.part.pair;
         let of = |order: usize| Path::from_points(&pair, pair.path(LoadSharing::Rigid, order));
-        // Friction after Xu near the pitch point, but for its decay: a power of sliding over a power of the radius.
+        // Friction similar to Xu near the pitch point, without its exponential decay: a power of sliding over a power of the radius.
         let sum = |path: &Path| {
             let mu: Vec<f64> = path
                 .nodes()
@@ -209,7 +208,7 @@ fn every_linked_law_is_asked() {
         .map(|law| law["type"].as_str().unwrap().to_owned())
         .collect();
     for model in registry.models(ToothFriction::KEY) {
-        // A table is cut off at its nodes as a formula is by `min`.
+        // A table has kinks at its nodes, a formula with `min` has one.
         assert!(
             model.name == "table" || asked.iter().any(|name| name == model.name),
             "{}",
@@ -218,7 +217,7 @@ fn every_linked_law_is_asked() {
     }
 }
 
-/// Rolling has the places of the law of friction; many of them are its limit.
+/// Rolling friction uses the nodes of the friction law; many nodes give its limit.
 #[test]
 fn rolling_is_as_close_to_its_limit_as_stated() {
     let registry = Registry::linked().unwrap();
@@ -231,7 +230,7 @@ fn rolling_is_as_close_to_its_limit_as_stated() {
                         "rolling_friction": rolling });
                     let mut build = Build::new(&registry, &files);
                     let slot = build.slot_at::<GearMesh>("model", &case.part, &model).unwrap();
-                    slot.loss(&case.at()).unwrap().sum()
+                    slot.loss(&case.context()).unwrap().sum()
                 };
                 let few = watts(json!({ "type": "constant", "value": 0.0 }));
                 let many = watts(json!({ "type": "formula", "formula": "0" }));
@@ -261,7 +260,7 @@ fn a_flank_that_begins_beside_its_base_circle_has_short_pieces_there() {
     assert!(close > usual, "{usual} {close}");
 }
 
-/// The loss factor of any load sharing has a rule of its own, without powers of friction.
+/// The loss factor of any load sharing has its own quadrature, without powers of friction.
 #[test]
 fn local_loss_factors_are_as_close_to_their_limit() {
     for case in Case::list(200) {

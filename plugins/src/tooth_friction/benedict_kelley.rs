@@ -1,9 +1,9 @@
-//! Friction between flanks after Benedict and Kelley.
+//! Friction between flanks according to Benedict and Kelley.
 //!
 //! Source: Benedict, Kelley: Instantaneous coefficients of gear tooth friction, ASLE Trans. 4 (1961) 59-70:
-//! mu = 0.0127 lg(0.02966 w/(eta v_g v_S^2)) with w in N/m, eta in Pa s, v_g and the sum speed v_S in m/s; the constant of the inch
-//! form converts to this one. Roughness, recalled, multiplies by 1.13/(1.13 - S), S in um rms of both flanks, below 1.13 um.
-//! Diverges at the pitch point, where the loss vanishes all the same: held at `greatest`. Zero where the logarithm is negative.
+//! mu = 0.0127 lg(0.02966 w/(eta v_g v_S^2)) with w in N/m, eta in Pa s, v_g and the sum velocity v_S in m/s; the constant of the
+//! inch form converts to this one. Roughness, quoted from memory, multiplies by 1.13/(1.13 - S), S in um rms of both flanks, below 1.13 um.
+//! Diverges at the pitch point, where the loss still vanishes; limited to `greatest`. Zero where the logarithm is negative.
 
 use gearloss_framework::coefficients;
 use gearloss_framework::loss::{Limit, Observed, Undefined};
@@ -22,7 +22,7 @@ const SUM_SPEED: Limit = Limit::new(
     "m/s",
     0.4,
     100.0,
-    "no source states it: assumed, gears that run on films",
+    "assumed, not stated by a source: gears with lubricant films",
 );
 const MU: Observed = Observed::new(0, "mu", "-", "Coefficient of friction.");
 
@@ -31,20 +31,21 @@ coefficients! {
     struct Constants {
         /// Factor of the logarithm.
         factor = 0.0127, in 0.00635..=0.0254;
-        /// Factor inside the logarithm, of the line load in N/m over viscosity in Pa s, sliding and squared sum speed in m/s.
+        /// Factor inside the logarithm, of the line load in N/m over viscosity in Pa s, sliding velocity and squared sum velocity
+        /// in m/s.
         argument_factor = 0.02966, in 0.01483..=0.05932;
         /// Roughness in um at which the roughness factor diverges, where `roughness` is true.
         roughness_limit = 1.13, in 1.0..=2.26;
     }
 }
 
-/// Friction between flanks after Benedict and Kelley.
+/// Friction between flanks according to Benedict and Kelley.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct BenedictKelley {
-    /// Roughness counts.
+    /// Apply the roughness factor.
     #[serde(default)]
     pub roughness: bool,
-    /// Greatest coefficient of friction, near the pitch point. [-]
+    /// Maximum coefficient of friction, which applies near the pitch point. [-]
     #[serde(default = "greatest")]
     #[schemars(range(min = 0.01, max = 1.0))]
     pub greatest: f64,
@@ -72,7 +73,7 @@ impl ToothFrictionModel for BenedictKelley {
             let s = at.show("S", "um", at.rq.um());
             if s >= c.roughness_limit {
                 return Err(Undefined {
-                    what: "roughness S of both flanks [um], at least that at which the formula diverges",
+                    what: "roughness S of both flanks [um], which reaches the value at which the formula diverges",
                     value: s,
                 });
             }
@@ -95,8 +96,8 @@ register!(ToothFriction, "benedict_kelley", BenedictKelley,
     source: "Benedict, Kelley, ASLE Trans. 4 (1961) 59-70",
     example: "{ type: benedict_kelley }",
     evidence: [
-        formula(Evidence::OneSource, "one open source; the recalled inch form converts to it"),
-        default_of("roughness", Evidence::Recalled, "the roughness factor is recalled"),
+        formula(Evidence::OneSource, "one public source; the inch form, quoted from memory, converts to it"),
+        default_of("roughness", Evidence::Recalled, "roughness factor quoted from memory, not checked"),
         default_of("greatest", Evidence::Assumed, "the formula diverges at the pitch point"),
     ],
     limits: [SUM_SPEED], observed: [MU]);

@@ -1,8 +1,8 @@
-//! Power law of boundary or fluid friction after Doleschel.
+//! Power law of boundary or fluid friction according to Doleschel.
 //!
-//! Source: Doleschel 2002 (FVA 345), recalled: mu = mu_R (p_H/1000 N/mm2)^a (v_S/v_R)^b (eta/20 mPa s)^c with v_R = 8.3 m/s for fluid and
-//! 0.2 m/s for boundary friction, where viscosity does not count. Coefficient and exponents belong to the oil and come from
-//! its FVA 345 test; no values of standard oils are public, so there are no defaults. Meant for the two slots of `mixed`.
+//! Source: Doleschel 2002 (FVA 345), quoted from memory: mu = mu_R (p_H/1000 N/mm2)^a (v_S/v_R)^b (eta/20 mPa s)^c with v_R = 8.3 m/s for fluid and
+//! 0.2 m/s for boundary friction, which is independent of viscosity. Coefficient and exponents are properties of the oil from its
+//! FVA 345 test; no values of standard oils are public, so there are no defaults. Intended for the two slots of `mixed`.
 
 use gearloss_framework::loss::{Limit, Observed, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
@@ -20,11 +20,11 @@ const SUM_SPEED: Limit = Limit::new(
     "m/s",
     0.2,
     15.3,
-    "FVA 345 tests FZG C gears up to 20 m/s, and boundary friction at 0.2 m/s; recalled",
+    "FVA 345 tests FZG C gears up to 20 m/s, and boundary friction at 0.2 m/s; quoted from memory",
 );
 const MU: Observed = Observed::new(0, "mu", "-", "Coefficient of friction.");
 
-/// Power law of boundary or fluid friction after Doleschel, with constants of an oil's test.
+/// Power law of boundary or fluid friction according to Doleschel, with test constants of an oil.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Doleschel {
     /// Coefficient of friction at the reference. [-]
@@ -33,7 +33,7 @@ pub struct Doleschel {
     /// Exponent of the Hertz pressure over 1 GPa. [-]
     #[schemars(range(min = -3.0, max = 3.0))]
     pub pressure: f64,
-    /// Exponent of the sum of the surface speeds over the reference speed. [-]
+    /// Exponent of the sum velocity over the reference speed. [-]
     #[schemars(range(min = -3.0, max = 3.0))]
     pub speed: f64,
     /// Exponent of the dynamic viscosity over 20 mPa s; zero for boundary friction. [-]
@@ -44,7 +44,7 @@ pub struct Doleschel {
     #[serde(default = "fluid")]
     #[schemars(range(min = 0.001, max = 100.0))]
     pub reference_speed: f64,
-    /// Greatest coefficient of friction, to which a falling power of the speed grows at creeping speeds. [-]
+    /// Maximum coefficient of friction; limits a falling power of speed at creeping speeds. [-]
     #[serde(default = "greatest")]
     #[schemars(range(min = 0.01, max = 1.0))]
     pub greatest: f64,
@@ -54,7 +54,7 @@ fn fluid() -> f64 {
     8.3
 }
 
-/// The greatest reference: what is measured at it is never cut off.
+/// The largest reference coefficient: a measured reference value is never cut off.
 fn greatest() -> f64 {
     0.5
 }
@@ -79,10 +79,10 @@ register!(ToothFriction, "doleschel", Doleschel,
     source: "Doleschel 2002; FVA 345",
     example: "{ type: doleschel, mu: 0.02, pressure: 0.5, speed: -0.1, viscosity: -0.05 }",
     evidence: [
-        formula(Evidence::Recalled, "form recalled"),
-        default_of("viscosity", Evidence::Recalled, "boundary friction has no viscosity"),
+        formula(Evidence::Recalled, "formula quoted from memory, not checked"),
+        default_of("viscosity", Evidence::Recalled, "boundary friction is independent of viscosity"),
         default_of("reference_speed", Evidence::Recalled, "reference of fluid friction"),
-        default_of("greatest", Evidence::Assumed, "the greatest coefficient that the law may have at its reference"),
+        default_of("greatest", Evidence::Assumed, "the largest coefficient that the law accepts at its reference"),
     ],
     limits: [SUM_SPEED], observed: [MU]);
 
@@ -106,7 +106,7 @@ mod tests {
         let at = ContactAt::usual(&NoPart {}, Notes::MUTED).with(|to| to.sum_speed = 0.0);
         let fault = law.mu(&at).unwrap_err();
         assert!(fault.what.starts_with("sum of the surface speeds"), "{fault}");
-        // Nor is an unloaded one a power of zero.
+        // An unloaded contact is not a power of zero either.
         let creeping = at.with(|to| to.sum_speed = 1e-300);
         assert_eq!(law.mu(&creeping).unwrap(), 0.5);
         let rising = Doleschel { pressure: -0.5, ..law };

@@ -1,7 +1,7 @@
-//! Friction between flanks after Drozdov and Gavrikov.
+//! Friction between flanks according to Drozdov and Gavrikov.
 //!
-//! Source: Drozdov, Gavrikov: Friction and scoring under simultaneous rolling and sliding, Wear 11 (1968) 291-302, recalled:
-//! mu = 1/(0.8 nu^0.5 v_g + v_S phi + 13.4), phi = 0.47 - 0.13e-4 p - 0.4e-3 nu; nu in mm2/s, v_g and the sum speed v_S in m/s, Hertz
+//! Source: Drozdov, Gavrikov: Friction and scoring under simultaneous rolling and sliding, Wear 11 (1968) 291-302, quoted from memory:
+//! mu = 1/(0.8 nu^0.5 v_g + v_S phi + 13.4), phi = 0.47 - 0.13e-4 p - 0.4e-3 nu; nu in mm2/s, v_g and the sum velocity v_S in m/s, Hertz
 //! pressure p in kgf/cm2. For v_g to 15, v_S from 3 to 20 m/s, nu from 4 to 500 mm2/s, p from 4000 to 20000 kgf/cm2.
 
 use gearloss_framework::coefficients;
@@ -15,7 +15,7 @@ use serde::Deserialize;
 
 use crate::powers::power;
 
-const FROM: &str = "range of the tests, recalled";
+const FROM: &str = "range of the tests, quoted from memory";
 const SLIDING: Limit = Limit::new(0, "v_g", "m/s", 0.0, 15.0, FROM);
 const SUM_SPEED: Limit = Limit::new(1, "v_S", "m/s", 3.0, 20.0, FROM);
 const VISCOSITY: Limit = Limit::new(2, "nu", "mm2/s", 4.0, 500.0, FROM);
@@ -30,20 +30,20 @@ coefficients! {
     struct Constants {
         /// Constant of phi.
         phi_constant = 0.47, in 0.235..=0.94;
-        /// How much phi falls per kgf/cm2 of pressure.
+        /// Decrease of phi per kgf/cm2 of pressure.
         phi_pressure = 0.13e-4, in 0.065e-4..=0.26e-4;
-        /// How much phi falls per mm2/s of viscosity.
+        /// Decrease of phi per mm2/s of viscosity.
         phi_viscosity = 0.4e-3, in 0.2e-3..=0.8e-3;
         /// Factor of the sliding velocity in m/s times the power of the viscosity in mm2/s.
         sliding_factor = 0.8, in 0.4..=1.6;
-        /// Exponent of the viscosity at the sliding velocity.
+        /// Exponent of the viscosity in that term.
         viscosity_exponent = 0.5, in 0.25..=1.0;
-        /// Inverse of the friction without speed.
+        /// Inverse of the coefficient of friction at zero speed.
         constant = 13.4, in 6.7..=26.8;
     }
 }
 
-/// Friction between flanks after Drozdov and Gavrikov.
+/// Friction between flanks according to Drozdov and Gavrikov.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct DrozdovGavrikov {
     #[serde(default)]
@@ -72,7 +72,7 @@ impl ToothFrictionModel for DrozdovGavrikov {
 register!(ToothFriction, "drozdov_gavrikov", DrozdovGavrikov,
     source: "Drozdov, Gavrikov, Wear 11 (1968) 291-302",
     example: "{ type: drozdov_gavrikov }",
-    evidence: [formula(Evidence::Recalled, "from memory; the magnitude is plausible")],
+    evidence: [formula(Evidence::Recalled, "formula quoted from memory, not checked; the magnitude is plausible")],
     limits: [SLIDING, SUM_SPEED, VISCOSITY, PRESSURE], observed: [MU]);
 
 #[cfg(test)]
@@ -101,7 +101,7 @@ mod tests {
                 .abs()
                 < 1e-5
         );
-        // Far beyond the pressures of the tests the formula turns over.
+        // Far above the tested pressures the trend of the formula reverses.
         let beyond = at.with(|to| {
             to.pressure = 4e9;
             to.sum_speed = 200.0;

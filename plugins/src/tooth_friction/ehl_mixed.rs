@@ -1,18 +1,18 @@
 //! Thermal elastohydrodynamic and mixed friction along the path of contact.
 //!
-//! Source: Shore and Kadiric, Optimization of electric vehicle drivetrain fluid with a new system-level approach: at each place of the
-//! path the film after Chittenden et al., thinned by heating at the inlet; viscosity after Roelands at the mean Hertz pressure and
-//! the temperature of the film; shear stress after Johnson and Tevaarwerk with a limit, its mean over the transit after Olver and
-//! Spikes; flash and film temperature after Blok; boundary friction by the film ratio. Each place settles with its own heat, the
-//! path with the bodies of the gears. Where the publication misprints (the factor eta_inf in its shear rate, the viscosity in its
-//! groups of flow) the form that its other equations demand stands here.
+//! Source: Shore and Kadiric, Optimization of electric vehicle drivetrain fluid with a new system-level approach: at each point of
+//! the path the film according to Chittenden et al., thinned by inlet heating; viscosity according to Roelands at the mean Hertz pressure and the
+//! film temperature; shear stress according to Johnson and Tevaarwerk with a limit, its mean over the transit according to Olver and Spikes;
+//! flash and film temperature according to Blok; boundary friction from the film ratio. Each point converges with its own heat, the path
+//! with the body temperatures of the gears. Where the publication has misprints (the factor eta_inf in its shear rate, the
+//! viscosity in its flow groups), the form required by its other equations is used.
 //!
-//! It needs the rheology of the oil: Eyring stress, slope of the limiting stress, boundary friction; from traction and Stribeck
-//! curves, or written beside `type`. Body temperatures are the least certain part: a resistance of 0.01, 0.2 or 1 K/W per gear in place
-//! of 0.05 changes the loss of a small helical stage under 30 kW at 2000 rpm by -2, +10 or +80 %. The article shares the load by a ramp:
-//! `load_sharing: ramp` in the mesh.
-//! Not for starved or grease-lubricated gears; pressures above some 1 GPa overstate the viscosity, which the limiting stress bounds.
-//! Rolling loss is not in it. Bodies, load and film are quasi-steady.
+//! It requires the rheology of the oil: Eyring stress, slope of the limiting stress, boundary friction; from traction and Stribeck
+//! curves, or written beside `type`. Body temperatures are the least certain part: a resistance of 0.01, 0.2 or 1 K/W per gear
+//! instead of 0.05 changes the loss of a small helical stage at 30 kW and 2000 rpm by -2, +10 or +80 %. The article shares the load
+//! by a ramp: `load_sharing: ramp` in the mesh model.
+//! Not for starved or grease-lubricated gears; above about 1 GPa the viscosity is overestimated, but the limiting stress bounds its
+//! effect. Rolling loss is not included. Bodies, load and film are quasi-steady.
 
 pub mod contact;
 pub mod dilogarithm;
@@ -58,7 +58,7 @@ const PRESSURE: Limit = Limit::new(
     "GPa",
     0.0,
     1.0,
-    "pressures up to which Roelands' law holds, recalled",
+    "pressure range of Roelands' law, quoted from memory",
 );
 const WARMTH: Limit = Limit::new(
     1,
@@ -66,56 +66,56 @@ const WARMTH: Limit = Limit::new(
     "degC",
     20.0,
     140.0,
-    "where the law of Roelands fitted at 40 and 100 degC is within 2 % of ASTM D341",
+    "where Roelands' law fitted at 40 and 100 degC is within 2 % of ASTM D341",
 );
 const PECLET: Limit = Limit::new(2, "Pe", "-", FAST, f64::INFINITY, "fast bands of contact, derived");
 
-/// Between bodies that differ much heat passes even without friction; as a share of little friction it has no bounds.
+/// Bodies at different temperatures exchange heat even without friction; as a share of a small friction heat it would be unbounded.
 pub(crate) const LEAST_SHARE: f64 = -0.5;
 
 const MU: Observed = Observed::new(0, "mu", "-", "Coefficient of friction.");
 const MU_F: Observed = Observed::new(1, "mu_f", "-", "Coefficient of friction of the film alone.");
-const LAMBDA: Observed = Observed::new(2, "lambda", "-", "Film over rms roughness of both flanks.");
+const LAMBDA: Observed = Observed::new(2, "lambda", "-", "Film thickness over rms roughness of both flanks.");
 const THICKNESS: Observed = Observed::new(3, "h", "um", "Film thickness.");
 const T_FILM: Observed = Observed::new(4, "T_film", "degC", "Temperature of the film.");
 const T_BODY: [Observed; 2] = [
-    Observed::new(5, "T_b1", "degC", "Temperature of the body of the first gear."),
-    Observed::new(6, "T_b2", "degC", "Temperature of the body of the second gear."),
+    Observed::new(5, "T_b1", "degC", "Body temperature of the first gear."),
+    Observed::new(6, "T_b2", "degC", "Body temperature of the second gear."),
 ];
 
 /// Thermal elastohydrodynamic and mixed friction along the path of contact.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
-    /// Which film counts.
+    /// Film thickness formula.
     #[serde(default)]
     pub film: Film,
-    /// How heating at the inlet thins the film.
+    /// Film thinning by inlet heating.
     #[serde(default)]
     pub inlet_heating: InletHeating,
-    /// How the shear stress builds up over the transit.
+    /// Build-up of the shear stress over the transit.
     #[serde(default)]
     pub transit: Transit,
-    /// Where in the film its heat arises.
+    /// Location of the heat source in the film.
     #[serde(default)]
     pub film_heat: FilmHeat,
-    /// Friction warms film and gears; without it all is as warm as the oil.
+    /// Friction heats film and gears; otherwise all have the oil temperature.
     #[serde(default = "yes")]
     pub thermal: bool,
-    /// What warms the bodies of the gears.
+    /// Heat source of the gear bodies.
     #[serde(default)]
     pub bodies: Warmth,
-    /// Temperatures of the bodies of both gears, where they are known; they go before those of a thermal network, and both go
-    /// before `bodies`. [degC]
+    /// Body temperatures of both gears, if known; they take precedence over those of a thermal network, and both take precedence
+    /// over `bodies`. [degC]
     #[schemars(inner(range(min = -60.0, max = 300.0)))]
     pub body_temperatures: Option<[f64; 2]>,
-    /// Thermal resistances from the bodies of both gears to the oil; absent, of discs and cylinders that turn in a mist. [K/W]
+    /// Thermal resistances from both gear bodies to the oil; default: those of discs and cylinders rotating in a mist. [K/W]
     #[schemars(inner(range(min = 0.0, max = 100.0)))]
     pub gear_resistance: Option<[f64; 2]>,
-    /// Share of oil in the volume of that mist: 0.02 to 0.2 splash, 1 submerged. [-]
+    /// Volume fraction of oil in that mist: 0.02 to 0.2 splash, 1 submerged. [-]
     #[serde(default = "mist")]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub oil_fraction: f64,
-    /// Radius of the shaft or hub over that of the tip, inside of which the sides of a gear do not cool. [-]
+    /// Ratio of the shaft or hub radius to the tip radius; the sides of a gear do not dissipate heat inside it. [-]
     #[serde(default = "hub")]
     #[schemars(range(min = 0.0, max = 0.95))]
     pub hub_ratio: f64,
@@ -135,20 +135,20 @@ pub struct Params {
     #[serde(default = "steel_heat_capacity")]
     #[schemars(range(min = 100.0, max = 3000.0))]
     pub flank_heat_capacity: f64,
-    /// Eyring stress; absent, that of the oil. [MPa]
+    /// Eyring stress; default: that of the oil. [MPa]
     #[schemars(range(min = 0.1, max = 50.0))]
     pub tau0: Option<f64>,
-    /// Exponent of Roelands' law over pressure; absent, that of the oil, else the one that gives its pressure-viscosity
+    /// Exponent of Roelands' law over pressure; default: that of the oil, else the one that reproduces its pressure-viscosity
     /// coefficient. [-]
     #[schemars(range(min = 0.1, max = 1.5))]
     pub z: Option<f64>,
-    /// Slope of the limiting shear stress over mean pressure; absent, that of the oil. [-]
+    /// Slope of the limiting shear stress over mean pressure; default: that of the oil. [-]
     #[schemars(range(min = 0.005, max = 0.2))]
     pub limiting_slope: Option<f64>,
-    /// Effective shear modulus of film and surfaces; absent, that of the oil, else 0.5 GPa. [GPa]
+    /// Effective shear modulus of film and surfaces; default: that of the oil, else 0.5 GPa. [GPa]
     #[schemars(range(min = 0.001, max = 10.0))]
     pub shear_modulus: Option<f64>,
-    /// Coefficient of boundary friction; absent, that of the oil. [-]
+    /// Coefficient of boundary friction; default: that of the oil. [-]
     #[schemars(range(min = 0.01, max = 0.5))]
     pub mu_b: Option<f64>,
 }
@@ -184,7 +184,7 @@ pub struct EhlMixed {
     resistances: Option<[f64; 2]>,
     oil_fraction: f64,
     cooled: [Body; 2],
-    /// The pair; FZG C gears for a contact that stands alone.
+    /// The pair; FZG C gears for a single contact.
     part: Arc<MeshPart>,
 }
 
@@ -194,11 +194,11 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<EhlMixed, Diagnostic> {
 }
 
 impl EhlMixed {
-    /// The model with a factor of one's own by which the film is thinner than that of isothermal theory, in place of
-    /// `inlet_heating`: the way in for a correction for high speed.
+    /// The model with a user-defined factor of film thickness to isothermal film thickness, instead of `inlet_heating`, such as a
+    /// correction for high speed.
     ///
     /// # Errors
-    /// What the oil does not state and the parameters do not, either.
+    /// If neither oil nor parameters state a required value.
     pub fn new(params: &Params, factor: Factor, cx: &Build<'_>) -> Result<Self, Diagnostic> {
         let part = match cx.part::<GearMesh>() {
             Some(part) => part.clone(),
@@ -210,7 +210,7 @@ impl EhlMixed {
     /// The model for a pair, as [`EhlMixed::new`].
     ///
     /// # Errors
-    /// What the oil does not state and the parameters do not, either.
+    /// If neither oil nor parameters state a required value.
     pub fn of_part(params: &Params, factor: Factor, part: MeshPart, cx: &Build<'_>) -> Result<Self, Diagnostic> {
         let written = Written {
             tau0: params.tau0,
@@ -243,7 +243,7 @@ impl EhlMixed {
         })
     }
 
-    /// What warms the bodies at a speed of the first gear in rad/s.
+    /// Body temperatures or resistances at a speed of the first gear in rad/s.
     fn warming(&self, oil: &Oil<'_>, speed: f64) -> Warming {
         if let Some(known) = self.known {
             return Warming::Known(known);
@@ -256,15 +256,15 @@ impl EhlMixed {
         Warming::By(self.warmth, resistances)
     }
 
-    /// Settles a path and writes its friction; shows each place that carries load, in their order, and tells the work it took
-    /// and the share of the heat that goes into the first gear.
+    /// Solves a path and writes its friction; shows each loaded point in order. Returns the iteration counts and the heat share of
+    /// the first gear.
     pub fn settle(
         &self,
         path: &PathAt<'_>,
         mu: &mut [f64],
         mut seen: impl FnMut(&Place<'_>, &Settled),
     ) -> (Tally, f64) {
-        let oil = self.fluid.at(Supplied {
+        let oil = self.fluid.for_supply(Supplied {
             temperature: path.temperature,
             nu: path.nu,
             eta: path.eta,
@@ -305,7 +305,7 @@ impl EhlMixed {
     }
 }
 
-/// What of both gears cools: the sides from hub to tip, or of a ring from tip to root, and the toothed face.
+/// The heat-dissipating surfaces of both gears: the sides from hub to tip, for a ring gear from tip to root, and the toothed face.
 fn cooled(part: &MeshPart, hub: f64) -> [Body; 2] {
     let pair = &part.pair;
     [0, 1].map(|i| {
@@ -322,7 +322,7 @@ fn cooled(part: &MeshPart, hub: f64) -> [Body; 2] {
     })
 }
 
-/// Notes a contact that has settled; its friction.
+/// Notes a converged contact; returns its friction.
 fn note(notes: Notes<'_>, place: &Place<'_>, settled: &Settled) -> f64 {
     notes.check(&PRESSURE, place.mean_pressure().gpa());
     notes.check(&PECLET, place.peclet());
@@ -341,17 +341,17 @@ fn note(notes: Notes<'_>, place: &Place<'_>, settled: &Settled) -> f64 {
 }
 
 impl ToothFrictionModel for EhlMixed {
-    /// One contact alone warms the bodies by itself; the flank of the first gear is the faster one.
+    /// A single contact heats the bodies by its own heat; the flank of the first gear is the faster one.
     fn mu(&self, at: &ContactAt<'_>) -> Result<f64, Undefined> {
         if at.line_load == 0.0 {
             at.branch("no load: no friction");
             return Ok(at.observe(&MU, 0.0));
         }
         if at.sum_speed == 0.0 && at.sliding == 0.0 {
-            at.branch("at rest: boundary friction, the limit without a film");
+            at.branch("at standstill: boundary friction, the limit without a film");
             return Ok(at.observe(&MU, self.fluid.rheology.mu_b));
         }
-        let oil = self.fluid.at(Supplied {
+        let oil = self.fluid.for_supply(Supplied {
             temperature: at.temperature,
             nu: at.nu,
             eta: at.eta,
@@ -373,8 +373,9 @@ impl ToothFrictionModel for EhlMixed {
         super::finite(note(at.notes, &place, &settled))
     }
 
-    /// Friction is cut off by the limiting stress, but a place takes as long as a whole path of other laws. Eight points leave 1e-4 of the
-    /// loss at nine of ten points over 10 to 20000 rpm and -20 to 140 degC, and 5e-3 at the worst, where cold oil reaches that stress.
+    /// The limiting stress cuts off the friction, but one point costs as much as a whole path of other laws. Eight nodes leave an
+    /// error of 1e-4 of the loss at nine of ten points over 10 to 20000 rpm and -20 to 140 degC, and 5e-3 in the worst case, where
+    /// cold oil reaches that stress.
     fn order(&self) -> usize {
         8
     }
@@ -392,20 +393,20 @@ register!(ToothFriction, "ehl_mixed", Params,
 Johnson, Tevaarwerk 1977",
     example: "{ type: ehl_mixed, tau0: 5 MPa, limiting_slope: 0.055, mu_b: 0.13 }",
     evidence: [
-        formula(Evidence::OneSource, "one article; each of its parts has several sources, and what it leaves open is derived"),
-        default_of("film", Evidence::Reconstructed, "published for ellipses; read for a line as a long ellipse of its pressure"),
+        formula(Evidence::OneSource, "one article; each part has several sources; gaps are derived"),
+        default_of("film", Evidence::Reconstructed, "published for ellipses; applied to a line as a long ellipse of equal pressure"),
         default_of("inlet_heating", Evidence::Disputed, "laws differ by a third of the film at high speed"),
         default_of("transit", Evidence::Derived, "closed form of the equation"),
-        default_of("film_heat", Evidence::Reconstructed, "the article shows it in a figure"),
-        default_of("bodies", Evidence::Derived, "conservation of heat; the article takes a lower mean"),
+        default_of("film_heat", Evidence::Reconstructed, "shown in a figure of the article"),
+        default_of("bodies", Evidence::Derived, "conservation of heat; the article uses a lower mean"),
         default_of("thermal", Evidence::OneSource, "the article"),
-        default_of("oil_fraction", Evidence::Assumed, "between splash and submerged; bodies then are about as warm as ISO/TR 15144-1, recalled, has them"),
-        default_of("hub_ratio", Evidence::Assumed, "usual for a pinion on its shaft"),
+        default_of("oil_fraction", Evidence::Assumed, "between splash and submerged; gives about the body temperatures of ISO/TR 15144-1, quoted from memory"),
+        default_of("hub_ratio", Evidence::Assumed, "typical for a pinion on its shaft"),
         default_of("exponent", Evidence::OneSource, "Olver and Spikes"),
-        default_of("flank_conductivity", Evidence::Assumed, "usual for gear steel"),
+        default_of("flank_conductivity", Evidence::Assumed, "typical for gear steel"),
         default_of("flank_density", Evidence::SeveralSources, "steel"),
-        default_of("flank_heat_capacity", Evidence::Assumed, "usual for gear steel"),
-        default_of("shear_modulus", Evidence::Recalled, "0.1 to 1 GPa; gears hardly feel it"),
+        default_of("flank_heat_capacity", Evidence::Assumed, "typical for gear steel"),
+        default_of("shear_modulus", Evidence::Recalled, "0.1 to 1 GPa; hardly affects gears"),
         default_of("z", Evidence::Derived, "follows from the pressure-viscosity coefficient"),
     ],
     limits: [PRESSURE, WARMTH, PECLET],

@@ -1,10 +1,10 @@
-//! Fluid friction of an EHL film: Eyring's law with a limit of shear stress.
+//! Fluid friction of an EHL film: Eyring's law with a limiting shear stress.
 //!
 //! Source: Arana et al. 2019, equation 13: mu = min[2 L/(alpha p) asinh(eta_p alpha v_g/(2 L h)), L] with the mean Hertz pressure
-//! p = pi/4 p_H, the viscosity eta_p under that pressure (Roelands, isothermal), the film h thinned by inlet heating (by a
-//! factor of twenty at most, beyond which the fit ends), and the
-//! slope L of the limiting stress over pressure: 0.047 to 0.053 mineral, 0.035 polyalphaolefin, 0.044 polyglycol.
-//! Friction of the film alone: in mixed friction it is the fluid part.
+//! p = pi/4 p_H, the viscosity eta_p at that pressure (Roelands, isothermal), the film thickness h reduced by inlet heating (by a
+//! factor of twenty at most, where the fit ends), and the slope L of the limiting stress over pressure: 0.047 to 0.053 mineral,
+//! 0.035 polyalphaolefin, 0.044 polyglycol.
+//! Friction of the film only; usable as the fluid part of mixed friction.
 
 use gearloss_framework::loss::{Limit, Observed, Undefined};
 use gearloss_framework::lubricant::pressure::roelands;
@@ -23,22 +23,22 @@ const SUM_SPEED: Limit = Limit::new(
     "m/s",
     0.1,
     100.0,
-    "no source states it: assumed, speeds at which there is a film",
+    "assumed, not stated by a source: speeds with a lubricant film",
 );
 const MU: Observed = Observed::new(0, "mu_f", "-", "Coefficient of friction.");
 const THICKNESS: Observed = Observed::new(1, "h", "um", "Film thickness.");
 
-/// Fluid friction of an EHL film: Eyring's law with a limit of shear stress.
+/// Fluid friction of an EHL film: Eyring's law with a limiting shear stress.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Eyring {
     /// Slope of the limiting shear stress over pressure. [-]
     #[serde(default = "mineral")]
     #[schemars(range(min = 0.001, max = 0.2))]
     pub limiting_slope: f64,
-    /// Which film counts.
+    /// Film thickness formula.
     #[serde(default = "central")]
     pub film: Film,
-    /// Heating at the inlet thins the film.
+    /// Inlet heating thins the film.
     #[serde(default = "yes")]
     pub thermal: bool,
 }
@@ -53,7 +53,7 @@ fn yes() -> bool {
     true
 }
 
-/// Friction from the slope of the limit, 1/Pa, Pa, Pa s, m/s and m.
+/// Friction from the slope of the limit (-), 1/Pa, Pa, Pa s, m/s and m.
 fn mu(slope: f64, alpha: f64, p_mean: f64, eta_p: f64, sliding: f64, film: f64) -> f64 {
     let argument = eta_p * alpha * sliding / (2.0 * slope * film);
     (2.0 * slope / (alpha * p_mean) * argument.asinh()).min(slope)
@@ -74,7 +74,7 @@ impl ToothFrictionModel for Eyring {
         }
         let p_mean = at.show("p_mean", "GPa", 0.25 * std::f64::consts::PI * at.pressure.gpa()) * 1e9;
         let eta_p = roelands(at.eta, at.alpha, p_mean, at.temperature, at.temperature, 1.0);
-        // Far above the pressures of gears the viscosity overflows; the stress is at its limit long before.
+        // Far above gear pressures the viscosity overflows; the stress reaches its limit long before.
         let eta_p = at.show("eta_p", "Pa s", eta_p.min(1e300));
         Ok(at.observe(&MU, mu(self.limiting_slope, at.alpha, p_mean, eta_p, at.sliding, h)))
     }

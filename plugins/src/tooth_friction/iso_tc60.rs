@@ -1,7 +1,7 @@
-//! Friction between flanks after a working draft of ISO TC 60.
+//! Friction between flanks according to a working draft of ISO TC 60.
 //!
 //! Source: ISO/TC 60 draft as quoted in reviews: mu = 0.12 (w S/(R v_e eta))^0.25; w in N/mm, S rms roughness of both flanks in um,
-//! R in mm, v_e mean rolling speed in m/s, eta in mPa s. A public SI form with 0.0254 and the sum speed is the same.
+//! R in mm, v_e mean rolling speed in m/s, eta in mPa s. A public SI form with 0.0254 and the sum velocity is the same.
 
 use gearloss_framework::coefficients;
 use gearloss_framework::loss::{Limit, Observed, Undefined};
@@ -21,7 +21,7 @@ const ROLLING: Limit = Limit::new(
     "m/s",
     0.2,
     50.0,
-    "no source states it: assumed, gears that run on films",
+    "assumed, not stated by a source: gears with lubricant films",
 );
 const MU: Observed = Observed::new(0, "mu", "-", "Coefficient of friction.");
 
@@ -35,10 +35,10 @@ coefficients! {
     }
 }
 
-/// Friction between flanks after a working draft of ISO TC 60.
+/// Friction between flanks according to a working draft of ISO TC 60.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct IsoTc60 {
-    /// Greatest coefficient of friction: where boundary friction ends the growth of the formula at creeping speeds. [-]
+    /// Maximum coefficient of friction; boundary friction limits the growth of the formula at creeping speeds. [-]
     #[serde(default = "greatest")]
     #[schemars(range(min = 0.01, max = 1.0))]
     pub greatest: f64,
@@ -65,8 +65,8 @@ register!(ToothFriction, "iso_tc60", IsoTc60,
     source: "ISO/TC 60 working draft, as quoted in reviews",
     example: "{ type: iso_tc60 }",
     evidence: [
-        formula(Evidence::OneSource, "one open source and memory agree"),
-        default_of("greatest", Evidence::Assumed, "above boundary friction of lubricated steel"),
+        formula(Evidence::OneSource, "one public source and memory agree"),
+        default_of("greatest", Evidence::Assumed, "above the boundary friction of lubricated steel"),
     ],
     limits: [ROLLING], observed: [MU]);
 

@@ -1,7 +1,7 @@
-//! A law of mean friction as a constant along the path of contact.
+//! A mean friction law as constant friction along the path of contact.
 //!
-//! Within a mesh model the law sees the mesh at its pitch point. Alone, as in `eval`, the one contact stands for the pitch
-//! point, and an FZG C pair for the mesh.
+//! Within a mesh model the law sees the mesh at its pitch point. Alone, as in `eval`, the single contact represents the pitch point
+//! and an FZG C pair the mesh.
 
 use std::sync::Arc;
 
@@ -15,7 +15,7 @@ use gearloss_framework::registry::{Build, Evidence, ModelRef, Slot, formula};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-/// A law of mean friction as a constant along the path of contact.
+/// A mean friction law as constant friction along the path of contact.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
     /// Law of the mean coefficient of friction.
@@ -24,7 +24,7 @@ pub struct Params {
 
 struct Mean {
     friction: Slot<MeanFriction>,
-    /// The pair of a contact that stands alone.
+    /// The pair of a single contact.
     part: Arc<MeshPart>,
 }
 
@@ -57,14 +57,14 @@ impl ToothFrictionModel for Mean {
             to.beta = at.beta;
             to.conductivity = at.conductivity;
             to.x_l = at.x_l;
-            to.notes = at.notes.of(self.friction.notes);
+            to.notes = at.notes.nested(self.friction.notes);
         }))
     }
 
     fn along(&self, path: &PathAt<'_>, mu: &mut [f64]) -> Result<Along, Undefined> {
         mu.fill(
             self.friction
-                .mu(&path.mean.with(|to| to.notes = path.notes.of(self.friction.notes)))?,
+                .mu(&path.mean.with(|to| to.notes = path.notes.nested(self.friction.notes)))?,
         );
         Ok(Along::default())
     }
@@ -73,5 +73,5 @@ impl ToothFrictionModel for Mean {
 register!(ToothFriction, "mean", Params,
     source: "definition: one coefficient for the whole mesh",
     example: "{ type: mean, mean_friction: { type: schlenk } }",
-    evidence: [formula(Evidence::Derived, "the law itself states its evidence")],
+    evidence: [formula(Evidence::Derived, "the evidence is that of the mean friction law")],
     prepare: prepare);

@@ -1,7 +1,8 @@
-//! Friction between flanks after Misharin.
+//! Friction between flanks according to Misharin.
 //!
-//! Source: Misharin 1958, recalled: mu = 0.325 (v_g v_S nu)^-0.25, nu in mm2/s, v_g and the sum speed v_S in m/s. Stated for 0.02 to
-//! 0.08, where it is held, and for Hertz pressures of 245 MPa and more; the range of slide-roll ratios is not remembered.
+//! Source: Misharin 1958, quoted from memory: mu = 0.325 (v_g v_S nu)^-0.25, nu in mm2/s, v_g and the sum velocity v_S in m/s. Stated for
+//! 0.02 to 0.08, to which it is limited, and for Hertz pressures of 245 MPa and more; the range of slide-to-roll ratios is not
+//! known.
 
 use gearloss_framework::coefficients;
 use gearloss_framework::loss::{Limit, Observed, Undefined};
@@ -14,14 +15,14 @@ use serde::Deserialize;
 
 use crate::boundary::greatest;
 
-const PRESSURE: Limit = Limit::new(0, "p_H", "GPa", 0.245, 4.0, "Misharin, recalled");
+const PRESSURE: Limit = Limit::new(0, "p_H", "GPa", 0.245, 4.0, "Misharin, quoted from memory");
 const SUM_SPEED: Limit = Limit::new(
     1,
     "v_S",
     "m/s",
     0.4,
     100.0,
-    "no source states it: assumed, gears that run on films",
+    "assumed, not stated by a source: gears with lubricant films",
 );
 const MU: Observed = Observed::new(0, "mu", "-", "Coefficient of friction.");
 
@@ -30,22 +31,23 @@ coefficients! {
     struct Constants {
         /// Factor of the formula.
         factor = 0.325, in 0.1625..=0.65;
-        /// Exponent of sliding velocity and sum speed in m/s times viscosity in mm2/s.
+        /// Exponent of sliding velocity and sum velocity in m/s times viscosity in mm2/s.
         exponent = -0.25, in -0.5..=-0.125;
-        /// Least coefficient of friction where `held` is true.
+        /// Minimum coefficient of friction if `held` is true.
         least_friction = 0.02, in 0.005..=0.04;
-        /// Greatest coefficient of friction where `held` is true.
+        /// Maximum coefficient of friction if `held` is true.
         greatest_friction = 0.08, in 0.04..=0.16;
     }
 }
 
-/// Friction between flanks after Misharin.
+/// Friction between flanks according to Misharin.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Misharin {
-    /// Held between 0.02 and 0.08, as stated.
+    /// Limit the coefficient to the stated 0.02 to 0.08.
     #[serde(default = "yes")]
     pub held: bool,
-    /// Greatest coefficient of friction where `held` is false: where boundary friction ends the growth of the formula near the pitch point and at creeping speeds. [-]
+    /// Maximum coefficient of friction if `held` is false; boundary friction limits the growth of the formula near the pitch point
+    /// and at creeping speeds. [-]
     #[serde(default = "greatest")]
     #[schemars(range(min = 0.01, max = 1.0))]
     pub greatest: f64,
@@ -81,9 +83,9 @@ register!(ToothFriction, "misharin", Misharin,
     source: "Misharin 1958",
     example: "{ type: misharin }",
     evidence: [
-        formula(Evidence::Recalled, "from memory of reviews"),
+        formula(Evidence::Recalled, "formula quoted from memory of reviews, not checked"),
         default_of("held", Evidence::Recalled, "the range stated with the formula"),
-        default_of("greatest", Evidence::Assumed, "above boundary friction of lubricated steel"),
+        default_of("greatest", Evidence::Assumed, "above the boundary friction of lubricated steel"),
     ],
     limits: [PRESSURE, SUM_SPEED], observed: [MU]);
 

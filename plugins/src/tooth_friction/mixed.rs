@@ -1,4 +1,4 @@
-//! Mixed friction: boundary and fluid friction, weighted by the film.
+//! Mixed friction: boundary and fluid friction, weighted by the film ratio.
 //!
 //! Sources, as collected by Arana et al. 2019: mu = xi mu_S + (1 - xi) mu_F with the share xi of boundary friction
 //! - Doleschel 2002: (1 - lambda/2)^2 below lambda = 2, else 0; lambda = h/((Ra1 + Ra2)/2);
@@ -6,9 +6,9 @@
 //! - Diab 2006: (1 - erf(lambda/sqrt 2))/4; lambda = h over the rms roughness of both flanks;
 //! - Olver and Spikes 1998: 1/(1 + Lambda)^m with m = 2; Lambda = h over the rms roughness of both flanks.
 //!
-//! The film is the central one, thinned by inlet heating (by a factor of twenty at most, beyond which the fit ends); the least
-//! one for Matsumoto. Boundary and fluid friction are laws of
-//! their own: constants (0.08 to 0.135 and 0.02 to 0.04 are usual), `doleschel`, `eyring`.
+//! The film thickness is the central one, reduced by inlet heating (by a factor of twenty at most, where the fit ends); the minimum
+//! one for Matsumoto. Boundary and fluid friction are separate laws: constants (0.08 to 0.135 and 0.02 to 0.04 are typical),
+//! `doleschel`, `eyring`.
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::{Limit, Observed, Undefined};
@@ -29,20 +29,25 @@ const SUM_SPEED: Limit = Limit::new(
     "m/s",
     0.0,
     100.0,
-    "no source states it: assumed; without speed there is no film, and friction is that of the boundary",
+    "assumed, not stated by a source; at zero speed there is no film, only boundary friction",
 );
 const MU: Observed = Observed::new(0, "mu", "-", "Coefficient of friction.");
-const LAMBDA: Observed = Observed::new(1, "lambda", "-", "Film over roughness, as the weight defines it.");
+const LAMBDA: Observed = Observed::new(
+    1,
+    "lambda",
+    "-",
+    "Film thickness over roughness, as defined by the weight.",
+);
 const XI: Observed = Observed::new(2, "xi", "-", "Share of boundary friction.");
 const THICKNESS: Observed = Observed::new(3, "h", "um", "Film thickness.");
 
-/// How the share of boundary friction follows from the film.
+/// Share of boundary friction as a function of the film.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Weight {
     /// Parabola to a film ratio of two.
     Doleschel,
-    /// Logarithm of roughness over the least film.
+    /// Logarithm of roughness over the minimum film thickness.
     Matsumoto,
     /// Error function.
     Diab,
@@ -50,18 +55,18 @@ pub enum Weight {
     OlverSpikes,
 }
 
-/// Boundary and fluid friction, weighted by the film.
+/// Boundary and fluid friction, weighted by the film ratio.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
-    /// How the share of boundary friction follows from the film.
+    /// Share of boundary friction as a function of the film.
     pub weight: Weight,
     /// Boundary friction.
     pub boundary: ModelRef<ToothFriction>,
     /// Fluid friction.
     pub fluid: ModelRef<ToothFriction>,
-    /// Which film counts; absent, the least one for Matsumoto, else the central one.
+    /// Film thickness formula; default: the minimum film for Matsumoto, else the central film.
     pub film: Option<Film>,
-    /// Heating at the inlet thins the film.
+    /// Inlet heating thins the film.
     #[serde(default = "yes")]
     pub thermal: bool,
     /// Exponent of Olver and Spikes. [-]
@@ -106,7 +111,7 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Mixed, Diagnostic> {
     })
 }
 
-/// Share of boundary friction from the film ratio; for Matsumoto the ratio is film over (Rz1 + Rz2).
+/// Share of boundary friction from the film ratio; for Matsumoto the ratio is film thickness over (Rz1 + Rz2).
 fn share(weight: Weight, lambda: f64, exponent: f64) -> f64 {
     match weight {
         Weight::Doleschel if lambda < 2.0 => (1.0 - 0.5 * lambda).powi(2),
@@ -141,14 +146,14 @@ impl Mixed {
     }
 }
 
-/// Places that are asked at once along a path.
+/// Number of points evaluated together along a path.
 const CHUNK: usize = 96;
 
 impl ToothFrictionModel for Mixed {
     fn mu(&self, at: &ContactAt<'_>) -> Result<f64, Undefined> {
         let xi = self.share(at);
         let nested = |slot: &Slot<ToothFriction>| slot.mu(&at.nested(slot));
-        // A law whose weight is nothing is not asked: it may be undefined there, as a film is without speed.
+        // A law with zero weight is not evaluated: it may be undefined there, as a film at zero speed.
         let boundary = if xi > 0.0 { xi * nested(&self.boundary)? } else { 0.0 };
         let fluid = if xi < 1.0 {
             (1.0 - xi) * nested(&self.fluid)?
@@ -158,7 +163,7 @@ impl ToothFrictionModel for Mixed {
         Ok(at.observe(&MU, boundary + fluid))
     }
 
-    /// The share of boundary friction ends at a film ratio of two, by a kink after Matsumoto.
+    /// The share of boundary friction vanishes at a film ratio of two, for Matsumoto with a kink.
     fn order(&self) -> usize {
         let own = match self.params.weight {
             Weight::Doleschel => 2 * SMOOTH,
@@ -193,9 +198,9 @@ register!(ToothFriction, "mixed", Params,
     evidence: [
         formula(Evidence::OneSource, "weights of Doleschel, Matsumoto and Diab agree in two sources, that of Olver and Spikes has one"),
         default_of("film", Evidence::SeveralSources, "film formulas agree in three sources"),
-        default_of("thermal", Evidence::OneSource, "thermal factor from one open source and memory"),
+        default_of("thermal", Evidence::OneSource, "thermal factor from one public source and memory"),
         default_of("exponent", Evidence::OneSource, "Olver and Spikes"),
-        default_of("rz_over_ra", Evidence::Assumed, "usual for ground flanks"),
+        default_of("rz_over_ra", Evidence::Assumed, "typical for ground flanks"),
     ],
     limits: [SUM_SPEED], observed: [MU, LAMBDA, XI, THICKNESS], prepare: prepare);
 
@@ -223,7 +228,7 @@ mod tests {
             (share(Weight::Matsumoto, 0.0, 2.0), share(Weight::Matsumoto, 2.0, 2.0)),
             (1.0, 0.0)
         );
-        // At no film a quarter, and at two deviations 2.3 % of a half: erf(sqrt 2) = 0.954500.
+        // At zero film ratio a quarter, and at two deviations 2.3 % of a half: erf(sqrt 2) = 0.954500.
         close(share(Weight::Diab, 2.0, 2.0), 0.25 * (1.0 - 0.954500));
         assert!((share(Weight::Diab, 0.0, 2.0) - 0.25).abs() < 1e-8);
     }
@@ -248,7 +253,7 @@ mod tests {
         let boundary = serde_json::json!({ "type": "doleschel", "mu": 0.085, "pressure": 0.1, "speed": -0.05, "viscosity": 0.0, "reference_speed": 0.2 });
         let xi = share(Weight::Doleschel, 0.8, 2.0);
         close(xi * law(boundary.clone()) + (1.0 - xi) * law(fluid.clone()), 0.0409836);
-        // The mixed law lies between its two parts.
+        // The mixed coefficient is between those of the two laws.
         let mixed = law(
             serde_json::json!({ "type": "mixed", "weight": "doleschel", "boundary": boundary, "fluid": fluid,
             "thermal": true, "exponent": 2.0, "rz_over_ra": 6.0 }),

@@ -1,9 +1,9 @@
-//! Friction between flanks after O'Donoghue and Cameron.
+//! Friction between flanks according to O'Donoghue and Cameron.
 //!
-//! Source: O'Donoghue, Cameron: Friction and temperature in rolling sliding contacts, ASLE Trans. 9 (1966) 186-194, recalled:
+//! Source: O'Donoghue, Cameron: Friction and temperature in rolling sliding contacts, ASLE Trans. 9 (1966) 186-194, quoted from memory:
 //! mu = 0.6 (S + 22)/35/(eta^(1/8) v_g^(1/3) v_S^(1/6) R^(1/2)), in inches: S centre line average in uin, eta in cP, speeds in in/s,
-//! R in inches. With metres the result is absurd. S was that of the discs before running; the mean Ra of the flanks stands
-//! for it. At the pitch point, where the formula diverges and the loss vanishes, it is held at `greatest`.
+//! R in inches. With metres the result is absurd. S was that of the discs before running; here it is the mean Ra of the flanks. At
+//! the pitch point, where the formula diverges and the loss vanishes, the coefficient is limited to `greatest`.
 
 use gearloss_framework::coefficients;
 use gearloss_framework::loss::{Limit, Observed, Undefined};
@@ -23,7 +23,7 @@ const SUM_SPEED: Limit = Limit::new(
     "m/s",
     0.4,
     100.0,
-    "no source states it: assumed, gears that run on films",
+    "assumed, not stated by a source: gears with lubricant films",
 );
 const MU: Observed = Observed::new(0, "mu", "-", "Coefficient of friction.");
 
@@ -35,25 +35,26 @@ coefficients! {
     struct Constants {
         /// Factor of the formula.
         factor = 0.6, in 0.3..=1.2;
-        /// Roughness in uin that is added to that of the flanks.
+        /// Roughness in uin added to that of the flanks.
         roughness_offset = 22.0, in 11.0..=44.0;
-        /// Roughness in uin that the sum is divided by.
+        /// Roughness in uin that divides the sum.
         roughness_divisor = 35.0, in 17.5..=70.0;
         /// Exponent of the viscosity in cP.
         viscosity_exponent = 0.125, in 0.0625..=0.25;
         /// Exponent of the sliding velocity in in/s.
         sliding_exponent = 1.0 / 3.0, in 1.0 / 6.0..=2.0 / 3.0;
-        /// Exponent of the sum speed in in/s.
+        /// Exponent of the sum velocity in in/s.
         sum_speed_exponent = 1.0 / 6.0, in 1.0 / 12.0..=1.0 / 3.0;
         /// Exponent of the radius of curvature in inches.
         radius_exponent = 0.5, in 0.25..=1.0;
     }
 }
 
-/// Friction between flanks after O'Donoghue and Cameron.
+/// Friction between flanks according to O'Donoghue and Cameron.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct ODonoghueCameron {
-    /// Greatest coefficient of friction: where boundary friction ends the growth of the formula near the pitch point and at creeping speeds. [-]
+    /// Maximum coefficient of friction; boundary friction limits the growth of the formula near the pitch point and at creeping
+    /// speeds. [-]
     #[serde(default = "greatest")]
     #[schemars(range(min = 0.01, max = 1.0))]
     pub greatest: f64,
@@ -61,7 +62,7 @@ pub struct ODonoghueCameron {
     coefficients: Constants,
 }
 
-/// Not boundary friction, which the formula exceeds at usual speeds already.
+/// Higher than boundary friction, which the formula already exceeds at normal speeds.
 fn greatest() -> f64 {
     1.0
 }
@@ -89,8 +90,8 @@ register!(ToothFriction, "odonoghue_cameron", ODonoghueCameron,
     source: "O'Donoghue, Cameron, ASLE Trans. 9 (1966) 186-194",
     example: "{ type: odonoghue_cameron }",
     evidence: [
-        formula(Evidence::Recalled, "from memory; the magnitude is plausible"),
-        default_of("greatest", Evidence::Assumed, "above what the formula answers at usual speeds, which boundary friction is not"),
+        formula(Evidence::Recalled, "formula quoted from memory, not checked; the magnitude is plausible"),
+        default_of("greatest", Evidence::Assumed, "above the value of the formula at normal speeds, unlike boundary friction"),
     ],
     limits: [SUM_SPEED], observed: [MU]);
 

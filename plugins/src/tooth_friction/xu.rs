@@ -3,8 +3,8 @@
 //! Source: Xu, Kahraman, Anderson, Maddock: Prediction of mechanical efficiency of parallel-axis gear pairs, J. Mech. Des. 129
 //! (2007) 58-68: mu = exp(f) P^b2 |SR|^b3 V^b6 nu0^b7 R^b8 with f = b1 + b4 |SR| P lg nu0 + b5 exp(-|SR| P lg nu0) + b9 exp(S);
 //! P in GPa, V mean rolling speed in m/s, nu0 dynamic viscosity at the inlet in mPa s, R in m, S composite roughness in um rms.
-//! Fitted for a 75W-90 gear oil; it has no parameter for the kind of oil.
-//! Not for S above about 1 um, where exp(S) runs away, nor for oils near 1 mPa s, where lg nu0 vanishes.
+//! Fitted for a 75W-90 gear oil; it has no parameter for the kind of oil. Not for S above about 1 um, where exp(S) grows too fast,
+//! nor for oils near 1 mPa s, where lg nu0 vanishes.
 
 mod series;
 
@@ -24,8 +24,8 @@ use serde::{Deserialize, Serialize};
 
 use series::Series;
 
-/// Design range of the regression, from memory of the article.
-const FROM: &str = "design range of the regression, recalled";
+/// Design range of the regression, quoted from memory.
+const FROM: &str = "design range of the regression, quoted from memory";
 const PRESSURE: Limit = Limit::new(0, "P_h", "GPa", 0.5, 2.5, FROM);
 const SLIDE_ROLL: Limit = Limit::new(1, "SR", "-", 0.0, 1.0, FROM);
 const VISCOSITY: Limit = Limit::new(2, "nu0", "mPa s", 6.0, 75.0, FROM);
@@ -34,17 +34,17 @@ const RADIUS: Limit = Limit::new(4, "R", "mm", 5.0, 40.0, FROM);
 const ROUGHNESS: Limit = Limit::new(5, "S", "um", 0.05, 0.6, FROM);
 const MU: Observed = Observed::new(0, "mu", "-", "Coefficient of friction.");
 
-/// What a logarithm of friction may err by.
+/// Allowed error of a logarithm of friction.
 const ROUNDING: f64 = 1e-13;
 
-/// Which roughness counts as S.
+/// Roughness that is used as S.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Roughness {
-    /// Root mean square of both flanks together, as the regression means it.
+    /// Composite rms roughness of both flanks, as intended by the regression.
     #[default]
     CompositeRms,
-    /// Mean Ra of the flanks, as some programs feed it.
+    /// Mean Ra of the flanks, as used by some programs.
     Ra,
 }
 
@@ -75,7 +75,7 @@ coefficients! {
 /// Regression of an EHL friction model for gear contacts.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Xu {
-    /// Which roughness counts as S.
+    /// Roughness that is used as S.
     #[serde(default)]
     pub roughness: Roughness,
     #[serde(default)]
@@ -84,7 +84,7 @@ pub struct Xu {
 
 impl Roughness {
     /// S of the regression. \[um\]
-    fn of(self, ra: f64, rq: f64) -> f64 {
+    fn composite(self, ra: f64, rq: f64) -> f64 {
         match self {
             Self::CompositeRms => rq.um(),
             Self::Ra => ra.um(),
@@ -95,7 +95,7 @@ impl Roughness {
 fn check_oil(notes: Notes<'_>, eta: f64, s: f64) -> Result<f64, Undefined> {
     let eta = notes.check(&VISCOSITY, eta.mpa_s());
     notes.check(&ROUGHNESS, s);
-    // Below 1 mPa s the logarithm changes its sign and the friction its trend.
+    // Below 1 mPa s the logarithm changes sign and the trend of friction reverses.
     if eta <= 1.0 {
         Err(Undefined {
             what: "viscosity at the inlet [mPa s], at most 1",
@@ -108,7 +108,7 @@ fn check_oil(notes: Notes<'_>, eta: f64, s: f64) -> Result<f64, Undefined> {
 
 impl ToothFrictionModel for Xu {
     fn mu(&self, at: &ContactAt<'_>) -> Result<f64, Undefined> {
-        let s = self.roughness.of(at.ra, at.rq);
+        let s = self.roughness.composite(at.ra, at.rq);
         let nu0 = check_oil(at.notes, at.eta, s)?;
         let p = at.check(&PRESSURE, at.pressure.gpa());
         let sr = at.check(&SLIDE_ROLL, at.slide_roll());
@@ -133,7 +133,7 @@ impl ToothFrictionModel for Xu {
     }
 
     fn along(&self, path: &PathAt<'_>, mu: &mut [f64]) -> Result<Along, Undefined> {
-        let s = self.roughness.of(path.ra, path.rq);
+        let s = self.roughness.composite(path.ra, path.rq);
         let nu0 = check_oil(path.notes, path.eta, s)?;
         let unit = unit_pressure(path.line_load, path.modulus);
         if unit == 0.0 {
@@ -164,7 +164,7 @@ impl ToothFrictionModel for Xu {
     }
 
     fn along_lanes(&self, path: &PathAt<'_>, line_loads: &Lane, mu: &mut [Lane]) -> bool {
-        let s = self.roughness.of(path.ra, path.rq);
+        let s = self.roughness.composite(path.ra, path.rq);
         let Ok(nu0) = check_oil(Notes::MUTED, path.eta, s) else {
             return false;
         };
@@ -219,7 +219,7 @@ impl ToothFrictionModel for Xu {
     }
 }
 
-/// Notes all limits, which need no walk along the path; `range` has the least and the greatest line load.
+/// Notes all limits without iterating over the path; `range` has the minimum and maximum line load.
 fn note_ranges(
     roughness: Roughness,
     path: &PathAt<'_>,
@@ -227,7 +227,7 @@ fn note_ranges(
     range: Option<(f64, f64)>,
     notes: LaneNotes<'_>,
 ) {
-    let _ = check_oil(path.notes, path.eta, roughness.of(path.ra, path.rq));
+    let _ = check_oil(path.notes, path.eta, roughness.composite(path.ra, path.rq));
     let root_load = path.extent.root_load;
     let noted = range.is_some_and(|(low, high)| {
         let [low, high] = [low, high].map(|line_load| unit_pressure(line_load, path.modulus));
@@ -267,7 +267,7 @@ struct Weighted {
 
 impl Weighted {
     fn common(&self, path: &PathAt<'_>) -> Option<Common> {
-        let s = self.roughness.of(path.ra, path.rq);
+        let s = self.roughness.composite(path.ra, path.rq);
         let nu0 = check_oil(Notes::MUTED, path.eta, s).ok()?;
         Some(Common::new(&self.coefficients, path, s, nu0))
     }
@@ -278,7 +278,7 @@ impl WeightedFriction for Weighted {
         let unit = unit_pressure(path.line_load, path.modulus);
         let along = self.common(path);
         along.map_or(f64::NAN, |along| {
-            self.series.at(-along.fall(unit)) * power(self.coefficients.b2, unit) * along.factor
+            self.series.sum_at(-along.fall(unit)) * power(self.coefficients.b2, unit) * along.factor
         })
     }
 
@@ -291,7 +291,7 @@ impl WeightedFriction for Weighted {
             #[inline(always)]
             || {
                 let units = over(line_loads, |line_load| unit_pressure(line_load, path.modulus));
-                let raised = powers.of(0, |i| units[i], b2, |unit| power(b2, unit));
+                let raised = powers.raise(0, |i| units[i], b2, |unit| power(b2, unit));
                 let sums = self.series.lanes(&over(&units, |unit| -along.fall(unit)));
                 each(|i| sums[i] * raised[i] * along.factor)
             },
@@ -306,7 +306,7 @@ impl WeightedFriction for Weighted {
         let c = &self.coefficients;
         let at = |unit: f64| -along.fall(unit);
         let seen = notes.seen(&MU);
-        // One loop, so that they do not wait for each other.
+        // One loop, so that the lanes do not wait for each other.
         let mut logarithms = [low, high, seen.0, seen.1];
         wide(
             #[inline(always)]
@@ -317,8 +317,8 @@ impl WeightedFriction for Weighted {
             },
         );
         let [ln_low, ln_high, ln_least, ln_greatest] = logarithms;
-        // Where friction was seen above and below already, a path adds nothing. Mostly bounds for all loads together tell that: what is
-        // common rises with load, and the rest falls.
+        // Once friction has been observed above and below, a path adds nothing. Usually common bounds for all loads show this: the
+        // common part increases with load, and the rest decreases.
         let (Some([below, _]), Some([_, above])) = (self.series.bounds(at(high)), self.series.bounds(at(low))) else {
             return false;
         };
@@ -329,7 +329,7 @@ impl WeightedFriction for Weighted {
             note_ranges(self.roughness, path, line_loads, Some(range), notes);
             return true;
         }
-        // Else only the places count where friction might be the least or the greatest of the path.
+        // Otherwise only the points at which friction might be the minimum or maximum of the path matter.
         let Some(places) = self.series.places(at(low), at(high)) else {
             return false;
         };
@@ -377,7 +377,7 @@ impl WeightedFriction for Weighted {
     }
 }
 
-/// Friction at each node of a path, from the part of the exponent that is common to them and from its fall.
+/// Friction at each node of a path, from the common part of the exponent and from its decrease.
 fn walk(c: &Constants, path: &PathAt<'_>, common: f64, fall: f64, mu: &mut [f64]) {
     wide(
         #[inline(always)]
@@ -399,7 +399,7 @@ fn walk(c: &Constants, path: &PathAt<'_>, common: f64, fall: f64, mu: &mut [f64]
     );
 }
 
-/// The least and the greatest friction of a path.
+/// Minimum and maximum friction of a path.
 fn ends(mu: &[f64]) -> [f64; 2] {
     [
         mu.iter().fold(f64::INFINITY, |least, mu| least.min(*mu)),
@@ -413,26 +413,26 @@ fn unit_pressure(line_load: f64, modulus: f64) -> f64 {
     (line_load * (modulus / (2.0 * std::f64::consts::PI))).sqrt() * 1e-9
 }
 
-/// What the unit of pressure adds as a factor.
+/// Factor from the unit of pressure.
 #[inline(always)]
 fn power(b2: f64, unit: f64) -> f64 {
     exp(b2 * ln(unit))
 }
 
-/// What a node adds to the exponent.
+/// Contribution of a node to the exponent.
 #[inline(always)]
 fn geometry(c: &Constants, node: &PathNode) -> f64 {
     c.b2 * node.ln_root_load + c.b3 * node.ln_slide_roll + c.b6 * node.ln_rolling + c.b8 * node.ln_radius
 }
 
-/// What is the same along a path under every load.
+/// The quantities that are constant along a path under every load.
 struct Common {
     b2: f64,
     b7: f64,
     rough: f64,
     speed: f64,
     ln_nu0: f64,
-    /// The exponential of all but the unit of pressure.
+    /// The exponential of all terms but the unit of pressure.
     factor: f64,
 }
 
@@ -452,13 +452,13 @@ impl Common {
         }
     }
 
-    /// The part of the exponent that is the same along the path, from the logarithm of the unit of pressure in GPa.
+    /// The part of the exponent that is constant along the path, from the logarithm of the unit of pressure in GPa.
     #[inline(always)]
     fn common(&self, ln_unit: f64) -> f64 {
         self.rough + self.b2 * ln_unit + self.speed + self.b7 * self.ln_nu0
     }
 
-    /// -P lg nu0 per slide-roll ratio and `root_load`.
+    /// -P lg nu0 per slide-to-roll ratio and `root_load`.
     #[inline(always)]
     fn fall(&self, unit: f64) -> f64 {
         -unit * self.ln_nu0 * LOG10_E
@@ -470,7 +470,7 @@ register!(ToothFriction, "xu", Xu,
     example: "{ type: xu }",
     evidence: [
         formula(Evidence::SeveralSources, "coefficients agree in two independent transcriptions"),
-        default_of("roughness", Evidence::OneSource, "the regression means the composite rms value"),
+        default_of("roughness", Evidence::OneSource, "the regression uses the composite rms value"),
     ],
     limits: [PRESSURE, SLIDE_ROLL, VISCOSITY, ROLLING, RADIUS, ROUGHNESS], observed: [MU]);
 
@@ -528,9 +528,9 @@ mod tests {
             })
             .collect();
         let part = fzg_c14(0.4e-6, 0.5e-6);
-        let extent = PathExtent::of(&nodes);
+        let extent = PathExtent::from_nodes(&nodes);
         let mean = MeanFrictionAt::usual(&part, Notes::MUTED);
-        let path = PathAt::of(&nodes, &extent, 0.02, &mean, Notes::MUTED).with(|to| {
+        let path = PathAt::new(&nodes, &extent, 0.02, &mean, Notes::MUTED).with(|to| {
             to.speed = 300.0;
             to.line_load = 2e5;
         });

@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
-use gearloss_framework::document::{Diagnostic, Severity, Sources};
+use gearloss_framework::document::{Diagnostic, PlacedDiagnostic, Severity, Sources};
 use gearloss_framework::gearbox::Findings;
 use gearloss_framework::language::Language;
 use gearloss_framework::registry::Evidence;
-use gearloss_report::check::{checked_json, findings_json, warnings_json};
+use gearloss_report::check::{checked_json, placed, warnings};
 use serde_json::{Value, json};
 
 use crate::args::{CheckArgs, ChoiceArgs};
@@ -25,7 +25,7 @@ pub fn run(language: &Language, args: &CheckArgs, deny: Option<Evidence>, out: &
             study(crate::commands::run::look_over(language, file))?
         } else {
             gearbox(language, file, &args.choice, args.resolved).unwrap_or_else(|findings| Checked {
-                findings: findings_json(&findings.list, &findings.sources),
+                findings: placed(&findings.list, &findings.sources),
                 wrong: findings.list.iter().any(|d| d.severity == Severity::Error),
                 ..Checked::default()
             })
@@ -67,7 +67,7 @@ pub fn run(language: &Language, args: &CheckArgs, deny: Option<Evidence>, out: &
 /// The result for a file.
 #[derive(Default)]
 struct Checked {
-    findings: Vec<Value>,
+    findings: Vec<PlacedDiagnostic>,
     /// Components of a study's gearboxes without a model.
     notes: Vec<String>,
     /// The file cannot be used.
@@ -87,18 +87,19 @@ fn study(looked: Looked) -> Result<Checked, Failure> {
         match failure {
             Failure::Found(findings) => checked
                 .findings
-                .extend(findings_json(&findings.list, &findings.sources)),
+                .extend(placed(&findings.list, &findings.sources)),
             Failure::Input(text) => {
                 let finding = Diagnostic::error("", text.trim().trim_start_matches("error: "));
-                checked.findings.extend(findings_json(&[finding], &Sources::default()));
+                let finding = finding.code(gearloss_studies::codes::STUDY);
+                checked.findings.extend(placed(&[finding], &Sources::default()));
             }
             Failure::Interrupted => return Err(Failure::Interrupted),
         }
     }
-    for warnings in &looked.warnings {
+    for found in &looked.warnings {
         checked
             .findings
-            .extend(findings_json(&warnings.list, &warnings.sources));
+            .extend(placed(&found.list, &found.sources));
     }
     checked.notes = looked.notes;
     Ok(checked)
@@ -107,7 +108,7 @@ fn study(looked: Looked) -> Result<Checked, Failure> {
 fn gearbox(language: &Language, file: &Path, choice: &ChoiceArgs, print: bool) -> Result<Checked, Findings> {
     let checked = super::checked(language, file, choice)?;
     Ok(Checked {
-        findings: warnings_json(&checked),
+        findings: warnings(&checked),
         lowest: checked.lowest_evidence(),
         built: Some(checked_json(&checked, print)),
         ..Checked::default()

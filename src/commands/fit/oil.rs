@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use gearloss_framework::codes;
 use gearloss_framework::description::LubricantEntry;
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::gearbox::Gearbox;
@@ -48,6 +49,11 @@ pub fn oil(args: &OilArgs) -> Result<Lubricant, Failure> {
     let failed = |fault: Diagnostic| Failure::from(gearbox.findings(vec![fault]));
     let entry: LubricantEntry = serde_json::from_value(resolved.value["lubricants"][id].clone())
         .map_err(|e| failed(Diagnostic::error(path.as_str(), e.to_string())))?;
-    Lubricant::new(&entry)
-        .map_err(|(key, message, help)| failed(Diagnostic::error(format!("{path}.{key}"), message).help(help)))
+    Lubricant::new(&entry).map_err(|(key, message, help)| {
+        failed(
+            Diagnostic::error(format!("{path}.{key}"), message)
+                .help(help)
+                .code(codes::LUBRICANT),
+        )
+    })
 }

@@ -72,7 +72,7 @@ fn points(columns: &Columns, rq: Option<&str>) -> Result<Vec<StribeckPoint>, Fai
         Some(text) => {
             let rq = quantity("--rq", text, "um")?;
             if rq <= 0.0 {
-                let message = format!("--rq \"{text}\" is not above zero");
+                let message = format!("--rq \"{text}\" is not positive");
                 return Err(Failure::input(
                     message,
                     "write the combined rms roughness of both flanks",

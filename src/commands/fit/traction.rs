@@ -54,7 +54,7 @@ pub fn run(path: &Path, args: &OilArgs, out: &mut Out) -> Result<End, Failure> {
         significant(law.s0)
     ))?;
     let slopes: Vec<Option<Isotherm>> = curves.iter().map(Curve::slope).collect();
-    out.line("\nstep 1: slope of the stress over the logarithm of the shear rate")?;
+    out.line("\nstep 1: slope of stress over the logarithm of the shear rate")?;
     out.text(&slopes_table(&curves, &slopes))?;
     let found: Vec<Isotherm> = slopes.iter().flatten().copied().filter(|s| s.slope > 0.0).collect();
     let (mean, spread) = Isotherm::mean(&found).ok_or_else(|| {

@@ -203,7 +203,7 @@ mod tests {
         assert!(
             Mean::over_time(&all, 0, [3.0, 7.0])
                 .unwrap_err()
-                .contains("1 samples in the asked time; times are 0 to 6 s")
+                .contains("1 samples in the averaging time; times are 0 to 6 s")
         );
         assert!(samples("1 2 3\n").unwrap_err().contains("line 1: 3 numbers"));
         assert!(
@@ -214,7 +214,7 @@ mod tests {
         assert!(
             samples("2 0 0 0 0 0 0 0 0 0\n1 0 0 0 0 0 0 0 0 0\n")
                 .unwrap_err()
-                .contains("does not rise")
+                .contains("does not increase")
         );
     }
 }

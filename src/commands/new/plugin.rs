@@ -74,7 +74,7 @@ fn usable(name: &str) -> Result<(), Failure> {
     }
     if is_taken(name) {
         return Err(Failure::input(
-            format!("`{name}` cannot name your crate: the name is reserved"),
+            format!("`{name}` cannot name a crate: the name is reserved"),
             format!("add the name of your company, such as `acme-{name}`"),
         ));
     }

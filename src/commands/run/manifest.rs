@@ -15,9 +15,9 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::folder::{Held, cannot, is_unfinished, temporary};
-use super::shard::Shard;
 use super::write::hash_of;
 use crate::output::Failure;
+use crate::shard::Shard;
 
 /// Manifest of a shard folder. Parts with another manifest do not belong to this study.
 #[derive(Debug, PartialEq, Serialize, Deserialize)]

@@ -4,16 +4,17 @@ use std::cell::{Cell, RefCell};
 use std::ops::Deref;
 use std::path::PathBuf;
 
-use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::Language;
 use gearloss_report::html::{Report, Section};
 use gearloss_report::page::{Page, Text};
 use gearloss_studies::analyses::progress::{Progress, Steps};
 use gearloss_studies::analyses::{AnalysisEntry, AnyOutcome, Context, Stopped};
+use gearloss_studies::run::StudyRun;
 use gearloss_studies::study::{Study, Write};
 use gearloss_studies::tasks::TaskResults;
 use indicatif::{ProgressBar, ProgressStyle};
 
+use super::result_files::Files;
 use super::shard_tasks::ShardTasks;
 use super::stated_ranges::StatedRanges;
 use super::table::Tables;
@@ -28,13 +29,12 @@ pub struct Run<'a> {
     bars: Bars,
     pub(super) report: RefCell<Report>,
     /// Folder of the results.
-    pub(super) files: write::Files,
+    pub(super) files: Files,
     /// Quantities outside their stated ranges, counted over all analyses.
     pub(super) left: Cell<usize>,
     /// The same for the end of the run.
     pub(super) stated_ranges: RefCell<StatedRanges>,
-    /// Files that the gearboxes read before the first analysis.
-    known: Vec<Vec<PathBuf>>,
+    analyses: StudyRun<'a>,
     /// Task results of shards.
     pub(super) tasks: Option<ShardTasks>,
     /// True for `check`: an analysis stops before it computes and reports its errors.
@@ -101,18 +101,17 @@ impl Drop for Bar {
 
 impl<'a> Run<'a> {
     pub(super) fn new(language: &'a Language, study: &'a Study, folder: PathBuf, tasks: Option<ShardTasks>) -> Self {
-        let known = |(_, gearbox): &(String, Gearbox)| gearbox.files.all().into_iter().map(|(file, _)| file).collect();
         Self {
             language,
             study,
-            files: write::Files::new(folder),
+            analyses: StudyRun::new(language, study),
+            files: Files::new(folder),
             bars: Bars {
                 shown: Out::error().is_terminal(),
             },
             report: RefCell::default(),
             left: Cell::new(0),
             stated_ranges: RefCell::default(),
-            known: study.gearboxes.iter().map(known).collect(),
             tasks,
             only_checks: false,
         }
@@ -142,20 +141,12 @@ impl<'a> Run<'a> {
             about: analysis.kind().meaning.to_owned(),
             ..Section::default()
         });
-        for ((_, gearbox), known) in self.study.gearboxes.iter().zip(&self.known) {
-            gearbox.files.forget_all_but(known);
-        }
         let tables = Tables::new(&self.files, analysis.formats());
         let runner = Runner {
             cx: self.context(name).with_sink(&tables),
             run: self,
         };
-        if let Some((set, by)) = self.study.pending(analysis).filter(|_| !self.only_checks) {
-            let message = format!("the model set `{set}` has no values, because the analysis `{by}` produced none");
-            let help = format!("correct `{by}`, or choose another set");
-            return Err(runner.wrong(&format!("analyses.{name}"), message, &help).into());
-        }
-        match analysis.run(&runner.cx) {
+        match self.analyses.run(&runner.cx) {
             Ok(outcome) => {
                 let shown = runner.present(analysis, outcome.as_ref(), out);
                 drop(runner);
@@ -178,9 +169,6 @@ impl<'a> Run<'a> {
 impl Runner<'_> {
     /// Prints an outcome, writes its files and adds it to the report.
     fn present(&self, analysis: &AnalysisEntry, outcome: &dyn AnyOutcome, out: &mut Out) -> Result<(), Failure> {
-        if let Some(then) = analysis.then() {
-            self.study.keep_found(then.set, outcome.found());
-        }
         let notes: Vec<_> = outcome.notes().into_iter().filter(|note| note.outside > 0).collect();
         let samples = outcome.left_at_samples();
         self.run

@@ -1,51 +1,20 @@
 //! A part of a study for distributed computation: `run --shard K/N`, and `merge`.
 
-use std::fmt;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::str::FromStr;
 
 use gearloss_framework::language::Language;
 use gearloss_studies::analyses::Stopped;
 use gearloss_studies::study::Study;
 use gearloss_studies::table::{RowSink, Table};
-use serde::{Deserialize, Serialize};
 
-use super::Run;
 use super::manifest::{MANIFEST, Manifest};
+use super::runner::Run;
 use super::shard_tasks::ShardTasks;
 use crate::args::RunArgs;
 use crate::interrupt;
 use crate::output::{End, Failure, Out};
-
-/// Shard `number` of `of`, counted from one.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Shard {
-    pub number: usize,
-    pub of: usize,
-}
-
-impl FromStr for Shard {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let how = "write K/N: part K of N, such as 1/3";
-        let (number, of) = text.split_once('/').ok_or(how)?;
-        let number = number.parse().map_err(|_| how)?;
-        let of = of.parse().map_err(|_| how)?;
-        if (1..=of).contains(&number) {
-            Ok(Self { number, of })
-        } else {
-            Err(format!("K runs from 1 to N; {how}"))
-        }
-    }
-}
-
-impl fmt::Display for Shard {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}/{}", self.number, self.of)
-    }
-}
+use crate::shard::Shard;
 
 /// Computes the tasks of a shard; continues an interrupted run.
 pub fn run(language: &Language, study: &Study, shard: Shard, args: &RunArgs, out: &mut Out) -> Result<End, Failure> {

@@ -10,9 +10,9 @@ use gearloss_studies::study::Study;
 use gearloss_studies::tasks::{Task, TaskResults};
 
 use super::folder::cannot;
-use super::shard::Shard;
-use super::task_file::TaskFile;
+use super::task_file::{Place, TaskFile};
 use crate::output::Failure;
+use crate::shard::Shard;
 
 /// Results of shards, and the folder of the computing shard.
 pub struct ShardTasks {
@@ -104,6 +104,11 @@ impl ShardTasks {
     }
 }
 
+/// Where a task lies in the file of its analysis: part, stage and number.
+fn place(task: Task<'_>) -> Place {
+    [task.part, task.stage, task.number]
+}
+
 fn locked(files: &Mutex<Files>) -> MutexGuard<'_, Files> {
     files.lock().unwrap_or_else(PoisonError::into_inner)
 }
@@ -113,10 +118,10 @@ fn unwritten(path: &Path, e: &dyn std::fmt::Display) -> Stopped {
 }
 
 impl TaskResults for ShardTasks {
-    /// Tasks are distributed to the shards in turn; each stage starts at another shard.
+    /// Tasks are assigned to the shards in turn, those of each stage from another shard on.
     fn is_own(&self, task: Task<'_>) -> bool {
         self.shard.is_none_or(|shard| {
-            let first = fnv1a_64(task.analysis.as_bytes()).wrapping_add(task.stage as u64);
+            let first = fnv1a_64(task.analysis.as_bytes()).wrapping_add((task.part + task.stage) as u64);
             let dealt = (first % shard.of as u64) as usize + task.number;
             dealt % shard.of + 1 == shard.number
         })
@@ -125,7 +130,7 @@ impl TaskResults for ShardTasks {
     fn is_kept(&self, task: Task<'_>) -> bool {
         self.files(task).is_some_and(|files| {
             let mut all = files.own.iter().chain(&files.others);
-            all.any(|file| file.holds((task.stage, task.number)))
+            all.any(|file| file.holds(place(task)))
         })
     }
 
@@ -134,7 +139,7 @@ impl TaskResults for ShardTasks {
     }
 
     fn read(&self, task: Task<'_>) -> Result<Vec<u8>, Stopped> {
-        let own = (task.stage, task.number);
+        let own = place(task);
         let result = self.files(task).map(|mut files| {
             let Files { own: mine, others, .. } = &mut *files;
             let mut all = mine.iter_mut().chain(others);
@@ -159,10 +164,7 @@ impl TaskResults for ShardTasks {
         if files.own.is_none() {
             files.own = Some(TaskFile::reopen(&path).map_err(|e| unwritten(&path, &e))?);
         }
-        let kept = files
-            .own
-            .as_mut()
-            .map(|own| own.append((task.stage, task.number), result));
+        let kept = files.own.as_mut().map(|own| own.append(place(task), result));
         kept.transpose().map_err(|e| unwritten(&path, &e))?;
         files.computed += 1;
         Ok(())

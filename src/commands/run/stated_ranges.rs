@@ -2,7 +2,7 @@
 
 use gearloss_studies::analysis::Note;
 
-use super::{Run, Runner};
+use super::runner::{Run, Runner};
 use crate::output::{Failure, Out, beyond, significant};
 
 /// Start of each line.
@@ -175,7 +175,7 @@ mod tests {
                 points: 10,
                 outside: 4,
                 unit: "-".to_owned(),
-                range: ("outside of 0 to 5".to_owned(), "catalogue".to_owned()),
+                range: ("outside 0 to 5".to_owned(), "catalogue".to_owned()),
             }),
             analyses: vec![analysis.to_owned()],
         }
@@ -190,7 +190,7 @@ mod tests {
         assert_eq!(
             ranges.lines(),
             [
-                "outside: bearings.B1.model, bearings.B2.model: n_dm 1 to 9 is outside of 0 to 5 at 12 of 30 points \
+                "outside: bearings.B1.model, bearings.B2.model: n_dm 1 to 9 is outside 0 to 5 at 12 of 30 points \
               (catalogue); in map, city"
             ]
         );

@@ -10,7 +10,7 @@ use gearloss_studies::analyses::Stopped;
 use gearloss_studies::study::Write;
 use gearloss_studies::table::{RowSink, Table};
 
-use super::write::{Files, Place};
+use super::result_files::{Files, Place};
 use crate::output::Failure;
 
 /// A table that is written in batches of rows.

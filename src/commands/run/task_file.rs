@@ -10,19 +10,22 @@ use gearloss_studies::analyses::head::fnv1a_64;
 
 use super::folder::is_regular;
 
-/// Length and hash, followed by stage, number and bytes of a result.
+/// Length and hash of a result before its place and its bytes.
 const HEAD: usize = 16;
 
-/// Stage and number of a task, before its bytes.
-const TASK: usize = 16;
+/// Part, stage and number of a task, which precede its bytes.
+pub type Place = [usize; 3];
+
+/// Length of a place.
+const TASK: usize = 24;
 
 /// The results of one analysis.
 pub struct TaskFile {
     file: File,
     path: PathBuf,
     end: u64,
-    /// Offsets of results by stage and number of the task.
-    places: BTreeMap<(usize, usize), u64>,
+    /// Where the result of a task begins.
+    places: BTreeMap<Place, u64>,
 }
 
 impl TaskFile {
@@ -49,8 +52,8 @@ impl TaskFile {
             places: BTreeMap::new(),
         };
         while let Some(bytes) = own.at(own.end)? {
-            let [stage, number] = [&bytes[..8], &bytes[8..TASK]].map(|half| little(half) as usize);
-            own.places.insert((stage, number), own.end);
+            let place = [0, 8, 16].map(|from| little(&bytes[from..from + 8]) as usize);
+            own.places.insert(place, own.end);
             own.end += (HEAD + bytes.len()) as u64;
         }
         Ok(own)
@@ -61,29 +64,28 @@ impl TaskFile {
         self.places.len()
     }
 
-    /// Whether it contains the result of a task.
-    pub fn holds(&self, task: (usize, usize)) -> bool {
+    /// Whether it holds the result of a task.
+    pub fn holds(&self, task: Place) -> bool {
         self.places.contains_key(&task)
     }
 
     /// Adds the result of a task.
-    pub fn append(&mut self, (stage, number): (usize, usize), result: &[u8]) -> io::Result<()> {
+    pub fn append(&mut self, task: Place, result: &[u8]) -> io::Result<()> {
         let mut bytes = vec![0; HEAD];
-        bytes.extend((stage as u64).to_le_bytes());
-        bytes.extend((number as u64).to_le_bytes());
+        bytes.extend(task.iter().flat_map(|number| (*number as u64).to_le_bytes()));
         bytes.extend_from_slice(result);
         let (head, body) = bytes.split_at_mut(HEAD);
         head[..8].copy_from_slice(&(body.len() as u64).to_le_bytes());
         head[8..].copy_from_slice(&fnv1a_64(body).to_le_bytes());
         self.file.seek(SeekFrom::Start(self.end))?;
         self.file.write_all(&bytes)?;
-        self.places.insert((stage, number), self.end);
+        self.places.insert(task, self.end);
         self.end += bytes.len() as u64;
         Ok(())
     }
 
-    /// The stored result of a task.
-    pub fn read(&mut self, task: (usize, usize)) -> io::Result<Vec<u8>> {
+    /// The result of a task that it holds.
+    pub fn read(&mut self, task: Place) -> io::Result<Vec<u8>> {
         let place = self.places.get(&task).copied();
         let changed = || io::Error::other(format!("{} was changed while it was read", self.path.display()));
         let place = place.ok_or_else(changed)?;

@@ -44,7 +44,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         line?;
         let begun = Instant::now();
         let mut passes = 0;
-        let mut scratch = transmission.row_scratch(&case);
+        let mut scratch = transmission.batch_scratch(&case);
         for (speed, losses) in (1..=size).zip(losses.chunks_mut(size as usize)) {
             let point = Point {
                 speeds: &[MOST.1 * share(speed) * std::f64::consts::PI / 30.0],
@@ -52,7 +52,7 @@ fn main() -> Result<(), Box<dyn Error>> {
                 flow: PowerFlow::Real,
                 ..Point::default()
             };
-            let mut row = transmission.row(&case, &point, &[100.0], &mut scratch);
+            let mut row = transmission.batch(&case, &point, &[100.0], &mut scratch);
             for (torques, losses) in torques.chunks(LANES).zip(losses.chunks_mut(LANES)) {
                 let block = row.follow(torques);
                 if block.alone()[..torques.len()].contains(&true) {

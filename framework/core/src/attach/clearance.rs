@@ -13,18 +13,18 @@ pub enum Clearance {}
 /// The two members of a clearance.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct ClearancePlace {
-    /// The two shafts or loose gears; `housing` makes it a brake.
+    /// The two shafts or idler gears; `housing` makes it a brake.
     pub between: [String; 2],
-    /// Place along the shaft; matters for the oil level of a tilted housing only. [mm]
+    /// Position along the shaft; matters only for the oil level of a tilted housing. [mm]
     #[serde(default)]
     #[schemars(range(min = -1e5, max = 1e5))]
     pub at: f64,
 }
 
-/// Indices of the two members; absent for the housing.
+/// Indices of the two members; `None` for the housing.
 pub type ClearanceSeat = [Option<u16>; 2];
 
-/// The state in a clearance.
+/// The state at a clearance.
 #[derive(Debug, Clone, Copy)]
 #[non_exhaustive]
 pub struct ClearanceSite<'a> {
@@ -32,9 +32,9 @@ pub struct ClearanceSite<'a> {
     pub speed: f64,
     /// Speed of the first member, signed. \[rad/s\]
     pub first_speed: f64,
-    /// The oil there.
+    /// The local oil.
     pub oil: &'a Oil,
-    /// Height of the oil above the axis.
+    /// Oil height above the axis.
     pub level: Height,
 }
 
@@ -53,8 +53,8 @@ impl Attach for Clearance {
         if a == b {
             let path = names.path().to_owned();
             names.report(
-                crate::document::Diagnostic::error(format!("{path}.between"), "both ends are the same member")
-                    .help("name two members, or one member and `housing`"),
+                crate::document::Diagnostic::error(format!("{path}.between"), "both sides are the same member")
+                    .help("name two different members, or one member and `housing`"),
             );
             return None;
         }

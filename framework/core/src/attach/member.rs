@@ -1,4 +1,4 @@
-//! On a member, against the housing: seals, pumps, whatever else takes moment from a shaft.
+//! On a member, against the housing: seals, pumps and other components driven by a shaft.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -6,30 +6,30 @@ use serde::{Deserialize, Serialize};
 use super::{Attach, Names, Oil, Spot, State, sealed};
 use crate::immersion::Height;
 
-/// On a shaft or a loose gear, against the housing.
+/// On a shaft or an idler gear, against the housing.
 #[derive(Debug)]
 pub enum OnMember {}
 
-/// Where a component sits on a member.
+/// Position of a component on a member.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct MemberPlace {
-    /// Shaft or loose gear.
+    /// Shaft or idler gear.
     pub shaft: String,
-    /// Place along the shaft; matters for the oil level of a tilted housing only. [mm]
+    /// Position along the shaft; matters only for the oil level of a tilted housing. [mm]
     #[serde(default)]
     #[schemars(range(min = -1e5, max = 1e5))]
     pub at: f64,
 }
 
-/// The state where a component sits on a member.
+/// The state at a component on a member.
 #[derive(Debug, Clone, Copy)]
 #[non_exhaustive]
 pub struct MemberSite<'a> {
     /// Speed of the member, signed. \[rad/s\]
     pub speed: f64,
-    /// The oil there.
+    /// The local oil.
     pub oil: &'a Oil,
-    /// Height of the oil above the axis.
+    /// Oil height above the axis.
     pub level: Height,
 }
 

@@ -1,4 +1,4 @@
-//! Between two members, carrying load: bearings. Statics needs the place and the axial direction.
+//! Between two members, carrying load: bearings. Statics uses the position and the axial direction.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -6,72 +6,72 @@ use serde::{Deserialize, Serialize};
 use super::{Attach, Names, Oil, Spot, State, sealed};
 use crate::immersion::Height;
 
-/// Between a shaft and what carries it: the housing, or another member.
+/// Between a shaft and its support: the housing, or another member.
 #[derive(Debug)]
 pub enum Support {}
 
-/// Where a support sits and which loads it takes.
+/// Position of a bearing and the loads that it takes.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct SupportPlace {
-    /// Shaft inside.
+    /// Member in the bore: a shaft.
     pub shaft: String,
-    /// Member outside, such as a loose gear; absent, the housing.
+    /// Member around the bearing, such as an idler gear; default: the housing.
     pub outer: Option<String>,
-    /// Place along the shaft. [mm]
+    /// Position along the shaft. [mm]
     #[schemars(range(min = -1e5, max = 1e5))]
     pub at: f64,
-    /// Which way the support can take thrust of the shaft.
+    /// Directions in which the bearing takes thrust of the shaft.
     #[serde(default)]
     pub axial: Axial,
-    /// Share of the thrust where several supports could take it. [-]
+    /// Share of the thrust if several bearings can take it. [-]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub axial_share: Option<f64>,
-    /// Force of a spring that preloads the support axially; positive pushes the shaft to the right. [N]
+    /// Axial preload by a spring; a positive force pushes the shaft towards +x. [N]
     #[serde(default)]
     #[schemars(range(min = -1e6, max = 1e6))]
     pub spring_preload: f64,
-    /// Thrust that the radial load induces, over the radial load: 1/(2 Y) for a tapered roller bearing, 1.14 for a 40
-    /// degree angular contact ball bearing. Counts for a pair of which one takes thrust to the left, one to the right. [-]
+    /// Thrust induced by the radial load, per radial load: 1/(2 Y) for a tapered roller bearing, 1.14 for a 40 degree angular
+    /// contact ball bearing. Used for a pair of which one takes thrust to the left, one to the right. [-]
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 3.0))]
     pub induced_thrust: f64,
-    /// The support takes the tilting moment of a shaft that it alone carries.
+    /// The bearing takes the tilting moment of a shaft that it supports alone.
     #[serde(default)]
     pub takes_moment: bool,
-    /// Radial stiffness; absent, rigid. Counts where more than two supports carry the shaft. [N/mm]
+    /// Radial stiffness; default: rigid. Used if more than two bearings support the shaft. [N/mm]
     #[schemars(range(min = 1.0, max = 1e9))]
     pub radial_stiffness: Option<f64>,
-    /// Tilting stiffness; absent, none. Counts where more than two supports carry the shaft. [Nm/rad]
+    /// Tilting stiffness; default: none. Used if more than two bearings support the shaft. [Nm/rad]
     #[schemars(range(min = 1.0, max = 1e9))]
     pub tilting_stiffness: Option<f64>,
-    /// Height of the oil above the axis, where the support has a pocket of its own. [mm]
+    /// Oil height above the axis, if the bearing has a separate oil pocket. [mm]
     #[schemars(range(min = -1e4, max = 1e4))]
     pub level: Option<f64>,
-    /// Factor on the radial load that the loss models see: a number, or numbers over the torque of a port.
+    /// Factor on the radial load for the loss models: a number, or numbers over the torque of a port.
     #[serde(default)]
     pub radial_factor: Factor,
-    /// Factor on the axial load that the loss models see: a number, or numbers over the torque of a port.
+    /// Factor on the axial load for the loss models: a number, or numbers over the torque of a port.
     #[serde(default)]
     pub axial_factor: Factor,
 }
 
-/// Which way a support can take thrust of the shaft.
+/// Directions in which a bearing takes thrust of the shaft.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Axial {
     /// No thrust.
     #[default]
     None,
-    /// Thrust towards smaller places.
+    /// Thrust towards -x.
     Left,
-    /// Thrust towards greater places.
+    /// Thrust towards +x.
     Right,
-    /// Thrust both ways.
+    /// Thrust in both directions.
     Both,
 }
 
 impl Axial {
-    /// The other way.
+    /// The opposite direction.
     pub fn opposite(self) -> Self {
         match self {
             Self::Left => Self::Right,
@@ -100,9 +100,9 @@ impl Default for Factor {
 /// Factors over the magnitude of a port's torque, linear in between, constant beyond the ends.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct FactorOver {
-    /// Port whose torque counts.
+    /// Port of the torque.
     pub port: String,
-    /// Torques, rising. [Nm]
+    /// Torques, increasing. [Nm]
     #[schemars(inner(range(min = 0.0, max = 1e9)), length(min = 2))]
     pub torques: Vec<f64>,
     /// Factors, one for each torque. [-]
@@ -118,7 +118,7 @@ pub struct SupportSeat {
     number: u16,
 }
 
-/// The state in a support.
+/// The state at a bearing.
 #[derive(Debug, Clone, Copy)]
 #[non_exhaustive]
 pub struct SupportSite<'a> {
@@ -132,9 +132,9 @@ pub struct SupportSite<'a> {
     pub axial: f64,
     /// Tilting moment. \[Nm\]
     pub tilting: f64,
-    /// The oil there.
+    /// The local oil.
     pub oil: &'a Oil,
-    /// Height of the oil above the axis.
+    /// Oil height above the axis.
     pub level: Height,
 }
 
@@ -158,9 +158,9 @@ impl Attach for Support {
             names.report(
                 crate::document::Diagnostic::error(
                     format!("{path}.outer"),
-                    "a support cannot carry a member on itself",
+                    "`inner` and `outer` of a bearing are the same member",
                 )
-                .help("name another member, or leave `outer` out for the housing"),
+                .help("name another member, or omit `outer` for the housing"),
             );
             return None;
         }

@@ -1,4 +1,4 @@
-//! The path of contact of one mesh, prepared for laws of local friction.
+//! The path of contact of one mesh, prepared for local friction laws.
 
 use crate::geometry::{LoadSharing, Pair, PathPoint};
 use crate::lanes::Lane;
@@ -6,7 +6,7 @@ use crate::loss::Notes;
 use crate::mechanism::mean_friction::MeanFrictionAt;
 use crate::mechanism::tooth_friction::{CUT_OFF, PathAt, PathExtent, PathNode, SMOOTH};
 
-/// Points of most paths: four pieces for a smooth law.
+/// Points of most paths: four sections for a smooth law.
 const FEW: usize = 4 * SMOOTH;
 
 /// The path of one mesh, prepared.
@@ -20,13 +20,13 @@ pub struct Path {
 }
 
 impl Path {
-    /// The most points on a path: 32 pieces for a law that is cut off.
+    /// Maximum number of points on a path: 32 sections for a law with a cut-off.
     const MOST: usize = 32 * CUT_OFF;
 
-    /// The path of a pair with its load shared, with as many points on each smooth piece as the law of friction asks for.
+    /// The path of a pair with its load sharing, with as many points on each smooth section as the friction law requires.
     ///
     /// # Errors
-    /// Where the contact ratio is too high, as a sentence.
+    /// If the contact ratio is too high, as a sentence.
     pub fn new(pair: &Pair, sharing: LoadSharing, order: usize) -> Result<Self, String> {
         let points = pair.graded_path(sharing, order);
         if points.len() > Self::MOST {
@@ -60,7 +60,7 @@ impl Path {
             .map(|(p, n)| p.weight / pair.base_pitch * p.share * n.sliding)
             .collect();
         Self {
-            extent: PathExtent::of(&nodes),
+            extent: PathExtent::from_nodes(&nodes),
             nodes,
             points,
             weights,
@@ -68,7 +68,7 @@ impl Path {
         }
     }
 
-    /// Places at even distances over the whole path, its ends included; for looking at, not for integrals.
+    /// Equidistant points over the whole path, including its ends; for display, not for integrals.
     pub fn even(pair: &Pair, sharing: LoadSharing, places: usize) -> Self {
         let mut path = Self::from_points(pair, pair.even_path(sharing, places));
         // The trapezoidal rule, for laws that need a mean over the path.
@@ -85,27 +85,27 @@ impl Path {
         self.nodes.len()
     }
 
-    /// True without points, which no path is.
+    /// True if there are no points, which never occurs.
     pub fn is_empty(&self) -> bool {
         self.nodes.is_empty()
     }
 
-    /// The places as points of the pair.
+    /// The points, as points of the pair.
     pub fn points(&self) -> &[PathPoint] {
         &self.points
     }
 
-    /// The places.
+    /// The points.
     pub fn nodes(&self) -> &[PathNode] {
         &self.nodes
     }
 
     /// The path at one operating point.
-    pub fn at<'a>(&'a self, mean: &'a MeanFrictionAt<'a>, notes: Notes<'a>) -> PathAt<'a> {
-        PathAt::of(&self.nodes, &self.extent, self.length, mean, notes)
+    pub fn at_operating_point<'a>(&'a self, mean: &'a MeanFrictionAt<'a>, notes: Notes<'a>) -> PathAt<'a> {
+        PathAt::new(&self.nodes, &self.extent, self.length, mean, notes)
     }
 
-    /// Runs with space for friction at each point; most paths need little, and zeroing more costs time.
+    /// Runs a function with space for friction at each point; most paths need little, and zeroing more costs time.
     pub fn with_space<R>(&self, run: impl FnOnce(&mut [f64]) -> R) -> R {
         const SOME: usize = 4 * FEW;
         if self.len() <= FEW {
@@ -117,7 +117,7 @@ impl Path {
         }
     }
 
-    /// As [`Path::with_space`] for all lanes; absent for a path of many points, which are walked one by one.
+    /// As [`Path::with_space`] for all lanes; `None` for a path with many points, which is evaluated lane by lane.
     pub fn with_lanes<R>(&self, run: impl FnOnce(&mut [Lane]) -> Option<R>) -> Option<R> {
         if self.len() > FEW {
             return None;
@@ -130,7 +130,7 @@ impl Path {
         self.weights.iter().zip(mu).map(|(weight, mu)| weight * mu).sum()
     }
 
-    /// Friction weighted by load and sliding speed.
+    /// Friction weighted by load and sliding velocity.
     pub fn average(&self, mu: &[f64]) -> f64 {
         self.sliding(mu) / self.weights.iter().sum::<f64>()
     }

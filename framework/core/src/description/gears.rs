@@ -7,66 +7,66 @@ use super::shafts::Unsupported;
 use crate::mechanism::gear_drag::GearDrag;
 use crate::mechanism::gear_mesh::GearMesh;
 use crate::mechanism::planetary_drag::PlanetaryDrag;
-use crate::registry::{ModelRef, NamedSlots};
+use crate::mechanism::{ModelRef, NamedSlots};
 
 /// A gear.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct GearEntry {
     /// Shaft, carrier or planet body that carries the gear.
     pub shaft: String,
-    /// Middle of the face along the shafts. [mm]
+    /// Middle of the face width along the shaft. [mm]
     #[serde(default)]
     #[schemars(range(min = -1e5, max = 1e5))]
     pub at: f64,
-    /// Number of teeth; positive for rings, too. [-]
+    /// Number of teeth; also positive for ring gears. [-]
     #[schemars(range(min = 5, max = 2000))]
     pub z: u32,
     /// Face width. [mm]
     #[schemars(range(min = 0.1, max = 2000.0))]
     pub facewidth: f64,
-    /// Hand of the helix; the mate's follows. Not needed for spur gears.
+    /// Hand of the helix; that of the mate follows. Not needed for spur gears.
     pub hand: Option<Hand>,
-    /// External teeth or a ring with internal teeth.
+    /// External teeth, or a ring gear with internal teeth.
     #[serde(default)]
     pub kind: GearKind,
-    /// Profile shift coefficient; absent, it closes the centre distance. For a ring see `profile_shift_sign`. [-]
+    /// Profile shift coefficient; default: the value that matches the centre distance. For a ring gear see `profile_shift_sign`. [-]
     #[schemars(range(min = -3.0, max = 3.0))]
     pub profile_shift: Option<f64>,
-    /// Sign of a ring's `profile_shift`; absent, `outward`, with a warning. Of no effect for external teeth.
+    /// Sign of a ring gear's `profile_shift`; default: `outward`, with a warning. No effect for external teeth.
     pub profile_shift_sign: Option<ShiftSign>,
-    /// Fixed to the shaft, or loose until a coupling joins it.
+    /// Fixed to the shaft, or an idler gear that a coupling connects.
     #[serde(default)]
     pub mounted: Mounting,
-    /// `none` where a loose gear has no bearings in this description: it has no bearing loads and no bearing losses.
+    /// `none` for an idler gear without bearings in this description: it has no bearing loads and no bearing losses.
     pub bearings: Option<Unsupported>,
-    /// Tip diameter; absent, it follows from the reference tooth. Required for rings, unless no model looks
-    /// at the teeth. [mm]
+    /// Tip diameter; default: that of the standard basic rack. Required for ring gears, unless no model uses the tooth geometry.
+    /// [mm]
     #[schemars(range(min = 1.0, max = 1e4))]
     pub tip_diameter: Option<f64>,
-    /// Root diameter; absent, it follows from the reference tooth. [mm]
+    /// Root diameter; default: that of the standard basic rack. [mm]
     #[schemars(range(min = 1.0, max = 1e4))]
     pub root_diameter: Option<f64>,
-    /// Flanks; absent, those of the gearbox.
+    /// Flanks; default: those of the gearbox.
     pub surface: Option<Surface>,
-    /// Height of the oil above the gear's axis, where it runs in a pocket of its own. [mm]
+    /// Oil height above the gear's axis, if it runs in a separate oil pocket. [mm]
     #[schemars(range(min = -1e4, max = 1e4))]
     pub level: Option<f64>,
-    /// Oil; absent, that of the housing.
+    /// Oil; default: that of the housing.
     pub lubricant: Option<String>,
-    /// Temperature of the oil at the gear above that of the sump. [K]
+    /// Oil temperature at the gear minus that of the sump. [K]
     #[serde(default)]
     #[schemars(range(min = -200.0, max = 200.0))]
     pub temperature_offset: f64,
-    /// Factor on the drag losses of the gear, for what a model does not know; drags at a mesh take the mean of both gears.
-    /// Identification moves it. [-]
-    #[serde(default = "one")]
+    /// Factor on the drag losses of the gear, for effects that the model does not include; drags at a mesh use the mean of both
+    /// gears. An identification may fit it. [-]
+    #[serde(default = "default_one")]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub loss_factor: f64,
-    /// Drag models of this gear by name; they take the place of those in `models`.
+    /// Drag models of this gear by name; they replace those in `models`.
     pub drag: Option<NamedSlots<GearDrag>>,
 }
 
-fn one() -> f64 {
+fn default_one() -> f64 {
     1.0
 }
 
@@ -95,8 +95,8 @@ pub enum GearKind {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum ShiftSign {
-    /// ISO 21771 and DIN 3960: a positive shift thickens the teeth and moves their tips towards the axis of the ring. A larger
-    /// sum x1 + x2 makes the centre distance of the pair smaller.
+    /// ISO 21771 and DIN 3960: a positive shift thickens the teeth and moves their tips towards the axis of the ring gear. A larger
+    /// sum x1 + x2 reduces the centre distance of the pair.
     Iso21771,
     /// A positive shift moves the teeth away from the axis, the opposite of ISO 21771: the meaning of documents that do not
     /// state a sign.
@@ -104,20 +104,20 @@ pub enum ShiftSign {
 }
 
 impl ShiftSign {
-    /// A profile shift of internal teeth after ISO 21771.
+    /// A profile shift of internal teeth, converted to ISO 21771.
     pub fn standard(sign: Option<Self>, shift: f64) -> f64 {
         if sign == Some(Self::Iso21771) { shift } else { -shift }
     }
 }
 
-/// How a gear sits on its shaft.
+/// Connection of a gear to its shaft.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Mounting {
-    /// Turns with the shaft.
+    /// Rotates with the shaft.
     #[default]
     Fixed,
-    /// Turns freely until a coupling joins it.
+    /// Idler gear: rotates freely until a coupling connects it.
     Loose,
 }
 
@@ -127,7 +127,7 @@ pub struct Surface {
     /// Arithmetic mean roughness of one flank. [um]
     #[schemars(range(min = 0.001, max = 50.0))]
     pub ra: f64,
-    /// Root mean square roughness of one flank; absent, 1.25 times `ra`. [um]
+    /// Root mean square roughness of one flank; default: 1.25 times `ra`. [um]
     #[schemars(range(min = 0.001, max = 50.0))]
     pub rq: Option<f64>,
 }
@@ -135,7 +135,7 @@ pub struct Surface {
 /// Two gears in mesh.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct MeshEntry {
-    /// First and second gear. A ring is the second.
+    /// First and second gear. A ring gear is the second.
     pub gears: [String; 2],
     /// Normal module. [mm]
     #[schemars(range(min = 0.05, max = 100.0))]
@@ -148,10 +148,10 @@ pub struct MeshEntry {
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 60.0))]
     pub helix_angle: f64,
-    /// Working centre distance; absent, that of the axes or of the profile shifts. [mm]
+    /// Working centre distance; default: that of the axes or of the profile shifts. [mm]
     #[schemars(range(min = 0.5, max = 1e5))]
     pub centre_distance: Option<f64>,
-    /// Both halves of a double-helical gear: their axial forces cancel.
+    /// Double-helical gears: the axial forces of both halves cancel.
     #[serde(default)]
     pub double_helical: bool,
     /// Young's modulus of both gears. [GPa]
@@ -162,22 +162,23 @@ pub struct MeshEntry {
     #[serde(default = "crate::mechanism::gear_mesh::steel_poisson")]
     #[schemars(range(min = 0.0, max = 0.49))]
     pub poisson: f64,
-    /// Tip shortening keeps the tip clearance of shifted external gears.
+    /// Tip shortening maintains the tip clearance of external gears with profile shift.
     #[serde(default = "yes")]
     pub tip_shortening: bool,
-    /// Oil; absent, that of the housing.
+    /// Oil; default: that of the housing.
     pub lubricant: Option<String>,
-    /// Temperature of the oil in the mesh above that of the sump. [K]
+    /// Oil temperature in the mesh minus that of the sump. [K]
     #[serde(default)]
     #[schemars(range(min = -200.0, max = 200.0))]
     pub temperature_offset: f64,
-    /// Factor on the loss of the teeth in mesh, without drags, for what a model does not know; identification moves it. [-]
-    #[serde(default = "one")]
+    /// Factor on the loss of the teeth in mesh, without drag losses, for effects that the model does not include. An identification
+    /// may fit it. [-]
+    #[serde(default = "default_one")]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub loss_factor: f64,
-    /// Loss model of the mesh; absent, that of `models`.
+    /// Loss model of the mesh; default: that of `models`.
     pub model: Option<ModelRef<GearMesh>>,
-    /// Drag models of this mesh by name; they take the place of those in `models`.
+    /// Drag models of this mesh by name; they replace those in `models`.
     pub drag: Option<NamedSlots<GearDrag>>,
 }
 
@@ -192,21 +193,21 @@ fn yes() -> bool {
 /// Planets on a carrier.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct PlanetarySetEntry {
-    /// Shaft that is the carrier.
+    /// Shaft of the carrier.
     pub carrier: String,
-    /// Number of equal planets, equally spaced: their transverse forces on central members cancel. [-]
+    /// Number of equal, equally spaced planets: their transverse forces on central members cancel. [-]
     #[schemars(range(min = 2, max = 50))]
     pub count: u32,
-    /// Load of the most loaded planet over the mean of all planets; the others share the rest equally. The losses of meshes
-    /// and bearings on the planets are means over the planets. [-]
+    /// Load sharing among the planets, K_gamma: load of the most loaded planet over the mean; the others share the rest equally.
+    /// The losses of meshes and bearings on the planets are means over the planets. [-]
     #[serde(default = "equal")]
     #[schemars(range(min = 1.0, max = 50.0))]
     pub load_sharing: f64,
-    /// Shafts that are the planet bodies; each stands for all of its equal copies.
+    /// Shafts that are the planet bodies; each represents all of its equal copies.
     #[schemars(length(min = 1))]
     pub planets: Vec<String>,
-    /// Shaft whose speed the drag model refers to and that feels its moment, such as the input; absent, the carrier. A table
-    /// over that speed holds for the ratio to the carrier at which it was made.
+    /// Reference shaft of the drag model, which takes its moment, such as the input; default: the carrier. A table over its speed is
+    /// valid for the ratio to the carrier at which it was made.
     pub reference: Option<String>,
     /// Size of the gearbox in its family, for drag tables with that axis. [mm]
     #[schemars(range(min = 1.0, max = 10000.0))]
@@ -214,17 +215,17 @@ pub struct PlanetarySetEntry {
     /// Ratio of the gearbox in its family, for drag tables with that axis. [-]
     #[schemars(range(min = 0.001, max = 10000.0))]
     pub ratio: Option<f64>,
-    /// Oil; absent, that of the housing.
+    /// Oil; default: that of the housing.
     pub lubricant: Option<String>,
-    /// Temperature of the oil at the set above that of the sump. [K]
+    /// Oil temperature at the set minus that of the sump. [K]
     #[serde(default)]
     #[schemars(range(min = -200.0, max = 200.0))]
     pub temperature_offset: f64,
-    /// Factor on the drag loss of the set, for what a model does not know; identification moves it. [-]
-    #[serde(default = "one")]
+    /// Factor on the drag loss of the set, for effects that the model does not include. An identification may fit it. [-]
+    #[serde(default = "default_one")]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub loss_factor: f64,
-    /// Drag model of the carrier with its planets; absent, that of `models`.
+    /// Drag model of the carrier with its planets; default: that of `models`.
     pub model: Option<ModelRef<PlanetaryDrag>>,
 }
 
@@ -232,7 +233,7 @@ fn equal() -> f64 {
     1.0
 }
 
-/// A differential: the speeds of both sides against the case add up to zero.
+/// A differential: the speeds of both sides relative to the case add up to zero.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct DifferentialEntry {
     /// Shaft that is the case.
@@ -241,7 +242,7 @@ pub struct DifferentialEntry {
     pub left: String,
     /// Right side shaft.
     pub right: String,
-    /// Both sides turn at one speed unless a point prescribes their speeds.
+    /// Both sides have equal speed unless a point prescribes their speeds.
     #[serde(default = "yes")]
     pub equal_speeds: bool,
 }

@@ -4,19 +4,19 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{NetworkChoice, Ordered};
+use crate::mechanism::NamedSlots;
 use crate::mechanism::heat_dissipation::HeatDissipation;
-use crate::registry::NamedSlots;
 
 /// The housing.
 #[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
 pub struct HousingEntry {
-    /// Oil of everything that does not name its own.
+    /// Oil of all components without their own.
     pub oil: Option<OilEntry>,
-    /// Gear case in a section across the shafts.
+    /// Cross-section of the gear case, perpendicular to the shafts.
     pub section: Option<CaseSection>,
     /// Gap between the gears and the wall.
     pub clearance: Option<WallClearance>,
-    /// The outside, for models of the heat that leaves.
+    /// The outside the housing, for heat dissipation models.
     pub outside: Option<OutsideEntry>,
     /// Road grade: rotation of the housing about y, nose up positive. [deg]
     #[serde(default)]
@@ -36,20 +36,20 @@ pub struct OilEntry {
     /// Volume. [l]
     #[schemars(range(min = 0.001, max = 1e4))]
     pub volume: Option<f64>,
-    /// Height of the oil at rest above the datum; absent, nothing dips. [mm]
+    /// Oil height above the datum at standstill; default: no part is immersed. [mm]
     #[schemars(range(min = -1e4, max = 1e4))]
     pub level: Option<f64>,
-    /// Datum: the axis of this shaft at x = 0; absent, the origin of the housing.
+    /// Datum: the axis of this shaft at x = 0; default: the origin of the housing.
     pub measured_from: Option<String>,
-    /// Height of the oil while turning: a height, or heights over the speed of a shaft.
+    /// Oil height while rotating: a height, or heights over the speed of a shaft.
     pub running_level: Option<Running>,
-    /// Added to whichever level counts. [mm]
+    /// Offset added to either level. [mm]
     #[serde(default)]
     #[schemars(range(min = -1e3, max = 1e3))]
     pub level_offset: f64,
 }
 
-/// Height of the oil while turning.
+/// Oil height while rotating.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum Running {
@@ -59,12 +59,12 @@ pub enum Running {
     Over(LevelOver),
 }
 
-/// Heights of the oil over the speed of a shaft, linear in between, constant beyond the ends.
+/// Oil heights over the speed of a shaft, linear in between, constant beyond the ends.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct LevelOver {
-    /// Shaft whose speed counts.
+    /// Shaft of the speed.
     pub shaft: String,
-    /// Speeds, rising from zero or above. [rpm]
+    /// Speeds, increasing from zero or above. [rpm]
     #[schemars(inner(range(min = 0.0, max = 1e6)), length(min = 2))]
     pub speeds: Vec<f64>,
     /// Heights above the datum, one for each speed. [mm]
@@ -72,7 +72,7 @@ pub struct LevelOver {
     pub levels: Vec<f64>,
 }
 
-/// Gear case in a section across the shafts.
+/// Cross-section of the gear case, perpendicular to the shafts.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize, JsonSchema)]
 pub struct CaseSection {
     /// Area. [cm2]
@@ -94,27 +94,27 @@ pub struct WallClearance {
     pub axial: f64,
 }
 
-/// The outside of the housing, where it gives heat to the air.
+/// The outside the housing, where it dissipates heat to the air.
 #[derive(Debug, Clone, Copy, Default, Serialize, Deserialize, JsonSchema)]
 pub struct OutsideEntry {
-    /// Length, width and height of a box about the housing; they stand for what is not stated. [mm]
+    /// Length, width and height of a box around the housing; used for omitted values. [mm]
     #[serde(rename = "box")]
     #[schemars(inner(range(min = 1.0, max = 1e5)))]
     pub sides: Option<[f64; 3]>,
-    /// Area of the face by which the housing is mounted, which gives no heat to the air. [cm2]
+    /// Area of the mounting face, which dissipates no heat to the air. [cm2]
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1e7))]
     pub mounting_area: f64,
-    /// Area that gives heat to the air, without fins; absent, that of the box without its mounting face. [cm2]
+    /// Area that dissipates heat to the air, without fins; default: that of the box without its mounting face. [cm2]
     #[schemars(range(min = 0.1, max = 1e8))]
     pub area: Option<f64>,
-    /// Area inside that the oil wets; absent, the area outside. [cm2]
+    /// Oil-wetted inside area; default: the outside area. [cm2]
     #[schemars(range(min = 0.1, max = 1e8))]
     pub oil_area: Option<f64>,
-    /// Height; absent, that of the box. [mm]
+    /// Height; default: that of the box. [mm]
     #[schemars(range(min = 1.0, max = 1e5))]
     pub height: Option<f64>,
-    /// Length along the flow of the air; absent, that of the box. [mm]
+    /// Length along the air flow; default: that of the box. [mm]
     #[schemars(range(min = 1.0, max = 1e5))]
     pub length: Option<f64>,
     /// Thickness of the wall. [mm]
@@ -129,7 +129,7 @@ pub struct OutsideEntry {
     #[serde(default = "painted")]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub emissivity: f64,
-    /// Speed of the air along the housing; zero for still air. [m/s]
+    /// Air speed along the housing; zero for still air. [m/s]
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub air_speed: f64,
@@ -150,32 +150,32 @@ fn painted() -> f64 {
 /// Operating temperature.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct Thermal {
-    /// How the temperature is found.
+    /// How the temperature is determined.
     #[serde(default)]
     pub mode: ThermalMode,
-    /// Temperature of the oil, where it is given. [degC]
+    /// Oil temperature if it is given. [degC]
     #[serde(default = "eighty")]
     #[schemars(range(min = -60.0, max = 250.0))]
     pub oil: f64,
-    /// Temperature of the surroundings. [degC]
+    /// Ambient temperature. [degC]
     #[serde(default = "twenty")]
     #[schemars(range(min = -60.0, max = 120.0))]
     pub ambient: f64,
-    /// Temperature of the oil up to which a balance is looked for. [degC]
+    /// Maximum oil temperature of the search for a balance. [degC]
     #[serde(default = "hottest")]
     #[schemars(range(min = 0.0, max = 250.0))]
     pub maximum: f64,
-    /// Resistance between the oil and the surface of the housing; zero where both are one temperature. [K/W]
+    /// Thermal resistance between the oil and the surface of the housing; zero if both have one temperature. [K/W]
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub oil_to_surface: f64,
-    /// Heat that comes from elsewhere, by name, such as a flange-mounted motor.
+    /// Heat from other sources, by name, such as a flange-mounted motor.
     #[serde(default, skip_serializing_if = "Ordered::is_empty")]
     pub sources: Ordered<HeatSource>,
-    /// Ways on which heat leaves, by name; they add up, and take the place of those in `models`.
+    /// Heat dissipation paths by name; their heat flows add up. They replace those in `models`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub heat_dissipation: Option<NamedSlots<HeatDissipation>>,
-    /// Nodes with temperatures of their own, for `mode: network`: `auto`, or nodes, links and flows as written.
+    /// Nodes with their own temperatures, for `mode: network`: `auto`, or nodes, links and flows as written.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub network: Option<NetworkChoice>,
 }
@@ -186,12 +186,12 @@ pub struct HeatSource {
     /// Heat flow. [W]
     #[schemars(range(min = 0.0, max = 1e6))]
     pub heat: f64,
-    /// Where it comes in.
+    /// Where it enters.
     #[serde(default)]
     pub into: HeatInto,
 }
 
-/// Where heat comes in.
+/// Where heat enters.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum HeatInto {
@@ -229,15 +229,15 @@ fn hottest() -> f64 {
     150.0
 }
 
-/// How the temperature is found.
+/// How the temperature is determined.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum ThermalMode {
-    /// It is given.
+    /// Given.
     #[default]
     Fixed,
-    /// Losses and the heat that leaves are in balance.
+    /// From the balance of losses and heat dissipation.
     Balance,
-    /// Every node of the thermal network is in balance.
+    /// From the heat balance of every node of the thermal network.
     Network,
 }

@@ -3,56 +3,56 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// An oil. Friction properties belong to it; models read them and may override them.
+/// An oil with its friction properties; models use them and may override them.
 #[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
 pub struct LubricantEntry {
-    /// Name in a catalogue of lubricants, such as `ISO VG 100 PAO`; fills the keys that are not written.
+    /// Designation in a catalogue of lubricants, such as `ISO VG 100 PAO`; fills the omitted keys.
     pub designation: Option<String>,
-    /// Kind; sets the usual properties. Absent, that of the catalogue, else mineral.
+    /// Kind; selects typical properties. Default: that of the catalogue, else mineral.
     pub kind: Option<LubricantKind>,
-    /// Viscosity over temperature; absent, that of the catalogue.
+    /// Viscosity over temperature; default: that of the catalogue.
     pub viscosity: Option<ViscosityEntry>,
-    /// Density at a reference temperature; absent, that of the catalogue, else by kind.
+    /// Density at a reference temperature; default: that of the catalogue, else by kind.
     pub density: Option<DensityEntry>,
-    /// How viscosity rises with pressure.
+    /// How viscosity increases with pressure.
     #[serde(default)]
     pub pressure_viscosity: PressureViscosityEntry,
-    /// Thermal conductivity; absent, after Cragoe for petroleum oils. [W/(m K)]
+    /// Thermal conductivity; default: according to Cragoe for petroleum oils. [W/(m K)]
     #[schemars(range(min = 0.01, max = 1.0))]
     pub conductivity: Option<f64>,
-    /// Specific heat; absent, after Cragoe for petroleum oils. [J/(kg K)]
+    /// Specific heat; default: according to Cragoe for petroleum oils. [J/(kg K)]
     #[schemars(range(min = 500.0, max = 5000.0))]
     pub heat_capacity: Option<f64>,
-    /// Coefficient of boundary friction in rolling bearings; absent, the models' own. [-]
+    /// Coefficient of boundary friction in rolling bearings; default: that of the model. [-]
     #[schemars(range(min = 0.01, max = 0.3))]
     pub mu_bl: Option<f64>,
-    /// Coefficient of full-film friction in rolling bearings; absent, by kind: 0.05 mineral, 0.04 synthetic, 0.1
+    /// Coefficient of full-film friction in rolling bearings; default: by kind: 0.05 mineral, 0.04 synthetic, 0.1
     /// transmission fluid. [-]
     #[schemars(range(min = 0.001, max = 0.2))]
     pub mu_ehl: Option<f64>,
-    /// Lubricant factor of mean mesh friction; absent, by kind: 1 mineral and transmission fluid, 0.8
+    /// Lubricant factor of mean mesh friction; default: by kind: 1 mineral and transmission fluid, 0.8
     /// polyalphaolefin and ester, 0.75 polyglycol. [-]
     #[schemars(range(min = 0.1, max = 2.0))]
     pub x_l: Option<f64>,
-    /// Behaviour in a contact, for the laws of friction that need it.
+    /// Behaviour in a contact, for friction laws that need it.
     pub rheology: Option<RheologyEntry>,
 }
 
-/// Behaviour of an oil under the pressure and shear of a contact. Traction curves and a Stribeck curve give it.
+/// Behaviour of an oil under the pressure and shear of a contact, from traction curves and a Stribeck curve.
 #[derive(Debug, Clone, Copy, Default, Serialize, Deserialize, JsonSchema)]
 pub struct RheologyEntry {
-    /// Eyring stress, above which the oil thins under shear; usually 3 to 8. [MPa]
+    /// Eyring stress, above which the oil is shear-thinning; typically 3 to 8. [MPa]
     #[schemars(range(min = 0.1, max = 50.0))]
     pub tau0: Option<f64>,
-    /// Exponent of Roelands' law over pressure; absent, the one that gives the oil's pressure-viscosity coefficient at 40 degC.
-    /// [-]
+    /// Exponent of Roelands' law over pressure; default: the one that reproduces the oil's pressure-viscosity coefficient at 40
+    /// degC. [-]
     #[schemars(range(min = 0.1, max = 1.5))]
     pub z: Option<f64>,
-    /// Slope of the limiting shear stress over mean pressure: the highest traction at high pressure; usually 0.05 to 0.06 for
+    /// Slope of the limiting shear stress over mean pressure: the maximum traction at high pressure; typically 0.05 to 0.06 for
     /// polyalphaolefins, 0.07 to 0.09 for mineral oils. [-]
     #[schemars(range(min = 0.005, max = 0.2))]
     pub limiting_slope: Option<f64>,
-    /// Effective shear modulus of film and surfaces; absent, the models' own. [GPa]
+    /// Effective shear modulus of film and surfaces; default: that of the model. [GPa]
     #[schemars(range(min = 0.001, max = 10.0))]
     pub shear_modulus: Option<f64>,
     /// Coefficient of boundary friction between flanks. [-]
@@ -86,23 +86,22 @@ pub struct ViscosityEntry {
     /// Kinematic viscosity at 100 degC. [mm2/s]
     #[schemars(range(min = 0.3, max = 1e4))]
     pub kv100: Option<f64>,
-    /// Viscosity index; below zero for oils that thin faster than the reference oils, such as naphthenic ones. [-]
+    /// Viscosity index; negative for oils that thin faster than the reference oils, such as naphthenic ones. [-]
     #[schemars(range(min = -200.0, max = 400.0))]
     pub vi: Option<f64>,
-    /// Two points, or three for the law of Vogel, in place of the values above.
+    /// Two points, or three for the law of Vogel, instead of the values above.
     #[serde(default)]
     #[schemars(length(max = 3))]
     pub points: Vec<ViscosityPoint>,
     /// Law between and beyond the points.
     #[serde(default)]
     pub law: ViscosityLaw,
-    /// Constant C of the law of Vogel through two points; three points give it. [-]
+    /// Constant C of the law of Vogel through two points; three points determine it. [-]
     #[serde(default = "vogel_c")]
     #[schemars(range(min = 50.0, max = 300.0))]
     pub vogel_c: f64,
-    /// Factor on the viscosity at every temperature: of an oil that was sheared, diluted or oxidised, or that is to be
-    /// identified. [-]
-    #[serde(default = "one")]
+    /// Factor on the viscosity at every temperature, for a sheared, diluted or oxidised oil, or for identification. [-]
+    #[serde(default = "default_one")]
     #[schemars(range(min = 0.1, max = 10.0))]
     pub factor: f64,
 }
@@ -116,16 +115,16 @@ impl Default for ViscosityEntry {
             points: Vec::new(),
             law: ViscosityLaw::default(),
             vogel_c: vogel_c(),
-            factor: one(),
+            factor: default_one(),
         }
     }
 }
 
-fn one() -> f64 {
+fn default_one() -> f64 {
     1.0
 }
 
-/// Constant C of Vogel that is usual for mineral gear oils.
+/// Constant C of Vogel that is typical for mineral gear oils.
 fn vogel_c() -> f64 {
     95.0
 }
@@ -148,7 +147,7 @@ pub enum ViscosityLaw {
     /// ASTM D341 with the constant 0.7, from 2 mm2/s.
     #[default]
     AstmD341,
-    /// DIN 51563 with the constant 0.8; some 2 % off at 0 degC, the same between the two points.
+    /// DIN 51563 with the constant 0.8; differs by about 2 % at 0 degC and not between the two points.
     Din51563,
     /// ASTM D341 for thin oils, from 0.21 mm2/s.
     AstmD341Low,
@@ -163,22 +162,22 @@ pub struct DensityEntry {
     #[serde(default = "fifteen")]
     #[schemars(range(min = -50.0, max = 150.0))]
     pub at: f64,
-    /// Density; absent, by kind: 900 mineral, 855 polyalphaolefin, 915 ester, 1059 polyglycol, 850 transmission fluid. [kg/m3]
+    /// Density; default: by kind: 900 mineral, 855 polyalphaolefin, 915 ester, 1059 polyglycol, 850 transmission fluid. [kg/m3]
     #[schemars(range(min = 500.0, max = 1300.0))]
     pub value: Option<f64>,
-    /// How it falls with temperature.
+    /// Decrease with temperature.
     #[serde(default)]
     pub law: DensityLaw,
-    /// Share of the density that is lost per degree with the linear law; absent, by kind. [1/K]
+    /// Relative decrease of the density per degree, for the linear law; default: by kind. [1/K]
     #[schemars(range(min = 0.0, max = 0.002))]
     pub expansion: Option<f64>,
 }
 
-/// How density falls with temperature.
+/// Decrease of density with temperature.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum DensityLaw {
-    /// By the same share per degree.
+    /// By a constant share per degree.
     #[default]
     Linear,
     /// By 0.7 kg/m3 per degree, the short form of DIN 51757.
@@ -202,13 +201,13 @@ impl Default for DensityEntry {
     }
 }
 
-/// How viscosity rises with pressure.
+/// How viscosity increases with pressure.
 #[derive(Debug, Clone, Copy, Default, Serialize, Deserialize, JsonSchema)]
 pub struct PressureViscosityEntry {
     /// Correlation.
     #[serde(default)]
     pub law: PressureViscosityLaw,
-    /// The coefficient itself, in place of a correlation. [1/GPa]
+    /// The coefficient itself, instead of a correlation. [1/GPa]
     #[schemars(range(min = 1.0, max = 60.0))]
     pub value: Option<f64>,
 }
@@ -222,6 +221,6 @@ pub enum PressureViscosityLaw {
     Gold,
     /// So and Klaus, from viscosity, its slope and density.
     SoKlaus,
-    /// Wooster, from viscosity alone.
+    /// Wooster, from viscosity only.
     Wooster,
 }

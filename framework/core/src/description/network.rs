@@ -4,15 +4,15 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Ordered;
+use crate::mechanism::ModelRef;
 use crate::mechanism::heat_link::HeatLink;
 use crate::motor::MotorEntry;
-use crate::registry::ModelRef;
 
 /// A thermal network: `auto`, or as written.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum NetworkChoice {
-    /// Nodes and links from shafts, bearings, gears and housing; `check --resolved` shows them, and each has a path.
+    /// Nodes and links derived from shafts, bearings, gears and housing; `check --resolved` shows them, and each has a path.
     Auto(AutoNetwork),
     /// Nodes and links as written.
     Written(Box<NetworkEntry>),
@@ -26,24 +26,24 @@ pub enum AutoNetwork {
     Auto,
 }
 
-/// Nodes and links. A node `ambient`, as warm as the surroundings, is always there.
+/// Nodes and links. A node `ambient` at ambient temperature always exists.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct NetworkEntry {
     /// Nodes.
     pub nodes: Ordered<NodeEntry>,
-    /// Links between nodes, through which heat passes both ways.
+    /// Links between nodes, with heat flow in both directions.
     #[serde(default)]
     pub links: Ordered<LinkEntry>,
-    /// Flows of oil, which carry heat downstream only.
+    /// Oil flows, which carry heat downstream only.
     #[serde(default)]
     pub flows: Ordered<FlowEntry>,
-    /// Oil that a pump drives round; shares of it flow. [l/min]
+    /// Circulated oil flow, of which flows take shares. [l/min]
     #[schemars(range(min = 0.0, max = 1e5))]
     pub oil_flow: Option<f64>,
     /// Heat exchangers.
     #[serde(default)]
     pub exchangers: Ordered<ExchangerEntry>,
-    /// Heat that comes from elsewhere.
+    /// Heat from other sources.
     #[serde(default)]
     pub sources: Ordered<NodeSource>,
     /// Electric motors, whose losses heat rotor and stator.
@@ -54,28 +54,28 @@ pub struct NetworkEntry {
 /// One node.
 #[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
 pub struct NodeEntry {
-    /// Heat capacity; zero where a node has none to speak of and follows its neighbours at once. [J/K]
+    /// Heat capacity; zero for a node of negligible capacity, which follows its neighbours immediately. [J/K]
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1e9))]
     pub heat_capacity: f64,
-    /// Temperature of a node that is held. [degC]
+    /// Temperature of a node with prescribed temperature. [degC]
     #[schemars(range(min = -60.0, max = 250.0))]
     pub temperature: Option<f64>,
-    /// Temperature at the start of a duty; absent, that of the analysis. [degC]
+    /// Temperature at the start of a cycle; default: that of the analysis. [degC]
     #[schemars(range(min = -60.0, max = 250.0))]
     pub start: Option<f64>,
-    /// Parts whose loss heats the node and whose oil is as warm, such as `bearings.B1` or `gears.*.drag`. A part that several
-    /// nodes name heats each by an equal share and is as warm as the first.
+    /// Parts whose loss heats the node and whose oil has its temperature, such as `bearings.B1` or `gears.*.drag`. A part named by
+    /// several nodes heats each by an equal share and has the oil temperature of the first.
     #[serde(default)]
     pub parts: Vec<String>,
-    /// Parts whose oil is as warm as the node, wherever their heat goes.
+    /// Parts whose oil has the temperature of the node, wherever their heat goes.
     #[serde(default)]
     pub oil_of: Vec<String>,
-    /// Gears whose bodies the node stands for. The heat of a mesh goes into both of its gears as its model shares it, and a
-    /// law of friction sees the temperatures of both.
+    /// Gears whose bodies the node represents. The model of a mesh divides its heat between both gears, and a friction law uses the
+    /// temperatures of both.
     #[serde(default)]
     pub gears: Vec<String>,
-    /// The node is the oil of the housing: everything that no node names is as warm and heats it.
+    /// The node is the oil of the housing: parts that no node names have its temperature and heat it.
     #[serde(default)]
     pub oil: bool,
 }
@@ -89,28 +89,28 @@ pub struct LinkEntry {
     /// Conductance; not with `model`. [W/K]
     #[schemars(range(min = 0.0, max = 1e9))]
     pub conductance: Option<f64>,
-    /// Law of the conductance.
+    /// Model of the conductance.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub model: Option<ModelRef<HeatLink>>,
-    /// Shaft or loose gear whose speed the law sees; absent, that of `gear`.
+    /// Shaft or idler gear whose speed the model uses; default: that of `gear`.
     pub shaft: Option<String>,
-    /// Gear whose geometry the law sees, and whose speed where no shaft is named.
+    /// Gear whose geometry the model uses, and whose speed if no shaft is named.
     pub gear: Option<String>,
-    /// Oil whose properties the law sees; absent, that of the housing.
+    /// Oil whose properties the model uses; default: that of the housing.
     pub lubricant: Option<String>,
 }
 
 /// One flow of oil.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct FlowEntry {
-    /// Node that it leaves.
+    /// Upstream node.
     pub from: String,
-    /// Node that it enters.
+    /// Downstream node.
     pub to: String,
     /// Mass flow times specific heat; not with `share`. [W/K]
     #[schemars(range(min = 0.0, max = 1e9))]
     pub capacity: Option<f64>,
-    /// Share of `oil_flow`; absent, all of it. [-]
+    /// Share of `oil_flow`; default: all of it. [-]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub share: Option<f64>,
 }
@@ -118,23 +118,23 @@ pub struct FlowEntry {
 /// One heat exchanger, by its effectiveness.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct ExchangerEntry {
-    /// Node from which the oil comes.
+    /// Node of the incoming oil.
     pub from: String,
-    /// Node that is the oil behind the exchanger.
+    /// Node of the oil after the exchanger.
     pub to: String,
-    /// Mass flow times specific heat of the oil; absent, `oil_flow`. [W/K]
+    /// Mass flow times specific heat of the oil; default: `oil_flow`. [W/K]
     #[schemars(range(min = 0.0, max = 1e9))]
     pub capacity: Option<f64>,
     /// Conductance between oil and coolant. [W/K]
     #[schemars(range(min = 0.0, max = 1e6))]
     pub ua: f64,
-    /// How oil and coolant flow.
+    /// Flow arrangement of oil and coolant.
     #[serde(default)]
     pub arrangement: crate::thermal::Arrangement,
     /// Flow of the coolant. [l/min]
     #[schemars(range(min = 0.0, max = 1e7))]
     pub coolant_flow: f64,
-    /// Temperature at which the coolant comes in. [degC]
+    /// Inlet temperature of the coolant. [degC]
     #[schemars(range(min = -60.0, max = 200.0))]
     pub coolant_temperature: f64,
     /// Density of the coolant. [kg/m3]
@@ -155,12 +155,12 @@ fn glycol_heat() -> f64 {
     3600.0
 }
 
-/// Heat from elsewhere.
+/// Heat from other sources.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct NodeSource {
     /// Heat flow. [W]
     #[schemars(range(min = 0.0, max = 1e6))]
     pub heat: f64,
-    /// Node that it heats.
+    /// Node that it enters.
     pub into: String,
 }

@@ -1,4 +1,4 @@
-//! Shafts and what acts on them from outside.
+//! Shafts and the external loads on them.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -6,35 +6,35 @@ use serde::{Deserialize, Serialize};
 /// A shaft, a carrier or a planet body.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct ShaftEntry {
-    /// Axis in the housing: y and z, z upwards. Absent for a planet body, whose axis moves with its carrier. [mm]
+    /// Axis in the housing: y and z, z upwards. None for a planet body, whose axis moves with its carrier. [mm]
     #[schemars(inner(range(min = -1e5, max = 1e5)))]
     pub axis: Option<[f64; 2]>,
-    /// Mass with all that is fixed to the shaft; its weight loads the bearings. [kg]
+    /// Mass including all that is fixed to the shaft; its weight loads the bearings. [kg]
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1e5))]
     pub mass: f64,
-    /// Place of the centre of mass along the shaft; required with a mass. [mm]
+    /// Position of the centre of mass along the shaft; required with a mass. [mm]
     #[schemars(range(min = -1e5, max = 1e5))]
     pub mass_at: Option<f64>,
-    /// Sections with their diameters; required where more than two bearings carry the shaft, or a hinge or a tilting
-    /// stiffness is stated.
+    /// Sections with their diameters; required if more than two bearings support the shaft, or a hinge or a tilting stiffness is
+    /// stated.
     #[serde(default)]
     pub sections: Vec<SectionEntry>,
-    /// Counts the deflection by shear (Timoshenko) beside that by bending.
+    /// Includes the shear deflection (Timoshenko) in addition to bending.
     #[serde(default)]
     pub shear_deformation: bool,
-    /// Places of hinges along the shaft. [mm]
+    /// Positions of hinges along the shaft. [mm]
     #[serde(default)]
     #[schemars(inner(range(min = -1e5, max = 1e5)))]
     pub hinges: Vec<f64>,
-    /// Forces from outside.
+    /// External forces.
     #[serde(default)]
     pub loads: Vec<LoadEntry>,
-    /// `none` where a loaded shaft has no bearings in this description: it has no bearing loads and no bearing losses.
+    /// `none` for a loaded shaft without bearings in this description: it has no bearing loads and no bearing losses.
     pub bearings: Option<Unsupported>,
 }
 
-/// Says that a shaft or a loose gear has no bearings in a description, which otherwise is an error where something loads it.
+/// States that a shaft or an idler gear has no bearings in a description; otherwise a loaded one without bearings is an error.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Unsupported {
@@ -42,13 +42,13 @@ pub enum Unsupported {
     None,
 }
 
-/// A piece of a shaft with constant diameters.
+/// A section of a shaft with constant diameters.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct SectionEntry {
-    /// Where the piece begins. [mm]
+    /// Start of the section. [mm]
     #[schemars(range(min = -1e5, max = 1e5))]
     pub from: f64,
-    /// Where the piece ends. [mm]
+    /// End of the section. [mm]
     #[schemars(range(min = -1e5, max = 1e5))]
     pub to: f64,
     /// Outer diameter. [mm]
@@ -60,10 +60,10 @@ pub struct SectionEntry {
     pub inner: f64,
 }
 
-/// A force and a moment on a shaft from outside, fixed in the housing.
+/// An external force and moment on a shaft, fixed in the housing.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct LoadEntry {
-    /// Place along the shaft. [mm]
+    /// Position along the shaft. [mm]
     #[schemars(range(min = -1e5, max = 1e5))]
     pub at: f64,
     /// Force: x along the shafts, y, z upwards. [N]

@@ -7,19 +7,19 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum GearStateEntry {
-    /// The engaged couplings and clutches; nothing else is held.
+    /// The engaged couplings and clutches; nothing else is fixed.
     Engaged(Vec<String>),
-    /// Engaged couplings and clutches with rules for what nothing else moves.
+    /// Engaged couplings and clutches, with rules for members that nothing else drives.
     Full(GearStateRecord),
 }
 
-/// What is engaged in one gear, with rules for what nothing else moves.
+/// Engaged couplings and clutches, with rules for members that nothing else drives.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct GearStateRecord {
     /// Engaged couplings and clutches.
     #[serde(default)]
     pub engaged: Vec<String>,
-    /// Shafts or loose gears that no port moves in this gear and that stand still.
+    /// Shafts or idler gears that no port drives in this gear and that are stationary.
     #[serde(default)]
     pub standstill: Vec<String>,
 }
@@ -32,7 +32,7 @@ impl GearStateEntry {
             Self::Full(record) => &record.engaged,
         }
     }
-    /// Ids of the members that stand still by rule.
+    /// Ids of the members that are stationary by rule.
     pub fn standstill(&self) -> &[String] {
         match self {
             Self::Engaged(_) => &[],
@@ -41,45 +41,44 @@ impl GearStateEntry {
     }
 }
 
-/// How parallel paths share the torque of a member.
+/// Torque split of parallel paths at a member.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct TorqueShare {
-    /// Shaft or loose gear whose torque is shared.
+    /// Shaft or idler gear whose torque is split.
     pub member: String,
     /// Meshes that share it.
     #[schemars(length(min = 2))]
     pub meshes: Vec<String>,
-    /// Parts, one for each mesh; they add up to one. [-]
+    /// Shares, one for each mesh; their sum is one. [-]
     #[schemars(inner(range(min = 0.0, max = 1.0)), length(min = 2))]
     pub parts: Vec<f64>,
 }
 
-/// Paths and a reason or a source.
+/// Paths with a reason or a source.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct AssumedEntry {
-    /// Path patterns; `*` stands for one id.
+    /// Path patterns; `*` matches one id.
     pub paths: Vec<String>,
     /// The reason, or the source.
     pub because: String,
 }
 
-/// Loads of components from a file.
+/// Bearing loads from a file.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct ImportedLoads {
-    /// CSV file with the columns `gear`, `torque [Nm]`, `component`, `radial [N]`, `axial [N]` and, if wanted,
-    /// `tilting [Nm]`.
+    /// CSV file with the columns `gear`, `torque [Nm]`, `component`, `radial [N]`, `axial [N]` and optionally `tilting [Nm]`.
     pub file: String,
-    /// Port whose torque the file's torque is.
+    /// Port of the torque in the file.
     pub port: String,
 }
 
-/// What a gearbox is made for, at the ports where a study gives torque and speed.
+/// Design torque and speed, at the ports where a study gives torque and speed.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
 pub struct RatingEntry {
-    /// Largest torque. [Nm]
+    /// Maximum torque. [Nm]
     #[schemars(range(min = 1e-9, max = 1e9))]
     pub torque: f64,
-    /// Largest speed. [rpm]
+    /// Maximum speed. [rpm]
     #[schemars(range(min = 1e-6, max = 1e6))]
     pub speed: f64,
 }

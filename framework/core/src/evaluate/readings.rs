@@ -1,4 +1,4 @@
-//! What models saw at a solved point, and what balances on each member.
+//! Model contexts at a solved point, and the torque balance of each member.
 
 use super::{PartLoss, Solution};
 use crate::attach::State;
@@ -34,16 +34,16 @@ pub(crate) fn readings<M: Mechanism>(at: &M::At<'_>) -> Vec<Reading> {
 /// Torques on one member; they balance. \[Nm\]
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct MemberTorques {
-    /// From ports, and from supports that hold a member at rest.
+    /// From ports, and from supports that hold a stationary member.
     pub ports: f64,
-    /// From meshes and differentials, friction of the teeth included.
+    /// From meshes and differentials, including tooth friction.
     pub meshes: f64,
-    /// From components and gears that brake.
+    /// From drag of components and gears.
     pub drags: f64,
 }
 
 impl MemberTorques {
-    /// What is left over; zero to rounding. \[Nm\]
+    /// The residual; zero to rounding. \[Nm\]
     pub fn residual(&self) -> f64 {
         self.ports + self.meshes + self.drags
     }
@@ -58,11 +58,11 @@ impl Solution<'_> {
             temperatures: &s.temperatures,
             surface: s.surface,
             loads: &s.loads,
-            asked: &s.asked,
+            calls: &s.calls,
         }
     }
 
-    /// What the model of a part saw, one copy.
+    /// The context of the model of a part, one copy.
     pub fn readings(&self, part: usize) -> Vec<Reading> {
         let t = self.transmission;
         let state = self.state();
@@ -79,7 +79,7 @@ impl Solution<'_> {
             .part_loss(&self.transmission.parts[part], self.scratch)
     }
 
-    /// Torques on every member. With ideal flow losses change no torque, so friction and drags are zero.
+    /// Torques on every member. With ideal power flow losses change no torque, so friction and drag are zero.
     pub fn member_torques(&self) -> Vec<MemberTorques> {
         let (t, work) = (self.transmission, &self.scratch.work);
         let state = &t.states[self.case.state];
@@ -103,7 +103,7 @@ impl Solution<'_> {
             return torques;
         }
         for (k, mesh) in state.meshes.iter().enumerate() {
-            // The driven gear loses torque against its motion in the carrier's frame, which the carrier takes up.
+            // The driven gear loses torque against its motion in the carrier's frame; the carrier takes the reaction.
             let (driven, side) = match work.drives[k] {
                 Drive::Second => (mesh.first, 1),
                 Drive::First | Drive::Neither => (mesh.second, 0),

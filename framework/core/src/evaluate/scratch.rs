@@ -1,4 +1,4 @@
-//! Space for one evaluation, and what was seen over many.
+//! Workspace for one evaluation, and observations over many.
 
 use std::cell::Cell;
 
@@ -8,10 +8,10 @@ use crate::loads::SupportLoad;
 use crate::loss::{Extent, Loss, MOST_KEPT, Undefined};
 use crate::transmission::{Case, Transmission};
 
-/// A loss that was not evaluated yet.
+/// A loss that has not been evaluated yet.
 const NOT_YET: Result<Loss, Undefined> = Ok(Loss::POWERS);
 
-/// Space for evaluating the points of one case. Everything is allocated here, once.
+/// Workspace for evaluating the points of one case. All of it is allocated once.
 #[derive(Debug, Clone)]
 pub struct Scratch {
     pub(super) prescribed: Vec<f64>,
@@ -21,9 +21,9 @@ pub struct Scratch {
     pub(super) oils: Vec<Oil>,
     pub(super) surface: f64,
     pub(super) loads: Vec<SupportLoad>,
-    /// Loads with the most loaded planet of each set, and with each of the others; empty where planets share equally.
+    /// Loads with the most loaded planet of each set, and with each other planet; empty if planets share equally.
     pub(super) uneven_loads: [Vec<SupportLoad>; 2],
-    /// Tangential forces with those of a planet's meshes; empty where planets share equally.
+    /// Tangential forces with those of a planet's meshes; empty if planets share equally.
     pub(super) uneven_forces: Vec<f64>,
     pub(super) passed: Vec<f64>,
     pub(super) tangential: Vec<f64>,
@@ -33,9 +33,9 @@ pub struct Scratch {
     pub(super) idle_drags: Vec<f64>,
     /// Relative speed of each component. \[rad/s\]
     pub(super) relative: Vec<f64>,
-    /// Components that carry load and turn: they are asked in every pass.
+    /// Rotating components that carry load: they are evaluated in every iteration.
     pub(super) braking: Vec<usize>,
-    /// What the models keep over the passes of a point or the points of a row, by instance.
+    /// Values that models keep over the iterations of a point or the points of a batch, by instance.
     pub(super) kept: Vec<[f64; MOST_KEPT]>,
     pub(super) cells: Vec<Extent>,
     pub(super) work: Work,
@@ -45,67 +45,67 @@ pub struct Scratch {
     pub(super) balance: Balance,
     pub(super) status: Status,
     pub(super) passes: usize,
-    /// Loss models asked for the point.
-    pub(super) asked: Cell<usize>,
-    /// Loss models asked for the points before.
+    /// Loss model evaluations for the point.
+    pub(super) calls: Cell<usize>,
+    /// Loss model evaluations for previous points.
     pub(super) called: usize,
-    /// What was seen of every limit and observed quantity since the scratch was made, one count for each point.
+    /// Observed extents of every limit and observed quantity since the scratch was made, one count per point.
     pub totals: Vec<Extent>,
 }
 
 impl Scratch {
-    /// Calls of loss models for the point that was evaluated last.
+    /// Loss model evaluations for the last evaluated point.
     pub fn calls(&self) -> usize {
-        self.asked.get()
+        self.calls.get()
     }
 
-    /// What was seen since the scratch was made or this was asked last.
+    /// Observed extents since the scratch was made or since the last call.
     pub fn take_totals(&mut self) -> Vec<Extent> {
         let empty = vec![Extent::EMPTY; self.totals.len()];
         std::mem::replace(&mut self.totals, empty)
     }
 
-    /// Losses of all parts at the point that was evaluated last, in their order; zero where undefined. \[W\]
+    /// Losses of all parts at the last evaluated point, in their order; zero if undefined. \[W\]
     pub fn watts(&self) -> &[f64] {
         &self.watts
     }
 
-    /// Speeds of the members there (rad/s), and where laws of heat note what they see.
+    /// Speeds of the members (rad/s), and the note cells of heat models.
     pub(crate) fn speeds_and_cells(&mut self) -> (&[f64], &[Cell<Extent>]) {
         (&self.speeds, Cell::from_mut(&mut self.cells[..]).as_slice_of_cells())
     }
 
-    /// Calls of loss models for all points so far.
+    /// Loss model evaluations for all points so far.
     pub fn all_calls(&self) -> usize {
-        self.called + self.asked.get()
+        self.called + self.calls.get()
     }
 
-    /// Speeds of the members there. \[rad/s\]
+    /// Speeds of the members. \[rad/s\]
     pub fn speeds(&self) -> &[f64] {
         &self.speeds
     }
 
-    /// What the transmission does there.
+    /// Operating state of the transmission.
     pub fn status(&self) -> Status {
         self.status
     }
 
-    /// Power in and out there. \[W\]
+    /// Input and output power. \[W\]
     pub fn power(&self) -> [f64; 2] {
         [self.balance.input, self.balance.output]
     }
 
-    /// Torque that a port of a member applies there. \[Nm\]
+    /// Torque that a port of a member applies. \[Nm\]
     pub fn port_torque(&self, member: usize) -> f64 {
         self.work.ports[member]
     }
 
-    /// Share of the heat of a mesh that goes into its first gear.
+    /// Share of the heat of a mesh that enters its first gear.
     pub(crate) fn first_heat(&self, mesh: usize) -> f64 {
         self.mesh_losses[mesh].as_ref().map_or(0.5, Loss::first_heat)
     }
 
-    /// What was seen at the point that was evaluated last counts as one more point.
+    /// Counts the observations at the last evaluated point as one more point.
     pub(crate) fn count_seen(&mut self) {
         for (total, seen) in self.totals.iter_mut().zip(&self.cells) {
             if seen.seen > 0 {
@@ -114,7 +114,7 @@ impl Scratch {
         }
     }
 
-    /// Where models of heat dissipation note what they saw; it counts over all points.
+    /// Note cells of heat dissipation models; they count over all points.
     pub(crate) fn heat_cells(&mut self) -> &mut [Extent] {
         &mut self.totals
     }
@@ -162,7 +162,7 @@ impl Scratch {
             },
             status: Status::Standstill,
             passes: 0,
-            asked: Cell::new(0),
+            calls: Cell::new(0),
             called: 0,
             totals: vec![Extent::EMPTY; transmission.cells],
         }

@@ -1,4 +1,4 @@
-//! What a point came to: a view into the scratch. Totals derive from terms.
+//! Result of a point: a view into the scratch. Totals derive from terms.
 
 use super::Scratch;
 use crate::flow::Status;
@@ -7,22 +7,22 @@ use crate::loss::{Extent, Loss, Notebook, Trace, Undefined};
 use crate::mechanism::gear_mesh::GearMeshAt;
 use crate::transmission::{Case, PartInfo, PartKind, Transmission};
 
-/// Loss of one part, all copies together.
+/// Loss of one part, all copies.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PartLoss {
-    /// The model's answer for one copy.
+    /// The model's result for one copy.
     pub result: Result<Loss, Undefined>,
-    /// Relative speed that moments work against. \[rad/s\]
+    /// Relative speed opposed by the moments. \[rad/s\]
     pub speed: f64,
-    /// Copies, times the factor on the loss; for a mesh also the ratio of the power used in the balance to the last answer, which differs from one by the
-    /// tolerance.
+    /// Copies, times the factor on the loss; for a mesh also the ratio of the power used in the balance to the last result, which
+    /// differs from one by the tolerance.
     pub factor: f64,
-    /// True where nothing moves, so that no power is lost.
+    /// True if nothing moves, so that no power is lost.
     pub still: bool,
 }
 
 impl PartLoss {
-    /// Power; zero where it is undefined, which the solution says. \[W\]
+    /// Power; zero if it is undefined, which the solution reports. \[W\]
     pub fn watts(&self) -> f64 {
         match self.result {
             Ok(loss) if !self.still => loss.total_watts(self.speed) * self.factor,
@@ -38,7 +38,7 @@ impl PartLoss {
         }
     }
 
-    /// Moment of one copy about its relative speed; the model's limit at rest. \[Nm\]
+    /// Moment of one copy about its relative speed; the model's limit at standstill. \[Nm\]
     pub fn moment(&self) -> Option<f64> {
         self.result.ok().map(|loss| loss.total_moment(self.speed))
     }
@@ -64,7 +64,7 @@ impl Transmission {
         }
     }
 
-    /// Answer, relative speed, factor and whether the part rests.
+    /// Result, relative speed, factor and whether the part is stationary.
     fn part_state<'s>(&self, part: &PartInfo, s: &'s Scratch) -> (&'s Result<Loss, Undefined>, f64, f64, bool) {
         match part.kind {
             PartKind::Component(i) => {
@@ -79,8 +79,12 @@ impl Transmission {
             PartKind::Mesh(i) => {
                 let speed = self.mesh_speed(i, &s.speeds);
                 let count = self.meshes[i].seat.count * self.meshes[i].loss_factor;
-                let asked = s.mesh_losses[i].as_ref().map_or(0.0, |loss| loss.total_watts(speed)) * count;
-                let ratio = if asked > 0.0 { s.work.mesh_loss[i] / asked } else { 1.0 };
+                let returned = s.mesh_losses[i].as_ref().map_or(0.0, |loss| loss.total_watts(speed)) * count;
+                let ratio = if returned > 0.0 {
+                    s.work.mesh_loss[i] / returned
+                } else {
+                    1.0
+                };
                 (&s.mesh_losses[i], speed, count * ratio, speed == 0.0)
             }
             PartKind::Drag(i) => {
@@ -102,22 +106,23 @@ pub struct Solution<'a> {
 }
 
 impl Solution<'_> {
-    /// What the transmission does.
+    /// Operating state of the transmission.
     pub fn status(&self) -> Status {
         self.scratch.status
     }
 
-    /// True where losses have values: the flow was found and no loss is undefined.
+    /// True if losses are defined: the power flow converged and no loss is undefined.
     pub fn is_complete(&self) -> bool {
         self.has_flow() && self.status() != Status::Undefined
     }
 
-    /// False where no torques were found; then no torque, load or loss of the solution means anything.
+    /// False if no torques were found; then no torque, load or loss of the solution is defined.
     pub fn has_flow(&self) -> bool {
         self.status().has_flow()
     }
 
-    /// Paths of the meshes whose driver turned on the way to the solution; where it locks itself those that lock.
+    /// Paths of the meshes whose driving gear changed during the iteration; if the transmission is self-locking, of the locking
+    /// meshes.
     pub fn turned_meshes(&self) -> impl Iterator<Item = &str> {
         let paths = |mesh| {
             let parts = &mut self.transmission.parts.iter();
@@ -128,29 +133,29 @@ impl Solution<'_> {
         self.scratch.work.doubtful().filter_map(paths)
     }
 
-    /// Why a loss has no value: its part and the reason.
+    /// Why a loss is undefined: its part and the reason.
     pub fn undefined(&self) -> Option<(&PartInfo, Undefined)> {
         self.scratch
             .undefined
             .map(|(part, reason)| (&self.transmission.parts[part], reason))
     }
 
-    /// Number of the part whose loss has no value, and why.
+    /// Number of the part whose loss is undefined, and the reason.
     pub fn undefined_part(&self) -> Option<(usize, Undefined)> {
         self.scratch.undefined
     }
 
-    /// Sum of all losses; absent where one is undefined. \[W\]
+    /// Sum of all losses; `None` if one is undefined. \[W\]
     pub fn loss(&self) -> Option<f64> {
         self.is_complete().then_some(self.scratch.sum)
     }
 
-    /// Power that ports put in; with ideal flow that of the driving ports. \[W\]
+    /// Input power; with ideal power flow that of the driving ports. \[W\]
     pub fn input_power(&self) -> Option<f64> {
         self.is_complete().then_some(self.scratch.balance.input)
     }
 
-    /// Power that comes out; with ideal flow the input less the losses, absent where they exceed it. \[W\]
+    /// Output power; with ideal power flow the input minus the losses, `None` if they exceed it. \[W\]
     pub fn output_power(&self) -> Option<f64> {
         let loss = self.loss()?;
         if self.status() == Status::LossAboveInput {
@@ -163,13 +168,13 @@ impl Solution<'_> {
         })
     }
 
-    /// Power out over power in; absent where nothing comes out.
+    /// Output power over input power; `None` if the output is zero.
     pub fn efficiency(&self) -> Option<f64> {
         let (input, output) = (self.input_power()?, self.output_power()?);
         (output > 0.0 && input > 0.0).then(|| output / input)
     }
 
-    /// Loss over the speed of the reference port; absent at standstill. \[Nm\]
+    /// Loss over the speed of the reference port; `None` at standstill. \[Nm\]
     pub fn loss_torque(&self) -> Option<f64> {
         let t = self.transmission;
         let speed = self.scratch.speeds[t.ports[t.reference_port()].member].abs();
@@ -177,7 +182,8 @@ impl Solution<'_> {
         (speed > 0.0).then(|| loss / speed)
     }
 
-    /// What is left over of power in, power out and losses; zero to rounding with real flow, absent with ideal flow. \[W\]
+    /// Power balance error: input minus output minus losses; zero to rounding with real power flow, `None` with ideal power flow.
+    /// \[W\]
     pub fn residual(&self) -> Option<f64> {
         let t = self.transmission;
         if self.ideal {
@@ -191,12 +197,12 @@ impl Solution<'_> {
         Some(power - self.loss()?)
     }
 
-    /// Largest power inside: rolling powers and those of ports. \[W\]
+    /// Largest internal power: rolling powers and those of ports. \[W\]
     pub fn largest_power(&self) -> f64 {
         self.scratch.work.largest
     }
 
-    /// Passes over the loss models.
+    /// Iterations over the loss models.
     pub fn passes(&self) -> usize {
         self.scratch.passes
     }
@@ -211,7 +217,7 @@ impl Solution<'_> {
         self.scratch.work.ports[self.transmission.ports[port].member]
     }
 
-    /// The same, absent where no flow was found, and where power would leave an ideal flow whose losses exceed its input. \[Nm\]
+    /// The same, `None` if no power flow was found, or for an output of an ideal power flow whose losses exceed its input. \[Nm\]
     pub fn known_torque(&self, port: usize) -> Option<f64> {
         let torque = self.torque(port);
         let leaves = self.speed(self.transmission.ports[port].member) * torque < 0.0;
@@ -219,7 +225,7 @@ impl Solution<'_> {
         (self.has_flow() && !nothing_left).then_some(torque)
     }
 
-    /// Load of a support by number on the most loaded planet of its set; absent where planets share equally.
+    /// Load of a support by number on the most loaded planet of its set; `None` if planets share equally.
     pub fn most_loaded(&self, support: usize) -> Option<SupportLoad> {
         let of = self
             .transmission
@@ -229,7 +235,7 @@ impl Solution<'_> {
         of.sharing.and(self.scratch.uneven_loads[0].get(support).copied())
     }
 
-    /// Load of a support by number; the mean over the planets where it sits on one.
+    /// Load of a support by number; the mean over the planets if it is on one.
     pub fn load(&self, support: usize) -> SupportLoad {
         self.scratch.loads[support]
     }
@@ -239,7 +245,7 @@ impl Solution<'_> {
         self.scratch.tangential[mesh] * self.transmission.meshes[mesh].seat.pair.working_radius[0]
     }
 
-    /// What the model of a mesh saw, one copy, with nothing noted.
+    /// The context of the model of a mesh, one copy, with muted notes.
     pub fn mesh_at(&self, mesh: usize) -> GearMeshAt<'_> {
         let s = &*self.scratch;
         let state = crate::attach::State {
@@ -248,7 +254,7 @@ impl Solution<'_> {
             temperatures: &s.temperatures,
             surface: s.surface,
             loads: &s.loads,
-            asked: &s.asked,
+            calls: &s.calls,
         };
         self.transmission
             .mesh_at(mesh, s.tangential[mesh], s.work.drives[mesh], &state, &Notebook::CLOSED)
@@ -262,24 +268,24 @@ impl Solution<'_> {
             .map(|part| (part, self.transmission.part_loss(part, self.scratch)))
     }
 
-    /// Powers of all parts, in their order; zero where undefined. \[W\]
+    /// Powers of all parts, in their order; zero if undefined. \[W\]
     pub fn watts(&self) -> &[f64] {
         &self.scratch.watts
     }
 
-    /// What was seen of limits and observed quantities at this point.
+    /// Observed extents of limits and observed quantities at this point.
     pub fn extents(&self) -> &[Extent] {
         &self.scratch.cells
     }
 
-    /// True where a model was outside of a stated range.
+    /// True if a model was outside a stated range.
     pub fn leaves_a_range(&self) -> bool {
         let models = &self.scratch.cells[..self.transmission.rated_cells()];
         models.iter().any(|seen| seen.outside > 0)
     }
 
-    /// Static safety of a bearing by the number of its support, on the most loaded planet where it sits on planets; absent
-    /// without load or where its rating is not known.
+    /// Static safety of a bearing by the number of its support, on the most loaded planet if it is on planets; `None` without load
+    /// or if its rating is not known.
     pub fn static_safety(&self, support: usize) -> Option<f64> {
         let t = self.transmission;
         let rated = t.rated.iter().position(|rated| rated.support == support)?;
@@ -287,7 +293,7 @@ impl Solution<'_> {
         (seen.seen > 0).then_some(seen.least)
     }
 
-    /// Evaluates one part again with every step written down. The numbers are those of the solution.
+    /// Evaluates one part again, recording every step. The numbers are those of the solution.
     pub fn explain(&self, part: usize) -> (PartLoss, Trace) {
         let t = self.transmission;
         let s = &*self.scratch;
@@ -298,7 +304,7 @@ impl Solution<'_> {
             temperatures: &s.temperatures,
             surface: s.surface,
             loads: &s.loads,
-            asked: &s.asked,
+            calls: &s.calls,
         };
         let info = &t.parts[part];
         let book = Notebook {

@@ -1,14 +1,14 @@
-//! Equilibrium of every member for given losses: one product with the inverse, and one small system for friction.
+//! Equilibrium of every member at given losses: one product with the inverse, and one small system for friction.
 
 use super::linear::{add, back, factor, larger, product};
 use super::system::{Flow, MeshRow};
 use super::work::{Active, Drive, Work};
 
-/// Speeds below this of the fastest one are rounding.
+/// Relative to the fastest speed, speeds below this are rounding error.
 const STILL: f64 = 1e-12;
 
 impl Flow {
-    /// Torques for the losses in `work.used`; false where friction leaves no unique equilibrium.
+    /// Torques for the losses in `work.used`; false if friction leaves no unique equilibrium.
     pub(super) fn solve(&self, speeds: &[f64], work: &mut Work, kept: bool) -> bool {
         self.outside(work);
         if !self.friction(work) {
@@ -17,7 +17,7 @@ impl Flow {
         self.step(work);
         std::mem::swap(&mut work.unknown, &mut work.step);
         if kept {
-            // One step of refinement keeps the balance at rounding.
+            // One step of iterative refinement keeps the balance at rounding.
             product(&self.base, &work.unknown, &mut work.residual);
             for (residual, right) in work.residual.iter().zip(&mut work.right) {
                 *right -= residual;
@@ -42,7 +42,7 @@ impl Flow {
         true
     }
 
-    /// Takes over what is the same in every solve of a point: given torques, and the speeds of the gears of each mesh.
+    /// Copies the values that are constant over all solves of a point: given torques, and the speeds of the gears of each mesh.
     pub(super) fn prepare(&self, speeds: &[f64], torques: &[f64], work: &mut Work) {
         work.ports.fill(0.0);
         for (port, torque) in self.given.iter().zip(torques) {
@@ -53,7 +53,7 @@ impl Flow {
         self.relative(speeds, &mut work.relative);
     }
 
-    /// Speeds of second and first gear of each mesh in the carrier's frame; zero where they are rounding.
+    /// Speeds of second and first gear of each mesh in the carrier's frame; zero if they are rounding error.
     pub(super) fn relative(&self, speeds: &[f64], relative: &mut [[f64; 2]]) {
         let still = STILL * speeds.iter().fold(0.0, |most, w| larger(most, w.abs()));
         for (relative, mesh) in relative.iter_mut().zip(&self.meshes) {
@@ -61,7 +61,7 @@ impl Flow {
         }
     }
 
-    /// The right side: given torques, drags, and losses of meshes that are no share of their power.
+    /// The right-hand side: given torques, drags, and losses of meshes that are not a share of their power.
     fn outside(&self, work: &mut Work) {
         for (right, applied) in work.right.iter_mut().zip(&work.applied) {
             *right = -applied;
@@ -112,7 +112,7 @@ impl Flow {
         factor(&mut work.small[..count * count], &mut work.order[..count], count)
     }
 
-    /// The solution for the right side (Sherman, Morrison and Woodbury).
+    /// The solution for the right-hand side (Sherman, Morrison and Woodbury).
     fn step(&self, work: &mut Work) {
         product(&self.inverse, &work.right, &mut work.step);
         let count = work.active.len();
@@ -153,7 +153,7 @@ impl Flow {
     }
 }
 
-/// Speed of a gear in the carrier's frame; zero where it is rounding.
+/// Speed of a gear in the carrier's frame; zero if it is rounding error.
 fn relative_speed(gear: Option<usize>, mesh: &MeshRow, speeds: &[f64], still: f64) -> f64 {
     let speed = |column: Option<usize>| column.map_or(0.0, |c| speeds[c]);
     let relative = speed(gear) - speed(mesh.carrier);

@@ -1,8 +1,8 @@
 //! Small dense linear systems, column by column: factors, solutions, inverse.
 
-/// Factors a matrix, column by column, into L and U with partial pivoting; false where it is singular.
+/// LU factors of a matrix, column by column, with partial pivoting; false if it is singular.
 pub(super) fn factor(matrix: &mut [f64], order: &mut [usize], n: usize) -> bool {
-    // Few meshes have friction at once. A size that is known leaves nothing of the loops.
+    // Few meshes have friction at once. A size known at compile time lets the compiler unroll the loops.
     match n {
         1 => eliminate(matrix, order, 1),
         2 => eliminate(matrix, order, 2),
@@ -25,7 +25,7 @@ fn eliminate(matrix: &mut [f64], order: &mut [usize], n: usize) -> bool {
             }
         }
         *place = pivot;
-        // Entries are of the size of one, because rows are scaled.
+        // Entries are of order one, because rows are scaled.
         if column[pivot].abs() < 1e-13 {
             return false;
         }
@@ -35,7 +35,7 @@ fn eliminate(matrix: &mut [f64], order: &mut [usize], n: usize) -> bool {
                 other.swap(k, pivot);
             }
         }
-        // The pivot is kept as what it is multiplied by.
+        // The inverse of the pivot is stored.
         column[k] = 1.0 / column[k];
         let inverse = column[k];
         let lower = &mut column[k + 1..];
@@ -82,7 +82,7 @@ fn substitute(factors: &[f64], order: &[usize], n: usize, x: &mut [f64]) {
     }
 }
 
-/// The inverse of a matrix; absent where it is singular.
+/// The inverse of a matrix; `None` if it is singular.
 pub(super) fn inverse(mut matrix: Vec<f64>, n: usize) -> Option<Vec<f64>> {
     let mut order = vec![0; n];
     if !factor(&mut matrix, &mut order, n) {
@@ -97,7 +97,7 @@ pub(super) fn inverse(mut matrix: Vec<f64>, n: usize) -> Option<Vec<f64>> {
     Some(inverse)
 }
 
-/// Length of a vector with its padding: groups of four need no rest.
+/// Length of a vector with its padding to groups of four.
 pub(super) fn padded(n: usize) -> usize {
     n.next_multiple_of(4)
 }
@@ -110,7 +110,7 @@ pub(super) struct Panels {
 }
 
 impl Panels {
-    /// A matrix that is given column by column.
+    /// A matrix from its columns.
     pub fn new(matrix: &[f64], n: usize) -> Self {
         let entry = |row: usize, column: usize| if row < n { matrix[column * n + row] } else { 0.0 };
         let parts = (0..padded(n))
@@ -120,7 +120,7 @@ impl Panels {
         Self { parts, columns: n }
     }
 
-    /// Row, column and value of what is not zero, row by row.
+    /// Row, column and value of the nonzero entries, row by row.
     pub fn entries(&self) -> impl Iterator<Item = (usize, usize, f64)> {
         let panels = self.parts.chunks_exact(self.columns.max(1)).enumerate();
         panels.flat_map(|(panel, columns)| {
@@ -137,7 +137,7 @@ impl Panels {
     }
 }
 
-/// The larger of two numbers; the first where the second is no number. Cheaper than `max`, which cares for both.
+/// The larger of two numbers; the first if the second is NaN. Cheaper than `max`, which handles NaN in both.
 pub(super) fn larger(a: f64, b: f64) -> f64 {
     if b > a { b } else { a }
 }

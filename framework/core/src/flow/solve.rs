@@ -1,22 +1,22 @@
-//! The one loop between torque and loss.
+//! The iteration between torque and loss.
 
 use super::linear::larger;
 use super::system::Flow;
 use super::work::{Drive, FlowState, Outcome, Tolerance, Work};
 
-/// A rolling power below this of the largest internal power has no direction.
+/// Relative to the largest internal power, a rolling power below this has no direction.
 pub(super) const NO_POWER: f64 = 1e-13;
-/// A driver that turns more often than this belongs to a train that may lock itself.
+/// A driving gear that changes more often than this indicates a train that may be self-locking.
 const TURNS: u8 = 4;
-/// Passes without progress after which steps are halved.
+/// Iterations without progress after which steps are halved.
 pub(super) const PATIENCE: usize = 10;
-/// The error to come is an estimate from two steps.
+/// Safety factor: the remaining error is estimated from two steps.
 pub(super) const SAFETY: f64 = 0.5;
-/// Farthest extrapolation, in steps back and forth.
+/// Maximum extrapolation, in steps in either direction.
 pub(super) const REACH: (f64, f64) = (-9.0, 0.9);
 
 impl Flow {
-    /// The flow without losses. Speeds of all columns; torques of the given ports in their order.
+    /// The power flow without losses. Speeds of all columns; torques of the given ports in their order.
     pub fn ideal(&self, speeds: &[f64], torques: &[f64], work: &mut Work) {
         work.used.values.fill(0.0);
         work.drags.fill(0.0);
@@ -24,13 +24,13 @@ impl Flow {
         self.begin(speeds, torques, work, true);
     }
 
-    /// The flow without losses of meshes, for the drags in `work.used`, and the drivers that follow; to rounding where it is
+    /// The power flow without mesh losses, for the drags in `work.used`, and the resulting driving gears; to rounding if it is
     /// `kept`.
     fn begin(&self, speeds: &[f64], torques: &[f64], work: &mut Work, kept: bool) {
         self.prepare(speeds, torques, work);
         work.drives.fill(Drive::Neither);
         if !self.solve(speeds, work, kept) {
-            // Only torques beyond the range of numbers lead here.
+            // Reached only if torques overflow.
             work.multipliers.fill(0.0);
             work.ports.fill(0.0);
             work.rolling.fill(0.0);
@@ -47,9 +47,9 @@ impl Flow {
         }
     }
 
-    /// The flow with losses that `losses` writes from the torques; `steady` are the torques on all columns from drags that do
-    /// not hang on torque, with which the first torques are found. The losses in `work` are those of the accepted solve,
-    /// so the balance of power holds to rounding whatever the tolerance. The first pass is a guess, so there are two at least.
+    /// The power flow with losses that `losses` computes from the torques; `steady` are the torques on all columns from drags that
+    /// are independent of torque, with which the initial torques are computed. The losses in `work` are those of the accepted
+    /// solve, so the power balance holds to rounding for any tolerance. The first iteration is a guess, so there are at least two.
     pub fn real(
         &self,
         speeds: &[f64],
@@ -78,7 +78,7 @@ impl Flow {
         end
     }
 
-    /// Passes over models and equilibrium until they agree; `fixed` keeps the drivers as they are.
+    /// Iterates models and equilibrium until they agree; `fixed` keeps the driving gears.
     fn iterate(
         &self,
         task: Task<'_>,
@@ -92,7 +92,7 @@ impl Flow {
         let (mut least, mut slow, mut damping) = (f64::INFINITY, 0, 1.0);
         for _ in 0..tolerance.passes {
             *passes += 1;
-            if !ask(speeds, work, losses) {
+            if !evaluate_losses(speeds, work, losses) {
                 return End::Open;
             }
             self.weigh(speeds, work);
@@ -115,7 +115,7 @@ impl Flow {
             }
             known = true;
             if !fixed && turn(work) {
-                // The friction just used sat on the wrong gear: this flow is none.
+                // The friction just used was on the wrong gear: this flow is invalid.
                 known = false;
                 least = f64::INFINITY;
                 if work.turned.iter().any(|turned| *turned > TURNS) {
@@ -142,7 +142,7 @@ impl Flow {
         }
     }
 
-    /// The losses of the next solve: the answer, drawn `back` towards the answer before, at some pace.
+    /// The losses of the next solve: the result, extrapolated by `back` towards the previous result, with relaxation.
     fn advance(&self, work: &mut Work, back: f64, pace: f64) {
         let answers = work.answer.values.iter().zip(&mut work.answer_before.values);
         let uses = work.used.values.iter_mut().zip(&mut work.used_before.values);
@@ -156,7 +156,7 @@ impl Flow {
         }
     }
 
-    /// Tries patterns of the meshes whose driver kept turning, fewest changes against the ideal pattern first.
+    /// Tries patterns of the meshes whose driving gear kept changing, in order of the number of changes to the ideal pattern.
     fn patterns(
         &self,
         task: Task<'_>,
@@ -203,7 +203,7 @@ impl Flow {
     }
 }
 
-/// What is to be solved, and how well.
+/// The problem and its tolerance.
 #[derive(Clone, Copy)]
 struct Task<'a> {
     speeds: &'a [f64],
@@ -215,31 +215,34 @@ struct Task<'a> {
 enum End {
     /// Loads and losses agree.
     Agreed,
-    /// A driver turned too often, or the pattern tried has no equilibrium.
+    /// A driving gear changed too often, or the tried pattern has no equilibrium.
     Turning,
-    /// Neither within the passes allowed.
+    /// Neither within the iteration limit.
     Open,
 }
 
-/// Asks the models for the losses at the present torques; false where an answer is no number.
-fn ask(speeds: &[f64], work: &mut Work, losses: &mut impl FnMut(&mut FlowState<'_>)) -> bool {
-    work.asked.fill(0.0);
+/// Evaluates the losses of the models at the present torques; false if a result is NaN.
+fn evaluate_losses(speeds: &[f64], work: &mut Work, losses: &mut impl FnMut(&mut FlowState<'_>)) -> bool {
+    work.model_losses.fill(0.0);
     work.answer.drags_mut().fill(0.0);
     losses(&mut FlowState {
         speeds,
         multipliers: &work.multipliers,
         drives: &work.drives,
         ports: &work.ports,
-        mesh_loss: &mut work.asked,
+        mesh_loss: &mut work.model_losses,
         drags: work.answer.drags_mut(),
     });
-    for (k, loss) in work.asked.iter().enumerate() {
+    for (k, loss) in work.model_losses.iter().enumerate() {
         work.answer.set_mesh(k, *loss, work.rolling[k].abs());
     }
-    work.asked.iter().chain(work.answer.drags()).all(|x| x.is_finite())
+    work.model_losses
+        .iter()
+        .chain(work.answer.drags())
+        .all(|x| x.is_finite())
 }
 
-/// Takes over the drivers of the last solve; true where one of them was assumed otherwise.
+/// Adopts the driving gears of the last solve; true if one of them was assumed differently.
 fn turn(work: &mut Work) -> bool {
     let mut turned = false;
     for k in 0..work.drives.len() {
@@ -258,8 +261,8 @@ fn turn(work: &mut Work) -> bool {
     turned
 }
 
-/// Error to expect after one more plain step: the mismatch of each loss falls as it did in the last step, or as all of them did,
-/// whichever is slower. A loss that has just appeared says nothing yet about how it falls.
+/// Expected error after one more plain step: the mismatch of each loss decreases as in the last step, or as all of them together,
+/// whichever is slower. A loss that has just appeared gives no rate yet.
 fn remaining(work: &Work) -> f64 {
     let (moved, followed) = work.entries().fold((0.0, 0.0), |(moved, followed), entry| {
         (
@@ -277,14 +280,14 @@ fn remaining(work: &Work) -> f64 {
         let (moved, followed) = (entry.moved().abs(), entry.followed().abs());
         let own = if followed < moved { followed / moved } else { 1.0 };
         let falls = larger(common, own);
-        // All steps to come, as a geometric series.
+        // The sum of all following steps, as a geometric series.
         most = larger(most, mismatch * falls / larger(1e-3, 1.0 - falls));
     }
     most
 }
 
-/// How far to go back towards the answer before, so that the mismatch along the last step vanishes (Anderson 1965 with
-/// a depth of one).
+/// Extrapolation factor towards the previous result that makes the mismatch along the last step vanish (Anderson 1965 with a depth
+/// of one).
 fn secant(work: &Work) -> f64 {
     let (mut product, mut square) = (0.0, 0.0);
     for entry in work.entries() {

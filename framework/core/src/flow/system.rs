@@ -1,6 +1,6 @@
 //! The square system of equilibrium: multipliers of rows and torques of ports.
 
-use super::abreast::SparseFlow;
+use super::batched::SparseFlow;
 use super::linear::{Panels, inverse, padded, product};
 use crate::kinematics::Train;
 
@@ -21,7 +21,7 @@ pub struct MeshRow {
     pub carrier: Option<usize>,
 }
 
-/// How a member's torque is shared by two rows: `part_b * torque_a = part_a * torque_b`.
+/// Torque split of a member between two rows: `part_b * torque_a = part_a * torque_b`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Share {
     /// Column of the member.
@@ -42,16 +42,16 @@ pub enum FlowFault {
         /// Torques that are given.
         given: usize,
     },
-    /// Redundant loops without a torque share: the rows of each.
+    /// Redundant loops without a torque split: the rows of each.
     Redundant {
         /// Rows of each loop.
         loops: Vec<Vec<usize>>,
     },
-    /// The given torques depend on each other, or the shares do not break their loops.
+    /// The given torques depend on each other, or the splits do not resolve their loops.
     Singular,
 }
 
-/// How friction changes the column of a mesh, for each gear that may be driven.
+/// Change of the column of a mesh by friction, for either driven gear.
 #[derive(Debug, Clone)]
 pub(super) struct Friction {
     pub row: usize,
@@ -80,12 +80,12 @@ pub struct Flow {
     pub(super) base: Panels,
     /// Its inverse.
     pub(super) inverse: Panels,
-    /// The same and the effects of friction without their zeros, for blocks of points.
+    /// Sparse copies of it and of the friction effects, for blocks of points.
     pub(super) sparse: SparseFlow,
     /// Scale of each row: the unknown is the multiplier over its scale.
     pub(super) scale: Vec<f64>,
     pub(super) meshes: Vec<MeshRow>,
-    /// What friction does to the column of each mesh.
+    /// Effect of friction on the column of each mesh.
     pub(super) friction: Vec<Friction>,
     pub(super) unknown: Vec<usize>,
     pub(super) given: Vec<usize>,
@@ -93,10 +93,10 @@ pub struct Flow {
 
 impl Flow {
     /// The flow of a train. `unknown` and `given` are the columns of ports without and with a given torque; `loops` are
-    /// those of [`crate::kinematics::Motion`].
+    /// those of `Motion`.
     ///
     /// # Errors
-    /// If the number of given torques or of shares does not fit, or the system is singular.
+    /// If the number of given torques or of splits does not match, or the system is singular.
     pub fn new(
         train: &Train,
         meshes: Vec<MeshRow>,
@@ -135,7 +135,7 @@ impl Flow {
         for (k, port) in unknown.iter().enumerate() {
             base[(m + k) * size + port] = 1.0;
         }
-        // Scaled columns: a torque is the entry times the unknown in both rows of a share, so the scales cancel.
+        // Scaled columns: a torque is the entry times the unknown in both rows of a split, so the scales cancel.
         let parts: Vec<(usize, f64, usize, usize)> = shares
             .into_iter()
             .enumerate()

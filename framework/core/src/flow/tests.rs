@@ -68,10 +68,10 @@ impl Solved {
         self.work.mesh_loss.iter().sum::<f64>() + self.drag_loss
     }
     fn balance(&self, ports: &[usize]) -> Balance {
-        Balance::of(ports.iter().map(|p| self.work.ports[*p] * self.speeds[*p]))
+        Balance::from_powers(ports.iter().map(|p| self.work.ports[*p] * self.speeds[*p]))
     }
     fn status(&self, ports: &[usize]) -> Status {
-        Status::of(ports.iter().map(|p| self.work.ports[*p] * self.speeds[*p]), 0)
+        Status::from_powers(ports.iter().map(|p| self.work.ports[*p] * self.speeds[*p]), 0)
     }
     fn passes(&self) -> usize {
         match self.outcome {

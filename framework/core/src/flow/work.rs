@@ -1,4 +1,4 @@
-//! What one solve needs and leaves: its space, its state towards the loss models, its outcome.
+//! Workspace, model interface and outcome of one solve.
 
 use super::Flow;
 use super::linear::padded;
@@ -11,16 +11,16 @@ pub enum Drive {
     First,
     /// The second gear.
     Second,
-    /// No torque, so neither.
+    /// Neither, because there is no torque.
     Neither,
 }
 
-/// How well loads and losses must agree.
+/// Tolerance of the agreement between loads and losses.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tolerance {
     /// Remaining change of any power over the largest internal power.
     pub power: f64,
-    /// The most passes.
+    /// Maximum number of iterations.
     pub passes: usize,
 }
 
@@ -33,7 +33,7 @@ impl Default for Tolerance {
     }
 }
 
-/// Torques at one pass, and where the caller writes the losses that follow from them.
+/// Torques in one iteration, and the target of the losses that follow from them.
 #[derive(Debug)]
 pub struct FlowState<'a> {
     /// Speeds of all columns. \[rad/s\]
@@ -55,17 +55,17 @@ pub struct FlowState<'a> {
 pub enum Outcome {
     /// Loads and losses agree.
     Converged {
-        /// Passes over the loss models.
+        /// Iterations over the loss models.
         passes: usize,
     },
-    /// No pattern of drivers is consistent; [`Work::doubtful`] names the meshes.
+    /// No pattern of driving gears is consistent; [`Work::doubtful`] names the meshes.
     SelfLocking,
-    /// The most passes were not enough; [`Work::mismatch`] says what was left.
+    /// The iteration limit was reached; [`Work::mismatch`] is the remaining difference.
     NoConvergence,
 }
 
-/// Losses in the form in which they enter equilibrium: shares of rolling power of the meshes, then losses of meshes as
-/// constant powers, then torques of drags by column.
+/// Losses in the form used by the equilibrium: shares of rolling power of the meshes, then losses of meshes as constant powers,
+/// then torques of drags by column.
 #[derive(Debug, Clone)]
 pub(super) struct Losses {
     pub values: Vec<f64>,
@@ -91,7 +91,7 @@ impl Losses {
     pub fn drags_mut(&mut self) -> &mut [f64] {
         &mut self.values[2 * self.meshes..]
     }
-    /// Writes the loss of a mesh as a share of its rolling power, or as a constant where it is no small share.
+    /// Writes the loss of a mesh as a share of its rolling power, or as a constant if the share is not small.
     pub fn set_mesh(&mut self, mesh: usize, loss: f64, rolling: f64) {
         let proportional = loss > 0.0 && loss < 0.5 * rolling;
         self.values[mesh] = if proportional { loss / rolling } else { 0.0 };
@@ -111,7 +111,7 @@ pub(super) struct Active {
     pub share: f64,
 }
 
-/// One entry of the losses over two passes.
+/// One entry of the losses over two iterations.
 pub(super) struct Entry {
     pub used: f64,
     pub used_before: f64,
@@ -122,21 +122,21 @@ pub(super) struct Entry {
 }
 
 impl Entry {
-    /// What the answer differs by from what was used. \[W\]
+    /// Difference of the result to the value used. \[W\]
     pub fn mismatch(&self) -> f64 {
         (self.answer - self.used) * self.weight
     }
-    /// What the last step changed.
+    /// Change of the value in the last step.
     pub fn moved(&self) -> f64 {
         self.used - self.used_before
     }
-    /// What the answer changed with it.
+    /// Change of the result in the last step.
     pub fn followed(&self) -> f64 {
         self.answer - self.answer_before
     }
 }
 
-/// Space for one solve; made once, used for every point.
+/// Workspace for one solve; made once, used for every point.
 #[derive(Debug, Clone)]
 pub struct Work {
     /// Multipliers of the rows as written.
@@ -153,23 +153,23 @@ pub struct Work {
     pub drives: Vec<Drive>,
     /// Largest internal power of the accepted solve. \[W\]
     pub largest: f64,
-    /// Largest difference of power between the losses used last and those that the models answered. \[W\]
+    /// Largest difference of power between the losses used last and the results of the models. \[W\]
     pub mismatch: f64,
-    /// What the models answered for the meshes. \[W\]
-    pub(super) asked: Vec<f64>,
-    /// Losses in the last solve, before it, and what the models answered to each.
+    /// Results of the models for the meshes. \[W\]
+    pub(super) model_losses: Vec<f64>,
+    /// Losses in the last solve, in the one before, and the results of the models for each.
     pub(super) used: Losses,
     pub(super) used_before: Losses,
     pub(super) answer: Losses,
     pub(super) answer_before: Losses,
     /// Power per unit of each entry of the losses.
     pub(super) weights: Vec<f64>,
-    /// How often the driver of each mesh turned.
+    /// Number of changes of the driving gear of each mesh.
     pub(super) turned: Vec<u8>,
     pub(super) ideal: Vec<Drive>,
     /// Given torques on all columns, padded.
     pub(super) applied: Vec<f64>,
-    /// Speeds of second and first gear of each mesh in the carrier's frame; zero where they are rounding.
+    /// Speeds of second and first gear of each mesh in the carrier's frame; zero if they are rounding error.
     pub(crate) relative: Vec<[f64; 2]>,
     pub(super) right: Vec<f64>,
     pub(super) residual: Vec<f64>,
@@ -183,18 +183,18 @@ pub struct Work {
 }
 
 impl Work {
-    /// Asks for the losses of an ideal flow; they change no torque.
+    /// Computes the losses of an ideal power flow; they change no torque.
     pub fn once(&mut self, speeds: &[f64], mut losses: impl FnMut(&mut FlowState<'_>)) {
-        self.asked.fill(0.0);
+        self.model_losses.fill(0.0);
         losses(&mut FlowState {
             speeds,
             multipliers: &self.multipliers,
             drives: &self.drives,
             ports: &self.ports,
-            mesh_loss: &mut self.asked,
+            mesh_loss: &mut self.model_losses,
             drags: &mut self.drags,
         });
-        self.mesh_loss.copy_from_slice(&self.asked);
+        self.mesh_loss.copy_from_slice(&self.model_losses);
         self.drags.fill(0.0);
     }
 
@@ -213,7 +213,7 @@ impl Work {
             })
     }
 
-    /// Meshes whose driver turned in the last solve; with [`Outcome::SelfLocking`] the ones that lock.
+    /// Meshes whose driving gear changed in the last solve; with [`Outcome::SelfLocking`] the locking ones.
     pub fn doubtful(&self) -> impl Iterator<Item = usize> + '_ {
         self.turned
             .iter()
@@ -229,7 +229,7 @@ impl Flow {
         self.columns
     }
 
-    /// Space for solving this flow.
+    /// Workspace for solving this flow.
     pub fn work(&self) -> Work {
         let (n, s, k) = (self.columns, padded(self.size), self.meshes.len());
         let losses = Losses::new(k, n);
@@ -242,7 +242,7 @@ impl Flow {
             drives: vec![Drive::Neither; k],
             largest: 0.0,
             mismatch: 0.0,
-            asked: vec![0.0; k],
+            model_losses: vec![0.0; k],
             used: losses.clone(),
             used_before: losses.clone(),
             answer: losses.clone(),

@@ -1,9 +1,9 @@
-//! Even load along all lines of contact of a helical pair, however far their length varies while the gears turn.
+//! Evenly distributed load over all lines of contact of a helical pair, with their varying length.
 //!
-//! With N(x) pairs at a transverse place x (modulo the base pitch) the lines that touch in the phase phi are as long as
-//! S(phi) = integral of N from phi to phi + B, over sin(beta_b), where B = b tan(beta_b) is how far a line is inclined along
-//! the path. Each bit of line carries the same force, so the share of one pair at x, averaged over the face, is
-//! K(x) = integral of 1/S from x - B to x. Without inclination it is 1/N, with an overlap ratio that is whole 1/eps_alpha.
+//! With N(x) pairs at a transverse position x (modulo the base pitch) the total length of the lines of contact in the phase phi is
+//! S(phi) = integral of N from phi to phi + B, over sin(beta_b), where B = b tan(beta_b) is the inclination of a line along the
+//! path. Each element of the lines carries the same force, so the share of one pair at x, averaged over the face, is K(x) =
+//! integral of 1/S from x - B to x. Without inclination it is 1/N, for an integer overlap ratio 1/eps_alpha.
 
 use super::pair::Pair;
 
@@ -12,16 +12,16 @@ use super::pair::Pair;
 pub(super) struct ContactLines {
     start: f64,
     pitch: f64,
-    /// Whole pairs that always touch, and the length of the zone with one more. \[m\]
+    /// Number of pairs always in contact, and the length of the zone with one more. \[m\]
     always: f64,
     zone: f64,
     inclination: f64,
-    /// Phases over one pitch from the start, with S there and the integral of 1/S up to there.
+    /// Phases over one pitch from the start, with S and the integral of 1/S up to each.
     pieces: Vec<(f64, f64, f64)>,
 }
 
 impl ContactLines {
-    /// The lines of a pair; absent for spur gears, where the lines are parallel to the axis.
+    /// The lines of a pair; `None` for spur gears, whose lines are parallel to the axis.
     pub fn new(pair: &Pair) -> Option<Self> {
         let inclination = pair.facewidth * pair.base_helix.tan();
         let [start, .., end] = pair.points;
@@ -83,7 +83,7 @@ impl ContactLines {
         whole * period + before + inverse_integral(phase - low, s_low, s_low + t * (s_high - s_low))
     }
 
-    /// Where the share is not smooth within the path.
+    /// Kinks of the share within the path.
     pub fn kinks(&self, end: f64) -> Vec<f64> {
         let shifts = [0.0, self.inclination];
         let phases = self.pieces.iter().flat_map(|p| shifts.map(|shift| p.0 + shift));

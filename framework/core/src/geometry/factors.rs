@@ -1,4 +1,4 @@
-//! Tooth loss factors: the share of the transmitted power that one unit of friction would cost.
+//! Tooth loss factors: the lost share of the transmitted power per unit of friction coefficient.
 
 use super::pair::Pair;
 use super::path::LoadSharing;
@@ -9,16 +9,17 @@ impl Pair {
         std::f64::consts::PI * (u + self.sign()) / (f64::from(self.z[0]) * u * self.base_helix.cos())
     }
 
-    /// Ohlendorf 1958: exact for halved load in double contact and constant friction, with one to two pairs in contact.
+    /// Ohlendorf 1958: exact for constant friction, half of the load on each pair in double contact, and one to two pairs in
+    /// contact.
     pub fn loss_factor_ohlendorf(&self) -> f64 {
         let [e1, e2] = self.addendum_ratio;
         self.factor() * (1.0 - self.contact_ratio + e1 * e1 + e2 * e2)
     }
 
-    /// Evenly spread load: the limit of helical gears with a large overlap ratio.
+    /// Evenly shared load: the limit of helical gears with a large overlap ratio.
     pub fn loss_factor_uniform(&self) -> f64 {
         let [e1, e2] = self.addendum_ratio;
-        // Off the path, one side of the pitch point has a negative part.
+        // With the pitch point off the path, one of its sides has a negative part.
         self.factor() * (e1 * e1.abs() + e2 * e2.abs()).abs() / self.contact_ratio
     }
 

@@ -25,9 +25,9 @@ pub fn rule(n: usize) -> Vec<(f64, f64)> {
         .collect()
 }
 
-/// A rule whose nodes crowd towards both ends: that of `n` nodes in u under x = (5 u - u^3)/4. It is exact for polynomials up to degree
-/// (2 n - 3)/3, and behaves at the ends, where friction may set in like a broken power of sliding or load, as a plain rule of
-/// several times the nodes.
+/// A rule whose nodes are denser towards both ends: that of `n` nodes in u under x = (5 u - u^3)/4. It is exact for polynomials up
+/// to degree (2 n - 3)/3. At the ends, where friction may start like a fractional power of sliding or load, it is as accurate as a
+/// plain rule with several times the nodes.
 pub fn graded_rule(n: usize) -> Vec<(f64, f64)> {
     let graded = |(u, w): (f64, f64)| (0.25 * u * (5.0 - u * u), 0.25 * w * (5.0 - 3.0 * u * u));
     rule(n).into_iter().map(graded).collect()
@@ -54,7 +54,7 @@ mod tests {
                 assert!((sum - exact).abs() < 1e-13, "{n} {degree} {sum}");
             }
         }
-        // A power of 1.25, as load that sets in as a ramp leaves it.
+        // A power of 1.25, as caused by load that starts as a ramp.
         let error =
             |rule: &[(f64, f64)]| (integral(rule, |x| (1.0 + x).powf(1.25)) / (2.0_f64.powf(2.25) / 2.25) - 1.0).abs();
         assert!(error(&graded_rule(7)) < 1e-5 && error(&graded_rule(7)) < 0.2 * error(&rule(7)));

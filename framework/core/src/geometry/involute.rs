@@ -5,7 +5,7 @@ pub fn involute(angle: f64) -> f64 {
     angle.tan() - angle
 }
 
-/// The angle in rad whose involute is given; zero for a value that is not above zero.
+/// The angle in rad with this involute; zero unless the value is positive.
 pub fn inverse_involute(value: f64) -> f64 {
     if value.is_nan() || value <= 0.0 {
         return 0.0;

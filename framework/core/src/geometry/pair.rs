@@ -5,10 +5,10 @@
 
 use super::involute::{inverse_involute, involute};
 
-/// What describes a pair. SI; angles in rad.
+/// Input data of a pair. SI; angles in rad.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PairSpec {
-    /// Numbers of teeth, positive for a ring, too.
+    /// Numbers of teeth, also positive for a ring gear.
     pub z: [u32; 2],
     /// The second gear is a ring.
     pub internal: bool,
@@ -18,18 +18,18 @@ pub struct PairSpec {
     pub pressure_angle: f64,
     /// Helix angle at the reference circle, magnitude. \[rad\]
     pub helix_angle: f64,
-    /// Working centre distance; absent, that of the profile shifts. \[m\]
+    /// Working centre distance; `None`: that of the profile shifts. \[m\]
     pub centre_distance: Option<f64>,
-    /// Profile shift coefficients after ISO 21771, also for a ring: positive ones thicken the teeth and move the tips away from
-    /// the reference circle, towards the axis for a ring. Absent ones close the centre distance.
+    /// Profile shift coefficients according to ISO 21771, also for a ring gear: positive ones thicken the teeth and move the tips
+    /// away from the reference circle, towards the axis for a ring gear. `None`: the value that matches the centre distance.
     pub profile_shift: [Option<f64>; 2],
-    /// Tip diameters; absent ones follow from the reference tooth; required for a ring. \[m\]
+    /// Tip diameters; `None`: that of the standard basic rack; required for a ring gear. \[m\]
     pub tip_diameter: [Option<f64>; 2],
-    /// Root diameters; absent ones follow from the reference tooth. \[m\]
+    /// Root diameters; `None`: that of the standard basic rack. \[m\]
     pub root_diameter: [Option<f64>; 2],
     /// Effective face width. \[m\]
     pub facewidth: f64,
-    /// Shortens the tips of shifted external gears to keep the tip clearance.
+    /// Shortens the tips of external gears with profile shift to maintain the tip clearance.
     pub tip_shortening: bool,
 }
 
@@ -40,23 +40,23 @@ pub enum PairFault {
     Shifts {
         /// As given.
         centre_distance: f64,
-        /// As it follows from the shifts.
+        /// From the shifts.
         from_shifts: f64,
-        /// The sum x1 + x2 after ISO 21771 that the centre distance needs.
+        /// The required sum x1 + x2 according to ISO 21771.
         sum: f64,
     },
     /// The centre distance is below the sum (external) or difference (internal) of the base radii.
     TooClose {
         /// As given.
         centre_distance: f64,
-        /// The least possible.
+        /// The minimum.
         least: f64,
     },
-    /// A ring needs its tip diameter.
+    /// A ring gear requires its tip diameter.
     RingTip,
-    /// A ring must have more teeth than its mate.
+    /// A ring gear must have more teeth than its mate.
     RingTeeth,
-    /// A tip circle is inside its base circle, or a ring's tip circle does not reach the path of contact.
+    /// A tip circle is inside its base circle, or a ring gear's tip circle does not reach the path of contact.
     Tip {
         /// Number of the gear, 0 or 1.
         gear: usize,
@@ -65,7 +65,7 @@ pub enum PairFault {
         /// Its base diameter.
         base: f64,
     },
-    /// Contact would begin below the base circle of a gear.
+    /// Contact would start below the base circle of a gear.
     BelowBase {
         /// Number of the gear whose flank is used below its base circle.
         gear: usize,
@@ -78,7 +78,7 @@ pub enum PairFault {
 }
 
 impl PairFault {
-    /// True for what is wrong with the teeth alone, while the pitch circles roll on each other all the same.
+    /// True if only the teeth are impossible, while the pitch circles can still roll on each other.
     pub fn is_of_teeth(&self) -> bool {
         !matches!(self, Self::Shifts { .. } | Self::RingTeeth)
     }
@@ -94,7 +94,7 @@ impl std::fmt::Display for PairFault {
                 sum,
             } => write!(
                 f,
-                "the centre distance is {:.4} mm, but the profile shifts give {:.4} mm; it needs a sum x1 + x2 of {:.4}",
+                "the centre distance is {:.4} mm, but the profile shifts give {:.4} mm; it requires a sum x1 + x2 of {:.4}",
                 centre_distance * 1e3,
                 from_shifts * 1e3,
                 // No negative zero.
@@ -102,12 +102,12 @@ impl std::fmt::Display for PairFault {
             ),
             Self::TooClose { centre_distance, least } => write!(
                 f,
-                "the centre distance {:.4} mm is not above {:.4} mm, where the base circles leave no line of action",
+                "the centre distance {:.4} mm does not exceed {:.4} mm, so the base circles have no line of action",
                 centre_distance * 1e3,
                 least * 1e3
             ),
-            Self::RingTip => write!(f, "a ring needs its tip diameter"),
-            Self::RingTeeth => write!(f, "a ring needs more teeth than its mate"),
+            Self::RingTip => write!(f, "a ring gear requires its tip diameter"),
+            Self::RingTeeth => write!(f, "a ring gear must have more teeth than its mate"),
             Self::Tip { gear, diameter, base } => write!(
                 f,
                 "the tip diameter {:.3} mm of the {} gear is not above its base diameter {:.3} mm",
@@ -118,7 +118,7 @@ impl std::fmt::Display for PairFault {
             Self::BelowBase { gear } => {
                 write!(
                     f,
-                    "contact begins below the base circle of the {} gear: its mate's tip is too high",
+                    "contact starts below the base circle of the {} gear: the tip diameter of its mate is too large",
                     name(*gear)
                 )
             }
@@ -127,10 +127,10 @@ impl std::fmt::Display for PairFault {
     }
 }
 
-/// A pair with its geometry solved. SI; angles in rad.
+/// A pair with its computed geometry. SI; angles in rad.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pair {
-    /// False for pitch circles alone, see [`Pair::schematic`].
+    /// False for pitch circles only, see [`Pair::schematic`].
     pub involute: bool,
     /// Numbers of teeth.
     pub z: [u32; 2],
@@ -148,7 +148,7 @@ pub struct Pair {
     pub working_angle: f64,
     /// Base helix angle. \[rad\]
     pub base_helix: f64,
-    /// Sine of `working_angle`, which mesh losses ask for at every point.
+    /// Sine of `working_angle`, which mesh losses use at every point.
     pub sin_working_angle: f64,
     /// Cosine of `base_helix`, likewise.
     pub cos_base_helix: f64,
@@ -158,7 +158,7 @@ pub struct Pair {
     pub reference_distance: f64,
     /// Working centre distance. \[m\]
     pub centre_distance: f64,
-    /// Profile shift coefficients after ISO 21771.
+    /// Profile shift coefficients according to ISO 21771.
     pub profile_shift: [f64; 2],
     /// Tip shortening coefficient, zero or negative.
     pub shortening: f64,
@@ -191,7 +191,7 @@ pub struct Pair {
 }
 
 impl Pair {
-    /// Force normal to the flanks under a torque of the first gear in N m. \[N\]
+    /// Normal force on the flanks at a torque of the first gear in N m. \[N\]
     // Written so that a loop over torques divides once.
     #[inline(always)]
     pub fn normal_force(&self, torque: f64) -> f64 {
@@ -204,20 +204,21 @@ impl Pair {
         force * (1.0 / self.facewidth)
     }
 
-    /// Solves the geometry.
+    /// Computes the geometry.
     ///
     /// # Errors
-    /// Every fault that makes the pair impossible.
+    /// All faults that make the pair impossible.
     pub fn new(spec: &PairSpec) -> Result<Self, Vec<PairFault>> {
         Self::solve(spec, true)
     }
 
-    /// Pitch circles that roll on each other, where the teeth make no involute pair or the tip of a ring is not known: ratio,
-    /// pitch radii and the directions of forces, which are those at the reference circles where the centre distance leaves no line
-    /// of action. A missing tip is that of the reference tooth. The path of contact is a point, all contact ratios are zero.
+    /// Pitch circles that roll on each other, for teeth that form no involute pair or a ring gear without known tip diameter:
+    /// ratio, pitch radii and the directions of forces, which are those at the reference circles if the centre distance leaves no
+    /// line of action. A missing tip diameter is that of the standard basic rack. The path of contact is a point, all contact
+    /// ratios are zero.
     ///
     /// # Errors
-    /// What [`PairFault::is_of_teeth`] says is not of the teeth.
+    /// Faults other than those of [`PairFault::is_of_teeth`].
     pub fn schematic(spec: &PairSpec) -> Result<Self, Vec<PairFault>> {
         Self::solve(spec, false)
     }
@@ -237,11 +238,11 @@ impl Pair {
         let base_helix = (beta.sin() * alpha_n.cos()).asin();
         let teeth = z2 + s * z1;
         let a = 0.5 * module_t * teeth;
-        // ISO 21771: inv alpha_wt = inv alpha_t + 2 tan alpha_n (x1 + x2)/(z1 + z2), where z2 of a ring is negative; `teeth` is
-        // the magnitude of that sum.
+        // ISO 21771: inv alpha_wt = inv alpha_t + 2 tan alpha_n (x1 + x2)/(z1 + z2), where z2 of a ring gear is negative; `teeth`
+        // is the magnitude of that sum.
         let distance_of = |sum: f64| {
             let involute = involute(alpha_t) + 2.0 * alpha_n.tan() * (s * sum) / teeth;
-            // Less than none is no angle: even base circles that touch are too far apart for such shifts.
+            // No angle has a negative involute: the shifts are impossible even at the minimum centre distance.
             let working = if involute > 0.0 {
                 inverse_involute(involute)
             } else {

@@ -1,4 +1,4 @@
-//! The path of contact as quadrature points on its smooth pieces, and how pairs in contact share the load.
+//! The path of contact as quadrature points on its smooth sections, and load sharing among pairs of teeth.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -8,23 +8,23 @@ use super::gauss;
 use super::pair::Pair;
 use super::ramp::Ramp;
 
-/// How the pairs that are in contact at once share the load.
+/// Load sharing among pairs of teeth in contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum LoadSharing {
-    /// Pairs in contact share evenly: one half, one, one half along the path of a spur pair.
+    /// Equal load on all pairs in contact: one half, one, one half along the path of a spur pair.
     #[default]
     Rigid,
-    /// From nothing at first contact to all in single contact, as tip relief does. From a contact ratio of two on a triangle over the
-    /// whole path, with what the pairs carry together brought to the whole force.
+    /// From zero at first contact to full load in single contact, as with tip relief. From a contact ratio of two, a triangle over
+    /// the whole path, normalised so that the pairs together carry the full force.
     Ramp,
-    /// As `ramp`, with its middle shifted to the pitch point and what the pairs carry together brought to the whole force.
+    /// As `ramp`, centred at the pitch point and normalised so that the pairs together carry the full force.
     SymmetricRamp,
-    /// From one third to two thirds in double contact; as `rigid` from a contact ratio of two on.
+    /// From one third to two thirds in double contact; as `rigid` from a contact ratio of two.
     Third,
-    /// Evenly over the whole path, the limit of helical gears with a large overlap ratio.
+    /// Constant over the whole path, the limit of helical gears with a large overlap ratio.
     Uniform,
-    /// Evenly along all lines of contact of helical gears, whose length varies; for spur gears as `rigid`.
+    /// Constant line load over all lines of contact of helical gears, whose length varies; for spur gears as `rigid`.
     ContactLines,
 }
 
@@ -37,14 +37,14 @@ pub struct PathPoint {
     pub weight: f64,
     /// Share of the mesh's normal force that this pair of teeth carries.
     pub share: f64,
-    /// Line load over that of one pair with all the force on its face width.
+    /// Line load relative to that of one pair with the full force over its face width.
     pub line: f64,
     /// Number of pairs in contact.
     pub pairs: usize,
 }
 
 impl Pair {
-    /// Where the path of contact is not smooth: ends of contact, changes of the number of pairs, the pitch point. \[m\]
+    /// Kinks of the path of contact: ends of contact, changes of the number of pairs, the pitch point. \[m\]
     pub fn breaks(&self) -> Vec<f64> {
         let [start, _, pitch, _, end] = self.points;
         let mut breaks = vec![start, end];
@@ -64,12 +64,13 @@ impl Pair {
         breaks
     }
 
-    /// Breaks pieces that come close to a base circle, so that over none of them a radius of curvature grows more than fourfold: friction
-    /// goes with broken powers of it, which no one polynomial follows. Up to a thousandth of the pitch from the circle.
+    /// Splits sections close to a base circle, so that no radius of curvature grows more than fourfold over any of them: friction
+    /// follows fractional powers of it, which a single polynomial does not approximate. Up to a thousandth of the pitch from the
+    /// circle.
     fn break_beside_bases(&self, breaks: &mut Vec<f64>) {
         let least = 1e-3 * self.base_pitch;
         let ends: [(f64, f64); 2] = [(0.0, 1.0), (self.tangent_length, -1.0)];
-        // Rings have no base circle beside the path.
+        // Ring gears have no base circle near the path.
         for (foot, sense) in &ends[..if self.internal { 1 } else { 2 }] {
             let mut more = Vec::new();
             for piece in breaks.array_windows::<2>() {
@@ -94,7 +95,7 @@ impl Pair {
         1 + before + behind
     }
 
-    /// Places at even distances over the whole path, its ends included, with no weight.
+    /// Equidistant points over the whole path, including its ends, without weights.
     pub fn even_path(&self, sharing: LoadSharing, places: usize) -> Vec<PathPoint> {
         let law = Law::new(self, sharing);
         let [start, .., end] = self.points;
@@ -110,7 +111,7 @@ impl Pair {
             x,
             weight,
             share,
-            // An inclined line is longer than the face is wide.
+            // An inclined line is longer than the face width.
             line: match law {
                 Law::Lines(_) => share * self.base_helix.cos(),
                 Law::Ramp(_) | Law::Plain(_) => share,
@@ -119,13 +120,13 @@ impl Pair {
         }
     }
 
-    /// Quadrature points, `order` on each smooth piece; for whole powers of the place.
+    /// Quadrature points, `order` on each smooth section; for integer powers of the position.
     pub fn path(&self, sharing: LoadSharing, order: usize) -> Vec<PathPoint> {
         self.points_of(sharing, &gauss::rule(order))
     }
 
-    /// Quadrature points, `order` on each smooth piece and closer at its ends; for friction, which sets in there like broken powers of
-    /// sliding and load.
+    /// Quadrature points, `order` on each smooth section and denser at its ends; for friction, which starts there like fractional
+    /// powers of sliding and load.
     pub fn graded_path(&self, sharing: LoadSharing, order: usize) -> Vec<PathPoint> {
         self.points_of(sharing, &gauss::graded_rule(order))
     }
@@ -141,7 +142,7 @@ impl Pair {
                 breaks.dedup_by(|a, b| (*a - *b).abs() < 1e-6 * self.base_pitch);
             }
             Law::Ramp(ramp) => {
-                // Most kinks are breaks already, but for rounding.
+                // Most kinks are already section ends, except for rounding.
                 for kink in ramp.kinks() {
                     if breaks.iter().all(|x| (x - kink).abs() > 1e-9 * self.base_pitch) {
                         breaks.push(kink);
@@ -238,20 +239,20 @@ mod tests {
     fn contact_lines_of_spur_gears_are_the_rigid_share() {
         let lines = pair(0.01, 0.02).loss_factor_local(LoadSharing::ContactLines);
         let rigid = pair(0.0, 0.02).loss_factor_local(LoadSharing::Rigid);
-        // A helix of a hundredth of a degree is inclined by a thousandth of the path.
+        // A helix angle of a hundredth of a degree is inclined by a thousandth of the path.
         assert!((lines / rigid - 1.0).abs() < 1e-3, "{lines} {rigid}");
         let spur = pair(0.0, 0.02).loss_factor_local(LoadSharing::ContactLines);
         assert!((spur / rigid - 1.0).abs() < 1e-12);
     }
 
     proptest! {
-        /// The pairs in contact carry all of the force, over one cycle.
+        /// The pairs in contact carry the full force, over one cycle.
         #[test]
         fn shares_carry_the_whole_force(helix in 0.0..35.0_f64, facewidth in 0.002..0.06_f64) {
             let pair = pair(helix, facewidth);
             for sharing in [LoadSharing::Rigid, LoadSharing::Uniform, LoadSharing::ContactLines] {
                 let whole: f64 = pair.path(sharing, 6).iter().map(|p| p.weight * p.share).sum();
-                // Pieces shorter than a millionth of the pitch are left out.
+                // Sections shorter than a millionth of the pitch are omitted.
                 prop_assert!((whole / pair.base_pitch - 1.0).abs() < 1e-5, "{sharing:?} {}", whole / pair.base_pitch);
             }
         }

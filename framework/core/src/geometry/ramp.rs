@@ -1,9 +1,9 @@
-//! Load that rises and falls along the path of contact as a trapezoid, as tip relief does it.
+//! Load that rises and falls along the path of contact as a trapezoid, as with tip relief.
 //!
-//! A pair of teeth would carry raw(s) = min(1, (s - s_A)/l, (s_E - s)/l) with l = min(eps_alpha - 1, eps_alpha/2) p_bt; what the pairs
-//! in contact would carry together is brought to one: f(s) = raw(s) / sum of raw(s + k p_bt). Between one and two pairs the sum is one
-//! already, l is the length of double contact, and nothing is left to be brought. From two pairs on the trapezoid is a triangle. Up to
-//! one pair there is nobody to share with, and raw = 1.
+//! A pair of teeth alone would carry raw(s) = min(1, (s - s_A)/l, (s_E - s)/l) with l = min(eps_alpha - 1, eps_alpha/2) p_bt. The
+//! loads of the pairs in contact are normalised to a sum of one: f(s) = raw(s) / sum of raw(s + k p_bt). Between one and two pairs
+//! the sum is already one, and l is the length of double contact. From two pairs on the trapezoid is a triangle. Up to one pair,
+//! raw = 1.
 
 use super::pair::Pair;
 
@@ -14,7 +14,7 @@ pub(super) struct Ramp {
     path: [f64; 2],
     /// Feet of the trapezoid. \[m\]
     feet: [f64; 2],
-    /// Length of a flank; zero where one pair carries all. \[m\]
+    /// Length of a flank of the trapezoid; zero if one pair carries all. \[m\]
     rise: f64,
     /// Base pitch. \[m\]
     pitch: f64,
@@ -33,7 +33,7 @@ impl Ramp {
         }
     }
 
-    /// Shifted along the path until the pitch point is its middle; what lies outside of the path carries nothing.
+    /// Shifted along the path so that the pitch point is its centre; load outside the path is zero.
     pub fn symmetric(pair: &Pair) -> Self {
         let ramp = Self::new(pair);
         let shift = pair.points[2] - 0.5 * (ramp.path[0] + ramp.path[1]);
@@ -43,7 +43,7 @@ impl Ramp {
         }
     }
 
-    /// What a pair would carry, before all are brought to one.
+    /// Load of a pair before normalisation.
     fn raw(&self, x: f64) -> f64 {
         if x < self.path[0] || x > self.path[1] {
             return 0.0;
@@ -67,12 +67,12 @@ impl Ramp {
         if own + others > 0.0 {
             own / (own + others)
         } else {
-            // A shifted trapezoid may leave out all that are in contact; they carry evenly then.
+            // A shifted trapezoid may have zero load on all pairs in contact; they then share equally.
             1.0 / (1 + before + behind) as f64
         }
     }
 
-    /// Places on the path where the share is not smooth: the corners of the trapezoid and those of the other pairs. \[m\]
+    /// Kinks of the share on the path: the corners of the trapezoid and those of the other pairs. \[m\]
     pub fn kinks(&self) -> Vec<f64> {
         let [low, high] = self.feet;
         let [start, end] = self.path;
@@ -112,7 +112,7 @@ mod tests {
         }
     }
 
-    /// A pair of any contact ratio, its pitch point at a share of the path.
+    /// A pair of any contact ratio, with its pitch point at a share of the path.
     fn pair(ratio: f64, pitch_point: f64) -> Pair {
         let base = Pair::new(&spec()).unwrap();
         let [start, ..] = base.points;
@@ -167,7 +167,7 @@ mod tests {
 
     #[test]
     fn what_the_shifted_trapezoid_leaves_out_is_carried_by_who_is_in_contact() {
-        // The pitch point lies at the end of a path of few double contact: nothing of the trapezoid reaches its start.
+        // The pitch point is at the end of a path with little double contact: no part of the trapezoid reaches its start.
         let pair = pair(1.1, 1.0);
         let ramp = Ramp::symmetric(&pair);
         let x = ramp.path[0] + 0.3 * ramp.pitch;
@@ -192,7 +192,7 @@ mod tests {
             }
         }
 
-        /// The integral along the path is a base pitch only where each kink is the border of a piece.
+        /// The integral along the path is a base pitch only if each kink is a section end.
         #[test]
         fn quadrature_sees_every_kink(ratio in 1.0..3.2_f64, pitch_point in 0.0..1.0_f64) {
             let pair = pair(ratio, pitch_point);
@@ -202,7 +202,7 @@ mod tests {
             }
         }
 
-        /// The trapezoid is the same on both sides of the pitch point.
+        /// The trapezoid is symmetric about the pitch point.
         #[test]
         fn symmetric_ramps_mirror_at_the_pitch_point(ratio in 1.0..3.2_f64, pitch_point in 0.2..0.8_f64, aside in 0.0..0.2_f64) {
             let pair = pair(ratio, pitch_point);
@@ -211,14 +211,14 @@ mod tests {
             prop_assert!((ramp.raw(pair.points[2] + aside) - ramp.raw(pair.points[2] - aside)).abs() < 1e-9);
         }
 
-        /// Seen from the other gear the path runs backward, and each place carries the same.
+        /// From the other gear the path runs backwards, and the load at each point is the same.
         #[test]
         fn exchanged_gears_share_alike(ratio in 1.01..3.2_f64, pitch_point in 0.0..1.0_f64, place in 0.0..1.0_f64) {
             let (one, other) = (pair(ratio, pitch_point), pair(ratio, 1.0 - pitch_point));
             for (a, b) in [(Ramp::new(&one), Ramp::new(&other)), (Ramp::symmetric(&one), Ramp::symmetric(&other))] {
                 let length = a.path[1] - a.path[0];
                 let (x, y) = (a.path[0] + place * length, b.path[1] - place * length);
-                // Steep flanks of short double contact magnify the rounding of a place.
+                // Steep flanks of short double contact magnify the rounding of a position.
                 prop_assert!((a.share(x) - b.share(y)).abs() < 1e-9, "{} {}", a.share(x), b.share(y));
             }
         }

@@ -1,31 +1,31 @@
-//! Gauss-Jordan elimination in three groups of columns: members, ports without, ports with a prescribed speed. The order
-//! does the diagnosis: a member is free only if nothing tied it.
+//! Gauss-Jordan elimination in three groups of columns: members, ports without, ports with a prescribed speed. The order provides
+//! the diagnosis: a member is free only if nothing constrains it.
 
 use super::Train;
 
-/// Entries below this of scaled rows are rounding; tooth numbers differ by far more.
+/// Entries of scaled rows below this are rounding error; tooth numbers differ by far more.
 const ZERO: f64 = 1e-10;
 
 /// Why a state cannot move as prescribed. Columns and rows by number.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Fault {
-    /// Some columns can turn freely against the rest.
+    /// Some columns can rotate freely relative to the others.
     Under {
-        /// The columns that turn together.
+        /// The columns that rotate together.
         columns: Vec<usize>,
-        /// Ports among them, which could prescribe it.
+        /// Ports among them, which could prescribe the speed.
         ports: Vec<usize>,
     },
     /// Prescribed ports depend on each other.
     Tied {
-        /// The port that the others already decide.
+        /// The port that the others already determine.
         port: usize,
         /// The others and the factor on each.
         others: Vec<(usize, f64)>,
-        /// Rows that tie them.
+        /// Rows that relate them.
         rows: Vec<usize>,
     },
-    /// A prescribed port cannot turn.
+    /// A prescribed port cannot rotate.
     Locked {
         /// The port.
         port: usize,
@@ -40,7 +40,7 @@ pub(super) struct Reduced {
     rows: Vec<Vec<f64>>,
     /// Each reduced row as a combination of the original ones.
     history: Vec<Vec<f64>>,
-    /// Pivot column of each row; absent for rows that became zero.
+    /// Pivot column of each row; `None` for rows that became zero.
     pivots: Vec<Option<usize>>,
 }
 
@@ -127,7 +127,7 @@ impl Reduced {
         (0..self.columns).filter(|c| !self.pivots.contains(&Some(*c))).collect()
     }
 
-    /// The motion in which one free column turns with speed one and the other free ones stand.
+    /// The motion in which one free column has speed one and the other free ones are stationary.
     pub fn null_vector(&self, free: usize) -> Vec<f64> {
         let mut vector = vec![0.0; self.columns];
         vector[free] = 1.0;
@@ -182,7 +182,7 @@ impl Reduced {
     }
 }
 
-/// Places whose entries are not rounding.
+/// Indices of entries that are not rounding error.
 fn big(vector: &[f64]) -> Vec<usize> {
     let largest = vector.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
     (0..vector.len())

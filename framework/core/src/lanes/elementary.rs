@@ -1,19 +1,19 @@
-//! Exponential, logarithm and what follows from them, without tables, branches or calls.
+//! Exponential, logarithm and functions derived from them, without tables, branches or calls.
 //!
-//! The ways are the usual ones: e^x = 2^k e^r with whole k and |r| at most ln 2 / 2, and a polynomial for e^r; ln x = k ln 2 + ln m
-//! with m between the roots of one half and of two, and a polynomial for the inverse hyperbolic tangent. The polynomials have
-//! nearly the least error of their degree: they were found by Remez's exchange with 60 digits, and then rounded. Where the standard
-//! library answers one number by a call, the compiler computes several of these in one instruction.
+//! The methods are the usual ones: e^x = 2^k e^r with integer k and |r| at most ln 2 / 2, and a polynomial for e^r; ln x = k ln 2 +
+//! ln m with m between the roots of one half and of two, and a polynomial for the inverse hyperbolic tangent. The polynomials have
+//! nearly the minimum error of their degree: they were computed by the Remez algorithm with 60 digits, and then rounded. The
+//! standard library computes one number per call; the compiler computes several of these in one instruction.
 
 use std::f64::consts::LOG2_E;
 
-/// ln 2 in two parts, the first so short that its products with whole numbers are exact.
+/// ln 2 in two parts, the first so short that its products with integers are exact.
 const LN_2: [f64; 2] = [6.931_471_803_691_238e-1, 1.908_214_929_270_587_7e-10];
-/// Added to a number and taken away again it rounds to a whole one, which is then in the lowest bits of the sum.
+/// Added to a number and subtracted again it rounds to an integer, which is then in the lowest bits of the sum.
 const ROUNDER: f64 = 6_755_399_441_055_744.0;
 /// The range in which 2^k is a normal number.
 const RANGE: (f64, f64) = (-708.0, 709.0);
-/// Powers of r in e^r, which leave an error of 1.1e-17 of it.
+/// Powers of r in e^r, with a relative error of 1.1e-17.
 const POWERS: [f64; 12] = [
     1.0,
     1.0,
@@ -28,7 +28,7 @@ const POWERS: [f64; 12] = [
     2.763_023_388_608_424_6e-7,
     2.500_006_726_352_361e-8,
 ];
-/// Powers of s^2 in (artanh(s)/s - 1)/s^2, which leave an error of 2e-18 of the inverse hyperbolic tangent.
+/// Powers of s^2 in (artanh(s)/s - 1)/s^2, with an error of 2e-18 of the inverse hyperbolic tangent.
 const TANGENT: [f64; 7] = [
     0.333_333_333_333_336_7,
     0.199_999_999_997_074_52,
@@ -41,29 +41,29 @@ const TANGENT: [f64; 7] = [
 /// Bits of the root of one half.
 const ROOT_HALF: u64 = 0x3FE6_A09E_667F_3BCD;
 
-/// The exponential, to about 1e-15 of it; zero for x below -708, infinity above 709.
+/// The exponential, to a relative error of about 1e-15; zero for x below -708, infinity above 709.
 #[inline(always)]
 pub fn exp(x: f64) -> f64 {
     let shifted = x * LOG2_E + ROUNDER;
     let k = shifted - ROUNDER;
     let r = x - k * LN_2[0] - k * LN_2[1];
-    // Summed in pairs, pairs of pairs and so on, which do not wait for each other.
+    // Summed in pairs, pairs of pairs and so on, which are independent of each other.
     let r_2 = r * r;
     let r_4 = r_2 * r_2;
     let two = |n: usize| POWERS[n] + POWERS[n + 1] * r;
     let four = |n: usize| two(n) + two(n + 2) * r_2;
     let series = four(0) + (four(4) + four(8) * r_4) * r_4;
-    // 2^k: the whole number in the lowest bits goes to the place of the exponent.
+    // 2^k: the integer in the lowest bits is moved to the exponent.
     let power = f64::from_bits(shifted.to_bits().wrapping_add(1023) << 52);
     let value = series * power;
     let value = if x < RANGE.0 { 0.0 } else { value };
     if x > RANGE.1 { f64::INFINITY } else { value }
 }
 
-/// The natural logarithm, to about 5e-16 of it; minus infinity at zero and so close to it that digits are lost, which is below 2.3e-308.
+/// The natural logarithm, to a relative error of about 5e-16; minus infinity at zero and for subnormal numbers, below 2.3e-308.
 #[inline(always)]
 pub fn ln(x: f64) -> f64 {
-    // The whole number k, with 1024 added, and the rest m = x 2^-k.
+    // The integer k, with 1024 added, and the mantissa m = x 2^-k.
     let whole = x.to_bits().wrapping_sub(ROOT_HALF).wrapping_add(1024 << 52) >> 52;
     let k = f64::from_bits(whole.wrapping_add(ROUNDER.to_bits())) - (ROUNDER + 1024.0);
     let m = f64::from_bits(x.to_bits().wrapping_sub(whole.wrapping_sub(1024) << 52));
@@ -83,15 +83,15 @@ pub fn ln(x: f64) -> f64 {
     if x < f64::INFINITY { value } else { x }
 }
 
-/// The cube root of a normal positive number or of zero, to about 3e-16 of it.
+/// The cube root of a normal positive number or of zero, to a relative error of about 3e-16.
 ///
-/// The inverse root y is found by Newton's way from a first guess in the bits, whose upper half is nearly a logarithm, and the
-/// root is improved once more. Nothing is divided.
+/// Newton's method computes the inverse root y from a first guess in the bits, whose upper half is nearly a logarithm, and the root
+/// is improved once more. There is no division.
 #[inline(always)]
 pub fn cube_root(x: f64) -> f64 {
-    /// 2^52: the whole numbers below it, added, stand in its lowest bits.
+    /// 2^52: integers below it, when added, are in its lowest bits.
     const WHOLE: f64 = 4_503_599_627_370_496.0;
-    /// Four thirds of the exponent of one, less what makes the greatest error least, which is 3.4 %.
+    /// Four thirds of the exponent of one, minus the value that minimises the maximum error, which is 3.4 %.
     const FIRST: f64 = 1_430_257_664.0 - 69_000.0;
     let upper = f64::from_bits((x.to_bits() >> 32) | WHOLE.to_bits()) - WHOLE;
     let mut y = f64::from_bits((FIRST - upper * (1.0 / 3.0) + WHOLE).to_bits() << 32);

@@ -3,16 +3,16 @@
 use super::{LANES, Lane, Powers, each, gather, over};
 use crate::loss::{Loss, MOST_TERMS, Measure, Term, Undefined};
 
-/// The losses of one part in all lanes: what [`Loss`] is for a point.
+/// The losses of one part in all lanes: the batched [`Loss`].
 #[derive(Debug, Clone)]
 pub struct LossLanes {
     measure: Measure,
-    /// False while no answer has said the measure.
+    /// False until a result has set the measure.
     measured: bool,
     values: [Lane; MOST_TERMS],
-    /// Terms that have values; what stands in the others counts for nothing.
+    /// Terms that have values; the others are ignored.
     terms: usize,
-    /// What the model wants again where it notes.
+    /// Values that the model uses again when it writes notes.
     kept: Lane,
     powers: Powers,
     alone: [bool; LANES],
@@ -40,7 +40,7 @@ impl LossLanes {
         }
     }
 
-    /// Begins an answer as [`Loss::MOMENTS`] or [`Loss::POWERS`] do; every term is zero.
+    /// Starts a result as [`Loss::MOMENTS`] or [`Loss::POWERS`] do; every term is zero.
     #[inline]
     pub fn begin(&mut self, like: &Loss) {
         self.measure = like.measure();
@@ -49,7 +49,7 @@ impl LossLanes {
         self.alone = [false; LANES];
     }
 
-    /// Adds to a term a value for each lane, given by its place: N m for moments, W for powers.
+    /// Adds to a term a value for each lane, given by its index: N m for moments, W for powers.
     #[inline(always)]
     pub fn add(&mut self, term: &Term, value: impl Fn(usize) -> f64) {
         if term.index < self.terms {
@@ -62,22 +62,22 @@ impl LossLanes {
         }
     }
 
-    /// Keeps a number of each lane for the time when the model notes at the same loads.
+    /// Keeps a number of each lane for the notes at the same loads.
     pub fn keep(&mut self, numbers: &Lane) {
         self.kept = *numbers;
     }
 
-    /// What was kept last.
+    /// The number kept last.
     pub fn kept(&self) -> &Lane {
         &self.kept
     }
 
-    /// Powers of loads and the like, which may remember those of the speed before.
+    /// Powers of loads and similar, which may remember those of the previous speed.
     pub fn powers(&mut self) -> &mut Powers {
         &mut self.powers
     }
 
-    /// Makes room for some terms, which are zero.
+    /// Initialises some terms with zero.
     #[inline(always)]
     fn grow(&mut self, terms: usize) {
         while self.terms < terms {
@@ -86,25 +86,25 @@ impl LossLanes {
         }
     }
 
-    /// Forgets all answers, before the first pass of a block; `wanted` says in which lanes there is a point.
+    /// Clears all results, before the first iteration of a block; `wanted` marks the lanes with a point.
     pub(crate) fn clear(&mut self, wanted: &[bool; LANES]) {
         self.begin(&Loss::POWERS);
         self.measured = false;
         self.wanted = *wanted;
     }
 
-    /// Says in which lanes an answer is still wanted.
+    /// Marks the lanes whose result is still needed.
     pub(crate) fn want(&mut self, wanted: &[bool; LANES]) {
         self.wanted = *wanted;
     }
 
-    /// False where nobody reads the answer any more: a model that is asked once for each lane may pass over it.
+    /// False if the result is no longer needed: a model that is evaluated once for each lane may skip the lane.
     pub fn wanted(&self, lane: usize) -> bool {
         self.wanted[lane]
     }
 
-    /// Takes over the answer for one lane. What is undefined, or in another measure than that of the lanes before, is left to an
-    /// evaluation of that point alone, which says why.
+    /// Stores the result for one lane. An undefined result, or one in another measure than the previous lanes, excludes the lane,
+    /// so that an evaluation of the single point gives the reason.
     pub fn put(&mut self, lane: usize, answer: Result<Loss, Undefined>) {
         let loss = answer.unwrap_or(Loss::POWERS);
         if answer.is_ok() && !self.measured {
@@ -122,7 +122,7 @@ impl LossLanes {
         }
     }
 
-    /// Takes over one answer for all lanes, as [`put`](Self::put) for each.
+    /// Stores one result for all lanes, as [`put`](Self::put) for each.
     pub(crate) fn put_all(&mut self, answer: Result<Loss, Undefined>) {
         let loss = answer.unwrap_or(Loss::POWERS);
         self.begin(&loss);
@@ -134,12 +134,12 @@ impl LossLanes {
         self.alone = [answer.is_err(); LANES];
     }
 
-    /// Leaves a lane to an evaluation of its point alone.
+    /// Excludes a lane, whose point is then evaluated as a single point.
     pub fn leave(&mut self, lane: usize) {
         self.alone[lane] = true;
     }
 
-    /// Whether a lane agrees with an answer for its point alone within a share of it, where none asks for the same bits; or is left to it.
+    /// True if a lane agrees with the result of its single point within a relative tolerance (not to the bit), or is excluded.
     pub(crate) fn agrees(&self, lane: usize, answer: &Result<Loss, Undefined>, within: f64) -> bool {
         let same = |loss: &Loss| {
             let terms = (0..MOST_TERMS).all(|term| {
@@ -155,7 +155,7 @@ impl LossLanes {
         self.alone[lane] || answer.as_ref().is_ok_and(same)
     }
 
-    /// Lanes that are left to an evaluation of their point alone.
+    /// Excluded lanes.
     pub(crate) fn alone(&self) -> &[bool; LANES] {
         &self.alone
     }
@@ -179,35 +179,34 @@ impl LossLanes {
         }
     }
 
-    /// What `end` makes of the sum of all terms times a factor, in each lane.
+    /// The result of `end` for the sum of all terms times a factor, in each lane.
     #[inline(always)]
     fn sum(&self, factor: f64, end: impl Fn(f64) -> f64) -> Lane {
         let step = |[sum]: [f64; 1], values: &Lane, i: usize| [sum + values[i] * factor];
         gather(self.values[..self.terms].iter(), [0.0], step, |[sum], _| end(sum))
     }
 
-    /// What `end` makes of the powers of all terms together (W) at a relative speed in rad/s.
+    /// The result of `end` for the total power of all terms (W) at a relative speed in rad/s.
     #[inline(always)]
     pub(crate) fn total_watts(&self, speed: f64, end: impl Fn(f64) -> f64) -> Lane {
         self.sum(self.factor(speed), end)
     }
 
-    /// What the values are.
+    /// The measure of the values.
     pub(crate) fn measure(&self) -> Measure {
         self.measure
     }
 
-    /// The sums of all terms, in their measure. Leaves the lanes whose answer counts for nothing: negative, no number, or beside a thrust
-    /// that nothing takes.
+    /// The sums of all terms, in their measure. Excludes the lanes whose result is invalid: negative, NaN, or with untaken thrust.
     #[inline(always)]
     pub(crate) fn sound_sum(&mut self, untaken: &Lane) -> Lane {
         let mut unsound = 0_u64;
-        // No negative part and a finite sum, or no sum beside a thrust that nothing takes.
+        // No negative part and a finite sum, or no sum with untaken thrust.
         let sound = |sum: f64, least: f64, untaken: f64| {
             let most = if untaken == 0.0 { f64::MAX } else { 0.0 };
             least >= 0.0 && sum <= most
         };
-        // What is no number passes by the least one and stands in the sum.
+        // NaN passes the minimum and remains in the sum.
         let step = |[sum, least]: [f64; 2], values: &Lane, i: usize| {
             [sum + values[i], if values[i] < least { values[i] } else { least }]
         };
@@ -222,7 +221,7 @@ impl LossLanes {
             let own = self.values[..self.terms].iter().map(|values| values[i]);
             if !sound(sum[i], own.fold(0.0, f64::min), untaken[i]) {
                 self.alone[i] = true;
-                // Or torques of this lane would be no numbers, at which no model is asked.
+                // Otherwise torques of this lane would be NaN, at which no model is evaluated.
                 for values in &mut self.values[..self.terms] {
                     values[i] = 0.0;
                 }
@@ -266,7 +265,7 @@ mod tests {
         };
         let some = Loss::MOMENTS.with(&SECOND, 0.7);
         for answer in [Ok(some), Ok(some.with(&FIRST, 0.1)), Ok(Loss::POWERS), Err(undefined)] {
-            // Whatever stood there before.
+            // Overwrites any previous value.
             let mut together = LossLanes::NONE;
             together.add(&FIRST, |_| 3.0);
             together.leave(5);

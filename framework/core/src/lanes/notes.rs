@@ -1,28 +1,28 @@
-//! Where the models of a block of points note limits and observed quantities.
+//! Notes of the models of a block of points: limits and observed quantities.
 
 use std::cell::Cell;
 
 use super::{LANES, Lane, count, wide};
 use crate::loss::{Extent, Limit, NoteBase, Notes, Observed};
 
-/// Where one model instance notes what it sees in the lanes of a block: what is the same in all of them, what a loop over the
-/// lanes finds, or what one lane after the other finds. Each lane counts as a point.
+/// Note target of one model instance for the lanes of a block: values that are common to all of them, the results of a loop over
+/// the lanes, or those of individual lanes. Each lane counts as a point.
 #[derive(Clone, Copy)]
 pub struct LaneNotes<'a> {
     pub(crate) common: Notes<'a>,
     /// Cells of each lane, one lane after the other.
     pub(crate) own: &'a [Cell<Extent>],
     pub(crate) totals: &'a [Cell<Extent>],
-    /// Lanes that count, and how many.
+    /// Active lanes, and their number.
     pub(crate) counted: &'a [bool; LANES],
     pub(crate) points: u32,
     pub(crate) outside: &'a [Cell<bool>; LANES],
-    /// Set where cells of lanes were handed out.
+    /// Set if cells of lanes were handed out.
     pub(crate) handed: &'a Cell<bool>,
     pub(crate) base: NoteBase,
 }
 
-/// Whether a model notes the same for points alone and side by side: `single` asks for one lane, `together` for all.
+/// True if a model writes the same notes for single points and for a batch: `single` evaluates one lane, `together` all lanes.
 pub(crate) fn same_notes(
     base: NoteBase,
     single: impl Fn(usize, Notes<'_>),
@@ -62,7 +62,7 @@ pub(crate) fn same_notes(
 }
 
 impl<'a> LaneNotes<'a> {
-    /// Where only what is the same in all lanes can be noted: no lane counts.
+    /// Target for values that are common to all lanes: no lane is active.
     pub(crate) fn for_a_row(self) -> Self {
         Self {
             own: &[],
@@ -73,12 +73,12 @@ impl<'a> LaneNotes<'a> {
         }
     }
 
-    /// Notes of what is the same in all lanes.
+    /// Notes of values that are common to all lanes.
     pub fn all(&self) -> Notes<'a> {
         self.common
     }
 
-    /// False where nobody reads what a lane notes.
+    /// False if the notes of a lane are not used.
     pub fn wanted(&self, lane: usize) -> bool {
         self.counted[lane]
     }
@@ -91,16 +91,16 @@ impl<'a> LaneNotes<'a> {
     }
 
     /// The same for the model of a nested slot.
-    pub fn of(self, base: NoteBase) -> Self {
+    pub fn nested(self, base: NoteBase) -> Self {
         Self {
             base,
-            common: self.common.of(base),
+            common: self.common.nested(base),
             ..self
         }
     }
 
-    /// Notes whether values, from the least to the greatest of each lane in the limit's unit, lie in its stated range. Once for a
-    /// limit in a block.
+    /// Notes whether values, from minimum to maximum of each lane in the limit's unit, are in its stated range. Once per limit in a
+    /// block.
     #[inline]
     pub fn check(&self, limit: &Limit, least: &Lane, greatest: &Lane) {
         self.see(self.base.limits() + limit.index, least, greatest, Some(limit));
@@ -121,22 +121,21 @@ impl<'a> LaneNotes<'a> {
         }
     }
 
-    /// Notes the least and the greatest value of an observed quantity in each lane, in its unit. Once for a quantity in a block.
+    /// Notes the minimum and maximum of an observed quantity in each lane, in its unit. Once per quantity in a block.
     #[inline]
     pub fn observe(&self, observed: &Observed, least: &Lane, greatest: &Lane) {
         self.see(self.base.observed() + observed.index, least, greatest, None);
     }
 
-    /// The least and the greatest value of an observed quantity so far, over all blocks.
+    /// Minimum and maximum of an observed quantity so far, over all blocks.
     pub fn seen(&self, observed: &Observed) -> (f64, f64) {
         let cell = self.totals.get(self.base.observed() + observed.index);
         let seen = cell.map_or(Extent::EMPTY, Cell::get);
         (seen.least, seen.greatest)
     }
 
-    /// The least and the greatest number of the lanes that count; absent where one of them is no number. What rises or falls with them
-    /// has its own least and greatest values there, which serve [`check_range`](Self::check_range) and
-    /// [`observe_range`](Self::observe_range).
+    /// Minimum and maximum over the active lanes; `None` if one of them is NaN. A monotone function of the numbers has its own
+    /// minimum and maximum there, for [`check_range`](Self::check_range) and [`observe_range`](Self::observe_range).
     pub fn range(&self, lane: &Lane) -> Option<(f64, f64)> {
         let ((least, greatest), unknown) = wide(
             #[inline(always)]
@@ -152,8 +151,8 @@ impl<'a> LaneNotes<'a> {
         (unknown == 0 && self.points > 0).then_some((least, greatest))
     }
 
-    /// As [`check`](Self::check) for the range over all lanes of the least value of a lane, and of its greatest; false, with nothing
-    /// noted, where it is not plain from these that all lanes are inside, or all outside on one side.
+    /// As [`check`](Self::check) for the range over all lanes of the minimum of a lane, and of its maximum; false, without a note,
+    /// if it does not show that all lanes are inside, or all outside on one side.
     pub fn check_range(&self, limit: &Limit, least: (f64, f64), greatest: (f64, f64)) -> bool {
         let all_inside = least.0 >= limit.least && greatest.1 <= limit.greatest;
         let all_outside = least.1 < limit.least || greatest.0 > limit.greatest;
@@ -169,12 +168,12 @@ impl<'a> LaneNotes<'a> {
         all_inside || all_outside
     }
 
-    /// As [`observe`](Self::observe) for the least and the greatest value over all lanes.
+    /// As [`observe`](Self::observe) for the minimum and maximum over all lanes.
     pub fn observe_range(&self, observed: &Observed, least: f64, greatest: f64) {
         self.merge(self.base.observed() + observed.index, least, greatest, 0);
     }
 
-    /// The least and the greatest number of the lanes that count; what is no number passes by.
+    /// Minimum and maximum over the active lanes; NaN is ignored.
     #[inline(always)]
     fn extremes(&self, lane: &Lane) -> (f64, f64) {
         if self.points == LANES as u32 {
@@ -218,7 +217,7 @@ impl<'a> LaneNotes<'a> {
         );
         if let Some(limit) = limit {
             let inside = |x: f64| x >= limit.least && x <= limit.greatest;
-            // Mostly all lanes are; else it matters which are not.
+            // Usually all lanes are active; otherwise it matters which are not.
             if unknown > 0 || !(inside(seen.least) && inside(seen.greatest)) {
                 seen.outside = wide(
                     #[inline(always)]
@@ -236,10 +235,10 @@ impl<'a> LaneNotes<'a> {
     }
 }
 
-/// The least and the greatest number of some lanes; what is no number passes by.
+/// Minimum and maximum of some lanes; NaN is ignored.
 #[inline(always)]
 fn extremes(lane: &Lane, counts: impl Fn(usize) -> bool) -> (f64, f64) {
-    /// As many as the widest instructions take.
+    /// The width of the widest instructions.
     const WIDE: usize = 8;
     let (mut least, mut greatest) = ([f64::INFINITY; WIDE], [f64::NEG_INFINITY; WIDE]);
     for (chunk, own) in lane.as_chunks::<WIDE>().0.iter().enumerate() {
@@ -249,7 +248,7 @@ fn extremes(lane: &Lane, counts: impl Fn(usize) -> bool) -> (f64, f64) {
             greatest[i] = if own > greatest[i] { own } else { greatest[i] };
         }
     }
-    // Halves, which do not wait for each other.
+    // Halves, which are independent of each other.
     let mut half = WIDE / 2;
     while half > 0 {
         for i in 0..half {

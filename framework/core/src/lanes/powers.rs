@@ -1,26 +1,26 @@
-//! Powers of numbers that hardly move from one call to the next, as loads from one speed to the next.
+//! Powers of numbers that hardly change from one call to the next, as loads from one speed to the next.
 
 use super::{LANES, Lane, each, over};
 
-/// Terms of the binomial series beside the first.
+/// Terms of the binomial series after the first.
 const TERMS: usize = 6;
-/// The greatest change of a number, as a share of it, for which the series is used: what it leaves out is below 2e-17 for powers
-/// from -1 to 2.
+/// Maximum relative change of a number for which the series is used: its truncation error is below 2e-17 for exponents from -1 to
+/// 2.
 const CLOSE: f64 = 1.0 / 256.0;
 
-/// What the powers of some lanes were, for the next call at numbers close by: a few multiplications are then enough where a power
-/// takes a logarithm and an exponential. Without a memory every power is exact, and with one it is so to 1e-15 for exponents from -1 to 2
-/// and to 1e-14 for those from -5 to 10.
+/// Remembered powers of some lanes for the next call at similar numbers: a few multiplications then replace a logarithm and an
+/// exponential. Without memory every power is exact, with memory it is accurate to 1e-15 for exponents from -1 to 2 and to 1e-14
+/// for those from -5 to 10.
 #[derive(Debug, Clone, Default)]
 pub struct Powers {
     remembers: bool,
     places: Vec<Option<Box<Anchor>>>,
 }
 
-/// How well losses with remembered powers agree with others, as the suite of the framework asks it.
+/// Tolerance of losses with remembered powers, as checked by the conformance suite.
 pub(crate) const REMEMBERED: f64 = 1e-12;
 
-/// Powers that were computed exactly.
+/// Exactly computed powers.
 #[derive(Debug, Clone)]
 struct Anchor {
     exponent: f64,
@@ -32,21 +32,21 @@ struct Anchor {
 }
 
 impl Powers {
-    /// Without a memory.
+    /// Without memory.
     pub const EXACT: Self = Self {
         remembers: false,
         places: Vec::new(),
     };
 
-    /// Forgets all powers, and keeps the room for them.
+    /// Clears all powers, and keeps their storage.
     pub(crate) fn forget(&mut self) {
         for anchor in self.places.iter_mut().flatten() {
-            // Equal to no exponent.
+            // Different from all exponents.
             anchor.exponent = f64::NAN;
         }
     }
 
-    /// With a memory that is empty.
+    /// With an empty memory.
     pub(crate) const fn remembering() -> Self {
         Self {
             remembers: true,
@@ -54,11 +54,11 @@ impl Powers {
         }
     }
 
-    /// Powers of numbers, which are given by their places: `exact` is the function that raises to the exponent, times a factor that is always the same, at every speed and in
-    /// every oil; nothing is added or cut off in it. What stands at a place is remembered there, so that a model gives each of its powers a
-    /// place of its own, counted from zero.
+    /// Powers of numbers, which are given by their indices. `exact` raises to the exponent, times a constant factor that is the
+    /// same at every speed and in every oil; nothing may be added or cut off in it. The result is remembered at `place`, so a model
+    /// gives each of its powers its own place, counted from zero.
     #[inline(always)]
-    pub fn of(&mut self, place: usize, x: impl Fn(usize) -> f64, exponent: f64, exact: impl Fn(f64) -> f64) -> Lane {
+    pub fn raise(&mut self, place: usize, x: impl Fn(usize) -> f64, exponent: f64, exact: impl Fn(f64) -> f64) -> Lane {
         if let Some(Some(anchor)) = self.places.get(place)
             && anchor.exponent == exponent
         {
@@ -67,7 +67,7 @@ impl Powers {
             let mut close = 0;
             let found = each(|i| {
                 let d = x(i) * inverse[i] - 1.0;
-                // What is no number is not close.
+                // NaN is not close.
                 close += u64::from(d.abs() <= CLOSE);
                 powers[i] + powers[i] * (d * (c1 + d * (c2 + d * (c3 + d * (c4 + d * (c5 + d * c6))))))
             });
@@ -121,12 +121,12 @@ mod tests {
             let exact = |x: f64| x.powf(exponent);
             let mut powers = Powers::remembering();
             let first = each(|i| 10.0_f64.powf(0.4 * i as f64 - 6.0));
-            assert_eq!(powers.of(0, |i| first[i], exponent, exact), over(&first, exact));
+            assert_eq!(powers.raise(0, |i| first[i], exponent, exact), over(&first, exact));
             for step in -20..=20 {
                 let x = each(|i| first[i] * (1.0 + 0.99 * CLOSE * f64::from(step) / 20.0));
                 let found = wide(
                     #[inline(always)]
-                    || powers.of(0, |i| x[i], exponent, |_| f64::NAN),
+                    || powers.raise(0, |i| x[i], exponent, |_| f64::NAN),
                 );
                 for i in 0..LANES {
                     let own = exact(x[i]);
@@ -149,26 +149,26 @@ mod tests {
             calls.set(calls.get() + 1);
             cube_root(x)
         };
-        let mut ask = |place: usize, x: f64, others: f64| {
+        let mut is_exact = |place: usize, x: f64, others: f64| {
             calls.set(0);
-            let found = powers.of(place, |i| if i == 7 { x } else { others }, 1.0 / 3.0, exact);
+            let found = powers.raise(place, |i| if i == 7 { x } else { others }, 1.0 / 3.0, exact);
             assert!((found[7] - cube_root(x)).abs() <= 1e-15 && (found[8] - cube_root(others)).abs() <= 1e-15);
             calls.get() > 0
         };
-        assert!(ask(0, 3.0, 3.0));
-        assert!(!ask(0, 3.001, 3.0));
+        assert!(is_exact(0, 3.0, 3.0));
+        assert!(!is_exact(0, 3.001, 3.0));
         // One lane is enough.
-        assert!(ask(0, 3.1, 3.0));
-        assert!(!ask(0, 3.1, 3.0));
-        // No load is never close to anything, and is zero.
-        assert!(ask(0, 0.0, 3.0));
-        assert!(ask(0, 0.0, 3.0));
-        // Each place has a memory of its own.
-        assert!(ask(2, 3.0, 3.0));
-        assert!(!ask(2, 3.0, 3.0));
+        assert!(is_exact(0, 3.1, 3.0));
+        assert!(!is_exact(0, 3.1, 3.0));
+        // Zero load is never close to anything, and its power is zero.
+        assert!(is_exact(0, 0.0, 3.0));
+        assert!(is_exact(0, 0.0, 3.0));
+        // Each place has its own memory.
+        assert!(is_exact(2, 3.0, 3.0));
+        assert!(!is_exact(2, 3.0, 3.0));
         powers.forget();
         calls.set(0);
-        powers.of(2, |_| 3.0, 1.0 / 3.0, exact);
+        powers.raise(2, |_| 3.0, 1.0 / 3.0, exact);
         assert!(calls.get() > 0);
     }
 
@@ -176,13 +176,13 @@ mod tests {
     fn without_a_memory_every_power_is_exact() {
         let mut powers = Powers::EXACT;
         for x in [2.0, 2.0] {
-            let asked = std::cell::Cell::new(false);
+            let evaluated = std::cell::Cell::new(false);
             let root = |x: f64| {
-                asked.set(true);
+                evaluated.set(true);
                 cube_root(x)
             };
-            assert_eq!(powers.of(0, |_| x, 1.0 / 3.0, root)[0], cube_root(2.0));
-            assert!(asked.get());
+            assert_eq!(powers.raise(0, |_| x, 1.0 / 3.0, root)[0], cube_root(2.0));
+            assert!(evaluated.get());
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Puts the schemas of the framework, of mechanisms and of models together into one per kind of document.
+//! Combines the schemas of the framework, of mechanisms and of models into one per kind of document.
 
 use schemars::generate::SchemaSettings;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
@@ -23,15 +23,11 @@ pub(super) fn gearbox(registry: &Registry) -> Value {
     }
     properties.insert(
         "models".to_owned(),
-        models(
-            registry,
-            &mut Map::new(),
-            "Model of every component that does not state its own, by mechanism.",
-        ),
+        models(registry, &mut Map::new(), "Default model of components, by mechanism."),
     );
     properties.insert("model_sets".to_owned(), sets(registry));
     let mut schema = finish(registry, generator, root);
-    // What a gearbox leaves out may stand in the one that it extends.
+    // Omitted keys of a gearbox may be in the one that it extends.
     if let Some(object) = schema.as_object_mut()
         && let Some(required) = object.shift_remove("required")
     {
@@ -41,7 +37,7 @@ pub(super) fn gearbox(registry: &Registry) -> Value {
     schema
 }
 
-/// The schema of a document of another crate, which has model sets as a gearbox has them.
+/// The schema of a document of another crate, with model sets like those of a gearbox.
 pub(super) fn document(registry: &Registry, schema: fn(&mut SchemaGenerator) -> Schema) -> Value {
     let mut generator = generator();
     let mut root = schema(&mut generator).to_value();
@@ -83,13 +79,13 @@ fn eval_record(mechanism: &MechanismEntry, generator: &mut SchemaGenerator) -> V
     json!({
         "type": "object",
         "title": mechanism.key,
-        "description": format!("A {} model alone.", mechanism.key),
+        "description": format!("A single {} model.", mechanism.key),
         "properties": {
             "model": { "$ref": format!("#/definitions/{}_model", mechanism.key) },
             "part": part,
             "at": {
                 "type": "object",
-                "description": "Quantities of the context; the others keep their usual value.",
+                "description": "Quantities of the context; default: their usual values.",
                 "properties": at,
                 "default": {},
             },
@@ -114,7 +110,7 @@ fn model_ref(key: &str) -> Value {
     json!({ "$ref": format!("#/definitions/{key}_model") })
 }
 
-/// A section of components: place, part and what every component has, merged, and the slot of the model.
+/// A section of components: place, part and common keys, merged, and the slot of the model.
 fn section(mechanism: &MechanismEntry, schemas: &[Schema]) -> Value {
     let mut fields = Map::new();
     let mut required: Vec<Value> = Vec::new();
@@ -133,7 +129,7 @@ fn section(mechanism: &MechanismEntry, schemas: &[Schema]) -> Value {
         );
     }
     let mut slot = model_ref(mechanism.key);
-    slot["description"] = json!("Loss model; absent, that of `models`.");
+    slot["description"] = json!("Loss model; default: that of `models`.");
     fields.insert(
         "model".to_owned(),
         json!({ "allOf": [model_ref(mechanism.key)], "description": slot["description"] }),
@@ -145,7 +141,7 @@ fn section(mechanism: &MechanismEntry, schemas: &[Schema]) -> Value {
     })
 }
 
-/// A record with a slot for each mechanism that components choose a default of.
+/// A record with a slot for each mechanism with a default model.
 fn models(registry: &Registry, fields: &mut Map<String, Value>, description: &str) -> Value {
     for mechanism in registry.mechanisms() {
         if NAMED.contains(&mechanism.key) {
@@ -167,13 +163,13 @@ fn sets(registry: &Registry) -> Value {
     let mut fields = Map::new();
     fields.insert(
         "extends".to_owned(),
-        json!({ "type": "string", "description": "Set that this one takes over." }),
+        json!({ "type": "string", "description": "Model set that this one extends." }),
     );
     fields.insert(
         "components".to_owned(),
         json!({
             "type": "object",
-            "description": "Models of single components by path, such as `bearings.B1.model`; `*` stands for one id.",
+            "description": "Models of single components by path, such as `bearings.B1.model`; `*` matches one id.",
             "x-keys": "path",
             "additionalProperties": true,
         }),
@@ -182,20 +178,16 @@ fn sets(registry: &Registry) -> Value {
         "set".to_owned(),
         json!({
             "type": "object",
-            "description": "Values that belong to the set: resolved path to value. Those of the study's conditions win.",
+            "description": "Values that belong to the set: resolved path to value. The conditions of a study take precedence.",
             "x-keys": "path",
             "additionalProperties": true,
         }),
     );
-    let set = models(
-        registry,
-        &mut fields,
-        "A set of models; it takes the place of `models`.",
-    );
-    json!({ "type": "object", "description": "Sets of models to choose from, by name.", "additionalProperties": set })
+    let set = models(registry, &mut fields, "A model set; it replaces `models`.");
+    json!({ "type": "object", "description": "Model sets by name.", "additionalProperties": set })
 }
 
-/// Adds the definitions of all model slots and publishes the whole.
+/// Adds the definitions of all model slots and writes the complete schema.
 fn finish(registry: &Registry, mut generator: SchemaGenerator, mut root: Value) -> Value {
     let mut definitions = Map::new();
     for mechanism in registry.mechanisms() {
@@ -248,8 +240,7 @@ fn finish(registry: &Registry, mut generator: SchemaGenerator, mut root: Value) 
     publish(schema.to_value())
 }
 
-/// A variant of a tagged enum is its tag beside a reference to its record: puts both into one record, so that it can be
-/// closed.
+/// A variant of a tagged enum is its tag beside a reference to its record: merges both into one record, so that it can be closed.
 fn flatten_tagged(root: &mut Value) {
     let Some(definitions) = root.get("definitions").and_then(Value::as_object).cloned() else {
         return;

@@ -1,4 +1,4 @@
-//! A resolved description written as a document again: every number with a unit from which the same bits are read.
+//! A resolved description written as a document again: every number has a unit from which the same bits are read.
 
 use serde_json::{Map, Value};
 
@@ -6,8 +6,8 @@ use super::Language;
 use crate::document::Unit;
 
 impl Language {
-    /// A resolved description as it would be written: quantities with their units, in place of SI numbers. Read and resolved, it is
-    /// the same description to the bit. Names of files remain relative to the folder of the gearbox.
+    /// A resolved description in written form: quantities with their units instead of SI numbers. Read and resolved again, it is
+    /// the same description to the bit. File names remain relative to the folder of the gearbox.
     pub fn readable(&self, resolved: &Value) -> Value {
         self.readable_at(resolved, "", resolved)
     }
@@ -22,7 +22,7 @@ impl Language {
         };
         match value {
             Value::Object(map) => {
-                // A key without a value is one that is not written.
+                // A key without a value is an omitted key.
                 let written = map.iter().filter(|(_, value)| !value.is_null());
                 let written = written.map(|(key, value)| (key.clone(), self.readable_at(document, &below(key), value)));
                 Value::Object(written.collect::<Map<String, Value>>())
@@ -44,7 +44,7 @@ impl Language {
     }
 }
 
-/// A quantity in its documented unit where the same bits are read from it, or else in SI; absent for plain numbers.
+/// A quantity in its documented unit if the same bits are read from it, else in SI; `None` for plain numbers.
 fn quantity(si: f64, documented: &'static Unit) -> Option<Value> {
     if documented.symbol == Unit::ONE.symbol {
         return None;
@@ -56,7 +56,7 @@ fn quantity(si: f64, documented: &'static Unit) -> Option<Value> {
     if exact(&tidy) {
         return Some(Value::from(written(tidy, documented)));
     }
-    // What has many digits in its documented unit may have few in SI.
+    // A number with many digits in its documented unit may have few in SI.
     let own = Some(own).filter(exact).map(|own| written(own, documented));
     let candidates = own
         .into_iter()

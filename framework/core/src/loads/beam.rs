@@ -10,22 +10,22 @@ const STEEL: (f64, f64, f64) = (206e9, 79e9, 0.3);
 /// A support of a beam.
 #[derive(Debug, Clone, Copy)]
 pub struct BeamSupport {
-    /// Place. \[m\]
+    /// Position. \[m\]
     pub at: f64,
-    /// Stiffness across; absent, rigid. \[N/m\]
+    /// Lateral stiffness; `None`: rigid. \[N/m\]
     pub radial: Option<f64>,
-    /// Stiffness against tilting; absent, none. \[Nm/rad\]
+    /// Tilting stiffness; `None`: zero. \[Nm/rad\]
     pub tilting: Option<f64>,
 }
 
 /// A load in one plane, or a reaction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BeamLoad {
-    /// Place. \[m\]
+    /// Position. \[m\]
     pub at: f64,
-    /// Force across. \[N\]
+    /// Lateral force. \[N\]
     pub force: f64,
-    /// Moment that raises the slope. \[Nm\]
+    /// Moment that increases the slope. \[Nm\]
     pub moment: f64,
 }
 
@@ -40,7 +40,7 @@ pub enum BeamFault {
     MomentAtHinge(f64),
 }
 
-/// A beam with its stiffness factored.
+/// A beam with its factored stiffness matrix.
 #[derive(Debug, Clone)]
 pub struct Beam {
     nodes: Vec<f64>,
@@ -127,7 +127,7 @@ impl Beam {
             reduced.column_mut(f).fill(0.0);
             reduced[(f, f)] = k[(f, f)].max(1.0);
         }
-        // Lengths and moments differ in size; scaling by the diagonal makes the test of the pivots fair.
+        // Lengths and moments have different magnitudes; diagonal scaling makes the test of the pivots consistent.
         let scale: Vec<f64> = (0..count)
             .map(|i| reduced[(i, i)].abs().max(f64::MIN_POSITIVE).sqrt())
             .collect();
@@ -170,7 +170,7 @@ impl Beam {
         (u, f)
     }
 
-    /// Deflection at a place where a load may act. \[m\]
+    /// Deflection at a position where a load may act. \[m\]
     pub fn deflection(&self, loads: &[BeamLoad], at: f64) -> f64 {
         self.deflections(loads).0[self.freedom[self.node(at)][0]]
     }

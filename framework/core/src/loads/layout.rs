@@ -1,11 +1,11 @@
-//! What statics needs to know of a gearbox: members on axes, supports, meshes.
+//! Input of statics: members on axes, supports, meshes.
 
 use crate::attach::Axial;
 
-/// A piece of a shaft with constant diameters, m.
+/// A section of a shaft with constant diameters, m.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Section {
-    /// Begin and end along the shaft. \[m\]
+    /// Start and end along the shaft. \[m\]
     pub range: [f64; 2],
     /// Outer diameter. \[m\]
     pub outer: f64,
@@ -29,19 +29,19 @@ pub struct PlanetBody {
 /// A member for statics.
 #[derive(Debug, Clone, Default)]
 pub struct MemberLayout {
-    /// Forces that always act: place along the shaft, force in x, y, z. \[m, N\]
+    /// Permanent forces: position along the shaft, force in x, y, z. \[m, N\]
     pub forces: Vec<(f64, [f64; 3])>,
-    /// Moments about y and z that always act, with their place. \[m, Nm\]
+    /// Permanent moments about y and z, with their position. \[m, Nm\]
     pub moments: Vec<(f64, [f64; 2])>,
     /// Diameters, for more than two supports.
     pub sections: Vec<Section>,
     /// Hinges. \[m\]
     pub hinges: Vec<f64>,
-    /// Counts the deflection by shear.
+    /// Includes the shear deflection.
     pub shear: bool,
     /// Set for planet bodies.
     pub planet: Option<PlanetBody>,
-    /// True for loose gears: whatever they share a support with carries them.
+    /// True for idler gears: the member on the other side of a support carries them.
     pub loose: bool,
 }
 
@@ -50,23 +50,23 @@ pub struct MemberLayout {
 pub struct SupportLayout {
     /// Member inside.
     pub inner: usize,
-    /// Member outside; absent for the housing.
+    /// Member outside; `None` for the housing.
     pub outer: Option<usize>,
-    /// Place along the shaft. \[m\]
+    /// Position along the shaft. \[m\]
     pub at: f64,
-    /// Thrust of the shaft that it takes.
+    /// Directions of thrust that it takes.
     pub axial: Axial,
-    /// Share of the thrust where several could take it.
+    /// Share of the thrust if several supports can take it.
     pub share: Option<f64>,
-    /// Spring preload, positive pushes the shaft towards +x. \[N\]
+    /// Spring preload; a positive force pushes the shaft towards +x. \[N\]
     pub spring: f64,
     /// Takes a tilting moment.
     pub takes_moment: bool,
-    /// Radial stiffness; absent, rigid. \[N/m\]
+    /// Radial stiffness; `None`: rigid. \[N/m\]
     pub radial_stiffness: Option<f64>,
-    /// Tilting stiffness; absent, none. \[Nm/rad\]
+    /// Tilting stiffness; `None`: zero. \[Nm/rad\]
     pub tilting_stiffness: Option<f64>,
-    /// Thrust that a radial load induces, over the radial load; zero for bearings without contact angle.
+    /// Thrust induced by a radial load, per radial load; zero for bearings without contact angle.
     pub induced: f64,
 }
 
@@ -85,7 +85,7 @@ pub struct MeshLayout {
     pub direction: [f64; 2],
     /// Tangent of the working transverse pressure angle.
     pub tan_alpha: f64,
-    /// Tangent of the working helix angle times the hand of the first gear, one for right; zero without net thrust.
+    /// Tangent of the working helix angle times the hand of the first gear, +1 for right; zero without net thrust.
     pub hand_tan_beta: f64,
     /// Number of equal copies.
     pub count: f64,
@@ -94,7 +94,7 @@ pub struct MeshLayout {
 }
 
 impl MeshLayout {
-    /// Forces on the first gear, and on the second, from one newton of tangential force and of its magnitude; x, y, z.
+    /// Forces on the first and on the second gear, per newton of tangential force and of its magnitude; x, y, z.
     pub(super) fn forces(&self, gear: usize) -> [[f64; 3]; 2] {
         let [ey, ez] = self.direction;
         let turn = if gear == 0 { 1.0 } else { -1.0 };
@@ -116,7 +116,7 @@ impl MeshLayout {
     }
 }
 
-/// All of it.
+/// The complete layout.
 #[derive(Debug, Clone, Default)]
 pub struct Layout {
     /// Members by number.
@@ -130,28 +130,28 @@ pub struct Layout {
 /// Why loads cannot be found. Members and supports by number.
 #[derive(Debug, Clone, PartialEq)]
 pub enum LoadFault {
-    /// Members carry each other in a circle.
+    /// Members support each other in a circle.
     Cycle {
         /// The members.
         members: Vec<usize>,
     },
-    /// The supports leave the member free to tilt or move.
+    /// The supports let the member tilt or move.
     Mechanism {
         /// The member.
         member: usize,
         /// Its supports.
         supports: Vec<usize>,
     },
-    /// Several supports could take the same thrust and no shares are stated.
+    /// Several supports can take the same thrust, and no shares are stated.
     AxialIndeterminate {
         /// The member.
         member: usize,
-        /// The supports that could.
+        /// The supports that can.
         supports: Vec<usize>,
-        /// Towards +x.
+        /// True for thrust towards +x.
         right: bool,
     },
-    /// Diameters are missing where more than two supports carry a member.
+    /// Diameters are missing although more than two supports carry a member.
     NoSection {
         /// The member.
         member: usize,
@@ -162,7 +162,7 @@ pub enum LoadFault {
     MomentAtHinge {
         /// The member.
         member: usize,
-        /// Place of the hinge. \[m\]
+        /// Position of the hinge. \[m\]
         at: f64,
     },
 }

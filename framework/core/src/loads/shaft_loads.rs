@@ -1,4 +1,4 @@
-//! Loads of all supports: unit cases solved once, combined at every point.
+//! Bearing loads: unit cases solved once, combined at every point.
 
 use super::SupportLoad;
 use super::layout::{Layout, LoadFault, MemberLayout, SupportLayout};
@@ -11,22 +11,22 @@ pub struct ShaftLoads {
     pub(super) supports: usize,
     /// Reactions by support.
     pub(super) cases: Vec<Cases>,
-    /// Members from the carried to the carrying, without those whose thrust passes through their supports.
+    /// Members from the supported to the supporting, without those whose thrust passes through their supports.
     pub(super) order: Vec<Axially>,
 }
 
-/// Reactions of one support, those that are nothing left out.
+/// Reactions of one support, without zero entries.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Cases {
-    /// To what always acts.
+    /// To permanent loads.
     always: Reaction,
     /// To one newton of the tangential force of a mesh: of a positive one, and of a negative one.
     pub meshes: Vec<(usize, [Reaction; 2])>,
     /// To the centrifugal force of a planet body per squared speed of its carrier.
     planets: Vec<(usize, Reaction)>,
-    /// Whether there is ever a couple.
+    /// True if there can be a couple.
     pub couples: bool,
-    /// Where one mesh alone loads the support: the length of the force to one newton, positive and negative.
+    /// If a single mesh loads the support: the length of the force per newton, positive and negative.
     pub only: Option<(usize, [f64; 2])>,
 }
 
@@ -34,7 +34,7 @@ impl Cases {
     fn new(reactions: &[Reaction], meshes: usize, carriers: &[usize]) -> Self {
         let nothing = Reaction::default();
         let (pairs, planets) = reactions[1..].split_at(2 * meshes);
-        // What hangs on the magnitude of a force adds to what hangs on the force, or takes from it.
+        // The part that depends on the magnitude of a force is added to or subtracted from the linear part.
         let of_senses = |pair: &[Reaction]| {
             [1.0, -1.0].map(|sense| {
                 let mut sum = pair[0];
@@ -67,7 +67,7 @@ impl Cases {
         }
     }
 
-    /// What does not hang on torque, at the speeds of all members.
+    /// The part that is independent of torque, at the speeds of all members.
     pub fn torqueless(&self, speed: impl Fn(usize) -> f64) -> Reaction {
         let mut sum = self.always;
         for (carrier, reaction) in &self.planets {
@@ -88,21 +88,21 @@ impl Cases {
 
 #[derive(Debug, Clone)]
 pub(super) struct Axially {
-    /// Thrust that always acts. \[N\]
+    /// Permanent thrust. \[N\]
     pub always: f64,
-    /// The size of the forces that it is the sum of. \[N\]
+    /// Magnitude of the forces in its sum. \[N\]
     pub size: f64,
     /// Mesh and thrust per newton of its tangential force.
     pub meshes: Vec<(usize, f64)>,
     pub taking: Taking,
-    /// Place in the order of the member that takes the thrust of the supports, with the number of copies.
+    /// Index in the order of the member that takes the thrust of the supports, with the number of copies.
     pub carrier: Option<(usize, f64)>,
 }
 
 impl ShaftLoads {
     /// Solves the unit cases.
-    ///
     /// # Errors
+    /// All faults of the arrangement.
     /// Every fault of the arrangement.
     pub fn new(layout: &Layout) -> Result<Self, Vec<LoadFault>> {
         let n = layout.members.len();
@@ -110,7 +110,7 @@ impl ShaftLoads {
         let mut carrier_of: Vec<Vec<usize>> = vec![Vec::new(); n];
         for (i, support) in layout.supports.iter().enumerate() {
             let (carried, carrier) = carried(layout, support);
-            // Thrust of a shaft to the right is thrust of what it carries to the left.
+            // Thrust of a shaft towards +x is thrust towards -x of the members that it supports.
             let turned = carried != support.inner;
             own[carried].push((
                 i,
@@ -226,8 +226,8 @@ impl ShaftLoads {
         2 * self.order.len()
     }
 
-    /// Writes the loads of all supports. `tangential` is the signed tangential force of one copy of each mesh (N), `speeds`
-    /// are those of all members (rad/s), `passed` is as long as [`ShaftLoads::scratch_len`].
+    /// Writes the loads of all supports. `tangential` is the signed tangential force of one copy of each mesh (N), `speeds` are
+    /// those of all members (rad/s), the length of `passed` is [`ShaftLoads::scratch_len`].
     pub fn evaluate(&self, tangential: &[f64], speeds: &[f64], passed: &mut [f64], loads: &mut [SupportLoad]) {
         for support in 0..self.supports {
             let cases = &self.cases[support];
@@ -238,12 +238,12 @@ impl ShaftLoads {
                     None => length(sum.force),
                 },
                 axial: 0.0,
-                // Few supports take a couple, and a root takes time.
+                // Few supports take a couple, and a square root is expensive.
                 tilting: if cases.couples { length(sum.couple) } else { 0.0 },
                 untaken: 0.0,
             };
         }
-        // Thrust that members pass on, and the size of the forces that it is the sum of.
+        // Thrust that members pass on, and the magnitude of the forces in its sum.
         let (passed, sizes) = passed.split_at_mut(self.order.len());
         passed.fill(0.0);
         sizes.fill(0.0);
@@ -256,7 +256,7 @@ impl ShaftLoads {
             thrust += passed[place];
             scale += sizes[place];
             let untaken = member.taking.share(thrust, scale, loads);
-            // However the supports share it among themselves, the net thrust goes to the member behind them.
+            // However the supports share it, the net thrust goes to the supporting member.
             if let Some((carrier, copies)) = member.carrier {
                 passed[carrier] += (thrust - untaken) * copies;
                 sizes[carrier] += scale * copies;
@@ -264,7 +264,7 @@ impl ShaftLoads {
         }
     }
 
-    /// The force of each support on the member that it carries, y and z, for given tangential forces at rest. \[N\]
+    /// The force of each support on its member, y and z, for given tangential forces at standstill. \[N\]
     pub fn vectors(&self, tangential: &[f64]) -> Vec<[f64; 2]> {
         (0..self.supports)
             .map(|support| self.cases[support].sum(tangential, |_| 0.0).force)
@@ -272,17 +272,17 @@ impl ShaftLoads {
     }
 }
 
-/// Middle of the supports of a planet, where its centrifugal force acts.
+/// Centre of the supports of a planet, where its centrifugal force acts.
 fn middle(supports: &[(usize, SupportLayout)]) -> f64 {
     supports.iter().map(|s| s.1.at).sum::<f64>() / supports.len().max(1) as f64
 }
 
-/// Length of a vector; forces are far from the ends of the range of numbers, where `hypot` would earn its time.
+/// Length of a vector; forces are far from overflow, so `hypot` is not needed.
 fn length([y, z]: [f64; 2]) -> f64 {
     (y * y + z * z).sqrt()
 }
 
-/// The length of the force on a support that one mesh alone loads.
+/// The length of the force on a support that a single mesh loads.
 #[inline(always)]
 pub(super) fn under([ahead, back]: &[f64; 2], force: f64) -> f64 {
     force.abs() * if force < 0.0 { *back } else { *ahead }
@@ -295,8 +295,7 @@ fn add(sum: &mut Reaction, case: &Reaction, factor: f64) {
     sum.couple[1] += factor * case.couple[1];
 }
 
-/// Who is carried by a support, and by whom: loose gears and planets by what they share it with, else the inner by the
-/// outer.
+/// The supported and the supporting member of a support: idler gears and planets are supported, else the inner member by the outer.
 fn carried(layout: &Layout, support: &SupportLayout) -> (usize, Option<usize>) {
     match support.outer {
         Some(outer) if layout.members[outer].loose || layout.members[outer].planet.is_some() => {
@@ -306,7 +305,7 @@ fn carried(layout: &Layout, support: &SupportLayout) -> (usize, Option<usize>) {
     }
 }
 
-/// Members from the carried to the carrying, or those in a circle.
+/// Members from the supported to the supporting, or those in a circle.
 fn sort(carrier_of: &[Vec<usize>]) -> Result<Vec<usize>, Vec<usize>> {
     let n = carrier_of.len();
     let mut waiting: Vec<usize> = vec![0; n];
@@ -370,7 +369,7 @@ fn solve(
     reactions
 }
 
-/// What acts on one member along its axis; true where no support takes any, so that it passes through to the member that carries it.
+/// Permanent axial forces on one member; true if no support takes thrust, so that it passes through to the supporting member.
 fn axially(
     layout: &Layout,
     m: usize,
@@ -404,7 +403,7 @@ fn axially(
     (axially, passes)
 }
 
-/// Gives what passes through to the carrying members, and leaves those out through which it passes.
+/// Passes thrust on to the supporting members, and removes the members through which it passes.
 fn passed_on(mut order: Vec<(Axially, bool)>) -> Vec<Axially> {
     for place in 0..order.len() {
         let (member, passes) = &mut order[place];
@@ -425,7 +424,7 @@ fn passed_on(mut order: Vec<(Axially, bool)>) -> Vec<Axially> {
         .collect();
     let left: Vec<usize> = (0..order.len()).filter(|place| passing[*place].is_none()).collect();
     let members = order.into_iter().map(|(mut member, _)| {
-        // What a member gives to one that lets it through goes on to who carries that.
+        // Thrust passed to a member that also passes it through goes on to its supporting member.
         while let Some((carrier, copies)) = member.carrier {
             let Some((behind, further)) = passing[carrier] else {
                 break;

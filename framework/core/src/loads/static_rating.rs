@@ -2,11 +2,11 @@
 //!
 //! Source: ISO 76:2006: S0 = C0/P0 with P0 = X0 Fr + Y0 Fa, and never less than Fr for radial bearings.
 
-/// Static safety below which a bearing is reported: ISO 76 asks for 1 in normal, smoothly running service with ball bearings, and for
-/// more with rollers.
+/// Minimum static safety below which a bearing is reported: ISO 76 requires 1 in normal, smoothly running service with ball
+/// bearings, and more with roller bearings.
 pub const LEAST_STATIC_SAFETY: f64 = 1.0;
 
-/// What the static safety of a rolling bearing takes.
+/// Data for the static safety of a rolling bearing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StaticRating {
     /// Basic static load rating C0. \[N\]
@@ -15,19 +15,19 @@ pub struct StaticRating {
     pub factors: StaticFactors,
 }
 
-/// Factors of the equivalent static load P0 = max(least Fr, X0 Fr + Y0 Fa).
+/// Factors of the equivalent static load P0 = max(minimum share times Fr, X0 Fr + Y0 Fa).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StaticFactors {
     /// X0.
     pub radial: f64,
     /// Y0.
     pub axial: f64,
-    /// Share of the radial load below which P0 cannot be: one for radial bearings, zero for thrust bearings.
+    /// Minimum of P0 over the radial load: one for radial bearings, zero for thrust bearings.
     pub least: f64,
 }
 
 impl StaticFactors {
-    /// Those of a radial bearing.
+    /// The factors of a radial bearing.
     pub const fn radial(x0: f64, y0: f64) -> Self {
         Self {
             radial: x0,
@@ -44,7 +44,7 @@ impl StaticFactors {
 }
 
 impl StaticRating {
-    /// Static safety S0 = C0/P0; absent without load.
+    /// Static safety S0 = C0/P0; `None` without load.
     #[inline]
     pub fn safety(&self, radial: f64, axial: f64) -> Option<f64> {
         let p0 = self.factors.load(radial, axial.abs());
@@ -58,7 +58,7 @@ mod tests {
 
     #[test]
     fn deep_groove_after_iso_76() {
-        // 6308: C0 24 kN. Radial load alone counts whole; at 3 kN and 1 kN the radial load is the greater one.
+        // 6308: C0 24 kN. A purely radial load counts fully; at 3 kN and 1 kN the radial load is the larger one.
         let rating = StaticRating {
             c0: 24_000.0,
             factors: StaticFactors::radial(0.6, 0.5),

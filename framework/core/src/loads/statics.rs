@@ -1,18 +1,18 @@
-//! Reactions of one member to forces, by statics or by a beam.
+//! Reactions of one member to forces, from statics or a beam.
 
 use super::beam::{Beam, BeamFault, BeamLoad, BeamSupport};
 use super::layout::{LoadFault, MemberLayout, SupportLayout};
 
-/// A force at a place, with its arm from the axis, and a couple.
+/// A force at a position, with its arm from the axis, and a couple.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Action {
-    /// Place along the shaft. \[m\]
+    /// Position along the shaft. \[m\]
     pub at: f64,
     /// Arm from the axis in y and z. \[m\]
     pub arm: [f64; 2],
     /// Force in x, y, z. \[N\]
     pub force: [f64; 3],
-    /// Moment about y and z beside that of the force. \[Nm\]
+    /// Moment about y and z in addition to that of the force. \[Nm\]
     pub moment: [f64; 2],
 }
 
@@ -26,7 +26,7 @@ impl Action {
     }
 }
 
-/// What one support does to a member: force in y and z, couple about y and z.
+/// Reaction of one support on a member: force in y and z, couple about y and z.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Reaction {
     /// Force on the member. \[N\]
@@ -35,27 +35,27 @@ pub struct Reaction {
     pub couple: [f64; 2],
 }
 
-/// How the supports of a member answer.
+/// Static system of a member.
 #[derive(Debug, Clone)]
 pub enum Statics {
-    /// Nothing carries it.
+    /// No support.
     None,
     /// One support takes force and couple.
     One {
-        /// Place. \[m\]
+        /// Position. \[m\]
         at: f64,
     },
     /// Two supports.
     Two {
-        /// Places. \[m\]
+        /// Positions. \[m\]
         at: [f64; 2],
     },
-    /// A beam on several.
+    /// A beam on several supports.
     Beam(Box<Beam>),
 }
 
 impl Statics {
-    /// Chooses how a member is carried by its supports.
+    /// Selects the static system of a member from its supports.
     pub fn new(
         number: usize,
         member: &MemberLayout,

@@ -1,5 +1,5 @@
 #![allow(clippy::unwrap_used)]
-use super::abreast::tests::assert_abreast;
+use super::batched::tests::assert_batched_equals_single;
 use super::layout::Section;
 use super::*;
 use crate::attach::Axial;
@@ -113,14 +113,14 @@ fn two_speed() -> Layout {
 
 fn loads_of(layout: &Layout, tangential: &[f64]) -> (Vec<SupportLoad>, Vec<[f64; 2]>) {
     let solved = ShaftLoads::new(layout).unwrap();
-    assert_abreast(&solved, layout.meshes.len(), &vec![100.0; layout.members.len()]);
+    assert_batched_equals_single(&solved, layout.meshes.len(), &vec![100.0; layout.members.len()]);
     let mut loads = vec![SupportLoad::default(); layout.supports.len()];
     let mut passed = vec![0.0; solved.scratch_len()];
-    // Turned first, so that the forces of the caller stay.
+    // Rotated first, so that the forces of the caller stay unchanged.
     for sense in [-1.0, 1.0] {
         let tangential: Vec<f64> = tangential.iter().map(|force| sense * force).collect();
         solved.evaluate(&tangential, &vec![0.0; layout.members.len()], &mut passed, &mut loads);
-        // Where one mesh alone loads a support, its radial load comes from no vector; it must be as long as that of all meshes.
+        // If a single mesh loads a support, its radial load is not computed from a vector; it must equal that of all meshes.
         for (load, [y, z]) in loads.iter().zip(solved.vectors(&tangential)) {
             let length = y.hypot(z);
             assert!(
@@ -233,7 +233,7 @@ fn t2_bearing_loads_of_the_two_speed_example() {
             close(loads[i].radial, radial, 2500.0);
             close(loads[i].axial, axial, 2500.0);
         }
-        // Twice the torque gives twice the loads; the loose pinion's cage carries its gear's resultant and tilts.
+        // Twice the torque gives twice the loads; the cage of the idler pinion carries its gear's resultant and tilts.
         let twice: Vec<f64> = two_speed_forces(multipliers).iter().map(|f| 2.0 * f).collect();
         let (double, _) = loads_of(&two_speed(), &twice);
         for (one, two) in loads.iter().zip(&double) {
@@ -482,7 +482,7 @@ fn g_planet_bearing() {
         meshes: vec![sun, ring],
     };
     let solved = ShaftLoads::new(&layout).unwrap();
-    assert_abreast(&solved, layout.meshes.len(), &vec![100.0; layout.members.len()]);
+    assert_batched_equals_single(&solved, layout.meshes.len(), &vec![100.0; layout.members.len()]);
     // The most loaded planet carries 1.1 times its share of 60 N m; the carrier turns at 750 rpm.
     let share = 1.1 * 60.0 / 3.0;
     let speeds = [0.0, 750.0 * std::f64::consts::PI / 30.0, 0.0, 0.0];
@@ -496,7 +496,7 @@ fn g_planet_bearing() {
     close(loads[0].radial, 1799.85641, 1799.0);
     assert!(loads[0].axial.abs() < 1e-9);
     close(loads[0].tilting, 11.1912321, 11.2);
-    // Three planets leave no transverse force on the sun, and three times the thrust of one.
+    // With three planets the transverse force on the sun cancels, and the thrust is three times that of one.
     let mut even = [0.0; 2];
     even[0] = 60.0 / 3.0 / sun.radius[0];
     close((3.0 * even[0] * sun.forces(0)[0][0]).abs(), 647.047613, 647.0);
@@ -707,7 +707,7 @@ fn axial_case(a: SupportLayout, b: SupportLayout, thrust: f64) -> Result<(f64, f
         meshes: Vec::new(),
     };
     let solved = ShaftLoads::new(&layout)?;
-    assert_abreast(&solved, layout.meshes.len(), &vec![100.0; layout.members.len()]);
+    assert_batched_equals_single(&solved, layout.meshes.len(), &vec![100.0; layout.members.len()]);
     let (loads, _) = loads_of(&layout, &[]);
     Ok((loads[0].axial, loads[1].axial, loads[0].untaken))
 }
@@ -821,7 +821,7 @@ proptest! {
         for i in 0..3 {
             prop_assert!((first[i] + second[i]).abs() < 1e-9);
         }
-        // The moment about the first axis is force times radius, and about the second the same on the other side.
+        // The moment about the first axis is force times radius, and about the second the same on the opposite side.
         let about = |gear: usize, f: &[f64]| mesh.arm(gear)[0] * f[2] - mesh.arm(gear)[1] * f[1];
         prop_assert!((about(0, &first) - force * 0.03).abs() < 1e-9);
         prop_assert!((about(1, &second) - sign * force * 0.09).abs() < 1e-9);
@@ -833,7 +833,7 @@ fn e3_electric_drive_unit() {
     let g = 9.80665;
     let layout = |hand: f64| {
         let mut members = vec![MemberLayout::default(); 3];
-        // Half of the rotor's weight rests on the bearing at the pinion, half on the one behind the rotor.
+        // Half of the rotor's weight is on the bearing at the pinion, half on the one behind the rotor.
         members[0].forces.push((0.0, [0.0, 0.0, -9.0 * g]));
         Layout {
             members,
@@ -909,7 +909,7 @@ fn e3_electric_drive_unit() {
         ),
     ] {
         let mut layout = layout(hand);
-        // The second mesh lies at 95 mm on the intermediate and at 60 mm on the output shaft: shift the output's bearings.
+        // The second mesh is at 95 mm on the intermediate and at 60 mm on the output shaft: shift the output's bearings.
         layout.meshes[1].at = 0.095;
         layout.supports[4].at += 0.035;
         layout.supports[5].at += 0.035;

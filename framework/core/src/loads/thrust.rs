@@ -1,4 +1,4 @@
-//! How the supports of one member share its thrust.
+//! Distribution of thrust over the supports of one member.
 
 use super::SupportLoad;
 use super::layout::SupportLayout;
@@ -8,12 +8,12 @@ use crate::attach::Axial;
 #[derive(Debug, Clone)]
 pub struct Taking {
     pub(super) supports: Vec<usize>,
-    /// The two supports with a contact angle that push each other, which take thrust towards +x and -x, with their induced
-    /// thrust per radial load.
+    /// The two supports with a contact angle that load each other, which take thrust towards +x and -x, with their induced thrust
+    /// per radial load.
     pub(super) pair: Option<[(usize, f64); 2]>,
     /// Supports with a spring and its force. \[N\]
     pub(super) springs: Vec<(usize, f64)>,
-    /// Supports that take a thrust towards -x and towards +x, with their shares of it.
+    /// Supports that take thrust towards -x and towards +x, with their shares of it.
     pub(super) takers: [Vec<(usize, f64)>; 2],
 }
 
@@ -21,7 +21,7 @@ impl Taking {
     /// The arrangement of a member with these supports.
     ///
     /// # Errors
-    /// Where several supports could take one thrust and no shares are stated: the supports, and true for a thrust towards +x.
+    /// If several supports can take one thrust and no shares are stated: the supports, and true for a thrust towards +x.
     pub fn new(supports: &[(usize, SupportLayout)]) -> Result<Self, Vec<(Vec<usize>, bool)>> {
         let mut open = Vec::new();
         let takers = [false, true].map(|right| {
@@ -35,7 +35,7 @@ impl Taking {
                 .map(|(i, s)| (*i, s.share.unwrap_or(1.0) / whole))
                 .collect()
         });
-        // Thrust to the right is named before thrust to the left.
+        // Thrust towards +x is reported before thrust towards -x.
         open.reverse();
         if !open.is_empty() {
             return Err(open);
@@ -56,10 +56,10 @@ impl Taking {
         })
     }
 
-    /// Adds the axial load of each support for a thrust towards +x; returns thrust that nothing takes. `scale` is the size
-    /// of the forces that the thrust is the sum of.
+    /// Adds the axial load of each support for a thrust towards +x; returns the untaken thrust. `scale` is the magnitude of the
+    /// forces in the sum of the thrust.
     pub fn share(&self, thrust: f64, scale: f64, loads: &mut [SupportLoad]) -> f64 {
-        // Bearings with a contact angle push each other: the pair balances K + S_L against S_R.
+        // Bearings with a contact angle load each other: the pair balances K + S_L against S_R.
         if let Some([(r, induced_r), (l, induced_l)]) = self.pair {
             let (s_r, s_l) = (induced_r * loads[r].radial, induced_l * loads[l].radial);
             let thrust = thrust + self.springs.iter().map(|s| s.1).sum::<f64>();
@@ -94,7 +94,7 @@ impl Taking {
     }
 }
 
-/// Whether a support can take a thrust.
+/// True if a support can take a thrust.
 fn takes(support: &SupportLayout, right: bool) -> bool {
     matches!(
         (support.axial, right),

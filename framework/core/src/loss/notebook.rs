@@ -1,18 +1,18 @@
-//! Where all model instances of a transmission write in one pass.
+//! Note cells of all model instances of a transmission in one iteration.
 
 use std::cell::Cell;
 
 use super::{Extent, MOST_KEPT, NoteBase, Notes, Trace};
 
-/// Cells of what all instances note, places for what they keep, and the steps of an explanation. Made once for a pass; the notes
-/// of each instance are made of it where its context is.
+/// Cells for the notes of all instances, space for the values that they keep, and the steps of an explanation. Made once per
+/// iteration; the notes of each instance are derived from it.
 #[derive(Debug, Clone, Copy)]
 pub struct Notebook<'a> {
     /// Cells of limits and observed quantities; without them nothing is noted.
     pub(crate) cells: &'a [Cell<Extent>],
-    /// Places for what each instance computes [once](Notes::once), not a number where nothing was yet; without them nothing is kept.
+    /// Space for the values that each instance computes [once](Notes::once), initially NaN; without it nothing is kept.
     pub(crate) kept: &'a [Cell<[f64; MOST_KEPT]>],
-    /// Where steps are written down.
+    /// Target of recorded steps.
     pub(crate) trace: Option<&'a Trace>,
 }
 
@@ -24,13 +24,13 @@ impl<'a> Notebook<'a> {
         trace: None,
     };
 
-    /// Notes of one instance, which add to what it has noted.
+    /// Notes of one instance, added to its previous notes.
     #[inline]
     pub fn notes(&self, base: NoteBase) -> Notes<'a> {
         Notes { base, book: *self }
     }
 
-    /// Forgets what one instance and those nested in it have noted.
+    /// Clears the notes of one instance and of those nested in it.
     #[inline]
     pub(crate) fn clear(&self, base: NoteBase) {
         for cell in self.cells.get(base.limits()..base.end()).unwrap_or_default() {

@@ -1,6 +1,6 @@
 //! Density over temperature.
 
-/// How density falls with temperature, for d = t - 15 degC.
+/// Decrease of density with temperature, for d = t - 15 degC.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Density {
     /// rho15 (1 - a d), a in 1/K.
@@ -30,7 +30,7 @@ fn api_factor(rho15: f64, warmer: f64) -> f64 {
 }
 
 impl Density {
-    /// The linear law from the density at some temperature in degC; the expansion counts from there.
+    /// The linear law from the density at a temperature in degC; the expansion is relative to that temperature.
     pub fn linear(value: f64, at: f64, expansion: f64) -> Self {
         let rho15 = value * (1.0 - expansion * (STANDARD - at));
         Self::Linear {
@@ -44,7 +44,7 @@ impl Density {
         Self::linear(value, at, DIN_51757 / value)
     }
 
-    /// The API's correction. Its factor hangs weakly on rho15, so the iteration contracts by about a d per step.
+    /// The API's correction. Its factor depends weakly on rho15, so the iteration contracts by about a d per step.
     pub fn api(value: f64, at: f64) -> Self {
         let rho15 = (0..60).fold(value, |rho15, _| value / api_factor(rho15, at - STANDARD));
         Self::Api { rho15 }
@@ -58,7 +58,7 @@ impl Density {
     }
 
     /// Density at a temperature in degC. \[kg/m3\]
-    pub fn at(&self, temperature: f64) -> f64 {
+    pub fn rho_at(&self, temperature: f64) -> f64 {
         let warmer = temperature - STANDARD;
         match self {
             Self::Linear { rho15, expansion } => rho15 * (1.0 - expansion * warmer),
@@ -77,9 +77,9 @@ mod tests {
 
     #[test]
     fn d3_density_of_845_at_80_degc() {
-        close(Density::linear(845.0, 15.0, 7e-4).at(80.0), 806.553);
-        close(Density::api(845.0, 15.0).at(80.0), 803.662);
-        close(Density::din_51757(845.0, 15.0).at(80.0), 845.0 - 0.7 * 65.0);
+        close(Density::linear(845.0, 15.0, 7e-4).rho_at(80.0), 806.553);
+        close(Density::api(845.0, 15.0).rho_at(80.0), 803.662);
+        close(Density::din_51757(845.0, 15.0).rho_at(80.0), 845.0 - 0.7 * 65.0);
     }
 
     #[test]
@@ -89,8 +89,8 @@ mod tests {
             Density::din_51757(803.0, 80.0),
             Density::api(803.0, 80.0),
         ] {
-            close(law.at(80.0), 803.0);
-            close(law.at(15.0), law.rho15());
+            close(law.rho_at(80.0), 803.0);
+            close(law.rho_at(15.0), law.rho15());
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Viscosity index after ASTM D2270 and ISO 2909, and its inverses.
+//! Viscosity index according to ASTM D2270 and ISO 2909, and its inverses.
 
 /// Upper end of each range of kv100, then the coefficients of L and H.
 const ROWS: [(f64, [f64; 6]); 16] = [
@@ -20,7 +20,7 @@ const ROWS: [(f64, [f64; 6]); 16] = [
     (f64::INFINITY, [0.83531, 14.6731, -216.246, 0.16841, 11.8493, -96.947]),
 ];
 
-/// L and H at a viscosity at 100 degC in mm2/s; absent below 2, where the index is not defined.
+/// L and H at a viscosity at 100 degC in mm2/s; `None` below 2, where the index is not defined.
 fn references(kv100: f64) -> Option<(f64, f64)> {
     if kv100.is_nan() || kv100 < 2.0 {
         return None;
@@ -28,14 +28,14 @@ fn references(kv100: f64) -> Option<(f64, f64)> {
     row(kv100)
 }
 
-/// L and H of the row of a viscosity; the first row goes on below its range.
+/// L and H of the row of a viscosity; the first row is extrapolated below its range.
 fn row(kv100: f64) -> Option<(f64, f64)> {
     let (_, [a, b, c, d, e, f]) = ROWS.iter().find(|(end, _)| kv100 < *end)?;
     let square = |p: f64, q: f64, r: f64| (p * kv100 + q) * kv100 + r;
     Some((square(*a, *b, *c), square(*d, *e, *f)))
 }
 
-/// Viscosity index of two viscosities in mm2/s; absent below 2 mm2/s at 100 degC.
+/// Viscosity index of two viscosities in mm2/s; `None` below 2 mm2/s at 100 degC.
 pub fn index(kv40: f64, kv100: f64) -> Option<f64> {
     let (l, h) = references(kv100)?;
     Some(if kv40 >= h {
@@ -52,8 +52,8 @@ pub fn kv40(kv100: f64, index: f64) -> Option<f64> {
     (kv40 > kv100).then_some(kv40)
 }
 
-/// Viscosity at 40 degC of an oil of a family of one index. \[mm2/s\] Below 2 mm2/s at 100 degC, where the standard defines no index, its
-/// first row is continued; other continuations are in use that jump there by a fifth.
+/// Viscosity at 40 degC of an oil in a family with one index. \[mm2/s\] Below 2 mm2/s at 100 degC, where the standard defines no
+/// index, its first row is extrapolated; other common continuations jump there by a fifth.
 pub fn at_constant_index(kv100: f64, index: f64) -> Option<f64> {
     let kv40 = of_references(row(kv100)?, kv100, index);
     (kv40 > kv100).then_some(kv40)
@@ -75,7 +75,7 @@ pub fn kv100(target: f64, index: f64) -> Option<f64> {
     }
     for _ in 0..200 {
         let middle = 0.5 * (low + high);
-        // Where no viscosity at 40 degC lies above, the oil is too thick.
+        // If no viscosity at 40 degC is higher, the oil is too thick.
         if kv40(middle, index).is_some_and(|kv40| kv40 <= target) {
             low = middle;
         } else {
@@ -162,7 +162,7 @@ mod tests {
 
     #[test]
     fn every_coefficient_is_that_of_the_standard() {
-        // Typed a second time from the standard, without a look at `ROWS`.
+        // Independently transcribed from the standard.
         let table = include_str!("../../tests/tables/viscosity_index.csv");
         let lines: Vec<Vec<Option<f64>>> = table
             .lines()

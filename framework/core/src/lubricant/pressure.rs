@@ -2,7 +2,7 @@
 
 use super::ZERO_CELSIUS;
 
-/// How the pressure-viscosity coefficient follows from the oil.
+/// How the pressure-viscosity coefficient is computed from the oil.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum PressureViscosity {
     /// Gold et al., Ind. Lubr. Tribol. 2001: alpha = s nu^t 1e-9 1/Pa, nu in mm2/s.
@@ -19,11 +19,11 @@ pub enum PressureViscosity {
     },
     /// Wooster: alpha = (0.6 + 0.965 lg eta) 1e-8 1/Pa, eta in mPa s.
     Wooster,
-    /// One coefficient. \[1/Pa\]
+    /// A given coefficient. \[1/Pa\]
     Constant(f64),
 }
 
-/// Least coefficient that a correlation answers with: below 1 mm2/s they end or turn negative. \[1/Pa\]
+/// Minimum coefficient of a correlation: below 1 mm2/s correlations end or become negative. \[1/Pa\]
 const LEAST: f64 = 1e-9;
 
 impl PressureViscosity {
@@ -47,12 +47,12 @@ fn so_klaus(nu: f64, slope: f64, rho: f64) -> f64 {
     (1.216 + viscous + thermal - dense) * 1e-8
 }
 
-/// Viscosity under pressure after Barus: eta0 exp(alpha p). Overstates above some 0.5 GPa. \[Pa s\]
+/// Viscosity under pressure according to Barus: eta0 exp(alpha p). Too high above about 0.5 GPa. \[Pa s\]
 pub fn barus(eta0: f64, alpha: f64, pressure: f64) -> f64 {
     eta0 * (alpha * pressure).exp()
 }
 
-/// Viscosity under pressure and at another temperature after Roelands 1966. \[Pa s\] `eta0` in Pa s at `base` degC without
+/// Viscosity under pressure and at another temperature according to Roelands 1966. \[Pa s\] `eta0` in Pa s at `base` degC and zero
 /// pressure, `alpha` its coefficient in 1/Pa, `s0` the slope index over temperature.
 pub fn roelands(eta0: f64, alpha: f64, pressure: f64, base: f64, temperature: f64, s0: f64) -> f64 {
     let ln_ratio = eta0.ln() + 9.67;

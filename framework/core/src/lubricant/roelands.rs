@@ -1,26 +1,26 @@
-//! Viscosity over pressure and temperature in one law, as contacts need it.
+//! Viscosity over pressure and temperature in one law, as needed for contacts.
 //!
 //! Source: Roelands, thesis, Delft 1966: eta = eta_inf exp[ln(eta_r/eta_inf) (1 + p/p_r)^z ((T_r + 135)/(T + 135))^S0], T in
 //! degC, eta_inf = 6.31e-5 Pa s, p_r = 1.96e8 Pa. A law fitted at 40 and 100 degC is within 2 % of ASTM D341 from 20 to 140 degC
-//! and 4.5 % at 0 degC. Above some 1 GPa it overstates the viscosity.
+//! and 4.5 % at 0 degC. Above about 1 GPa the viscosity is too high.
 
-/// Viscosity towards which all isotherms and isobars run. \[Pa s\]
+/// Limit viscosity of all isotherms and isobars. \[Pa s\]
 pub const ETA_INF: f64 = 6.31e-5;
-/// Pressure of the law. \[Pa\]
+/// Reference pressure of the law. \[Pa\]
 pub const P_R: f64 = 1.96e8;
-/// Zero of the law's temperature scale below that of Celsius. \[K\]
+/// Zero of the law's temperature scale, below 0 degC. \[K\]
 const ZERO: f64 = 135.0;
-/// Viscosity at which the law is cut off: a contact has long become plastic there. \[Pa s\]
+/// Viscosity at which the law is cut off; far below it a contact is already plastic. \[Pa s\]
 const THICKEST: f64 = 1e9;
-/// Least ln(eta/eta_inf) of a point: a liquid stays thicker than the law's limit.
+/// Minimum ln(eta/eta_inf) of a point: a liquid is thicker than the law's limit.
 const LEAST: f64 = 1e-2;
-/// Greatest logarithm of a change of ln(eta/eta_inf) with temperature, far beyond any oil, so that no number overflows.
+/// Maximum logarithm of a change of ln(eta/eta_inf) with temperature, far beyond any oil, to avoid overflow.
 const FARTHEST: f64 = 30.0;
 
 /// A fitted law.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Roelands {
-    /// ln(eta_r/eta_inf) at the reference temperature without pressure.
+    /// ln(eta_r/eta_inf) at the reference temperature and zero pressure.
     pub ln_ratio: f64,
     /// Reference temperature. \[degC\]
     pub reference: f64,
@@ -39,7 +39,7 @@ fn above_zero(temperature: f64) -> f64 {
 }
 
 impl Roelands {
-    /// The law through two points of temperature in degC and viscosity in Pa s without pressure.
+    /// The law through two points of temperature in degC and viscosity in Pa s at zero pressure.
     pub fn through(first: (f64, f64), second: (f64, f64), z: f64) -> Self {
         let (one, two) = (ln_ratio(first.1), ln_ratio(second.1));
         Self {
@@ -50,7 +50,7 @@ impl Roelands {
         }
     }
 
-    /// The law through one point of temperature in degC and viscosity in Pa s, with the relative fall of viscosity there in
+    /// The law through one point of temperature in degC and viscosity in Pa s, with the relative decrease of viscosity there in
     /// 1/K.
     pub fn tangent(temperature: f64, eta: f64, beta: f64, z: f64) -> Self {
         let ratio = ln_ratio(eta);
@@ -62,31 +62,31 @@ impl Roelands {
         }
     }
 
-    /// The exponent that gives a pressure-viscosity coefficient in 1/Pa to an oil of a viscosity in Pa s.
+    /// The exponent that reproduces a pressure-viscosity coefficient in 1/Pa for an oil with a viscosity in Pa s.
     pub fn exponent(alpha: f64, eta: f64) -> f64 {
         alpha * P_R / ln_ratio(eta)
     }
 
-    /// The pressure-viscosity coefficient of an exponent for an oil of a viscosity in Pa s; [`exponent`](Self::exponent) turned
-    /// round. \[1/Pa\]
+    /// The pressure-viscosity coefficient from an exponent for an oil with a viscosity in Pa s; the inverse of
+    /// [`exponent`](Self::exponent). \[1/Pa\]
     pub fn coefficient(z: f64, eta: f64) -> f64 {
         z * ln_ratio(eta) / P_R
     }
 
-    /// ln(eta/eta_inf) at a temperature in degC without pressure.
+    /// ln(eta/eta_inf) at a temperature in degC and zero pressure.
     #[inline]
     pub fn ln_ratio(&self, temperature: f64) -> f64 {
         let cooler = above_zero(self.reference) / above_zero(temperature);
         self.ln_ratio * (self.s0 * cooler.ln()).clamp(-FARTHEST, FARTHEST).exp()
     }
 
-    /// Factor by which a pressure in Pa raises [`ln_ratio`](Self::ln_ratio).
+    /// Factor of a pressure in Pa on [`ln_ratio`](Self::ln_ratio).
     #[inline]
     pub fn pressed(&self, pressure: f64) -> f64 {
         (1.0 + pressure / P_R).powf(self.z)
     }
 
-    /// Viscosity at a temperature in degC under a pressure that has this factor. \[Pa s\] At most 1e9 Pa s.
+    /// Viscosity at a temperature in degC under a pressure with this factor. \[Pa s\] At most 1e9 Pa s.
     #[inline]
     pub fn eta_pressed(&self, pressed: f64, temperature: f64) -> f64 {
         (ETA_INF * (self.ln_ratio(temperature) * pressed).min(700.0).exp()).min(THICKEST)
@@ -97,12 +97,12 @@ impl Roelands {
         self.eta_pressed(self.pressed(pressure), temperature)
     }
 
-    /// Pressure-viscosity coefficient without pressure at a temperature in degC. \[1/Pa\]
+    /// Pressure-viscosity coefficient at zero pressure and a temperature in degC. \[1/Pa\]
     pub fn alpha(&self, temperature: f64) -> f64 {
         self.z * self.ln_ratio(temperature) / P_R
     }
 
-    /// Relative fall of viscosity with temperature, without pressure, at a temperature in degC. \[1/K\]
+    /// Relative decrease of viscosity with temperature, at zero pressure and a temperature in degC. \[1/K\]
     pub fn beta(&self, temperature: f64) -> f64 {
         self.s0 * self.ln_ratio(temperature) / above_zero(temperature)
     }
@@ -146,7 +146,7 @@ mod tests {
         let oil = base_oil();
         let beta = (oil.eta(0.0, 59.999) / oil.eta(0.0, 60.001)).ln() / 0.002;
         let alpha = (oil.eta(1e3, 60.0) / oil.eta(0.0, 60.0)).ln() / 1e3;
-        // Differences over 2 mK and 1 kPa keep five digits.
+        // Differences over 2 mK and 1 kPa have five accurate digits.
         assert!((beta / oil.beta(60.0) - 1.0).abs() < 1e-5 && (alpha / oil.alpha(60.0) - 1.0).abs() < 1e-5);
     }
 

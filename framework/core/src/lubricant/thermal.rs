@@ -1,4 +1,4 @@
-//! Specific heat and thermal conductivity after Cragoe 1929, for petroleum oils.
+//! Specific heat and thermal conductivity according to Cragoe 1929, for petroleum oils.
 
 /// Specific heat from density at 15 degC and temperature in degC. \[J/(kg K)\]
 pub fn heat_capacity(rho15: f64, temperature: f64) -> f64 {

@@ -1,4 +1,4 @@
-//! Viscosity over temperature after Vogel: eta = A exp(B / (t + C)), t in degC.
+//! Viscosity over temperature according to Vogel: eta = A exp(B / (t + C)), t in degC.
 
 /// A fitted law of the dynamic viscosity.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -7,12 +7,12 @@ pub struct Vogel {
     pub ln_a: f64,
     /// B. \[K\]
     pub b: f64,
-    /// C. \[degC\] 95 is usual for mineral gear oils.
+    /// C. \[degC\] 95 is typical for mineral gear oils.
     pub c: f64,
 }
 
 impl Vogel {
-    /// The law through two points of temperature in degC and dynamic viscosity in mPa s, with C given.
+    /// The law through two points of temperature in degC and dynamic viscosity in mPa s, with a given C.
     pub fn through(first: (f64, f64), second: (f64, f64), c: f64) -> Self {
         let (x1, x2) = (1.0 / (first.0 + c), 1.0 / (second.0 + c));
         let b = (first.1 / second.1).ln() / (x1 - x2);
@@ -23,7 +23,7 @@ impl Vogel {
         }
     }
 
-    /// The law through three points; absent where no C fits them with a pole below the coldest.
+    /// The law through three points; `None` if no C fits them with a pole below the coldest.
     pub fn through_three(mut points: [(f64, f64); 3]) -> Option<Self> {
         points.sort_by(|p, q| p.0.total_cmp(&q.0));
         let [(t1, e1), (t2, e2), (t3, e3)] = points;
@@ -38,7 +38,7 @@ impl Vogel {
         (self.ln_a + self.b / (temperature + self.c).max(1.0)).min(700.0).exp()
     }
 
-    /// Relative fall of the dynamic viscosity with temperature. \[1/K\]
+    /// Relative decrease of the dynamic viscosity with temperature. \[1/K\]
     pub fn slope(&self, temperature: f64) -> f64 {
         self.b / (temperature + self.c).max(1.0).powi(2)
     }
@@ -65,7 +65,7 @@ mod tests {
 
     #[test]
     fn points_that_follow_no_such_law_are_refused() {
-        // Viscosity that falls faster when warm has its pole among the points.
+        // A viscosity that falls faster when warm has its pole among the points.
         assert_eq!(Vogel::through_three([(0.0, 100.0), (50.0, 90.0), (100.0, 5.0)]), None);
     }
 }

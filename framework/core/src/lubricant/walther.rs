@@ -1,16 +1,16 @@
-//! Viscosity over temperature after Walther, ASTM D341 and DIN 51563: lg lg Z = A - B lg T, Z the viscosity in mm2/s with a
+//! Viscosity over temperature according to Walther, ASTM D341 and DIN 51563: lg lg Z = A - B lg T, Z the viscosity in mm2/s with a
 //! constant.
 
 use std::f64::consts::LN_10;
 
 use super::ZERO_CELSIUS;
 
-/// What stands for Z.
+/// Definition of Z.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Form {
     /// nu + 0.7: ASTM D341 from 2 mm2/s.
     AstmD341,
-    /// nu + 0.8: DIN 51563. Some 2 % off the former at 0 degC, the same between the two points of its fit.
+    /// nu + 0.8: DIN 51563. About 2 % different from the former at 0 degC, the same between the two points of its fit.
     Din51563,
     /// nu + 0.7 + exp(-1.47 - 1.84 nu - 0.51 nu^2): ASTM D341 from 0.21 mm2/s.
     AstmD341Low,
@@ -25,7 +25,7 @@ impl Form {
         }
     }
 
-    /// Viscosity for Z, and its slope.
+    /// Viscosity from Z, and its slope.
     fn nu(self, z: f64) -> (f64, f64) {
         match self {
             Self::AstmD341 => (z - 0.7, 1.0),
@@ -46,11 +46,11 @@ pub struct Walther {
     pub a: f64,
     /// Slope.
     pub b: f64,
-    /// What stands for Z.
+    /// Definition of Z.
     pub form: Form,
 }
 
-/// Least viscosity that the law answers with: beyond its range it crosses zero, and a thin oil stays an oil. \[mm2/s\]
+/// Minimum viscosity of the law: outside its range it would cross zero. \[mm2/s\]
 const THINNEST: f64 = 0.1;
 
 impl Walther {
@@ -78,7 +78,7 @@ impl Walther {
         self.form.nu(self.z(temperature).1).0.max(THINNEST)
     }
 
-    /// Kinematic viscosity in mm2/s, and its relative fall with temperature, -(dnu/dT)/nu, in 1/K.
+    /// Kinematic viscosity in mm2/s, and its relative decrease with temperature, -(dnu/dT)/nu, in 1/K.
     pub fn nu_and_slope(&self, temperature: f64) -> (f64, f64) {
         let (ln_z, z) = self.z(temperature);
         let (nu, slope) = self.form.nu(z);
@@ -149,7 +149,7 @@ mod tests {
             for form in [Form::AstmD341, Form::Din51563, Form::AstmD341Low] {
                 let law = Walther::through((40.0, nu40), (100.0, (nu40 / ratio).max(2.0)), form);
                 let difference = (law.nu(t - 1e-3) - law.nu(t + 1e-3)) / 2e-3 / law.nu(t);
-                // A central difference over 2 mK of a smooth law keeps six digits; below 0.1 mm2/s it stands still.
+                // A central difference over 2 mK of a smooth law has six accurate digits; below 0.1 mm2/s it is constant.
                 prop_assert!(law.nu(t + 1e-3) <= 0.1 || (difference / law.nu_and_slope(t).1 - 1.0).abs() < 1e-5);
             }
         }

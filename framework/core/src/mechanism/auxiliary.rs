@@ -1,28 +1,27 @@
-//! Auxiliaries: pumps and whatever else takes moment from a shaft.
+//! Auxiliaries: pumps and other components driven by a shaft.
 
 use std::sync::Arc;
 
 use crate::attach::{MemberSite, OnMember};
 use crate::context;
-use crate::generic::Scalar;
 use crate::loss::{Loss, Notes, Undefined};
+use crate::mechanism::Scalar;
 use crate::mechanism::{Component, Law, Mechanism, NoPart, Quantity};
 
 /// Marker of the mechanism; never constructed.
 #[derive(Debug)]
 pub enum Auxiliary {}
 
-/// Moment that an auxiliary takes from its shaft. A model answers with a moment.
+/// Torque that an auxiliary takes from its shaft. A model returns a torque.
 ///
-/// It may look at [`AuxiliaryAt`], which says of each quantity what it is, its unit, where it comes from and in what range it is
-/// tested, and at the part in it.
+/// The inputs are [`AuxiliaryAt`], which documents each quantity with unit, source and tested range, and the part in it.
 pub trait AuxiliaryModel: Send + Sync {
     /// Loss at one operating point. Pure; must not allocate.
     fn loss(&self, at: &AuxiliaryAt<'_>) -> Result<Loss, Undefined>;
 }
 
 context! {
-    /// All that the model of an auxiliary may look at.
+    /// All inputs of an auxiliary model.
     pub struct AuxiliaryAt of Auxiliary {
         /// Speed of the shaft that drives it, signed. [rpm]
         speed: 2000.0 in -30000.0..=30000.0 from "kinematics of its shaft",
@@ -41,8 +40,8 @@ context! {
 
 impl Mechanism for Auxiliary {
     const KEY: &'static str = "auxiliary";
-    const MEANING: &'static str = "Moment that a pump or another auxiliary takes from a shaft.";
-    const ANSWER: &'static str = "Moment taken from the shaft. [Nm]";
+    const MEANING: &'static str = "Torque that a pump or another auxiliary takes from a shaft.";
+    const ANSWER: &'static str = "Torque taken from the shaft. [Nm]";
     const EXAMPLE: &'static str = "{}";
     const QUANTITIES: &'static [Quantity<Self>] = AuxiliaryAt::QUANTITIES;
     const LAWS: &'static [Law<Self>] = AuxiliaryAt::LAWS;
@@ -70,7 +69,7 @@ impl Component for Auxiliary {
     type Attachment = OnMember;
 
     #[inline(always)]
-    fn at<'a>(part: &'a NoPart, site: MemberSite<'a>, notes: Notes<'a>) -> AuxiliaryAt<'a> {
+    fn context<'a>(part: &'a NoPart, site: MemberSite<'a>, notes: Notes<'a>) -> AuxiliaryAt<'a> {
         let oil = site.oil;
         AuxiliaryAt {
             part,

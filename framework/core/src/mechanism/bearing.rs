@@ -7,52 +7,51 @@ use serde::{Deserialize, Serialize};
 
 use crate::attach::{Support, SupportSite};
 use crate::context;
-use crate::generic::Scalar;
 use crate::lanes::{LANES, Lane, LaneNotes, LossLanes, REMEMBERED, each, same_notes};
 use crate::loads::{LoadLanes, StaticFactors, StaticRating};
 use crate::loss::{Loss, NoteBase, Notes, Term, Undefined};
+use crate::mechanism::Scalar;
 use crate::mechanism::{Component, Mechanism, Quantity};
 
 /// Marker of the mechanism; never constructed.
 #[derive(Debug)]
 pub enum Bearing {}
 
-/// Friction of one rolling bearing. A model answers with moments about the bearing's axis.
+/// Friction of one rolling bearing. A model returns moments about the bearing's axis.
 ///
-/// It may look at [`BearingAt`], which says of each quantity what it is, its unit, where it comes from and in what range it is
-/// tested, and at the part in it.
+/// The inputs are [`BearingAt`], which documents each quantity with unit, source and tested range, and the part in it.
 pub trait BearingModel: Send + Sync {
-    /// Loss at one operating point. Pure; must not allocate. What hangs on speed and oil alone may go into
-    /// [`BearingAt::once`], which spares it in all passes of a point but the first.
+    /// Loss at one operating point. Pure; must not allocate. Values that depend only on speed and oil may be computed in
+    /// [`BearingAt::once`], which skips them in all iterations of a point but the first.
     fn loss(&self, at: &BearingAt<'_>) -> Result<Loss, Undefined>;
 
-    /// The same at several loads side by side, where all else is as at `at`, whose loads mean nothing; muted. What it answers must have the bits of
-    /// [`loss`](Self::loss), but for powers that are remembered ([`LossLanes::powers`]); the suite of the framework compares both.
-    /// Without code of its own it asks once for each lane.
+    /// Batched [`loss`](Self::loss) at several loads, with all other quantities as in `at`, whose loads are unused; muted. The
+    /// result must have the bits of [`loss`](Self::loss), except for remembered powers ([`LossLanes::powers`]); the conformance
+    /// suite compares both. The default evaluates each lane separately.
     fn losses(&self, at: &BearingAt<'_>, loads: &LoadLanes, losses: &mut LossLanes) {
         one_by_one(self, at, loads, losses);
     }
 
-    /// False where no limit or observed quantity hangs on the load. [`note`](Self::note) is then asked once for many points, at no load
-    /// and with no lane wanted: it notes by [`LaneNotes::all`] or the notes of the context alone.
+    /// False if no limit or observed quantity depends on the load. [`note`](Self::note) is then called once for many points,
+    /// without load and without active lanes: it must use only [`LaneNotes::all`] or the notes of the context.
     fn notes_hang_on_load(&self) -> bool {
         true
     }
 
-    /// Notes what [`loss`](Self::loss) notes at these loads.
+    /// Writes the notes of [`loss`](Self::loss) at these loads.
     fn note(&self, at: &BearingAt<'_>, loads: &LoadLanes, notes: LaneNotes<'_>) {
         if !self.notes_hang_on_load() {
             let _ = self.loss(&at.under(loads, 0, notes.all()));
             return;
         }
         for lane in (0..LANES).filter(|lane| notes.wanted(*lane)) {
-            // An answer that is no number leaves the lane to its point alone.
+            // NaN excludes the lane, whose point is then evaluated as a single point.
             let _ = self.loss(&at.under(loads, lane, notes.lane(lane)));
         }
     }
 }
 
-/// Asks a model once for each lane: [`BearingModel::losses`] where nothing spares that.
+/// Evaluates a model in each lane: the default of [`BearingModel::losses`].
 pub fn one_by_one<M: BearingModel + ?Sized>(model: &M, at: &BearingAt<'_>, loads: &LoadLanes, losses: &mut LossLanes) {
     for lane in 0..LANES {
         if !losses.wanted(lane) {
@@ -102,7 +101,7 @@ pub enum BearingKind {
     SphericalRollerThrust,
 }
 
-/// How oil or grease reaches a bearing.
+/// Lubrication of a bearing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Lubrication {
@@ -117,19 +116,19 @@ pub enum Lubrication {
     Grease,
 }
 
-/// A rolling bearing as written; absent keys come from the catalogue by `designation`.
+/// A rolling bearing as written; omitted keys come from the catalogue by `designation`.
 #[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
 pub struct BearingEntry {
-    /// Designation in a bearing catalogue; fills the keys that are not written.
+    /// Designation in a bearing catalogue; fills the omitted keys.
     pub designation: Option<String>,
     /// Kind of the bearing.
     pub kind: Option<BearingKind>,
-    /// Dimension series, as the tables of the loss models name it.
+    /// Dimension series, as in the tables of the loss models.
     pub series: Option<String>,
-    /// Bore diameter; inside diameter of the rolling elements' track for a needle cage. [mm]
+    /// Bore diameter; inside diameter of the raceway for a needle roller and cage assembly. [mm]
     #[schemars(range(min = 0.5, max = 3000.0))]
     pub bore: Option<f64>,
-    /// Outside diameter; outside diameter of the track for a needle cage. [mm]
+    /// Outside diameter; outside diameter of the raceway for a needle roller and cage assembly. [mm]
     #[schemars(range(min = 1.0, max = 5000.0))]
     pub outside: Option<f64>,
     /// Width; total width of a tapered roller bearing. [mm]
@@ -153,10 +152,10 @@ pub struct BearingEntry {
     /// Radius of the lowest point of the outer raceway. [mm]
     #[schemars(range(min = 0.5, max = 2500.0))]
     pub raceway: Option<f64>,
-    /// Height of the oil above the lowest point of the outer raceway, where the bearing has a pocket of its own. [mm]
+    /// Oil height above the lowest point of the outer raceway, if the bearing has a separate oil pocket. [mm]
     #[schemars(range(min = 0.0, max = 2000.0))]
     pub oil_height: Option<f64>,
-    /// How oil or grease reaches the bearing.
+    /// Lubrication.
     #[serde(default)]
     pub lubrication: Lubrication,
 }
@@ -189,9 +188,9 @@ pub struct BearingPart {
     pub y0: Option<f64>,
     /// Radius of the lowest point of the outer raceway. \[m\]
     pub raceway: f64,
-    /// Own oil height above the raceway's lowest point. \[m\]
+    /// Separate oil height above the raceway's lowest point. \[m\]
     pub oil_height: Option<f64>,
-    /// How oil or grease reaches the bearing.
+    /// Lubrication.
     pub lubrication: Lubrication,
 }
 
@@ -201,7 +200,7 @@ impl BearingPart {
         0.5 * (self.bore + self.outside)
     }
 
-    /// Factors of the equivalent static load P0 after ISO 76:2006. Absent for kinds whose factors depend on an inner
+    /// Factors of the equivalent static load P0 according to ISO 76:2006. `None` for kinds whose factors depend on an internal
     /// geometry that is not stated.
     pub fn static_factors(&self) -> Option<StaticFactors> {
         let (x0, y0) = match self.kind {
@@ -211,10 +210,10 @@ impl BearingPart {
             | BearingKind::NeedleCage
             | BearingKind::ToroidalRoller
             | BearingKind::ToroidalRollerFullComplement => (1.0, 0.0),
-            // For balls Y0 is 0.26 at a contact angle of 40 degrees, 0.38 at 25.
+            // For ball bearings Y0 is 0.26 at a contact angle of 40 degrees, 0.38 at 25.
             BearingKind::TaperedRoller | BearingKind::AngularContactBall => (0.5, self.y0?),
             BearingKind::SphericalRoller | BearingKind::SelfAligningBall => (1.0, self.y0?),
-            // A contact angle of 90 degrees: thrust alone.
+            // A contact angle of 90 degrees: thrust only.
             BearingKind::ThrustBall | BearingKind::CylindricalRollerThrust | BearingKind::NeedleRollerThrust => {
                 return Some(StaticFactors {
                     radial: 0.0,
@@ -227,7 +226,7 @@ impl BearingPart {
         Some(StaticFactors::radial(x0, y0))
     }
 
-    /// Static load rating with the factors of P0; absent where one of them is not known.
+    /// Static load rating with the factors of P0; `None` if one of them is not known.
     pub fn static_rating(&self) -> Option<StaticRating> {
         Some(StaticRating {
             c0: self.c0?,
@@ -253,27 +252,27 @@ impl TryFrom<BearingEntry> for BearingPart {
 
     fn try_from(entry: BearingEntry) -> Result<Self, String> {
         let missing = |what: &str| {
-            format!("`{what}` is missing: give `designation` of a catalogue, or `kind`, `bore` and `outside`")
+            format!("`{what}` is missing: state a catalogue `designation`, or `kind`, `bore` and `outside`")
         };
         let kind = entry.kind.ok_or_else(|| missing("kind"))?;
         let bore = entry.bore.ok_or_else(|| missing("bore"))?;
         let outside = entry.outside.ok_or_else(|| missing("outside"))?;
         if outside <= bore {
             return Err(format!(
-                "outside {} mm is not greater than bore {} mm: exchange them or correct one",
+                "outside {} mm does not exceed bore {} mm: swap them or correct one",
                 outside * 1e3,
                 bore * 1e3
             ));
         }
-        // Without the catalogue's shoulder diameters: balls fill about 0.3 of the section (D - d), so the raceway's
-        // lowest point lies at (d_m + D_w)/2; rollers run on half the outside diameter for tapered and needle bearings.
+        // Without the catalogue's shoulder diameters: the ball diameter is about 0.3 (D - d), so the raceway's lowest point is at
+        // (d_m + D_w)/2; for tapered and needle roller bearings it is at half the outside diameter.
         let raceway = entry.raceway.unwrap_or(match kind {
             BearingKind::TaperedRoller | BearingKind::NeedleCage => 0.5 * outside,
             _ => 0.25 * (bore + outside) + 0.15 * (outside - bore),
         });
         if !(0.5 * bore..=0.5 * outside).contains(&raceway) {
             return Err(format!(
-                "raceway {} mm does not lie between the radii of bore and outside, {} and {} mm: correct one of them",
+                "raceway {} mm is not between the radii of bore and outside, {} and {} mm: correct one of them",
                 raceway * 1e3,
                 0.5e3 * bore,
                 0.5e3 * outside
@@ -299,35 +298,35 @@ impl TryFrom<BearingEntry> for BearingPart {
 }
 
 context! {
-    /// All that a bearing model may look at.
+    /// All inputs of a bearing model.
     pub struct BearingAt of Bearing {
         /// Speed of the inner ring relative to the outer ring, signed. [rpm]
         speed: 3000.0 in -30000.0..=30000.0 from "kinematics of `shaft` and `outer`",
         /// Speed of the outer ring, signed; zero in the housing. [rpm]
         outer_speed: 0.0 in -30000.0..=30000.0 from "kinematics of `outer`",
         /// Radial load. [N]
-        radial: 1000.0 in 0.0..=100000.0 from "statics of the shaft with tooth forces, weights, outside forces and preload, times `radial_factor`",
+        radial: 1000.0 in 0.0..=100000.0 from "statics of the shaft with tooth forces, weights, external forces and preload, times `radial_factor`",
         /// Axial load. [N]
         axial: 300.0 in 0.0..=50000.0 from "the bearings of the shaft that take its thrust, with preload, times `axial_factor`",
         /// Tilting moment. [Nm]
-        tilting: 0.0 in 0.0..=1000.0 from "statics of a shaft that this support alone carries",
+        tilting: 0.0 in 0.0..=1000.0 from "statics of a shaft supported by this bearing alone",
         /// Temperature of the oil at the bearing. [degC]
         temperature: 80.0 in -40.0..=200.0 from "the oil of the component: given, balanced or a node of the network, and `temperature_offset`",
         /// Kinematic viscosity of the oil at the bearing. [mm2/s]
         nu: 10.0 in 1.0..=10000.0 from "the viscosity of that oil at this temperature",
         /// Density of the oil at the bearing. [kg/m3]
         rho: 820.0 in 500.0..=1300.0 from "the density of that oil at this temperature",
-        /// Height of the oil above the lowest point of the outer raceway; zero when dry. [mm]
-        oil_height: 5.0 in 0.0..=500.0 from "`oil_height`, else the level of the oil at its place",
-        /// Coefficient of boundary friction that the oil states; zero where it states none. [-]
+        /// Oil height above the lowest point of the outer raceway; zero when dry. [mm]
+        oil_height: 5.0 in 0.0..=500.0 from "`oil_height`, else the oil level at its position",
+        /// Coefficient of boundary friction stated for the oil; zero if none is stated. [-]
         mu_bl: 0.0 in 0.0..=0.3 from "`mu_bl` of the oil",
-        /// Coefficient of full-film friction of ball bearings that the oil states. [-]
+        /// Coefficient of full-film friction of ball bearings stated for the oil. [-]
         mu_ehl: 0.05 in 0.001..=0.2 from "`mu_ehl` of the oil, or its kind",
     }
 }
 
 impl<'a> BearingAt<'a> {
-    /// The same under the load of one lane.
+    /// The context at the load of one lane.
     #[inline]
     fn under(&self, loads: &LoadLanes, lane: usize, notes: Notes<'a>) -> Self {
         self.with(|to| {
@@ -360,11 +359,11 @@ impl Mechanism for Bearing {
     fn speed(at: &BearingAt<'_>) -> f64 {
         at.speed
     }
-    fn side_by_side(model: &Self::Model, at: &BearingAt<'_>, notes: NoteBase) -> Option<&'static str> {
+    fn compare_batched(model: &Self::Model, at: &BearingAt<'_>, notes: NoteBase) -> Option<&'static str> {
         let factor = |i: usize| 0.3 + 1.5 * i as f64 / LANES as f64;
         let loads = LoadLanes {
             radial: each(|i| at.radial * factor(i)),
-            // Some lanes without.
+            // Some lanes without load.
             axial: each(|i| if i % 5 == 0 { 0.0 } else { at.axial * factor(i) }),
             tilting: each(|i| at.tilting * factor(i)),
             untaken: Lane::ZERO,
@@ -377,9 +376,9 @@ impl Mechanism for Bearing {
         });
         model.losses(&without, &loads, &mut losses);
         if !(0..LANES).all(|lane| losses.agrees(lane, &of(lane, Notes::MUTED), 0.0)) {
-            return Some("`losses` answers otherwise than `loss`");
+            return Some("`losses` differs from `loss`");
         }
-        // What is remembered comes from another speed and loads close by.
+        // Remembered values come from another speed and similar loads.
         let before = without.with(|to| to.speed *= 1.3);
         let closer = |load: &Lane| each(|i| load[i] * 1.001);
         let nearby = LoadLanes {
@@ -392,9 +391,9 @@ impl Mechanism for Bearing {
         model.losses(&before, &nearby, &mut remembered);
         model.losses(&without, &loads, &mut remembered);
         if !(0..LANES).all(|lane| remembered.agrees(lane, &of(lane, Notes::MUTED), REMEMBERED)) {
-            return Some("`losses` remembers what is no power of the loads times a constant");
+            return Some("`losses` remembers a value that is not a power of the loads times a constant");
         }
-        // What is undefined at a load is noted by its point alone.
+        // The single point notes values that are undefined at a load.
         if (0..LANES).any(|lane| of(lane, Notes::MUTED).is_err()) {
             return None;
         }
@@ -408,9 +407,9 @@ impl Mechanism for Bearing {
             model.note(&without.with(|to| to.notes = notes.all()), &LoadLanes::NONE, notes);
         };
         if !model.notes_hang_on_load() && !same_notes(notes, single, once) {
-            return Some("what it notes hangs on the load");
+            return Some("a note depends on the load");
         }
-        (!same).then_some("`note` notes otherwise than `loss`")
+        (!same).then_some("`note` writes other notes than `loss`")
     }
     fn scalar(law: Scalar<Self>) -> Arc<Self::Model> {
         Arc::new(law)
@@ -422,7 +421,7 @@ impl Component for Bearing {
     type Attachment = Support;
 
     #[inline(always)]
-    fn at<'a>(part: &'a BearingPart, site: SupportSite<'a>, notes: Notes<'a>) -> BearingAt<'a> {
+    fn context<'a>(part: &'a BearingPart, site: SupportSite<'a>, notes: Notes<'a>) -> BearingAt<'a> {
         let oil = site.oil;
         BearingAt {
             part,
@@ -493,6 +492,6 @@ mod tests {
             outside: Some(0.025),
             ..BearingEntry::default()
         };
-        assert!(BearingPart::try_from(entry).unwrap_err().contains("exchange"));
+        assert!(BearingPart::try_from(entry).unwrap_err().contains("swap"));
     }
 }

@@ -7,18 +7,17 @@ use serde::{Deserialize, Serialize};
 
 use crate::attach::{Clearance, ClearanceSite};
 use crate::context;
-use crate::generic::Scalar;
 use crate::loss::{Loss, Notes, Undefined};
+use crate::mechanism::Scalar;
 use crate::mechanism::{Component, Mechanism, Quantity};
 
 /// Marker of the mechanism; never constructed.
 #[derive(Debug)]
 pub enum Clutch {}
 
-/// Drag of one open clutch or brake. Closed, its members have one speed and it loses nothing.
+/// Drag of one open clutch or brake. When closed, its members have equal speed and the loss is zero.
 ///
-/// It may look at [`ClutchAt`], which says of each quantity what it is, its unit, where it comes from and in what range it is
-/// tested, and at the part in it.
+/// The inputs are [`ClutchAt`], which documents each quantity with unit, source and tested range, and the part in it.
 pub trait ClutchModel: Send + Sync {
     /// Loss at one operating point. Pure; must not allocate.
     fn loss(&self, at: &ClutchAt<'_>) -> Result<Loss, Undefined>;
@@ -34,7 +33,7 @@ pub struct ClutchPart {
     #[schemars(range(min = 1.0, max = 2000.0))]
     pub outer_diameter: Option<f64>,
     /// Number of friction interfaces. [-]
-    #[serde(default = "one")]
+    #[serde(default = "default_one")]
     #[schemars(range(min = 1, max = 100))]
     pub faces: u32,
     /// Gap of one open interface. [mm]
@@ -42,12 +41,12 @@ pub struct ClutchPart {
     pub gap: Option<f64>,
 }
 
-fn one() -> u32 {
+fn default_one() -> u32 {
     1
 }
 
 context! {
-    /// All that a clutch model may look at.
+    /// All inputs of a clutch model.
     pub struct ClutchAt of Clutch {
         /// Speed of the first member relative to the second, signed; zero when closed. [rpm]
         speed: 500.0 in -30000.0..=30000.0 from "kinematics of both members and the gear state",
@@ -92,7 +91,7 @@ impl Component for Clutch {
     type Attachment = Clearance;
 
     #[inline(always)]
-    fn at<'a>(part: &'a ClutchPart, site: ClearanceSite<'a>, notes: Notes<'a>) -> ClutchAt<'a> {
+    fn context<'a>(part: &'a ClutchPart, site: ClearanceSite<'a>, notes: Notes<'a>) -> ClutchAt<'a> {
         let oil = site.oil;
         ClutchAt {
             part,

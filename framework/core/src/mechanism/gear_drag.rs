@@ -7,16 +7,16 @@ use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::context;
-use crate::generic::Scalar;
 use crate::immersion;
 use crate::loss::{Loss, Notes, Undefined};
+use crate::mechanism::Scalar;
 use crate::mechanism::{Law, Mechanism, Quantity, ROUNDED};
 
 /// Marker of the mechanism; never constructed.
 #[derive(Debug)]
 pub enum GearDrag {}
 
-/// What a model is asked for once, as its registration says: a gear, or a mesh with both of its gears.
+/// Scope of a model, as registered: evaluated for a gear, or for a mesh with both of its gears.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Scope {
     /// Once for each gear.
@@ -25,30 +25,29 @@ pub enum Scope {
     Mesh,
 }
 
-/// Which of the three causes a model counts. Counting one twice in one gearbox is an error.
+/// Cause of loss that a model covers. Covering one twice in one gearbox is an error.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Covers {
-    /// Moving oil that the gear dips into.
+    /// Moving the oil in which the gear is immersed.
     pub churning: bool,
-    /// Pressing oil out of the mesh.
+    /// Squeezing oil out of the mesh.
     pub squeezing: bool,
     /// Moving air or oil mist.
     pub windage: bool,
 }
 
-/// Drag of one gear or of one pair, by the model's scope. A model answers with moments about the speed of the gear, or of
-/// the first gear of a pair, or with powers.
+/// Drag of one gear or of one pair, by the model's scope. A model returns moments about the speed of the gear, or of the first gear
+/// of a pair, or powers.
 ///
-/// It may look at [`GearDragAt`], which says of each quantity what it is, its unit, where it comes from and in what range it is
-/// tested, and at the part in it.
+/// The inputs are [`GearDragAt`], which documents each quantity with unit, source and tested range, and the part in it.
 pub trait GearDragModel: Send + Sync {
-    /// The causes that the model counts; absent where the name of its slot says it.
+    /// The causes that the model covers; `None` if the name of its slot states it.
     fn covers(&self) -> Option<Covers>;
     /// Loss at one operating point. Pure; must not allocate.
     fn loss(&self, at: &GearDragAt<'_>) -> Result<Loss, Undefined>;
 }
 
-/// The body of one gear, as churning and windage models see it.
+/// Data of one gear for churning and windage models.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct GearBody {
     /// Number of teeth. [-]
@@ -85,7 +84,7 @@ pub struct GearBody {
 }
 
 impl GearBody {
-    /// An external gear as somebody states it, whose figures do not contradict each other.
+    /// An external gear in its written form, whose values are consistent.
     fn possible(self, name: &str) -> Result<Self, String> {
         let mm = |x: f64| {
             format!("{:.4}", x * 1e3)
@@ -96,14 +95,14 @@ impl GearBody {
         let reference = f64::from(self.z) * self.normal_module / self.helix_angle.cos();
         if self.tip_diameter <= self.root_diameter {
             return Err(format!(
-                "{name}: tip_diameter {} mm is not greater than root_diameter {} mm: exchange them or correct one",
+                "{name}: tip_diameter {} mm does not exceed root_diameter {} mm: swap them or correct one",
                 mm(self.tip_diameter),
                 mm(self.root_diameter)
             ));
         }
         if (self.reference_diameter - reference).abs() > ROUNDED * reference {
             return Err(format!(
-                "{name}: reference_diameter {} mm contradicts z, normal_module and helix_angle, from which {} mm follow: correct one of them",
+                "{name}: reference_diameter {} mm contradicts z, normal_module and helix_angle, which give {} mm: correct one of them",
                 mm(self.reference_diameter),
                 mm(reference)
             ));
@@ -111,7 +110,7 @@ impl GearBody {
         let highest = 0.5 * (self.tip_diameter + self.working_diameter);
         if self.contact_height > (1.0 + ROUNDED) * highest {
             return Err(format!(
-                "{name}: contact_height {} mm lies above the working pitch circle, at most {} mm by tip_diameter and working_diameter: correct one of them",
+                "{name}: contact_height {} mm is above the working pitch circle (at most {} mm from tip_diameter and working_diameter): correct one of them",
                 mm(self.contact_height),
                 mm(highest)
             ));
@@ -119,12 +118,12 @@ impl GearBody {
         Ok(self)
     }
 
-    /// Depth of the reference circle in the oil from that of the tip circle, where the axis stands. \[m\]
+    /// Immersion depth of the reference circle from that of the tip circle, for a stationary axis. \[m\]
     pub fn dip_of(&self, tip_dip: f64) -> f64 {
         immersion::dip(tip_dip - 0.5 * self.tip_diameter, 0.5 * self.reference_diameter)
     }
 
-    /// Depth of the tip circle in the oil from that of the reference circle, where the axis stands; zero where that is dry. \[m\]
+    /// Immersion depth of the tip circle from that of the reference circle, for a stationary axis; zero if that is dry. \[m\]
     pub fn tip_dip_of(&self, dip: f64) -> f64 {
         if dip > 0.0 {
             immersion::dip(dip - 0.5 * self.reference_diameter, 0.5 * self.tip_diameter)
@@ -146,16 +145,16 @@ pub struct DragPart {
     /// Volume of the oil in the housing. [l]
     #[schemars(range(min = 0.001, max = 10000.0))]
     pub oil_volume: Option<f64>,
-    /// Area of the gear case in a section across the shafts. [cm2]
+    /// Cross-section area of the gear case, perpendicular to the shafts. [cm2]
     #[schemars(range(min = 0.1, max = 1e7))]
     pub section_area: Option<f64>,
-    /// Perimeter of the gear case in that section. [cm]
+    /// Perimeter of that cross-section. [cm]
     #[schemars(range(min = 0.1, max = 1e5))]
     pub section_perimeter: Option<f64>,
-    /// Gap between gear and housing, radially. [mm]
+    /// Radial gap between gear and housing. [mm]
     #[schemars(range(min = 0.1, max = 10000.0))]
     pub radial_clearance: Option<f64>,
-    /// Gap between gear and housing, axially. [mm]
+    /// Axial gap between gear and housing. [mm]
     #[schemars(range(min = 0.1, max = 10000.0))]
     pub axial_clearance: Option<f64>,
 }
@@ -172,7 +171,7 @@ fn mate<'de, D: Deserializer<'de>>(from: D) -> Result<Option<GearBody>, D::Error
 }
 
 impl DragPart {
-    /// Teeth of the gear per tooth of its mate; not finite without one. \[-\]
+    /// Teeth of the gear per tooth of its mate; not finite without a mate. \[-\]
     pub fn ratio(&self) -> f64 {
         self.mate
             .map_or(f64::NAN, |mate| f64::from(self.gear.z) / f64::from(mate.z))
@@ -180,24 +179,24 @@ impl DragPart {
 }
 
 context! {
-    /// All that a drag model may look at. Quantities that end in `_2` belong to the second gear of a pair.
+    /// All inputs of a drag model. Quantities that end in `_2` belong to the second gear of a pair.
     pub struct GearDragAt of GearDrag {
         /// Speed of the gear, or of the first gear, signed. [rpm]
         speed: 1500.0 in -30000.0..=30000.0 from "kinematics",
         /// Speed of the second gear, signed. [rpm]
         speed_2: -4645.0 in -30000.0..=30000.0 from "kinematics",
-        /// Depth of the tip circle in the oil. [mm]
-        tip_dip: 20.0 in 0.0..=5000.0 from "`level` of the gear, else the oil level and the place of its shaft",
-        /// Depth of the reference circle in the oil. [mm]
-        dip: 18.05 in 0.0..=5000.0 from "`level` of the gear, else the oil level and the place of its shaft",
-        /// Depth of the second gear's tip circle in the oil. [mm]
-        tip_dip_2: 0.0 in 0.0..=5000.0 from "`level` of that gear, else the oil level and the place of its shaft",
-        /// Depth of the second gear's reference circle in the oil. [mm]
-        dip_2: 0.0 in 0.0..=5000.0 from "`level` of that gear, else the oil level and the place of its shaft",
-        /// One where the gear's lowest point moves towards a mate, zero where it moves away from all of them. [-]
-        towards_mesh: 0.0 in 0.0..=1.0 from "sense of rotation and the places of the mates",
+        /// Immersion depth of the tip circle. [mm]
+        tip_dip: 20.0 in 0.0..=5000.0 from "`level` of the gear, else the oil level and the position of its shaft",
+        /// Immersion depth of the reference circle. [mm]
+        dip: 18.05 in 0.0..=5000.0 from "`level` of the gear, else the oil level and the position of its shaft",
+        /// Immersion depth of the second gear's tip circle. [mm]
+        tip_dip_2: 0.0 in 0.0..=5000.0 from "`level` of that gear, else the oil level and the position of its shaft",
+        /// Immersion depth of the second gear's reference circle. [mm]
+        dip_2: 0.0 in 0.0..=5000.0 from "`level` of that gear, else the oil level and the position of its shaft",
+        /// One if the gear's lowest point moves towards a mate, zero if it moves away from all of them. [-]
+        towards_mesh: 0.0 in 0.0..=1.0 from "direction of rotation and the positions of the mates",
         /// The same for the second gear. [-]
-        towards_mesh_2: 0.0 in 0.0..=1.0 from "sense of rotation and the places of its mates",
+        towards_mesh_2: 0.0 in 0.0..=1.0 from "direction of rotation and the positions of its mates",
         /// Temperature of the oil. [degC]
         temperature: 80.0 in -40.0..=200.0 from "the oil of the gear or mesh: given, balanced or a node of the network, and `temperature_offset`",
         /// Kinematic viscosity of the oil. [mm2/s]
@@ -208,15 +207,15 @@ context! {
         rho: 820.0 in 500.0..=1300.0 from "the density of that oil at this temperature",
     } laws {
         "eta = nu rho" { eta: |at| at.nu * at.rho, nu: |at| at.eta / at.rho, rho: |at| at.eta / at.nu }
-        "dip = tip_dip less the addendum" {
+        "dip = tip_dip minus the addendum" {
             dip: |at| at.part.gear.dip_of(at.tip_dip),
             tip_dip: |at| at.part.gear.tip_dip_of(at.dip),
         }
-        "dip_2 = tip_dip_2 less the addendum of the mate" {
+        "dip_2 = tip_dip_2 minus the addendum of the mate" {
             dip_2: |at| at.part.mate.map_or(f64::NAN, |mate| mate.dip_of(at.tip_dip_2)),
             tip_dip_2: |at| at.part.mate.map_or(f64::NAN, |mate| mate.tip_dip_of(at.dip_2)),
         }
-        "speed_2 = -speed z/z_2 of external gears whose axes stand" usually {
+        "speed_2 = -speed z/z_2 of external gears with fixed axes" usually {
             speed_2: |at| -at.speed * at.part.ratio(),
             speed: |at| -at.speed_2 / at.part.ratio(),
         }

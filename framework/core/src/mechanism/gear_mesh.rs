@@ -7,45 +7,44 @@ use serde::{Deserialize, Serialize};
 
 use crate::context;
 use crate::description::gears::ShiftSign;
-use crate::generic::Scalar;
 use crate::geometry::{Pair, PairFault, PairSpec};
 use crate::lanes::{LANES, Lane, LaneNotes, LossLanes, REMEMBERED, each, same_notes};
 use crate::loss::{Loss, NoteBase, Notes, Term, Undefined};
 use crate::lubricant::Lubricant;
+use crate::mechanism::Scalar;
 use crate::mechanism::{Law, Mechanism, Quantity};
 
 /// Marker of the mechanism; never constructed.
 #[derive(Debug)]
 pub enum GearMesh {}
 
-/// Loss of one pair of gears in mesh. A model answers with powers in the frame of the carrier.
+/// Loss of one pair of gears in mesh. A model returns powers in the frame of the carrier.
 ///
-/// It may look at [`GearMeshAt`], which says of each quantity what it is, its unit, where it comes from and in what range it is
-/// tested, and at the part in it.
+/// The inputs are [`GearMeshAt`], which documents each quantity with unit, source and tested range, and the part in it.
 pub trait GearMeshModel: Send + Sync {
     /// Loss at one operating point. Pure; must not allocate.
     fn loss(&self, at: &GearMeshAt<'_>) -> Result<Loss, Undefined>;
 
-    /// True where asking once more for the notes costs more than is won by points side by side, as for friction that is iterated at
-    /// every place: they are then evaluated one by one.
+    /// True if a second evaluation for the notes costs more than batching saves, as for friction that is iterated at every point of
+    /// the path: points are then evaluated one by one.
     fn is_costly(&self) -> bool {
         false
     }
 
-    /// The same at several torques side by side, where all else is as at `at`, whose torque means nothing; muted. What it answers must have the bits of
-    /// [`loss`](Self::loss), but for powers that are remembered ([`LossLanes::powers`]); the suite of the framework compares both.
-    /// Without code of its own it asks once for each lane.
+    /// Batched [`loss`](Self::loss) at several torques, with all other quantities as in `at`, whose torque is unused; muted. The
+    /// result must have the bits of [`loss`](Self::loss), except for remembered powers ([`LossLanes::powers`]); the conformance
+    /// suite compares both. The default evaluates each lane separately.
     fn losses(&self, at: &GearMeshAt<'_>, torques: &Lane, losses: &mut LossLanes) {
         one_by_one(self, at, torques, losses);
     }
 
-    /// Notes what [`loss`](Self::loss) notes at these torques, for which [`losses`](Self::losses) was asked last.
+    /// Writes the notes of [`loss`](Self::loss) at these torques, those of the last call of [`losses`](Self::losses).
     fn note(&self, at: &GearMeshAt<'_>, torques: &Lane, _losses: &LossLanes, notes: LaneNotes<'_>) {
         note_one_by_one(self, at, torques, notes);
     }
 }
 
-/// Asks a model once for each lane: [`GearMeshModel::losses`] where nothing spares that.
+/// Evaluates a model in each lane: the default of [`GearMeshModel::losses`].
 pub fn one_by_one<M: GearMeshModel + ?Sized>(model: &M, at: &GearMeshAt<'_>, torques: &Lane, losses: &mut LossLanes) {
     for (lane, torque) in torques.iter().enumerate() {
         if !losses.wanted(lane) {
@@ -55,7 +54,7 @@ pub fn one_by_one<M: GearMeshModel + ?Sized>(model: &M, at: &GearMeshAt<'_>, tor
     }
 }
 
-/// Asks a model once for each lane for its notes: [`GearMeshModel::note`] where nothing spares that.
+/// Writes the notes of each lane: the default of [`GearMeshModel::note`].
 pub fn note_one_by_one<M: GearMeshModel + ?Sized>(
     model: &M,
     at: &GearMeshAt<'_>,
@@ -66,7 +65,7 @@ pub fn note_one_by_one<M: GearMeshModel + ?Sized>(
         if !notes.wanted(lane) {
             continue;
         }
-        // An answer that is no number leaves the lane to its point alone.
+        // NaN excludes the lane, whose point is then evaluated as a single point.
         let _ = model.loss(&at.with(|to| {
             to.torque = *torque;
             to.notes = notes.lane(lane);
@@ -74,13 +73,13 @@ pub fn note_one_by_one<M: GearMeshModel + ?Sized>(
     }
 }
 
-/// A pair of gears as written for a model alone; in a gearbox the framework fills it from `gears` and `meshes`.
+/// A pair of gears as written for a single model; in a gearbox the framework fills it from `gears` and `meshes`.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct PairEntry {
     /// Numbers of teeth. [-]
     #[schemars(inner(range(min = 5, max = 2000)))]
     pub z: [u32; 2],
-    /// The second gear is a ring with internal teeth.
+    /// The second gear is a ring gear with internal teeth.
     #[serde(default)]
     pub internal: bool,
     /// Normal module. [mm]
@@ -93,13 +92,13 @@ pub struct PairEntry {
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 60.0))]
     pub helix_angle: f64,
-    /// Working centre distance; absent, that of the profile shifts. [mm]
+    /// Working centre distance; default: that of the profile shifts. [mm]
     #[schemars(range(min = 0.5, max = 1e5))]
     pub centre_distance: Option<f64>,
-    /// Profile shift coefficients of the first and of the second gear; for a ring see `profile_shift_sign`. [-]
+    /// Profile shift coefficients of the first and of the second gear; for a ring gear see `profile_shift_sign`. [-]
     #[schemars(inner(range(min = -3.0, max = 3.0)))]
     pub profile_shift: Option<[f64; 2]>,
-    /// Sign of the profile shift of a ring; required where it has one.
+    /// Sign of the profile shift of a ring gear; required if it has one.
     pub profile_shift_sign: Option<ShiftSign>,
     /// Tip diameters; required for an internal pair. [mm]
     #[schemars(inner(range(min = 1.0, max = 1e4)))]
@@ -141,11 +140,11 @@ pub struct MeshPart {
     pub pair: Pair,
     /// Arithmetic mean roughness, mean of both flanks. \[m\]
     pub ra: f64,
-    /// Root mean square roughness of both flanks together. \[m\]
+    /// Composite root mean square roughness of both flanks. \[m\]
     pub rq: f64,
     /// Reduced modulus E/(1 - nu^2). \[Pa\]
     pub modulus: f64,
-    /// The oil of the mesh, for models that follow it to other temperatures and pressures; absent for what stands alone.
+    /// The oil of the mesh, for models that need it at other temperatures and pressures; `None` for a single model.
     pub oil: Option<MeshOil>,
 }
 
@@ -159,7 +158,7 @@ pub struct MeshOil {
 }
 
 impl MeshPart {
-    /// A pair with its geometry solved, from roughness of both flanks (m), Young's modulus (Pa) and Poisson's ratio.
+    /// A pair with its computed geometry, from roughness of both flanks (m), Young's modulus (Pa) and Poisson's ratio.
     pub fn new(pair: Pair, ra: [f64; 2], rq: [f64; 2], elastic_modulus: f64, poisson: f64) -> Self {
         Self {
             pair,
@@ -177,10 +176,10 @@ impl MeshPart {
 }
 
 impl MeshPart {
-    /// FZG C gears, for what stands alone.
+    /// FZG C gears, for a single model.
     ///
     /// # Errors
-    /// None that occur: the geometry is sound.
+    /// None occur: the geometry is valid.
     pub fn fzg_c() -> Result<Self, String> {
         let pair = Pair::new(&PairSpec {
             z: [16, 24],
@@ -220,7 +219,7 @@ impl TryFrom<PairEntry> for MeshPart {
         if let (true, Some([_, x2])) = (entry.internal, entry.profile_shift) {
             if entry.profile_shift_sign.is_none() && x2 != 0.0 {
                 return Err(
-                    "the profile shift of a ring needs its sign: write `profile_shift_sign: iso21771`, \
+                    "the profile shift of a ring gear requires its sign: write `profile_shift_sign: iso21771`, \
                             or `outward` where positive is away from the axis"
                         .to_owned(),
                 );
@@ -252,14 +251,14 @@ impl TryFrom<PairEntry> for MeshPart {
 }
 
 context! {
-    /// All that a mesh model may look at: one mesh, in the frame of its carrier.
+    /// All inputs of a mesh model: one mesh, in the frame of its carrier.
     pub struct GearMeshAt of GearMesh {
-        /// Torque of one mesh on the first gear, magnitude. [Nm]
-        torque: 50.0 in 0.0..=5000.0 from "the flow of torque, less the losses before the mesh unless it is ideal; of the most loaded planet, by `load_sharing`",
+        /// Magnitude of the torque of one mesh on the first gear. [Nm]
+        torque: 50.0 in 0.0..=5000.0 from "the power flow, reduced by upstream losses unless it is ideal; of the most loaded planet, by `load_sharing`",
         /// Speed of the first gear relative to the carrier, signed. [rpm]
         speed: 3000.0 in -30000.0..=30000.0 from "kinematics",
-        /// One where the first gear drives, zero where the second does. [-]
-        first_drives: 1.0 in 0.0..=1.0 from "the sense of the power in the flow",
+        /// One if the first gear drives, zero if the second does. [-]
+        first_drives: 1.0 in 0.0..=1.0 from "the direction of the power flow",
         /// Temperature of the oil. [degC]
         temperature: 80.0 in -40.0..=200.0 from "the oil of the mesh: given, balanced or a node of the network, and `temperature_offset`",
         /// Kinematic viscosity of the oil. [mm2/s]
@@ -270,17 +269,17 @@ context! {
         rho: 820.0 in 500.0..=1300.0 from "the density of that oil at this temperature",
         /// Pressure-viscosity coefficient of the oil. [1/GPa]
         alpha: 15.0 in 1.0..=60.0 from "`pressure_viscosity` of the oil, or its kind",
-        /// Relative fall of the oil's viscosity with temperature. [1/K]
+        /// Relative decrease of the oil's viscosity with temperature. [1/K]
         beta: 0.03 in 0.001..=0.3 from "the slope of its viscosity at this temperature",
         /// Thermal conductivity of the oil. [W/(m K)]
-        conductivity: 0.135 in 0.05..=0.5 from "`conductivity` of the oil, else its density after Cragoe",
-        /// Lubricant factor of mean mesh friction that the oil states. [-]
+        conductivity: 0.135 in 0.05..=0.5 from "`conductivity` of the oil, else its density according to Cragoe",
+        /// Lubricant factor of mean mesh friction stated for the oil. [-]
         x_l: 1.0 in 0.1..=2.0 from "`x_l` of the oil, or its kind",
-        /// One where a thermal network knows the temperatures of the gears, zero where a model finds them itself. [-]
+        /// One if a thermal network provides the gear temperatures, zero if the model computes them. [-]
         bodies_known: 0.0 in 0.0..=1.0 from "the thermal network",
-        /// Temperature of the body of the first gear, where it is known. [degC]
+        /// Body temperature of the first gear, if known. [degC]
         temperature_1: 80.0 in -40.0..=200.0 from "the node of the first gear",
-        /// Temperature of the body of the second gear, where it is known. [degC]
+        /// Body temperature of the second gear, if known. [degC]
         temperature_2: 80.0 in -40.0..=200.0 from "the node of the second gear",
     } laws {
         "eta = nu rho" { eta: |at| at.nu * at.rho, nu: |at| at.eta / at.rho, rho: |at| at.eta / at.nu }
@@ -288,7 +287,7 @@ context! {
 }
 
 impl GearMeshAt<'_> {
-    /// Temperatures of the bodies of both gears, where they are known. \[degC\]
+    /// Body temperatures of both gears, if known. \[degC\]
     pub fn bodies(&self) -> Option<[f64; 2]> {
         (self.bodies_known > 0.5).then_some([self.temperature_1, self.temperature_2])
     }
@@ -317,7 +316,7 @@ facewidth: 14 mm, tip_diameter: [82.636 mm, 118.544 mm], ra: [0.4 um, 0.4 um], r
     fn speed(at: &GearMeshAt<'_>) -> f64 {
         at.speed
     }
-    fn side_by_side(model: &Self::Model, at: &GearMeshAt<'_>, notes: NoteBase) -> Option<&'static str> {
+    fn compare_batched(model: &Self::Model, at: &GearMeshAt<'_>, notes: NoteBase) -> Option<&'static str> {
         let torques = each(|i| at.torque * (0.3 + 1.5 * i as f64 / LANES as f64));
         let of = |lane: usize, notes: Notes<'_>| {
             model.loss(&at.with(|to| {
@@ -332,17 +331,17 @@ facewidth: 14 mm, tip_diameter: [82.636 mm, 118.544 mm], ra: [0.4 um, 0.4 um], r
         });
         model.losses(&without, &torques, &mut losses);
         if !(0..LANES).all(|lane| losses.agrees(lane, &of(lane, Notes::MUTED), 0.0)) {
-            return Some("`losses` answers otherwise than `loss`");
+            return Some("`losses` differs from `loss`");
         }
-        // What is remembered comes from another speed and torques close by.
+        // Remembered values come from another speed and similar torques.
         let before = without.with(|to| to.speed *= 1.3);
         let mut remembered = LossLanes::remembering();
         model.losses(&before, &each(|i| torques[i] * 1.001), &mut remembered);
         model.losses(&without, &torques, &mut remembered);
         if !(0..LANES).all(|lane| remembered.agrees(lane, &of(lane, Notes::MUTED), REMEMBERED)) {
-            return Some("`losses` remembers what is no power of the torques times a constant");
+            return Some("`losses` remembers a value that is not a power of the torques times a constant");
         }
-        // What is undefined at a torque is noted by its point alone.
+        // The single point notes values that are undefined at a torque.
         if (0..LANES).any(|lane| of(lane, Notes::MUTED).is_err()) {
             return None;
         }
@@ -352,7 +351,7 @@ facewidth: 14 mm, tip_diameter: [82.636 mm, 118.544 mm], ra: [0.4 um, 0.4 um], r
         let together = |notes: LaneNotes<'_>| {
             model.note(&without.with(|to| to.notes = notes.all()), &torques, &losses, notes);
         };
-        (!same_notes(notes, single, together)).then_some("`note` notes otherwise than `loss`")
+        (!same_notes(notes, single, together)).then_some("`note` writes other notes than `loss`")
     }
     fn scalar(law: Scalar<Self>) -> Arc<Self::Model> {
         Arc::new(law)

@@ -1,4 +1,4 @@
-//! Heat that leaves the gearbox: by the housing to the air, by the flange, by a cooler.
+//! Heat dissipation of the gearbox: from the housing to the air, through the flange, through a cooler.
 
 use std::sync::Arc;
 
@@ -6,53 +6,52 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::context;
-use crate::generic::Scalar;
 use crate::loss::{Notes, Undefined};
+use crate::mechanism::Scalar;
 use crate::mechanism::{Mechanism, Quantity};
 
 /// Marker of the mechanism; never constructed.
 #[derive(Debug)]
 pub enum HeatDissipation {}
 
-/// Where a way of the heat begins.
+/// Start of a heat dissipation path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum WarmSide {
-    /// At the oil.
+    /// The oil.
     Oil,
-    /// At the surface of the housing.
+    /// The surface of the housing.
     Surface,
 }
 
-/// One way on which heat leaves: a conductance between a warm side and a sink.
+/// One heat dissipation path: a conductance between a warm side and a heat sink.
 ///
-/// It may look at [`HeatDissipationAt`], which says of each quantity what it is, its unit, where it comes from and in what range it is
-/// tested, and at the part in it.
+/// The inputs are [`HeatDissipationAt`], which documents each quantity with unit, source and tested range, and the part in it.
 pub trait HeatDissipationModel: Send + Sync {
-    /// Where the way begins.
+    /// Start of the path.
     fn warm_side(&self) -> WarmSide {
         WarmSide::Surface
     }
-    /// Temperature at which the way ends; absent, that of the surroundings. \[degC\]
+    /// Temperature of the heat sink; `None`: the ambient temperature. \[degC\]
     fn sink(&self) -> Option<f64> {
         None
     }
-    /// Heat flow over the difference of temperatures. Pure; must not allocate. \[W/K\]
+    /// Heat flow over temperature difference. Pure; must not allocate. \[W/K\]
     fn conductance(&self, at: &HeatDissipationAt<'_>) -> Result<f64, Undefined>;
 }
 
-/// The outside of the housing; in a gearbox the framework fills it from `housing.outside`.
+/// The outside the housing; in a gearbox the framework fills it from `housing.outside`.
 #[derive(Debug, Clone, Copy, Default, Serialize, Deserialize, JsonSchema)]
 pub struct HousingPart {
-    /// Area that gives heat to the air, without fins. [cm2]
+    /// Area that dissipates heat to the air, without fins. [cm2]
     #[schemars(range(min = 0.1, max = 1e8))]
     pub area: Option<f64>,
-    /// Area inside that the oil wets. [cm2]
+    /// Oil-wetted inside area. [cm2]
     #[schemars(range(min = 0.1, max = 1e8))]
     pub oil_area: Option<f64>,
     /// Height. [mm]
     #[schemars(range(min = 1.0, max = 1e5))]
     pub height: Option<f64>,
-    /// Length along the flow of the air. [mm]
+    /// Length along the air flow. [mm]
     #[schemars(range(min = 1.0, max = 1e5))]
     pub length: Option<f64>,
     /// Thickness of the wall. [mm]
@@ -64,19 +63,19 @@ pub struct HousingPart {
     /// Emissivity. [-]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub emissivity: f64,
-    /// Speed of the air along the housing. [m/s]
+    /// Air speed along the housing. [m/s]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub air_speed: f64,
 }
 
 context! {
-    /// All that a model of heat dissipation may look at.
+    /// All inputs of a heat dissipation model.
     pub struct HeatDissipationAt of HeatDissipation {
         /// Temperature of the oil. [degC]
-        oil_temperature: 80.0 in -60.0..=250.0 from "the balance, or what is tried on the way to it",
+        oil_temperature: 80.0 in -60.0..=250.0 from "the balance, or a trial value of its iteration",
         /// Temperature of the surface of the housing. [degC]
         surface_temperature: 75.0 in -60.0..=250.0 from "the balance, with `thermal.oil_to_surface`",
-        /// Temperature of the surroundings. [degC]
+        /// Ambient temperature. [degC]
         ambient: 20.0 in -60.0..=120.0 from "`thermal.ambient`",
         /// Density of the oil. [kg/m3]
         rho: 830.0 in 500.0..=1300.0 from "the oil of the housing at its temperature",
@@ -88,8 +87,8 @@ context! {
 impl Mechanism for HeatDissipation {
     const KEY: &'static str = "heat_dissipation";
     const MEANING: &'static str =
-        "Heat that leaves the gearbox: by the housing to the air, by the flange, by a cooler.";
-    const ANSWER: &'static str = "Heat flow over the difference of surface and surroundings. [W/K]";
+        "Heat dissipation of the gearbox: from the housing to the air, through the flange, through a cooler.";
+    const ANSWER: &'static str = "Heat flow over the temperature difference of surface and ambient. [W/K]";
     const EXAMPLE: &'static str = "
 area: 4000 cm2
 oil_area: 3500 cm2

@@ -1,4 +1,4 @@
-//! Links between the nodes of a thermal network: what conducts, radiates or carries heat from one to the other.
+//! Links between the nodes of a thermal network, by conduction, convection or radiation.
 
 use std::sync::Arc;
 
@@ -7,8 +7,8 @@ use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::context;
-use crate::generic::Scalar;
 use crate::loss::{Notes, Undefined};
+use crate::mechanism::Scalar;
 use crate::mechanism::heat_dissipation::HousingPart;
 use crate::mechanism::{Law, Mechanism, Quantity};
 
@@ -18,18 +18,16 @@ pub enum HeatLink {}
 
 /// One link between two nodes of a thermal network.
 ///
-/// It may look at [`HeatLinkAt`], which says of each quantity what it is, its unit, where it comes from and in what range it is
-/// tested, and at the part in it.
+/// The inputs are [`HeatLinkAt`], which documents each quantity with unit, source and tested range, and the part in it.
 pub trait HeatLinkModel: Send + Sync {
-    /// Heat flow from the one end to the other over their difference of temperature, not negative. Pure; must not allocate.
-    /// \[W/K\]
+    /// Heat flow from one node to the other over their temperature difference, not negative. Pure; must not allocate. \[W/K\]
     ///
     /// # Errors
-    /// Where the formula has no value.
+    /// If the formula is undefined.
     fn conductance(&self, at: &HeatLinkAt<'_>) -> Result<f64, Undefined>;
 }
 
-/// The gear that a link names.
+/// The gear named by a link.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct GearShape {
     /// Number of teeth. [-]
@@ -41,7 +39,7 @@ pub struct GearShape {
     /// Tip diameter. [mm]
     #[schemars(range(min = 1.0, max = 10000.0))]
     pub tip_diameter: f64,
-    /// Height of the teeth from root to tip. [mm]
+    /// Tooth height from root to tip. [mm]
     #[schemars(range(min = 0.05, max = 500.0))]
     pub tooth_height: f64,
     /// Face width. [mm]
@@ -49,12 +47,12 @@ pub struct GearShape {
     pub facewidth: f64,
 }
 
-/// What a link lies beside; in a gearbox the framework fills it from `housing.outside` and from the gear that the link names.
+/// Surroundings of a link; in a gearbox the framework fills it from `housing.outside` and from the gear named by the link.
 #[derive(Debug, Clone, Copy, Default, Serialize, Deserialize, JsonSchema)]
 pub struct HeatLinkPart {
     /// The housing.
     pub housing: Option<HousingPart>,
-    /// The gear that the link names.
+    /// The gear named by the link.
     #[serde(default, deserialize_with = "gear")]
     pub gear: Option<GearShape>,
 }
@@ -63,7 +61,7 @@ fn gear<'de, D: Deserializer<'de>>(from: D) -> Result<Option<GearShape>, D::Erro
     let gear = Option::<GearShape>::deserialize(from)?;
     match gear {
         Some(gear) if gear.tooth_height >= 0.5 * gear.tip_diameter => Err(Error::custom(format!(
-            "gear: tooth_height {} mm is not less than half of tip_diameter {} mm: correct one of them",
+            "gear: tooth_height {} mm exceeds half of tip_diameter {} mm: correct one of them",
             gear.tooth_height * 1e3,
             gear.tip_diameter * 1e3
         ))),
@@ -72,16 +70,16 @@ fn gear<'de, D: Deserializer<'de>>(from: D) -> Result<Option<GearShape>, D::Erro
 }
 
 context! {
-    /// All that a model of a heat link may look at.
+    /// All inputs of a heat link model.
     pub struct HeatLinkAt of HeatLink {
-        /// Temperature of the first end. [degC]
-        temperature_1: 80.0 in -60.0..=300.0 from "the network, or what is tried on the way to it",
-        /// Temperature of the second end. [degC]
-        temperature_2: 60.0 in -60.0..=300.0 from "the network, or what is tried on the way to it",
-        /// Speed of the shaft or gear that the link names, without its sense; zero where it names none. [rpm]
+        /// Temperature of the first node. [degC]
+        temperature_1: 80.0 in -60.0..=300.0 from "the network, or a trial value of its iteration",
+        /// Temperature of the second node. [degC]
+        temperature_2: 60.0 in -60.0..=300.0 from "the network, or a trial value of its iteration",
+        /// Magnitude of the speed of the shaft or gear named by the link; zero if it names none. [rpm]
         speed: 3000.0 in 0.0..=30000.0 from "kinematics",
-        /// Speed of the vehicle; zero outside of a drive cycle. [m/s]
-        vehicle_speed: 0.0 in 0.0..=100.0 from "the duty",
+        /// Speed of the vehicle; zero outside a drive cycle. [m/s]
+        vehicle_speed: 0.0 in 0.0..=100.0 from "the cycle",
         /// Kinematic viscosity of the oil at the mean of both temperatures. [mm2/s]
         nu: 12.0 in 0.5..=100000.0 from "`lubricant` of the link, else the oil of the housing",
         /// Dynamic viscosity of the oil at the mean of both temperatures. [mPa s]
@@ -92,8 +90,8 @@ context! {
         heat_capacity: 2100.0 in 1000.0..=4000.0 from "`lubricant` of the link, else the oil of the housing",
         /// Thermal conductivity of the oil at the mean of both temperatures. [W/(m K)]
         conductivity: 0.14 in 0.05..=1.0 from "`lubricant` of the link, else the oil of the housing",
-        /// Mass flow of the oil in its circuit; zero without one. [kg/s]
-        oil_flow: 0.1 in 0.0..=100.0 from "`oil_flow` of the network, or the flow of the duty",
+        /// Mass flow of the oil circuit; zero without one. [kg/s]
+        oil_flow: 0.1 in 0.0..=100.0 from "`oil_flow` of the network, or the flow in the cycle",
     } laws {
         "eta = nu rho" { eta: |at| at.nu * at.rho, nu: |at| at.eta / at.rho, rho: |at| at.eta / at.nu }
     }
@@ -102,7 +100,7 @@ context! {
 impl Mechanism for HeatLink {
     const KEY: &'static str = "heat_link";
     const MEANING: &'static str = "Thermal conductance of a link between two nodes of a thermal network.";
-    const ANSWER: &'static str = "Heat flow over the difference of temperature of both ends. [W/K]";
+    const ANSWER: &'static str = "Heat flow over the temperature difference of both nodes. [W/K]";
     const EXAMPLE: &'static str = "
 housing:
   area: 4000 cm2

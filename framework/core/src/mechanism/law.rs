@@ -3,26 +3,26 @@
 use crate::document::Diagnostic;
 use crate::mechanism::{Mechanism, Quantity};
 
-/// A law between quantities of a context. In a gearbox the framework fills all of them so that it holds; where a user states some,
-/// as for `eval`, [`settle`] lets the others follow and refuses what contradicts.
+/// A law between quantities of a context. In a gearbox the framework fills in all of them consistently. If a user states some of
+/// them, as for `eval`, [`settle`] computes the others and rejects contradictions.
 pub struct Law<M: Mechanism> {
-    /// The law as one writes it.
+    /// The law in its written form.
     pub text: &'static str,
-    /// Its quantities by name, the one that is least often stated first, and what follows for each from the others.
+    /// Its quantities by name, the least often stated first, and the value of each from the others.
     pub quantities: &'static [(&'static str, Follows<M>)],
-    /// False where the law holds usually, but need not: what is stated may differ from it.
+    /// False if the law usually holds, but need not: a stated value may differ from it.
     pub always: bool,
 }
 
-/// What follows for one quantity from the others, SI; not finite where nothing follows.
+/// The value of one quantity from the others, SI; not finite if it is not determined.
 pub type Follows<M> = for<'a, 'b> fn(&'b <M as Mechanism>::At<'a>) -> f64;
 
-/// How far a stated value may lie from what follows from others, over the greater of both: values that people write are rounded, data
-/// sheets to three digits, products of two of them to less.
+/// Tolerance of a stated value to the value computed from others, relative to the larger of both: written values are rounded, data
+/// sheet values to three digits, products of two of them to fewer.
 pub const ROUNDED: f64 = 0.01;
 
-/// Lets the quantities that are not stated follow from those that are, by the laws of the mechanism, and tells which did, with
-/// their laws. Where more than one of a law is not stated, all but the first keep their usual values.
+/// Computes the quantities that are not stated from the stated ones, by the laws of the mechanism, and returns them with their
+/// laws. If more than one quantity of a law is not stated, all but the first keep their usual values.
 ///
 /// # Errors
 /// If stated quantities contradict each other by more than rounding; the error names them.
@@ -31,13 +31,13 @@ pub fn settle<M: Mechanism>(
     stated: &[&'static str],
 ) -> Result<Vec<(&'static str, &'static str)>, Diagnostic> {
     let mut known = stated.to_vec();
-    // What is stated, and what follows from that and not from usual values alone.
+    // Stated quantities, and those computed from them rather than from usual values only.
     let mut bound = stated.to_vec();
     let mut followed = Vec::new();
     let mut open: Vec<&Law<M>> = M::LAWS.iter().collect();
     while !open.is_empty() {
         let unknown = |law: &Law<M>| law.quantities.iter().filter(|(name, _)| !known.contains(name)).count();
-        // What is settled comes first, then what a law says alone, then what leans on usual values.
+        // Settled quantities first, then results of a single law, then those based on usual values.
         let ready = |law: &&Law<M>| law.always && unknown(law) <= 1;
         let touched = |law: &&Law<M>| unknown(law) < law.quantities.len();
         let next = open
@@ -78,7 +78,7 @@ fn named<M: Mechanism>(name: &str) -> Option<&'static Quantity<M>> {
     M::QUANTITIES.iter().find(|q| q.name == name)
 }
 
-/// Refuses what follows from stated values alone and is none that the quantity may have.
+/// Rejects a value, computed only from stated values, that the quantity cannot have.
 fn within<M: Mechanism>(law: &Law<M>, quantity: &Quantity<M>, value: f64) -> Result<(), Diagnostic> {
     let unit = quantity.unit();
     let shown = unit.from_si(value);
@@ -115,9 +115,9 @@ fn within<M: Mechanism>(law: &Law<M>, quantity: &Quantity<M>, value: f64) -> Res
     .help(format!("change {}", from.join(" or "))))
 }
 
-/// Refuses a law whose quantities contradict each other.
+/// Rejects a law whose quantities contradict each other.
 fn agree<M: Mechanism>(law: &Law<M>, at: &M::At<'_>, stated: &[&'static str]) -> Result<(), Diagnostic> {
-    // Of two that contradict each other, what is stated is named.
+    // Of two contradicting quantities, the stated one is named.
     let own = law
         .quantities
         .iter()
@@ -145,14 +145,14 @@ fn agree<M: Mechanism>(law: &Law<M>, at: &M::At<'_>, stated: &[&'static str]) ->
     Err(Diagnostic::error(
         format!("at.{name}"),
         format!(
-            "{} contradicts {}: {} follows from there, more than 1 % away",
+            "{} contradicts {}, which gives {}, more than 1 % different",
             written(quantity, is),
             others.join(" and "),
             written(quantity, follows)
         ),
     )
     .help(format!(
-        "leave one of them out, so that it follows from the others: {}",
+        "omit one of them, so that it is computed from the others: {}",
         law.text
     )))
 }

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use crate::context;
-use crate::generic::Scalar;
 use crate::loss::{Notes, Undefined};
+use crate::mechanism::Scalar;
 use crate::mechanism::gear_mesh::{GearMeshAt, MeshPart};
 use crate::mechanism::{Law, Mechanism, Quantity};
 
@@ -14,25 +14,24 @@ pub enum MeanFriction {}
 
 /// Mean coefficient of friction of a mesh.
 ///
-/// It may look at [`MeanFrictionAt`], which says of each quantity what it is, its unit, where it comes from and in what range it is
-/// tested, and at the part in it.
+/// The inputs are [`MeanFrictionAt`], which documents each quantity with unit, source and tested range, and the part in it.
 pub trait MeanFrictionModel: Send + Sync {
-    /// Coefficient of friction. \[-\] Pure; must not allocate. Called with torque and speed above zero.
+    /// Coefficient of friction. \[-\] Pure; must not allocate. Called with positive torque and speed.
     fn mu(&self, at: &MeanFrictionAt<'_>) -> Result<f64, Undefined>;
 }
 
 context! {
-    /// All that a law of mean friction may look at: the mesh at its pitch point, in the frame of its carrier.
+    /// All inputs of a mean friction law: the mesh at its pitch point, in the frame of its carrier.
     pub struct MeanFrictionAt of MeanFriction {
         /// Tangential force at the base circle over the face width. [N/mm]
         line_load: 200.0 in 0.0..=3000.0 from "torque of the mesh over its face width",
         /// Normal force of the mesh. [N]
         normal_force: 2800.0 in 0.0..=1000000.0 from "torque of the mesh and base circle",
-        /// Hertz pressure at the pitch point under the whole normal force. [GPa]
+        /// Hertz pressure at the pitch point under the full normal force. [GPa]
         pressure: 0.927 in 0.0..=4.0 from "`normal_force`, `radius` and the material",
-        /// Speed of the first gear relative to the carrier, magnitude. [rpm]
+        /// Magnitude of the speed of the first gear relative to the carrier. [rpm]
         speed: 3000.0 in 0.0..=30000.0 from "kinematics",
-        /// Pitch line speed. [m/s]
+        /// Pitch line velocity. [m/s]
         pitch_speed: 11.5 in 0.0..=200.0 from "`speed` and the working pitch circle",
         /// Sum of the surface speeds at the pitch point. [m/s]
         sum_speed: 8.78 in 0.0..=200.0 from "`speed` and the geometry of the pair",
@@ -52,11 +51,11 @@ context! {
         rho: 820.0 in 500.0..=1300.0 from "the density of that oil at this temperature",
         /// Pressure-viscosity coefficient of the oil. [1/GPa]
         alpha: 15.0 in 1.0..=60.0 from "`pressure_viscosity` of the oil, or its kind",
-        /// Relative fall of the oil's viscosity with temperature. [1/K]
+        /// Relative decrease of the oil's viscosity with temperature. [1/K]
         beta: 0.03 in 0.001..=0.3 from "the slope of its viscosity at this temperature",
         /// Thermal conductivity of the oil. [W/(m K)]
-        conductivity: 0.135 in 0.05..=0.5 from "`conductivity` of the oil, else its density after Cragoe",
-        /// Lubricant factor that the oil states. [-]
+        conductivity: 0.135 in 0.05..=0.5 from "`conductivity` of the oil, else its density according to Cragoe",
+        /// Lubricant factor stated for the oil. [-]
         x_l: 1.0 in 0.1..=2.0 from "`x_l` of the oil, or its kind",
     } laws {
         "eta = nu rho" { eta: |at| at.nu * at.rho, nu: |at| at.eta / at.rho, rho: |at| at.eta / at.nu }
@@ -77,15 +76,15 @@ context! {
             sum_speed: |at| 2.0 * at.pitch_speed * at.part.pair.sin_working_angle,
             pitch_speed: |at| at.sum_speed / (2.0 * at.part.pair.sin_working_angle),
         }
-        "radius is that of the pair at its pitch point" usually { radius: |at| at.part.pair.pitch_radius }
-        "ra is that of the pair" usually { ra: |at| at.part.ra }
-        "rq is that of the pair" usually { rq: |at| at.part.rq }
+        "radius equals that of the pair at its pitch point" usually { radius: |at| at.part.pair.pitch_radius }
+        "ra equals that of the pair" usually { ra: |at| at.part.ra }
+        "rq equals that of the pair" usually { rq: |at| at.part.rq }
     }
 }
 
 impl<'a> MeanFrictionAt<'a> {
     /// The mesh at its pitch point.
-    pub fn of(at: &GearMeshAt<'a>, notes: Notes<'a>) -> Self {
+    pub fn at_pitch_point(at: &GearMeshAt<'a>, notes: Notes<'a>) -> Self {
         let part = at.part;
         let pair = &part.pair;
         let tangential = at.torque / pair.base_radius[0];

@@ -1,4 +1,4 @@
-//! Drag of a planetary set in oil: the carrier and the planets that orbit with it, from tables, power laws or estimates.
+//! Oil drag of a planetary set: the carrier and its orbiting planets, from tables, power laws or estimates.
 
 use std::sync::Arc;
 
@@ -6,8 +6,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::context;
-use crate::generic::Scalar;
 use crate::loss::{Loss, Notes, Undefined};
+use crate::mechanism::Scalar;
 use crate::mechanism::gear_drag::{Covers, DragPart};
 use crate::mechanism::{Law, Mechanism, Quantity, ShopUnits};
 
@@ -15,13 +15,12 @@ use crate::mechanism::{Law, Mechanism, Quantity, ShopUnits};
 #[derive(Debug)]
 pub enum PlanetaryDrag {}
 
-/// Load-independent loss of a carrier with its planets. A model answers with moments about the speed of the set's
-/// reference shaft, or with powers; the loss is felt by that shaft.
+/// Load-independent loss of a carrier with its planets. A model returns moments about the speed of the set's reference shaft, or
+/// powers; that shaft takes the reaction.
 ///
-/// It may look at [`PlanetaryDragAt`], which says of each quantity what it is, its unit, where it comes from and in what range it is
-/// tested, and at the part in it.
+/// The inputs are [`PlanetaryDragAt`], which documents each quantity with unit, source and tested range, and the part in it.
 pub trait PlanetaryDragModel: Send + Sync {
-    /// What the model counts of the gears on the planets, so that nothing is counted twice.
+    /// The losses of the planet gears that the model covers, so that none is counted twice.
     fn covers(&self) -> Covers;
     /// Loss at one operating point. Pure; must not allocate.
     fn loss(&self, at: &PlanetaryDragAt<'_>) -> Result<Loss, Undefined>;
@@ -33,11 +32,11 @@ pub struct PlanetaryPart {
     /// Number of planets. [-]
     #[schemars(range(min = 2, max = 50))]
     pub count: u32,
-    /// Radius on which the planets' axes orbit. [mm]
+    /// Radius of the planets' orbit. [mm]
     #[schemars(range(min = 0.5, max = 10000.0))]
     pub orbit: f64,
-    /// Number of different planet bodies that orbit together. [-]
-    #[serde(default = "one")]
+    /// Number of different planet bodies on the orbit. [-]
+    #[serde(default = "default_one")]
     #[schemars(range(min = 1, max = 10))]
     pub bodies: u32,
     /// Gears on the first planet body.
@@ -51,17 +50,17 @@ pub struct PlanetaryPart {
     /// Volume of the oil in the housing. [l]
     #[schemars(range(min = 0.001, max = 10000.0))]
     pub oil_volume: Option<f64>,
-    /// A level of the oil is stated.
+    /// True if an oil level is stated.
     #[serde(default)]
     pub has_level: bool,
 }
 
-fn one() -> u32 {
+fn default_one() -> u32 {
     1
 }
 
 context! {
-    /// All that a planetary drag model may look at.
+    /// All inputs of a planetary drag model.
     pub struct PlanetaryDragAt of PlanetaryDrag {
         /// Speed of the reference shaft, signed. [rpm]
         speed: 300.0 in -30000.0..=30000.0 from "kinematics of `reference`, else of the carrier",
@@ -71,8 +70,8 @@ context! {
         planet_speed: -750.0 in -100000.0..=100000.0 from "kinematics",
         /// Volume of the oil. [ml]
         volume: 90.0 in 1.0..=100000.0 from "`housing.oil.volume`",
-        /// Height of the oil above the carrier's axis. [mm]
-        level: -10.0 in -10000.0..=10000.0 from "the oil level and the place of the carrier",
+        /// Oil height above the carrier's axis. [mm]
+        level: -10.0 in -10000.0..=10000.0 from "the oil level and the position of the carrier",
         /// Temperature of the oil. [degC]
         temperature: 60.0 in -40.0..=200.0 from "`lubricant` of the set or the oil of the housing: given, balanced or a node of the network, and `temperature_offset`",
         /// Kinematic viscosity of the oil. [mm2/s]
@@ -92,7 +91,7 @@ context! {
 
 impl Mechanism for PlanetaryDrag {
     const KEY: &'static str = "planetary_drag";
-    const MEANING: &'static str = "Drag of a planetary set in oil: the carrier and the planets that orbit with it.";
+    const MEANING: &'static str = "Oil drag of a planetary set: the carrier and its orbiting planets.";
     const ANSWER: &'static str = "Drag moment on the reference shaft. [Nm]";
     const EXAMPLE: &'static str = "
 count: 3
@@ -112,7 +111,7 @@ has_level: true
 ";
     const QUANTITIES: &'static [Quantity<Self>] = PlanetaryDragAt::QUANTITIES;
     const LAWS: &'static [Law<Self>] = PlanetaryDragAt::LAWS;
-    /// Losses in oil are near to power laws of speed and viscosity.
+    /// Losses in oil are nearly power laws of speed and viscosity.
     const LOGARITHMIC: &'static [&'static str] = &["speed", "carrier_speed", "nu", "eta", "answer"];
     type Part = PlanetaryPart;
     type At<'a> = PlanetaryDragAt<'a>;
@@ -143,27 +142,27 @@ has_level: true
 }
 
 impl PlanetaryDragAt<'_> {
-    /// True where nothing turns, so that there is no drag.
+    /// True at standstill, where there is no drag.
     ///
     /// # Errors
-    /// If the carrier turns while the reference shaft rests, which can feel no moment then.
+    /// If the carrier rotates while the reference shaft is stationary and can take no moment.
     pub fn at_rest(&self) -> Result<bool, Undefined> {
         if self.speed == 0.0 && self.carrier_speed != 0.0 {
             return Err(Undefined {
-                what: "speed of the carrier in rpm, while the set's reference shaft rests",
+                what: "speed of the carrier in rpm, with a stationary reference shaft of the set",
                 value: self.carrier_speed.rpm(),
             });
         }
         if self.speed == 0.0 {
-            self.branch("at rest: no drag");
+            self.branch("at standstill: no drag");
         }
         Ok(self.speed == 0.0)
     }
 }
 
 impl PlanetaryDragModel for Scalar<PlanetaryDrag> {
-    /// What was simulated or measured as a whole contains the planets in oil and air. Oil between the teeth does not
-    /// belong to it: simulations leave the teeth of sun and ring out.
+    /// A set simulated or measured as a whole includes the planets in oil and air. Oil between the teeth is not included:
+    /// simulations omit the teeth of sun and ring.
     fn covers(&self) -> Covers {
         Covers {
             churning: true,

@@ -7,18 +7,17 @@ use serde::{Deserialize, Serialize};
 
 use crate::attach::{MemberSite, OnMember};
 use crate::context;
-use crate::generic::Scalar;
 use crate::loss::{Loss, Notes, Undefined};
+use crate::mechanism::Scalar;
 use crate::mechanism::{Component, Mechanism, Quantity};
 
 /// Marker of the mechanism; never constructed.
 #[derive(Debug)]
 pub enum Seal {}
 
-/// Friction of one shaft seal. A model answers with a moment about the shaft.
+/// Friction of one shaft seal. A model returns a moment about the shaft.
 ///
-/// It may look at [`SealAt`], which says of each quantity what it is, its unit, where it comes from and in what range it is
-/// tested, and at the part in it.
+/// The inputs are [`SealAt`], which documents each quantity with unit, source and tested range, and the part in it.
 pub trait SealModel: Send + Sync {
     /// Loss at one operating point. Pure; must not allocate.
     fn loss(&self, at: &SealAt<'_>) -> Result<Loss, Undefined>;
@@ -31,7 +30,7 @@ pub enum SealKind {
     /// Radial lip seal.
     #[default]
     RadialLip,
-    /// Seal without contact, such as a labyrinth.
+    /// Non-contact seal, such as a labyrinth.
     NonContact,
 }
 
@@ -47,7 +46,7 @@ pub struct SealPart {
 }
 
 context! {
-    /// All that a seal model may look at.
+    /// All inputs of a seal model.
     pub struct SealAt of Seal {
         /// Speed of the shaft in the seal, signed. [rpm]
         speed: 3000.0 in -30000.0..=30000.0 from "kinematics of its shaft",
@@ -92,7 +91,7 @@ impl Component for Seal {
     type Attachment = OnMember;
 
     #[inline(always)]
-    fn at<'a>(part: &'a SealPart, site: MemberSite<'a>, notes: Notes<'a>) -> SealAt<'a> {
+    fn context<'a>(part: &'a SealPart, site: MemberSite<'a>, notes: Notes<'a>) -> SealAt<'a> {
         let oil = site.oil;
         SealAt {
             part,

@@ -7,18 +7,17 @@ use serde::{Deserialize, Serialize};
 
 use crate::attach::{Clearance, ClearanceSite};
 use crate::context;
-use crate::generic::Scalar;
 use crate::loss::{Loss, Notes, Undefined};
+use crate::mechanism::Scalar;
 use crate::mechanism::{Component, Mechanism, Quantity};
 
 /// Marker of the mechanism; never constructed.
 #[derive(Debug)]
 pub enum Synchronizer {}
 
-/// Drag of one open coupling. Engaged, its members have one speed and it loses nothing.
+/// Drag of one open coupling. When engaged, its members have equal speed and the loss is zero.
 ///
-/// It may look at [`SynchronizerAt`], which says of each quantity what it is, its unit, where it comes from and in what range it is
-/// tested, and at the part in it.
+/// The inputs are [`SynchronizerAt`], which documents each quantity with unit, source and tested range, and the part in it.
 pub trait SynchronizerModel: Send + Sync {
     /// Loss at one operating point. Pure; must not allocate.
     fn loss(&self, at: &SynchronizerAt<'_>) -> Result<Loss, Undefined>;
@@ -33,7 +32,7 @@ pub enum CouplingKind {
     Synchronizer,
     /// Dog clutch.
     Dog,
-    /// Cylindrical gap that nothing closes: a wheel that turns on a plain shaft, a bush.
+    /// Cylindrical gap that never closes: an idler gear on a plain shaft, a bush.
     Ring,
 }
 
@@ -44,7 +43,7 @@ pub struct CouplingPart {
     #[serde(default)]
     pub kind: CouplingKind,
     /// Number of friction cones. [-]
-    #[serde(default = "one")]
+    #[serde(default = "default_one")]
     #[schemars(range(min = 1, max = 4))]
     pub cones: u32,
     /// Mean diameter of a cone, or diameter of a ring gap. [mm]
@@ -59,13 +58,13 @@ pub struct CouplingPart {
     /// Gap normal to the faces. [mm]
     #[schemars(range(min = 0.01, max = 5.0))]
     pub gap: Option<f64>,
-    /// Share of the gap that oil fills: 1 flooded, 0.1 to 0.5 splashed. [-]
+    /// Share of the gap filled with oil: 1 flooded, 0.1 to 0.5 splashed. [-]
     #[serde(default = "flooded")]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub oil_fill: f64,
 }
 
-fn one() -> u32 {
+fn default_one() -> u32 {
     1
 }
 
@@ -74,7 +73,7 @@ fn flooded() -> f64 {
 }
 
 context! {
-    /// All that the model of an open coupling may look at.
+    /// All inputs of the model of an open coupling.
     pub struct SynchronizerAt of Synchronizer {
         /// Speed of the first member relative to the second, signed; zero when engaged. [rpm]
         speed: 1000.0 in -30000.0..=30000.0 from "kinematics of both members and the gear state",
@@ -120,7 +119,7 @@ impl Component for Synchronizer {
     type Attachment = Clearance;
 
     #[inline(always)]
-    fn at<'a>(part: &'a CouplingPart, site: ClearanceSite<'a>, notes: Notes<'a>) -> SynchronizerAt<'a> {
+    fn context<'a>(part: &'a CouplingPart, site: ClearanceSite<'a>, notes: Notes<'a>) -> SynchronizerAt<'a> {
         let oil = site.oil;
         SynchronizerAt {
             part,

@@ -5,34 +5,33 @@ mod suite;
 use std::sync::Arc;
 
 use crate::context;
-use crate::generic::Scalar;
 use crate::lanes::{Lane, LaneNotes, Powers};
 use crate::loss::{NoteBase, Notes, Undefined};
+use crate::mechanism::Scalar;
+use crate::mechanism::Slot;
 use crate::mechanism::mean_friction::{MeanFrictionAt, hertz, load_at, modulus_at, radius_at};
 use crate::mechanism::{Law, Mechanism, NoPart, Quantity};
-use crate::registry::Slot;
 
 /// Marker of the mechanism; never constructed.
 #[derive(Debug)]
 pub enum ToothFriction {}
 
-/// Coefficient of friction between flanks. A model answers for one contact; one that marches along the path, or shares
-/// work between its nodes, answers for the whole path.
+/// Coefficient of friction between flanks. A model returns it for one contact; a model that iterates along the path, or shares work
+/// between its nodes, returns it for the whole path.
 ///
-/// It may look at [`ContactAt`], which says of each quantity what it is, its unit, where it comes from and in what range it is
-/// tested, and at the part in it.
+/// The inputs are [`ContactAt`], which documents each quantity with unit, source and tested range, and the part in it.
 pub trait ToothFrictionModel: Send + Sync {
     /// Coefficient of friction at one contact. \[-\] Pure; must not allocate.
     fn mu(&self, at: &ContactAt<'_>) -> Result<f64, Undefined>;
 
-    /// Points on each smooth piece of a path with which the loss is within 1e-4 of its limit, or the mean friction within 1e-6. Seven are
-    /// enough for a law that is smooth between the ends of the pieces, whatever power of sliding and load it sets in with there;
-    /// [`CUT_OFF`] for one that is cut off anywhere, as by `min` or `max`.
+    /// Number of nodes on each smooth section of a path for an error of the loss below 1e-4, or of the mean friction below 1e-6.
+    /// Seven are enough for a law that is smooth inside the sections, for any power of sliding and load at their ends; [`CUT_OFF`]
+    /// for one that is cut off anywhere, as by `min` or `max`.
     fn order(&self) -> usize {
         SMOOTH
     }
 
-    /// Coefficients of friction at all nodes of a path, into a slice as long as the path. Pure; must not allocate.
+    /// Coefficients of friction at all nodes of a path, into a slice of the length of the path. Pure; must not allocate.
     fn along(&self, path: &PathAt<'_>, mu: &mut [f64]) -> Result<Along, Undefined> {
         for (node, mu) in path.nodes.iter().zip(mu) {
             *mu = self.mu(&path.contact(node))?;
@@ -40,50 +39,50 @@ pub trait ToothFrictionModel: Send + Sync {
         Ok(Along::default())
     }
 
-    /// Coefficients at all nodes of a path for several line loads (N/m) side by side, where all else is as at `path`, whose own line
-    /// load and `mean` mean nothing; muted. They
-    /// must have the bits of [`along`](Self::along), the heat must go into both bodies alike, and what is undefined is no number.
-    /// False where the law has no code of its own for it: it is then asked once for each load. It serves the notes of laws with a
-    /// [`weighted`](Self::weighted) sum.
+    /// Batched coefficients at all nodes of a path for several line loads (N/m), with all other quantities as in `path`, whose own
+    /// line load and `mean` are unused; muted. They must have the bits of [`along`](Self::along), the heat must be split equally
+    /// between both bodies, and undefined values must be NaN. False if the law has no batched evaluation: it is then evaluated once
+    /// per load. Used for the notes of laws with a [`weighted`](Self::weighted) sum.
     fn along_lanes(&self, _path: &PathAt<'_>, _line_loads: &Lane, _mu: &mut [Lane]) -> bool {
         false
     }
 
-    /// The sum of the coefficients over the nodes of a path with given weights, prepared where the law knows a shorter way to it
-    /// than node by node; within 1e-9. The heat must go into both bodies alike, and the sum be no number where [`along`](Self::along) is undefined.
+    /// The sum of the coefficients over the nodes of a path with given weights, prepared if the law provides a faster way than node
+    /// by node; accurate to 1e-9. The heat must be split equally between both bodies, and the sum must be NaN where
+    /// [`along`](Self::along) is undefined.
     fn weighted(&self, _nodes: &[PathNode], _weights: &[f64]) -> Option<Box<dyn WeightedFriction>> {
         None
     }
 
-    /// Notes what [`along`](Self::along) notes, from the coefficients of [`along_lanes`](Self::along_lanes).
+    /// Writes the notes of [`along`](Self::along), from the coefficients of [`along_lanes`](Self::along_lanes).
     fn note_lanes(&self, _path: &PathAt<'_>, _line_loads: &Lane, _mu: &[Lane], _notes: LaneNotes<'_>) {}
 }
 
-/// Points on each piece of a path for a smooth law.
+/// Nodes on each section of a path for a smooth law.
 pub const SMOOTH: usize = 7;
 
-/// Points on each piece of a path for a law that is cut off at a place which hangs on load, speed and oil.
+/// Nodes on each section of a path for a law with a cut-off at a point that depends on load, speed and oil.
 pub const CUT_OFF: usize = 64;
 
 /// A sum of coefficients of friction over the nodes of a path with given weights, prepared by a law.
 pub trait WeightedFriction: Send + Sync {
-    /// The sum for one line load; no number where the nodes have to be asked.
+    /// The sum for one line load; NaN if the nodes must be evaluated.
     fn sum(&self, path: &PathAt<'_>) -> f64;
 
-    /// The same for several line loads (N/m) side by side, to the bit but for powers that are remembered; that of `path` and its
-    /// `mean` mean nothing.
+    /// Batched sums for several line loads (N/m), to the bit except for remembered powers; the line load of `path` and its `mean`
+    /// are unused.
     fn sums(&self, path: &PathAt<'_>, line_loads: &Lane, powers: &mut Powers) -> Lane;
 
-    /// Notes what the law notes along the path. False where that takes the coefficients at all nodes.
+    /// Writes the notes of the law along the path. False if that needs the coefficients at all nodes.
     fn note(&self, _path: &PathAt<'_>, _line_loads: &Lane, _notes: LaneNotes<'_>) -> bool {
         false
     }
 }
 
-/// What a law knows of a whole path beside its coefficients.
+/// Results of a law for a whole path in addition to its coefficients.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Along {
-    /// Share of the heat of friction that goes into the body of the first gear. \[-\]
+    /// Share of the friction heat that enters the body of the first gear. \[-\]
     pub first_heat: f64,
 }
 
@@ -95,16 +94,16 @@ impl Default for Along {
 }
 
 context! {
-    /// All that a friction law may look at in one contact.
+    /// All inputs of a friction law in one contact.
     pub struct ContactAt of ToothFriction {
-        /// Sliding speed, magnitude. [m/s]
-        sliding: 1.0 in 0.0..=30.0 from "speed of the mesh and the place on the path",
+        /// Magnitude of the sliding velocity. [m/s]
+        sliding: 1.0 in 0.0..=30.0 from "speed of the mesh and the position on the path",
         /// Sum of the surface speeds. [m/s]
-        sum_speed: 10.0 in 0.0..=200.0 from "speed of the mesh and the place on the path",
+        sum_speed: 10.0 in 0.0..=200.0 from "speed of the mesh and the position on the path",
         /// Radius of relative curvature. [mm]
-        radius: 8.0 in 0.1..=500.0 from "the place on the path",
+        radius: 8.0 in 0.1..=500.0 from "the position on the path",
         /// Line load. [N/mm]
-        line_load: 200.0 in 0.0..=3000.0 from "torque of the mesh and the share of this place",
+        line_load: 200.0 in 0.0..=3000.0 from "torque of the mesh and the load share at this point",
         /// Hertz pressure. [GPa]
         pressure: 0.948 in 0.0..=4.0 from "`line_load`, `radius` and `modulus`",
         /// Reduced modulus E/(1 - nu^2) of equal materials. [GPa]
@@ -125,10 +124,10 @@ context! {
         rho: 820.0 in 500.0..=1300.0 from "the density of that oil at this temperature",
         /// Pressure-viscosity coefficient of that oil. [1/GPa]
         alpha: 15.0 in 1.0..=60.0 from "`pressure_viscosity` of the oil, or its kind",
-        /// Relative fall of the oil's viscosity with temperature. [1/K]
+        /// Relative decrease of the oil's viscosity with temperature. [1/K]
         beta: 0.03 in 0.001..=0.3 from "the slope of its viscosity at this temperature",
         /// Thermal conductivity of the oil. [W/(m K)]
-        conductivity: 0.135 in 0.05..=0.5 from "`conductivity` of the oil, else its density after Cragoe",
+        conductivity: 0.135 in 0.05..=0.5 from "`conductivity` of the oil, else its density according to Cragoe",
         /// Lubricant factor of mean mesh friction. [-]
         x_l: 1.0 in 0.1..=2.0 from "`x_l` of the oil, or its kind",
     } laws {
@@ -147,7 +146,7 @@ context! {
 }
 
 impl ContactAt<'_> {
-    /// Sliding speed over mean rolling speed; zero at standstill. \[-\]
+    /// Slide-to-roll ratio: sliding velocity over mean rolling velocity; zero at standstill. \[-\]
     #[inline]
     pub fn slide_roll(&self) -> f64 {
         if self.sum_speed > 0.0 {
@@ -158,11 +157,11 @@ impl ContactAt<'_> {
     }
 }
 
-/// One place on the path of contact, for one radian per second of the first gear. Prepared once per mesh; logarithms are
-/// kept because a law that is a product of powers needs them at every point.
+/// One point on the path of contact, for a speed of one radian per second of the first gear. Prepared once per mesh. Logarithms are
+/// stored because laws that are products of powers need them at every point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PathNode {
-    /// Sliding speed per speed of the first gear. \[m\]
+    /// Sliding velocity per speed of the first gear. \[m\]
     pub sliding: f64,
     /// Sum of the surface speeds per speed of the first gear. \[m\]
     pub sum_speed: f64,
@@ -172,11 +171,11 @@ pub struct PathNode {
     pub share: f64,
     /// Share of the mesh's normal force that the pair of teeth carries.
     pub force: f64,
-    /// Length of path that the node stands for, over the base pitch; the weights of a path sum to its contact ratio.
+    /// Length of path that the node represents, over the base pitch; the weights of a path sum to its contact ratio.
     pub weight: f64,
-    /// True where the flank of the first gear is the faster one.
+    /// True if the flank of the first gear is the faster one.
     pub first_faster: bool,
-    /// Ratio of sliding to mean rolling speed.
+    /// Slide-to-roll ratio.
     pub slide_roll: f64,
     /// Natural logarithm of `slide_roll`; minus infinity at the pitch point.
     pub ln_slide_roll: f64,
@@ -191,8 +190,8 @@ pub struct PathNode {
 }
 
 impl PathNode {
-    /// A node from sliding and sum speed per speed of the first gear, radius and share; SI. It carries its share of the force
-    /// as line load, stands for one base pitch, and its first flank is the faster one.
+    /// A node from sliding and sum velocity per speed of the first gear, radius and share; SI. Its line load is that share of the
+    /// force, its weight is one base pitch, and its first flank is the faster one.
     pub fn new(sliding: f64, sum_speed: f64, radius: f64, share: f64) -> Self {
         let slide_roll = 2.0 * sliding / sum_speed;
         let root_load = (share / radius).sqrt();
@@ -214,10 +213,10 @@ impl PathNode {
     }
 }
 
-/// Least and greatest values along a path, for notes that need no walk along it.
+/// Minimum and maximum values along a path, for notes that need no evaluation of its nodes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PathExtent {
-    /// Ratio of sliding to mean rolling speed.
+    /// Slide-to-roll ratio.
     pub slide_roll: [f64; 2],
     /// Sum of the surface speeds per speed of the first gear. \[m\]
     pub sum_speed: [f64; 2],
@@ -229,7 +228,7 @@ pub struct PathExtent {
 
 impl PathExtent {
     /// The extent of a path.
-    pub fn of(nodes: &[PathNode]) -> Self {
+    pub fn from_nodes(nodes: &[PathNode]) -> Self {
         let range = |value: fn(&PathNode) -> f64| {
             let values = nodes.iter().map(value);
             [
@@ -250,13 +249,13 @@ impl PathExtent {
 #[derive(Clone, Copy)]
 #[non_exhaustive]
 pub struct PathAt<'a> {
-    /// The places on the path.
+    /// The points on the path.
     pub nodes: &'a [PathNode],
     /// Their extent.
     pub extent: &'a PathExtent,
-    /// Speed of the first gear in the carrier's frame, magnitude, above zero. \[rad/s\]
+    /// Magnitude of the speed of the first gear in the carrier's frame, positive. \[rad/s\]
     pub speed: f64,
-    /// Reference line load, above zero. \[N/m\]
+    /// Reference line load, positive. \[N/m\]
     pub line_load: f64,
     /// Reduced modulus E/(1 - nu^2) of equal materials. \[Pa\]
     pub modulus: f64,
@@ -276,23 +275,23 @@ pub struct PathAt<'a> {
     pub rho: f64,
     /// Pressure-viscosity coefficient. \[1/Pa\]
     pub alpha: f64,
-    /// Relative fall of the viscosity with temperature. \[1/K\]
+    /// Relative decrease of the viscosity with temperature. \[1/K\]
     pub beta: f64,
     /// Thermal conductivity. \[W/(m K)\]
     pub conductivity: f64,
     /// Lubricant factor of mean mesh friction.
     pub x_l: f64,
-    /// Temperatures of the bodies of both gears, where a thermal network knows them. \[degC\]
+    /// Body temperatures of both gears, if a thermal network provides them. \[degC\]
     pub bodies: Option<[f64; 2]>,
-    /// The mesh as a law of mean friction sees it.
+    /// The inputs of a mean friction law for this mesh.
     pub mean: &'a MeanFrictionAt<'a>,
-    /// Where limits, observed quantities and steps are noted.
+    /// Target of limits, observed quantities and steps.
     pub notes: Notes<'a>,
 }
 
 impl<'a> PathAt<'a> {
-    /// The path of a mesh: its places, their extent and the length of the line of contact of one pair. \[m\]
-    pub fn of(
+    /// The path of a mesh: its points, their extent and the length of the line of contact of one pair. \[m\]
+    pub fn new(
         nodes: &'a [PathNode],
         extent: &'a PathExtent,
         length: f64,
@@ -329,10 +328,10 @@ impl<'a> PathAt<'a> {
         self
     }
 
-    /// The same for the law of a nested slot, which has notes of its own.
+    /// The same for the law of a nested slot, which has its own notes.
     #[inline]
     pub fn nested(&self, slot: &Slot<ToothFriction>) -> Self {
-        self.with(|to| to.notes = self.notes.of(slot.notes))
+        self.with(|to| to.notes = self.notes.nested(slot.notes))
     }
 
     /// Hertz pressure of a node with `root_load` one. \[Pa m^0.5\]
@@ -341,7 +340,7 @@ impl<'a> PathAt<'a> {
         (self.line_load * self.modulus / (2.0 * std::f64::consts::PI)).sqrt()
     }
 
-    /// One place of the path as a contact.
+    /// One point of the path as a contact.
     pub fn contact(&self, node: &PathNode) -> ContactAt<'a> {
         ContactAt {
             part: &NoPart {},
@@ -362,7 +361,7 @@ impl<'a> PathAt<'a> {
             beta: self.beta,
             conductivity: self.conductivity,
             x_l: self.x_l,
-            // A place has a speed of its own.
+            // Each point has its own velocities.
             notes: self.notes.forgetting(),
         }
     }
@@ -386,7 +385,7 @@ impl Mechanism for ToothFriction {
     fn answer(model: &Self::Model, at: &ContactAt<'_>) -> Result<f64, Undefined> {
         model.mu(at)
     }
-    fn side_by_side(model: &Self::Model, at: &ContactAt<'_>, notes: NoteBase) -> Option<&'static str> {
+    fn compare_batched(model: &Self::Model, at: &ContactAt<'_>, notes: NoteBase) -> Option<&'static str> {
         suite::fault(model, at, notes)
     }
     fn scalar(law: Scalar<Self>) -> Arc<Self::Model> {

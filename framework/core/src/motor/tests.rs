@@ -18,21 +18,21 @@ fn efficiencies_become_losses_before_they_are_interpolated() {
     let close = |a: f64, b: f64| (a - b).abs() < 1e-9 * b;
     let (low, high) = (10.0 * w * 0.25, 20.0 * w * (1.0 / 0.9 - 1.0));
     assert!(close(at(1000.0, 15.0).loss, 0.5 * (low + high)));
-    // Generating: the part of the mechanical power that is not regained; also backwards.
+    // Generating: the part of the mechanical power that is not recovered; also in reverse.
     assert!(close(at(1000.0, -10.0).loss, 10.0 * w * 0.2) && close(at(-1000.0, 10.0).loss, 10.0 * w * 0.2));
     assert!(close(at(2000.0, -20.0).loss, 20.0 * 2.0 * w));
     assert!(close(at(-1000.0, -10.0).loss, low));
-    // Below the slowest speed and the smallest torque the nearest loss holds; at standstill without torque the motor is off.
+    // Below the lowest speed and the smallest torque the nearest loss is used; at standstill without torque the motor is off.
     assert!(close(at(0.0, 10.0).loss, low) && close(at(1000.0, 0.0).loss, low) && !at(1000.0, 0.0).outside);
     assert_eq!(at(0.0, 0.0).loss, 0.0);
-    // Beyond, the end holds and is told.
+    // Outside the map the end value is used and reported.
     for (rpm, torque) in [(3000.0, 10.0), (2000.0, 30.0), (-3000.0, 30.0)] {
         assert!(at(rpm, torque).outside, "{rpm} {torque}");
     }
     assert!(close(at(3000.0, 10.0).loss, 2.0 * low));
     assert_eq!(
         map.notes,
-        ["5 rows without speed or torque left out: an efficiency tells no loss there"]
+        ["5 rows without speed or torque skipped: an efficiency defines no loss there"]
     );
 }
 
@@ -44,7 +44,7 @@ fn a_corner_that_the_motor_does_not_reach_holds_the_last_loss_and_is_told() {
     let corner = at(2000.0, 20.0);
     assert!((corner.loss - 150.0).abs() < 1e-9 && corner.outside);
     assert!(!at(1500.0, 15.0).outside && at(1500.0, 15.1).outside);
-    // Without generating rows the losses of motoring hold.
+    // Without generating rows the motoring losses are used.
     assert_eq!(at(1000.0, -20.0), at(1000.0, 20.0));
     assert!(!map.has_temperature());
 }
@@ -59,7 +59,7 @@ fn losses_are_linear_over_the_temperature() {
     assert!(map.has_temperature());
     assert!((at(70.0).loss - 240.0).abs() < 1e-9 && !at(70.0).outside);
     assert!((at(0.0).loss - 200.0).abs() < 1e-9 && at(0.0).outside && at(130.0).outside);
-    // At one temperature alone the losses count at any.
+    // A single temperature applies to all.
     let single: String = text.lines().take(5).fold(String::new(), |all, line| all + line + "\n");
     let map = MotorMap::read(single.as_bytes()).unwrap();
     assert!(!map.has_temperature() && !map.loss(1000.0 * PI / 30.0, 20.0, 90.0).outside);
@@ -75,8 +75,8 @@ fn faults_of_a_map_tell_line_and_column() {
     assert_eq!(
         messages("n [rpm],torque [Nm],eta [-]\n1,1,1\n"),
         [
-            "line 1: no column holds the speed; there are: n, torque, eta",
-            "line 1: no column holds the efficiency or the loss; there are: n, torque, eta",
+            "line 1: there is no column for the speed; there are: n, torque, eta",
+            "line 1: there is no column for the efficiency or the loss; there are: n, torque, eta",
         ]
     );
     assert_eq!(
@@ -84,21 +84,21 @@ fn faults_of_a_map_tell_line_and_column() {
         [
             "line 2, column 3 `efficiency`: an efficiency of 80; it lies between 0 and 1, or 0 and 100 %",
             "line 3, column 3 `efficiency`: an efficiency of 0; it lies between 0 and 1, or 0 and 100 %",
-            "line 4, column 1 `speed`: `-1` is below zero",
+            "line 4, column 1 `speed`: `-1` is negative",
             "line 5, column 2 `torque`: `x` is not a number",
         ]
     );
     assert_eq!(
         messages("speed [rpm],torque [Nm],loss [W]\n1000,10,80\n2000,20,90\n1000,10,80\n"),
-        ["line 4: this speed and torque stand already in line 2"]
+        ["line 4: this speed and torque are already in line 2"]
     );
     assert_eq!(
         messages("speed [rpm],torque [Nm],loss [W]\n1000,10,80\n1000,20,80\n"),
-        ["the motoring part has 1 speeds and 2 torques; a map needs two of each"]
+        ["the motoring part has 1 speeds and 2 torques; a map requires two of each"]
     );
     assert_eq!(
         messages("speed [rpm],torque [Nm],loss [W]\n1,1,1\n2,2,2\n3,3,3\n4,4,4\n"),
-        ["the motoring part has 4 rows for 4 speeds, 4 torques and 1 temperatures, which is no grid"]
+        ["the motoring part has 4 rows for 4 speeds, 4 torques and 1 temperatures, which is not a grid"]
     );
 }
 
@@ -116,11 +116,11 @@ fn the_share_of_the_rotor_is_one_number_or_rises_with_speed() {
             },
         ])
     };
-    assert_eq!(RotorShare::default().at(500.0).unwrap(), 0.2);
-    assert!((over([0.0, 1000.0]).at(-500.0).unwrap() - 0.2).abs() < 1e-12);
-    assert_eq!(over([0.0, 1000.0]).at(2000.0).unwrap(), 0.3);
+    assert_eq!(RotorShare::default().share_at(500.0).unwrap(), 0.2);
+    assert!((over([0.0, 1000.0]).share_at(-500.0).unwrap() - 0.2).abs() < 1e-12);
+    assert_eq!(over([0.0, 1000.0]).share_at(2000.0).unwrap(), 0.3);
     assert_eq!(
-        over([10.0, 10.0]).at(5.0).unwrap_err().message,
-        "the speeds of `rotor_share` do not rise"
+        over([10.0, 10.0]).share_at(5.0).unwrap_err().message,
+        "the speeds of `rotor_share` do not increase"
     );
 }

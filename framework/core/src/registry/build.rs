@@ -1,33 +1,47 @@
-//! What a model sees while it is built.
+//! Context of a model while it is built.
 
 use std::any::Any;
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::{Arc, Mutex};
 
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 
-use super::slot::{ModelRef, Slot};
 use super::{Entry, Registry, from_resolved};
+use crate::codes;
 use crate::document::{Diagnostic, did_you_mean};
-use crate::files::{LONGEST_DATA, read_text};
+use crate::files::{Disk, InMemory, LONGEST_DATA, SharedSource};
 use crate::loss::NoteBase;
-use crate::mechanism::Mechanism;
 use crate::mechanism::gear_drag::{GearDrag, Scope};
+use crate::mechanism::{Mechanism, ModelRef, Slot};
 
-/// Files that a description names, read once and found relative to the document that names them.
-#[derive(Debug, Default)]
+/// Files named by a description, read once; paths are relative to the document that names them.
+#[derive(Debug)]
 pub struct Files {
-    folder: Option<PathBuf>,
+    folder: PathBuf,
+    source: SharedSource,
     read: Mutex<BTreeMap<PathBuf, Arc<str>>>,
 }
 
+/// No files but those that are given by [`Files::put`].
+impl Default for Files {
+    fn default() -> Self {
+        Self::from_source(Arc::new(InMemory::default()), PathBuf::new())
+    }
+}
+
 impl Files {
-    /// Files beside a document in this folder.
+    /// Files on the disk beside a document in this folder.
     pub fn beside(folder: impl Into<PathBuf>) -> Self {
+        Self::from_source(Disk::shared(), folder)
+    }
+
+    /// Files of a source, relative to this folder.
+    pub fn from_source(source: SharedSource, folder: impl Into<PathBuf>) -> Self {
         Self {
-            folder: Some(folder.into()),
+            folder: folder.into(),
+            source,
             read: Mutex::default(),
         }
     }
@@ -37,34 +51,36 @@ impl Files {
     /// # Errors
     /// The reason why it cannot be read, with the path that was tried.
     pub fn text(&self, name: &str) -> Result<Arc<str>, String> {
-        let path = self.folder.as_deref().unwrap_or(Path::new("")).join(name);
+        let path = self.folder.join(name);
         let mut read = self.read.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
         if let Some(text) = read.get(&path) {
             return Ok(Arc::clone(text));
         }
-        let text: Arc<str> = read_text(&path, LONGEST_DATA)
+        let text: Arc<str> = self
+            .source
+            .read_text(&path, LONGEST_DATA)
             .map_err(|e| format!("cannot read {}: {e}", path.display()))?
             .into();
         read.insert(path, Arc::clone(&text));
         Ok(text)
     }
 
-    /// Forgets what was read, but for some files.
+    /// Forgets the files read, except for some.
     pub fn forget_all_but(&self, kept: &[PathBuf]) {
         let mut read = self.read.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
         read.retain(|path, _| kept.contains(path));
     }
 
-    /// Gives a text for a file that need not exist.
+    /// Provides a text for a file that need not exist.
     pub fn put(&self, name: &str, text: &str) {
-        let path = self.folder.as_deref().unwrap_or(Path::new("")).join(name);
+        let path = self.folder.join(name);
         self.read
             .lock()
             .unwrap_or_else(std::sync::PoisonError::into_inner)
             .insert(path, text.into());
     }
 
-    /// Gives several: names with their text.
+    /// Provides several files: names with their text.
     pub fn put_all(&self, files: &[(&str, &str)]) {
         for (name, text) in files {
             self.put(name, text);
@@ -80,24 +96,24 @@ impl Files {
     }
 }
 
-/// One built model with its place in the document.
+/// One built model with its path in the document.
 #[derive(Clone)]
 pub struct Instance {
     /// Resolved path of the model, such as `bearings.B1.model`.
     pub path: String,
     /// Its registration.
     pub entry: Entry,
-    /// Where its notes stand.
+    /// Position of its notes.
     pub notes: NoteBase,
 }
 
-/// What a model sees while it is built: the registry for nested slots, its part, its path, files. Collects findings.
+/// Context of a model while it is built: the registry for nested slots, its part, its path, files. Collects findings.
 pub struct Build<'a> {
     registry: &'a Registry,
     files: &'a Files,
     path: String,
     part: Option<Arc<dyn Any + Send + Sync>>,
-    /// Scope of the drag model around the slot that is being built.
+    /// Scope of the drag model whose slot is being built.
     around: Option<Scope>,
     instances: Vec<Instance>,
     cells: usize,
@@ -117,9 +133,9 @@ impl<'a> Build<'a> {
         }
     }
 
-    /// An error at the place that is being built.
+    /// An error at the path that is being built.
     pub fn error(&self, message: impl Into<String>) -> Diagnostic {
-        Diagnostic::error(self.path.clone(), message)
+        Diagnostic::error(self.path.clone(), message).code(codes::MODEL)
     }
 
     /// The path that is being built.
@@ -127,12 +143,12 @@ impl<'a> Build<'a> {
         &self.path
     }
 
-    /// The part that the model belongs to, where the framework has one of this mechanism.
+    /// The part that the model belongs to, if the framework has one of this mechanism.
     pub fn part<M: Mechanism>(&self) -> Option<&M::Part> {
         self.part.as_ref().and_then(|part| part.downcast_ref())
     }
 
-    /// True for the name of a drag model that is asked once for each mesh.
+    /// True for the name of a drag model that is evaluated once per mesh.
     pub fn is_pair(&self, drag: &str) -> bool {
         let entry = self.registry.model(GearDrag::KEY, drag);
         entry.is_some_and(|entry| entry.scope == Scope::Mesh)
@@ -152,7 +168,7 @@ impl<'a> Build<'a> {
     /// The parameters of the model.
     ///
     /// # Errors
-    /// What the parameters' own checks find.
+    /// Faults found by the parameters' own checks.
     pub fn params<T: DeserializeOwned>(&self, value: &Value) -> Result<T, Diagnostic> {
         from_resolved(value).map_err(|e| self.error(e.to_string()))
     }
@@ -160,7 +176,7 @@ impl<'a> Build<'a> {
     /// Builds the model of a nested slot; `key` is the field's name.
     ///
     /// # Errors
-    /// What building the nested model finds.
+    /// If the nested model cannot be built.
     pub fn slot<M: Mechanism>(&mut self, key: &str, slot: &ModelRef<M>) -> Result<Slot<M>, Diagnostic> {
         let outer = self.path.len();
         self.path.push('.');
@@ -170,7 +186,7 @@ impl<'a> Build<'a> {
         built
     }
 
-    /// Builds the model of a nested slot for a part of its own.
+    /// Builds the model of a nested slot for another part.
     ///
     /// # Errors
     /// As [`Build::slot`].
@@ -189,7 +205,7 @@ impl<'a> Build<'a> {
     /// Builds a model at a path for a part.
     ///
     /// # Errors
-    /// What building the model finds.
+    /// If the model cannot be built.
     pub fn slot_at<M: Mechanism>(
         &mut self,
         path: &str,
@@ -199,10 +215,10 @@ impl<'a> Build<'a> {
         self.slot_beside(path, part, value)
     }
 
-    /// Builds a model at a path beside a part of another mechanism, as a nested model sees it.
+    /// Builds a model at a path beside a part of another mechanism, as a nested model.
     ///
     /// # Errors
-    /// What building the model finds.
+    /// If the model cannot be built.
     pub fn slot_beside<M: Mechanism, P: Any + Send + Sync>(
         &mut self,
         path: &str,
@@ -221,10 +237,10 @@ impl<'a> Build<'a> {
         let Some(entry) = self.registry.model(M::KEY, name).copied() else {
             let names: Vec<&str> = self.registry.models(M::KEY).map(|m| m.name).collect();
             let missing = self.error(format!("no {} model is called `{name}`", M::KEY));
-            let missing = missing.note(format!("linked here: {}", names.join(", ")));
+            let missing = missing.note(format!("available: {}", names.join(", ")));
             return Err(match did_you_mean(name, names.iter().copied()) {
                 Some(close) => missing.help(format!("write `{close}`")),
-                None => missing.help("choose one of them"),
+                None => missing.help("use one of them"),
             });
         };
         let outer = self.around;
@@ -232,9 +248,9 @@ impl<'a> Build<'a> {
             if (outer, entry.scope) == (Some(Scope::Gear), Scope::Mesh) {
                 return Err(self
                     .error(format!(
-                        "`{name}` is asked for meshes, the model around it for single gears"
+                        "`{name}` is a law for meshes, but the enclosing model is for single gears"
                     ))
-                    .help("choose a law of a single gear"));
+                    .help("choose a law for a single gear"));
             }
             self.around = Some(entry.scope);
         }

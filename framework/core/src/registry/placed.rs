@@ -1,83 +1,55 @@
-//! A component in its seat with its model: what evaluation runs over.
+//! A placed component with its model, the unit of evaluation.
 
 use std::sync::Arc;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator};
-use serde::Deserialize;
 use serde_json::Value;
 
 use super::build::Build;
-use super::{Slot, from_resolved};
-use crate::attach::{Attach, Names, Spot, State};
+use super::from_resolved;
+use crate::attach::{Attach, Common, Names, Spot, State};
 use crate::document::Diagnostic;
 use crate::evaluate::{Reading, readings};
 use crate::lanes::{LaneNotes, LossLanes};
 use crate::loads::{LoadLanes, StaticRating};
 use crate::loss::{Loss, NoteBase, Notebook, Notes, Undefined};
-use crate::mechanism::Component;
+use crate::mechanism::{Component, Slot};
 
-/// What the framework reads of every component, whatever its mechanism.
-#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
-pub struct Common {
-    /// Oil; absent, that of the housing.
-    pub lubricant: Option<String>,
-    /// Temperature of the oil at the component above that of the sump. [K]
-    #[serde(default)]
-    #[schemars(range(min = -200.0, max = 200.0))]
-    pub temperature_offset: f64,
-    /// Factor on the loss of the model, for what a model does not know; identification moves it. [-]
-    #[serde(default = "whole")]
-    #[schemars(range(min = 0.0, max = 100.0))]
-    pub loss_factor: f64,
-    /// Number of equal components at this place; each carries the whole load that the place has. [-]
-    #[serde(default = "one")]
-    #[schemars(range(min = 1, max = 1000))]
-    pub count: u32,
-}
-
-fn one() -> u32 {
-    1
-}
-
-fn whole() -> f64 {
-    1.0
-}
-
-/// Keeps [`Placed`] within the framework.
+/// Seals [`Placed`] within the framework.
 pub(crate) mod sealed {
     pub trait Sealed {}
 }
 
-/// A component in its seat with its model. The framework alone puts them there.
+/// A placed component with its model. Only the framework creates it.
 pub trait Placed: sealed::Sealed + Send + Sync {
     /// Loss of one copy; its model notes into the book.
     fn loss(&self, state: &State<'_>, book: &Notebook<'_>) -> Result<Loss, Undefined>;
-    /// Losses of one copy at several loads of its support, where all else is as in the state; false where its mechanism has no
-    /// way for that.
+    /// Batched losses of one copy at several loads of its support, with all other quantities as in the state; false if its
+    /// mechanism has no batched evaluation.
     fn losses(&self, _state: &State<'_>, _loads: &LoadLanes, _book: &Notebook<'_>, _losses: &mut LossLanes) -> bool {
         false
     }
-    /// Notes of its model at these loads; false where [`Placed::losses`] has no way.
+    /// Notes of its model at these loads; false if [`Placed::losses`] has no batched evaluation.
     fn note(&self, _state: &State<'_>, _loads: &LoadLanes, _notes: LaneNotes<'_>) -> bool {
         false
     }
-    /// False where [`Placed::note`] notes the same at all loads.
+    /// False if [`Placed::note`] writes the same notes at all loads.
     fn notes_hang_on_load(&self) -> bool {
         true
     }
-    /// What the model sees at a state, one copy.
+    /// The context of the model at a state, one copy.
     fn readings(&self, state: &State<'_>) -> Vec<Reading>;
-    /// The two members that feel the reaction; absent for the housing.
+    /// The two members that take the reaction; `None` for the housing.
     fn between(&self) -> [Option<u16>; 2];
-    /// True where the loss may depend on torque or load.
+    /// True if the loss may depend on torque or load.
     fn loaded(&self) -> bool;
-    /// True where its model is `none`.
+    /// True if its model is `none`.
     fn off(&self) -> bool;
-    /// Where its model's notes stand.
+    /// Position of its model's notes.
     fn notes(&self) -> NoteBase;
     /// Number of the support, for components that carry load.
     fn support(&self) -> Option<u16>;
-    /// Static load rating, where it is known.
+    /// Static load rating, if known.
     fn static_rating(&self) -> Option<StaticRating> {
         None
     }
@@ -95,23 +67,23 @@ impl<C: Component> sealed::Sealed for PlacedAs<C> {}
 impl<C: Component> Placed for PlacedAs<C> {
     fn loss(&self, state: &State<'_>, book: &Notebook<'_>) -> Result<Loss, Undefined> {
         let site = C::Attachment::site(self.seat, &self.spot, state);
-        C::answer(&self.model, &C::at(&self.part, site, book.notes(self.model.notes)))
+        C::answer(&self.model, &C::context(&self.part, site, book.notes(self.model.notes)))
     }
     fn losses(&self, state: &State<'_>, loads: &LoadLanes, book: &Notebook<'_>, losses: &mut LossLanes) -> bool {
         let site = C::Attachment::site(self.seat, &self.spot, state);
-        let at = C::at(&self.part, site, book.notes(self.model.notes));
+        let at = C::context(&self.part, site, book.notes(self.model.notes));
         C::losses(&self.model, &at, loads, losses)
     }
     fn note(&self, state: &State<'_>, loads: &LoadLanes, notes: LaneNotes<'_>) -> bool {
         let site = C::Attachment::site(self.seat, &self.spot, state);
-        C::note(&self.model, &C::at(&self.part, site, notes.all()), loads, notes)
+        C::note(&self.model, &C::context(&self.part, site, notes.all()), loads, notes)
     }
     fn notes_hang_on_load(&self) -> bool {
         C::notes_hang_on_load(&self.model)
     }
     fn readings(&self, state: &State<'_>) -> Vec<Reading> {
         let site = C::Attachment::site(self.seat, &self.spot, state);
-        readings::<C>(&C::at(&self.part, site, Notes::MUTED))
+        readings::<C>(&C::context(&self.part, site, Notes::MUTED))
     }
     fn between(&self) -> [Option<u16>; 2] {
         C::Attachment::between(self.seat)
@@ -138,15 +110,15 @@ impl<C: Component> Placed for PlacedAs<C> {
 pub struct Section {
     /// Name of the section.
     pub name: &'static str,
-    /// Schemas whose fields make up an entry: place, part, what the framework reads of every component.
+    /// Schemas whose fields make up an entry: place, part, common keys.
     pub schemas: fn(&mut SchemaGenerator) -> Vec<Schema>,
-    /// Seats a component and builds its model. Dangling ids go to the names' findings.
+    /// Places a component and builds its model. Unknown ids become findings.
     pub place: fn(&Value, &mut Names<'_>, &mut Build<'_>) -> Result<Option<Box<dyn Placed>>, Diagnostic>,
 }
 
 impl Section {
     /// The section of a component.
-    pub(super) const fn of<C: Component>() -> Self {
+    pub(crate) const fn new<C: Component>() -> Self {
         Self {
             name: C::SECTION,
             schemas: |generator| {

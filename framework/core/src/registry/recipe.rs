@@ -1,4 +1,4 @@
-//! Recipes that lay out a thermal network where a description says `network: auto`.
+//! Recipes that generate a thermal network for `network: auto`.
 
 use serde_json::Value;
 
@@ -6,34 +6,34 @@ use super::Origin;
 use crate::description::GearboxEntry;
 use crate::document::Diagnostic;
 
-/// A recipe for thermal networks that a crate ships. It lies outside of the framework because it names models.
+/// A recipe for thermal networks that a crate ships. It is outside the framework because it names models.
 #[derive(Debug, Clone, Copy)]
 pub struct NetworkRecipe {
-    /// What it is.
+    /// Description.
     pub meaning: &'static str,
-    /// The network as one writes it under `thermal.network`, numbers in documented units, from the typed sections of a
-    /// resolved description and from all of it. What is missing is an error at `thermal.network`. Ids that meet nothing
-    /// are left alone: building says so.
-    pub lay_out: fn(&GearboxEntry, &Value) -> Result<Value, Diagnostic>,
+    /// The network in its written form under `thermal.network`, with numbers in documented units, from the typed sections of a
+    /// resolved description and from all of it. Missing data is an error at `thermal.network`. Unknown ids are left unchanged:
+    /// building reports them.
+    pub generate: fn(&GearboxEntry, &Value) -> Result<Value, Diagnostic>,
     /// Where it is registered.
     pub origin: Origin,
 }
 
 inventory::collect!(NetworkRecipe);
 
-/// The only recipe at hand.
+/// The only available recipe.
 ///
 /// # Errors
-/// Where there is none, or more than one.
+/// If there is none, or more than one.
 pub(super) fn only(recipes: &[NetworkRecipe]) -> Result<&NetworkRecipe, Diagnostic> {
     const PATH: &str = "thermal.network";
     match recipes {
         [only] => Ok(only),
-        [] => Err(Diagnostic::error(PATH, "no crate of this program lays out networks")
-            .help("link a crate that does, such as gearloss-plugins, or write `nodes` and `links` in place of `auto`")),
-        [one, other, ..] => Err(Diagnostic::error(PATH, "two crates lay out networks")
+        [] => Err(Diagnostic::error(PATH, "no crate of this program generates networks")
+            .help("link a crate that does, such as gearloss-plugins, or write `nodes` and `links` instead of `auto`")),
+        [one, other, ..] => Err(Diagnostic::error(PATH, "two crates generate networks")
             .note(format!("one at {}, the other at {}", one.origin, other.origin))
-            .help("link one of them only, or write `nodes` and `links` in place of `auto`")),
+            .help("link only one of them, or write `nodes` and `links` instead of `auto`")),
     }
 }
 
@@ -46,7 +46,7 @@ mod tests {
     fn one_recipe_is_taken_none_and_two_are_told() {
         let recipe = NetworkRecipe {
             meaning: "Nothing.",
-            lay_out: |_, _| Ok(Value::Null),
+            generate: |_, _| Ok(Value::Null),
             origin: crate::origin!(),
         };
         assert!(only(&[recipe]).is_ok());

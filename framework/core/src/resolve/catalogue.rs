@@ -1,12 +1,13 @@
-//! Catalogues: CSV tables that fill absent keys of components by designation.
+//! Catalogues: CSV tables that fill omitted keys of components by designation.
 
 use std::collections::BTreeMap;
 
 use serde_json::{Map, Value};
 
 use super::designation::suggest;
-use super::{Came, absent, entries_mut};
+use super::{ValueSource, absent, entries_mut};
 use crate::attach::dangling;
+use crate::codes;
 use crate::document::{Diagnostic, Dimension, Unit};
 use crate::language::{LUBRICANTS, Language};
 use crate::registry::Files;
@@ -14,26 +15,26 @@ use crate::registry::Files;
 /// One row of a catalogue.
 #[derive(Debug, Clone)]
 pub struct CatalogueRow {
-    /// Keys of the section and their values, as they would be written.
+    /// Keys of the section and their values, in written form.
     pub values: Vec<(String, Value)>,
-    /// How sure the row is.
+    /// Confidence of the row.
     pub confidence: String,
 }
 
-/// A catalogue as read: rows by designation.
+/// A catalogue: rows by designation.
 #[derive(Debug, Clone, Default)]
 pub struct CatalogueTable(pub BTreeMap<String, CatalogueRow>);
 
 impl CatalogueTable {
-    /// Adds the rows of another; the own rows win.
+    /// Adds the rows of another; existing rows take precedence.
     pub fn extend(&mut self, other: Self) {
         for (designation, row) in other.0 {
             self.0.entry(designation).or_insert(row);
         }
     }
 
-    /// Reads a catalogue: `designation`, then keys with their unit in brackets, and if wanted `confidence` and `basis`.
-    /// A column without a unit is text. An empty cell states nothing.
+    /// Reads a catalogue: `designation`, then keys with their unit in brackets, and optionally `confidence` and `basis`. A column
+    /// without a unit is text. An empty cell states nothing.
     ///
     /// # Errors
     /// With the line of the file.
@@ -89,32 +90,32 @@ impl CatalogueTable {
             }
             let designation = record[at].to_owned();
             if rows.insert(designation.clone(), row).is_some() {
-                return Err(format!("line {line}: `{designation}` stands twice"));
+                return Err(format!("line {line}: `{designation}` occurs twice"));
             }
         }
         Ok(Self(rows))
     }
 }
 
-/// The longest known designation that a written one goes on from with a suffix, and that suffix: `6208` and `-2RS1`.
+/// The longest known designation that a written one extends with a suffix, and that suffix: `6208` and `-2RS1`.
 pub fn without_suffix<'a>(written: &'a str, known: impl Iterator<Item = &'a str>) -> Option<(&'a str, &'a str)> {
     let suffix_of = |base: &&str| {
         let head = written.get(..base.len())?;
         let suffix = &written[base.len()..];
         let ends = suffix.chars().next()?;
-        // `62081` is another bearing than `6208`, not one with a suffix.
+        // `62081` is a different bearing, not `6208` with a suffix.
         (head.eq_ignore_ascii_case(base) && !ends.is_ascii_digit()).then_some(suffix)
     };
     let bases = known.filter_map(|base| Some((base, suffix_of(&base)?)));
     bases.max_by_key(|(base, _)| base.len())
 }
 
-/// Fills the absent keys of every component that has a designation.
+/// Fills the omitted keys of every component that has a designation.
 pub(super) fn fill(
     language: &Language,
     files: &Files,
     value: &mut Value,
-    came: &mut BTreeMap<String, Came>,
+    sources: &mut BTreeMap<String, ValueSource>,
     found: &mut Vec<Diagnostic>,
 ) {
     let mut own: BTreeMap<String, CatalogueTable> = BTreeMap::new();
@@ -139,7 +140,7 @@ pub(super) fn fill(
         }
     }
     let components = language.registry().sections().map(|(_, s)| (s.name, "bore"));
-    // A designation may be a name alone, when the key that everything hangs on is written.
+    // A designation may be just a name, if the required keys are written.
     let sections: Vec<(&str, &str)> = components.chain([(LUBRICANTS, "viscosity")]).collect();
     for (section, needed) in sections {
         let shipped = language.catalogue(section);
@@ -160,14 +161,16 @@ pub(super) fn fill(
                         .map(String::as_str)
                         .collect();
                     let path = format!("{section}.{id}.designation");
-                    let error = Diagnostic::error(path, format!("no catalogue has `{designation}`")).note(format!(
-                        "{} designations are known: `gearloss catalogue {}` lists them",
-                        names.len(),
-                        if section == LUBRICANTS { "oils" } else { section }
-                    ));
+                    let error = Diagnostic::error(path, format!("no catalogue has `{designation}`"))
+                        .code(codes::UNKNOWN_DESIGNATION)
+                        .note(format!(
+                            "{} designations are known: `gearloss catalogue {}` lists them",
+                            names.len(),
+                            if section == LUBRICANTS { "oils" } else { section }
+                        ));
                     if let Some((base, suffix)) = without_suffix(&designation, names.iter().copied()) {
                         found.push(error.help(format!(
-                            "write `{base}`, whose dimensions and ratings these are; no row says what `{suffix}` changes, such as seals, \
+                            "write `{base}`, which has the same dimensions and ratings; no row states what `{suffix}` changes, such as seals, \
                              clearance or cage: state it in keys and in the model of this entry"
                         )));
                         continue;
@@ -183,7 +186,7 @@ pub(super) fn fill(
                 }
                 continue;
             };
-            // What is written of a nested entry, such as a viscosity, stands alone: a law of two values takes no third.
+            // A nested entry that is written, such as a viscosity, is not completed: a law with two parameters takes no third value.
             let written: Vec<String> = entry.keys().filter(|key| !absent(entry, key)).cloned().collect();
             for (key, filled) in &row.values {
                 let (head, rest) = key.split_once('.').unwrap_or((key, ""));
@@ -206,11 +209,11 @@ pub(super) fn fill(
                             continue;
                         }
                     }
-                    let from = Came::Catalogue {
+                    let from = ValueSource::Catalogue {
                         designation: designation.clone(),
                         confidence: row.confidence.clone(),
                     };
-                    came.insert(format!("{section}.{id}.{key}"), from);
+                    sources.insert(format!("{section}.{id}.{key}"), from);
                 }
             }
         }

@@ -1,25 +1,26 @@
-//! Which models and which overrides a calculation uses.
+//! Choice of models and overrides of a calculation.
 
 use std::collections::BTreeMap;
 
 use serde_json::{Map, Value};
 
+use crate::codes;
 use crate::document::{Diagnostic, did_you_mean};
 use crate::language::Language;
 
-/// A set of models and overrides of single values.
+/// A model set and overrides of single values.
 #[derive(Debug, Clone, Default)]
 pub struct Choice {
-    /// Name of the set of models; absent, the `models` of the gearbox.
+    /// Name of the model set; `None`: the `models` of the gearbox.
     pub set: Option<String>,
-    /// Sets of a study; they win over those of the gearbox and over those that crates ship.
+    /// Model sets of a study; they take precedence over those of the gearbox and over those that crates ship.
     pub sets: Map<String, Value>,
-    /// Path patterns and values, in the order in which they are applied.
+    /// Path patterns and values, in the order of application.
     pub overrides: Vec<(String, Value)>,
 }
 
 impl Choice {
-    /// A set of models by its name.
+    /// A model set by its name.
     pub fn of_set(name: impl Into<String>) -> Self {
         Self {
             set: Some(name.into()),
@@ -27,27 +28,26 @@ impl Choice {
         }
     }
 
-    /// The same with a further override: a path or a pattern, and the value as one writes it, `"1.5 l"` or a bare number in
-    /// the documented unit.
+    /// Adds an override: a path or a pattern, and the value in its written form, `"1.5 l"` or a bare number in the documented unit.
     pub fn with(mut self, path: impl Into<String>, value: impl Into<Value>) -> Self {
         self.overrides.push((path.into(), value.into()));
         self
     }
 }
 
-/// A set of models with everything that it extends.
+/// A model set with everything that it extends.
 #[derive(Debug, Clone, Default)]
 pub struct ModelSet {
     /// Default by mechanism.
     pub models: Map<String, Value>,
     /// Models of single components, by path pattern.
     pub components: Vec<(String, Value)>,
-    /// Path patterns and values that belong to the set, in the order in which they are applied, each with the set that states it.
+    /// Path patterns and values that belong to the set, in the order of application, each with the set that states it.
     pub changes: Vec<(String, Value, String)>,
 }
 
 impl ModelSet {
-    /// The model that the set gives to the component at a path; later patterns win.
+    /// The model that the set gives to the component at a path; later patterns take precedence.
     pub fn named(&self, path: &str) -> Option<&Value> {
         self.components
             .iter()
@@ -74,7 +74,7 @@ fn fits(pattern: &str, path: &str) -> bool {
     pattern.len() == path.len() && pattern.iter().zip(&path).all(|(p, k)| *p == "*" || p == k)
 }
 
-/// All sets at hand by name: shipped ones, those of the gearbox, those of a study; later ones win.
+/// All available sets by name: shipped ones, those of the gearbox, those of a study; later ones take precedence.
 pub fn sets_of(language: &Language, gearbox: &Value, study: &Map<String, Value>) -> BTreeMap<String, Value> {
     let mut sets: BTreeMap<String, Value> = language.shipped_sets().clone();
     for (name, set) in gearbox
@@ -89,15 +89,15 @@ pub fn sets_of(language: &Language, gearbox: &Value, study: &Map<String, Value>)
     sets
 }
 
-/// The name that stands for the own models of a gearbox wherever sets of models are named.
+/// The name of a gearbox's own models in lists of model sets.
 pub const OWN_MODELS: &str = "own";
 
-/// Refuses a set that takes the name of the own models.
+/// Rejects a set with the name of the own models.
 pub fn called_own<'a>(mut names: impl Iterator<Item = &'a String>) -> Option<Diagnostic> {
     names.find(|name| *name == OWN_MODELS).map(|name| {
         Diagnostic::error(
             format!("model_sets.{name}"),
-            format!("`{name}` stands for the gearbox's own models, so no set can be called so"),
+            format!("`{name}` is reserved for the gearbox's own models"),
         )
         .help("give the set another name")
     })
@@ -118,20 +118,22 @@ pub fn expand_set(sets: &BTreeMap<String, Value>, name: &str) -> Result<ModelSet
             let path = chain
                 .last()
                 .map_or_else(|| "model_sets".to_owned(), |last| format!("model_sets.{last}.extends"));
-            let error = Diagnostic::error(path, format!("no set of models is called `{name}`"))
-                .note(format!("there are: {}", names.join(", ")));
+            let error = Diagnostic::error(path, format!("no model set is called `{name}`"))
+                .note(format!("available: {}", names.join(", ")))
+                .code(codes::UNKNOWN_NAME);
             return Err(match did_you_mean(name, names.iter().copied()) {
                 Some(close) => error.help(format!("write `{close}`")),
-                None => error.help("name one of them, or add it under `model_sets`"),
+                None => error.help("use one of them, or add it under `model_sets`"),
             });
         };
         if chain.contains(&known.as_str()) {
             return Err(Diagnostic::error(
                 format!("model_sets.{known}.extends"),
-                "sets extend each other in a circle",
+                "model sets extend each other in a circle",
             )
+            .code(codes::EXTENDS)
             .note(format!("the circle: {}", chain.join(", ")))
-            .help("leave one `extends` out"));
+            .help("remove one `extends`"));
         }
         chain.push(known);
         next = set.get("extends").and_then(Value::as_str);
@@ -175,7 +177,7 @@ pub(super) fn find(
 ) -> Option<ModelSet> {
     match expand_set(&sets_of(language, gearbox, study), name) {
         Ok(mut set) => {
-            // A walk of the document leaves them as written, because their keys are paths.
+            // The check of the document leaves them as written, because their keys are paths.
             for (pattern, model) in &mut set.components {
                 match language.checked(model, pattern) {
                     Ok(checked) => *model = checked,

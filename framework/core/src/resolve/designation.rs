@@ -1,12 +1,12 @@
-//! What a designation that no catalogue holds may have meant.
+//! Suggestions for an unknown designation.
 
 use super::catalogue::CatalogueRow;
 use crate::document::{Diagnostic, did_you_mean, distance};
 
-/// How many designations are suggested.
+/// Number of suggested designations.
 const SUGGESTED: usize = 5;
 
-/// Bore that the designation of a rolling bearing states. \[mm\]
+/// Bore encoded in the designation of a rolling bearing. \[mm\]
 ///
 /// Source: DIN 623-1. The last two of four or five digits are a fifth of the bore, from 04 on; 00 to 03 are 10, 12, 15 and 17 mm.
 fn stated_bore(designation: &str) -> Option<f64> {
@@ -25,16 +25,16 @@ fn stated_bore(designation: &str) -> Option<f64> {
     }
 }
 
-/// A length of a row. \[mm\]
+/// A length in a row. \[mm\]
 fn length(row: &CatalogueRow, key: &str) -> Option<f64> {
     let (_, value) = row.values.iter().find(|(own, _)| own == key)?;
     value.as_str().and_then(|text| text.strip_suffix(" mm"))?.parse().ok()
 }
 
-/// Adds to an error what the designation may have meant; `here` says what else can be stated.
+/// Adds suggestions for the designation to an error; `here` lists what can be stated instead.
 ///
-/// Another size is no spelling mistake: where the designation states a bore that other rows have, these are suggested beside those with the
-/// nearest names.
+/// Another size is not a misspelling: if other rows have the encoded bore, they are suggested in addition to those with the most
+/// similar names.
 pub(super) fn suggest(error: Diagnostic, designation: &str, rows: &[(&str, &CatalogueRow)], here: &str) -> Diagnostic {
     let close = nearest(designation, rows);
     let has_bores = rows.iter().any(|(_, row)| length(row, "bore").is_some());
@@ -50,22 +50,22 @@ pub(super) fn suggest(error: Diagnostic, designation: &str, rows: &[(&str, &Cata
     if same.is_empty() || first.is_some_and(|row| has_bore(&row)) {
         let error = match close.len() {
             0 | 1 => error,
-            _ => error.note(format!("nearest by name: {}", listed(&close))),
+            _ => error.note(format!("similar names: {}", listed(&close))),
         };
         return spelling(error, first.map(|(name, _)| *name), here);
     }
-    let error = error.note(format!("with the bore of {bore} mm that it states: {}", listed(&same)));
+    let error = error.note(format!("with the encoded bore of {bore} mm: {}", listed(&same)));
     let error = if close.is_empty() {
         error
     } else {
-        error.note(format!("nearest by name: {}", listed(&close)))
+        error.note(format!("similar names: {}", listed(&close)))
     };
     error.help(format!(
-        "{here}, name a CSV under `catalogues`, or write another designation if that is the bearing"
+        "{here}, add a CSV file under `catalogues`, or write another designation if that is the bearing"
     ))
 }
 
-/// Rows with the fewest edits from a designation where these are few; swapped digits first.
+/// Rows with the fewest edits from a designation, if these are few; swapped digits first.
 fn nearest<'a>(designation: &str, rows: &[(&'a str, &'a CatalogueRow)]) -> Vec<(&'a str, &'a CatalogueRow)> {
     let Some(closest) = did_you_mean(designation, rows.iter().map(|(name, _)| *name)) else {
         return Vec::new();
@@ -100,7 +100,7 @@ fn listed(rows: &[(&str, &CatalogueRow)]) -> String {
 fn spelling(error: Diagnostic, close: Option<&str>, here: &str) -> Diagnostic {
     match close {
         Some(close) => error.help(format!("write `{close}`, or {here}")),
-        None => error.help(format!("{here}, or name a CSV under `catalogues`")),
+        None => error.help(format!("{here}, or add a CSV file under `catalogues`")),
     }
 }
 
@@ -139,8 +139,8 @@ mod tests {
         assert_eq!(
             found.notes,
             [
-                "with the bore of 65 mm that it states: 6013 (65 mm)",
-                "nearest by name: 16012 (60 mm), 6013 (65 mm)"
+                "with the encoded bore of 65 mm: 6013 (65 mm)",
+                "similar names: 16012 (60 mm), 6013 (65 mm)"
             ]
         );
         assert!(found.help.unwrap().starts_with("state it here"));

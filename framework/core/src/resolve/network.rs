@@ -1,18 +1,18 @@
-//! `network: auto` in the resolved document: nodes and links as if they were written.
+//! `network: auto` in the resolved document: nodes and links in their written form.
 
 use std::collections::BTreeMap;
 
 use serde_json::Value;
 
-use super::{Came, lookup, paths};
+use super::{ValueSource, lookup, paths};
 use crate::description::GearboxEntry;
 use crate::document::Diagnostic;
 use crate::language::Language;
 
-/// Where the network stands.
+/// Path of the network.
 const NETWORK: &str = "thermal.network";
 
-/// True for a path pattern that may meet something inside the network.
+/// True for a path pattern that may match a path inside the network.
 pub(super) fn meets_inside(pattern: &str) -> bool {
     let mut keys = pattern.split('.');
     NETWORK
@@ -21,29 +21,29 @@ pub(super) fn meets_inside(pattern: &str) -> bool {
         && keys.next().is_some()
 }
 
-/// Writes nodes and links in place of `auto`; false where they could not be found.
+/// Writes nodes and links instead of `auto`; false if they could not be generated.
 pub(super) fn expand(
     language: &Language,
     value: &mut Value,
-    came: &mut BTreeMap<String, Came>,
+    sources: &mut BTreeMap<String, ValueSource>,
     found: &mut Vec<Diagnostic>,
 ) -> bool {
     if lookup(value, NETWORK).and_then(Value::as_str) != Some("auto") {
         return true;
     }
-    // What keeps the description from being read is said where it is built.
+    // Errors of the description are reported where it is built.
     let Ok(entry) = serde_json::from_value::<GearboxEntry>(value.clone()) else {
         return false;
     };
     let written = language
         .registry()
         .network_recipe()
-        .and_then(|recipe| (recipe.lay_out)(&entry, value))
+        .and_then(|recipe| (recipe.generate)(&entry, value))
         .map_err(|error| vec![error])
         .and_then(|written| language.checked(&written, NETWORK));
     match written {
         Ok(written) => {
-            came.insert(NETWORK.to_owned(), Came::Network);
+            sources.insert(NETWORK.to_owned(), ValueSource::Network);
             paths::write(value, NETWORK, written)
         }
         Err(errors) => {

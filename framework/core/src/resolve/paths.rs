@@ -1,7 +1,8 @@
-//! Paths into the resolved document: keys joined by dots; `*` stands for one key.
+//! Paths into the resolved document: keys joined by dots; `*` matches one key.
 
 use serde_json::Value;
 
+use crate::codes;
 use crate::document::{Diagnostic, did_you_mean};
 
 /// The value at a path.
@@ -17,7 +18,7 @@ fn step<'a>(value: &'a Value, key: &str) -> Option<&'a Value> {
     }
 }
 
-/// True where a path, or one above it, is met by a pattern, `*` standing for any key.
+/// True if a pattern matches a path or one above it; `*` matches any key.
 pub fn meets(pattern: &str, path: &str) -> bool {
     let mut keys = path.split('.');
     pattern == path
@@ -26,8 +27,8 @@ pub fn meets(pattern: &str, path: &str) -> bool {
             .all(|own| keys.next().is_some_and(|key| own == "*" || own == key))
 }
 
-/// All paths that a pattern meets, in the order of the document. The last key may be absent where its parent exists: the
-/// schema then says whether it may be written.
+/// All paths that a pattern matches, in the order of the document. The last key may be missing if its parent exists: the schema
+/// then decides whether it may be written.
 pub fn matches(value: &Value, pattern: &str) -> Vec<String> {
     let keys: Vec<&str> = pattern.split('.').collect();
     let mut found = Vec::new();
@@ -69,7 +70,7 @@ fn descend(value: &Value, keys: &[&str], path: &mut String, found: &mut Vec<Stri
     }
 }
 
-/// Writes a value at a path whose parent exists; false where it does not.
+/// Writes a value at a path whose parent exists; otherwise false.
 pub(super) fn write(value: &mut Value, path: &str, new: Value) -> bool {
     let (parent, key) = path
         .rsplit_once('.')
@@ -102,7 +103,7 @@ pub(super) fn write(value: &mut Value, path: &str, new: Value) -> bool {
     }
 }
 
-/// The file that holds a table whose values a path means.
+/// The file of a table, for a path to its values.
 fn file_of<'a>(at: &'a Value, path: &str, key: &str) -> Option<&'a str> {
     if path.rsplit('.').next() == Some("file") {
         return at.as_str();
@@ -111,7 +112,7 @@ fn file_of<'a>(at: &'a Value, path: &str, key: &str) -> Option<&'a str> {
     at.get("file").and_then(Value::as_str).filter(|_| means_values)
 }
 
-/// The error for a pattern that meets nothing: names the first key that fails.
+/// The error for a pattern without a match: names the first key that fails.
 pub fn no_match(value: &Value, pattern: &str) -> Diagnostic {
     let mut at = value;
     let mut good = String::new();
@@ -125,7 +126,7 @@ pub fn no_match(value: &Value, pattern: &str) -> Diagnostic {
         };
         let Some(next) = next else {
             if let Some(file) = file_of(at, &good, key) {
-                let error = Diagnostic::error(pattern, format!("the values of the table are in the file `{file}`"));
+                let error = missing(pattern, format!("the values of the table are in the file `{file}`"));
                 return error.help(
                     "only values of the document have paths: write the table there, as `axes:` and `values:` of `type: table` in \
                      place of `file:`",
@@ -133,7 +134,7 @@ pub fn no_match(value: &Value, pattern: &str) -> Diagnostic {
             }
             if let Some(list) = at.as_array() {
                 let last = list.len().saturating_sub(1);
-                let error = Diagnostic::error(pattern, format!("`{good}` is a list and has no entry `{key}`"));
+                let error = missing(pattern, format!("`{good}` is a list and has no entry `{key}`"));
                 return error.help(format!("write a number from 0 to {last}, or `*` for all"));
             }
             let place = if good.is_empty() {
@@ -141,17 +142,17 @@ pub fn no_match(value: &Value, pattern: &str) -> Diagnostic {
             } else {
                 format!("`{good}`")
             };
-            let error = Diagnostic::error(pattern, format!("{place} has no `{key}`"));
+            let error = missing(pattern, format!("{place} has no `{key}`"));
             let keys: Vec<&str> = at.as_object().into_iter().flatten().map(|(k, _)| k.as_str()).collect();
             if ["models", "model_sets"].contains(&key) {
                 return error.help(
-                    "in the resolved document each component has its own model: write `meshes.*.model.x_l`, say",
+                    "in the resolved document each component has its own model: write `meshes.*.model.x_l`, for example",
                 );
             }
             let error = if keys.is_empty() {
                 error
             } else {
-                error.note(format!("there are: {}", keys.join(", ")))
+                error.note(format!("available: {}", keys.join(", ")))
             };
             return match did_you_mean(key, keys.iter().copied()) {
                 Some(close) => error.help(format!("write `{close}`")),
@@ -164,7 +165,12 @@ pub fn no_match(value: &Value, pattern: &str) -> Diagnostic {
         good.push_str(key);
         at = next;
     }
-    Diagnostic::error(pattern, "the path meets nothing")
+    missing(pattern, "the path matches nothing")
+}
+
+/// A path that the resolved description does not have.
+fn missing(pattern: &str, message: impl Into<String>) -> Diagnostic {
+    Diagnostic::error(pattern, message).code(codes::UNKNOWN_PATH)
 }
 
 #[cfg(test)]
@@ -203,12 +209,12 @@ mod tests {
             matches(&value, "seals.D1.model.values.*"),
             ["seals.D1.model.values.0", "seals.D1.model.values.1"]
         );
-        let said = |path: &str| {
+        let message = |path: &str| {
             let error = no_match(&value, path);
             format!("{}; {}", error.message, error.help.unwrap_or_default())
         };
         assert_eq!(
-            said("seals.D1.model.values.2"),
+            message("seals.D1.model.values.2"),
             "`seals.D1.model.values` is a list and has no entry `2`; write a number from 0 to 1, or `*` for all"
         );
         for path in [
@@ -217,7 +223,7 @@ mod tests {
             "seals.D2.model.file.1",
         ] {
             assert!(
-                said(path).contains("the values of the table are in the file `d2.csv`; only values of the document")
+                message(path).contains("the values of the table are in the file `d2.csv`; only values of the document")
             );
         }
     }

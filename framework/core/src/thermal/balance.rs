@@ -1,23 +1,23 @@
-//! The temperature at which losses and heat are equal, for any law of both.
+//! The temperature at which losses and dissipated heat are equal, for any law of both.
 //!
-//! A plain iteration of T = T_ambient + P(T)/(alpha A) may oscillate or leave the range. Here a scan first brackets every
-//! temperature at which the losses fall below the heat, and each step stays inside its bracket: it is that of the
-//! iteration, accelerated by the two or three last ones (secant, or inverse quadratic interpolation where it is safe:
-//! Chandrupatla, Adv. Eng. Softw. 28 (1997) 145-149), else the middle.
+//! A plain iteration of T = T_ambient + P(T)/(alpha A) may oscillate or leave the range. Therefore a scan first brackets every
+//! temperature at which the losses fall below the dissipated heat, and each step stays inside its bracket. A step is that of the
+//! plain iteration, accelerated by the last two or three (secant, or inverse quadratic interpolation where it is safe:
+//! Chandrupatla, Adv. Eng. Softw. 28 (1997) 145-149), else bisection.
 
-/// Stretches of the first scan.
+/// Intervals of the first scan.
 const STRETCHES: usize = 16;
-/// How often the scan is doubled before the losses count as greater everywhere.
+/// Number of times the scan is refined before the losses are assumed to be greater everywhere.
 const DOUBLINGS: usize = 4;
-/// Energy residual over the loss at which a balance is found.
+/// Convergence tolerance: energy residual over the loss.
 const TOLERANCE: f64 = 1e-10;
-/// Rounding of the heat flows over their sum, below which no residual can be told from zero.
+/// Rounding of the heat flows over their sum; smaller residuals are indistinguishable from zero.
 const ROUNDING: f64 = 1e-14;
-/// Width of a bracket that is closed: some roundings of the temperature, and no less than this. \[K\]
+/// Minimum width of a closed bracket, in addition to rounding of the temperature. \[K\]
 const CLOSED: f64 = 1e-14;
-/// Slope beside that of the whole bracket from which on a law counts as jumping.
+/// Slope relative to that of the whole bracket above which a law is taken to jump.
 const STEEPEST: f64 = 1e6;
-/// The most steps in one bracket; halving alone needs half as many.
+/// Maximum number of steps in one bracket; bisection alone needs half as many.
 const MOST: usize = 120;
 
 /// Losses and heat at one temperature.
@@ -25,16 +25,16 @@ const MOST: usize = 120;
 pub struct Step {
     /// Temperature. \[degC\]
     pub temperature: f64,
-    /// Heat that comes in: losses, and sources beside them. \[W\]
+    /// Heat input: losses and heat sources. \[W\]
     pub loss: f64,
-    /// Heat that leaves. \[W\]
+    /// Dissipated heat. \[W\]
     pub heat: f64,
-    /// Sum of the magnitudes of all heat flows, by which rounding counts. \[W\]
+    /// Sum of the magnitudes of all heat flows, the scale of rounding. \[W\]
     pub scale: f64,
 }
 
 impl Step {
-    /// What is left over. \[W\]
+    /// Residual. \[W\]
     pub fn residual(&self) -> f64 {
         self.loss - self.heat
     }
@@ -44,32 +44,32 @@ impl Step {
     }
 }
 
-/// A temperature at which more heat leaves above and less below, so that it keeps itself.
+/// A stable temperature: dissipation exceeds the losses above it, and the losses exceed dissipation below it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Root {
     /// The temperature. \[degC\]
     pub temperature: f64,
     /// Losses and heat there; at a jump those of the colder side.
     pub step: Step,
-    /// Where a law jumps from too much loss to too little: losses and heat on the warmer side.
+    /// At a jump of a law: losses and heat on the warmer side.
     pub beyond: Option<Step>,
 }
 
-/// What became of a balance.
+/// Outcome of a balance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Outcome {
-    /// One temperature keeps itself.
+    /// One stable temperature.
     Converged,
-    /// One temperature keeps itself, at a jump of a law: below it losses are greater than the heat, above it less.
+    /// One stable temperature, at a jump of a law: losses exceed the dissipated heat below it, and are less above it.
     AtDiscontinuity,
-    /// Several temperatures keep themselves; the lowest is taken.
+    /// Several stable temperatures; the lowest is used.
     Several,
-    /// Losses are greater than the heat up to the greatest temperature that was asked for.
+    /// Losses exceed the dissipated heat up to the maximum temperature of the search.
     NoneBelowMaximum,
-    /// A law has no value where the balance would lie.
+    /// A law is undefined where the balance would be.
     Undefined,
-    /// The temperatures of a network go on swinging.
+    /// The temperatures of a network do not converge.
     NoConvergence,
 }
 
@@ -87,30 +87,30 @@ impl Outcome {
     }
 }
 
-/// A balance with all that was asked on the way.
+/// A balance with all evaluated steps.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Balance<E> {
-    /// What became of it.
+    /// Outcome.
     pub outcome: Outcome,
-    /// Temperatures that keep themselves, the lowest first.
+    /// Stable temperatures, the lowest first.
     pub stable: Vec<Root>,
-    /// All steps in the order in which they were asked: the scan, then those of each bracket.
+    /// All steps in order: the scan, then those of each bracket.
     pub history: Vec<Step>,
-    /// Number of the first step behind the scan.
+    /// Index of the first step after the scan.
     pub scanned: usize,
-    /// Distance of neighbouring temperatures of the scan. \[K\]
+    /// Spacing of the scan. \[K\]
     pub spacing: f64,
-    /// Where a law had no value, and why: the first of them.
+    /// First temperature at which a law was undefined, and the reason.
     pub undefined: Option<(f64, E)>,
 }
 
 impl<E> Balance<E> {
-    /// The temperature that is taken.
+    /// The temperature that is used.
     pub fn taken(&self) -> Option<&Root> {
         self.stable.first()
     }
 
-    fn ask(&mut self, temperature: f64, law: &mut impl FnMut(f64) -> Result<Step, E>) -> Option<Step> {
+    fn evaluate(&mut self, temperature: f64, law: &mut impl FnMut(f64) -> Result<Step, E>) -> Option<Step> {
         match law(temperature) {
             Ok(step) => {
                 self.history.push(step);
@@ -124,15 +124,16 @@ impl<E> Balance<E> {
     }
 }
 
-/// Finds the temperatures that keep themselves in a range whose lower end no heat leaves. \[degC\]
+/// Finds the stable temperatures in a range; at its lower end no heat is dissipated. \[degC\]
 ///
-/// Crossings closer to each other than the spacing of the scan may be missed, both of them; the residual of what is found
-/// is below 1e-10 of the loss all the same.
+/// Two crossings that are closer to each other than the spacing of the scan may both be missed; the residual of a found temperature
+/// is still below 1e-10 of the loss.
 pub fn balance<E>(range: [f64; 2], law: impl FnMut(f64) -> Result<Step, E>) -> Balance<E> {
     search(range, STRETCHES, DOUBLINGS, law)
 }
 
-/// As [`balance`], where losses fall and the heat rises all the way, so that there is one temperature: without a scan.
+/// As [`balance`], without a scan: for losses that decrease and dissipation that increases throughout, so that there is one
+/// temperature.
 pub fn single<E>(range: [f64; 2], law: impl FnMut(f64) -> Result<Step, E>) -> Balance<E> {
     search(range, 1, 0, law)
 }
@@ -153,10 +154,10 @@ fn search<E>(
     };
     let place = |i: usize, count: usize| low + (high - low) * i as f64 / count as f64;
     let mut scan: Vec<(f64, Option<Step>)> = (0..=stretches)
-        .map(|i| (place(i, stretches), found.ask(place(i, stretches), &mut law)))
+        .map(|i| (place(i, stretches), found.evaluate(place(i, stretches), &mut law)))
         .collect();
     for doubling in 1..=doublings {
-        // Losses above the heat wherever they were asked: look closer before saying that they are so everywhere.
+        // Losses exceeded dissipation at all points: refine the scan before concluding that they do so everywhere.
         if scan
             .iter()
             .skip(1)
@@ -168,7 +169,7 @@ fn search<E>(
         found.spacing = (high - low) / count as f64;
         let between: Vec<(f64, Option<Step>)> = (0..count / 2)
             .map(|i| place(2 * i + 1, count))
-            .map(|t| (t, found.ask(t, &mut law)))
+            .map(|t| (t, found.evaluate(t, &mut law)))
             .collect();
         let mut both = Vec::with_capacity(count + 1);
         for (i, old) in scan.into_iter().enumerate() {
@@ -182,7 +183,7 @@ fn search<E>(
         && first.is_balanced()
         && scan[1].1.is_some_and(|next| next.residual() < 0.0)
     {
-        // Nothing is lost: the lower end itself.
+        // No loss: the lower end itself.
         found.stable.push(Root {
             temperature: first.temperature,
             step: *first,
@@ -198,7 +199,7 @@ fn search<E>(
                     None => gap = true,
                 }
             }
-            // Losses are below the heat where a law begins to have a value, or above it where a law ends.
+            // Losses are below dissipation where a law starts to be defined, or above it where a law ends.
             (None, Some(b)) if b.residual() <= 0.0 => gap = true,
             (Some(a), None) if a.residual() > 0.0 => gap = true,
             _ => {}
@@ -215,7 +216,7 @@ fn search<E>(
     found
 }
 
-/// Closes a bracket from too much loss to too little. Absent where a law has no value inside.
+/// Closes a bracket from losses above dissipation to losses below it. `None` if a law is undefined inside.
 fn close<E>(
     [cold, warm]: [Step; 2],
     found: &mut Balance<E>,
@@ -226,7 +227,7 @@ fn close<E>(
         step,
         beyond: None,
     };
-    // `last` is the newest step, `other` the end of the bracket on the other side, `before` the step that one replaced.
+    // `last` is the newest step, `other` the opposite end of the bracket, `before` the step that the newest one replaced.
     let (mut last, mut other) = (warm, cold);
     let mut share = last.residual() / (last.residual() - other.residual());
     for _ in 0..MOST {
@@ -244,7 +245,7 @@ fn close<E>(
             break;
         }
         let t = last.temperature + share.clamp(least, 1.0 - least) * (other.temperature - last.temperature);
-        let new = found.ask(t, law)?;
+        let new = found.evaluate(t, law)?;
         let before;
         if (new.residual() > 0.0) == (last.residual() > 0.0) {
             before = last;
@@ -260,7 +261,7 @@ fn close<E>(
     } else {
         (other, last)
     };
-    // The temperature has no more digits. What is left is rounding where it is no more than the slope makes of the width.
+    // The temperature has no more digits. The residual is rounding if it does not exceed slope times width.
     let slope = (warm.residual() - cold.residual()).abs() / (warm.temperature - cold.temperature);
     let width = (above.temperature - below.temperature).abs();
     if below.residual() - above.residual() <= STEEPEST * slope * width {
@@ -278,7 +279,7 @@ fn close<E>(
     })
 }
 
-/// Where to step between two ends of a bracket, as a share of the way from the first to the second.
+/// Position of the next step between two ends of a bracket, from zero at the first to one at the second.
 fn next([last, other, before]: [Step; 3]) -> f64 {
     let (x1, x2, x3) = (last.temperature, other.temperature, before.temperature);
     let (f1, f2, f3) = (last.residual(), other.residual(), before.residual());
@@ -349,7 +350,7 @@ mod tests {
 
     #[test]
     fn of_several_the_lowest_is_taken() {
-        // Two steps down with a rise between them: 40 and 90 degC keep themselves, 60 does not.
+        // Two decreasing steps with an increase in between: 40 and 90 degC are stable, 60 is not.
         let found = solved([20.0, 150.0], 1.0, |t| if t < 60.0 { 20.0 } else { 70.0 });
         assert_eq!(found.outcome, Outcome::Several);
         let at: Vec<f64> = found.stable.iter().map(|r| r.temperature).collect();
@@ -376,7 +377,7 @@ mod tests {
         assert_eq!(law(200.0).outcome, Outcome::Undefined);
     }
 
-    /// A loss law: falling exponential, humps, and jumps either way.
+    /// A loss law: decreasing exponential, humps, and jumps in both directions.
     #[derive(Debug, Clone)]
     struct Law {
         base: f64,
@@ -386,7 +387,7 @@ mod tests {
     }
 
     impl Law {
-        fn at(&self, t: f64) -> f64 {
+        fn loss_at(&self, t: f64) -> f64 {
             let mut loss = self.base * (-self.fall * (t - 20.0)).exp();
             for [place, width, height] in &self.humps {
                 loss += height * (-((t - place) / width).powi(2)).exp();
@@ -415,14 +416,14 @@ mod tests {
         #![proptest_config(ProptestConfig { cases: 10_000, ..ProptestConfig::default() })]
         #[test]
         fn ten_thousand_laws_balance_or_have_the_outcome_that_is_true(law in laws(), conductance in 0.1..30.0_f64) {
-            let found = solved([20.0, 150.0], conductance, |t| law.at(t));
-            let residual = |t: f64| law.at(t) - conductance * (t - 20.0);
+            let found = solved([20.0, 150.0], conductance, |t| law.loss_at(t));
+            let residual = |t: f64| law.loss_at(t) - conductance * (t - 20.0);
             for root in &found.stable {
-                let loss = law.at(root.temperature);
+                let loss = law.loss_at(root.temperature);
                 match root.beyond {
-                    // A loss that is next to nothing is met as well as the digits of the temperature let the heat be.
+                    // A very small loss is matched as well as the digits of the temperature allow.
                     None => prop_assert!(residual(root.temperature).abs() <= (1e-9 * loss).max(1e-13 * conductance)),
-                    // Residuals of both sides differ in sign, next to each other: the law jumps there.
+                    // Adjacent residuals with different signs: the law jumps there.
                     Some(beyond) => {
                         prop_assert!(beyond.temperature - root.temperature < 1e-9);
                         prop_assert!(root.step.residual() > 0.0 && beyond.residual() <= 0.0);
@@ -430,13 +431,13 @@ mod tests {
                         prop_assert!(law.jumps.iter().any(jump));
                     }
                 }
-                // It keeps itself: more loss just below, less just above, but for jumps that lie as near and for the lower end.
+                // It is stable: greater losses just below, smaller just above, except for jumps as close and for the lower end.
                 let near = |place: f64| (place - root.temperature).abs() < 2e-4;
                 if !law.jumps.iter().any(|[place, _]| near(*place)) && root.temperature > 20.001 {
                     prop_assert!(residual(root.temperature - 1e-4) > 0.0 && residual(root.temperature + 1e-4) < 0.0);
                 }
             }
-            // It is the lowest that the scan can see: above every point below it the losses are greater.
+            // It is the lowest that the scan can find: above every point below it the losses are greater.
             if let Some(root) = found.stable.first() {
                 let mut t = 20.0 + found.spacing;
                 while t < root.temperature {
@@ -457,7 +458,7 @@ mod tests {
                         t += found.spacing;
                     }
                 }
-                Outcome::Undefined | Outcome::NoConvergence => prop_assert!(false, "every law has a value everywhere"),
+                Outcome::Undefined | Outcome::NoConvergence => prop_assert!(false, "every law is defined everywhere"),
             }
         }
     }

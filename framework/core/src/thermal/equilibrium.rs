@@ -1,4 +1,4 @@
-//! The temperature at which an operating point runs.
+//! Operating temperature of an operating point.
 
 use std::cell::Cell;
 
@@ -8,46 +8,46 @@ use crate::evaluate::{Point, Scratch};
 use crate::loss::{Trace, Undefined};
 use crate::transmission::{Case, Transmission};
 
-/// Why losses or heat have no value at a temperature.
+/// Why losses or heat are undefined at a temperature.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Unbalanced {
     /// The loss of a part, by number, is undefined.
     Part(usize, Undefined),
-    /// The heat of a way, by number, is undefined.
+    /// The conductance of a heat dissipation path, by number, is undefined.
     Way(usize, Undefined),
-    /// The law of a link of the thermal network, by number, is undefined.
+    /// The model of a link of the thermal network, by number, is undefined.
     Link(usize, Undefined),
-    /// The transmission locks itself, or losses and loads do not agree.
+    /// The transmission is self-locking, or losses and loads do not converge.
     Flow,
-    /// The temperatures of the thermal network do not settle, or a node hangs on nothing while its oil stands.
+    /// The temperatures of the thermal network do not converge, or a node is isolated while its oil is stationary.
     Network,
 }
 
 /// The temperature of an operating point with the balance behind it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Equilibrium {
-    /// What became of the balance.
+    /// Outcome of the balance.
     pub outcome: Outcome,
-    /// Temperatures of the oil that keep themselves, the lowest first; it is taken.
+    /// Stable oil temperatures, the lowest first; it is used.
     pub stable: Vec<Root>,
-    /// Temperature of the surface there. \[degC\]
+    /// Surface temperature. \[degC\]
     pub surface: Option<f64>,
-    /// Heat of each way there, in the order of [`super::Housing::ways`]. \[W\]
+    /// Heat flow of each path, in the order of [`super::Housing::ways`]. \[W\]
     pub ways: Vec<f64>,
     /// All steps: the scan, then those towards each temperature.
     pub history: Vec<Step>,
-    /// Number of the first step behind the scan.
+    /// Index of the first step after the scan.
     pub scanned: usize,
-    /// Distance of neighbouring temperatures of the scan: two balances that lie closer may both be missed. \[K\]
+    /// Spacing of the scan: two balances that are closer may both be missed. \[K\]
     pub spacing: f64,
-    /// Calls of loss models on the way.
+    /// Number of loss model evaluations.
     pub calls: usize,
-    /// Where losses or heat had no value, and why.
+    /// Temperature at which losses or heat were undefined, and the reason.
     pub undefined: Option<(f64, Unbalanced)>,
 }
 
 impl Transmission {
-    /// Heat flow of a way, by number, at temperatures of oil and surface in degC, with every step written down. \[W\]
+    /// Heat flow of a path, by number, at temperatures of oil and surface in degC, recording every step. \[W\]
     pub fn explain_way(&self, way: usize, oil: f64, surface: f64) -> (Result<f64, Undefined>, Trace) {
         let (rho, heat_capacity) = self.sump_heat(oil);
         let oil = SumpOil {
@@ -62,19 +62,19 @@ impl Transmission {
 }
 
 impl Equilibrium {
-    /// The temperature of the oil that is taken. \[degC\]
+    /// The oil temperature that is used. \[degC\]
     pub fn oil(&self) -> Option<f64> {
         self.stable.first().map(|root| root.temperature)
     }
 
-    /// Evaluations of the point on the way.
+    /// Number of evaluations of the point.
     pub fn evaluations(&self) -> usize {
         self.history.len()
     }
 }
 
 impl Transmission {
-    /// The temperature at which a point runs. Evaluating the point there is up to the caller.
+    /// Balances the temperature of a point. The caller evaluates the point at that temperature.
     pub fn equilibrium(&self, case: &Case, point: &Point<'_>, scratch: &mut Scratch) -> Equilibrium {
         let housing = self.housing();
         let sump = |temperature: f64| {

@@ -8,21 +8,21 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// How both fluids of a heat exchanger flow.
+/// Flow arrangement of a heat exchanger.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Arrangement {
-    /// Against each other.
+    /// Counterflow.
     #[default]
     Counterflow,
-    /// With each other.
+    /// Parallel flow.
     Parallel,
-    /// Across each other, both unmixed.
+    /// Crossflow, both unmixed.
     Crossflow,
 }
 
 impl Arrangement {
-    /// Effectiveness from transfer units and the ratio of the smaller capacity flow to the greater.
+    /// Effectiveness from transfer units and the ratio of the smaller capacity flow to the larger.
     pub fn effectiveness(self, ntu: f64, c_r: f64) -> f64 {
         match self {
             Self::Counterflow if (1.0 - c_r).abs() < 1e-9 => ntu / (1.0 + ntu),
@@ -36,8 +36,8 @@ impl Arrangement {
         }
     }
 
-    /// Heat flow per difference of the temperatures at which both fluids come in, from conductance and both capacity flows
-    /// (W/K); nothing where a fluid stands. \[W/K\]
+    /// Heat flow over the difference of both inlet temperatures, from conductance and both capacity flows (W/K); zero if a fluid is
+    /// stationary. \[W/K\]
     pub fn transfer(self, ua: f64, flows: [f64; 2]) -> f64 {
         let (least, greatest) = (flows[0].min(flows[1]), flows[0].max(flows[1]));
         if least <= 0.0 {
@@ -59,7 +59,7 @@ mod tests {
             (Arrangement::Crossflow, 0.640193),
         ] {
             assert!((arrangement.effectiveness(1.5, 0.6) / printed - 1.0).abs() < 1e-5);
-            // With a coolant that does not warm up, all are the same.
+            // With a coolant of constant temperature, all arrangements are equal.
             assert!((arrangement.effectiveness(1.5, 0.0) - (1.0 - (-1.5_f64).exp())).abs() < 1e-9);
         }
         let counter = Arrangement::Counterflow;

@@ -1,4 +1,4 @@
-//! The housing: ways on which heat leaves, sources of heat, and the temperature of the surface between oil and air.
+//! The housing: heat dissipation paths, heat sources, and the surface temperature between oil and air.
 
 use std::cell::Cell;
 use std::sync::Arc;
@@ -7,20 +7,21 @@ use super::balance::{Balance, Step, single};
 use crate::description::{GearboxEntry, HeatInto, OutsideEntry, Thermal, ThermalMode};
 use crate::document::Diagnostic;
 use crate::loss::{Extent, Notes, Trace, Undefined};
+use crate::mechanism::Slot;
 use crate::mechanism::heat_dissipation::{HeatDissipation, HeatDissipationAt, HousingPart, WarmSide};
-use crate::registry::{Build, Slot};
+use crate::registry::Build;
 
-/// One way on which heat leaves.
+/// One heat dissipation path.
 pub struct Way {
     /// Path, such as `thermal.heat_dissipation.casing`.
     pub path: String,
     model: Slot<HeatDissipation>,
     side: WarmSide,
-    /// Where the way ends. \[degC\]
+    /// Temperature of the heat sink. \[degC\]
     sink: f64,
 }
 
-/// The oil of the sump at one temperature, as far as heat goes.
+/// Thermal properties of the sump oil at one temperature.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SumpOil {
     /// Temperature. \[degC\]
@@ -31,10 +32,10 @@ pub struct SumpOil {
     pub heat_capacity: f64,
 }
 
-/// Heat that leaves at one temperature of the oil.
+/// Heat dissipation at one oil temperature.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HeatFlow {
-    /// Temperature of the surface; that of the oil where nothing lies between. \[degC\]
+    /// Surface temperature; equal to the oil temperature without a resistance between them. \[degC\]
     pub surface: f64,
     /// Heat that leaves the oil. \[W\]
     pub from_oil: f64,
@@ -42,13 +43,13 @@ pub struct HeatFlow {
     pub scale: f64,
 }
 
-/// The ways, sources and temperatures of a gearbox.
+/// Heat dissipation paths, heat sources and ambient temperature of a gearbox.
 pub struct Housing {
     part: Arc<HousingPart>,
     ways: Vec<Way>,
-    /// Temperature of the surroundings. \[degC\]
+    /// Ambient temperature. \[degC\]
     pub ambient: f64,
-    /// Temperature of the oil up to which a balance is looked for. \[degC\]
+    /// Maximum oil temperature of the search for a balance. \[degC\]
     pub maximum: f64,
     /// Resistance between oil and surface. \[K/W\]
     pub oil_to_surface: f64,
@@ -92,7 +93,7 @@ impl Housing {
             into_oil: sum(HeatInto::Oil),
             into_surface: sum(HeatInto::Surface),
         };
-        // What is wrong with a way was said already.
+        // Errors of a path have already been reported.
         if thermal.mode == ThermalMode::Balance && found.len() == before {
             housing.check(thermal, found);
         }
@@ -102,7 +103,7 @@ impl Housing {
     fn check(&self, thermal: &Thermal, found: &mut Vec<Diagnostic>) {
         if self.ways.is_empty() {
             found.push(
-                Diagnostic::error("thermal.mode", "a balance needs a way on which heat leaves").help(
+                Diagnostic::error("thermal.mode", "a balance requires a heat dissipation path").help(
                     "add `heat_dissipation: { casing: { type: constant, alpha: 20 W/(m2 K), area: 500 cm2 } }` under `thermal`",
                 ),
             );
@@ -111,32 +112,32 @@ impl Housing {
                 Diagnostic::error(
                     "thermal.maximum",
                     format!(
-                        "{} degC is no warmer than the coldest sink, {} degC",
+                        "{} degC does not exceed the coldest heat sink, {} degC",
                         thermal.maximum,
                         self.coldest()
                     ),
                 )
-                .help("raise it above the surroundings"),
+                .help("raise it above the ambient temperature"),
             );
         }
     }
 
-    /// The outside, as models see it.
+    /// The outside, in the form used by models.
     pub(crate) fn outside(&self) -> &HousingPart {
         &self.part
     }
 
-    /// Temperature below which no heat leaves: that of the coldest sink. \[degC\]
+    /// Temperature below which no heat is dissipated: that of the coldest heat sink. \[degC\]
     pub fn coldest(&self) -> f64 {
         self.ways.iter().map(|w| w.sink).fold(f64::INFINITY, f64::min)
     }
 
-    /// The ways.
+    /// The heat dissipation paths.
     pub fn ways(&self) -> &[Way] {
         &self.ways
     }
 
-    /// Heat flow of one way. \[W\]
+    /// Heat flow of one path. \[W\]
     fn flow_of(&self, way: &Way, oil: &SumpOil, surface: f64, notes: Notes<'_>) -> Result<f64, Undefined> {
         let at = HeatDissipationAt {
             part: &self.part,
@@ -145,12 +146,12 @@ impl Housing {
             ambient: self.ambient,
             rho: oil.rho,
             heat_capacity: oil.heat_capacity,
-            notes: notes.of(way.model.notes),
+            notes: notes.nested(way.model.notes),
         };
         let conductance = way.model.conductance(&at)?;
         if !(conductance.is_finite() && conductance >= 0.0) {
             return Err(Undefined {
-                what: "conductance of a way of heat, which is negative or not finite",
+                what: "conductance of a heat dissipation path, which is negative or not finite",
                 value: conductance,
             });
         }
@@ -161,7 +162,7 @@ impl Housing {
         Ok(conductance * (warm - way.sink))
     }
 
-    /// Sum of the flows that begin at one side, and sum of their magnitudes. \[W\]
+    /// Sum of the flows that start at one side, and sum of their magnitudes. \[W\]
     fn sum(&self, side: WarmSide, oil: &SumpOil, surface: f64) -> Result<(f64, f64), (usize, Undefined)> {
         let (mut sum, mut scale) = (0.0, 0.0);
         for (i, way) in self.ways.iter().enumerate().filter(|(_, w)| w.side == side) {
@@ -175,12 +176,12 @@ impl Housing {
     /// Heat that leaves the oil at a temperature.
     ///
     /// # Errors
-    /// Number of the way without value, and why.
+    /// Number of the undefined path, and the reason.
     pub fn flow(&self, oil: &SumpOil) -> Result<HeatFlow, (usize, Undefined)> {
         let surface = self.surface(oil)?;
         let (from_oil, oil_scale) = self.sum(WarmSide::Oil, oil, surface)?;
         let (from_surface, surface_scale) = self.sum(WarmSide::Surface, oil, surface)?;
-        // What leaves the surface and does not come in there comes out of the oil.
+        // Heat that leaves the surface and does not enter it from a source comes from the oil.
         Ok(HeatFlow {
             surface,
             from_oil: from_oil + from_surface - self.into_surface,
@@ -188,13 +189,14 @@ impl Housing {
         })
     }
 
-    /// Temperature of the surface. \[degC\]
+    /// Surface temperature. \[degC\]
     fn surface(&self, oil: &SumpOil) -> Result<f64, (usize, Undefined)> {
         if self.oil_to_surface == 0.0 {
             return Ok(oil.temperature);
         }
-        // What comes through the wall and from sources falls with the temperature of the surface, what leaves it rises.
-        // The surface lies between the oil and the sinks of its ways, warmer by no more than what sources can push through.
+        // Heat into the surface, through the wall and from sources, decreases with the surface temperature; heat out of it
+        // increases. The surface temperature is between those of the oil and the heat sinks, or higher by at most the effect of the
+        // sources.
         let sinks = || self.ways.iter().filter(|w| w.side == WarmSide::Surface).map(|w| w.sink);
         let low = sinks().fold(oil.temperature, f64::min);
         let high = sinks().fold(oil.temperature, f64::max) + self.oil_to_surface * self.into_surface;
@@ -217,23 +219,23 @@ impl Housing {
             (None, None) => Err((
                 0,
                 Undefined {
-                    what: "temperature of the surface between oil and sinks; oil [degC]",
+                    what: "surface temperature between oil and heat sinks; oil [degC]",
                     value: oil.temperature,
                 },
             )),
         }
     }
 
-    /// Heat flow of one way with every step written down. \[W\]
+    /// Heat flow of one path, recording every step. \[W\]
     ///
     /// # Errors
-    /// Where the model has no value.
+    /// If the model is undefined.
     pub(crate) fn explain(&self, way: usize, oil: &SumpOil, surface: f64, trace: &Trace) -> Result<f64, Undefined> {
         let way = &self.ways[way];
         self.flow_of(way, oil, surface, Notes::new(&[], way.model.notes).traced(trace))
     }
 
-    /// Heat flow of every way at a temperature of the oil, with its notes. \[W\]
+    /// Heat flow of every path at an oil temperature, with its notes. \[W\]
     ///
     /// # Errors
     /// As [`Housing::flow`].
@@ -252,7 +254,7 @@ impl Housing {
 }
 
 impl From<OutsideEntry> for HousingPart {
-    /// A box stands for what is not stated.
+    /// The box provides omitted values.
     fn from(outside: OutsideEntry) -> Self {
         let of_box = outside
             .sides
@@ -277,15 +279,15 @@ mod tests {
     use super::*;
     use crate::registry::{Entry, Files, MechanismEntry, Registry};
 
-    /// A housing with ways of constant conductance from the surface: conductance in W/K, sink in degC.
+    /// A housing with paths of constant conductance from the surface: conductance in W/K, heat sink in degC.
     fn housing(ways: &[(f64, f64)], resistance: f64, source: f64) -> Housing {
-        // A registry needs a model beside the generic ones.
+        // A registry needs at least one model in addition to the generic ones.
         let own = Entry {
             name: "stand_in",
             ..crate::generic::entries::<HeatDissipation>()[0]
         };
-        let mechanism = MechanismEntry::of::<HeatDissipation>(crate::origin!());
-        let registry = Registry::of([mechanism], [own], [], []).unwrap();
+        let mechanism = MechanismEntry::new::<HeatDissipation>(crate::origin!());
+        let registry = Registry::from_entries([mechanism], [own], [], []).unwrap();
         let files = Files::default();
         let mut build = Build::new(&registry, &files);
         let part = Arc::new(HousingPart::from(OutsideEntry::default()));
@@ -346,7 +348,7 @@ mod tests {
             );
             assert!((heat.from_oil - (oil - surface) / 0.2).abs() < 1e-8);
         }
-        // Without a way from the surface a source goes through the resistance into the oil.
+        // Without a path from the surface the heat of a source passes through the resistance into the oil.
         let closed = flow(&housing(&[], 0.2, 30.0), 50.0);
         assert!((closed.surface - 56.0).abs() < 1e-9 && (closed.from_oil + 30.0).abs() < 1e-9);
     }

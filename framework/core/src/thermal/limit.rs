@@ -1,28 +1,28 @@
-//! How far a torque or a speed can go before the balance reaches a given temperature.
+//! Limit of a torque or a speed at which the balance reaches a given temperature.
 
 use super::balance::{Step, balance};
 use super::housing::SumpOil;
 use crate::evaluate::{Point, Scratch};
 use crate::transmission::{Case, Transmission};
 
-/// Where the limit lies.
+/// Position of the limit.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 #[serde(rename_all = "snake_case", tag = "outcome", content = "at")]
 pub enum Limit {
-    /// At this value losses and heat are equal at the given temperature.
+    /// At this value losses and dissipation are equal at the given temperature.
     Reached(f64),
-    /// At this value the losses jump over the heat.
+    /// At this value the losses jump above dissipation.
     AtDiscontinuity(f64),
-    /// Losses are greater than the heat from the first value of the range on.
+    /// Losses exceed dissipation from the first value of the range on.
     ExceededFromTheStart,
-    /// Losses are less than the heat in the whole range.
+    /// Losses are below dissipation in the whole range.
     NotReached,
-    /// Losses or heat have no value where the limit would lie.
+    /// Losses or heat are undefined where the limit would be.
     Undefined,
 }
 
 impl Limit {
-    /// The value, where there is one.
+    /// The value, if there is one.
     pub fn value(self) -> Option<f64> {
         match self {
             Self::Reached(value) | Self::AtDiscontinuity(value) => Some(value),
@@ -43,8 +43,8 @@ impl Limit {
 }
 
 impl Transmission {
-    /// The first value of a range at which the balance stands at a temperature of the oil in degC. `set` writes a value of the
-    /// range into speeds and torques of the point.
+    /// The first value of a range at which the balance reaches an oil temperature in degC. `set` writes a value of the range into
+    /// speeds and torques of the point.
     pub fn thermal_limit(
         &self,
         case: &Case,
@@ -66,7 +66,7 @@ impl Transmission {
         let heat = flow.from_oil - self.housing().into_oil;
         let (mut speeds, mut torques) = (point.speeds.to_vec(), point.torques.to_vec());
         let at = |share: f64| range[0] + share * (range[1] - range[0]);
-        // The heat of the given temperature stands where losses stand in a balance: it falls below them at the limit.
+        // The dissipation at the given temperature takes the role of the losses in a balance: it falls below them at the limit.
         let found = balance([0.0, 1.0], |share| {
             set(at(share), &mut speeds, &mut torques);
             let point = Point {

@@ -1,4 +1,4 @@
-//! Thermal networks: many temperatures, each with its own balance of heat.
+//! Thermal networks: several temperatures, each with its own heat balance.
 
 mod build;
 pub mod circuit;

@@ -1,27 +1,30 @@
-//! From the resolved description to the transmission; all errors of this stage at once.
+//! From the resolved description to the transmission; reports all errors of this stage at once.
 
 use std::sync::Arc;
 
 use super::drags::{Covered, DragSeat, body, mates, named, part, twice};
-use super::gearing::{GearSeat, MeshSeat, gearing};
+use super::gearing::gearing;
 use super::members::Members;
 use super::nodes::{HeatPath, NodeNames, unmet};
 use super::oils::OilNumbers;
 use super::planets;
 use super::plausible;
+use super::seats::{GearSeat, MeshSeat};
 use super::states::states;
 use super::statics::{imported, load_factors, shaft_loads};
 use super::{Component, DragModel, MeshModel, PartInfo, PartKind, Port, RatedSupport, Sharing, Transmission, WHEELS};
-use crate::attach::{Level, Names, Places, SeatedClearance, SeatedSupport, dangling};
+use crate::attach::{Common, Level, Names, Places, SeatedClearance, SeatedSupport, dangling};
+use crate::codes;
 use crate::description::{GearboxEntry, NetworkChoice, ThermalMode};
-use crate::document::Diagnostic;
+use crate::document::{Diagnostic, classify};
 use crate::language::Language;
 use crate::mechanism::Mechanism;
 use crate::mechanism::gear_drag::{GearDrag, Scope};
 use crate::mechanism::gear_mesh::{GearMesh, MeshPart};
 use crate::mechanism::planetary_drag::PlanetaryDrag;
-use crate::registry::{Build, Common, Files, ModelRef, NamedSlots};
-use crate::resolve::{Came, Resolved};
+use crate::mechanism::{ModelRef, NamedSlots};
+use crate::registry::{Build, Files};
+use crate::resolve::{Resolved, ValueSource};
 use crate::thermal::Housing;
 use crate::thermal::network::{Around, Network};
 
@@ -29,7 +32,7 @@ impl Transmission {
     /// Builds the transmission of a resolved description.
     ///
     /// # Errors
-    /// Everything that is wrong with it, by path.
+    /// All faults, by path.
     pub fn new(language: &Language, files: &Files, resolved: &Resolved) -> Result<Self, Vec<Diagnostic>> {
         let entry: GearboxEntry = serde_json::from_value(resolved.value.clone())
             .map_err(|e| vec![Diagnostic::error("", format!("the description cannot be read: {e}"))])?;
@@ -38,9 +41,12 @@ impl Transmission {
         let members = Members::new(&entry, &mut found);
         let ports = ports(&entry, &members, &mut found);
         let (ports, wheels) = joined(&entry, &members, ports, &mut found);
+        classify(&mut found, codes::SHAFTS);
         let (gears, meshes) = gearing(language.registry(), &entry, &members, &mut found, &mut warnings);
         let sharing = planets::sharing(&entry, &members, &mut found);
+        classify(&mut found, codes::GEARING);
         let nodes = NodeNames::new(&entry, &mut found);
+        classify(&mut found, codes::NETWORK);
         let mut oils = OilNumbers::new(&entry, &members, &meshes, &nodes);
         let mut build = Build::new(language.registry(), files);
 
@@ -52,6 +58,7 @@ impl Transmission {
         } = place(
             language, resolved, &members, &sharing, &mut oils, &mut build, &mut found,
         );
+        classify(&mut found, codes::COMPONENT);
         let mut mesh_models = mesh_models(&entry, &meshes, &sharing, &mut oils, &mut build, &mut parts, &mut found);
         for mesh in &mut mesh_models {
             let gears = mesh.seat.gears.map(|g| gears[g].id.as_str());
@@ -62,7 +69,7 @@ impl Transmission {
                     Diagnostic::warning(
                         mesh.seat.path.clone(),
                         format!(
-                            "`{}` has a thermal node and `{}` has none, so that neither counts",
+                            "`{}` has a thermal node and `{}` has none, so neither is used",
                             gears[i],
                             gears[1 - i]
                         ),
@@ -85,14 +92,17 @@ impl Transmission {
             });
             components.push(Component::new(model.placed, model.loss_factor, None));
         }
+        classify(&mut found, codes::MODEL);
         let levels = levels(&entry, &gears, &oils);
         warnings.extend(plausible::oil_level(&entry, &gears, &levels, &oils));
         let drags = drags(
             language, &entry, &gears, &meshes, &levels, covered, &mut oils, &mut build, &mut parts, &mut found,
         );
 
+        classify(&mut found, codes::DRAG);
         planets::assembly(&entry, &members, &gears, &meshes, &mut warnings);
         let housing = Housing::new(&entry, &mut build, &mut found);
+        classify(&mut found, codes::THERMAL);
         let around = Around {
             names: &nodes,
             members: &members.names,
@@ -106,21 +116,23 @@ impl Transmission {
         if let Some(NetworkChoice::Written(written)) = &entry.thermal.network {
             let paths: Vec<&str> = parts.iter().map(|p| p.path.as_str()).collect();
             unmet(written, &paths, &mut found);
-            let laid_out = *resolved.came("thermal.network") == Came::Network;
+            let laid_out = *resolved.source_of("thermal.network") == ValueSource::Network;
             if entry.thermal.mode == ThermalMode::Network {
                 unused(&entry, laid_out, &mut found, &mut warnings);
             }
         } else if entry.thermal.mode == ThermalMode::Network {
             found.push(
-                Diagnostic::error("thermal.mode", "no network is described")
+                Diagnostic::error("thermal.mode", "the network is missing")
                     .help("add `network: auto` under `thermal`, or nodes and links"),
             );
         }
+        classify(&mut found, codes::NETWORK);
         let states = if found.is_empty() {
             states(&entry, &members, &meshes, &clearances, (&ports, &wheels), &mut found)
         } else {
             Vec::new()
         };
+        classify(&mut found, codes::POWER_FLOW);
         let loads = shaft_loads(&entry, &members, &meshes, &supports, &mut found, &mut warnings);
         let load_factors = load_factors(&supports, &ports, &mut found);
         let imported = match &entry.imported_loads {
@@ -140,8 +152,10 @@ impl Transmission {
             }
             None => None,
         };
-        let (oils, more) = oils.finish();
-        // What is wrong with an oil is the cause of much that came after it.
+        classify(&mut found, codes::SUPPORT);
+        let (oils, mut more) = oils.finish();
+        classify(&mut more, codes::LUBRICANT);
+        // Errors of an oil cause many of the later ones.
         found.splice(0..0, more);
         if let (true, Some(loads)) = (found.is_empty(), loads) {
             let (instances, cells) = build.finish();
@@ -196,7 +210,7 @@ impl Transmission {
 }
 
 impl Transmission {
-    /// Every gear state must find its torques when its usual ports give them.
+    /// Checks that every gear state determines its torques when its default ports state them.
     fn check_states(&self) -> Result<(), Vec<Diagnostic>> {
         let mut found = Vec::new();
         for (i, state) in self.states.iter().enumerate() {
@@ -209,7 +223,7 @@ impl Transmission {
     }
 }
 
-/// The support of a component, where its static load rating is known.
+/// The support of a component, if its static load rating is known.
 fn rated(component: &Component) -> Option<RatedSupport> {
     Some(RatedSupport {
         support: usize::from(component.support?),
@@ -218,30 +232,30 @@ fn rated(component: &Component) -> Option<RatedSupport> {
     })
 }
 
-/// What a balance of the oil would use, and a network does not.
+/// Warns about settings that a balance of the oil uses, but a network does not.
 fn unused(entry: &GearboxEntry, laid_out: bool, found: &mut Vec<Diagnostic>, warnings: &mut Vec<Diagnostic>) {
     let thermal = &entry.thermal;
     if !laid_out && !thermal.sources.is_empty() {
         found.push(
-            Diagnostic::error("thermal.sources", "a network does not know where this heat comes in")
-                .help("write it under `thermal.network.sources`, with the node that it warms"),
+            Diagnostic::error("thermal.sources", "a network does not use these heat sources")
+                .help("write them under `thermal.network.sources`, with the node that they heat"),
         );
     }
     if thermal.oil_to_surface != 0.0 {
         warnings.push(
-            Diagnostic::warning("thermal.oil_to_surface", "a network has links in its place")
-                .help("link the oil to the casing, and leave it out"),
+            Diagnostic::warning("thermal.oil_to_surface", "a network uses links instead")
+                .help("link the oil to the casing, and remove it"),
         );
     }
     if thermal.heat_dissipation.as_ref().is_some_and(|ways| !ways.0.is_empty()) {
         warnings.push(
-            Diagnostic::warning("thermal.heat_dissipation", "a network has links in its place")
-                .help("link the casing to `ambient`, by `casing_air` say, and leave it out"),
+            Diagnostic::warning("thermal.heat_dissipation", "a network uses links instead")
+                .help("link the casing to `ambient`, for example with `casing_air`, and remove it"),
         );
     }
 }
 
-/// Sections in the usual order of a sum: gears, bearings, then the others as written.
+/// Sections in the usual order: gears, bearings, then the others as written.
 fn document_order(resolved: &Resolved, path: &str) -> (usize, usize) {
     let section = path.split('.').next().unwrap_or_default();
     let id = path.split('.').nth(1).unwrap_or_default();
@@ -275,7 +289,7 @@ fn ports(entry: &GearboxEntry, members: &Members, found: &mut Vec<Diagnostic>) -
             None => found.push(dangling(&path, "shaft", shaft, &ids)),
             Some(member) if ports.iter().any(|p| p.member == member) => {
                 found
-                    .push(Diagnostic::error(path, format!("`{shaft}` is a port already")).help("name each shaft once"));
+                    .push(Diagnostic::error(path, format!("`{shaft}` is already a port")).help("name each shaft once"));
             }
             Some(member) => ports.push(Port {
                 name: name.to_owned(),
@@ -285,19 +299,19 @@ fn ports(entry: &GearboxEntry, members: &Members, found: &mut Vec<Diagnostic>) -
     }
     if entry.shafts.is_empty() {
         found.push(
-            Diagnostic::error("shafts", "no shaft is described").help("add `shafts:`, or `extends:` with a base file"),
+            Diagnostic::error("shafts", "shafts are missing").help("add `shafts:`, or `extends:` with a base file"),
         );
     }
     if entry.ports.is_empty() {
         found.push(
-            Diagnostic::error("ports", "no port is named")
+            Diagnostic::error("ports", "ports are missing")
                 .help("add `ports: { input: SHAFT, output: SHAFT }`, or `extends:` with a base file"),
         );
     }
     ports
 }
 
-/// The ports with those of `wheels` as one at the end, and those of `wheels` themselves.
+/// The ports, with those of `wheels` as one port at the end, and those of `wheels` themselves.
 fn joined(
     entry: &GearboxEntry,
     members: &Members,
@@ -318,12 +332,12 @@ fn joined(
     }
     if known.contains(&WHEELS) && !names.iter().any(|name| name == WHEELS) {
         let message = format!("the ports of `wheels` become one port of that name, and there is one called `{WHEELS}`");
-        found.push(Diagnostic::error(format!("ports.{WHEELS}"), message).help("call the port otherwise"));
+        found.push(Diagnostic::error(format!("ports.{WHEELS}"), message).help("rename the port"));
     }
     let (wheels, mut ports): (Vec<Port>, Vec<Port>) = ports.into_iter().partition(|port| names.contains(&port.name));
     ports.push(Port {
         name: WHEELS.to_owned(),
-        // The column behind those of the members: the axle, which is no shaft of the gearbox.
+        // The column after those of the members: the axle, which is not a shaft of the gearbox.
         member: members.names.len(),
     });
     (ports, wheels)
@@ -497,7 +511,7 @@ fn drags(
                     ("a mesh", "gears")
                 };
                 found.push(
-                    Diagnostic::error(path, format!("`{name}` is not asked for {where_it_is}"))
+                    Diagnostic::error(path, format!("`{name}` is not a law for {where_it_is}"))
                         .help(format!("write it in `{section}` or in `models`")),
                 );
                 continue;
@@ -516,13 +530,13 @@ fn drags(
                     found.push(
                         Diagnostic::error(
                             path.clone(),
-                            format!("{} is counted here and by `{other}`", both.join(" and ")),
+                            format!("{} is computed here and by `{other}`", both.join(" and ")),
                         )
                         .help("switch one of them off with `none`"),
                     );
                 }
             }
-            // One model for several slots of one gear is compared with itself only once.
+            // If one model fills several slots of a gear, it is compared with itself only once.
             covered.push((own.clone(), path.clone(), covers));
             let Some(oil) = oils.oil(of, common) else { continue };
             parts.push(PartInfo {
@@ -592,12 +606,12 @@ fn drags(
         let common = Common {
             lubricant: written.lubricant.clone(),
             temperature_offset: written.temperature_offset,
-            // What brakes both gears at the mesh is their drag, not the loss of the mesh.
+            // Braking of both gears at the mesh is their drag, not the loss of the mesh.
             loss_factor: 0.5 * (factor(a) + factor(b)),
             ..Common::default()
         };
-        // A model asked once for each mesh may meet a gear in several meshes without counting it twice: what it covers
-        // belongs to the mesh, numbered behind the gears.
+        // A model for meshes may cover a gear in several meshes without counting it twice: its losses belong to the mesh, whose
+        // number follows those of the gears.
         add(
             written.drag.as_ref(),
             &mesh.path,
@@ -628,7 +642,7 @@ fn drags(
                 found.push(
                     Diagnostic::error(
                         mesh_path.clone(),
-                        format!("{} is counted here and by `{gear_path}`", both.join(" and ")),
+                        format!("{} is computed here and by `{gear_path}`", both.join(" and ")),
                     )
                     .help("switch one of them off with `none`"),
                 );
@@ -638,7 +652,7 @@ fn drags(
     drags
 }
 
-/// Height of the oil at each gear.
+/// Oil height at each gear.
 fn levels(entry: &GearboxEntry, gears: &[GearSeat], oils: &OilNumbers<'_>) -> Vec<Level> {
     let seats = gears.iter().enumerate();
     seats

@@ -1,12 +1,13 @@
-//! What a series of points has in common: gear state, ports with given speed, ports with given torque.
+//! Common settings of a series of points: gear state, ports with given speed, ports with given torque.
 
 use super::Transmission;
 use super::states::{all_ports, explain, prescribed};
-use crate::document::Diagnostic;
+use crate::codes;
+use crate::document::{Diagnostic, classify};
 use crate::flow::{Flow, FlowFault};
 use crate::kinematics::Motion;
 
-/// A gear state with its prescriptions, solved once.
+/// A gear state with prescribed ports, factored once.
 #[derive(Debug, Clone)]
 pub struct Case {
     pub(crate) state: usize,
@@ -16,7 +17,7 @@ pub struct Case {
     pub speed_ports: Vec<usize>,
     /// Ports with a given torque, in the order of a point's torques.
     pub torque_ports: Vec<usize>,
-    /// Number of speeds and torques that rules add.
+    /// Number of speeds and torques added by rules.
     pub(crate) ruled_speeds: usize,
     pub(crate) ruled_torques: usize,
 }
@@ -24,9 +25,9 @@ pub struct Case {
 impl Transmission {
     /// Prepares a gear state for points that give speeds and torques at the named ports.
     ///
-    /// Empty `speeds` means the state's own choice: as many ports as it has degrees of freedom, `input` first. Torques
-    /// must be as many as ports less degrees of freedom; more are dropped from the end of an automatic choice only by the
-    /// caller.
+    /// Empty `speeds` means the default of the state: as many ports as it has degrees of freedom, `input` first. The number of
+    /// torques must equal the number of ports minus the degrees of freedom; only the caller drops surplus ones from the end of an
+    /// automatic choice.
     ///
     /// # Errors
     /// If ports are unknown, depend on each other, or are too many or too few.
@@ -58,8 +59,8 @@ impl Transmission {
                 if ports[..i].contains(port) {
                     let name = &self.ports[*port].name;
                     found.push(
-                        Diagnostic::error(path.clone(), format!("the {what} at `{name}` is given twice"))
-                            .help("give it once"),
+                        Diagnostic::error(path.clone(), format!("the {what} at `{name}` is stated twice"))
+                            .help("state it once"),
                     );
                 }
             }
@@ -69,17 +70,18 @@ impl Transmission {
             if state.standing.contains(&member) {
                 let name = &self.ports[*port].name;
                 found.push(
-                    Diagnostic::error(path.clone(), format!("`{name}` stands still in `{gear}`"))
-                        .help("give no speed there, or take it out of `standstill`"),
+                    Diagnostic::error(path.clone(), format!("`{name}` is stationary in `{gear}`"))
+                        .help("state no speed there, or remove it from `standstill`"),
                 );
             }
         }
         if !found.is_empty() {
+            classify(&mut found, codes::GIVEN);
             return Err(found);
         }
         let columns = all_ports(state, &self.ports);
         let fixed = prescribed(state, &self.ports, &speed_ports);
-        // Where a point prescribes both sides of a differential, the rule of equal speeds gives way.
+        // If a point prescribes both sides of a differential, the rule of equal speeds is dropped.
         let (motion, equal) = match Motion::new(&state.train, &columns, &fixed) {
             Ok(motion) => (motion, state.equal.clone()),
             Err(faults) => {
@@ -108,7 +110,7 @@ impl Transmission {
         let flow = Flow::new(
             &state.train,
             state.meshes.clone(),
-            // A share counts where its meshes close a loop; in other states they carry torque alone.
+            // A torque split is used if its meshes close a loop; in other states each carries its torque alone.
             state
                 .shares
                 .iter()
@@ -124,7 +126,7 @@ impl Transmission {
             unknown,
             given,
         )
-        .map_err(|fault| vec![self.flow_fault(&fault, state, equal.len(), &path)])?;
+        .map_err(|fault| vec![self.flow_fault(&fault, state, equal.len(), &path).code(codes::GIVEN)])?;
         Ok(Case {
             state: index,
             motion,
@@ -145,10 +147,10 @@ impl Transmission {
         speeds
     }
 
-    /// That one given speed and at most one given torque decide a gear state, as in every point of a study.
+    /// Checks that one given speed and at most one given torque determine a gear state, as in every point of a study.
     ///
     /// # Errors
-    /// How many the state takes, with what to do about it.
+    /// The required numbers, with a fix.
     pub fn takes_one(&self, state: usize) -> Result<(), Diagnostic> {
         let (torques, own) = (self.torques_needed(state), &self.states[state]);
         if own.freedom <= 1 && torques <= 1 {
@@ -161,26 +163,27 @@ impl Transmission {
         let error = Diagnostic::error(
             format!("gear_states.{}", own.name),
             format!(
-                "`{}` takes {} given speed{} and {torques} given torque{}, and an analysis gives one of each",
+                "`{}` requires {} given speed{} and {torques} given torque{}, but an analysis states one of each",
                 own.name,
                 own.freedom,
                 plural(own.freedom),
                 plural(torques)
             ),
         );
+        let error = error.code(codes::GIVEN);
         Err(if others.len() > 1 {
             error
                 .note(format!("ports: {}, {}", self.ports[reference].name, others.join(", ")))
                 .help(format!(
-                    "write `conditions: {{ wheels: [{}] }}` in the study where these turn at one speed, or leave ports out of `ports` that transmit nothing",
+                    "write `conditions: {{ wheels: [{}] }}` in the study if these have equal speed, or remove ports without power from `ports`",
                     others.join(", ")
                 ))
         } else {
-            error.help("name a gear state that joins the ports; `spin_loss` has all of them without load")
+            error.help("use a gear state that connects the ports; `spin_loss` includes all states without load")
         })
     }
 
-    /// Number of torques that a point of a gear state must give.
+    /// Number of torques that a point of a gear state must state.
     pub fn torques_needed(&self, state: usize) -> usize {
         let state = &self.states[state];
         self.ports.len().saturating_sub(state.freedom + state.equal.len())
@@ -192,13 +195,13 @@ impl Transmission {
             FlowFault::Count { needed, given } => {
                 let (needed, given) = (needed.saturating_sub(ruled), given.saturating_sub(ruled));
                 let help = if needed == 0 {
-                    format!("give no torque in `{}`: the drags decide all of them", state.name)
+                    format!("state no torque in `{}`: the drags determine all of them", state.name)
                 } else {
-                    format!("give {needed} of the torques at {}", names.join(", "))
+                    format!("state {needed} of the torques at {}", names.join(", "))
                 };
                 Diagnostic::error(
                     path,
-                    format!("`{}` takes {needed} given torques, not {given}", state.name),
+                    format!("`{}` requires {needed} given torques, not {given}", state.name),
                 )
                 .help(help)
             }
@@ -217,16 +220,21 @@ impl Transmission {
                     .collect();
                 Diagnostic::error(
                     "torque_shares",
-                    format!("parallel paths share torque in `{}`, and nothing says how", state.name),
+                    format!(
+                        "parallel paths split the torque in `{}`, but the split is not stated",
+                        state.name
+                    ),
                 )
                 .note(format!("the loop: {}", rows.join("; ")))
                 .help("add `torque_shares: [{ member: ..., meshes: [..., ...], parts: [0.5, 0.5] }]`")
+                .code(codes::POWER_FLOW)
             }
             FlowFault::Singular => Diagnostic::error(
                 path,
                 format!("the given torques depend on each other in `{}`", state.name),
             )
-            .help("give a torque at another port, or correct the torque shares"),
+            .help("state a torque at another port, or correct the torque shares")
+            .code(codes::POWER_FLOW),
         }
     }
 }

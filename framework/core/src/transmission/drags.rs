@@ -1,11 +1,11 @@
-//! Drag models on gears and meshes: seats, parts, and that nothing is counted twice.
+//! Drag models on gears and meshes: seats, parts, and the check that no cause is counted twice.
 
-use super::gearing::{GearSeat, MeshSeat};
+use super::seats::{GearSeat, MeshSeat};
 use crate::attach::Level;
 use crate::description::GearboxEntry;
 use crate::mechanism::gear_drag::{Covers, DragPart, GearBody};
 
-/// Where a drag model sits.
+/// Seat of a drag model.
 #[derive(Debug, Clone)]
 pub struct DragSeat {
     /// Path with the slot, such as `gears.G4.drag.churning`.
@@ -16,19 +16,19 @@ pub struct DragSeat {
     pub pair: bool,
     /// Tip and reference radius of each gear. \[m\]
     pub radii: [[f64; 2]; 2],
-    /// Height of the oil at each gear.
+    /// Oil height at each gear.
     pub levels: [Level; 2],
-    /// Vectors from each gear's axis to the mates' side, y components: a gear's lowest point moves towards a mate where
-    /// speed times component is positive.
+    /// Vectors from each gear's axis to its mates, y components: a gear's lowest point moves towards a mate if speed times
+    /// component is positive.
     pub mates: [Vec<f64>; 2],
     /// Number of equal copies.
     pub count: f64,
 }
 
-/// Numbers of the gears of which a model counts something, its path, and what it counts.
+/// Numbers of the gears of which a model covers a cause of loss, its path, and these causes.
 pub type Covered = (Vec<usize>, String, Covers);
 
-/// Sides on which a gear's mates lie, as y components of the unit vectors.
+/// Directions to a gear's mates, as y components of the unit vectors.
 pub fn mates(gear: usize, meshes: &[MeshSeat]) -> Vec<f64> {
     meshes
         .iter()
@@ -45,7 +45,7 @@ pub fn mates(gear: usize, meshes: &[MeshSeat]) -> Vec<f64> {
 pub fn body(gear: &GearSeat, index: usize, mesh: &MeshSeat) -> GearBody {
     let pair = &mesh.pair;
     let side = usize::from(mesh.gears[0] != index);
-    // The pitch point lies at the working radius towards the mate.
+    // The pitch point is at the working radius towards the mate.
     let upwards = if side == 0 {
         mesh.direction[1]
     } else {
@@ -79,7 +79,7 @@ pub fn part(entry: &GearboxEntry, gear: GearBody, mate: Option<GearBody>) -> Dra
     }
 }
 
-/// What a slot's name says that its model counts.
+/// The causes that the name of a slot states for its model.
 pub fn named(slot: &str) -> Covers {
     Covers {
         churning: slot == "churning",
@@ -88,7 +88,7 @@ pub fn named(slot: &str) -> Covers {
     }
 }
 
-/// Names of the causes that two models both count.
+/// Names of the causes that two models both cover.
 pub fn twice(a: Covers, b: Covers) -> Vec<&'static str> {
     [
         (a.churning && b.churning, "churning"),

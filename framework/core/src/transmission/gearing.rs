@@ -1,68 +1,27 @@
-//! Gears and meshes: geometry of every pair, checked against axes, hands and places.
+//! Gears and meshes: geometry of every pair, checked against axes, hands and positions.
 
 use serde_json::Value;
 
 use super::members::Members;
 use super::plausible;
+use super::seats::{GearSeat, MeshSeat};
 use crate::attach::dangling;
+use crate::codes;
 use crate::description::{
     GearEntry, GearKind, GearboxEntry, MeshEntry, PlanetarySetEntry, gears::Hand, gears::Mounting, gears::ShiftSign,
 };
 use crate::document::Diagnostic;
 use crate::geometry::{Pair, PairFault, PairSpec};
 use crate::mechanism::Mechanism;
+use crate::mechanism::NamedSlots;
 use crate::mechanism::gear_drag::GearDrag;
 use crate::mechanism::gear_mesh::GearMesh;
-use crate::registry::{NamedSlots, Registry};
+use crate::registry::Registry;
 
-/// A gear with its geometry; SI.
-#[derive(Debug, Clone)]
-pub struct GearSeat {
-    /// Id.
-    pub id: String,
-    /// Member that it turns with.
-    pub member: usize,
-    /// Middle of the face along the shafts. \[m\]
-    pub at: f64,
-    /// Number of teeth.
-    pub z: u32,
-    /// Face width. \[m\]
-    pub facewidth: f64,
-    /// Internal teeth.
-    pub ring: bool,
-    /// Reference, tip and root diameter; zero without a mesh. \[m\]
-    pub diameters: [f64; 3],
-}
-
-/// A mesh with its members; SI.
-#[derive(Debug, Clone)]
-pub struct MeshSeat {
-    /// Path, such as `meshes.M1`.
-    pub path: String,
-    /// Numbers of both gears.
-    pub gears: [usize; 2],
-    /// Members of both gears.
-    pub members: [usize; 2],
-    /// Member that is the carrier; absent for axes fixed in the housing.
-    pub carrier: Option<usize>,
-    /// Number of equal copies.
-    pub count: f64,
-    /// Geometry.
-    pub pair: Pair,
-    /// Hand of the first gear: one right, minus one left, zero without net thrust.
-    pub hand: f64,
-    /// Unit vector in y and z from the axis of the first gear to the contact.
-    pub direction: [f64; 2],
-    /// Roughness Ra of both flanks. \[m\]
-    pub ra: [f64; 2],
-    /// Roughness Rq of both flanks. \[m\]
-    pub rq: [f64; 2],
-}
-
-/// Roughness of ground flanks that state none: Ra 0.4 um. \[m\]
+/// Default roughness, that of ground flanks: Ra 0.4 um. \[m\]
 const USUAL_RA: f64 = 0.4e-6;
 
-/// Solves the geometry of all pairs.
+/// Computes the geometry of all pairs.
 pub fn gearing(
     registry: &Registry,
     entry: &GearboxEntry,
@@ -85,7 +44,7 @@ pub fn gearing(
         })
         .collect();
     let ids: Vec<&str> = entry.gears.ids().collect();
-    // Signs of rings after ISO 21771 from here on.
+    // Signs of ring gears according to ISO 21771 from here on.
     let mut shifts: Vec<Option<f64>> = entry
         .gears
         .iter()
@@ -97,14 +56,14 @@ pub fn gearing(
     warnings.extend(entry.gears.iter().filter_map(|(id, gear)| unsigned_shift(id, gear)));
     for (id, gear) in entry.gears.iter() {
         if gear.bearings.is_some() && gear.mounted == Mounting::Fixed {
-            let message = "a gear that is fixed to its shaft has no bearings of its own";
+            let message = "a gear that is fixed to its shaft has no separate bearings";
             found.push(
                 Diagnostic::error(format!("gears.{id}.bearings"), message)
-                    .help("write `bearings: none` at the shaft, or `mounted: loose` here"),
+                    .help("write `bearings: none` for the shaft, or `mounted: loose` here"),
             );
         }
         if gear.profile_shift_sign.is_some() && gear.kind == GearKind::External {
-            let message = "only a ring has two signs of its profile shift";
+            let message = "`profile_shift_sign` applies to ring gears only";
             found.push(Diagnostic::error(format!("gears.{id}.profile_shift_sign"), message).help("remove it"));
         }
     }
@@ -144,7 +103,7 @@ pub fn gearing(
             found.push(
                 Diagnostic::error(
                     format!("{path}.gears"),
-                    format!("`{}` is a ring and stands first", gears[first].id),
+                    format!("`{}` is a ring gear and is listed first", gears[first].id),
                 )
                 .help(format!("write gears: [{}, {}]", gears[second].id, gears[first].id)),
             );
@@ -163,7 +122,7 @@ pub fn gearing(
             ));
             continue;
         }
-        // Centre distance: from the axes, given, or from the shifts.
+        // Centre distance: from the axes, as stated, or from the shifts.
         let axes = if carried.is_some() {
             None
         } else {
@@ -178,12 +137,12 @@ pub fn gearing(
                 Diagnostic::error(
                     format!("{path}.centre_distance"),
                     format!(
-                        "the centre distance is {:.4} mm, but the axes lie {:.4} mm apart",
+                        "the centre distance is {:.4} mm, but the axes are {:.4} mm apart",
                         given * 1e3,
                         apart * 1e3
                     ),
                 )
-                .help("correct one of them, or leave `centre_distance` out"),
+                .help("correct one of them, or omit `centre_distance`"),
             );
             continue;
         }
@@ -195,9 +154,11 @@ pub fn gearing(
             });
             if on_planet {
                 found.push(
-                    Diagnostic::error(format!("{path}.gears"), "a gear on a planet body cannot be loose").help(
-                        "leave `mounted: loose` out; a planet that turns on another planet is a shaft of its own",
-                    ),
+                    Diagnostic::error(
+                        format!("{path}.gears"),
+                        "a gear on a planet body cannot be an idler gear",
+                    )
+                    .help("remove `mounted: loose`; a planet that rotates on another planet is a separate shaft"),
                 );
             }
             continue;
@@ -210,7 +171,7 @@ pub fn gearing(
                 Diagnostic::error(
                     format!("{path}.gears"),
                     format!(
-                        "`{}` and `{}` do not overlap: they lie {:.3} mm apart along the shafts",
+                        "`{}` and `{}` do not overlap: they are {:.3} mm apart along the shafts",
                         a.id,
                         b.id,
                         -facewidth * 1e3
@@ -263,7 +224,7 @@ pub fn gearing(
                     PairFault::RingTip => {
                         let ring = &gears[second].id;
                         Diagnostic::error(format!("gears.{ring}"), fault.to_string()).help(
-                            "add `tip_diameter: ... mm`, the bore of its teeth: without shift and shortening the reference diameter less two modules",
+                            "add `tip_diameter: ... mm`, the inner diameter of its teeth: without profile shift and tip shortening the reference diameter minus two modules",
                         )
                     }
                     _ => Diagnostic::error(path.clone(), fault.to_string()).help(help),
@@ -290,7 +251,7 @@ pub fn gearing(
                             pitch * 1e3
                         ),
                     )
-                    .help("give all meshes of a gear one module, pressure angle and helix angle"),
+                    .help("state equal module, pressure angle and helix angle for all meshes of a gear"),
                 ),
                 Some(_) => {}
                 None => pitches[gear] = Some((pair.base_pitch, path.clone())),
@@ -307,7 +268,7 @@ pub fn gearing(
         };
         let direction = match (between, apart) {
             (Some(v), Some(apart)) => [sign * v[0] / apart, sign * v[1] / apart],
-            // In the frame of the carrier the planet lies on the y axis; its contact with another planet lies anywhere.
+            // In the frame of the carrier the planet is on the y axis; its contact with another planet can be anywhere.
             _ if sign < 0.0 => [1.0, 0.0],
             _ => [
                 if members.planets[bodies[0]].is_some() {
@@ -346,24 +307,25 @@ pub fn gearing(
     (gears, meshes)
 }
 
-/// A ring whose profile shift has no stated sign.
+/// A ring gear whose profile shift has no stated sign.
 fn unsigned_shift(id: &str, gear: &GearEntry) -> Option<Diagnostic> {
     let shift = gear.profile_shift.filter(|x| *x != 0.0)?;
     (gear.kind == GearKind::Ring && gear.profile_shift_sign.is_none()).then(|| {
         Diagnostic::warning(
             format!("gears.{id}.profile_shift"),
             format!(
-                "the sign of a ring's profile shift is not stated: {shift} is read as away from the axis, which is {} in ISO 21771",
+                "the sign of a ring gear's profile shift is not stated: {shift} is interpreted as away from the axis, which is {} in ISO 21771",
                 -shift
             ),
         )
+        .code(codes::PROFILE_SHIFT)
         .help(
-            "add `profile_shift_sign: iso21771` if the value is meant after ISO 21771 or DIN 3960, or `outward` to keep the meaning",
+            "add `profile_shift_sign: iso21771` if the value is defined as in ISO 21771 or DIN 3960, or `outward` to keep the present interpretation",
         )
     })
 }
 
-/// The pair with the other sign of its ring's profile shift, where it has one.
+/// The pair with the opposite sign of its ring gear's profile shift, if it has one.
 fn turned(spec: &PairSpec) -> Option<PairSpec> {
     let [x1, x2] = spec.profile_shift;
     let x2 = x2.filter(|x2| spec.internal && *x2 != 0.0)?;
@@ -373,22 +335,22 @@ fn turned(spec: &PairSpec) -> Option<PairSpec> {
     })
 }
 
-/// What to do where the geometry works out with the other sign.
+/// The fix if the geometry is valid with the opposite sign.
 fn other_sign(sign: Option<ShiftSign>) -> &'static str {
     match sign {
         Some(ShiftSign::Iso21771) => {
-            "it works out with the other sign of the ring's profile shift: turn its sign, or write `profile_shift_sign: outward`"
+            "the geometry is valid with the opposite sign of the ring gear's profile shift: change its sign, or write `profile_shift_sign: outward`"
         }
         Some(ShiftSign::Outward) => {
-            "it works out with the other sign of the ring's profile shift: turn its sign, or write `profile_shift_sign: iso21771`"
+            "the geometry is valid with the opposite sign of the ring gear's profile shift: change its sign, or write `profile_shift_sign: iso21771`"
         }
         None => {
-            "it works out with the sign of ISO 21771 for the ring's profile shift: add `profile_shift_sign: iso21771` to the ring"
+            "the geometry is valid with the sign of ISO 21771 for the ring gear's profile shift: add `profile_shift_sign: iso21771` to the ring gear"
         }
     }
 }
 
-/// The hand of the first gear; both gears of a helical pair get theirs.
+/// The hand of the first gear; sets it for both gears of a helical pair.
 fn hand_of(
     path: &str,
     helix: f64,
@@ -401,19 +363,19 @@ fn hand_of(
         return Ok(0.0);
     }
     let [first, second] = pair;
-    // An external mate has the opposite hand, a ring its pinion's.
+    // An external mate has the opposite hand, a ring gear the same.
     match (hands[first], hands[second]) {
         (Some(a), Some(b)) if b != -sign * a => Err(Diagnostic::error(
             format!("{path}.gears"),
             format!(
-                "the hands of `{}` and `{}` do not fit",
+                "the hands of `{}` and `{}` do not match",
                 gears[first].id, gears[second].id
             ),
         )
         .help(if sign > 0.0 {
-            "an external pair has opposite hands"
+            "external gears have opposite hands"
         } else {
-            "a ring has the hand of its pinion"
+            "a ring gear has the hand of its pinion"
         })),
         (Some(a), _) => {
             hands[second] = Some(-sign * a);
@@ -428,21 +390,21 @@ fn hand_of(
             "`hand` is missing on a helical gear",
         )
         .note(format!(
-            "`{path}` has a helix angle; its thrust goes one way or the other by the hand"
+            "`{path}` has a helix angle; the hand determines the direction of its thrust"
         ))
         .help("add `hand: right` or `hand: left` to one gear of the pair")),
     }
 }
 
-/// What a mesh says of the orbit of a planet beside its centre distance.
+/// Data of a mesh for the check of a planet's orbit, in addition to its centre distance.
 struct Orbit {
-    /// Centre distance with the other sign of the ring's profile shift, where it follows from the shifts.
+    /// Centre distance with the opposite sign of the ring gear's profile shift, if it follows from the shifts.
     turned: Option<f64>,
-    /// True where nothing looks at the teeth.
+    /// True if no model uses the tooth geometry.
     schematic: bool,
 }
 
-/// All meshes of a planet body with central gears share one radius of the orbit.
+/// Checks that all meshes of a planet body with central gears have the same orbit radius.
 fn one_orbit<'a>(
     entry: &GearboxEntry,
     members: &Members,
@@ -472,7 +434,7 @@ fn one_orbit<'a>(
             };
             let path = format!("{}.centre_distance", other.path);
             let message = format!(
-                "the centre distance is {:.4} mm, that of `{}` is {:.4} mm; a planet has one orbit",
+                "the centre distance is {:.4} mm, that of `{}` is {:.4} mm; a planet has a single orbit",
                 more * 1e3,
                 first.path,
                 distance * 1e3
@@ -480,21 +442,21 @@ fn one_orbit<'a>(
             if at_first.schematic && at_other.schematic {
                 warnings.push(
                     Diagnostic::warning(path, message)
-                        .note("speeds and torques hold all the same, since no model looks at the teeth; loads of planet bearings do not")
-                        .help("check the numbers of teeth, or give both meshes one centre distance"),
+                        .note("speeds and torques are still valid, since no model uses the tooth geometry; loads of planet bearings are not")
+                        .help("check the numbers of teeth, or make both centre distances equal"),
                 );
                 continue;
             }
             let help = match ring {
                 Some(mesh) => other_sign(entry.gears.0[mesh.gears[1]].1.profile_shift_sign),
-                None => "give both meshes one centre distance; profile shifts close it",
+                None => "make both centre distances equal by profile shifts",
             };
             found.push(Diagnostic::error(path, message).help(help));
         }
     }
 }
 
-/// Whether a model of a mesh, of its gears or of the planets among them looks at the teeth, or at diameters that follow from them.
+/// True if a model of a mesh, of its gears or of the planets among them uses the tooth geometry, or diameters that follow from it.
 fn looks_at_teeth(registry: &Registry, entry: &GearboxEntry, mesh: &MeshEntry) -> bool {
     let name = |choice: &'_ Value| {
         choice

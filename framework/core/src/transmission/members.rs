@@ -1,4 +1,4 @@
-//! Members: shafts and loose gears, with the planets among them.
+//! Members: shafts and idler gears, including the planets.
 
 use crate::attach::dangling;
 use crate::description::{GearboxEntry, Mounting};
@@ -13,15 +13,15 @@ pub struct OnCarrier {
 
 /// All members by name.
 pub struct Members {
-    /// Shafts in the order of the document, then loose gears.
+    /// Shafts in the order of the document, then idler gears.
     pub names: Vec<String>,
-    /// Axis of each member, where it has one.
+    /// Axis of each member, if it has one.
     pub axes: Vec<Option<[f64; 2]>>,
     /// Set for planet bodies.
     pub planets: Vec<Option<OnCarrier>>,
-    /// True for loose gears.
+    /// True for idler gears.
     pub loose: Vec<bool>,
-    /// Member of each gear, where its shaft exists.
+    /// Member of each gear, if its shaft exists.
     pub of_gear: Vec<Option<usize>>,
 }
 
@@ -41,8 +41,8 @@ impl Members {
             if gear.mounted == Mounting::Loose {
                 if shafts.iter().any(|s| s == id) {
                     found.push(
-                        Diagnostic::error(format!("gears.{id}"), format!("`{id}` is a shaft and a loose gear"))
-                            .help("rename one of them: both turn on their own"),
+                        Diagnostic::error(format!("gears.{id}"), format!("`{id}` is a shaft and an idler gear"))
+                            .help("rename one of them: they are separate members"),
                     );
                 }
                 of_gear.push(Some(names.len()));
@@ -66,9 +66,9 @@ impl Members {
                     Some(body) if body == carrier || planets[body].is_some() => found.push(
                         Diagnostic::error(
                             format!("{path}.planets"),
-                            format!("`{planet}` is the carrier, or a planet already"),
+                            format!("`{planet}` is the carrier, or already a planet"),
                         )
-                        .help("name each planet body once"),
+                        .help("list each planet body once"),
                     ),
                     Some(body) => {
                         planets[body] = Some(OnCarrier {

@@ -1,37 +1,37 @@
-//! Which thermal node each part belongs to: whose oil has its temperature, and where its heat goes.
+//! Thermal node of each part: for its oil temperature, and for its heat.
 
 use crate::attach::dangling;
 use crate::description::{GearboxEntry, NetworkChoice, NetworkEntry, NodeEntry};
 use crate::document::{Diagnostic, did_you_mean};
 
-/// Where the heat of a part goes.
+/// Destination of the heat of a part.
 #[derive(Debug, Clone, PartialEq)]
 pub enum HeatPath {
-    /// In equal parts into these nodes.
+    /// Equal shares into these nodes.
     Nodes(Vec<usize>),
-    /// Into the nodes of both gears of a mesh, as its model shares the heat.
+    /// The nodes of both gears of a mesh, with the split of its model.
     Gears([usize; 2]),
 }
 
-/// Names of nodes for parts, by patterns; the ambient is the first node.
+/// Assignment of nodes to parts, by patterns; `ambient` is the first node.
 #[derive(Debug, Clone, Default)]
 pub struct NodeNames {
     names: Vec<String>,
-    /// Pattern and node: parts whose heat goes there.
+    /// Pattern and node: parts whose heat enters the node.
     heated: Vec<(String, usize)>,
-    /// Pattern and node: parts whose oil has its temperature.
+    /// Pattern and node: parts whose oil has the temperature of the node.
     oiled: Vec<(String, usize)>,
     /// Gear and node.
     gears: Vec<(String, usize)>,
-    /// The oil of all that is named nowhere.
+    /// The oil of all parts that are not listed.
     oil: usize,
 }
 
-/// Name of the node of the surroundings, which every network has.
+/// Name of the ambient node, which every network has.
 pub const AMBIENT: &str = "ambient";
 
 impl NodeNames {
-    /// The nodes of a description; without a network nothing has a node.
+    /// The nodes of a description; without a network no part has a node.
     pub fn new(entry: &GearboxEntry, found: &mut Vec<Diagnostic>) -> Self {
         let Some(NetworkChoice::Written(network)) = &entry.thermal.network else {
             return Self::default();
@@ -49,9 +49,9 @@ impl NodeNames {
                 found.push(
                     Diagnostic::error(
                         path.clone(),
-                        "`ambient` is there already: the surroundings, as warm as `thermal.ambient`",
+                        "`ambient` is reserved for the node at the temperature `thermal.ambient`",
                     )
-                    .help("give the node another name"),
+                    .help("rename the node"),
                 );
             }
             let before = names.gears.len();
@@ -62,9 +62,9 @@ impl NodeNames {
                     found.push(
                         Diagnostic::error(
                             format!("{path}.gears"),
-                            format!("`{gear}` belongs to `{first}` already"),
+                            format!("`{gear}` already belongs to `{first}`"),
                         )
-                        .help("name each gear at one node"),
+                        .help("list each gear for one node only"),
                     );
                 }
                 if entry.gears.get(gear).is_none() {
@@ -76,8 +76,8 @@ impl NodeNames {
                 && let Some(first) = oil.replace(id)
             {
                 found.push(
-                    Diagnostic::error(format!("{path}.oil"), format!("`{first}` is the oil already"))
-                        .help("say `oil: true` at one node, and name parts under `oil_of` of the others"),
+                    Diagnostic::error(format!("{path}.oil"), format!("`{first}` is already the oil"))
+                        .help("write `oil: true` for one node, and list parts under `oil_of` of the others"),
                 );
             }
         }
@@ -85,7 +85,7 @@ impl NodeNames {
             Some(node) => names.oil = node,
             None => found.push(
                 Diagnostic::error("thermal.network.nodes", "no node is the oil of the housing")
-                    .help("write `oil: true` at the node of the sump"),
+                    .help("write `oil: true` for the sump node"),
             ),
         }
         names
@@ -109,7 +109,7 @@ impl NodeNames {
         &self.names
     }
 
-    /// The node whose temperature the oil of a part has; the first without a network.
+    /// The node whose temperature the oil of a part has; the first one without a network.
     pub fn of_oil(&self, path: &str) -> usize {
         let first = |list: &[(String, usize)]| {
             list.iter()
@@ -124,7 +124,7 @@ impl NodeNames {
         self.gears.iter().find(|(gear, _)| gear == id).map(|(_, node)| *node)
     }
 
-    /// The nodes of both gears of a mesh, where both have one and the mesh is not named under `parts`.
+    /// The nodes of both gears of a mesh, if both have one and the mesh is not listed under `parts`.
     pub fn bodies(&self, path: &str, gears: [&str; 2]) -> Option<[usize; 2]> {
         if self.heated.iter().any(|(pattern, _)| meets(pattern, path)) {
             return None;
@@ -132,7 +132,7 @@ impl NodeNames {
         Some([self.of_gear(gears[0])?, self.of_gear(gears[1])?])
     }
 
-    /// Where the heat of a part goes that is no mesh with two nodes: into the nodes that name it, else into the oil.
+    /// Destination of the heat of a part that is not a mesh with two nodes: the nodes that list it, else the oil.
     pub fn heat(&self, path: &str) -> HeatPath {
         let mut nodes: Vec<usize> = self
             .heated
@@ -148,7 +148,7 @@ impl NodeNames {
     }
 }
 
-/// Patterns under `parts` and `oil_of` that meet no part, with the path of their list.
+/// Patterns under `parts` and `oil_of` that match no part, with the path of their list.
 pub fn unmet(network: &NetworkEntry, parts: &[&str], found: &mut Vec<Diagnostic>) {
     for (id, node) in network.nodes.iter() {
         for (key, patterns) in [("parts", &node.parts), ("oil_of", &node.oil_of)] {
@@ -156,12 +156,12 @@ pub fn unmet(network: &NetworkEntry, parts: &[&str], found: &mut Vec<Diagnostic>
                 found.push(
                     Diagnostic::error(
                         format!("thermal.network.nodes.{id}.{key}"),
-                        format!("`{pattern}` meets no part that loses power"),
+                        format!("`{pattern}` matches no part with a loss"),
                     )
-                    .note(format!("there are: {}", parts.join(", ")))
+                    .note(format!("available: {}", parts.join(", ")))
                     .help(match did_you_mean(pattern, parts.iter().copied()) {
                         Some(close) => format!("write `{close}`"),
-                        None => "name a part, such as `bearings.B1` or `meshes.*`".to_owned(),
+                        None => "write a part, such as `bearings.B1` or `meshes.*`".to_owned(),
                     }),
                 );
             }
@@ -169,7 +169,7 @@ pub fn unmet(network: &NetworkEntry, parts: &[&str], found: &mut Vec<Diagnostic>
     }
 }
 
-/// True where a pattern meets a path or something that the path lies below: `gears.G1` meets `gears.G1.drag.churning`.
+/// True if a pattern matches a path or one above it: `gears.G1` matches `gears.G1.drag.churning`.
 fn meets(pattern: &str, path: &str) -> bool {
     let mut keys = path.split('.');
     pattern

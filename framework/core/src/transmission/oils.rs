@@ -1,21 +1,19 @@
-//! Oils by number, and the height of the oil at every place.
+//! Oils by number, and the oil height at every position.
 
 use std::sync::Arc;
 
-use super::gearing::MeshSeat;
 use super::members::Members;
 use super::nodes::NodeNames;
-use super::planets::orbit;
-use crate::attach::{Level, Oil, Places, dangling};
+use super::seats::{MeshSeat, orbit};
+use crate::attach::{Common, Level, Oil, Places, dangling};
 use crate::description::{GearboxEntry, Running};
 use crate::document::Diagnostic;
 use crate::immersion::upward;
 use crate::lubricant::Lubricant;
 use crate::mechanism::gear_mesh::MeshOil;
-use crate::registry::Common;
 use crate::table::clamped;
 
-/// Height of the sump over its datum while turning.
+/// Oil height of the sump above its datum while rotating.
 #[derive(Debug, Clone)]
 pub enum Surface {
     /// No oil level is stated.
@@ -24,9 +22,9 @@ pub enum Surface {
     Fixed(f64),
     /// Heights over the speed of a member. \[m over rad/s\]
     Over {
-        /// Member whose speed counts.
+        /// Member of the speed.
         member: usize,
-        /// Rising speeds. \[rad/s\]
+        /// Increasing speeds. \[rad/s\]
         speeds: Vec<f64>,
         /// Heights. \[m\]
         levels: Vec<f64>,
@@ -44,7 +42,7 @@ pub struct Oils {
 }
 
 impl Oils {
-    /// Height of the oil above the datum at given speeds. \[m\]
+    /// Oil height above the datum at given speeds. \[m\]
     pub fn surface(&self, speeds: &[f64]) -> f64 {
         match &self.surface {
             Surface::Dry => f64::NEG_INFINITY,
@@ -57,11 +55,11 @@ impl Oils {
         }
     }
 
-    /// Writes the state of all oils at the temperatures of the nodes, or at one for all. \[degC\]
-    pub fn at(&self, temperatures: &[f64], oils: &mut [Oil]) {
+    /// Writes the state of all oils at the temperatures of the nodes, or at one for all nodes. \[degC\]
+    pub fn write_states(&self, temperatures: &[f64], oils: &mut [Oil]) {
         for ((lubricant, node, offset), oil) in self.spots.iter().zip(oils) {
             let temperature = temperatures.get(*node).unwrap_or(&temperatures[0]);
-            *oil = self.lubricants[*lubricant].at(temperature + offset);
+            *oil = self.lubricants[*lubricant].oil_at(temperature + offset);
         }
     }
 
@@ -85,18 +83,18 @@ impl Oils {
     }
 }
 
-/// Numbers oils while components are seated.
+/// Numbers oils while components are placed.
 pub struct OilNumbers<'a> {
     names: Vec<&'a str>,
     lubricants: Vec<Arc<Lubricant>>,
     spots: Vec<(usize, usize, f64)>,
     default: Option<usize>,
-    /// True where the housing's oil dangles, which is reported once.
+    /// True if the housing's oil does not exist, which is reported once.
     dangles: bool,
     surface: Surface,
-    /// Level of the sump at rest, where it is stated. \[m\]
+    /// Level of the sump at standstill, if stated. \[m\]
     at_rest: Option<f64>,
-    /// Axis of each member, and the radius on which it turns about it.
+    /// Axis of each member, and the radius of its orbit.
     axes: Vec<Option<([f64; 2], f64)>>,
     up: [f64; 3],
     datum: [f64; 2],
@@ -117,7 +115,7 @@ impl<'a> OilNumbers<'a> {
                 }
             }
         }
-        // A planet's axis turns about that of its carrier.
+        // A planet's axis orbits that of its carrier.
         let axes = (0..members.names.len())
             .map(|m| match members.planets[m] {
                 Some(planet) => Some((members.axes[planet.carrier]?, orbit(m, members, meshes)?)),
@@ -154,8 +152,11 @@ impl<'a> OilNumbers<'a> {
                     }
                     if over.speeds.len() != over.levels.len() || over.speeds.windows(2).any(|w| w[1] <= w[0]) {
                         findings.push(
-                            Diagnostic::error(path, "speeds and levels do not fit")
-                                .help("give rising speeds and as many levels"),
+                            Diagnostic::error(
+                                path,
+                                "the numbers of speeds and levels differ, or speeds do not increase",
+                            )
+                            .help("state increasing speeds and one level for each"),
                         );
                         Surface::Dry
                     } else {
@@ -174,7 +175,7 @@ impl<'a> OilNumbers<'a> {
         }
         if names.is_empty() {
             findings
-                .push(Diagnostic::error("lubricants", "no lubricant is described").help(
+                .push(Diagnostic::error("lubricants", "lubricants are missing").help(
                     "add one, such as `lubricants: { sump: { viscosity: { kv40: 32 mm2/s, kv100: 6 mm2/s } } }`",
                 ));
         }
@@ -197,7 +198,7 @@ impl<'a> OilNumbers<'a> {
         }
     }
 
-    /// The highest level of the oil, at rest or turning, above the datum; absent where none is stated. \[m\]
+    /// The highest oil level, at standstill or rotating, above the datum; `None` if none is stated. \[m\]
     pub fn highest(&self) -> Option<f64> {
         let turning = match &self.surface {
             Surface::Dry => return None,
@@ -207,7 +208,7 @@ impl<'a> OilNumbers<'a> {
         Some(self.at_rest.map_or(turning, |level| level.max(turning)))
     }
 
-    /// The lubricant of an oil; absent where a lubricant has a fault that was reported.
+    /// The lubricant of an oil; `None` if a lubricant has a fault that was reported.
     pub fn lubricant(&self, oil: u16) -> Option<MeshOil> {
         let (lubricant, ..) = self.spots.get(oil as usize)?;
         Some(MeshOil {
@@ -216,7 +217,7 @@ impl<'a> OilNumbers<'a> {
         })
     }
 
-    /// All lubricants with their names; none where one has a fault that was reported.
+    /// All lubricants with their names; empty if one has a fault that was reported.
     pub fn lubricants(&self) -> Vec<(String, Arc<Lubricant>)> {
         let lubricants = self.names.iter().zip(&self.lubricants);
         lubricants
@@ -253,7 +254,7 @@ impl Places for OilNumbers<'_> {
                 None if self.dangles => return None,
                 None => {
                     self.findings.push(
-                        Diagnostic::error(path, "no oil: the housing names none")
+                        Diagnostic::error(path, "no oil: the housing states none")
                             .help("add `housing: { oil: { lubricant: ... } }`, or `lubricant:` here"),
                     );
                     return None;

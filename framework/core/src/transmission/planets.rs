@@ -1,33 +1,34 @@
-//! Planets on their carriers: radius of the orbit, unequal sharing of the load, drag of the set, whether it can be assembled.
+//! Planets on their carriers: orbit radius, load sharing among planets, drag of the set, feasibility of assembly.
 
 use std::sync::Arc;
 
 use super::drags::{Covered, body, part};
-use super::gearing::{GearSeat, MeshSeat};
 use super::members::Members;
 use super::oils::OilNumbers;
-use crate::attach::{Places, Spot, State, dangling};
+use super::seats::{GearSeat, MeshSeat, orbit};
+use crate::attach::{Common, Places, Spot, State, dangling};
 use crate::description::GearboxEntry;
 use crate::document::Diagnostic;
 use crate::evaluate::{Reading, readings};
 use crate::loss::{Loss, NoteBase, Notebook, Notes, Undefined};
 use crate::mechanism::gear_drag::Covers;
 use crate::mechanism::planetary_drag::{PlanetaryDrag, PlanetaryDragAt, PlanetaryPart};
-use crate::registry::{Build, Common, ModelRef, Placed, Sealed, Slot};
+use crate::mechanism::{ModelRef, Slot};
+use crate::registry::{Build, Placed, Sealed};
 
-/// How unequally the planets of a set share its load.
+/// Unequal load sharing among the planets of a set.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sharing {
     /// Load of the most loaded planet over the mean.
     pub most: f64,
-    /// Load of each of the others over the mean.
+    /// Load of each other planet over the mean.
     pub others: f64,
-    /// Share of the most loaded planet in the number of planets.
+    /// Weight of the most loaded planet: one over the number of planets.
     pub weight: f64,
 }
 
 impl Sharing {
-    /// Load over the mean: of the most loaded planet, and of each of the others.
+    /// Load over the mean: of the most loaded planet, and of each other planet.
     pub fn factors(&self) -> [f64; 2] {
         [self.most, self.others]
     }
@@ -41,15 +42,7 @@ impl Sharing {
     }
 }
 
-/// Radius of a planet body's orbit; absent where it meets no gear on the central axis. \[m\]
-pub fn orbit(body: usize, members: &Members, meshes: &[MeshSeat]) -> Option<f64> {
-    meshes
-        .iter()
-        .find(|m| m.members.contains(&body) && !m.members.iter().all(|b| members.planets[*b].is_some()))
-        .map(|m| m.pair.centre_distance)
-}
-
-/// Sharing of the set that each member is a planet of; absent where all planets carry the same.
+/// Load sharing of the set of each planet member; `None` if all planets carry the same load.
 pub fn sharing(entry: &GearboxEntry, members: &Members, found: &mut Vec<Diagnostic>) -> Vec<Option<Sharing>> {
     let mut sharing = vec![None; members.names.len()];
     for (id, set) in entry.planetary_sets.iter() {
@@ -73,22 +66,22 @@ pub fn sharing(entry: &GearboxEntry, members: &Members, found: &mut Vec<Diagnost
     sharing
 }
 
-/// The drag model of a set in its seat.
+/// The placed drag model of a set.
 struct PlacedDrag {
     part: Arc<PlanetaryPart>,
     model: Slot<PlanetaryDrag>,
-    /// Shaft that the moment refers to, carrier, first planet.
+    /// Reference shaft of the moment, carrier, first planet.
     members: [u16; 3],
     /// The oil, and its height above the carrier's axis.
     spot: Spot,
 }
 
 impl PlacedDrag {
-    fn at<'a>(&'a self, state: &State<'_>, notes: Notes<'a>) -> PlanetaryDragAt<'a> {
+    fn context<'a>(&'a self, state: &State<'_>, notes: Notes<'a>) -> PlanetaryDragAt<'a> {
         let [speed, carrier_speed, planet_speed] = self.members.map(|m| state.speed(Some(m)));
         let oil = state.oil(&self.spot);
         let part = &*self.part;
-        // What the part does not state, no model may ask for: building it has refused that.
+        // Models do not use quantities that the part does not state: building it has rejected that.
         PlanetaryDragAt {
             part,
             speed,
@@ -112,10 +105,10 @@ impl Sealed for PlacedDrag {}
 impl Placed for PlacedDrag {
     fn loss(&self, state: &State<'_>, book: &Notebook<'_>) -> Result<Loss, Undefined> {
         self.model
-            .loss(&self.at(state, book.notes(self.model.notes).forgetting()))
+            .loss(&self.context(state, book.notes(self.model.notes).forgetting()))
     }
     fn readings(&self, state: &State<'_>) -> Vec<Reading> {
-        readings::<PlanetaryDrag>(&self.at(state, Notes::MUTED))
+        readings::<PlanetaryDrag>(&self.context(state, Notes::MUTED))
     }
     fn between(&self) -> [Option<u16>; 2] {
         [Some(self.members[0]), None]
@@ -134,7 +127,7 @@ impl Placed for PlacedDrag {
     }
 }
 
-/// A drag model with what it counts of the gears on the planets.
+/// A drag model with the losses of the planet gears that it covers.
 pub struct Held {
     pub path: String,
     pub placed: Box<dyn Placed>,
@@ -161,7 +154,7 @@ pub fn models(
         let bodies: Vec<usize> = set.planets.iter().filter_map(|p| member(p)).collect();
         let reference = set.reference.as_deref().unwrap_or(&set.carrier);
         let Some(reference) = member(reference) else {
-            // A carrier that dangles was reported with the members.
+            // An unknown carrier was reported with the members.
             if set.reference.is_some() {
                 found.push(dangling(&format!("{path}.reference"), "shaft", reference, &ids));
             }
@@ -227,7 +220,7 @@ pub fn models(
     held
 }
 
-/// What keeps a simple set from being assembled: planets that touch each other, or teeth that do not meet at equal spacing.
+/// Checks whether a simple set can be assembled: adjacent planets must not touch, and the teeth must match equal spacing.
 pub fn assembly(
     entry: &GearboxEntry,
     members: &Members,
@@ -251,16 +244,16 @@ pub fn assembly(
                     Diagnostic::warning(
                         path.clone(),
                         format!(
-                            "neighbouring planets touch: `{}` has a tip diameter of {:.3} mm, and their axes are {:.3} mm apart",
+                            "adjacent planets touch: `{}` has a tip diameter of {:.3} mm, and their axes are {:.3} mm apart",
                             gear.id,
                             gear.diameters[1] * 1e3,
                             apart * 1e3
                         ),
                     )
-                    .help("take fewer planets or smaller ones"),
+                    .help("use fewer or smaller planets"),
                 );
             }
-            // Of one gear between a sun and a ring the condition is known; a stepped planet can be turned to fit.
+            // For a single gear between a sun and a ring the condition is known; a stepped planet can be rotated to match.
             let own: Vec<&MeshSeat> = meshes.iter().filter(|m| m.members.contains(&body)).collect();
             let [a, b] = own[..] else { continue };
             let one_gear = a.gears.iter().any(|g| b.gears.contains(g));

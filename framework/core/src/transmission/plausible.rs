@@ -1,21 +1,23 @@
-//! What can be built and solved and is still likely a mistake: little face overlap, profile shifts that only close a centre
-//! distance, oil that reaches no gear.
+//! Checks for likely mistakes in valid descriptions: little face overlap, profile shifts that only match a centre distance, oil
+//! that reaches no gear.
 
-use super::gearing::GearSeat;
 use super::oils::OilNumbers;
+use super::seats::GearSeat;
 use crate::attach::Level;
 use crate::description::GearboxEntry;
 use crate::document::Diagnostic;
 use crate::geometry::{Pair, PairFault, PairSpec};
 
-/// Share of the narrower face below which the overlap is reported. Faces are offset or differ by a few percent on purpose.
+/// Share of the narrower face width below which the overlap is reported. Faces are often offset or differ by a few percent on
+/// purpose.
 const LEAST_OVERLAP: f64 = 0.9;
 
-/// Profile shift coefficient beyond which one that nobody stated is reported, and a sum of which neither part is stated: designs
-/// after DIN 3992 stay within it but for pinions of few teeth, whose shift is stated. A tooth too many moves the sum by about 0.5.
+/// Profile shift coefficient above which an unstated one is reported, and limit of the sum if neither is stated: designs according
+/// to DIN 3992 are within it except for pinions with few teeth, whose shift is stated. One tooth too many changes the sum by about
+/// 0.5.
 const LARGEST_SHIFT: f64 = 0.5;
 
-/// Faces that share little of their width. \[m\]
+/// Reports faces with little overlap. \[m\]
 pub fn face_overlap(path: &str, [a, b]: [&GearSeat; 2], overlap: f64) -> Option<Diagnostic> {
     let narrow = a.facewidth.min(b.facewidth);
     (overlap < LEAST_OVERLAP * narrow).then(|| {
@@ -35,17 +37,17 @@ pub fn face_overlap(path: &str, [a, b]: [&GearSeat; 2], overlap: f64) -> Option<
     })
 }
 
-/// Teeth that make no involute pair, where nothing looks at them. That a ring states no tip is no fault then.
+/// Reports teeth that form no involute pair, if no model uses them. An unstated tip diameter of a ring gear is then no fault.
 pub fn no_involute(path: &str, faults: &[PairFault]) -> Option<Diagnostic> {
     let fault = faults.iter().find(|fault| **fault != PairFault::RingTip)?;
     Some(
         Diagnostic::warning(path, fault.to_string())
-            .note("no model looks at these teeth, so they count as pitch circles that roll on each other")
-            .help("check the numbers of teeth and the centre distance; a loss model of the teeth will need them right"),
+            .note("no model uses the tooth geometry, so the pair is treated as pitch circles that roll on each other")
+            .help("check the numbers of teeth and the centre distance; a loss model of the mesh requires a valid geometry"),
     )
 }
 
-/// Large profile shifts that follow from the centre distance alone; `follows` says which do.
+/// Reports large profile shifts that follow from the centre distance only; `follows` marks these.
 pub fn shifts(path: &str, spec: &PairSpec, pair: &Pair, follows: [bool; 2]) -> Option<Diagnostic> {
     let [x1, x2] = pair.profile_shift;
     let largest = match follows {
@@ -64,7 +66,7 @@ pub fn shifts(path: &str, spec: &PairSpec, pair: &Pair, follows: [bool; 2]) -> O
     let warning = Diagnostic::warning(
         path,
         format!(
-            "profile shift {} follows from the centre distance of {:.4} mm alone",
+            "profile shift {} follows from the centre distance of {:.4} mm only",
             own.join(", "),
             pair.centre_distance * 1e3
         ),
@@ -72,14 +74,14 @@ pub fn shifts(path: &str, spec: &PairSpec, pair: &Pair, follows: [bool; 2]) -> O
     .help("check the numbers of teeth, the module and the centre distance, or state `profile_shift` of both gears");
     Some(match fitting_teeth(spec, pair) {
         Some((teeth, shift)) => warning.note(format!(
-            "with {teeth} teeth in place of {} the second gear would need x2 = {shift:.3}",
+            "with {teeth} teeth instead of {} the second gear would have x2 = {shift:.3}",
             pair.z[1]
         )),
         None => warning,
     })
 }
 
-/// The number of teeth of the second gear that suits the centre distance best, with the profile shift that is left for it.
+/// The number of teeth of the second gear that best matches the centre distance, with its remaining profile shift.
 fn fitting_teeth(spec: &PairSpec, pair: &Pair) -> Option<(u32, f64)> {
     let module_t = pair.normal_module / pair.helix_angle.cos();
     let teeth = (2.0 * pair.centre_distance / module_t - pair.sign() * f64::from(pair.z[0])).round();
@@ -98,7 +100,7 @@ fn fitting_teeth(spec: &PairSpec, pair: &Pair) -> Option<(u32, f64)> {
     Some((other.z[1], other.profile_shift[1]))
 }
 
-/// An oil level below the lowest tip circle.
+/// Reports an oil level below the lowest tip circle.
 pub fn oil_level(
     entry: &GearboxEntry,
     gears: &[GearSeat],
@@ -114,10 +116,10 @@ pub fn oil_level(
             let height = match *level {
                 Level::Dry => f64::NEG_INFINITY,
                 Level::Own(level) => level,
-                // At the lowest place of an orbit.
+                // At the lowest point of an orbit.
                 Level::Sump { height, slope, orbit } => (surface - height) * slope + orbit,
             };
-            // Radius outside: that of a ring's root is not far from its tip, and its lowest teeth are what dips.
+            // Outer radius: the root radius of a ring gear is close to its tip radius, and its lowest teeth are immersed first.
             let radius = 0.5 * gear.diameters[1].max(gear.diameters[2]);
             (gear, height + radius)
         })
@@ -136,6 +138,6 @@ pub fn oil_level(
                 -depth * 1e3
             ),
         )
-        .help("check the level and `measured_from`; leave the level out where oil is only sprayed"),
+        .help("check the level and `measured_from`; omit the level if oil is only sprayed"),
     )
 }

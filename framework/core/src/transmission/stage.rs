@@ -1,4 +1,4 @@
-//! Stages as figures: the derived geometry of every mesh in shop units, and the ratio of every gear state.
+//! Stage data: the derived geometry of every mesh in common units, and the ratio of every gear state.
 
 use serde::Serialize;
 
@@ -13,7 +13,7 @@ pub struct Stage {
     pub gears: [String; 2],
     /// Numbers of teeth. [-]
     pub z: [u32; 2],
-    /// True for a ring with internal teeth as the second gear.
+    /// True if the second gear is a ring gear with internal teeth.
     pub internal: bool,
     /// Number of teeth of the second gear over that of the first. [-]
     pub ratio: f64,
@@ -21,7 +21,7 @@ pub struct Stage {
     pub centre_distance_mm: f64,
     /// Reference centre distance, without profile shifts. [mm]
     pub reference_centre_distance_mm: f64,
-    /// Profile shift coefficients after ISO 21771, also for rings. [-]
+    /// Profile shift coefficients according to ISO 21771, also for ring gears. [-]
     pub profile_shift: [f64; 2],
     /// Transverse pressure angle alpha_t. [deg]
     pub transverse_pressure_angle_deg: f64,
@@ -29,11 +29,11 @@ pub struct Stage {
     pub working_pressure_angle_deg: f64,
     /// Base helix angle beta_b. [deg]
     pub base_helix_angle_deg: f64,
-    /// Transverse contact ratio eps_alpha; absent where the pair counts as pitch circles alone. [-]
+    /// Transverse contact ratio eps_alpha; `None` if the pair is treated as pitch circles. [-]
     pub transverse_contact_ratio: Option<f64>,
     /// Overlap contact ratio eps_beta. [-]
     pub overlap_contact_ratio: f64,
-    /// Face width that both gears share. [mm]
+    /// Common face width of both gears. [mm]
     pub face_overlap_mm: f64,
     /// Face widths. [mm]
     pub facewidth_mm: [f64; 2],
@@ -43,9 +43,9 @@ pub struct Stage {
     pub base_diameter_mm: [f64; 2],
     /// Working pitch diameters d_w. [mm]
     pub pitch_diameter_mm: [f64; 2],
-    /// Tip diameters d_a, written or of the reference tooth. [mm]
+    /// Tip diameters d_a, written or of the standard basic rack. [mm]
     pub tip_diameter_mm: [f64; 2],
-    /// Root diameters d_f, written or of the reference tooth. [mm]
+    /// Root diameters d_f, written or of the standard basic rack. [mm]
     pub root_diameter_mm: [f64; 2],
 }
 
@@ -81,8 +81,8 @@ impl Transmission {
         })
     }
 
-    /// The case of a gear state in which the reference port has the one given speed and the first given torque; absent where
-    /// its speed does not decide all others.
+    /// The case of a gear state in which the reference port has the single given speed and the first given torque; `None` if its
+    /// speed does not determine all others.
     pub fn case_at_reference(&self, state: usize) -> Option<Case> {
         let reference = &self.ports[self.reference_port()].name;
         let mut order: Vec<&str> = self.ports.iter().map(|p| p.name.as_str()).collect();
@@ -95,8 +95,8 @@ impl Transmission {
             .flatten()
     }
 
-    /// Speed of the reference port over that of each other port in a gear state, by port; absent where that port stands
-    /// still, and empty where the speed of the reference port does not decide all others.
+    /// Speed of the reference port over that of each other port in a gear state, by port; `None` if that port is stationary, and
+    /// empty if the speed of the reference port does not determine all others.
     pub fn ratios(&self, state: usize) -> Vec<(usize, Option<f64>)> {
         let reference = self.reference_port();
         let Some(case) = self.case_at_reference(state) else {

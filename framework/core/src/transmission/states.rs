@@ -1,21 +1,22 @@
-//! Gear states: constraint rows, degrees of freedom, and which ports may prescribe what.
+//! Gear states: constraint rows, degrees of freedom, and the ports that may prescribe speeds.
 
-use super::gearing::MeshSeat;
 use super::members::Members;
+use super::seats::MeshSeat;
 use crate::attach::{SeatedClearance, dangling};
+use crate::codes;
 use crate::description::GearboxEntry;
 use crate::document::Diagnostic;
 use crate::flow::{MeshRow, Share};
 use crate::kinematics::{Fault, Motion, Row, Train};
 
-/// What a row is, for messages.
+/// Origin of a row, for messages.
 #[derive(Debug, Clone, PartialEq)]
 pub enum RowName {
     /// A mesh or a differential, by path.
     Path(String),
-    /// The rule that both sides of a differential turn at one speed.
+    /// The rule that both sides of a differential have equal speed.
     Equal(String),
-    /// A port that turns with the axle of `wheels`, by name.
+    /// A port that rotates with the axle of `wheels`, by name.
     Wheel(String),
 }
 
@@ -31,11 +32,11 @@ pub struct GearState {
     pub(crate) rows: Vec<RowName>,
     pub(crate) meshes: Vec<MeshRow>,
     pub(crate) shares: Vec<Share>,
-    /// Columns whose speed is prescribed by a rule, with given torque zero: differences of differentials.
+    /// Columns whose speed a rule prescribes, with zero given torque: differences of differentials.
     pub(crate) equal: Vec<usize>,
-    /// Columns that stand still by rule, with a support torque.
+    /// Columns that are stationary by rule, with a reaction torque.
     pub(crate) standing: Vec<usize>,
-    /// Ports that prescribe the speeds of this state unless a point says otherwise.
+    /// Ports that prescribe the speeds of this state unless a point states others.
     pub speed_ports: Vec<usize>,
     /// Degrees of freedom, without those that rules prescribe.
     pub freedom: usize,
@@ -50,7 +51,7 @@ pub fn states(
     (ports, wheels): (&[super::Port], &[super::Port]),
     found: &mut Vec<Diagnostic>,
 ) -> Vec<GearState> {
-    // The axle of wheels stands behind the members, where its port has it.
+    // The axle of `wheels` follows the members if its port includes it.
     let axle = members.names.len();
     let mut base = Train {
         columns: axle + usize::from(!wheels.is_empty()),
@@ -106,7 +107,7 @@ pub fn states(
         base.rows.push(Row::joined(Some(wheel.member), Some(axle)));
         names.push(RowName::Wheel(wheel.name.clone()));
     }
-    // Where the transmission itself holds wheels at one speed, nothing else would say how they share the torque.
+    // If the transmission itself locks the wheels to equal speed, nothing else determines their torque split.
     for second in 1..wheels.len() {
         shares.extend((0..second).map(|first| Share {
             member: axle,
@@ -153,11 +154,11 @@ pub fn states(
         for id in &standstill {
             match ids.iter().position(|m| m == id) {
                 Some(member) => state.standing.push(member),
-                None => found.push(dangling(&format!("{path}.standstill"), "shaft or loose gear", id, &ids)),
+                None => found.push(dangling(&format!("{path}.standstill"), "shaft or idler gear", id, &ids)),
             }
         }
         if !wheels.is_empty() {
-            // Wheels of one speed leave some differentials nothing to rule.
+            // Wheels with equal speed make the rule of some differentials redundant.
             let freedom = Motion::freedom(&state.train);
             state.equal.retain(|difference| {
                 let mut held = state.train.clone();
@@ -173,7 +174,7 @@ pub fn states(
     states
 }
 
-/// Chooses the ports that prescribe speeds: the reference port first, then the others in their order.
+/// Selects the ports that prescribe speeds: the reference port first, then the others in their order.
 fn choose_ports(
     state: &mut GearState,
     ports: &[super::Port],
@@ -199,7 +200,7 @@ fn choose_ports(
                 break;
             }
             Err(list) => {
-                // A port that the others decide, or that is held, is no choice; a free member may still find its port.
+                // A port that the others determine, or that is fixed, cannot be chosen; a free member may still find its port.
                 let member = ports[port].member;
                 let useless = list.iter().any(|f| match f {
                     Fault::Tied { .. } => more.len() > 1,
@@ -241,7 +242,7 @@ pub(crate) fn prescribed(state: &GearState, ports: &[super::Port], chosen: &[usi
     columns
 }
 
-/// A fault of kinematics in words.
+/// A fault of kinematics as a message.
 pub(crate) fn explain(
     fault: &Fault,
     state: &GearState,
@@ -273,10 +274,8 @@ pub(crate) fn explain(
     };
     match fault {
         Fault::Under { columns, ports: among } => {
-            let error = Diagnostic::error(
-                path,
-                format!("{} can turn freely against the rest in `{}`", list(columns), state.name),
-            );
+            let error = Diagnostic::error(path, format!("{} can rotate freely in `{}`", list(columns), state.name))
+                .code(codes::UNDERDETERMINED);
             if among.is_empty() {
                 error.help(format!(
                     "engage a coupling, or write `{}: {{ engaged: [...], standstill: [{}] }}`",
@@ -285,7 +284,7 @@ pub(crate) fn explain(
                 ))
             } else {
                 error.help(format!(
-                    "prescribe the speed of {}, too",
+                    "also prescribe the speed of {}",
                     among.iter().map(port).collect::<Vec<_>>().join(" or ")
                 ))
             }
@@ -310,11 +309,13 @@ pub(crate) fn explain(
             )
             .note(format!("tied by {}", rows(by)))
             .help("prescribe one of them")
+            .code(codes::OVERDETERMINED)
         }
         Fault::Locked { port: locked, rows: by } => {
-            Diagnostic::error(path, format!("{} cannot turn in `{}`", port(locked), state.name))
+            Diagnostic::error(path, format!("{} cannot rotate in `{}`", port(locked), state.name))
                 .note(format!("locked by {}", rows(by)))
                 .help("engage fewer couplings, or correct the tooth numbers of the loop")
+                .code(codes::OVERDETERMINED)
         }
     }
 }
@@ -334,7 +335,7 @@ fn shares(
         let Some(member) = ids.iter().position(|m| *m == share.member) else {
             found.push(dangling(
                 &format!("{path}.member"),
-                "shaft or loose gear",
+                "shaft or idler gear",
                 &share.member,
                 &ids,
             ));
@@ -346,9 +347,9 @@ fn shares(
             found.push(
                 Diagnostic::error(
                     format!("{path}.parts"),
-                    format!("{} parts with the sum {sum}", share.parts.len()),
+                    format!("{} shares with the sum {sum}", share.parts.len()),
                 )
-                .help("give a part above zero for each mesh; together they are one"),
+                .help("state a positive share for each mesh; their sum must be one"),
             );
             continue;
         }
@@ -365,7 +366,7 @@ fn shares(
                                 format!("{path}.meshes"),
                                 format!("`{name}` has no gear on `{}`", share.member),
                             )
-                            .help("name meshes of this member"),
+                            .help("list meshes of this member"),
                         );
                         None
                     }

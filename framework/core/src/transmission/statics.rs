@@ -1,11 +1,11 @@
-//! From seated supports and meshes to shaft loads; load factors and imported loads.
+//! From placed supports and meshes to shaft loads; load factors and imported loads.
 
 use std::collections::BTreeMap;
 
-use super::gearing::MeshSeat;
 use super::members::Members;
-use super::planets::orbit;
+use super::seats::{MeshSeat, orbit};
 use crate::attach::{Axial, Factor, SeatedSupport, dangling};
+use crate::codes;
 use crate::description::{GearboxEntry, Unsupported};
 use crate::document::Diagnostic;
 use crate::loads::{
@@ -36,7 +36,7 @@ pub struct LoadFactors {
 
 impl LoadFactor {
     /// The factor at the torques of all ports, by number.
-    pub fn at(&self, torque: impl Fn(usize) -> f64) -> f64 {
+    pub fn value_at(&self, torque: impl Fn(usize) -> f64) -> f64 {
         match self {
             Self::Constant(factor) => *factor,
             Self::Over { port, torques, factors } => clamped(torques, factors, torque(*port).abs()),
@@ -44,16 +44,16 @@ impl LoadFactor {
     }
 }
 
-/// Loads of supports from a file, over the torque of a port, by gear state.
+/// Bearing loads from a file, over the torque of a port, by gear state.
 #[derive(Debug, Clone)]
 pub struct Imported {
     pub port: usize,
-    /// For each gear state and support: rising torques with radial, axial and tilting load.
+    /// For each gear state and support: increasing torques with radial, axial and tilting load.
     pub tables: Vec<Vec<Option<Vec<(f64, [f64; 3])>>>>,
 }
 
 impl Imported {
-    /// Replaces the load of a support where the file has it.
+    /// Replaces the load of a support if the file has it.
     pub fn load(&self, state: usize, support: usize, torque: f64) -> Option<SupportLoad> {
         let rows = self.tables[state][support].as_ref()?;
         let value = |k: usize| {
@@ -93,7 +93,7 @@ pub fn shaft_loads(
                     Some(at) => member.forces.push((at, up.map(|u| -u * shaft.mass * GRAVITY))),
                     None => found.push(
                         Diagnostic::error(format!("shafts.{name}"), "a mass without `mass_at`")
-                            .help("add `mass_at:`, the place of the centre of mass along the shaft"),
+                            .help("add `mass_at:`, the position of the centre of mass along the shaft"),
                     ),
                 }
             }
@@ -108,7 +108,7 @@ pub fn shaft_loads(
                     found.push(
                         Diagnostic::error(
                             format!("shafts.{name}.sections.{k}"),
-                            "the section has no length or no wall",
+                            "the section has zero length or wall thickness",
                         )
                         .help("write `from` below `to` and `inner` below `outer`"),
                     );
@@ -153,11 +153,11 @@ pub fn shaft_loads(
                     Diagnostic::error(
                         &support.path,
                         format!(
-                            "`{}` and `{}` do not lie on one axis",
+                            "`{}` and `{}` are not on the same axis",
                             members.names[support.inner as usize], members.names[outer as usize]
                         ),
                     )
-                    .help("give both members one axis"),
+                    .help("place both members on the same axis"),
                 );
             }
         }
@@ -179,7 +179,7 @@ pub fn shaft_loads(
         });
     }
     for (mesh, seat) in layout.meshes.iter_mut().zip(meshes) {
-        // The force acts in the middle of the face that both gears share.
+        // The force acts in the middle of the common face width.
         let [a, b] = seat.gears.map(|g| &entry.gears.0[g].1);
         let left = (a.at - 0.5 * a.facewidth).max(b.at - 0.5 * b.facewidth);
         let right = (a.at + 0.5 * a.facewidth).min(b.at + 0.5 * b.facewidth);
@@ -200,7 +200,7 @@ pub fn shaft_loads(
     }
 }
 
-/// Members that nothing carries, and thrust that nothing takes one way.
+/// Reports members without bearings, and thrust directions without a bearing.
 fn unsupported(
     entry: &GearboxEntry,
     members: &Members,
@@ -208,7 +208,7 @@ fn unsupported(
     found: &mut Vec<Diagnostic>,
     warnings: &mut Vec<Diagnostic>,
 ) {
-    // A bearing with a fault of its own carries nothing yet.
+    // A bearing with a fault does not support anything yet.
     let faulty = found.iter().any(|finding| finding.path.starts_with("bearings."));
     let mut planets = Vec::new();
     for (i, name) in members.names.iter().enumerate() {
@@ -240,26 +240,31 @@ fn unsupported(
                 let what = if members.loose[i] { "gear" } else { "shaft" };
                 found.push(
                     Diagnostic::error(path, format!("the {what} is loaded and has no bearings"))
+                        .code(codes::NO_BEARING)
                         .note("without them its bearing loads and losses would be missing from every result")
                         .help(
-                            "add its bearings, with `model: none` where they lose nothing; or write `bearings: none` here",
+                            "add its bearings, with `model: none` for bearings without loss; or write `bearings: none` here",
                         ),
                 );
                 continue;
             }
             (false, Some(Unsupported::None)) => found.push(
-                Diagnostic::error(format!("{path}.bearings"), "`none` is said of what has bearings")
-                    .help("leave `bearings: none` out, or take out its bearings"),
+                Diagnostic::error(
+                    format!("{path}.bearings"),
+                    "`bearings: none` is stated, but there are bearings",
+                )
+                .help("remove `bearings: none`, or remove the bearings"),
             ),
             _ => {}
         }
         let helical = meshes.clone().any(|m| m.members.contains(&i) && m.hand_tan_beta != 0.0);
         if helical && !members.loose[i] && !own.is_empty() {
-            for (side, words) in [(Axial::Right, "greater"), (Axial::Left, "smaller")] {
+            for (side, words) in [(Axial::Right, "+x"), (Axial::Left, "-x")] {
                 let taken = own.iter().any(|s| s.axial == side || s.axial == Axial::Both);
                 if !taken {
                     warnings.push(
-                        Diagnostic::warning(path.clone(), format!("no bearing takes thrust towards {words} places"))
+                        Diagnostic::warning(path.clone(), format!("no bearing takes thrust towards {words}"))
+                            .code(codes::THRUST)
                             .help("set `axial:` of a bearing to left, right or both"),
                     );
                 }
@@ -277,11 +282,12 @@ fn unsupported(
                 Diagnostic::warning(
                     format!("planetary_sets.{id}.planets"),
                     format!(
-                        "no bearings on the planets {}: their loads and losses are not counted",
+                        "the planets {} have no bearings: their loads and losses are not included",
                         bare.join(", ")
                     ),
                 )
-                .help("add bearings between the planets and the carrier, or write `bearings: none` at these shafts"),
+                .help("add bearings between the planets and the carrier, or write `bearings: none` for these shafts")
+                .code(codes::UNCOUNTED),
             );
         }
     }
@@ -295,32 +301,32 @@ fn explain(fault: &LoadFault, members: &Members, path: &dyn Fn(&usize) -> String
         LoadFault::Cycle { members: circle } => {
             let names: Vec<&str> = circle.iter().map(|m| name(*m).as_str()).collect();
             Diagnostic::error("bearings", format!("{} carry each other in a circle", names.join(", ")))
-                .help("one of them needs a bearing in the housing; exchange `shaft` and `outer` of a bearing")
+                .help("one of them needs a bearing in the housing; swap `shaft` and `outer` of a bearing")
         }
         LoadFault::Mechanism { member, supports } => Diagnostic::error(
             at(*member),
             format!(
-                "`{}` can tilt or move on its supports: {}",
+                "`{}` can tilt or move on its bearings: {}",
                 name(*member),
                 list(supports)
             ),
         )
-        .help("give it two bearings at different places, or one alone with `takes_moment: true`"),
+        .help("add two bearings at different positions, or a single one with `takes_moment: true`"),
         LoadFault::AxialIndeterminate {
             member,
             supports,
             right,
         } => {
-            let words = if *right { "greater" } else { "smaller" };
+            let words = if *right { "+x" } else { "-x" };
             Diagnostic::error(
                 at(*member),
                 format!(
-                    "several bearings of `{}` take thrust towards {words} places: {}",
+                    "several bearings of `{}` take thrust towards {words}: {}",
                     name(*member),
                     list(supports)
                 ),
             )
-            .help("leave it to one of them by `axial:`, or state `axial_share` of each")
+            .help("assign it to one of them with `axial:`, or state `axial_share` of each")
         }
         LoadFault::NoSection { member, range } => Diagnostic::error(
             format!("{}.sections", at(*member)),
@@ -331,7 +337,7 @@ fn explain(fault: &LoadFault, members: &Members, path: &dyn Fn(&usize) -> String
             ),
         )
         .note(
-            "more than two supports, a hinge or a tilting stiffness: the stiffness of the shaft decides the loads"
+            "with more than two bearings, a hinge or a tilting stiffness, the loads depend on the stiffness of the shaft"
                 .to_owned(),
         )
         .help("add `sections: [{ from: ..., to: ..., outer: ... }]`"),
@@ -346,7 +352,7 @@ fn explain(fault: &LoadFault, members: &Members, path: &dyn Fn(&usize) -> String
     }
 }
 
-/// Load factors of all supports; none where all are one.
+/// Load factors of all supports; empty if all are one.
 pub fn load_factors(
     supports: &[SeatedSupport],
     ports: &[super::Port],
@@ -362,8 +368,11 @@ pub fn load_factors(
             }
             if over.torques.len() != over.factors.len() || over.torques.windows(2).any(|w| w[1] <= w[0]) {
                 found.push(
-                    Diagnostic::error(path, "torques and factors do not fit")
-                        .help("give rising torques and as many factors"),
+                    Diagnostic::error(
+                        path,
+                        "the numbers of torques and factors differ, or torques do not increase",
+                    )
+                    .help("state increasing torques and one factor for each"),
                 );
                 return LoadFactor::Constant(1.0);
             }
@@ -441,7 +450,7 @@ pub fn imported(
         list.sort_by(|a, b| a.0.total_cmp(&b.0));
         if list.len() < 2 || list.windows(2).any(|w| w[1].0 <= w[0].0) {
             return Err(fault(format!(
-                "{} in `{}` needs two or more different torques",
+                "{} in `{}` requires at least two different torques",
                 supports[support].path, states[state]
             )));
         }

@@ -82,7 +82,7 @@ impl Sheet {
             if let (Some(header), true) = (written, !table.names.contains(&header.to_owned())) {
                 found.push(fault(
                     format!(
-                        "line {}: no column is called `{header}`; there are: {}",
+                        "line {}: there is no column `{header}`; there are: {}",
                         table.header_line,
                         names()
                     ),
@@ -180,7 +180,7 @@ impl Sheet {
     pub fn lacks(&self, what: &str, name: &str) -> MeasuredFault {
         fault(
             format!(
-                "line {}: no column holds {what}; there are: {}",
+                "line {}: there is no column for {what}; there are: {}",
                 self.table.header_line,
                 self.table.names.join(", ")
             ),

@@ -314,7 +314,7 @@ mod tests {
         let [a, b] = [model("a", 7, 300.0, Some(&WINS)), model("b", 7, 2000.0, Some(&LOSES))];
         let found = Comparison::new(&a, &b, &PointSet::default());
         assert_eq!((found.decision, found.reason), (Decision::Better, Reason::Folds));
-        let words = "a predicts points that were left out better than b: errors of a are 0.25 times as large (95 % 0.13 to 0.48) and smaller in 5 of 5 bands";
+        let words = "a predicts left-out points better than b: errors of a are 0.25 times as large (95 % 0.13 to 0.48) and smaller in 5 of 5 bands";
         assert_eq!(found.words("a", "b"), words);
         let turned = Comparison::new(&b, &a, &PointSet::default());
         assert_eq!(

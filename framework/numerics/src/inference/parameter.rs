@@ -200,7 +200,7 @@ mod tests {
         assert!(
             Parameter::new("f", Scale::Log, 1.0, [0.0, 2.0])
                 .unwrap_err()
-                .contains("above zero")
+                .contains("positive bound")
         );
         assert!(Parameter::new("f", Scale::Log, -1.0, [0.1, 2.0]).is_err());
         assert!(Parameter::new("f", Scale::Linear, f64::NAN, [0.1, 2.0]).is_err());

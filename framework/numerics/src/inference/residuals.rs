@@ -166,10 +166,10 @@ mod tests {
         let wave: Vec<f64> = (0..40).map(|i| (f64::from(i) * 0.3).sin()).collect();
         let found = succession(&wave, &line).unwrap();
         assert!(found.is_suspect() && found.durbin_watson < 0.2 && found.widening() > 3.0);
-        assert!(found.words().unwrap().contains("err together") && found.effective_points() < 4.0);
+        assert!(found.words().unwrap().contains("are correlated") && found.effective_points() < 4.0);
         let saw: Vec<f64> = (0..40).map(|i| f64::from(i % 2) - 0.5).collect();
         let found = succession(&saw, &line).unwrap();
-        assert!(found.durbin_watson > 3.8 && found.words().unwrap().contains("against"));
+        assert!(found.durbin_watson > 3.8 && found.words().unwrap().contains("alternate"));
         assert_eq!((found.runs, found.expected), (40, 21.0));
     }
 

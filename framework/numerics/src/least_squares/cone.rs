@@ -10,7 +10,7 @@ use clarabel::solver::{
 };
 use nalgebra::DVector;
 
-use super::subproblem::{Model, Region};
+use super::model::{Model, Region};
 
 /// Relative distance to a bound below which a component is fixed.
 const NARROW: f64 = 1e-10;

@@ -199,7 +199,7 @@ mod tests {
         // At its upper bound, with an edge just below.
         for central in [false, true] {
             let found = slopes(1.0, [0.0, 1.0], 1.0, central);
-            let named = |why: &String| why.contains("beside `x` = 1: beyond the edge");
+            let named = |why: &String| why.contains("near `x` = 1: beyond the edge");
             assert!(
                 matches!(&found, Err(NoDerivative::NotFinite(why)) if named(why)),
                 "{found:?}"

@@ -5,7 +5,7 @@
 
 use nalgebra::DVector;
 
-use super::subproblem::{Model, Region};
+use super::model::{Model, Region};
 
 /// A step inside ball and box.
 pub(super) fn step(model: &Model<'_>, region: &Region) -> DVector<f64> {

@@ -1,9 +1,10 @@
 //! Errors in the statement of a problem.
 
-use std::fmt;
+use serde::{Deserialize, Serialize};
 
 /// One error of a problem.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, thiserror::Error)]
+#[error("{place}: {message}; {help}")]
 pub struct Finding {
     /// Place: a parameter, a residual, an option.
     pub place: String,
@@ -14,7 +15,8 @@ pub struct Finding {
 }
 
 /// All errors of a problem.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, thiserror::Error)]
+#[error("{}", self.lines())]
 pub struct Fault {
     /// The errors; never empty.
     pub findings: Vec<Finding>,
@@ -31,6 +33,12 @@ impl Finding {
 }
 
 impl Fault {
+    /// The errors, each on its line.
+    fn lines(&self) -> String {
+        let lines: Vec<String> = self.findings.iter().map(ToString::to_string).collect();
+        lines.join("\n")
+    }
+
     /// One error: place, message and help.
     pub fn single(place: impl Into<String>, message: impl Into<String>, help: impl Into<String>) -> Self {
         Finding::new(place, message, help).into()
@@ -44,16 +52,3 @@ impl From<Finding> for Fault {
         }
     }
 }
-
-impl fmt::Display for Fault {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (i, finding) in self.findings.iter().enumerate() {
-            let separator = if i == 0 { "" } else { "\n" };
-            let Finding { place, message, help } = finding;
-            write!(f, "{separator}{place}: {message}; {help}")?;
-        }
-        Ok(())
-    }
-}
-
-impl std::error::Error for Fault {}

@@ -1,9 +1,10 @@
 //! Completion of a search that makes no progress with short differences.
 
+use super::context::{Context, Point};
 use super::evaluate::Evaluator;
 use super::fault::Fault;
 use super::fit::{Fit, Reason};
-use super::iterate::{Context, End, Point, Record};
+use super::iterate::{End, Record};
 use super::kink::kinks;
 use super::options::{Noise, Options};
 use super::polish::polish;

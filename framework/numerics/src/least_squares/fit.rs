@@ -1,12 +1,10 @@
 //! Result of a problem.
 
 use nalgebra::DMatrix;
-
-use super::kink::Kink;
-use super::subproblem::How;
+use serde::{Deserialize, Serialize};
 
 /// Why a run ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Reason {
     /// The residuals are zero.
     ZeroResidual,
@@ -60,7 +58,7 @@ impl Reason {
 }
 
 /// Status of a fit.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Status {
     /// A minimum.
     Converged,
@@ -85,7 +83,7 @@ impl Status {
 }
 
 /// One of two bounds.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Side {
     /// The lower one.
     Lower,
@@ -93,8 +91,33 @@ pub enum Side {
     Upper,
 }
 
+/// Method that found a step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum How {
+    /// The Gauss-Newton step is inside ball and bounds.
+    Shortcut,
+    /// Cone program.
+    Cone,
+    /// Dogleg after a failed cone program.
+    Fallback,
+    /// Dogleg by option.
+    Dogleg,
+}
+
+impl How {
+    /// Name in results.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Shortcut => "gauss-newton",
+            Self::Cone => "cone program",
+            Self::Fallback => "dogleg, since the cone program had no answer",
+            Self::Dogleg => "dogleg",
+        }
+    }
+}
+
 /// One trial step.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Iteration {
     /// Number of the attempt, starting at 1.
     pub attempt: usize,
@@ -123,7 +146,7 @@ pub struct Iteration {
 }
 
 /// Counts of work over all attempts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct Counts {
     /// Calls of the residual function, including those for differences.
     pub evaluations: usize,
@@ -142,7 +165,7 @@ pub struct Counts {
 }
 
 /// Derivatives at the end, by central differences.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Derivative {
     /// Derivative of the rows by the coordinates u of all parameters: one row for each residual, columns of zeros for fixed parameters.
     /// Weighted by uncertainties like the residuals, not by the loss.
@@ -156,8 +179,23 @@ pub struct Derivative {
     pub unseen: Vec<bool>,
 }
 
+/// A kink or jump at a minimum along one parameter.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Kink {
+    /// The parameter that moves; all others follow.
+    pub parameter: usize,
+    /// Rows with discontinuous slope or value, in order.
+    pub rows: Vec<usize>,
+    /// All parameters on the lower and on the upper side, in their own units.
+    pub sides: [Vec<f64>; 2],
+    /// Increase of twice the cost to either side relative to a smooth minimum; absent if there is no value. \[-\]
+    pub steepness: [Option<f64>; 2],
+    /// Whether the value of the strongest row is discontinuous, not only its slope.
+    pub jumps: bool,
+}
+
 /// A fit.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Fit {
     /// Parameters in their own units.
     pub theta: Vec<f64>,

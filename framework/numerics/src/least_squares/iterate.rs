@@ -2,27 +2,20 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::context::{Context, Point};
 use super::difference::{Differences, NoDerivative};
-use super::evaluate::{Evaluator, Miss};
-use super::fit::{Counts, Iteration, Reason};
+use super::evaluate::Miss;
+use super::fit::{Counts, How, Iteration, Reason};
 use super::linearised::Linearised;
 use super::noise::CostNoise;
-use super::options::{self, Options, Steps, Tolerances};
-use super::robust::Robust;
-use super::subproblem::{self, How};
+use super::options::{self, Steps, Tolerances};
+use super::subproblem;
 use super::trial::{Here, Trial};
 
 /// Maximum number of accepted Gauss-Newton steps whose decrease is below the noise.
 const TRUSTED: usize = 5;
 /// Minimum expected relative decrease for a second-order correction.
 const WORTH: f64 = 1e-6;
-
-/// A point with its residual.
-#[derive(Debug, Clone)]
-pub(super) struct Point {
-    pub u: Vec<f64>,
-    pub r: DVector<f64>,
-}
 
 /// How a run ended.
 pub(super) struct End {
@@ -34,19 +27,6 @@ pub(super) struct End {
     pub jacobian: Option<DMatrix<f64>>,
     /// Free parameters whose columns were always zero.
     pub unseen: Vec<bool>,
-}
-
-/// Shared data of all runs of a problem.
-pub(super) struct Context<'a> {
-    pub evaluator: &'a Evaluator<'a>,
-    pub options: &'a Options<'a>,
-    pub robust: Robust,
-    /// Relative noise of one call.
-    pub noise: f64,
-    /// The same for steps of differences, which are longer with jumps.
-    pub rough: f64,
-    /// Whether central differences are useless because of noise, so that one-sided differences end the run.
-    pub noisy: bool,
 }
 
 /// Record of the runs.

@@ -8,8 +8,9 @@
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
+use super::context::{Context, Point};
 use super::evaluate::Miss;
-use super::iterate::{Context, Point};
+use super::fit::Kink;
 use super::polish::{Axes, inside, moved};
 
 /// Distances from the minimum on both sides, in standard errors by scatter, tried in turn: not below the accuracy of the completion. \[-\]
@@ -24,21 +25,6 @@ const STEEP: f64 = 4.0;
 const CONCERNED: f64 = 0.25;
 /// Remaining share of a deviation at the nearer pair above which it is a jump. \[-\]
 const JUMP: f64 = 0.5;
-
-/// A kink or jump at a minimum along one parameter.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Kink {
-    /// The parameter that moves; all others follow.
-    pub parameter: usize,
-    /// Rows with discontinuous slope or value, in order.
-    pub rows: Vec<usize>,
-    /// All parameters on the lower and on the upper side, in their own units.
-    pub sides: [Vec<f64>; 2],
-    /// Increase of twice the cost to either side relative to a smooth minimum; absent if there is no value. \[-\]
-    pub steepness: [Option<f64>; 2],
-    /// Whether the value of the strongest row is discontinuous, not only its slope.
-    pub jumps: bool,
-}
 
 /// The kinks at a minimum, with the derivatives there.
 ///

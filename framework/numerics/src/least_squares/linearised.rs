@@ -2,15 +2,15 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::context::Point;
 use super::dogleg;
 use super::evaluate::{Evaluator, Miss};
-use super::iterate::Point;
 use super::linear::Factors;
+use super::model::{Model, Region};
 use super::optimality;
 use super::robust::{Robust, Weighted};
 use super::second_order;
 use super::space::Space;
-use super::subproblem::{Model, Region};
 
 /// A point with its derivatives. Steps z = D p are scaled by the norms D of the columns.
 pub(super) struct Linearised<'a> {

@@ -76,18 +76,28 @@ pub struct Minima {
 /// If the problem is invalid, or if hardly any point has residuals.
 pub fn multistart(problem: &Problem<'_>, options: &Options<'_>, starts: usize) -> Result<Minima, Fault> {
     let space = Space::from_parameters(problem.parameters())?;
-    // First, because of its errors.
-    let first = search(problem, options, &space)?;
-    let (others, looked) = even_starts(problem, options, &space, starts.saturating_sub(1))?;
-    let solve_other = |start: &Vec<f64>| search(problem, options, &space.starting(start));
-    let others: Vec<Fit> = others
-        .par_iter()
-        .with_max_len(1)
-        .map(solve_other)
-        .collect::<Result<_, _>>()?;
+    let others = even_starts(problem, options, &space, starts.saturating_sub(1));
+    let others_or_none = others.as_ref().map_or(&[][..], |(others, _)| others);
+    let search_from = |i: usize| match i.checked_sub(1) {
+        None => search(problem, options, &space),
+        Some(other) => search(problem, options, &space.starting(&others_or_none[other])),
+    };
+    let count = 1 + others_or_none.len();
+    let fits: Vec<Result<Fit, Fault>> = match options.searches {
+        Some(run) => run(count, &search_from),
+        None => (0..count).into_par_iter().with_max_len(1).map(search_from).collect(),
+    };
+    let mut fits = fits.into_iter().enumerate();
+    // Faults of the user's start come before all others.
+    let (_, first) = fits.next().unwrap_or_else(|| (0, search_from(0)));
+    let first = first?;
+    let (_, looked) = others?;
+    let others = fits.map(|(i, fit)| Ok((i, fit?)));
     // The cost at the user's start.
     let begun = first.log.first().map_or(first.cost, |step| step.cost);
-    let mut fits: Vec<(usize, Fit)> = std::iter::once(first).chain(others).enumerate().collect();
+    let mut fits: Vec<(usize, Fit)> = std::iter::once(Ok((0, first)))
+        .chain(others)
+        .collect::<Result<_, Fault>>()?;
     fits.sort_by(|(i, a), (j, b)| a.cost.total_cmp(&b.cost).then(i.cmp(j)));
     let mut evaluations = looked + fits.iter().map(|(_, fit)| fit.counts.evaluations).sum::<usize>();
     let minima = if options.polish {

@@ -4,6 +4,7 @@ use std::fmt;
 
 use super::evaluate::Interrupt;
 use super::fault::{Fault, Finding};
+use super::fit::Fit;
 use super::robust::Loss;
 
 /// Method for steps that leave the ball or the bounds.
@@ -97,7 +98,15 @@ pub struct Options<'a> {
     pub evaluations: usize,
     /// Called before each call except the first: whether to stop.
     pub interrupt: Option<Interrupt<'a>>,
+    /// Who runs the searches of several starts; absent, the threads of this process.
+    pub searches: Option<&'a Searches<'a>>,
 }
+
+/// Runs the searches of so many starts and gives their fits in the order of the starts.
+pub type Searches<'a> = dyn Fn(usize, &OneSearch<'_>) -> Vec<Result<Fit, Fault>> + Sync + 'a;
+
+/// The search from the start of a number.
+pub type OneSearch<'a> = dyn Fn(usize) -> Result<Fit, Fault> + Sync + 'a;
 
 impl Options<'_> {
     /// For fits with intervals: stops if the remaining shift is a small part of the standard errors.
@@ -143,6 +152,7 @@ impl Options<'_> {
             iterations: 400,
             evaluations: 100_000,
             interrupt: None,
+            searches: None,
         }
     }
 

@@ -18,9 +18,9 @@
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
+use super::context::{Context, Point};
 use super::evaluate::Miss;
 use super::fit::Side;
-use super::iterate::{Context, Point};
 use super::linear;
 use super::optimality;
 use super::points;

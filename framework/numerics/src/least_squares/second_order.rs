@@ -4,7 +4,7 @@
 use nalgebra::DVector;
 
 use super::linear;
-use super::subproblem::{Model, Region};
+use super::model::{Model, Region};
 
 /// Fraction of the step at which the curvature of the residual is evaluated.
 pub(super) const PROBE: f64 = 0.1;

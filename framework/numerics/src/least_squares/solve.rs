@@ -2,13 +2,13 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::context::{Context, Point};
 use super::difference::Differences;
 use super::evaluate::{Evaluator, Miss};
 use super::fault::{Fault, Finding};
 use super::finish::{finish, is_stuck};
-use super::fit::{Derivative, Fit, Reason, Status};
-use super::iterate::{self, Context, End, Point, Record};
-use super::kink::Kink;
+use super::fit::{Derivative, Fit, Kink, Reason, Status};
+use super::iterate::{self, End, Record};
 use super::options::{Noise, Options, Steps};
 use super::problem::Problem;
 use super::robust::{Loss, Robust};

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::run::outputs;
+use super::run::{Evaluate, outputs};
 use crate::sampling::{Generator, Sobol};
 use crate::statistics::quantile;
 
@@ -61,7 +61,7 @@ pub fn variance_shares<F>(
     function: F,
 ) -> Result<Vec<VarianceShares>, String>
 where
-    F: Fn(&[f64]) -> Result<Vec<f64>, String> + Sync,
+    F: Evaluate,
 {
     if !(2..=1 << 31).contains(&rows) || !rows.is_power_of_two() {
         return Err(format!("the number of rows must be a power of two, not {rows}"));

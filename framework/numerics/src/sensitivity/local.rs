@@ -1,6 +1,6 @@
 //! Sensitivities at one point: slopes of outputs over parameters.
 
-use super::run::outputs;
+use super::run::{Evaluate, outputs};
 use crate::inference::{Parameter, Scale, Standing};
 
 /// Sensitivity of one output to one parameter at a point.
@@ -34,7 +34,7 @@ where
 /// If the function fails or returns non-finite numbers.
 pub fn local<F>(parameters: &[Parameter], noise: f64, function: F) -> Result<Vec<Vec<Local>>, String>
 where
-    F: Fn(&[f64]) -> Result<Vec<f64>, String> + Sync,
+    F: Evaluate,
 {
     let (values, slopes) = differences(parameters, noise, &function)?;
     let sensitivity = |value: f64, parameter: &Parameter, slope: f64| {
@@ -61,7 +61,7 @@ where
 /// Outputs at the point, and slopes by output and parameter.
 fn differences<F>(parameters: &[Parameter], noise: f64, function: &F) -> Result<(Vec<f64>, Vec<Vec<f64>>), String>
 where
-    F: Fn(&[f64]) -> Result<Vec<f64>, String> + Sync,
+    F: Evaluate,
 {
     let at: Vec<f64> = parameters.iter().map(|p| p.u).collect();
     let stencils: Vec<[f64; 2]> = parameters.iter().map(|p| stencil(p, noise)).collect();

@@ -1,31 +1,43 @@
-//! Evaluations of a user function.
+//! Many evaluations of a function.
 
 use rayon::prelude::*;
 
-/// Outputs at points generated from their index, in order.
+/// Makes the point of a number.
+pub type PointOf<'a> = dyn Fn(usize) -> Vec<f64> + Sync + 'a;
+
+/// Outputs over points: a function of one point, which is evaluated on all threads, or whatever else evaluates many points.
+pub trait Evaluate {
+    /// The outputs at so many points, in the order of their numbers.
+    fn outputs(&self, count: usize, point: &PointOf<'_>) -> Vec<Result<Vec<f64>, String>>;
+}
+
+impl<F: Fn(&[f64]) -> Result<Vec<f64>, String> + Sync> Evaluate for F {
+    fn outputs(&self, count: usize, point: &PointOf<'_>) -> Vec<Result<Vec<f64>, String>> {
+        let numbers = (0..count).into_par_iter().with_max_len(1);
+        numbers.map(|i| self(&point(i))).collect()
+    }
+}
+
+/// Outputs at points that are made from their number, in the order of the numbers.
 ///
 /// # Errors
-/// The first error in that order: from the function, from non-finite outputs, or from a changed number of outputs.
-pub(super) fn outputs<F>(
+/// The first fault in that order: of the function, of outputs that are not finite, or of a count of outputs that changes.
+pub(super) fn outputs(
     count: usize,
     point: impl Fn(usize) -> Vec<f64> + Sync,
-    function: &F,
-) -> Result<Vec<Vec<f64>>, String>
-where
-    F: Fn(&[f64]) -> Result<Vec<f64>, String> + Sync,
-{
-    let run = |i: usize| {
-        let at = point(i);
-        let place = || at.iter().map(f64::to_string).collect::<Vec<_>>().join(", ");
-        let list = function(&at).map_err(|fault| format!("at ({}): {fault}", place()))?;
+    function: &impl Evaluate,
+) -> Result<Vec<Vec<f64>>, String> {
+    let run = |(i, found): (usize, Result<Vec<f64>, String>)| {
+        let place = || point(i).iter().map(f64::to_string).collect::<Vec<_>>().join(", ");
+        let list = found.map_err(|fault| format!("at ({}): {fault}", place()))?;
         match list.iter().position(|y| !y.is_finite()) {
             Some(k) => Err(format!("at ({}): output {} is {}", place(), k + 1, list[k])),
             None => Ok(list),
         }
     };
-    // All evaluations finish before errors are checked, so that the reported error does not depend on the number of threads.
-    let all: Vec<Result<Vec<f64>, String>> = (0..count).into_par_iter().with_max_len(1).map(run).collect();
-    let all = all.into_iter().collect::<Result<Vec<_>, _>>()?;
+    // All runs end before a fault is looked for, so that it is the same one on any number of threads.
+    let all = function.outputs(count, &point).into_iter().enumerate().map(run);
+    let all = all.collect::<Result<Vec<_>, _>>()?;
     let width = all.first().map_or(0, Vec::len);
     match all.iter().position(|list| list.len() != width) {
         Some(i) => Err(format!(

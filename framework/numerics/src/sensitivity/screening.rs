@@ -7,7 +7,7 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::run::outputs;
+use super::run::{Evaluate, outputs};
 use crate::sampling::Sobol;
 
 /// Levels of a coordinate, from zero to one.
@@ -96,7 +96,7 @@ impl Screening {
 /// If there are fewer than two trajectories, more than 32 parameters, or the function fails or returns non-finite numbers.
 pub fn screening<F>(parameters: usize, trajectories: usize, function: F) -> Result<Screening, String>
 where
-    F: Fn(&[f64]) -> Result<Vec<f64>, String> + Sync,
+    F: Evaluate,
 {
     if trajectories < 2 {
         return Err("a screening needs at least two trajectories".to_owned());

@@ -243,7 +243,7 @@ fn an_interval_that_fills_the_range_is_told_so() {
     let found = fit.determination(H);
     assert!((0.8..=1.0).contains(&found.filled.unwrap()), "{found:?}");
     let words = format!(
-        "its interval fills {:.0} % of the range given",
+        "its interval fills {:.0} % of the given range",
         100.0 * found.filled.unwrap()
     );
     assert!(fit.sentence(H).ends_with(&words), "{}", fit.sentence(H));
@@ -258,7 +258,7 @@ fn check_7_2_sharp_combination() {
     near(found.deviation, 0.00194240122, 1e-6);
     let sentence = fit.sentence(M_S);
     assert!(
-        sentence.contains("only together with dT, h: M_s + 1.093 dT = 0.0465 +- 0.0038 is known"),
+        sentence.contains("only in combination with dT, h: M_s + 1.093 dT = 0.0465 +- 0.0038 is determined"),
         "{sentence}"
     );
     assert!(

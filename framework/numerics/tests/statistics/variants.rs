@@ -57,10 +57,7 @@ fn check_7_5_active_bound() {
     }
     assert!(fit.deviation(5).is_none() && fit.correlation(5, 0).is_none() && fit.freedom() == 433.0);
     assert_eq!(fit.determination(5).verdict, Verdict::OnBound(Side::Upper));
-    assert_eq!(
-        fit.sentence(5),
-        "stands at its upper bound 0.7000 and would go on; the data prefer more, the bound decides"
-    );
+    assert_eq!(fit.sentence(5), "is at its upper bound 0.7000; the data prefer more");
     // One-sided 95 %: the objective may rise by 2.705543.
     let profile = fit.to_profile(5, 0.95).unwrap();
     assert!((profile.limit * profile.limit - 2.705543).abs() < 1e-6);
@@ -137,7 +134,7 @@ fn check_7_5_offset_and_constant_drag() {
             (Verdict::OnlyInCombination, vec![other], 0.0)
         );
         assert!(fit.deviation(k).is_none() && fit.interval(k, 0.95, 1.0).is_none());
-        assert!(fit.sentence(k).contains("do not tell them apart"));
+        assert!(fit.sentence(k).contains("the data do not separate them"));
     }
     // Their sum is known as well as the offset alone was, and the others keep their intervals.
     let mut both = vec![0.0; 9];
@@ -182,7 +179,7 @@ fn parameters_that_nothing_depends_on_are_not_seen() {
     assert_eq!(fit.determination(8).verdict, Verdict::NotSeen);
     assert_eq!(fit.determination(9).verdict, Verdict::Held);
     assert!(fit.deviation(8).is_none() && fit.deviation(9).is_none() && fit.to_profile(8, 0.95).is_none());
-    assert!(fit.sentence(8).contains("less than the instruments can see") && fit.sentence(9).contains("held at 1"));
+    assert!(fit.sentence(8).contains("less effect than the accuracy of the instruments") && fit.sentence(9).contains("fixed at 1"));
     near(deviation(&fit, 1), 0.0560232651, 1e-7);
     let mut gradient = vec![0.0; 10];
     gradient[8] = 1.0;

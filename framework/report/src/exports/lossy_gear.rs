@@ -33,7 +33,7 @@ impl ExportFormat for LossyGear {
         }
     }
 
-    /// The ends of the straight lines for each speed: at zero torque, and at the largest torque in drive and in coast.
+    /// The ends of the straight lines for each speed: at zero torque, and at the maximum torque in drive and in coast.
     fn further_points(&self, grid: &LossGrid, rated: Option<f64>) -> Vec<Given> {
         let torque = rated.unwrap_or(largest(grid));
         let at = |torque: f64| {

@@ -5,7 +5,7 @@ use gearloss_framework::evaluate::Solution;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::loss::{Step, Trace};
 use gearloss_framework::registry::Entry;
-use gearloss_framework::resolve::{Came, Resolved, lookup};
+use gearloss_framework::resolve::{Resolved, ValueSource, lookup};
 use gearloss_framework::transmission::Transmission;
 use gearloss_studies::analyses::numbers::RPM;
 use serde_json::Value;
@@ -160,17 +160,17 @@ fn inputs(path: &str, value: &Value, gearbox: &Gearbox, resolved: &Resolved, out
         }
         Value::Null => {}
         leaf => {
-            let from = match resolved.came(path) {
-                Came::Override => "override".to_owned(),
-                Came::Catalogue {
+            let from = match resolved.source_of(path) {
+                ValueSource::Override => "override".to_owned(),
+                ValueSource::Catalogue {
                     designation,
                     confidence,
                 } => format!("catalogue {designation}, confidence {confidence}"),
-                Came::Models => "models".to_owned(),
-                Came::Set(name) => format!("set {name}"),
-                Came::Surface => "surface".to_owned(),
-                Came::Network => "network: auto".to_owned(),
-                Came::Document => match gearbox.places.get(path).and_then(|p| gearbox.sources.locate(p.value)) {
+                ValueSource::Models => "models".to_owned(),
+                ValueSource::Set(name) => format!("set {name}"),
+                ValueSource::Surface => "surface".to_owned(),
+                ValueSource::Network => "network: auto".to_owned(),
+                ValueSource::Document => match gearbox.places.get(path).and_then(|p| gearbox.sources.locate(p.value)) {
                     Some((file, line, column)) => format!("{file}:{line}:{column}"),
                     None => "default".to_owned(),
                 },

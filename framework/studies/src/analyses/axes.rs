@@ -1,26 +1,27 @@
-//! Values of the axes of grids and sweeps, with their faults told.
+//! Values of the axes of grids and sweeps, with their errors.
 
 use crate::study::{Grid, SpeedAxis, TorqueAxis};
 use gearloss_framework::transmission::Transmission;
 
 use super::{Context, Stopped};
+use crate::codes;
 
-/// Values of an axis, or the fault with its path.
+/// Values of an axis, or the error with its path.
 pub fn axis(cx: &Context<'_>, path: &str, values: Result<Vec<f64>, String>) -> Result<Vec<f64>, Stopped> {
     values.map_err(|reason| {
         let help = if reason.contains("rating") {
-            "add `rating: { torque: 20 Nm, speed: 22000 rpm }` to the gearbox, or give the axis values of its own"
+            "add `rating: { torque: 20 Nm, speed: 22000 rpm }` to the gearbox, or give the axis its own values"
         } else {
-            "give a step that leads from one end to the other"
+            "give a step that divides the range"
         };
-        cx.wrong(path, reason, help)
+        cx.wrong_as(codes::AXIS, path, reason, help)
     })
 }
 
-/// The most points of one grid.
+/// Maximum number of points of one grid.
 const MOST_POINTS: usize = 20_000_000;
 
-/// Torques and speeds of a grid for a gearbox; each rises or falls all along.
+/// Torques and speeds of a grid for a gearbox; both are monotonic.
 pub fn grid_axes(cx: &Context<'_>, name: &str, grid: &Grid, t: &Transmission) -> Result<(Vec<f64>, Vec<f64>), Stopped> {
     let path = format!("grids.{name}");
     let own = (
@@ -30,13 +31,18 @@ pub fn grid_axes(cx: &Context<'_>, name: &str, grid: &Grid, t: &Transmission) ->
     for (list, key) in [(&own.0, "torque"), (&own.1, "speed")] {
         let along = |rises: bool| list.windows(2).all(|w| if rises { w[0] < w[1] } else { w[0] > w[1] });
         if !along(true) && !along(false) {
-            let message = "the values of a grid's axis neither rise nor fall all along";
-            return Err(cx.wrong(&format!("{path}.{key}"), message, "sort them, and name each once"));
+            let message = "the values of a grid axis are not monotonic";
+            return Err(cx.wrong_as(
+                codes::AXIS,
+                &format!("{path}.{key}"),
+                message,
+                "sort them and remove duplicates",
+            ));
         }
     }
     if own.0.len().saturating_mul(own.1.len()) > MOST_POINTS {
         let message = format!("the grid has more than {MOST_POINTS} points");
-        return Err(cx.wrong(&path, message, "take wider steps"));
+        return Err(cx.wrong_as(codes::AXIS, &path, message, "use larger steps"));
     }
     Ok(own)
 }

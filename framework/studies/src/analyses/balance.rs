@@ -1,4 +1,4 @@
-//! How the temperature of one point is found: losses and heat over temperature, and every step.
+//! Heat balance of one point: losses and heat over temperature, and every step of the search.
 
 use gearloss_framework::description::{Ordered, ThermalMode};
 use gearloss_framework::document::Diagnostic;
@@ -17,14 +17,14 @@ use crate::register_analysis;
 use crate::study::{Uses, Write};
 use crate::table::{Column, Table};
 
-/// How the temperature of one point is found.
+/// Heat balance of one point.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct BalanceEntry {
-    /// Gearbox; absent, the first.
+    /// Gearbox; default: the first.
     pub gearbox: Option<String>,
-    /// Gear state; absent, the first.
+    /// Gear; default: the first.
     pub gear: Option<String>,
-    /// Sets of models; absent, the models of the gearbox. `PRODUCT/SET` takes another gearbox, `PRODUCT/own` its own models.
+    /// Model sets; default: the models of the gearbox. `PRODUCT/SET` selects another gearbox, `PRODUCT/own` its default models.
     #[serde(default)]
     pub model_sets: Vec<String>,
     /// Torque. [Nm]
@@ -36,7 +36,7 @@ pub struct BalanceEntry {
     /// Overrides for this analysis: resolved path to value.
     #[serde(default)]
     pub set: Ordered<Value>,
-    /// Formats to write; absent, CSV, JSON and SVG.
+    /// Formats to write; default: CSV, JSON and SVG.
     #[serde(default = "Write::every_format")]
     pub write: Vec<Write>,
 }
@@ -44,7 +44,7 @@ pub struct BalanceEntry {
 impl Entry for BalanceEntry {
     const TYPE: &'static str = "balance";
     const MEANING: &'static str =
-        "How the temperature of one point is found: losses and heat over temperature, and every step.";
+        "Heat balance of one point: losses and heat over temperature, and every step of the search.";
 
     fn uses(&self) -> Uses<'_> {
         Uses::new(self.gearbox.as_ref(), &self.model_sets).at(&self.gear)
@@ -56,7 +56,7 @@ register_analysis!(BalanceEntry);
 /// The balance of one point under each model set.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct BalanceOutcome {
-    /// Where it comes from.
+    /// Provenance.
     #[serde(flatten)]
     pub head: Head,
     /// One for each model set.
@@ -72,51 +72,51 @@ pub struct BalanceOfSet {
     pub gear: String,
     /// The balance.
     pub balance: BalanceOfPoint,
-    /// What models noted at the temperature that was found.
+    /// Notes of models at the temperature found.
     pub notes: Vec<Note>,
 }
 
 /// A balance with its history.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct BalanceOfPoint {
-    /// What became of it.
+    /// Result.
     pub outcome: thermal::Outcome,
-    /// Temperature of the oil that is taken. [degC]
+    /// Oil temperature used. [degC]
     pub oil_temperature_degc: Option<f64>,
-    /// Temperature of the surface there. [degC]
+    /// Surface temperature there. [degC]
     pub surface_temperature_degc: Option<f64>,
-    /// Temperature of the surroundings. [degC]
+    /// Ambient temperature. [degC]
     pub ambient_degc: f64,
-    /// Temperatures that keep themselves, the lowest first.
+    /// Stable temperatures, the lowest first.
     pub stable: Vec<StableTemperature>,
     /// Heat of each heat path there.
     pub ways: Vec<HeatOfPath>,
-    /// Heat that comes in beside the losses. [W]
+    /// Heat input in addition to the losses.
     pub sources_w: HeatSources,
-    /// Where losses or heat had no value.
+    /// Point at which losses or heat had no value.
     pub undefined: Option<UndefinedBalance>,
-    /// Number of steps of the scan, which come first in the history.
+    /// Number of steps of the scan, which are first in the history.
     pub scan: usize,
-    /// Distance of neighbouring temperatures of the scan: of two balances that lie closer both may be missed. [K]
+    /// Step of the scan: two balances closer than this may both be missed. [K]
     pub scan_spacing_k: f64,
     /// All steps.
     pub history: Vec<BalanceStep>,
     /// Number of temperatures at which losses and heat were computed.
     #[serde(skip)]
     pub evaluations: usize,
-    /// Greatest temperature that was looked at. [degC]
+    /// Maximum temperature of the scan. [degC]
     #[serde(skip)]
     pub maximum_degc: f64,
 }
 
-/// A temperature at which more heat leaves above and less below.
+/// A stable temperature: the transferred heat exceeds the losses above it and is lower below it.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct StableTemperature {
-    /// Temperature of the oil. [degC]
+    /// Oil temperature. [degC]
     pub oil_temperature_degc: f64,
-    /// What is left over there. [W]
+    /// Residual there. [W]
     pub residual_w: f64,
-    /// What is left over just above, where a law jumps there. [W]
+    /// Residual just above, if a law is discontinuous there. [W]
     pub residual_beyond_jump_w: Option<f64>,
 }
 
@@ -129,7 +129,7 @@ pub struct HeatOfPath {
     pub heat_w: f64,
 }
 
-/// Heat that comes in beside the losses.
+/// Heat input in addition to the losses.
 #[derive(Debug, Clone, Copy, Serialize, JsonSchema)]
 pub struct HeatSources {
     /// Into the oil. [W]
@@ -138,10 +138,10 @@ pub struct HeatSources {
     pub surface: f64,
 }
 
-/// Where losses or heat had no value.
+/// Point at which losses or heat had no value.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct UndefinedBalance {
-    /// Temperature of the oil. [degC]
+    /// Oil temperature. [degC]
     pub oil_temperature_degc: f64,
     /// Why.
     pub reason: String,
@@ -150,18 +150,18 @@ pub struct UndefinedBalance {
 /// Losses and heat at one temperature.
 #[derive(Debug, Clone, Copy, Serialize, JsonSchema)]
 pub struct BalanceStep {
-    /// Temperature of the oil. [degC]
+    /// Oil temperature. [degC]
     pub oil_temperature_degc: f64,
-    /// Losses, and sources beside them. [W]
+    /// Losses and other heat sources. [W]
     pub loss_w: f64,
-    /// Heat that leaves. [W]
+    /// Transferred heat. [W]
     pub heat_w: f64,
     /// Their difference. [W]
     pub residual_w: f64,
 }
 
 impl BalanceOfPoint {
-    /// That of an equilibrium of a transmission.
+    /// From an equilibrium of a transmission.
     pub fn new(transmission: &Transmission, balance: &Equilibrium) -> Self {
         let housing = transmission.housing();
         let paths = housing.ways().iter().zip(&balance.ways);
@@ -211,7 +211,7 @@ impl BalanceOfPoint {
     }
 }
 
-/// Why there is no balance, in words.
+/// Why there is no balance.
 pub fn reason(transmission: &Transmission, why: &Unbalanced) -> String {
     match why {
         Unbalanced::Part(part, reason) => format!("{}: {reason}", transmission.parts()[*part].path),
@@ -220,9 +220,9 @@ pub fn reason(transmission: &Transmission, why: &Unbalanced) -> String {
             let path = transmission.network().and_then(|n| n.links().nth(*link));
             format!("{}: {reason}", path.map_or("a link", |(path, _)| path))
         }
-        Unbalanced::Flow => "the transmission locks itself, or loads and losses do not agree".to_owned(),
+        Unbalanced::Flow => "the transmission is self-locking, or loads and losses do not converge".to_owned(),
         Unbalanced::Network => {
-            "the temperatures of the network do not settle, or a node hangs on nothing while its oil stands".to_owned()
+            "the temperatures of the network do not converge, or a node has no heat path at standstill".to_owned()
         }
     }
 }
@@ -254,7 +254,7 @@ impl Analysis for BalanceEntry {
             let mut scratch = t.scratch(&case);
             let found = t.equilibrium(&case, &point, &mut scratch);
             if let Some(oil) = found.oil() {
-                // What is noted belongs to the temperature that was found.
+                // Notes belong to the temperature found.
                 t.evaluate(&case, &point, &[oil], &mut scratch);
             }
             balances.push(BalanceOfSet {
@@ -274,22 +274,22 @@ impl Analysis for BalanceEntry {
     }
 }
 
-/// Refuses a gearbox without a balance.
+/// Rejects a gearbox without a heat balance.
 pub fn needs_balance(cx: &Context<'_>, built: &Built<'_>) -> Result<(), Stopped> {
     let path = cx.path();
     if cx.study.entry.conditions.oil_temperature.is_some() {
         let error = Diagnostic::error(
             "conditions.oil_temperature",
-            "the study fixes the temperature, so there is no balance",
+            "the study fixes the temperature, so there is no heat balance",
         )
-        .note(format!("`{path}` asks for one"))
-        .help("leave it out, or give this analysis a study of its own");
+        .note(format!("`{path}` requests one"))
+        .help("delete it, or move this analysis to another study");
         return Err(cx.found(vec![error]));
     }
     if built.transmission.thermal_mode == ThermalMode::Balance {
         return Ok(());
     }
-    let error = Diagnostic::error(path, "the gearbox has a fixed temperature, and no balance")
+    let error = Diagnostic::error(path, "the gearbox has a fixed temperature and no heat balance")
         .help("write `thermal: { mode: balance, heat_dissipation: { ... } }` in the gearbox");
     Err(cx.found(vec![error]))
 }
@@ -306,9 +306,9 @@ impl Outcome for BalanceOutcome {
                 Column::text("model_set", "Model set"),
                 Column::number("step", "-", "Number of the step"),
                 Column::text("of", "Part of the search: scan or solution"),
-                Column::number("oil_temperature_degc", "degC", "Temperature of the oil"),
-                Column::number("loss_w", "W", "Losses, and sources beside them"),
-                Column::number("heat_w", "W", "Heat that leaves"),
+                Column::number("oil_temperature_degc", "degC", "Oil temperature"),
+                Column::number("loss_w", "W", "Losses and other heat sources"),
+                Column::number("heat_w", "W", "Transferred heat"),
                 Column::number("residual_w", "W", "Losses minus heat"),
             ],
         );

@@ -1,4 +1,4 @@
-//! Where losses arise, over speed or torque.
+//! Loss breakdown over speed or torque.
 
 mod bars;
 
@@ -17,40 +17,39 @@ use crate::study::{By, Data, PowerAxis, Quantity, SpeedAxis, TorqueAxis, Uses, W
 pub(super) use self::bars::Stacks;
 pub use self::bars::{Along, As, BreakdownOfSet, BreakdownOutcome, Common, Losses, PointOfBreakdown, RowOfBars};
 
-/// Where losses arise, over speed or torque.
+/// Loss breakdown over speed or torque.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct BreakdownEntry {
-    /// Gearbox; absent, the first.
+    /// Gearbox; default: the first.
     pub gearbox: Option<String>,
-    /// Gear state; absent, the first.
+    /// Gear; default: the first.
     pub gear: Option<String>,
-    /// Sets of models; absent, the models of the gearbox. `PRODUCT/SET` takes another gearbox, `PRODUCT/own` its own models.
+    /// Model sets; default: the models of the gearbox. `PRODUCT/SET` selects another gearbox, `PRODUCT/own` its default models.
     #[serde(default)]
     pub model_sets: Vec<String>,
-    /// What the losses are summed by.
+    /// Grouping of losses.
     #[serde(default)]
     pub by: By,
-    /// Watts, or percent of the whole loss.
+    /// Watts, or percent of the total loss.
     #[serde(default, rename = "as")]
     pub unit: As,
-    /// What the bars stand over; the other axis makes a picture of each of its values.
+    /// Horizontal axis of the bars; there is one figure for each value of the other axis.
     #[serde(default)]
     pub over: Over,
     /// Torques; not with `power`.
     pub torque: Option<TorqueAxis>,
-    /// Powers at the port with given torque, in place of torques: the torque falls as the speed rises.
+    /// Powers at the port with given torque, instead of torques.
     pub power: Option<PowerAxis>,
     /// Speeds.
     pub speed: SpeedAxis,
-    /// Measured points. Those within 2 % of torque and speed and 5 K of the oil of a bar are drawn
-    /// beside it, their mean where there are several.
+    /// Measured points. The mean of those within 2 % of torque and speed and 5 K of oil temperature of a bar is drawn beside it.
     pub measured: Option<Data>,
-    /// Formats to write; absent, CSV and JSON.
+    /// Formats to write; default: CSV and JSON.
     #[serde(default = "Write::data")]
     pub write: Vec<Write>,
 }
 
-/// What bars stand over.
+/// Horizontal axis of bars.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Over {
@@ -63,7 +62,7 @@ pub enum Over {
 
 impl Entry for BreakdownEntry {
     const TYPE: &'static str = "breakdown";
-    const MEANING: &'static str = "Where losses arise, over speed or torque.";
+    const MEANING: &'static str = "Loss breakdown over speed or torque.";
 
     fn uses(&self) -> Uses<'_> {
         Uses::new(self.gearbox.as_ref(), &self.model_sets)
@@ -86,7 +85,7 @@ impl Analysis for BreakdownEntry {
         };
         let stacks = Stacks::new(self.by, self.unit, &built);
         let mut breakdowns = Vec::new();
-        for b in &built {
+        for (i, b) in built.iter().enumerate() {
             let speeds = speeds(cx, &format!("{path}.speed"), &self.speed, &b.transmission)?;
             let loads = self.loads(cx, &b.transmission, &speeds)?;
             cx.holds(&path, speeds.len(), loads.len())?;
@@ -98,8 +97,9 @@ impl Analysis for BreakdownEntry {
                 oil: None,
             });
             let beside = |point: &PointResult| beside(&measured, point, gear);
-            breakdowns.extend(stacks.solve(cx, b, gear, rows, &beside)?);
+            breakdowns.extend(cx.part(i, || stacks.solve(cx, b, gear, rows, &beside))?.flatten());
         }
+        cx.complete()?;
         Ok(BreakdownOutcome {
             measured_notes: measured.notes,
             ..stacks.outcome(cx, &built, breakdowns)?
@@ -124,7 +124,7 @@ impl BreakdownEntry {
                 let values = axis(cx, &format!("{path}.power"), own.values())?;
                 if turning.contains(&0.0) {
                     let speed = format!("{path}.speed");
-                    return Err(cx.wrong(&speed, "no torque gives a power at standstill", "leave 0 rpm out"));
+                    return Err(cx.wrong(&speed, "a power at standstill is not possible", "omit 0 rpm"));
                 }
                 Ok(values.into_iter().map(Load::Power).collect())
             }
@@ -179,7 +179,7 @@ fn ratio(cx: &Context<'_>, b: &Built<'_>, gear: &str) -> Result<f64, Stopped> {
     Ok(port(&case.torque_ports).map_or(1.0, |member| speeds[member]))
 }
 
-/// What stays the same while the speed changes.
+/// Constant quantity while the speed changes.
 enum Load {
     Torque(f64),
     Power(f64),
@@ -207,7 +207,7 @@ impl Load {
     }
 }
 
-/// Mean measured loss of the points within 2 % of torque and speed and 5 K of the oil, and the greatest of their accuracies. \[W\]
+/// Mean measured loss of the points within 2 % of torque and speed and 5 K of oil temperature, and the maximum of their accuracies. \[W\]
 fn beside(measured: &Measured, point: &PointResult, gear: &str) -> Option<(f64, f64)> {
     let near = |a: Option<f64>, b: f64| a.is_some_and(|a| (a - b).abs() <= 0.02 * b.abs().max(1e-9));
     let (mut sum, mut accuracy, mut count) = (0.0, 0.0_f64, 0.0);

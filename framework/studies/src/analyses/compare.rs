@@ -1,4 +1,4 @@
-//! Differences: between sets of models and products over a grid, or between them and what was measured.
+//! Differences between model sets and products over a grid, or from a measurement.
 
 mod on_grid;
 mod with_data;
@@ -17,42 +17,42 @@ use crate::register_analysis;
 use crate::study::{Data, Difference, Quantity, Uses, Write};
 use crate::table::Table;
 
-/// Difference between sets of models, and products, over a grid; or between them and what was measured.
+/// Difference between model sets and products over a grid, or from a measurement.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct CompareEntry {
-    /// Gearbox of every set that names none; absent, the first.
+    /// Gearbox of sets without a product; default: the first.
     pub gearbox: Option<String>,
     /// Grid; not with `data`.
     pub grid: Option<String>,
-    /// Set that the others are compared with; not with `data`. `PRODUCT/SET` takes another gearbox, `PRODUCT/own` its own models.
+    /// Base of the comparison; not with `data`. `PRODUCT/SET` selects another gearbox, `PRODUCT/own` its default models.
     pub base: Option<String>,
     /// Measured points that the sets are compared with.
     pub data: Option<Data>,
     /// Columns of the data that change a value of the gearbox: column to resolved path.
     #[serde(default)]
     pub bind: Ordered<String>,
-    /// Gear state of the data where no column says it; absent, the first.
+    /// Gear of the data without a column `gear`; default: the first.
     pub gear: Option<String>,
-    /// Sets to compare; `PRODUCT/SET` takes another gearbox.
+    /// Model sets to compare; `PRODUCT/SET` selects another gearbox.
     #[schemars(length(min = 1))]
     pub against: Vec<String>,
-    /// What is compared.
+    /// Compared quantity.
     #[serde(default)]
     pub quantity: Quantity,
-    /// Accuracy of a measurement, in the unit of the difference: maps of differences show where they are smaller. [-]
+    /// Accuracy of a measurement, in the unit of the difference: maps mark differences below it. [-]
     #[schemars(range(min = 0.0, max = 1e9))]
     pub accuracy: Option<f64>,
-    /// How the difference counts: the other set minus the base, or the model minus the measurement.
+    /// Unit of the difference: the other set minus the base, or model minus measurement.
     #[serde(default)]
     pub difference: Difference,
-    /// Formats to write; absent, CSV and JSON. Pictures show the differences and, with data, parity.
+    /// Formats to write; default: CSV and JSON. Figures show the differences and, with data, parity.
     #[serde(default = "Write::data")]
     pub write: Vec<Write>,
 }
 
 impl Entry for CompareEntry {
     const TYPE: &'static str = "compare";
-    const MEANING: &'static str = "Difference between sets of models over a grid.";
+    const MEANING: &'static str = "Difference between model sets over a grid.";
 
     fn uses(&self) -> Uses<'_> {
         Uses {
@@ -70,7 +70,7 @@ register_analysis!(CompareEntry);
 /// Differences of model sets from a base over a grid, or from a measurement.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct CompareOutcome {
-    /// Where it comes from.
+    /// Provenance.
     #[serde(flatten)]
     pub head: Head,
     /// The measurement; absent for differences over a grid.
@@ -78,10 +78,10 @@ pub struct CompareOutcome {
     pub data: Option<DataOfComparison>,
     /// One for each model set.
     pub comparisons: Comparisons,
-    /// What is compared.
+    /// Compared quantity.
     #[serde(skip)]
     pub quantity: Quantity,
-    /// How the difference counts.
+    /// Kind of difference.
     #[serde(skip)]
     pub difference: Difference,
     /// Accuracy of a measurement as the study states it. [unit of the difference]

@@ -1,4 +1,4 @@
-//! Several models of one component over speed, term by term, with measured points beside them.
+//! Several models of one component over speed by term, compared with measured points.
 
 use gearloss_framework::attach::dangling;
 use gearloss_framework::description::Ordered;
@@ -25,15 +25,15 @@ use crate::table::{Column, Table};
 /// Several models of one component over speed.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct ComponentCompareEntry {
-    /// Gearbox; absent, the first.
+    /// Gearbox; default: the first.
     pub gearbox: Option<String>,
-    /// Gear state; absent, the first.
+    /// Gear; default: the first.
     pub gear: Option<String>,
     /// Path of the component, such as `bearings.B1`, `meshes.M1` or `gears.G4.drag.churning`.
     pub component: String,
-    /// Models by name, each as in a gearbox: `{ type: skf }`. The other components keep theirs.
+    /// Models by name, each as in a gearbox: `{ type: skf }`. The other components keep their models.
     pub models: Ordered<Value>,
-    /// Set of models for everything else; absent, the models of the gearbox.
+    /// Model set of all other components; default: the models of the gearbox.
     pub model_set: Option<String>,
     /// Overrides for this analysis: resolved path to value, such as `meshes.M2.drag.churning: none`.
     #[serde(default)]
@@ -45,7 +45,7 @@ pub struct ComponentCompareEntry {
     /// Measured points: torque and speed at the study's ports, and the loss of the component. Each is compared with every model
     /// at that torque and speed.
     pub measured: Option<Data>,
-    /// Formats to write; absent, CSV and JSON.
+    /// Formats to write; default: CSV and JSON.
     #[serde(default = "Write::data")]
     pub write: Vec<Write>,
 }
@@ -66,12 +66,12 @@ register_analysis!(ComponentCompareEntry);
 /// Several models of one component over speed.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct ComponentCompareOutcome {
-    /// Where it comes from.
+    /// Provenance.
     #[serde(flatten)]
     pub head: Head,
     /// The comparison.
     pub component_comparison: ComponentComparison,
-    /// Why models have no losses, one entry for each that is omitted.
+    /// Why models have no losses, one entry for each omitted model.
     #[serde(skip)]
     pub failures: Vec<Findings>,
 }
@@ -81,11 +81,11 @@ pub struct ComponentCompareOutcome {
 pub struct ComponentComparison {
     /// Path of the component.
     pub component: String,
-    /// Model set of everything else; absent, the models of the gearbox.
+    /// Model set of all other components; absent: the models of the gearbox.
     pub model_set: Option<String>,
     /// Gear state.
     pub gear: String,
-    /// Temperature of the oil, where it is given. [degC]
+    /// Oil temperature, if given. [degC]
     pub oil_temperature_degc: Option<f64>,
     /// One for each model.
     pub models: Vec<ModelOfComponent>,
@@ -113,7 +113,7 @@ pub struct ModelOfComponent {
     pub points: Vec<LossOfComponent>,
     /// The same at the measured points.
     pub at_measured: Vec<LossOfComponent>,
-    /// What models noted.
+    /// Notes of models.
     pub notes: Vec<Note>,
     /// Terms of the model.
     #[serde(skip)]
@@ -127,7 +127,7 @@ pub struct LossOfComponent {
     pub torque_nm: f64,
     /// Given speed. [rpm]
     pub speed_rpm: f64,
-    /// Loss of all copies; absent where the model has no value. [W]
+    /// Loss of all copies; absent if the model has no value. [W]
     pub loss_w: Option<f64>,
     /// Moment of one copy about its relative speed. [Nm]
     pub moment_of_one_nm: Option<f64>,
@@ -185,7 +185,7 @@ impl Analysis for ComponentCompareEntry {
         let path = cx.path();
         let gearbox = cx.gearbox(self.gearbox.as_ref())?;
         let own = cx.built(gearbox, self.model_set.as_slice())?;
-        // A drag may come with the models.
+        // The models may define a drag slot.
         let known = |b: &Built<'_>| b.transmission.parts().iter().any(|part| part.path == self.component);
         if !self.component.contains(".drag.") && !own.iter().any(known) {
             return Err(no_part(cx, &self.component, &own[0].transmission));
@@ -202,6 +202,7 @@ impl Analysis for ComponentCompareEntry {
             },
         };
         self.check_names(cx)?;
+        cx.undivided()?;
         // A model that fails does not stop the others.
         let (mut evaluated, mut failures) = (Vec::new(), Vec::new());
         for (model, value) in self.models.iter() {
@@ -215,7 +216,6 @@ impl Analysis for ComponentCompareEntry {
             return Err(Stopped::Several(failures));
         }
         cx.begin()?;
-        cx.undivided()?;
         let head = cx.head(&evaluated.iter().map(|e| &e.built).collect::<Vec<_>>());
         let given = cx.points(&evaluated[0].built.transmission, "", Vec::new(), Vec::new());
         let gear = evaluated[0].gear.clone();
@@ -253,16 +253,16 @@ impl ComponentCompareEntry {
         }
     }
 
-    /// Refuses a comparison without models, and a model that is called as the measured points are.
+    /// Rejects a comparison without models, and a model with the name of the measured points.
     fn check_names(&self, cx: &Context<'_>) -> Result<(), Stopped> {
         let path = format!("{}.models", cx.path());
         if self.models.is_empty() {
-            let help = "write `models: { ours: { type: skf } }`, say";
-            return Err(cx.wrong(&path, "no model is named", help));
+            let help = "write for example `models: { ours: { type: skf } }`";
+            return Err(cx.wrong(&path, "no model is given", help));
         }
         if self.models.iter().any(|(name, _)| name == "measured") {
             let message = "`measured` is the name of the measured points";
-            return Err(cx.wrong(&path, message, "call the model otherwise"));
+            return Err(cx.wrong(&path, message, "rename the model"));
         }
         Ok(())
     }
@@ -320,7 +320,7 @@ fn no_part(cx: &Context<'_>, component: &str, transmission: &Transmission) -> St
     cx.found(vec![dangling(&path, "component", component, &paths)])
 }
 
-/// Losses of a part at points of torque and speed, and what models noted.
+/// Losses of a component at points of torque and speed, and notes of models.
 fn losses(
     transmission: &Transmission,
     (given, case): (&Points, &Case),
@@ -360,7 +360,7 @@ fn loss_of_component((torque, speed): (f64, f64), loss: &PartLoss, terms: &[Term
     }
 }
 
-/// Computed and measured losses at the measured points where the model has a value.
+/// Computed and measured losses at the measured points at which the model has a value.
 fn pairs<'a>(model: &'a ModelOfComponent, measured: &'a [MeasuredLoss]) -> impl Iterator<Item = (f64, f64)> + 'a {
     let pairs = model.at_measured.iter().zip(measured);
     pairs.filter_map(|(point, m)| Some((point.loss_w?, m.loss_w)))
@@ -402,7 +402,7 @@ fn measured(cx: &Context<'_>, path: &str, data: &Data) -> Result<Vec<MeasuredLos
         let loss = value("loss").filter(|watts| *watts > 0.0);
         let (Some(torque), Some(speed), Some(watts)) = (value("torque"), value("speed"), loss) else {
             let file = &cx.data(path, data)?.file;
-            let message = format!("{file}: {}: no loss above zero", read.origin(row));
+            let message = format!("{file}: {}: no positive loss", read.origin(row));
             return Err(cx.wrong(path, message, "give the loss of the component in a column `loss [W]`"));
         };
         points.push(MeasuredLoss {
@@ -459,7 +459,7 @@ impl Outcome for ComponentCompareOutcome {
         vec![table]
     }
 
-    /// None: each is beside the losses of its model. The models that are compared are not those of the study.
+    /// None: notes are listed with the losses of each model. The compared models are not those of the study.
     fn notes(&self) -> Vec<&Note> {
         Vec::new()
     }

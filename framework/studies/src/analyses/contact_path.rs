@@ -1,4 +1,5 @@
-//! Sliding and rolling speed, load share, Hertz pressure, friction, film and loss along the path of contact of one mesh.
+//! Sliding and entrainment velocity, load share, Hertzian pressure, friction, film thickness and loss along the path of contact of one
+//! mesh.
 
 use std::sync::Arc;
 
@@ -27,14 +28,14 @@ use crate::register_analysis;
 use crate::study::{Uses, Write};
 use crate::table::{Column, Table};
 
-/// Speeds, load, pressure, friction, film and loss along the path of contact of one mesh.
+/// Velocities, load, pressure, friction, film thickness and loss along the path of contact of one mesh.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct ContactPathEntry {
-    /// Gearbox; absent, the first.
+    /// Gearbox; default: the first.
     pub gearbox: Option<String>,
-    /// Gear state; absent, the first.
+    /// Gear; default: the first.
     pub gear: Option<String>,
-    /// Sets of models; absent, the models of the gearbox. `PRODUCT/SET` takes another gearbox, `PRODUCT/own` its own models.
+    /// Model sets; default: the models of the gearbox. `PRODUCT/SET` selects another gearbox, `PRODUCT/own` its default models.
     #[serde(default)]
     pub model_sets: Vec<String>,
     /// Mesh, one of `meshes`.
@@ -45,11 +46,11 @@ pub struct ContactPathEntry {
     /// Speed. [rpm]
     #[schemars(range(min = -1e6, max = 1e6))]
     pub speed: f64,
-    /// Number of places. [-]
+    /// Number of points along the path. [-]
     #[serde(default = "places")]
     #[schemars(range(min = 3, max = 2001))]
     pub places: u32,
-    /// Formats to write; absent, CSV and JSON.
+    /// Formats to write; default: CSV and JSON.
     #[serde(default = "Write::data")]
     pub write: Vec<Write>,
 }
@@ -61,7 +62,7 @@ fn places() -> u32 {
 impl Entry for ContactPathEntry {
     const TYPE: &'static str = "contact_path";
     const MEANING: &'static str =
-        "Speeds, load, pressure, friction, film and loss along the path of contact of one mesh.";
+        "Velocities, load, pressure, friction, film thickness and loss along the path of contact of one mesh.";
 
     fn uses(&self) -> Uses<'_> {
         Uses::new(self.gearbox.as_ref(), &self.model_sets).at(&self.gear)
@@ -73,7 +74,7 @@ register_analysis!(ContactPathEntry);
 /// The path of contact of one mesh under each model set.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct ContactPathOutcome {
-    /// Where it comes from.
+    /// Provenance.
     #[serde(flatten)]
     pub head: Head,
     /// One for each model set.
@@ -93,28 +94,28 @@ pub struct ContactPath {
     pub torque_nm: f64,
     /// Given speed. [rpm]
     pub speed_rpm: f64,
-    /// Temperature of the oil. [degC]
+    /// Oil temperature. [degC]
     pub oil_temperature_degc: f64,
-    /// How the pairs in contact share the load.
+    /// Load sharing of the tooth pairs in contact.
     pub load_sharing: LoadSharing,
-    /// Torque of the mesh on its first gear. [Nm]
+    /// Torque of the mesh at its first gear. [Nm]
     pub mesh_torque_nm: f64,
-    /// Why there is no friction; absent where there is.
+    /// Why there is no friction; absent if there is.
     pub no_friction: Option<String>,
-    /// Places along the path, from the first contact on.
+    /// Points along the path, starting at the first contact.
     pub places: Vec<PlaceOnPath>,
 }
 
-/// One place on the path of contact.
+/// One point on the path of contact.
 #[derive(Debug, Clone, Copy, Serialize, JsonSchema)]
 pub struct PlaceOnPath {
     /// Distance from the pitch point, towards the tip of the first gear. [mm]
     pub from_pitch_point_mm: f64,
     /// Share of the normal force on one pair. [-]
     pub load_share: f64,
-    /// Sliding speed. [m/s]
+    /// Sliding velocity. [m/s]
     pub sliding_speed_m_s: f64,
-    /// Sum of the surface speeds. [m/s]
+    /// Entrainment sum velocity: sum of the surface velocities. [m/s]
     pub sum_speed_m_s: f64,
     /// Radius of relative curvature. [mm]
     pub radius_mm: f64,
@@ -122,9 +123,9 @@ pub struct PlaceOnPath {
     pub hertz_pressure_gpa: f64,
     /// Minimum film thickness, isothermal, Dowson and Higginson. [um]
     pub film_um: f64,
-    /// Coefficient of friction, where the model has one. [-]
+    /// Coefficient of friction, if the model has one. [-]
     pub mu: Option<f64>,
-    /// Power lost in sliding of one pair there. [W]
+    /// Sliding power loss of one pair there. [W]
     pub sliding_loss_w: Option<f64>,
 }
 
@@ -132,12 +133,12 @@ pub struct PlaceOnPath {
 enum Friction {
     Local(Slot<ToothFriction>),
     Mean(Slot<MeanFriction>),
-    /// The model of the mesh shows none.
+    /// The mesh model does not expose one.
     Hidden,
 }
 
 impl Friction {
-    /// The law that the model of a mesh holds in a slot.
+    /// The law in a slot of the mesh model.
     fn new(build: &mut Build<'_>, path: &str, part: &Arc<MeshPart>, model: &Value) -> Result<Self, Diagnostic> {
         if let Some(value) = model.get("tooth_friction") {
             let slot = ModelRef::<ToothFriction>::new(value.clone());
@@ -151,10 +152,10 @@ impl Friction {
         Ok(Self::Hidden)
     }
 
-    /// The coefficient at so many places, or why there is none.
+    /// The coefficients at the points, or why there are none.
     fn coefficients(&self, along: &PathAt<'_>, mean: &MeanFrictionAt<'_>, places: usize) -> Result<Vec<f64>, String> {
         match self {
-            Self::Hidden => Err("its model shows no friction along the path".to_owned()),
+            Self::Hidden => Err("its model has no friction along the path".to_owned()),
             Self::Local(slot) => {
                 let mut mu = vec![0.0; places];
                 match slot.along(along, &mut mu) {
@@ -205,7 +206,7 @@ impl ContactPathEntry {
         let solution = t.evaluate(&case, &point, warm.temperatures(), &mut scratch);
         if !solution.has_flow() {
             let message = format!(
-                "{} at this point, so no torque of the mesh is known",
+                "{} at this point, so the torque of the mesh is unknown",
                 solution.status().name()
             );
             let help = "give the torque at another port, or with the other sign";
@@ -228,7 +229,7 @@ impl ContactPathEntry {
         })
     }
 
-    /// Number of the mesh; refuses one that is not there or has no path of contact.
+    /// Index of the mesh; an unknown mesh or a mesh without path of contact is an error.
     fn mesh(&self, cx: &Context<'_>, t: &Transmission) -> Result<usize, Stopped> {
         let own = format!("meshes.{}", self.mesh);
         let path = format!("{}.mesh", cx.path());
@@ -240,16 +241,16 @@ impl ContactPathEntry {
             return Err(cx.wrong(
                 &path,
                 format!(
-                    "`{}` has no path of contact: its teeth are not known as an involute pair",
+                    "`{}` has no path of contact, because its teeth are not defined as an involute pair",
                     self.mesh
                 ),
-                "state the tip diameter of the ring, or check what `gearloss check` says of the mesh",
+                "state the tip diameter of the ring, or check the notes of `gearloss check` on the mesh",
             ));
         }
         Ok(index)
     }
 
-    /// The places on the path of a mesh at one operating point, and why there is no friction where there is none.
+    /// The points on the path of a mesh at one operating point, and the reason if there is no friction.
     fn places(
         &self,
         cx: &Context<'_>,
@@ -261,14 +262,16 @@ impl ContactPathEntry {
         let mut build = Build::new(cx.language.registry(), &built.gearbox.files);
         let friction = Friction::new(&mut build, &format!("meshes.{}.model", self.mesh), &part, model);
         let friction = friction.map_err(|error| cx.found(vec![error]))?;
-        let mean = MeanFrictionAt::of(at, Notes::MUTED);
+        let mean = MeanFrictionAt::at_pitch_point(at, Notes::MUTED);
         let fine = Path::even(&part.pair, sharing, self.places as usize);
-        let along = fine.at(&mean, Notes::MUTED).with(|to| to.bodies = at.bodies());
+        let along = fine
+            .at_operating_point(&mean, Notes::MUTED)
+            .with(|to| to.bodies = at.bodies());
         let loaded = at.speed != 0.0 && at.torque != 0.0;
         let mu = if loaded {
             friction.coefficients(&along, &mean, fine.len())
         } else {
-            Err("the mesh is idle or rests".to_owned())
+            Err("the mesh is unloaded or stationary".to_owned())
         };
         let pitch = part.pair.points[2];
         let nodes = fine.nodes().iter().zip(fine.points()).enumerate();
@@ -291,7 +294,7 @@ impl ContactPathEntry {
     }
 }
 
-/// How the model of a mesh shares its load: its own word, that of its law of mean friction, or what its loss factor assumes.
+/// Load sharing of a mesh model: its own, that of its law of mean friction, or the assumption of its loss factor.
 fn sharing(model: &Value) -> LoadSharing {
     let written = [&model["load_sharing"], &model["mean_friction"]["load_sharing"]]
         .into_iter()
@@ -317,13 +320,13 @@ impl Outcome for ContactPathOutcome {
                 Column::text("mesh", "Mesh"),
                 Column::number("from_pitch_point_mm", "mm", "Distance from the pitch point"),
                 Column::number("load_share", "-", "Share of the normal force on one pair"),
-                Column::number("sliding_speed_m_s", "m/s", "Sliding speed"),
-                Column::number("sum_speed_m_s", "m/s", "Sum of the surface speeds"),
+                Column::number("sliding_speed_m_s", "m/s", "Sliding velocity"),
+                Column::number("sum_speed_m_s", "m/s", "Sum of the surface velocities"),
                 Column::number("radius_mm", "mm", "Radius of relative curvature"),
                 Column::number("hertz_pressure_gpa", "GPa", "Hertzian pressure"),
                 Column::number("film_um", "um", "Minimum film thickness"),
                 Column::number("mu", "-", "Coefficient of friction"),
-                Column::number("sliding_loss_w", "W", "Power lost in sliding of one pair there"),
+                Column::number("sliding_loss_w", "W", "Sliding power loss of one pair"),
             ],
         );
         for path in &self.paths {

@@ -1,18 +1,22 @@
-//! What an analysis is given: the study, the way to solve its points, and whom to report progress to.
+//! Context of an analysis: the study, the solution of points, and progress.
 
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-use gearloss_framework::document::Diagnostic;
+use gearloss_framework::document::{Code, Diagnostic};
 use gearloss_framework::gearbox::{Findings, Gearbox};
 use gearloss_framework::language::Language;
 use gearloss_framework::resolve::{OWN_MODELS, Resolved};
 use gearloss_framework::transmission::{Case, Transmission};
+use rayon::prelude::*;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
 use serde_json::Value;
 
 use super::head::{Head, InputFile};
 use super::progress::{Progress, Running};
 use crate::analysis::{Bits, Field, Given, GridResult, Make, Piece, Points, held, solve_pieces};
+use crate::codes;
 use crate::study::{Grid, Study};
 use crate::table::RowSink;
 use crate::tasks::{Task, TaskResults};
@@ -20,19 +24,19 @@ use crate::tasks::{Task, TaskResults};
 /// Why an analysis has no outcome.
 #[derive(Debug, thiserror::Error)]
 pub enum Stopped {
-    /// Its input is wrong.
+    /// Errors of its input.
     #[error("{0}")]
     Found(#[from] Findings),
-    /// Several of its inputs are wrong, each for itself.
+    /// Independent errors of several inputs.
     #[error("{}", .0.iter().map(ToString::to_string).collect::<String>())]
     Several(Vec<Findings>),
-    /// The caller broke it off.
+    /// Interrupted by the caller.
     #[error("interrupted")]
     Interrupted,
-    /// It was only to be checked, and nothing is wrong with it.
+    /// It was only checked, and has no errors.
     #[error("nothing was computed")]
     Checked,
-    /// Other runs compute tasks whose results it needs.
+    /// It needs results of tasks of other runs.
     #[error("it needs results that other runs compute")]
     Elsewhere,
     /// Results cannot be written or read; the text to print.
@@ -40,9 +44,20 @@ pub enum Stopped {
     Unwritten(String),
 }
 
+impl Stopped {
+    /// What was found: none where the input is right.
+    pub fn findings(&self) -> &[Findings] {
+        match self {
+            Self::Found(findings) => std::slice::from_ref(findings),
+            Self::Several(list) => list,
+            Self::Interrupted | Self::Checked | Self::Elsewhere | Self::Unwritten(_) => &[],
+        }
+    }
+}
+
 /// One gearbox under one model set.
 pub struct Built<'a> {
-    /// Name of the set as the study writes it.
+    /// Name of the set in the study.
     pub name: String,
     /// The gearbox.
     pub gearbox: &'a Gearbox,
@@ -53,25 +68,24 @@ pub struct Built<'a> {
 }
 
 impl Built<'_> {
-    /// The set as a choice names it: without the product, absent for the gearbox's own models.
+    /// The set without the product; absent for the default models of the gearbox.
     pub fn set(&self) -> Option<&str> {
         let set = self.name.rsplit('/').next();
         set.filter(|set| *set != OWN_MODELS)
     }
 }
 
-/// The most points that an analysis may hold at a time, some of them as samples; with all that is made of each they take a few
-/// gigabytes. Maps over grids hold none.
+/// Maximum number of points in memory, samples included; with derived data they need a few gigabytes. Maps over grids store none.
 const MOST_HELD: usize = 2_000_000;
 
-/// Files that an analysis has read, and what their entries say of them.
+/// Files read by an analysis, and the notes of their entries.
 #[derive(Debug, Default)]
 struct Record {
     inputs: Vec<InputFile>,
     about: Vec<String>,
 }
 
-/// What an analysis is given.
+/// The context of an analysis.
 pub struct Context<'a> {
     /// The language of all documents.
     pub language: &'a Language,
@@ -79,21 +93,28 @@ pub struct Context<'a> {
     pub study: &'a Study,
     /// Name of the analysis in the study.
     pub name: &'a str,
-    /// True where the analysis shall end before it computes, with all that it refuses.
+    /// True if the analysis must end before it computes and report its errors.
     pub only_checks: bool,
-    /// Who takes the rows of tables that are too large to be held.
+    /// Receives the rows of tables that are too large for memory.
     pub sink: Option<&'a dyn RowSink>,
     progress: &'a dyn Progress,
-    /// Results of tasks that are kept.
+    /// Stored results of tasks.
     tasks: Option<&'a dyn TaskResults>,
-    /// Number of the stage that is next.
+    /// Number of the part of the analysis that is computed.
+    part: AtomicUsize,
+    /// Number of the stage that is next in it.
     stage: AtomicUsize,
+    /// Whether a part was omitted because it needs results that other runs compute.
+    incomplete: AtomicBool,
+    /// Why the current part ends early, where a function that cannot say so was in between.
+    ended: Mutex<Option<Stopped>>,
+    has_ended: AtomicBool,
     /// Its own lock, because files are also read in parallel.
     record: Mutex<Record>,
 }
 
 impl<'a> Context<'a> {
-    /// That of an analysis of a study.
+    /// For an analysis of a study.
     pub fn new(language: &'a Language, study: &'a Study, name: &'a str, progress: &'a dyn Progress) -> Self {
         Self {
             language,
@@ -103,17 +124,21 @@ impl<'a> Context<'a> {
             sink: None,
             progress,
             tasks: None,
+            part: AtomicUsize::new(0),
             stage: AtomicUsize::new(0),
+            incomplete: AtomicBool::new(false),
+            ended: Mutex::default(),
+            has_ended: AtomicBool::new(false),
             record: Mutex::default(),
         }
     }
 
-    /// With results of tasks that are kept.
+    /// With stored results of tasks.
     pub fn with_tasks(self, tasks: Option<&'a dyn TaskResults>) -> Self {
         Self { tasks, ..self }
     }
 
-    /// With someone who takes the rows of large tables.
+    /// With a receiver of the rows of large tables.
     pub fn with_sink(self, sink: &'a dyn RowSink) -> Self {
         Self {
             sink: Some(sink),
@@ -121,7 +146,7 @@ impl<'a> Context<'a> {
         }
     }
 
-    /// For an analysis that is only checked.
+    /// For checks only.
     pub fn checking(self) -> Self {
         Self {
             only_checks: true,
@@ -137,7 +162,7 @@ impl<'a> Context<'a> {
     /// Ends an analysis that is only checked.
     ///
     /// # Errors
-    /// [`Stopped::Checked`] there.
+    /// [`Stopped::Checked`] in this case.
     pub fn begin(&self) -> Result<(), Stopped> {
         if self.only_checks {
             Err(Stopped::Checked)
@@ -152,7 +177,7 @@ impl<'a> Context<'a> {
         Head::new(self, built, &record.inputs, &record.about)
     }
 
-    /// Keeps the hash of a file that the analysis has read.
+    /// Records the hash of a file read by the analysis.
     pub fn keep_input(&self, file: &str, bytes: &[u8]) {
         let known = InputFile::new(None, file, bytes);
         let mut record = self.record.lock().unwrap_or_else(PoisonError::into_inner);
@@ -161,13 +186,13 @@ impl<'a> Context<'a> {
         }
     }
 
-    /// Keeps what an entry of data says of its file.
+    /// Records the note of a data entry on its file.
     pub fn keep_about(&self, file: &str, about: &str) {
         let mut record = self.record.lock().unwrap_or_else(PoisonError::into_inner);
         record.about.push(format!("{file}: {about}"));
     }
 
-    /// The gearbox that an entry names, or the first.
+    /// The gearbox of an entry, or the first.
     ///
     /// # Errors
     /// If there is none.
@@ -176,10 +201,10 @@ impl<'a> Context<'a> {
         Ok(gearbox)
     }
 
-    /// The gearbox under each set; under its own models where no set is named.
+    /// The gearbox with each set; with its default models if no set is given.
     ///
     /// # Errors
-    /// Everything that resolving and building find.
+    /// All errors of resolving and building.
     pub fn built<'s>(&'s self, gearbox: &'s Gearbox, sets: &'s [String]) -> Result<Vec<Built<'s>>, Stopped> {
         self.built_with(gearbox, sets, &[])
     }
@@ -236,7 +261,7 @@ impl<'a> Context<'a> {
         self.study.points(transmission, gear, field)
     }
 
-    /// Refuses points that do not fit a gearbox; true where the analysis shall end there.
+    /// Rejects invalid points for a gearbox; true if the analysis must end there.
     ///
     /// # Errors
     /// As [`Context::case`].
@@ -248,25 +273,55 @@ impl<'a> Context<'a> {
     /// The case of points under the conditions.
     ///
     /// # Errors
-    /// If the gear state, the ports or their number do not fit.
+    /// If the gear, the ports or their number are invalid.
     pub fn case(&self, gearbox: &Gearbox, t: &Transmission, points: &Points) -> Result<Case, Stopped> {
         Ok(self.study.case(&self.path(), gearbox, t, points)?)
     }
 
-    /// Reports so much work as begun.
+    /// Reports the start of work.
     pub fn running(&self, count: usize, label: &str) -> Running<'_> {
         Running::new(self.progress, label, count)
     }
 
-    /// False where the caller wants to break off.
+    /// False where the caller wants to break off, or where the analysis has ended.
     pub fn goes_on(&self) -> bool {
-        self.progress.goes_on()
+        self.progress.goes_on() && !self.has_ended.load(Ordering::Relaxed)
     }
 
-    /// Solves all points and holds them.
+    /// Ends the analysis from within a function that has errors of its own: [`Context::goes_on`] turns false, and
+    /// [`Context::why_ended`] returns the reason.
+    pub fn end(&self, why: Stopped) {
+        *self.ended.lock().unwrap_or_else(PoisonError::into_inner) = Some(why);
+        self.has_ended.store(true, Ordering::Relaxed);
+    }
+
+    /// Why [`Context::goes_on`] is false.
+    pub fn why_ended(&self) -> Stopped {
+        let why = self.ended.lock().unwrap_or_else(PoisonError::into_inner).take();
+        self.has_ended.store(false, Ordering::Relaxed);
+        why.unwrap_or(Stopped::Interrupted)
+    }
+
+    /// Solves all points in this run, and holds them: for few points on which later stages depend.
     ///
     /// # Errors
     /// Points that do not fit or are too many, and an interruption.
+    pub fn solve_here(&self, built: &Built<'_>, points: &Points) -> Result<GridResult, Stopped> {
+        self.holds("analyses", points.field.len(), 1)?;
+        self.checked(built, points)?;
+        let mut all = GridResult::default();
+        let numbers: Vec<usize> = (0..points.field.pieces()).collect();
+        self.evaluate(built, points, &numbers, &held, &mut |piece| {
+            all.add(piece);
+            Ok(())
+        })?;
+        Ok(all)
+    }
+
+    /// Solves all points, as [`Context::solve_pieces`] does, and holds them.
+    ///
+    /// # Errors
+    /// Invalid points, too many points, or an interruption.
     pub fn solve(&self, built: &Built<'_>, points: &Points) -> Result<GridResult, Stopped> {
         self.holds("analyses", points.field.len(), 1)?;
         let mut all = GridResult::default();
@@ -277,10 +332,10 @@ impl<'a> Context<'a> {
         Ok(all)
     }
 
-    /// Solves all points, a stage of one task for each piece of them, and hands over what `make` takes from them, piece by piece.
+    /// Solves all points in a stage with one task for each piece, and passes the results of `make` to `take`, piece by piece.
     ///
     /// # Errors
-    /// Points that do not fit, an interruption, and what `take` refuses.
+    /// Invalid points, an interruption, and errors of `take`.
     pub fn solve_pieces<T: Send>(
         &self,
         built: &Built<'_>,
@@ -312,6 +367,88 @@ impl<'a> Context<'a> {
         Ok(())
     }
 
+    /// Computes a stage of so many tasks on all threads, and gives their results in their order. Results are stored to the bit. A
+    /// result that was computed while [`Context::goes_on`] turned false is dropped.
+    ///
+    /// # Errors
+    /// An interruption, and results that other runs compute.
+    pub fn each<R: Serialize + DeserializeOwned + Send>(
+        &self,
+        label: &str,
+        count: usize,
+        compute: impl Fn(usize) -> R + Sync,
+    ) -> Result<Vec<R>, Stopped> {
+        let stage = self.next_stage();
+        let missing = match self.tasks {
+            Some(kept) => self.missing(kept, stage, count)?,
+            None => Missing {
+                own: (0..count).collect(),
+                others: 0,
+            },
+        };
+        let running = self.running(missing.own.len(), label);
+        let compute = |number: usize| {
+            if !self.goes_on() {
+                return Err(Stopped::Interrupted);
+            }
+            let result = compute(number);
+            if !running.advance(1) {
+                return Err(Stopped::Interrupted);
+            }
+            if let Some(kept) = self.tasks.filter(|kept| !kept.completes()) {
+                let bytes = postcard::to_stdvec(&result).map_err(|e| Stopped::Unwritten(format!("error: {e}\n")))?;
+                kept.keep(self.task(stage, number), &bytes)?;
+            }
+            Ok(result)
+        };
+        let own: Vec<Result<R, Stopped>> = missing.own.par_iter().with_max_len(1).map(|i| compute(*i)).collect();
+        let own: Vec<R> = own.into_iter().collect::<Result<_, _>>()?;
+        let Some(kept) = self.tasks else { return Ok(own) };
+        missing.end()?;
+        let mut own = missing.own.iter().zip(own).peekable();
+        let result = |number: usize| match own.next_if(|(own, _)| **own == number) {
+            Some((_, result)) => Ok(result),
+            None => {
+                let task = self.task(stage, number);
+                postcard::from_bytes(&kept.read(task)?).map_err(|_| unlike(task))
+            }
+        };
+        (0..count).map(result).collect()
+    }
+
+    /// Computes a part of the analysis that does not depend on its other parts, such as one model set. Nothing where it needs results
+    /// that other runs compute: they are missing when [`Context::complete`] is called. Parts do not contain parts.
+    ///
+    /// # Errors
+    /// Those of the part.
+    pub fn part<T>(&self, number: usize, compute: impl FnOnce() -> Result<T, Stopped>) -> Result<Option<T>, Stopped> {
+        let stage = self.stage.swap(0, Ordering::Relaxed);
+        self.part.store(number + 1, Ordering::Relaxed);
+        let result = compute();
+        self.part.store(0, Ordering::Relaxed);
+        self.stage.store(stage, Ordering::Relaxed);
+        match result {
+            Ok(result) => Ok(Some(result)),
+            Err(Stopped::Elsewhere) => {
+                self.incomplete.store(true, Ordering::Relaxed);
+                Ok(None)
+            }
+            Err(stopped) => Err(stopped),
+        }
+    }
+
+    /// Comes after all parts.
+    ///
+    /// # Errors
+    /// [`Stopped::Elsewhere`] where one of them is missing.
+    pub fn complete(&self) -> Result<(), Stopped> {
+        if self.incomplete.load(Ordering::Relaxed) {
+            Err(Stopped::Elsewhere)
+        } else {
+            Ok(())
+        }
+    }
+
     /// Comes before work that is not split into tasks: it is left to the run that completes what others have begun.
     ///
     /// # Errors
@@ -330,17 +467,18 @@ impl<'a> Context<'a> {
     fn task(&self, stage: usize, number: usize) -> Task<'_> {
         Task {
             analysis: self.name,
+            part: self.part.load(Ordering::Relaxed),
             stage,
             number,
         }
     }
 
-    /// Whether a stage is computed by this run alone: it completes what others have begun, and they have not done all of it.
+    /// Whether this run computes the incomplete remainder of a stage that others have started.
     fn is_alone(&self, kept: &dyn TaskResults, stage: usize, count: usize) -> bool {
         kept.completes() && !(0..count).all(|number| kept.is_kept(self.task(stage, number)))
     }
 
-    /// The tasks of a stage whose results are not there.
+    /// The tasks of a stage without results.
     fn missing(&self, kept: &dyn TaskResults, stage: usize, count: usize) -> Result<Missing, Stopped> {
         let missing = (0..count).filter(|number| !kept.is_kept(self.task(stage, *number)));
         let (own, others): (Vec<usize>, Vec<usize>) =
@@ -384,7 +522,7 @@ impl<'a> Context<'a> {
         }
     }
 
-    /// The one gear state of a grid.
+    /// The single gear of a grid.
     ///
     /// # Errors
     /// If it has several.
@@ -393,15 +531,20 @@ impl<'a> Context<'a> {
             [gear] => Ok(gear.clone()),
             several => Err(self.wrong(
                 path,
-                format!("this analysis takes a grid of one gear state, not of {}", several.len()),
-                "give it a grid of its own",
+                format!("this analysis needs a grid with one gear, not {}", several.len()),
+                "give it its own grid",
             )),
         }
     }
 
-    /// A fault of the study at a path.
+    /// An error of the study at a path.
     pub fn wrong(&self, path: &str, message: impl Into<String>, help: &str) -> Stopped {
-        self.found(vec![Diagnostic::error(path, message.into()).help(help)])
+        self.wrong_as(codes::ANALYSIS, path, message, help)
+    }
+
+    /// As [`Context::wrong`], with the code of its kind.
+    pub fn wrong_as(&self, code: Code, path: &str, message: impl Into<String>, help: &str) -> Stopped {
+        self.found(vec![Diagnostic::error(path, message.into()).help(help).code(code)])
     }
 
     /// Findings about the study.
@@ -409,7 +552,7 @@ impl<'a> Context<'a> {
         self.study.findings(list).into()
     }
 
-    /// Refuses what would hold too many points: so many times so many.
+    /// Rejects too many points in memory: `times` times `points`.
     ///
     /// # Errors
     /// There.
@@ -422,25 +565,26 @@ impl<'a> Context<'a> {
         } else {
             format!(", {points},")
         };
-        let message = format!("more points{of} than the {MOST_HELD} that an analysis can hold");
-        Err(self.wrong(
+        let message = format!("more points{of} than the maximum of {MOST_HELD} in memory");
+        Err(self.wrong_as(
+            codes::TOO_LARGE,
             path,
             message,
-            "take fewer samples, values or points; a `map` over a grid takes more, piece by piece",
+            "use fewer samples, values or points; a `map` over a grid can have more, because it stores none",
         ))
     }
 }
 
-/// Tasks of a stage whose results are not there.
+/// Tasks of a stage without results.
 struct Missing {
     /// Those of this run.
     own: Vec<usize>,
-    /// How many are those of others.
+    /// Number of tasks of others.
     others: usize,
 }
 
 impl Missing {
-    /// Ends the analysis where others have not done their part of the stage.
+    /// Ends the analysis if others have not completed their part of the stage.
     fn end(&self) -> Result<(), Stopped> {
         if self.others == 0 {
             Ok(())
@@ -450,19 +594,20 @@ impl Missing {
     }
 }
 
-/// A kept result is not that of its task.
+/// A stored result does not belong to its task.
 fn unlike(task: Task<'_>) -> Stopped {
     let Task {
         analysis,
+        part,
         stage,
         number,
     } = task;
     Stopped::Unwritten(format!(
-        "error: result {number} of stage {stage} of `{analysis}` is not that of its task\n  = help: delete the folders of the shards and run them again\n"
+        "error: result {number} of stage {stage} in part {part} of `{analysis}` is not that of its task\n  = help: delete the folders of the shards and run them again\n"
     ))
 }
 
-/// The gear state that an entry names, or the first.
+/// The gear of an entry, or the first.
 pub fn gear_of<'t>(named: Option<&'t str>, transmission: &'t Transmission) -> &'t str {
     let first = transmission.states().first().map_or("", |s| s.name.as_str());
     named.unwrap_or(first)

@@ -1,4 +1,4 @@
-//! Duties driven through a gearbox: losses, energies, temperatures.
+//! Simulated cycles: losses, energy, temperatures.
 
 mod bands;
 mod outcome;
@@ -16,6 +16,7 @@ use super::numbers::tidy;
 use super::shares::{Shares, together};
 use super::{Analysis, Context, Entry, Head, Outcome, Stopped};
 use crate::analysis::Note;
+use crate::codes;
 use crate::register_analysis;
 use crate::study::{By, DriveEntry, ToleranceEntry, Uses, Write};
 use crate::table::{Cell, Column, Table};
@@ -25,26 +26,26 @@ pub use outcome::{
     InputOfBand, IntervalOfDuty, ReferenceOfDuty, TemperatureOfNode,
 };
 
-/// Losses, energies and temperatures of duties.
+/// Cycle losses, energy and temperatures.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct CycleAnalysisEntry {
-    /// What is driven, and how.
+    /// Cycles and settings of the simulation.
     #[serde(flatten)]
     pub drive: DriveEntry,
-    /// What the losses are summed by.
+    /// Grouping of losses.
     #[serde(default)]
     pub by: By,
-    /// Mean losses from elsewhere, by duty, such as published ones; told beside the calculated ones.
+    /// Reference mean losses by cycle, such as published values, for comparison.
     #[serde(default)]
     pub reference: Ordered<ReferenceLoss>,
-    /// Uncertain inputs: every duty is driven with values drawn from their distributions.
+    /// Uncertain inputs: every cycle is simulated with values drawn from their distributions.
     #[serde(default)]
     pub inputs: Vec<ToleranceEntry>,
     /// Number of samples of uncertain inputs; powers of two fill the ranges most evenly. [-]
     #[serde(default = "samples")]
     #[schemars(range(min = 8, max = 65536))]
     pub samples: u32,
-    /// Formats to write; absent, CSV, JSON and SVG.
+    /// Formats to write; default: CSV, JSON and SVG.
     #[serde(default = "Write::every_format")]
     pub write: Vec<Write>,
 }
@@ -53,19 +54,19 @@ fn samples() -> u32 {
     64
 }
 
-/// A mean loss from elsewhere.
+/// A reference mean loss.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct ReferenceLoss {
-    /// Mean loss of the transmission over the whole duty. [W]
+    /// Mean loss of the transmission over the whole cycle. [W]
     #[schemars(range(min = 1e-6, max = 1e9))]
     pub loss: f64,
-    /// Where it comes from.
+    /// Provenance.
     pub source: Option<String>,
 }
 
 impl Entry for CycleAnalysisEntry {
     const TYPE: &'static str = "cycle";
-    const MEANING: &'static str = "Losses, energies and temperatures of duties, such as driving cycles.";
+    const MEANING: &'static str = "Cycle losses, energy and temperatures, for driving cycles or load spectra.";
 
     fn uses(&self) -> Uses<'_> {
         Uses::driving(&self.drive)
@@ -85,13 +86,23 @@ impl Analysis for CycleAnalysisEntry {
         let duties = Duties::new(cx, &path, &self.drive)?;
         self.check_reference(cx, &path, &duties)?;
         let names = together(built.iter().map(|b| &b.transmission), self.by);
-        let mut cycles = Vec::new();
         for b in &built {
             duties.check(cx, &path, b)?;
             if cx.only_checks {
                 Input::all(cx, &path, &self.inputs, b)?;
-                continue;
             }
+        }
+        cx.begin()?;
+        let mut all_bands = Vec::new();
+        if !self.inputs.is_empty() {
+            for (i, b) in built.iter().enumerate() {
+                all_bands.extend(cx.part(i, || bands::bands(cx, self, b, (&duties, &names)))?);
+            }
+            cx.complete()?;
+        }
+        cx.undivided()?;
+        let mut cycles = Vec::new();
+        for b in &built {
             let shares = Shares::of(&b.transmission, self.by).under(&names);
             let running = cx.running(duties.intervals(), &b.name);
             for read in &duties.list {
@@ -101,13 +112,10 @@ impl Analysis for CycleAnalysisEntry {
                 cycles.push(results::duty(b, read, &driven, &shares, self.reference.get(&read.name)));
             }
         }
-        cx.begin()?;
-        cx.undivided()?;
         let mut all_left = Vec::new();
-        if !self.inputs.is_empty() {
-            for (b, own) in built.iter().zip(cycles.chunks_mut(duties.list.len())) {
-                all_left.extend(bands::add(cx, self, b, (&duties, &names), own)?);
-            }
+        for (bands, own) in all_bands.into_iter().zip(cycles.chunks_mut(duties.list.len())) {
+            bands.add_to(own);
+            all_left.extend(bands.left());
         }
         Ok(CycleOutcome {
             head: cx.head(&built.iter().collect::<Vec<_>>()),
@@ -122,14 +130,14 @@ impl Analysis for CycleAnalysisEntry {
 }
 
 impl CycleAnalysisEntry {
-    /// Refuses reference losses of duties that the analysis does not have.
+    /// Rejects reference losses of cycles that the analysis does not have.
     fn check_reference(&self, cx: &Context<'_>, path: &str, duties: &Duties<'_>) -> Result<(), Stopped> {
         let names: Vec<&str> = duties.list.iter().map(|read| read.name.as_str()).collect();
         let Some(unknown) = self.reference.ids().find(|id| !names.contains(id)) else {
             return Ok(());
         };
         let path = format!("{path}.reference");
-        Err(cx.found(vec![dangling(&path, "duty of this analysis", unknown, &names)]))
+        Err(cx.found(vec![dangling(&path, "cycle of this analysis", unknown, &names)]))
     }
 }
 
@@ -142,7 +150,7 @@ impl Outcome for CycleOutcome {
         let nodes = self.nodes();
         let mut table = Table::new(&self.head.analysis, self.columns(&nodes));
         for duty in &self.cycles {
-            // Nodes that this set does not have are empty.
+            // Columns of nodes that a set does not have are empty.
             let place = |name: &&str| duty.nodes.iter().position(|own| own.node == **name);
             let places: Vec<Option<usize>> = nodes.iter().map(place).collect();
             for interval in &duty.series {
@@ -175,7 +183,10 @@ impl Outcome for CycleOutcome {
     }
 
     fn left_at_samples(&self) -> Vec<(&str, &str)> {
-        self.left.iter().map(|(path, name)| (path.as_str(), *name)).collect()
+        self.left
+            .iter()
+            .map(|(path, name)| (path.as_str(), name.as_str()))
+            .collect()
     }
 
     fn fault(&self) -> Option<Diagnostic> {
@@ -184,16 +195,20 @@ impl Outcome for CycleOutcome {
             .iter()
             .find_map(|duty| Some((duty, duty.broken.as_ref()?)))?;
         let message = format!(
-            "`{}` could not be driven beyond {} s: {}",
+            "`{}` could not be simulated beyond {} s: {}",
             duty.cycle, broken.time_s, broken.reason
         );
         let error = Diagnostic::error(format!("analyses.{}", self.head.analysis), message);
-        Some(error.help("the results up to there are kept; look at the point with `explain`"))
+        Some(
+            error
+                .help("the results up to there are kept; examine the point with `explain`")
+                .code(codes::BROKEN_OFF),
+        )
     }
 }
 
 impl CycleOutcome {
-    /// Nodes of all duties, in the order of the first.
+    /// Nodes of all cycles, in the order of the first.
     fn nodes(&self) -> Vec<&str> {
         let mut all: Vec<&str> = Vec::new();
         for node in self.cycles.iter().flat_map(|duty| &duty.nodes) {
@@ -208,14 +223,14 @@ impl CycleOutcome {
         let mut columns = vec![
             Column::text("model_set", "Model set"),
             Column::text("cycle", "Duty"),
-            Column::number("time_s", "s", "Time at the beginning of the interval"),
+            Column::number("time_s", "s", "Time at the start of the interval"),
             Column::number("duration_s", "s", "Length of the interval"),
             Column::number("torque_nm", "Nm", "Torque of the reference port"),
             Column::number("speed_rpm", "rpm", "Speed of the reference port"),
             Column::number("vehicle_speed_m_s", "m/s", "Speed of the vehicle"),
-            Column::text("status", "What the transmission does"),
-            Column::number("input_w", "W", "Power that ports put in"),
-            Column::number("output_w", "W", "Power that comes out"),
+            Column::text("status", "State of the transmission"),
+            Column::number("input_w", "W", "Input power"),
+            Column::number("output_w", "W", "Output power"),
             Column::number("loss_w", "W", "Loss of the transmission"),
         ];
         let shares = self.cycles.first().map_or(&[][..], |duty| &duty.shares);
@@ -225,7 +240,7 @@ impl CycleOutcome {
         }));
         columns.extend([
             Column::number("motors_w", "W", "Loss of all motors"),
-            Column::number("brakes_w", "W", "Power that brakes of the vehicle take"),
+            Column::number("brakes_w", "W", "Power dissipated in the brakes of the vehicle"),
         ]);
         let temperatures = |ending: &'static str, which: &'static str| {
             nodes.iter().map(move |node| {

@@ -1,10 +1,10 @@
-//! Duties of a study: read, and driven through a transmission.
+//! Reads and simulates the cycles of a study.
 
 use crate::analysis::{Driven, OilTemperature, Ride, can_drive, drive};
+use crate::codes;
 use crate::duty::{Demand, Duty, Given, Interval, Vehicle};
 use crate::study::{By, Conditions, DriveEntry};
-use gearloss_framework::document::Diagnostic;
-use gearloss_framework::files::{LONGEST_DATA, read_bytes};
+use gearloss_framework::document::{Diagnostic, classify};
 use gearloss_framework::thermal::network::{Network, StepSize};
 use gearloss_framework::transmission::Transmission;
 
@@ -13,23 +13,23 @@ use super::shares::Shares;
 use super::trial::{Left, left};
 use super::{Built, Context, Stopped, gear_of};
 
-/// A duty as read.
+/// A cycle as read.
 pub struct Read {
     /// Name in the study.
     pub name: String,
-    /// What it is made of.
+    /// Its content.
     pub duty: Duty,
     /// Its intervals.
     pub intervals: Vec<Interval>,
     /// Port of recorded torques.
     port: Option<String>,
-    /// What a reader has to know of its file.
+    /// Notes on its file.
     pub about: Option<String>,
 }
 
-/// Duties of an analysis, with how they are driven. It can be shared among threads.
+/// Cycles of an analysis with the settings of the simulation. It can be shared among threads.
 pub struct Duties<'a> {
-    /// The duties.
+    /// The cycles.
     pub list: Vec<Read>,
     vehicle: Option<Vehicle>,
     entry: &'a DriveEntry,
@@ -37,18 +37,18 @@ pub struct Duties<'a> {
 }
 
 impl<'a> Duties<'a> {
-    /// Reads the duties of an analysis at a path.
+    /// Reads the cycles of an analysis at a path.
     pub fn new(cx: &Context<'a>, path: &str, entry: &'a DriveEntry) -> Result<Self, Stopped> {
         let study = &cx.study.entry;
         if entry.step.is_some() && entry.tolerance.is_some() {
             let message = "both `step` and `tolerance` are given";
-            return Err(cx.wrong(path, message, "leave one of them out"));
+            return Err(cx.wrong_as(codes::DUTY, path, message, "delete one of them"));
         }
         let mut found = Vec::new();
         if entry.vehicle.is_none() && study.vehicles.len() > 1 {
             let names: Vec<&str> = study.vehicles.ids().collect();
             let message = format!("the study has several vehicles: {}", names.join(", "));
-            return Err(cx.wrong(path, message, "name one, such as `vehicle: car`"));
+            return Err(cx.wrong_as(codes::DUTY, path, message, "select one, such as `vehicle: car`"));
         }
         let own = entry.vehicle.as_deref().or_else(|| study.vehicles.ids().next());
         let vehicle = own.and_then(|id| Some((id, study.vehicles.get(id)?)));
@@ -61,7 +61,9 @@ impl<'a> Duties<'a> {
             let Some(cycle) = study.cycles.get(name) else { continue };
             let at = format!("cycles.{name}");
             let read = |file: &str| {
-                let bytes = read_bytes(&cx.study.folder.join(file), LONGEST_DATA)
+                let bytes = cx
+                    .study
+                    .read_file(file)
                     .map_err(|e| format!("cannot read {file}: {e}"))?;
                 cx.keep_input(file, &bytes);
                 Ok(bytes)
@@ -72,7 +74,7 @@ impl<'a> Duties<'a> {
                     found.extend(
                         faults
                             .into_iter()
-                            .map(|f| Diagnostic::error(&at, f.message).help(f.help)),
+                            .map(|f| Diagnostic::error(&at, f.message).help(f.help).code(codes::DUTY)),
                     );
                     continue;
                 }
@@ -85,10 +87,11 @@ impl<'a> Duties<'a> {
                     port: cycle.port().map(str::to_owned),
                     about: cycle.about().map(str::to_owned),
                 }),
-                Err(fault) => found.push(Diagnostic::error(&at, fault.message).help(fault.help)),
+                Err(fault) => found.push(Diagnostic::error(&at, fault.message).help(fault.help).code(codes::DUTY)),
             }
         }
         if !found.is_empty() {
+            classify(&mut found, codes::DUTY);
             return Err(cx.study.findings(found).into());
         }
         Ok(Self {
@@ -104,19 +107,19 @@ impl<'a> Duties<'a> {
         self.list.iter().map(|read| read.intervals.len()).sum()
     }
 
-    /// What keeps the duties from being driven through a gearbox.
+    /// Reasons why the cycles cannot be simulated with a gearbox.
     pub fn check(&self, cx: &Context<'_>, path: &str, b: &Built<'_>) -> Result<(), Stopped> {
         let oil = OilTemperature::of(&b.transmission, self.conditions.oil_temperature);
         let in_time = self.list.iter().find(|read| matches!(read.duty, Duty::Trace(_)));
         if let (OilTemperature::Balance, Some(read)) = (oil, in_time) {
             let message = format!(
-                "`{}` goes on in time, and the balance of the gearbox knows none",
+                "`{}` is transient, but the heat balance of the gearbox is steady-state",
                 read.name
             );
             let help = "write `thermal: { mode: network, network: auto }` in the gearbox, or `conditions: { oil_temperature: ... }`";
-            return Err(cx.wrong(path, message, help));
+            return Err(cx.wrong_as(codes::DUTY, path, message, help));
         }
-        // Keys that need temperatures that go on, or that follow.
+        // Keys that need transient or computed temperatures.
         let goes_on = oil == OilTemperature::Network && in_time.is_some();
         let unused = [
             ("start", self.entry.start.is_some() && !goes_on),
@@ -130,24 +133,24 @@ impl<'a> Duties<'a> {
         ];
         if let Some((key, _)) = unused.iter().find(|(_, unused)| *unused) {
             let message = match oil {
-                OilTemperature::Network => "loads without an order in time have no temperatures that go on",
-                OilTemperature::Fixed(_) => "the temperature of the oil is given, so that nothing follows from it",
-                OilTemperature::Balance => "the balance of the gearbox has surroundings of its own",
+                OilTemperature::Network => "loads without an order in time have no transient temperatures",
+                OilTemperature::Fixed(_) => "the oil temperature is given, so this key has no effect",
+                OilTemperature::Balance => "the heat balance of the gearbox states its own ambient temperature",
             };
             let help = match oil {
-                OilTemperature::Network => "leave it out",
-                _ => "leave it out, or let the gearbox have a thermal network",
+                OilTemperature::Network => "delete it",
+                _ => "delete it, or give the gearbox a thermal network",
             };
-            return Err(cx.wrong(&format!("{path}.{key}"), message, help));
+            return Err(cx.wrong_as(codes::DUTY, &format!("{path}.{key}"), message, help));
         }
         let told = |read: &&Read| read.intervals.iter().any(|i| i.given.oil_temperature.is_some());
         if let (OilTemperature::Network, Some(read)) = (oil, self.list.iter().find(told)) {
             let message = format!(
-                "`{}` tells temperatures of the oil, which the thermal network finds itself",
+                "`{}` contains oil temperatures, which the thermal network computes",
                 read.name
             );
-            let help = "leave them out, or give all of them by `conditions: { oil_temperature: ... }`; a column under `temperatures`, with its node, is compared";
-            return Err(cx.wrong(&format!("cycles.{}", read.name), message, help));
+            let help = "delete them, or state `conditions: { oil_temperature: ... }`; a column under `temperatures`, with its node, is used for comparison";
+            return Err(cx.wrong_as(codes::DUTY, &format!("cycles.{}", read.name), message, help));
         }
         for read in &self.list {
             can_drive(&b.transmission, &self.ride(&b.transmission, read)).map_err(|list| unfit(cx, read, list))?;
@@ -175,8 +178,8 @@ impl<'a> Duties<'a> {
                     _ => "a heat exchanger in the thermal network",
                 };
                 let message = format!("`{column}` of `{}` needs {what}", read.name);
-                let help = "leave the column out, or describe what uses it";
-                return Err(cx.wrong(&format!("cycles.{}.columns", read.name), message, help));
+                let help = "delete the column, or describe the component that uses it";
+                return Err(cx.wrong_as(codes::DUTY, &format!("cycles.{}.columns", read.name), message, help));
             }
             let Duty::Trace(trace) = &read.duty else { continue };
             let nodes: Vec<&str> = match network {
@@ -192,7 +195,7 @@ impl<'a> Duties<'a> {
         Ok(())
     }
 
-    /// Drives one of them; absent where `progress` breaks it off.
+    /// Simulates one of them; absent if `progress` interrupts.
     pub fn drive(
         &self,
         t: &Transmission,
@@ -202,13 +205,13 @@ impl<'a> Duties<'a> {
         drive(t, &self.ride(t, read), progress)
     }
 
-    /// How one of them is driven.
+    /// Settings of the simulation of one of them.
     fn ride<'r>(&'r self, t: &'r Transmission, read: &'r Read) -> Ride<'r> {
         let of_port = read.intervals.iter().any(|i| matches!(i.demand, Demand::Port { .. }));
         let longest = read.intervals.iter().map(|i| i.duration).fold(0.0, f64::max);
         Ride {
             intervals: &read.intervals,
-            // What tells no torque belongs to no port, and rests at the reference port.
+            // A series without torque belongs to no port and uses the reference port.
             port: read
                 .port
                 .as_deref()
@@ -230,7 +233,7 @@ impl<'a> Duties<'a> {
     }
 }
 
-/// What keeps a duty from being driven, at the duty.
+/// Moves an error to the cycle that causes it.
 fn unfit(cx: &Context<'_>, read: &Read, list: Vec<Diagnostic>) -> Stopped {
     let at_duty = |mut error: Diagnostic| {
         let key = if error.path == "ports" && read.port.is_some() {
@@ -242,22 +245,22 @@ fn unfit(cx: &Context<'_>, read: &Read, list: Vec<Diagnostic>) -> Stopped {
         error
     };
     let mut list: Vec<Diagnostic> = list.into_iter().map(at_duty).collect();
-    // A port of both torque and speed is unknown once.
+    // An unknown port of both torque and speed is reported once.
     list.dedup();
     cx.study.findings(list).into()
 }
 
-/// Names of the temperatures of a driven duty: nodes, or the oil alone.
+/// Names of the temperatures of a simulated cycle: nodes, or the oil only.
 pub fn nodes(t: &Transmission, driven: &Driven) -> Vec<String> {
     match t.network().filter(|n| n.names().len() == driven.start.len()) {
         Some(network) => network.names().to_vec(),
-        // A duty that could not even begin has no temperature.
+        // A cycle that could not start has no temperature.
         None => vec!["oil".to_owned(); driven.start.len()],
     }
 }
 
-/// Mean losses of a duty.
-#[derive(Debug, Clone, PartialEq)]
+/// Mean losses of a cycle.
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct MeanLoss {
     /// Loss of the transmission. \[W\]
     pub loss: f64,
@@ -265,12 +268,12 @@ pub struct MeanLoss {
     pub shares: Vec<f64>,
 }
 
-/// Why a transmission has no mean losses of the duties.
+/// Why a transmission has no mean losses of the cycles.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Unfinished {
     /// What is wrong.
     pub message: String,
-    /// Why a duty could not be driven further; absent where it was not driven at all.
+    /// Why the simulation of a cycle stopped; absent if it did not start.
     pub reason: Option<String>,
 }
 
@@ -291,7 +294,7 @@ impl Unfinished {
 }
 
 impl Duties<'_> {
-    /// Mean losses of every duty, with shares under the names of several transmissions, and the stated ranges that were left.
+    /// Mean losses of every cycle, with shares under common names of several transmissions, and quantities outside their stated ranges.
     pub fn mean_losses(
         &self,
         cx: &Context<'_>,
@@ -309,7 +312,7 @@ impl Duties<'_> {
                 .ok_or_else(|| "interrupted".to_owned())?;
             if let Some((time, why)) = &driven.broken {
                 return Err(Unfinished {
-                    message: format!("`{}` could not be driven beyond {time} s", read.name),
+                    message: format!("`{}` could not be simulated beyond {time} s", read.name),
                     reason: Some(reason(t, why)),
                 });
             }
@@ -324,11 +327,12 @@ impl Duties<'_> {
     }
 }
 
-/// Refuses sums by the terms of models: energies of duties are kept for parts alone.
+/// Rejects sums by the terms of models, because energies of cycles are stored by component only.
 pub fn sums_energies(cx: &Context<'_>, path: &str, by: By) -> Result<(), Stopped> {
     if matches!(by, By::Term | By::Sum) {
-        let message = "the energies of a duty are summed by mechanism, component or stage";
-        return Err(cx.wrong(
+        let message = "the energies of a cycle can be summed by mechanism, component or stage only";
+        return Err(cx.wrong_as(
+            codes::DUTY,
             &format!("{path}.by"),
             message,
             "write `by: mechanism`, `component` or `stage`",

@@ -1,9 +1,8 @@
-//! Mean losses of duties over one property of an oil, and where they are least.
+//! Mean cycle losses over one property of an oil, and their minimum.
 
 mod least;
 mod swept;
 
-use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -20,34 +19,34 @@ use crate::table::{Cell, Column, Table};
 
 pub use least::LeastLoss;
 
-/// Mean losses of duties over one property of an oil.
+/// Mean cycle losses over one property of an oil.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct FluidSweepEntry {
-    /// What is driven, and how.
+    /// Cycles and settings of the simulation.
     #[serde(flatten)]
     pub drive: DriveEntry,
-    /// Oil; absent, that of the housing.
+    /// Oil; default: the oil of the housing.
     pub lubricant: Option<String>,
-    /// Viscosities at 100 degC of hypothetical oils of one viscosity index; those below 2 mm2/s, where the index is not defined, are
+    /// Viscosities at 100 degC of hypothetical oils with one viscosity index; values below 2 mm2/s, for which the index is not defined, are
     /// marked. [mm2/s]
     #[serde(default)]
     #[schemars(inner(range(min = 0.5, max = 1000.0)))]
     pub kv100: Vec<f64>,
-    /// Their viscosity index; absent, that of the oil. [-]
+    /// Their viscosity index; default: that of the oil. [-]
     #[schemars(range(min = 0.0, max = 400.0))]
     pub vi: Option<f64>,
-    /// Another property of the oil in place of the viscosity, such as `rheology.tau0`.
+    /// Another property of the oil instead of the viscosity, such as `rheology.tau0`.
     pub property: Option<String>,
     /// Its values, each as in a gearbox: `[4 MPa, 6 MPa]`.
     #[serde(default)]
     pub values: Vec<Value>,
-    /// Further values are driven between those that are listed until the least loss is found.
+    /// Adds values between the listed ones until the minimum loss is found.
     #[serde(default = "yes")]
     pub refine: bool,
-    /// What the losses are summed by.
+    /// Grouping of losses.
     #[serde(default)]
     pub by: By,
-    /// Formats to write; absent, CSV, JSON and SVG.
+    /// Formats to write; default: CSV, JSON and SVG.
     #[serde(default = "Write::every_format")]
     pub write: Vec<Write>,
 }
@@ -58,7 +57,7 @@ fn yes() -> bool {
 
 impl Entry for FluidSweepEntry {
     const TYPE: &'static str = "fluid_sweep";
-    const MEANING: &'static str = "Mean losses of duties over one property of an oil, and where they are least.";
+    const MEANING: &'static str = "Mean cycle losses over one property of an oil, and their minimum.";
 
     fn uses(&self) -> Uses<'_> {
         Uses::driving(&self.drive)
@@ -67,47 +66,47 @@ impl Entry for FluidSweepEntry {
 
 register_analysis!(FluidSweepEntry);
 
-/// Mean losses over one property of an oil under each model set.
+/// Mean losses over one property of an oil with each model set.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct FluidSweepOutcome {
-    /// Where it comes from.
+    /// Provenance.
     #[serde(flatten)]
     pub head: Head,
     /// One for each model set.
     pub fluid_sweep: Vec<FluidsOfSet>,
-    /// Stated ranges that oils left, set after set.
+    /// Quantities outside their stated ranges with any oil, by set.
     #[serde(skip)]
-    pub left: Vec<(String, &'static str)>,
+    pub left: Vec<(String, String)>,
 }
 
-/// Mean losses over one property of an oil under one model set.
+/// Mean losses over one property of an oil with one model set.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct FluidsOfSet {
     /// Name of the set.
     pub model_set: String,
-    /// The property with its unit, which is that of all its values.
+    /// The property with its unit.
     pub property: String,
-    /// Names of the shares of the loss, those of all sets.
+    /// Names of the shares of the loss of all sets.
     pub shares: Vec<String>,
-    /// One for each duty.
+    /// One for each cycle.
     pub cycles: Vec<FluidsOfDuty>,
     /// Unit of the property.
     #[serde(skip)]
     pub unit: &'static str,
 }
 
-/// Mean losses of one duty over one property of an oil.
+/// Mean losses of one cycle over one property of an oil.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct FluidsOfDuty {
-    /// Name of the duty.
+    /// Name of the cycle.
     pub cycle: String,
-    /// Where the mean loss is least.
+    /// The lowest-loss oil.
     pub least: LeastLoss,
-    /// The oils, rising by value.
+    /// The oils in ascending order of the value.
     pub fluids: Vec<LossOfFluid>,
 }
 
-/// Mean loss of one duty with one oil.
+/// Mean loss of one cycle with one oil.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct LossOfFluid {
     /// Value of the property, in its unit.
@@ -116,23 +115,23 @@ pub struct LossOfFluid {
     pub mean_loss_w: f64,
     /// The same by share, in the order of the names. [W]
     pub mean_losses_w: Vec<f64>,
-    /// True where the property has no definition: a viscosity index below 2 mm2/s.
+    /// True if the property is not defined: viscosity index below 2 mm2/s.
     pub beyond_definition: bool,
-    /// True where the value came up in the search for the least loss.
+    /// True if the value was added by the search for the minimum loss.
     pub refined: bool,
 }
 
-/// One hypothetical oil, driven.
+/// Results of one hypothetical oil.
 struct Fluid {
     /// Value of the property: mm2/s at 100 degC, or in the unit of the path.
     value: f64,
-    /// For each duty its mean loss.
+    /// Mean loss of each cycle.
     losses: Vec<MeanLoss>,
-    /// True where it came up in the search for the least loss.
+    /// True if it was added by the search for the minimum loss.
     refined: bool,
 }
 
-/// Drives oils under one set.
+/// Simulates oils with one set.
 struct Search<'a> {
     cx: &'a Context<'a>,
     entry: &'a FluidSweepEntry,
@@ -140,9 +139,9 @@ struct Search<'a> {
     names: &'a [String],
     swept: &'a Swept,
     trial: Trial<'a>,
-    /// What progress is reported as.
+    /// Label of the progress.
     label: String,
-    /// Rising by value.
+    /// Ascending by value.
     fluids: Vec<Fluid>,
     left: Left,
 }
@@ -159,7 +158,7 @@ impl Analysis for FluidSweepEntry {
         let built = cx.built(gearbox, &self.drive.model_sets)?;
         let names = together(built.iter().map(|b| &b.transmission), self.by);
         let (mut sets, mut all_left) = (Vec::new(), Vec::new());
-        for b in &built {
+        for (i, b) in built.iter().enumerate() {
             duties.check(cx, &path, b)?;
             let swept = Swept::new(cx, &path, self, b)?;
             let values = swept.values(cx, &path, self)?;
@@ -178,15 +177,17 @@ impl Analysis for FluidSweepEntry {
                 search.check(&values)?;
                 continue;
             }
-            search.drive(&values, false)?;
-            if self.refine {
-                search.refine()?;
+            let driven = cx.part(i, || {
+                search.drive(&values, false)?;
+                if self.refine { search.refine() } else { Ok(()) }
+            })?;
+            if driven.is_some() {
+                sets.push(search.result(b));
+                all_left.extend(search.left);
             }
-            sets.push(search.result(b));
-            all_left.extend(search.left);
         }
         cx.begin()?;
-        cx.undivided()?;
+        cx.complete()?;
         Ok(FluidSweepOutcome {
             head: cx.head(&built.iter().collect::<Vec<_>>()),
             fluid_sweep: sets,
@@ -200,11 +201,11 @@ impl Analysis for FluidSweepEntry {
 }
 
 impl FluidSweepEntry {
-    /// Refuses keys that do not go together.
+    /// Rejects contradictory keys.
     fn check_keys(&self, cx: &Context<'_>, path: &str) -> Result<(), Stopped> {
         let viscosity = !self.kv100.is_empty() || self.vi.is_some();
         let message = match (&self.property, viscosity, self.values.is_empty()) {
-            (Some(_), true, _) => "`property` beside `kv100` or `vi`",
+            (Some(_), true, _) => "both `property` and `kv100` or `vi`",
             (None, _, false) => "`values` without a `property`",
             _ => return Ok(()),
         };
@@ -226,16 +227,12 @@ impl Search<'_> {
         Ok(())
     }
 
-    /// Drives all duties with oils of some values, and keeps them.
+    /// Simulates all cycles with oils of some values, and stores the results.
     fn drive(&mut self, values: &[f64], refined: bool) -> Result<(), Stopped> {
-        let running = self.cx.running(values.len(), &self.label);
-        let driven = |value: &f64| {
-            let losses = self.mean_losses(*value);
-            running.advance(1);
-            (*value, losses)
-        };
-        let all: Vec<_> = values.par_iter().with_max_len(1).map(driven).collect();
-        for (value, result) in all {
+        let all = self
+            .cx
+            .each(&self.label, values.len(), |i| self.mean_losses(values[i]))?;
+        for (value, result) in values.iter().copied().zip(all) {
             let (losses, more) = result.map_err(|reason| self.failed(value, &reason))?;
             self.left.extend(more);
             self.fluids.push(Fluid { value, losses, refined });
@@ -250,7 +247,7 @@ impl Search<'_> {
         losses.map_err(Unfinished::text)
     }
 
-    /// Drives further oils: each round, for every duty, the one at which a parabola through the three best oils is least.
+    /// Simulates further oils: in each round, for every cycle, the oil at the minimum of a parabola through the three best oils.
     fn refine(&mut self) -> Result<(), Stopped> {
         for _ in 0..least::ROUNDS {
             let duties = 0..self.duties.list.len();
@@ -265,16 +262,16 @@ impl Search<'_> {
         Ok(())
     }
 
-    /// Value and mean loss of each oil for a duty.
+    /// Value and mean loss of each oil for a cycle.
     fn points(&self, duty: usize) -> Vec<(f64, f64)> {
         self.fluids.iter().map(|f| (f.value, f.losses[duty].loss)).collect()
     }
 
     fn failed(&self, value: f64, reason: &str) -> Stopped {
         if !self.cx.goes_on() {
-            return Stopped::Interrupted;
+            return self.cx.why_ended();
         }
-        let help = "leave the value out, or narrow the range";
+        let help = "delete the value, or narrow the range";
         self.cx.wrong(&self.cx.path(), format!("{value}: {reason}"), help)
     }
 
@@ -320,10 +317,10 @@ impl Outcome for FluidSweepOutcome {
                 first.map_or("-", |set| set.unit),
                 "Value of the property of the oil",
             ),
-            Column::text("beyond_definition", "true where the property has no definition"),
+            Column::text("beyond_definition", "true if the property is not defined"),
             Column::text(
                 "refined",
-                "true where the value came up in the search for the least loss",
+                "true if the value was added by the search for the minimum loss",
             ),
             Column::number("mean_loss_w", "W", "Mean loss of the transmission"),
         ];
@@ -353,6 +350,9 @@ impl Outcome for FluidSweepOutcome {
     }
 
     fn left_at_samples(&self) -> Vec<(&str, &str)> {
-        self.left.iter().map(|(path, name)| (path.as_str(), *name)).collect()
+        self.left
+            .iter()
+            .map(|(path, name)| (path.as_str(), name.as_str()))
+            .collect()
     }
 }

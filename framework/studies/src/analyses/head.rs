@@ -1,4 +1,4 @@
-//! Where a result comes from: versions, conditions, inputs with their hashes, changed coefficients.
+//! Provenance of a result: versions, conditions, inputs with their hashes, changed coefficients.
 
 use std::path::Path;
 
@@ -20,35 +20,35 @@ pub struct Head {
     pub format: &'static str,
     /// Version of the program.
     pub gearloss: &'static str,
-    /// Crates that brought models.
+    /// Crates with models.
     pub packages: Vec<Package>,
     /// Title of the study.
     pub study: Option<String>,
     /// Name of the analysis.
     pub analysis: String,
-    /// What every analysis of the study starts from.
+    /// Conditions of all analyses of the study.
     pub conditions: ConditionsOfResult,
-    /// The study, its gearboxes and the files that they and the analysis have read.
+    /// The study, its gearboxes and the files that they and the analysis read.
     pub inputs: Vec<InputFile>,
     /// Coefficients that differ from the published value.
     pub changed_from_source: Vec<ChangedOfSet>,
-    /// Models of a set that no component takes.
+    /// Models of a set that no component uses.
     pub unreached: Vec<UnreachedOfSet>,
-    /// What entries of data say of their files.
+    /// Notes of data entries on their files.
     #[serde(skip)]
     pub about_data: Vec<String>,
 }
 
-/// What every analysis of a study starts from.
+/// Conditions of all analyses of a study.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct ConditionsOfResult {
-    /// Port at which the torque is given.
+    /// Port with given torque.
     pub torque_at: String,
-    /// Port at which the speed is given.
+    /// Port with given speed.
     pub speed_at: String,
-    /// Temperature of the oil; absent, that of the gearbox. [degC]
+    /// Oil temperature; absent: from the gearbox. [degC]
     pub oil_temperature_degc: Option<f64>,
-    /// Whether losses change the torques of what comes after them.
+    /// Whether torque downstream is reduced by upstream losses.
     pub power_flow: PowerFlow,
     /// Overrides: resolved path to value.
     pub set: Ordered<Value>,
@@ -74,7 +74,7 @@ pub struct ChangedOfSet {
     pub coefficients: Vec<Changed>,
 }
 
-/// Models of a set that no component takes.
+/// Models of a set that no component uses.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct UnreachedOfSet {
     /// Name of the set.
@@ -152,7 +152,7 @@ pub fn inputs(study: &Study) -> Vec<InputFile> {
     list
 }
 
-/// FNV-1a, 64 bit: tells whether an input changed, no more.
+/// FNV-1a, 64 bit: only detects changes of an input.
 pub fn fnv1a_64(bytes: &[u8]) -> u64 {
     fnv1a_from(FNV_BASIS, bytes)
 }
@@ -160,7 +160,7 @@ pub fn fnv1a_64(bytes: &[u8]) -> u64 {
 /// The hash of nothing.
 pub const FNV_BASIS: u64 = 0xcbf2_9ce4_8422_2325;
 
-/// Goes on with a hash over more bytes.
+/// Continues a hash over more bytes.
 pub fn fnv1a_from(hash: u64, bytes: &[u8]) -> u64 {
     bytes.iter().fold(hash, |hash, byte| {
         (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3)

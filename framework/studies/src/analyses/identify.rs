@@ -1,4 +1,4 @@
-//! Uncertain parameters, found from measured points, with what the points say about each.
+//! Identification of uncertain parameters from measured points.
 
 pub mod checks;
 pub mod compare;
@@ -11,6 +11,7 @@ pub mod next;
 pub mod outcome;
 pub mod parameter;
 pub mod posterior;
+mod published;
 mod record;
 pub mod search;
 mod tables;
@@ -19,7 +20,7 @@ mod values;
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_numerics::inference::{Accuracy, Fold};
-use gearloss_numerics::least_squares::{self, Fault, Loss};
+use gearloss_numerics::least_squares::{self, Fault, Loss, OneSearch};
 
 pub use entry::{IdentifyEntry, NextEntry, PosteriorEntry, RobustEntry, RobustLoss, RuleEntry};
 pub use folds::{FoldOfSet, FoldsOfSet};
@@ -27,6 +28,7 @@ pub use outcome::{IdentificationOfSet, IdentifyOutcome};
 
 use super::{Analysis, Built, Context, Stopped, gear_of};
 use crate::analysis::Rows;
+use crate::codes;
 use crate::identify::{Faults, HoldOut, Identification, Settings, group_words};
 use crate::measured::Measured;
 use crate::register_analysis;
@@ -56,11 +58,11 @@ impl Analysis for IdentifyEntry {
             file: &file,
         };
         let mut identifications = Vec::new();
-        for b in &built {
-            identifications.extend(identify(cx, self, b, &points)?);
+        for (i, b) in built.iter().enumerate() {
+            identifications.extend(cx.part(i, || identify(cx, self, b, &points))?.flatten());
         }
         cx.begin()?;
-        cx.undivided()?;
+        cx.complete()?;
         let (comparison_of_sets, not_compared) = match compare::compare(&identifications) {
             None => (None, None),
             Some(Ok(compared)) => (Some(compared), None),
@@ -95,16 +97,16 @@ impl Analysis for IdentifyEntry {
     }
 }
 
-/// Refuses what contradicts itself.
+/// Rejects contradictory keys.
 fn refuse(cx: &Context<'_>, entry: &IdentifyEntry) -> Result<(), Stopped> {
     let path = cx.path();
     if entry.folds == FoldsEntry::Torques(1) {
-        let message = "one group of torques cannot be predicted from others";
-        return Err(cx.wrong(&format!("{path}.folds"), message, "write 2 or more, or 0 for none"));
+        let message = "cross-validation needs at least two groups";
+        return Err(cx.wrong(&format!("{path}.folds"), message, "write at least 2, or 0 for none"));
     }
     if entry.accuracy_factors && loss(entry) != Loss::Linear {
-        let message = "a robust loss takes far points as such, a factor of the accuracy takes them as scatter";
-        return Err(cx.wrong(&format!("{path}.accuracy_factors"), message, "leave one of them out"));
+        let message = "a robust loss and factors of the accuracies are contradictory: one treats distant points as outliers, the other as scatter";
+        return Err(cx.wrong(&format!("{path}.accuracy_factors"), message, "delete one of them"));
     }
     Ok(())
 }
@@ -124,7 +126,7 @@ impl Points<'_> {
     }
 }
 
-/// Fits the parameters under one set; nothing where the analysis is only checked.
+/// Fits the parameters with one set; absent if the analysis is only checked.
 fn identify(
     cx: &Context<'_>,
     entry: &IdentifyEntry,
@@ -133,8 +135,8 @@ fn identify(
 ) -> Result<Option<IdentificationOfSet>, Stopped> {
     let mut identification = stated(cx, entry, b, points)?;
     if entry.accuracy_factors && identification.accuracy() == Accuracy::Estimated {
-        let message = "no accuracy is stated that could be wrong by a factor";
-        let help = "state the accuracies, or leave it out";
+        let message = "`accuracy_factors` needs stated accuracies";
+        let help = "state the accuracies, or delete it";
         return Err(cx.wrong(&format!("{}.accuracy_factors", cx.path()), message, help));
     }
     posterior::check(cx, entry, &identification)?;
@@ -145,16 +147,24 @@ fn identify(
         return Ok(None);
     }
     let pressed = || !cx.goes_on();
+    let searches = |count: usize, search: &OneSearch<'_>| {
+        let fits = cx.each(&format!("{} starts", b.name), count, search);
+        fits.unwrap_or_else(|stopped| {
+            cx.end(stopped);
+            vec![Err(Fault::single("the search", "it was broken off", "run it again"))]
+        })
+    };
     let settings = Settings {
         loss: loss(entry),
         loss_scale: entry.robust.map_or(2.0, |robust| robust.scale),
         starts: entry.starts as usize,
         accuracy_factors: entry.accuracy_factors,
         interrupt: Some(&pressed),
+        searches: Some(&searches),
     };
     let fitted = match identification.fit(&settings) {
         Ok(fitted) => fitted,
-        Err(_) if pressed() => return Err(Stopped::Interrupted),
+        Err(_) if pressed() => return Err(cx.why_ended()),
         Err(fault) => return Err(fault_of_search(cx, &fault)),
     };
     let gear = gear_of(entry.gear.as_deref(), &b.transmission);
@@ -167,7 +177,7 @@ fn identify(
     Ok(Some(IdentificationOfSet::new(&b.name, entry, found, beside)))
 }
 
-/// The identification under one set, before anything is fitted.
+/// The identification with one set, before the fit.
 fn stated<'s>(
     cx: &'s Context<'_>,
     entry: &'s IdentifyEntry,
@@ -208,13 +218,13 @@ fn below(cx: &Context<'_>, found: Diagnostic) -> Stopped {
     cx.found(vec![Diagnostic { path, ..found }])
 }
 
-/// The rows that are held out, where there are any.
+/// The held-out rows, if there are any.
 fn held_out(cx: &Context<'_>, entry: &IdentifyEntry, measured: &Measured) -> Result<Option<HoldOut>, Stopped> {
     let Some(chosen) = &entry.hold_out else {
         return Ok(None);
     };
     let choice = HoldOut::choose(chosen, measured).map_err(|found| below(cx, found))?;
-    // Parameters between equal bounds are held.
+    // Parameters with equal bounds are fixed.
     let entries = entry.parameters.iter().map(|(_, parameter)| parameter);
     let free: Vec<_> = entries.filter(|p| p.from.is_none() || p.from != p.to).collect();
     let of_entry = |p: &&IdentifiedEntry| p.over.as_ref().map_or(1, |over| over.torques.len());
@@ -224,7 +234,7 @@ fn held_out(cx: &Context<'_>, entry: &IdentifyEntry, measured: &Measured) -> Res
     Ok(Some(choice))
 }
 
-/// Groups of which each is predicted from the others; the reason where torques make none, and nothing where none are requested.
+/// Groups for cross-validation; the reason if there are none, absent if not requested.
 fn groups(
     cx: &Context<'_>,
     entry: &IdentifyEntry,
@@ -232,7 +242,7 @@ fn groups(
 ) -> Result<Option<Result<Vec<Fold>, String>>, Stopped> {
     match (&entry.folds, identification.groups(&entry.folds)) {
         (FoldsEntry::Torques(0), _) => Ok(None),
-        // Files of one torque are fitted all the same.
+        // Files with one torque are also fitted.
         (FoldsEntry::Torques(_), found) => Ok(Some(found.map_err(|found| found.message))),
         (FoldsEntry::By(_), found) => found.map(|folds| Some(Ok(folds))).map_err(|found| below(cx, found)),
     }
@@ -249,12 +259,14 @@ fn loss(entry: &IdentifyEntry) -> Loss {
     }
 }
 
-/// Faults of the search, at the analysis.
+/// Errors of the search at the analysis.
 fn fault_of_search(cx: &Context<'_>, fault: &Fault) -> Stopped {
     let path = cx.path();
     let finding = |f: &least_squares::Finding| {
         let message = format!("{}: {}", f.place, f.message);
-        Diagnostic::error(&path, message).help(f.help.clone())
+        Diagnostic::error(&path, message)
+            .help(f.help.clone())
+            .code(codes::NO_CONVERGENCE)
     };
     cx.found(fault.findings.iter().map(finding).collect())
 }

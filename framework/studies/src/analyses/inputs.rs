@@ -1,5 +1,6 @@
 //! Uncertain inputs: quantities of the description with distributions.
 
+use crate::codes;
 use crate::study::{Shape, ToleranceEntry};
 use gearloss_numerics::sampling::Distribution;
 
@@ -14,7 +15,7 @@ pub struct Input {
 }
 
 impl Input {
-    /// All inputs of an analysis at a path; each quantity once.
+    /// All inputs of an analysis at a path, without repetition.
     pub fn all(cx: &Context<'_>, path: &str, entries: &[ToleranceEntry], b: &Built<'_>) -> Result<Vec<Self>, Stopped> {
         let path = format!("{path}.inputs");
         let of = |(i, input)| Self::new(cx, &format!("{path}.{i}"), input, b);
@@ -26,14 +27,14 @@ impl Input {
 
     fn new(cx: &Context<'_>, path: &str, entry: &ToleranceEntry, b: &Built<'_>) -> Result<Self, Stopped> {
         let range = Range::new(cx, path, &entry.range, b)?;
-        // The others are moved onto the range of the schema.
+        // Values outside the range of the schema are moved to its ends.
         if entry.distribution != Shape::Normal {
             range.inside(cx, path)?;
         }
         let [low, high] = range.ends;
         let distribution = match entry.distribution {
             Shape::Uniform => Distribution::uniform(low, high),
-            // 95 % of a normal distribution lie within 1.96 deviations.
+            // 95 % of a normal distribution are within 1.96 deviations.
             Shape::Normal => Distribution::normal(0.5 * (low + high), 0.5 * (high - low) / 1.959964),
             Shape::Triangular => {
                 let mode = range.varied.start().unwrap_or(0.5 * (low + high));
@@ -42,7 +43,7 @@ impl Input {
         };
         let wrong = |reason: String| {
             let message = format!("{}: {reason}", entry.range.path);
-            cx.wrong(path, message, "give a range that is wider than nothing")
+            cx.wrong_as(codes::VARIED, path, message, "give a range with a positive width")
         };
         Ok(Self {
             distribution: distribution.map_err(wrong)?,
@@ -50,7 +51,7 @@ impl Input {
         })
     }
 
-    /// The value below which a share of all values lies, in the unit of the path.
+    /// The quantile of a probability, in the unit of the path.
     pub fn value(&self, share: f64) -> Result<f64, String> {
         let [least, greatest] = self.range.varied.range;
         Ok(self.distribution.value(share)?.clamp(least, greatest))

@@ -1,6 +1,10 @@
 //! Losses and efficiency over a grid, or at the points of a file.
 
+mod axes;
+mod entry;
 pub mod export;
+mod exported;
+mod outcome;
 mod plan;
 mod points;
 mod shown;
@@ -8,14 +12,13 @@ mod shown;
 use std::ops::Range;
 use std::sync::Arc;
 
-use gearloss_framework::description::Ordered;
 use gearloss_framework::loss::Extent;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
+pub use axes::Axes;
+pub use entry::MapEntry;
 pub use export::{ExportFile, ExportFormat, ExportMap, ExportName, Refusal};
-pub use plan::Axes;
+pub use outcome::{MapOfSet, MapOutcome, Mark, NotesOfSet, PartModel, SumMeaning};
 pub use points::MapPoints;
 pub use shown::{LossGrid, SHOWN, ShownGrid, ShownMap, ShownPoint};
 
@@ -23,177 +26,14 @@ use self::export::ExportData;
 use self::plan::{Planned, on_grid};
 use self::points::{RowsOf, Taken, Taker, UndefinedLoss, columns};
 use self::shown::Selection;
-use super::numbers::word;
-use super::{Analysis, Built, Context, Entry, Head, Outcome, Stopped};
-use crate::analysis::{
-    Field, Note, Numbered, OilTemperature, Piece, PointResult, SUMS, WeakPoint, evidence, merge, notes,
-};
+use super::{Analysis, Built, Context, Stopped};
+use crate::analysis::{Field, Note, Numbered, OilTemperature, Piece, PointResult, SUMS, evidence, merge, notes};
 use crate::measured::Measured;
 use crate::register_analysis;
-use crate::study::{Data, Uses, Write};
+use crate::study::{Data, Write};
 use crate::table::Table;
 
-/// Losses and efficiency over a grid.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
-pub struct MapEntry {
-    /// Gearbox; absent, the first.
-    pub gearbox: Option<String>,
-    /// Grid; not with `points`.
-    pub grid: Option<String>,
-    /// File of points in place of a grid, as of measured data: torque, speed, and where it has them gear state and temperature
-    /// of the oil, which then holds for its point.
-    pub points: Option<Data>,
-    /// Columns of the points that change a value of the gearbox: column to resolved path.
-    #[serde(default)]
-    pub bind: Ordered<String>,
-    /// Gear state of the points where no column says it; absent, the first.
-    pub gear: Option<String>,
-    /// Measured points that are drawn into the pictures.
-    pub measured: Option<Data>,
-    /// Sets of models; absent, the models of the gearbox. `PRODUCT/SET` takes another gearbox, `PRODUCT/own` its own models.
-    #[serde(default)]
-    pub model_sets: Vec<String>,
-    /// Formats to write; absent, CSV and JSON. Pictures show efficiency, loss and, with a balance, temperature.
-    #[serde(default = "Write::data")]
-    pub write: Vec<Write>,
-    /// Tables of losses for other programs, one file for each gear state; a grid is needed.
-    #[serde(default)]
-    pub export: Vec<ExportName>,
-    /// Largest share of the loss torque by which the straight lines of a `lossy_gear` table may miss it at a point of the grid;
-    /// above it the table is refused. [-]
-    #[serde(default = "quarter")]
-    #[schemars(range(min = 0.0, max = 100.0))]
-    pub lossy_gear_limit: f64,
-}
-
-/// About what sets of models differ by among themselves.
-fn quarter() -> f64 {
-    0.25
-}
-
-impl Entry for MapEntry {
-    const TYPE: &'static str = "map";
-    const MEANING: &'static str = "Losses and efficiency over a grid.";
-
-    fn uses(&self) -> Uses<'_> {
-        Uses {
-            grid: self.grid.as_ref(),
-            ..Uses::new(self.gearbox.as_ref(), &self.model_sets)
-                .at(&self.gear)
-                .bind(&self.bind)
-                .with("points", self.points.as_ref())
-                .with("measured", self.measured.as_ref())
-        }
-    }
-}
-
 register_analysis!(MapEntry);
-
-/// The maps of an analysis.
-#[derive(Debug, Clone, Serialize, JsonSchema)]
-pub struct MapOutcome {
-    /// Where it comes from.
-    #[serde(flatten)]
-    pub head: Head,
-    /// One for each gear state, each model set and each combination of bound values.
-    pub maps: Vec<MapOfSet>,
-    /// The points of all maps; without rows where these were handed over as they came ([`Context::sink`]).
-    #[serde(skip)]
-    pub table: Table,
-    /// What there is to say of the file of points.
-    #[serde(skip)]
-    pub about_points: Vec<String>,
-    /// What there is to say of the file of measured points.
-    #[serde(skip)]
-    pub about_measured: Vec<String>,
-    /// Measured points, to be drawn.
-    #[serde(skip)]
-    pub marks: Vec<Mark>,
-    /// Notes of all maps of a set together, where these make one table over a bound value.
-    #[serde(skip)]
-    pub notes_of_sets: Option<Vec<NotesOfSet>>,
-    /// Tables for other programs that are asked for.
-    #[serde(skip)]
-    pub exports: Vec<ExportName>,
-    /// Largest share by which straight lines of a `lossy_gear` table may miss the loss torque.
-    #[serde(skip)]
-    pub lossy_gear_limit: f64,
-}
-
-/// A map under one model set in one gear state with one combination of bound values.
-#[derive(Debug, Clone, Serialize, JsonSchema)]
-pub struct MapOfSet {
-    /// Name of the set.
-    pub model_set: String,
-    /// Gear state.
-    pub gear: String,
-    /// Bound values: resolved path to value.
-    pub bound: serde_json::Map<String, Value>,
-    /// Temperature of the oil; absent, each point has its own. [degC]
-    pub oil_temperature_degc: Option<f64>,
-    /// The sums of losses that each point has.
-    pub sums: Vec<SumMeaning>,
-    /// The parts whose losses each point has, in their order.
-    pub parts: Vec<PartModel>,
-    /// Passes over the loss models.
-    pub passes: usize,
-    /// What models noted.
-    pub notes: Vec<Note>,
-    /// What is weakly founded.
-    pub evidence: Vec<WeakPoint>,
-    /// The points.
-    #[schemars(with = "Vec<points::MapPoint<'static>>")]
-    pub points: MapPoints,
-    /// How the temperature of the oil is found.
-    #[serde(skip)]
-    pub oil: OilTemperature,
-    /// What pictures and texts show.
-    #[serde(skip)]
-    pub shown: ShownMap,
-    /// What tables for other programs need beside the points.
-    #[serde(skip)]
-    pub export: ExportData,
-}
-
-/// A sum of losses.
-#[derive(Debug, Clone, Copy, Serialize, JsonSchema)]
-pub struct SumMeaning {
-    /// Name.
-    pub sum: &'static str,
-    /// What it sums.
-    pub meaning: &'static str,
-}
-
-/// A part with losses.
-#[derive(Debug, Clone, Serialize, JsonSchema)]
-pub struct PartModel {
-    /// Path.
-    pub part: String,
-    /// Loss mechanism.
-    pub mechanism: &'static str,
-    /// Model.
-    pub model: &'static str,
-}
-
-/// A measured point, to be drawn.
-#[derive(Debug, Clone)]
-pub struct Mark {
-    /// Gear state; absent, any.
-    pub gear: Option<String>,
-    /// Torque. [Nm]
-    pub torque: f64,
-    /// Speed. [rad/s]
-    pub speed: f64,
-}
-
-/// Notes of all maps of a set.
-#[derive(Debug, Clone)]
-pub struct NotesOfSet {
-    /// Name of the set.
-    pub model_set: String,
-    /// The notes.
-    pub notes: Vec<Note>,
-}
 
 impl Analysis for MapEntry {
     type Outcome = MapOutcome;
@@ -217,7 +57,7 @@ impl MapEntry {
         for plan in &planned {
             cx.checked(&plan.built, &plan.points)?;
         }
-        export::check(cx, &self.export, &planned)?;
+        exported::check(cx, &self.export, &planned)?;
         if cx.only_checks {
             self.measured(cx)?;
             return Err(Stopped::Checked);
@@ -228,8 +68,8 @@ impl MapEntry {
         let all: Vec<&Built<'_>> = planned.iter().map(|plan| &*plan.built).collect();
         let mut rows = Rows::new(cx, self, &bound, &all);
         let whole = !self.export.is_empty();
-        let (mut maps, mut elsewhere) = (Vec::new(), false);
-        for plan in &planned {
+        let mut maps = Vec::new();
+        for (number, plan) in planned.iter().enumerate() {
             let mut map = Map::new(&plan.built, &plan.bound, &plan.points.gear, plan.points.oil, &rows);
             map.shown = ShownMap::new(Some(&plan.axes), whole);
             let taker = Taker {
@@ -239,28 +79,25 @@ impl MapEntry {
                 wanted: rows.wanted,
             };
             let take = |points: &mut Numbered<'_>| taker.take(points);
-            let solved = cx.solve_pieces(&plan.built, &plan.points, &take, &mut |piece| {
-                map.add(piece, &taker.rows, &mut rows)
-            });
-            // A run that solves its part goes on with that of the next map.
-            if let Err(Stopped::Elsewhere) = solved {
-                elsewhere = true;
+            let solve = || {
+                cx.solve_pieces(&plan.built, &plan.points, &take, &mut |piece| {
+                    map.add(piece, &taker.rows, &mut rows)
+                })
+            };
+            if cx.part(number, solve)?.is_none() {
                 continue;
             }
-            solved?;
             map.notes = notes(&plan.built.transmission, &map.seen);
             maps.push(map);
         }
-        if elsewhere {
-            return Err(Stopped::Elsewhere);
-        }
+        cx.complete()?;
         for map in &mut maps {
             map.export = ExportData::solve(cx, &self.export, map)?;
         }
         self.outcome(cx, rows, maps, Vec::new())
     }
 
-    /// The points of the maps over the grid that the entry names.
+    /// The points of the maps over the grid of the entry.
     fn planned<'s>(&'s self, cx: &'s Context<'_>) -> Result<Vec<Planned<'s>>, Stopped> {
         let path = cx.path();
         let gearbox = cx.gearbox(self.gearbox.as_ref())?;
@@ -276,7 +113,7 @@ impl MapEntry {
         }
     }
 
-    /// One map for each set, each gear state and each combination of bound values that the rows of a file have.
+    /// One map for each set, gear and combination of bound values of the rows of a file.
     fn over_list(&self, cx: &Context<'_>, points: &Data) -> Result<MapOutcome, Stopped> {
         let path = cx.path();
         let gearbox = cx.gearbox(self.gearbox.as_ref())?;
@@ -284,7 +121,7 @@ impl MapEntry {
             return Err(cx.wrong(
                 &format!("{path}.export"),
                 "a table for another program needs a grid",
-                "give `grid` in place of `points`",
+                "give `grid` instead of `points`",
             ));
         }
         let bind: Vec<&str> = self.bind.ids().collect();
@@ -343,7 +180,7 @@ impl MapEntry {
         self.outcome(cx, rows, maps, about)
     }
 
-    /// Measured points that are to be drawn.
+    /// Measured points for figures.
     fn measured(&self, cx: &Context<'_>) -> Result<Measured, Stopped> {
         match &self.measured {
             Some(data) => cx.read_at_ports(&format!("{}.measured", cx.path()), data, &[]),
@@ -379,23 +216,23 @@ impl MapEntry {
     }
 }
 
-/// The temperature that all points share; absent where they differ, or where it is found by balance.
+/// The common temperature of all points; absent if they differ or are found by heat balance.
 fn common(points: &[PointResult]) -> Option<f64> {
     let first = points.first().filter(|p| p.balance.is_none())?.oil?;
     points.iter().all(|p| p.oil == Some(first)).then_some(first)
 }
 
-/// The table of all maps as its rows come.
+/// The table of all maps while its rows are computed.
 struct Rows<'c> {
     cx: &'c Context<'c>,
-    /// Paths of the parts that have a column; sets may differ in their parts, and each part has one.
+    /// Paths of the components with a column; sets may have different components, and each component has one column.
     parts: Vec<String>,
-    /// How many columns come before those of points.
+    /// Number of columns before those of points.
     constant: usize,
     table: Table,
-    /// Whether the table holds its rows: where nobody takes them, and where JSON lists the points.
+    /// Whether the table stores its rows: without a receiver, or if JSON lists the points.
     holds: bool,
-    /// Whether rows are wanted at all, by a file or by the caller.
+    /// Whether rows are requested, by a file or by the caller.
     wanted: bool,
 }
 
@@ -418,7 +255,7 @@ impl<'c> Rows<'c> {
     }
 }
 
-/// A map as it is computed.
+/// A map during computation.
 struct Map<'a> {
     built: Arc<Built<'a>>,
     bound: Vec<(String, Value)>,
@@ -429,13 +266,13 @@ struct Map<'a> {
     notes: Vec<Note>,
     passes: usize,
     undefined: Vec<UndefinedLoss>,
-    /// Its rows in the table, where that holds them.
+    /// Its rows in the table, if stored.
     rows: Range<usize>,
     export: ExportData,
 }
 
 impl<'a> Map<'a> {
-    /// A map without points yet; its rows are those that the table gets next.
+    /// A map without points; its rows are the next in the table.
     fn new(
         built: &Arc<Built<'a>>,
         bound: &[(String, Value)],
@@ -458,7 +295,7 @@ impl<'a> Map<'a> {
         }
     }
 
-    /// Adds what was taken from a piece that follows.
+    /// Adds the data of the next piece.
     fn add(&mut self, piece: Piece<Taken>, of_map: &RowsOf<'_>, rows: &mut Rows<'_>) -> Result<(), Stopped> {
         merge(&mut self.seen, &piece.seen);
         let order: Vec<(usize, Range<usize>)> = piece.runs().collect();
@@ -516,7 +353,7 @@ impl<'a> Map<'a> {
     }
 }
 
-/// Notes of all maps of each set, where the maps make one table over a bound value: their transmissions differ in it only.
+/// Notes of all maps of each set, if the maps form one table over a bound value: their transmissions differ only in it.
 fn notes_of_sets(maps: &[Map<'_>]) -> Option<Vec<NotesOfSet>> {
     let first = maps.first()?;
     let fits = |map: &Map<'_>| map.shown.is_line() && map.bound.len() == 1 && map.gear == first.gear;
@@ -541,45 +378,4 @@ fn notes_of_sets(maps: &[Map<'_>]) -> Option<Vec<NotesOfSet>> {
         }
     };
     Some(names.into_iter().map(of_set).collect())
-}
-
-impl MapOfSet {
-    /// The bound values, for a heading.
-    pub fn bound_words(&self) -> String {
-        let words = self
-            .bound
-            .iter()
-            .map(|(path, value)| format!(", {path} {}", word(value)));
-        words.collect()
-    }
-}
-
-impl MapOutcome {
-    /// Names of the sets in the order of the maps.
-    pub fn set_names(&self) -> Vec<&str> {
-        let mut sets: Vec<&str> = Vec::new();
-        for map in &self.maps {
-            if !sets.contains(&map.model_set.as_str()) {
-                sets.push(&map.model_set);
-            }
-        }
-        sets
-    }
-}
-
-impl Outcome for MapOutcome {
-    fn head(&self) -> &Head {
-        &self.head
-    }
-
-    fn tables(&self) -> Vec<Table> {
-        vec![self.table.clone()]
-    }
-
-    fn notes(&self) -> Vec<&Note> {
-        match &self.notes_of_sets {
-            Some(sets) => sets.iter().flat_map(|set| &set.notes).collect(),
-            None => self.maps.iter().flat_map(|map| &map.notes).collect(),
-        }
-    }
 }

@@ -1,26 +1,26 @@
-//! Deviations as shares of measured losses.
+//! Deviations relative to measured losses.
 
 use super::{Context, Stopped};
 use crate::study::{Difference, Quantity};
 
-/// Whether a deviation can be stated as a share of a measured loss: no instrument sees a millionth of the loss that is computed,
-/// and a share of nothing is no number.
+/// Whether a deviation relative to a measured loss is meaningful: the measured loss must not be zero or below a millionth of the computed
+/// loss.
 pub fn is_measurable(seen: f64, loss: f64) -> bool {
     seen != 0.0 && seen.abs() >= 1e-6 * loss.abs()
 }
 
-/// What is printed where some points are omitted.
+/// A note on omitted points.
 pub fn note(omitted: usize, what: &str) -> String {
     format!(
         "note: {omitted} points are omitted from {what} in %: their measured loss is below a millionth of the computed one"
     )
 }
 
-/// Refuses a difference that a quantity does not have.
+/// Rejects a kind of difference that does not apply to a quantity.
 pub fn countable(cx: &Context<'_>, path: &str, quantity: Quantity, difference: Difference) -> Result<(), Stopped> {
     if (quantity, difference) == (Quantity::Temperature, Difference::Percent) {
-        let message = "a temperature has no percentage";
-        let help = "write `difference: points`, which counts kelvins";
+        let message = "a temperature difference cannot be in percent";
+        let help = "write `difference: points`, which is in kelvins";
         return Err(cx.wrong(&format!("{path}.difference"), message, help));
     }
     Ok(())

@@ -1,18 +1,18 @@
-//! Numbers and values as results have them.
+//! Numbers and values in results.
 
 use serde_json::Value;
 
-/// rad/s in 1/min.
+/// Factor from rad/s to 1/min.
 pub const RPM: f64 = 30.0 / std::f64::consts::PI;
 
-/// A number of 1/min without the noise of its conversion: thirteen significant digits, at most 5e-13 of it away. Below 1e-9, a
-/// turn in two thousand years, what is left is the noise of a difference, and zero.
+/// A number in 1/min without rounding errors of its conversion: thirteen significant digits. Below 1e-9 it is the rounding error of a
+/// difference and becomes zero.
 pub fn tidy(x: f64) -> f64 {
     let size = x.abs();
     if size < 1e-9 {
         return 0.0;
     }
-    // From here on numbers have no digits to round.
+    // Numbers above this have no digits to round.
     if size >= 1e13 || size.is_nan() {
         return x;
     }
@@ -21,12 +21,12 @@ pub fn tidy(x: f64) -> f64 {
     (x * digits).round() / digits
 }
 
-/// A bound value as it was written.
+/// A bound value as written.
 pub fn word(value: &Value) -> String {
     value.as_str().map_or_else(|| value.to_string(), str::to_owned)
 }
 
-/// At most some of as many, spread evenly, both ends among them.
+/// At most `shown` of `count` indices, evenly spread, with both ends.
 pub fn spread_over(count: usize, most: usize) -> Vec<usize> {
     if count <= most {
         return (0..count).collect();
@@ -34,8 +34,7 @@ pub fn spread_over(count: usize, most: usize) -> Vec<usize> {
     (0..most).map(|i| i * (count - 1) / (most - 1)).collect()
 }
 
-/// A number with some digits behind the point; in engineering notation from a thousand million on, where all its digits would say
-/// nothing, and a dash where it is none.
+/// A number with the given decimals; in engineering notation from 1e9; a dash if it is not finite.
 pub fn fixed(x: f64, digits: usize) -> String {
     if !x.is_finite() {
         return "-".to_owned();
@@ -43,7 +42,7 @@ pub fn fixed(x: f64, digits: usize) -> String {
     if x.abs() < 1e9 {
         return format!("{x:.digits$}");
     }
-    // Six significant digits, the exponent a multiple of three.
+    // Six significant digits with an exponent that is a multiple of three.
     let text = format!("{x:.5e}");
     let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
     let (mantissa, exponent): (f64, i32) = (mantissa.parse().unwrap_or(x), exponent.parse().unwrap_or(0));
@@ -56,12 +55,12 @@ pub fn fixed(x: f64, digits: usize) -> String {
     )
 }
 
-/// A number in six significant digits.
+/// A number with six significant digits.
 pub fn significant(x: f64) -> String {
     figures(x, 6)
 }
 
-/// A number in some significant digits.
+/// A number with the given significant digits.
 pub fn figures(x: f64, count: u32) -> String {
     if x == 0.0 {
         return "0".to_owned();
@@ -80,11 +79,11 @@ pub fn figures(x: f64, count: u32) -> String {
     }
 }
 
-/// Where a value is that left a range; one end of the range may be open.
+/// Position of a value outside a range; one end of the range may be open.
 pub fn beyond(least: f64, greatest: f64) -> String {
     match (least.is_finite(), greatest.is_finite()) {
         (true, false) => format!("below {}", significant(least)),
         (false, true) => format!("above {}", significant(greatest)),
-        _ => format!("outside of {} to {}", significant(least), significant(greatest)),
+        _ => format!("outside {} to {}", significant(least), significant(greatest)),
     }
 }

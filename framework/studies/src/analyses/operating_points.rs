@@ -1,4 +1,4 @@
-//! Losses of a list of operating points from a file, with what was measured there.
+//! Losses of a list of operating points from a file, compared with measured values.
 
 use gearloss_framework::description::Ordered;
 use gearloss_framework::flow::Status;
@@ -20,24 +20,24 @@ use crate::table::{Cell, Column, Table};
 /// Losses of a list of operating points from a file.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct OperatingPointsEntry {
-    /// Gearbox; absent, the first.
+    /// Gearbox; default: the first.
     pub gearbox: Option<String>,
-    /// Gear state; absent, the first.
+    /// Gear; default: the first.
     pub gear: Option<String>,
-    /// Sets of models; absent, the models of the gearbox. `PRODUCT/SET` takes another gearbox, `PRODUCT/own` its own models.
+    /// Model sets; default: the models of the gearbox. `PRODUCT/SET` selects another gearbox, `PRODUCT/own` its default models.
     #[serde(default)]
     pub model_sets: Vec<String>,
-    /// The points, one row each: torque, speed and a name, the columns of `bind`, and what was measured: loss, temperatures of
-    /// oil and surface, each with its accuracy. With `faulty_rows: keep` cells of measured columns may be empty.
+    /// The points, one row each: torque, speed and a name, the columns of `bind`, and measured loss, oil and surface temperature, each with
+    /// its accuracy. With `faulty_rows: keep` cells of measured columns may be empty.
     pub data: Data,
-    /// Columns that change a value of the gearbox: column to resolved path, such as `volume: housing.oil.volume`. The unit stands
-    /// in the header: `volume [ml]`.
+    /// Columns that change a value of the gearbox: column to resolved path, such as `volume: housing.oil.volume`. The unit is in the
+    /// header: `volume [ml]`.
     #[serde(default)]
     pub bind: Ordered<String>,
-    /// What the losses are summed by.
+    /// Grouping of losses.
     #[serde(default)]
     pub by: By,
-    /// Formats to write; absent, CSV, JSON and SVG.
+    /// Formats to write; default: CSV, JSON and SVG.
     #[serde(default = "Write::every_format")]
     pub write: Vec<Write>,
 }
@@ -45,7 +45,7 @@ pub struct OperatingPointsEntry {
 impl Entry for OperatingPointsEntry {
     const TYPE: &'static str = "operating_points";
     const MEANING: &'static str =
-        "Losses of a list of operating points from a file, as stacked bars, with room for what was measured.";
+        "Losses of a list of operating points from a file, as stacked bars with measured values.";
 
     fn uses(&self) -> Uses<'_> {
         Uses::new(self.gearbox.as_ref(), &self.model_sets)
@@ -57,10 +57,10 @@ impl Entry for OperatingPointsEntry {
 
 register_analysis!(OperatingPointsEntry);
 
-/// Losses of a list of operating points under each model set.
+/// Losses of a list of operating points with each model set.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct OperatingPointsOutcome {
-    /// Where it comes from.
+    /// Provenance.
     #[serde(flatten)]
     pub head: Head,
     /// One for each model set.
@@ -83,13 +83,13 @@ pub struct PointsOfSet {
     pub model_set: String,
     /// Names of the shares of the loss.
     pub shares: Vec<String>,
-    /// What models noted.
+    /// Notes of models.
     pub notes: Vec<Note>,
     /// The points, in the order of the file.
     pub points: Vec<OperatingPoint>,
 }
 
-/// One operating point beside what was measured there.
+/// One operating point with its measured values.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct OperatingPoint {
     /// Name, or its number in the file.
@@ -102,41 +102,41 @@ pub struct OperatingPoint {
     pub torque_nm: f64,
     /// Speed. [rpm]
     pub speed_rpm: f64,
-    /// Temperature of the oil; absent where no balance was found. [degC]
+    /// Oil temperature; absent if no balance was found. [degC]
     pub oil_temperature_degc: Option<f64>,
-    /// Temperature of the surface, where it was found by balance. [degC]
+    /// Surface temperature if found by heat balance. [degC]
     pub surface_temperature_degc: Option<f64>,
-    /// What became of the balance, where the temperature is not given.
+    /// Status of the heat balance if the temperature is not given.
     pub balance: Option<thermal::Outcome>,
-    /// What the transmission does.
+    /// State of the transmission.
     pub status: Status,
-    /// Power out over power in. [-]
+    /// Output power over input power. [-]
     pub efficiency: Option<f64>,
     /// Sum of all losses. [W]
     pub loss_w: Option<f64>,
     /// The loss by share, in the order of `shares`. [W]
     pub losses_w: Option<Vec<f64>>,
-    /// What was measured.
+    /// Measured values.
     pub measured: MeasuredAtPoint,
     /// Speed as it was solved. [rad/s]
     #[serde(skip)]
     pub speed: f64,
 }
 
-/// What was measured at a point, with accuracies as they are stated.
+/// Measured values at a point with stated accuracies.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct MeasuredAtPoint {
     /// Loss. [W]
     pub loss_w: Option<f64>,
     /// Accuracy of the loss. [W]
     pub loss_accuracy_w: Option<f64>,
-    /// Temperature of the oil. [degC]
+    /// Oil temperature. [degC]
     pub oil_temperature_degc: Option<f64>,
-    /// Accuracy of the temperature of the oil. [K]
+    /// Accuracy of the oil temperature. [K]
     pub oil_temperature_accuracy_k: Option<f64>,
-    /// Temperature of the surface. [degC]
+    /// Surface temperature. [degC]
     pub surface_temperature_degc: Option<f64>,
-    /// Accuracy of the temperature of the surface. [K]
+    /// Accuracy of the surface temperature. [K]
     pub surface_temperature_accuracy_k: Option<f64>,
 }
 
@@ -157,7 +157,7 @@ impl MeasuredAtPoint {
         }
     }
 
-    /// True where nothing was measured.
+    /// True without measured values.
     pub fn is_empty(&self) -> bool {
         self.all().iter().all(Option::is_none)
     }
@@ -185,9 +185,9 @@ impl Analysis for OperatingPointsEntry {
         let listed = cx.read(&format!("{path}.data"), &self.data, &bind)?;
         let gear = self.gear.as_deref();
         let terms = self.by == By::Term;
+        cx.undivided()?;
         let all = cx.at_rows(gearbox, &self.model_sets, &self.bind, gear, &listed, terms)?;
         cx.begin()?;
-        cx.undivided()?;
         let built: Vec<&Built<'_>> = all.iter().flat_map(|s| &s.built).collect();
         let shares = together(built.iter().map(|b| &b.transmission), self.by);
         Ok(OperatingPointsOutcome {
@@ -205,7 +205,7 @@ impl Analysis for OperatingPointsEntry {
 }
 
 impl OperatingPointsEntry {
-    /// The points of a file as they were solved under one set.
+    /// The points of a file solved with one set.
     fn of_set(&self, listed: &Measured, solved: &Solved<'_>, names: &[String]) -> PointsOfSet {
         let built = solved.built.iter();
         let shares: Vec<Shares> = built
@@ -276,7 +276,7 @@ impl OperatingPointsOutcome {
     fn columns(&self) -> Vec<Column> {
         let mut columns = vec![
             Column::text("model_set", "Model set"),
-            Column::text("gear", "Gear state"),
+            Column::text("gear", "Gear"),
             Column::text("name", "Name of the point"),
         ];
         let bound = self.bound.iter();
@@ -284,19 +284,15 @@ impl OperatingPointsOutcome {
         columns.extend([
             Column::number("torque_nm", "Nm", "Torque"),
             Column::number("speed_rpm", "rpm", "Speed"),
-            Column::number("oil_temperature_degc", "degC", "Temperature of the oil"),
-            Column::number("surface_temperature_degc", "degC", "Temperature of the surface"),
-            Column::text("balance", "What became of the balance"),
-            Column::text("status", "What the transmission does"),
-            Column::number("efficiency", "-", "Power out over power in"),
+            Column::number("oil_temperature_degc", "degC", "Oil temperature"),
+            Column::number("surface_temperature_degc", "degC", "Surface temperature"),
+            Column::text("balance", "Status of the heat balance"),
+            Column::text("status", "State of the transmission"),
+            Column::number("efficiency", "-", "Output power over input power"),
             Column::number("loss_w", "W", "Sum of all losses"),
             Column::number("measured_loss_w", "W", "Measured loss"),
             Column::number("measured_loss_accuracy_w", "W", "Accuracy of the measured loss"),
-            Column::number(
-                "measured_oil_temperature_degc",
-                "degC",
-                "Measured temperature of the oil",
-            ),
+            Column::number("measured_oil_temperature_degc", "degC", "Measured oil temperature"),
             Column::number(
                 "measured_oil_temperature_accuracy_k",
                 "K",
@@ -305,7 +301,7 @@ impl OperatingPointsOutcome {
             Column::number(
                 "measured_surface_temperature_degc",
                 "degC",
-                "Measured temperature of the surface",
+                "Measured surface temperature",
             ),
             Column::number(
                 "measured_surface_temperature_accuracy_k",

@@ -1,21 +1,21 @@
-//! How far an analysis has come, for whom it concerns.
+//! Progress of an analysis.
 
-/// Who is told of progress, and may break an analysis off.
+/// Receives progress and can interrupt an analysis.
 pub trait Progress: Sync {
-    /// Work of so many steps begins.
+    /// Work of `steps` steps starts.
     fn begin(&self, label: &str, count: usize) -> Box<dyn Steps + '_>;
 
-    /// False where the analysis shall break off.
+    /// False if the analysis must stop.
     fn goes_on(&self) -> bool;
 }
 
-/// Steps of work; the work ends where this is dropped.
+/// Steps of work; the work ends when this is dropped.
 pub trait Steps: Sync + Send {
-    /// So many more are done.
+    /// Further steps are done.
     fn advance(&self, count: usize);
 }
 
-/// Nobody is told, and nothing breaks off.
+/// No reports and no interruption.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Silent;
 
@@ -33,7 +33,7 @@ impl Steps for Silent {
     fn advance(&self, _: usize) {}
 }
 
-/// Work that has begun.
+/// Work in progress.
 pub struct Running<'a> {
     progress: &'a dyn Progress,
     steps: Box<dyn Steps + 'a>,
@@ -47,13 +47,13 @@ impl<'a> Running<'a> {
         }
     }
 
-    /// So many more steps are done; false where the work shall break off.
+    /// Further steps are done; false if the work must stop.
     pub fn advance(&self, count: usize) -> bool {
         self.steps.advance(count);
         self.progress.goes_on()
     }
 
-    /// False where the work shall break off.
+    /// False if the work must stop.
     pub fn goes_on(&self) -> bool {
         self.progress.goes_on()
     }

@@ -1,5 +1,6 @@
-//! Quantities that a study varies over ranges.
+//! Quantities that are varied over ranges.
 
+use crate::codes;
 use crate::study::RangeEntry;
 use crate::varied::Varied;
 use serde_json::Value;
@@ -10,14 +11,15 @@ use super::{Built, Context, Stopped};
 pub struct Range {
     /// The quantity.
     pub varied: Varied,
-    /// Lower and upper end; the upper one is greater.
+    /// Lower and upper end; the upper one is larger.
     pub ends: [f64; 2],
 }
 
 impl Range {
     /// `path` is the entry's place in the study.
     pub fn new(cx: &Context<'_>, path: &str, entry: &RangeEntry, b: &Built<'_>) -> Result<Self, Stopped> {
-        let wrong = |message: String, help: &str| cx.wrong(path, format!("{}: {message}", entry.path), help);
+        let wrong =
+            |message: String, help: &str| cx.wrong_as(codes::VARIED, path, format!("{}: {message}", entry.path), help);
         let varied = varied(cx, path, (&entry.path, entry.tie), b)?;
         let about = || {
             varied.start().ok_or_else(|| {
@@ -45,45 +47,45 @@ impl Range {
             (None, None, Some(from), Some(to)) => [quantity(from, false)?, quantity(to, false)?],
             _ => {
                 return Err(wrong(
-                    "one of `plus_minus`, `percent`, or both of `from` and `to` are due".to_owned(),
-                    "write `percent: 10`, say",
+                    "expected one of `plus_minus`, `percent`, or both `from` and `to`".to_owned(),
+                    "write for example `percent: 10`",
                 ));
             }
         };
         if ends[0] >= ends[1] {
             let said = format!(
-                "a range needs two finite ends in order, not {} and {}",
+                "a range needs two finite ends in ascending order, not {} and {}",
                 varied.words(ends[0]),
                 varied.words(ends[1])
             );
-            return Err(wrong(said, "give a range that is wider than nothing"));
+            return Err(wrong(said, "give a range with a positive width"));
         }
         Ok(Self { varied, ends })
     }
 
-    /// Refuses a range that leaves what the schema allows.
+    /// Rejects a range outside the schema.
     pub fn inside(&self, cx: &Context<'_>, path: &str) -> Result<(), Stopped> {
         let ([low, high], [least, greatest]) = (self.ends, self.varied.range);
         if low >= least && high <= greatest {
             return Ok(());
         }
         let said = format!(
-            "{}: {} to {} leaves {least} to {greatest}",
+            "{}: {} to {} is outside {least} to {greatest}",
             self.varied.pattern,
             self.varied.words(low),
             self.varied.words(high)
         );
-        Err(cx.wrong(path, said, "narrow the range"))
+        Err(cx.wrong_as(codes::VARIED, path, said, "narrow the range"))
     }
 
-    /// The value at a share of the range.
+    /// The value at a fraction of the range.
     pub fn at(&self, share: f64) -> f64 {
         let [low, high] = self.ends;
         (low + share * (high - low)).clamp(low, high)
     }
 }
 
-/// A coefficient of a formula that a study varies.
+/// A varied coefficient of a formula.
 #[derive(Debug, Clone)]
 pub struct PublishedCoefficient {
     /// The pattern as written.
@@ -92,7 +94,7 @@ pub struct PublishedCoefficient {
     pub published: f64,
 }
 
-/// Which of the varied quantities are coefficients of formulas.
+/// The varied quantities that are coefficients of formulas.
 pub fn published<'v>(all: impl Iterator<Item = &'v Varied>) -> Vec<PublishedCoefficient> {
     let coefficient = |varied: &Varied| {
         Some(PublishedCoefficient {
@@ -117,19 +119,19 @@ pub fn varied(
     })?;
     let fixed = cx.study.entry.conditions.oil_temperature.is_some();
     if fixed && varied.paths.iter().any(|path| path == "thermal.oil") {
-        let message = "the conditions fix the temperature, so it cannot change";
-        return Err(cx.wrong(path, message, "leave `conditions.oil_temperature` out"));
+        let message = "the conditions fix the temperature, so it cannot be varied";
+        return Err(cx.wrong_as(codes::VARIED, path, message, "delete `conditions.oil_temperature`"));
     }
     Ok(varied)
 }
 
-/// Refuses a value that two quantities change; `place` is the key of a list in the study.
+/// Rejects two quantities that change the same value; `place` is the key of a list in the study.
 pub fn once(cx: &Context<'_>, place: &str, all: &[&Varied]) -> Result<(), Stopped> {
     for (i, own) in all.iter().enumerate() {
         let twice = |other: &&&Varied| other.paths.iter().any(|p| own.paths.contains(p));
         if let Some(other) = all[..i].iter().find(twice) {
             let message = format!("`{}` and `{}` change the same value", other.pattern, own.pattern);
-            return Err(cx.wrong(&format!("{place}.{i}"), message, "name every value once"));
+            return Err(cx.wrong_as(codes::VARIED, &format!("{place}.{i}"), message, "list every value once"));
         }
     }
     Ok(())

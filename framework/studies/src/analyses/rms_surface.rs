@@ -1,4 +1,4 @@
-//! How well models meet a measurement over two quantities of the gearbox.
+//! Misfit between models and a measurement over two quantities of the gearbox.
 
 mod least;
 mod outcome;
@@ -25,35 +25,35 @@ pub use self::outcome::{
     AxisOfSurface, LeastOfSurface, PairOfSurface, PointLeftOut, RangeOfSurface, RmsSurfaceOutcome, SurfaceOfSet,
 };
 
-/// Root of the mean square of the difference from measured points, for every pair of values of two quantities of the gearbox.
+/// Root mean square difference from measured points for every pair of values of two quantities of the gearbox.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct RmsSurfaceEntry {
-    /// Gearbox of every set that names none; absent, the first.
+    /// Gearbox of sets without a product; default: the first.
     pub gearbox: Option<String>,
-    /// Measured points. One without a value at some pair counts at none, so that all pairs stand on the same points.
+    /// Measured points. Points without a value at any pair are omitted at all pairs, so that all pairs use the same points.
     pub data: Data,
     /// Columns of the data that change a value of the gearbox: column to resolved path.
     #[serde(default)]
     pub bind: Ordered<String>,
-    /// Gear state of the data where no column says it; absent, the first.
+    /// Gear of the data without a column `gear`; default: the first.
     pub gear: Option<String>,
-    /// Sets to compare with the data; `PRODUCT/SET` takes another gearbox, `PRODUCT/own` its own models.
+    /// Model sets to compare with the data; `PRODUCT/SET` selects another gearbox, `PRODUCT/own` its default models.
     #[schemars(length(min = 1))]
     pub against: Vec<String>,
-    /// What is compared.
+    /// Compared quantity.
     #[serde(default)]
     pub quantity: Quantity,
-    /// How the difference counts: the model minus the measurement.
+    /// Unit of the difference: model minus measurement.
     #[serde(default)]
     pub difference: Difference,
-    /// Accuracy of the measurement, in the unit of the difference, where no column tells it. [-]
+    /// Accuracy of the measurement, in the unit of the difference, if no column states it. [-]
     #[schemars(range(min = 0.0, max = 1e9))]
     pub accuracy: Option<f64>,
     /// The first quantity.
     pub x: SurfaceAxisEntry,
     /// The second quantity.
     pub y: SurfaceAxisEntry,
-    /// Formats to write; absent, CSV, JSON and SVG.
+    /// Formats to write; default: CSV, JSON and SVG.
     #[serde(default = "Write::every_format")]
     pub write: Vec<Write>,
 }
@@ -61,19 +61,19 @@ pub struct RmsSurfaceEntry {
 /// A quantity of the gearbox and its values.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct SurfaceAxisEntry {
-    /// Resolved path; with `*` all that it meets move together.
+    /// Resolved path; with `*` all matches change together.
     pub path: String,
-    /// How several quantities move together.
+    /// How several quantities change together.
     #[serde(default)]
     pub tie: Tie,
-    /// Rising values, each as in a gearbox: `[4 mm2/s, 6 mm2/s]`.
+    /// Ascending values, each as in a gearbox: `[4 mm2/s, 6 mm2/s]`.
     #[schemars(length(min = 2))]
     pub values: Vec<Value>,
 }
 
 impl Entry for RmsSurfaceEntry {
     const TYPE: &'static str = "rms_surface";
-    const MEANING: &'static str = "How well models meet a measurement over two quantities of the gearbox.";
+    const MEANING: &'static str = "Misfit between models and a measurement over two quantities of the gearbox.";
 
     fn uses(&self) -> Uses<'_> {
         Uses::new(self.gearbox.as_ref(), &self.against)
@@ -101,12 +101,12 @@ impl Analysis for RmsSurfaceEntry {
             sets.push((built, axes));
         }
         cx.begin()?;
-        cx.undivided()?;
         let mut left_at_pairs = Left::new();
         let mut solved = Vec::new();
-        for (built, axes) in &sets {
-            solved.push(pairs(cx, self, built, axes, &rows, &mut left_at_pairs)?);
+        for (i, (built, axes)) in sets.iter().enumerate() {
+            solved.extend(cx.part(i, || pairs(cx, self, built, axes, &rows, &mut left_at_pairs))?);
         }
+        cx.complete()?;
         let counted = counted_points(cx, self, &measured, &sets, &solved)?;
         let mut surfaces = Vec::new();
         for ((built, axes), pairs) in sets.iter().zip(solved) {
@@ -127,7 +127,7 @@ impl Analysis for RmsSurfaceEntry {
     }
 }
 
-/// A quantity and its values, rising, in its unit.
+/// A quantity and its values, ascending, in its unit.
 struct Axis {
     varied: Varied,
     values: Vec<f64>,
@@ -147,13 +147,13 @@ impl Axis {
                 .map_err(|reason| wrong(reason, "write a quantity of the path, such as `5 mm`"))?;
             let [least, greatest] = varied.range;
             if value < least || value > greatest {
-                let message = format!("{} is outside of {least} to {greatest}", varied.words(value));
-                return Err(wrong(message, "leave it out"));
+                let message = format!("{} is outside {least} to {greatest}", varied.words(value));
+                return Err(wrong(message, "delete it"));
             }
             if values.last().is_some_and(|last| *last >= value) {
                 return Err(wrong(
-                    "the values do not rise all along".to_owned(),
-                    "sort them, and name each once",
+                    "the values are not ascending".to_owned(),
+                    "sort them and remove duplicates",
                 ));
             }
             values.push(value);
@@ -187,7 +187,7 @@ impl RmsSurfaceEntry {
             return Err(cx.wrong(
                 &format!("{path}.y.path"),
                 message,
-                "name another quantity for one of them",
+                "choose another quantity for one of them",
             ));
         }
         for (key, axis) in [("x", &x), ("y", &y)] {
@@ -197,14 +197,14 @@ impl RmsSurfaceEntry {
                     let message = format!("column `{column}` of the data changes `{}` too", axis.varied.pattern);
                     return Err(wrong(
                         message,
-                        "leave the column out of `bind`, or name another quantity",
+                        "delete the column from `bind`, or choose another quantity",
                     ));
                 }
             }
             let oil = axis.varied.paths.iter().any(|path| path == "thermal.oil");
             if oil && measured.holds("oil_temperature") {
-                let message = "the data give the temperature of every point, so it cannot change".to_owned();
-                return Err(wrong(message, "name another quantity"));
+                let message = "the data give the temperature of every point, so it cannot be varied".to_owned();
+                return Err(wrong(message, "choose another quantity"));
             }
         }
         Ok([x, y])

@@ -1,4 +1,4 @@
-//! Points of a file: read, and solved under sets of models.
+//! Reads points of a file and solves them with model sets.
 
 use crate::analysis::{BuiltFrom, Note, OnRig, PointResult, Rows, notes};
 use crate::measured::{Measured, MeasuredEntry, PortSpeeds};
@@ -12,20 +12,20 @@ use serde_json::Value;
 use super::trial::{Left, Trial, left, why};
 use super::{Built, Context, Stopped};
 
-/// All rows of a file under one set.
+/// All rows of a file with one set.
 pub struct Solved<'a> {
     /// Name of the set.
     pub name: String,
     /// One transmission for each combination of bound values.
     pub built: Vec<Built<'a>>,
-    /// For each row the number of its transmission, its gear state and its point.
+    /// For each row the index of its transmission, its gear and its point.
     pub rows: Vec<(usize, String, PointResult)>,
-    /// What was seen over all rows.
+    /// Observed limits over all rows.
     pub notes: Vec<Note>,
 }
 
 impl Context<'_> {
-    /// The entry of data: that of the measurements of the study, or the analysis' own.
+    /// The data entry: from the measurements of the study, or from the analysis.
     pub fn data<'s>(&'s self, path: &str, data: &'s Data) -> Result<&'s MeasuredEntry, Stopped> {
         Ok(self.study.measurement(path, data)?)
     }
@@ -43,8 +43,7 @@ impl Context<'_> {
         Ok(measured)
     }
 
-    /// As [`Context::read`], for analyses that do not ask a gearbox at which speed and torque its ports turn: torque and speed have
-    /// to be those at the ports of the conditions.
+    /// As [`Context::read`], for analyses that need torque and speed at the ports of the conditions.
     pub fn read_at_ports(&self, path: &str, data: &Data, bind: &[&str]) -> Result<Measured, Stopped> {
         let measured = self.read(path, data, bind)?;
         let given = [
@@ -55,19 +54,18 @@ impl Context<'_> {
             Some((_, quantity)) => Err(self.wrong(
                 path,
                 format!(
-                    "{}: `{quantity}_out` alone does not give the {quantity} that this analysis needs",
+                    "{}: `{quantity}_out` alone does not determine the {quantity} that this analysis needs",
                     self.data(path, data)?.file
                 ),
                 &format!(
-                    "name a column of the {quantity} at the port of the conditions: `columns: {{ {quantity}: ... }}`"
+                    "add a column of the {quantity} at the port of the conditions: `columns: {{ {quantity}: ... }}`"
                 ),
             )),
             None => Ok(measured),
         }
     }
 
-    /// Solves every row under each set, with the torques that the rig leaves for the transmission; solves none where an analysis is
-    /// only checked.
+    /// Solves every row with each set, with torques corrected for the rig; solves none if an analysis is only checked.
     pub fn at_rows<'s>(
         &'s self,
         gearbox: &'s Gearbox,
@@ -125,10 +123,10 @@ impl Context<'_> {
         Ok(all.into_iter().flatten().collect())
     }
 
-    /// The transmissions of rows; refuses rows whose bound values, gear states or ports do not fit the gearbox.
+    /// The transmissions of rows; rows with invalid bound values, gears or ports are errors.
     pub fn rows_fit(&self, rows: &Rows<'_>, gearbox: &Gearbox, choice: &Choice) -> Result<Vec<BuiltFrom>, Stopped> {
         let transmissions = rows.build(self.language, gearbox, choice).map_err(|findings| {
-            // What belongs to no key of the gearbox belongs to the analysis.
+            // Errors without a key of the gearbox belong to the analysis.
             if findings.list.iter().any(|error| !error.path.is_empty()) {
                 return findings;
             }
@@ -147,11 +145,11 @@ impl Context<'_> {
     }
 }
 
-/// A row that was solved: its point, and why it has no loss where it has none.
+/// A solved row: its point, and the reason if it has no loss.
 pub type SolvedRow = (PointResult, Option<String>);
 
 impl Trial<'_> {
-    /// Speeds of the ports in every row, where the rig of the rows adds something.
+    /// Speeds of the ports in every row, if the rig of the rows contributes.
     pub fn speeds(&self, rows: &Rows<'_>) -> Result<Vec<PortSpeeds>, String> {
         let rig = &rows.measured.rig;
         if rig.is_silent() {
@@ -161,8 +159,8 @@ impl Trial<'_> {
         rows.speeds(&solved, rig.at_out()).map_err(|error| error.message)
     }
 
-    /// Solves every row with further overrides, as [`Context::at_rows`] does, and adds the stated ranges that were left. The
-    /// speeds are those of [`Trial::speeds`].
+    /// Solves every row with further overrides, like [`Context::at_rows`], and adds quantities outside their stated ranges. The speeds are
+    /// those of [`Trial::speeds`].
     pub fn rows(
         &self,
         rows: &Rows<'_>,

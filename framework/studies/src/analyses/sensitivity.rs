@@ -1,12 +1,14 @@
-//! What the losses over a grid depend on: slopes, screening, shares of the variance.
+//! Sensitivity of the losses over a grid: slopes, screening, shares of the variance.
 
 mod outcome;
 mod outputs;
 
-use std::sync::Mutex;
+use std::sync::{Mutex, PoisonError};
 
 use gearloss_numerics::inference::{Parameter, Scale};
-use gearloss_numerics::sensitivity::{Local, Screening, VarianceShares, local, screening, variance_shares};
+use gearloss_numerics::sensitivity::{
+    Evaluate, Local, PointOf, Screening, VarianceShares, local, screening, variance_shares,
+};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -18,7 +20,6 @@ pub use outputs::OutputKind;
 
 use self::outputs::Outputs;
 use super::axes::grid_axes;
-use super::progress::Running;
 use super::ranges::{Range, once};
 use super::trial::{Left, Trial, left};
 use super::{Analysis, Built, Context, Entry, Stopped};
@@ -26,39 +27,39 @@ use crate::analysis::{Points, notes};
 use crate::register_analysis;
 use crate::study::{Grid, NameOr, RangeEntry, Uses, Write};
 
-/// Relative noise of a mean loss. A point is solved until what is left to change is below 1e-9 of its power.
+/// Relative noise of a mean loss. A point is solved until the remaining change is below 1e-9 of its power.
 const NOISE: f64 = 1e-9;
-/// Resamples for the intervals of shares.
+/// Number of resamples for the intervals of shares.
 const RESAMPLES: usize = 200;
 
-/// What the losses over a grid depend on: the mean loss, that of every mechanism and term, the mean efficiency, and the relative change of
-/// the loss at the points (`relative_loss`: root of its mean square from the values of the gearbox, not for `local`).
+/// Sensitivity of the losses over a grid: mean loss in total and by mechanism and term, mean efficiency, and relative change of the loss at
+/// the points (`relative_loss`: root mean square over the points, not for `local`).
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct SensitivityEntry {
-    /// Gearbox; absent, the first.
+    /// Gearbox; default: the first.
     pub gearbox: Option<String>,
-    /// Grid, of one gear state.
+    /// Grid with one gear.
     pub grid: String,
-    /// Sets of models; absent, the models of the gearbox. `PRODUCT/SET` takes another gearbox, `PRODUCT/own` its own models.
+    /// Model sets; default: the models of the gearbox. `PRODUCT/SET` selects another gearbox, `PRODUCT/own` its default models.
     #[serde(default)]
     pub model_sets: Vec<String>,
-    /// The quantities that are varied. `local` starts from the value of the gearbox: of the first where a path meets several
-    /// that differ. A name takes over a parameter of the study.
+    /// The varied quantities. `local` starts from the value of the gearbox (the first if a path matches several different values). A name
+    /// refers to a parameter of the study.
     #[schemars(length(min = 1, max = 32), with = "Vec<NameOr<RangeEntry>>")]
     pub parameters: Vec<RangeEntry>,
-    /// What is done; absent, all.
+    /// Methods; default: all.
     #[serde(default = "Method::all")]
     #[schemars(length(min = 1))]
     pub methods: Vec<Method>,
-    /// Number of trajectories of `morris`; each costs one run more than there are parameters. [-]
+    /// Number of trajectories of `morris`; each needs one run more than there are parameters. [-]
     #[serde(default = "trajectories")]
     #[schemars(range(min = 2, max = 10000))]
     pub trajectories: u32,
-    /// Number of samples of `sobol`, a power of two; each costs two runs more than there are parameters. [-]
+    /// Number of samples of `sobol`, a power of two; each needs two runs more than there are parameters. [-]
     #[serde(default = "samples")]
     #[schemars(range(min = 8, max = 65536))]
     pub samples: u32,
-    /// Formats to write; absent, CSV, JSON and SVG.
+    /// Formats to write; default: CSV, JSON and SVG.
     #[serde(default = "Write::every_format")]
     pub write: Vec<Write>,
 }
@@ -71,15 +72,15 @@ fn samples() -> u32 {
     1024
 }
 
-/// How a dependence is found.
+/// Method of sensitivity analysis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Method {
     /// Slopes at the values of the gearbox.
     Local,
-    /// Changes along trajectories through the ranges: which parameters matter at all, from few runs.
+    /// Screening along trajectories through the ranges, with few runs.
     Morris,
-    /// Shares of the variance over the ranges, of each parameter alone and with all others.
+    /// Shares of the variance over the ranges, first-order and total.
     Sobol,
 }
 
@@ -91,7 +92,7 @@ impl Method {
 
 impl Entry for SensitivityEntry {
     const TYPE: &'static str = "sensitivity";
-    const MEANING: &'static str = "What the losses depend on: slopes, screening, shares of the variance.";
+    const MEANING: &'static str = "Sensitivity of the losses: slopes, screening, shares of the variance.";
 
     fn uses(&self) -> Uses<'_> {
         Uses {
@@ -111,15 +112,15 @@ impl Analysis for SensitivityEntry {
         let grid = self.checked_grid(cx)?;
         let built = cx.built(gearbox, &self.model_sets)?;
         let mut sensitivities = Vec::new();
-        for b in &built {
+        for (i, b) in built.iter().enumerate() {
             let gear = cx.one_gear(&cx.path(), grid, &b.transmission)?;
             let (torques, speeds) = grid_axes(cx, &self.grid, grid, &b.transmission)?;
             let mut points = cx.points(&b.transmission, &gear, torques, speeds);
             points.terms = true;
-            sensitivities.extend(self.under_set(cx, b, &points)?);
+            sensitivities.extend(cx.part(i, || self.under_set(cx, b, &points))?.flatten());
         }
         cx.begin()?;
-        cx.undivided()?;
+        cx.complete()?;
         let head = cx.head(&built.iter().collect::<Vec<_>>());
         Ok(SensitivityOutcome { head, sensitivities })
     }
@@ -129,7 +130,7 @@ impl Analysis for SensitivityEntry {
     }
 }
 
-/// What the methods found.
+/// Results of the methods.
 struct Found {
     /// By output, then by parameter.
     local: Option<Vec<Vec<Local>>>,
@@ -138,45 +139,68 @@ struct Found {
     sobol: Option<Vec<VarianceShares>>,
 }
 
-/// What each evaluation needs; on any thread.
+/// Data of the evaluations, shared by threads.
 struct Evaluations<'a> {
+    cx: &'a Context<'a>,
+    /// What progress is reported as.
+    label: &'a str,
     trial: Trial<'a>,
     points: &'a Points,
     ranges: &'a [Range],
     outputs: &'a Outputs,
-    running: Running<'a>,
     left: Mutex<Left>,
 }
 
+/// Where a method evaluates: at values of the parameters, or shares of their ranges.
+#[derive(Clone, Copy)]
+struct At<'a> {
+    evaluations: &'a Evaluations<'a>,
+    shares: bool,
+}
+
+impl Evaluate for At<'_> {
+    fn outputs(&self, count: usize, point: &PointOf<'_>) -> Vec<Result<Vec<f64>, String>> {
+        let Self { evaluations, shares } = self;
+        let evaluate = |i: usize| {
+            let point = point(i);
+            if *shares {
+                let places = evaluations.ranges.iter().zip(&point);
+                let values: Vec<f64> = places.map(|(range, share)| range.at(*share)).collect();
+                evaluations.solved(&values)
+            } else {
+                evaluations.solved(&point)
+            }
+        };
+        let all: Vec<(Result<Vec<f64>, String>, Left)> = match evaluations.cx.each(evaluations.label, count, evaluate) {
+            Ok(all) => all,
+            Err(stopped) => {
+                evaluations.cx.end(stopped);
+                return vec![Err("interrupted".to_owned())];
+            }
+        };
+        let mut seen = evaluations.left.lock().unwrap_or_else(PoisonError::into_inner);
+        let outputs = all.into_iter().map(|(outputs, left)| {
+            seen.extend(left);
+            outputs
+        });
+        outputs.collect()
+    }
+}
+
 impl Evaluations<'_> {
-    /// The outputs at values of the parameters.
-    fn at_values(&self, values: &[f64]) -> Result<Vec<f64>, String> {
-        if !self.running.goes_on() {
-            return Err("interrupted".to_owned());
-        }
-        let found = self
-            .solved(values)
-            .map_err(|reason| format!("{}: {reason}", words(self.ranges, values)));
-        self.running.advance(1);
-        found
-    }
-
-    /// The same at shares of their ranges.
-    fn at_shares(&self, shares: &[f64]) -> Result<Vec<f64>, String> {
-        let places = self.ranges.iter().zip(shares);
-        let values: Vec<f64> = places.map(|(range, share)| range.at(*share)).collect();
-        self.at_values(&values)
-    }
-
-    fn solved(&self, values: &[f64]) -> Result<Vec<f64>, String> {
-        let changes = self.ranges.iter().zip(values);
-        let changes = changes.flat_map(|(range, value)| range.varied.overrides(*value));
-        let transmission = self.trial.build(changes)?;
-        let solved = self.trial.solve(&transmission, self.points)?;
-        if let Ok(mut seen) = self.left.lock() {
+    /// The outputs at values of the parameters, and the stated ranges outside which they lie.
+    fn solved(&self, values: &[f64]) -> (Result<Vec<f64>, String>, Left) {
+        let mut seen = Left::new();
+        let mut outputs = || {
+            let changes = self.ranges.iter().zip(values);
+            let changes = changes.flat_map(|(range, value)| range.varied.overrides(*value));
+            let transmission = self.trial.build(changes)?;
+            let solved = self.trial.solve(&transmission, self.points)?;
             seen.extend(left(&transmission, &solved.seen));
-        }
-        self.outputs.values(&transmission, &solved.points)
+            self.outputs.values(&transmission, &solved.points)
+        };
+        let outputs = outputs().map_err(|reason: String| format!("{}: {reason}", words(self.ranges, values)));
+        (outputs, seen)
     }
 }
 
@@ -185,26 +209,23 @@ impl SensitivityEntry {
         self.methods.contains(&method)
     }
 
-    /// The grid, which has to be a plain one; refuses a number of samples that does not fill the ranges evenly.
+    /// The grid without bound values and envelope; rejects a number of samples that is not a power of two.
     fn checked_grid<'s>(&self, cx: &Context<'s>) -> Result<&'s Grid, Stopped> {
         let path = cx.path();
         let grid = cx.study.grid(&path, &self.grid)?;
         if !grid.bind.is_empty() || grid.envelope.is_some() {
-            let message = "a sensitivity takes a grid without bound values and envelope";
-            return Err(cx.wrong(&path, message, "give it a grid of its own"));
+            let message = "a sensitivity analysis needs a grid without bound values and envelope";
+            return Err(cx.wrong(&path, message, "give it its own grid"));
         }
         if !self.samples.is_power_of_two() {
-            let message = format!(
-                "{} samples are no power of two, and only those fill the ranges evenly",
-                self.samples
-            );
+            let message = format!("the number of samples must be a power of two, not {}", self.samples);
             let help = format!("write `samples: {}`", self.samples.next_power_of_two());
             return Err(cx.wrong(&format!("{path}.samples"), message, &help));
         }
         Ok(grid)
     }
 
-    /// The parameters, each quantity once.
+    /// The parameters without repetition.
     fn ranges(&self, cx: &Context<'_>, built: &Built<'_>) -> Result<Vec<Range>, Stopped> {
         let mut ranges = Vec::new();
         for (i, parameter) in self.parameters.iter().enumerate() {
@@ -217,7 +238,7 @@ impl SensitivityEntry {
         Ok(ranges)
     }
 
-    /// Number of evaluations of each method that is wanted.
+    /// Number of evaluations of each requested method.
     fn runs(&self, parameters: usize) -> RunsOfMethods {
         let (trajectories, samples) = (self.trajectories as usize, self.samples as usize);
         let runs = |method: Method, count: usize| self.does(method).then_some(count);
@@ -228,7 +249,7 @@ impl SensitivityEntry {
         }
     }
 
-    /// Everything of one set; nothing where it is only checked.
+    /// Results of one set; absent if it is only checked.
     fn under_set(
         &self,
         cx: &Context<'_>,
@@ -249,25 +270,26 @@ impl SensitivityEntry {
         }
         let no_value = |reason: String| {
             let message = format!("models {}: {}", built.name, without_coordinates(&reason));
-            let help = "narrow the ranges, or leave points without a value out of the grid";
+            let help = "narrow the ranges, or delete points without a value from the grid";
             cx.wrong(&cx.path(), message, help)
         };
         let t = &built.transmission;
-        let nominal = cx.solve(built, points)?;
+        let nominal = cx.solve_here(built, points)?;
         let relative = self.does(Method::Morris) || self.does(Method::Sobol);
         let outputs = Outputs::new(t, &nominal.points, relative);
         let means = outputs.values(t, &nominal.points).map_err(no_value)?;
         let evaluations = Evaluations {
+            cx,
+            label: &built.name,
             trial: Trial::new(cx, built),
             points,
             ranges: &ranges,
             outputs: &outputs,
-            running: cx.running(count, &built.name),
             left: Mutex::default(),
         };
         let found = self.found(&starts, &evaluations);
         if !cx.goes_on() {
-            return Err(Stopped::Interrupted);
+            return Err(cx.why_ended());
         }
         let found = found.map_err(no_value)?;
         let left_at_samples = evaluations.left.into_inner().unwrap_or_default();
@@ -287,12 +309,11 @@ impl SensitivityEntry {
         }))
     }
 
-    /// What the methods that are wanted find.
+    /// Results of the requested methods.
     fn found(&self, starts: &[Parameter], evaluations: &Evaluations<'_>) -> Result<Found, String> {
         let parameters = evaluations.ranges.len();
         let (trajectories, samples) = (self.trajectories as usize, self.samples as usize);
-        let values = |values: &[f64]| evaluations.at_values(values);
-        let shares = |shares: &[f64]| evaluations.at_shares(shares);
+        let [values, shares] = [false, true].map(|shares| At { evaluations, shares });
         let slopes = self.does(Method::Local).then(|| local(starts, NOISE, values));
         let slopes = slopes.transpose()?;
         let morris = self
@@ -315,40 +336,37 @@ fn place(cx: &Context<'_>, number: usize) -> String {
     format!("{}.parameters.{number}", cx.path())
 }
 
-/// The parameters at the values of the gearbox, which have to lie in their ranges.
+/// The parameters at the values of the gearbox, which must be within their ranges.
 fn starts(cx: &Context<'_>, ranges: &[Range]) -> Result<Vec<Parameter>, Stopped> {
     let start = |(i, range): (usize, &Range)| {
         let wrong = |message: String, help: &str| {
             let message = format!("{}: {message}", range.varied.pattern);
             cx.wrong(&place(cx, i), message, help)
         };
-        let without = "the gearbox states no value at which `local` could stand";
+        let without = "`local` needs a value of the gearbox";
         let Some(own) = range.varied.start() else {
-            let help = "state one, or leave `local` out: `methods: [morris, sobol]`";
+            let help = "state one, or omit `local`: `methods: [morris, sobol]`";
             return Err(wrong(without.to_owned(), help));
         };
         Parameter::new(&range.varied.pattern, Scale::Linear, own, range.ends).map_err(|_| {
             let [low, high] = range.ends.map(|end| range.varied.words(end));
             let message = format!(
-                "`local` stands at {}, which is not in {low} to {high}",
+                "the value {} for `local` is not in {low} to {high}",
                 range.varied.words(own)
             );
-            wrong(
-                message,
-                "widen the range, or leave `local` out: `methods: [morris, sobol]`",
-            )
+            wrong(message, "widen the range, or omit `local`: `methods: [morris, sobol]`")
         })
     };
     ranges.iter().enumerate().map(start).collect()
 }
 
-/// Values of the parameters in words.
+/// Values of the parameters as text.
 fn words(ranges: &[Range], values: &[f64]) -> String {
     let word = |(range, value): (&Range, &f64)| format!("{} = {}", range.varied.pattern, range.varied.words(*value));
     ranges.iter().zip(values).map(word).collect::<Vec<_>>().join(", ")
 }
 
-/// A fault of an evaluation says where it was, in coordinates of the method, and then in the user's own words: these do.
+/// Removes the coordinates of the method from an error of an evaluation, which also contains the values of the user.
 fn without_coordinates(reason: &str) -> &str {
     match reason.split_once("): ") {
         Some((at, rest)) if at.starts_with("at (") => rest,

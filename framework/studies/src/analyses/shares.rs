@@ -4,12 +4,12 @@ use crate::analysis::{PointResult, SUMS};
 use crate::study::By;
 use gearloss_framework::transmission::{PartInfo, PartKind, Transmission};
 
-/// Names of the shares of a transmission, and which of them every part belongs to.
+/// Names of the shares of a transmission, and the share of every component.
 pub struct Shares {
     by: By,
     /// The names, in the order of the document.
     pub names: Vec<String>,
-    /// Number of the share of each part; of each of its terms where shares are terms.
+    /// Index of the share of each component, or of each of its terms.
     places: Vec<Vec<usize>>,
 }
 
@@ -48,7 +48,7 @@ impl Shares {
         Self { by, names, places }
     }
 
-    /// The same numbers under other names: those of several transmissions together.
+    /// The same with the combined names of several transmissions.
     pub fn under(mut self, names: &[String]) -> Self {
         let place = |name: &String| names.iter().position(|n| n == name).unwrap_or(0);
         let moved: Vec<usize> = self.names.iter().map(place).collect();
@@ -59,7 +59,7 @@ impl Shares {
         self
     }
 
-    /// The sums of values of all parts, by share; for shares that need no terms.
+    /// Sums of values of all components, by share; for shares without terms.
     pub fn sums(&self, parts: &[f64]) -> Vec<f64> {
         let mut sums = vec![0.0; self.names.len()];
         for (places, value) in self.places.iter().zip(parts) {
@@ -70,7 +70,7 @@ impl Shares {
         sums
     }
 
-    /// The shares of a point in W; absent where its loss is. Shares by term need a point that kept its terms.
+    /// The shares of a point in W; absent if its loss is absent. Shares by term need a point with terms.
     pub fn stack(&self, point: &PointResult) -> Option<Vec<f64>> {
         point.loss?;
         let mut stack = vec![0.0; self.names.len()];
@@ -91,7 +91,7 @@ impl Shares {
     }
 }
 
-/// Names of several transmissions together, in the order of the first; those that lose nothing under any model left out.
+/// Combined names of several transmissions, in the order of the first, without shares that have no loss under any model.
 pub fn together<'a>(all: impl Iterator<Item = &'a Transmission> + Clone, by: By) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
     for name in all.clone().flat_map(|t| Shares::of(t, by).names) {
@@ -99,7 +99,7 @@ pub fn together<'a>(all: impl Iterator<Item = &'a Transmission> + Clone, by: By)
             names.push(name);
         }
     }
-    // What is `none` everywhere needs no colour.
+    // Shares with `none` everywhere are omitted.
     if by != By::Sum {
         names.retain(|name| {
             all.clone().any(|t| {
@@ -114,7 +114,7 @@ pub fn together<'a>(all: impl Iterator<Item = &'a Transmission> + Clone, by: By)
     names
 }
 
-/// Name of the share that a part belongs to.
+/// Name of the share of a component.
 fn name_of(t: &Transmission, part: &PartInfo, by: By) -> String {
     let component = part.path.split(".drag.").next().unwrap_or(&part.path);
     match by {
@@ -124,7 +124,7 @@ fn name_of(t: &Transmission, part: &PartInfo, by: By) -> String {
     }
 }
 
-/// A mesh with the drags of its gears, a planetary set, or the shaft that a component sits on.
+/// A mesh with the drags of its gears, a planetary set, or the shaft of a component.
 fn stage(t: &Transmission, part: &PartInfo, component: &str) -> String {
     if let Some(gear) = component.strip_prefix("gears.") {
         return t.mesh_of_gear(gear).unwrap_or(component).to_owned();

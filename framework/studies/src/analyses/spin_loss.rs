@@ -1,4 +1,4 @@
-//! Losses without load, in every gear state.
+//! No-load losses in every gear.
 
 use gearloss_framework::attach::dangling;
 use gearloss_framework::transmission::Transmission;
@@ -12,32 +12,32 @@ use super::{Analysis, Built, Context, Entry, Stopped};
 use crate::register_analysis;
 use crate::study::{By, SpeedAxis, Uses, Write};
 
-/// Losses without load: every free port turns at no torque.
+/// No-load losses: every free port turns without torque.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct SpinLossEntry {
-    /// Gearbox; absent, the first.
+    /// Gearbox; default: the first.
     pub gearbox: Option<String>,
-    /// Gear states, neutral among them; absent, all.
+    /// Gears, including neutral; default: all.
     #[serde(default)]
     pub gears: Vec<String>,
-    /// Sets of models; absent, the models of the gearbox. `PRODUCT/SET` takes another gearbox, `PRODUCT/own` its own models.
+    /// Model sets; default: the models of the gearbox. `PRODUCT/SET` selects another gearbox, `PRODUCT/own` its default models.
     #[serde(default)]
     pub model_sets: Vec<String>,
-    /// Port that is turned; absent, that of the conditions. `output` is towing.
+    /// Driven port; default: that of the conditions. `output` is towing.
     pub turned_at: Option<String>,
-    /// What the losses are summed by.
+    /// Grouping of losses.
     #[serde(default)]
     pub by: By,
     /// Speeds of that port.
     pub speed: SpeedAxis,
-    /// Formats to write; absent, CSV and JSON.
+    /// Formats to write; default: CSV and JSON.
     #[serde(default = "Write::data")]
     pub write: Vec<Write>,
 }
 
 impl Entry for SpinLossEntry {
     const TYPE: &'static str = "spin_loss";
-    const MEANING: &'static str = "Losses without load: in every gear state, neutral included, also towed.";
+    const MEANING: &'static str = "No-load losses in every gear, including neutral and towing.";
 
     fn uses(&self) -> Uses<'_> {
         Uses::new(self.gearbox.as_ref(), &self.model_sets).at(&self.gears)
@@ -53,7 +53,7 @@ impl Analysis for SpinLossEntry {
         let path = cx.path();
         let built = cx.built(cx.gearbox(self.gearbox.as_ref())?, &self.model_sets)?;
         let stacks = Stacks::new(self.by, As::Watts, &built);
-        let mut breakdowns = Vec::new();
+        let (mut breakdowns, mut number) = (Vec::new(), 0);
         for b in &built {
             let t = &b.transmission;
             let turned = self.turned(cx, t)?;
@@ -64,9 +64,12 @@ impl Analysis for SpinLossEntry {
                 self.gears.iter().map(String::as_str).collect()
             };
             for gear in gears {
-                breakdowns.extend(unloaded(cx, b, &stacks, gear, turned, &speeds)?);
+                number += 1;
+                let unloaded = cx.part(number, || unloaded(cx, b, &stacks, gear, turned, &speeds))?;
+                breakdowns.extend(unloaded.flatten());
             }
         }
+        cx.complete()?;
         stacks.outcome(cx, &built, breakdowns)
     }
 
@@ -76,7 +79,7 @@ impl Analysis for SpinLossEntry {
 }
 
 impl SpinLossEntry {
-    /// Number of the port that is turned.
+    /// Index of the driven port.
     fn turned(&self, cx: &Context<'_>, t: &Transmission) -> Result<usize, Stopped> {
         let turned = self.turned_at.as_ref().unwrap_or(&cx.study.entry.conditions.speed_at);
         t.ports().iter().position(|port| port.name == *turned).ok_or_else(|| {
@@ -87,7 +90,7 @@ impl SpinLossEntry {
     }
 }
 
-/// The losses in one gear state; nothing where the analysis is only checked.
+/// The losses in one gear; absent if the analysis is only checked.
 fn unloaded(
     cx: &Context<'_>,
     b: &Built<'_>,
@@ -101,7 +104,7 @@ fn unloaded(
     let turned = name(turned_port);
     let state = t.state(gear).map_err(|error| b.gearbox.findings(vec![error]))?;
     let state = &t.states()[state];
-    // The other free ports are stationary; the torque is zero at every port that is not turned.
+    // The other free ports are stationary; the torque is zero at every port that is not driven.
     let others = state.speed_ports.iter().filter(|port| **port != turned_port);
     let stationary: Vec<String> = others
         .take(state.speed_ports.len() - 1)

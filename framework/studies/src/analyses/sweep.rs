@@ -22,28 +22,28 @@ pub use self::outcome::{NotesOfSet, PointOfSweep, SecondValue, SweepOfValue, Swe
 /// Losses and efficiency over the values of one path, or of two.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct SweepEntry {
-    /// Gearbox; absent, the first.
+    /// Gearbox; default: the first.
     pub gearbox: Option<String>,
-    /// Gear state; absent, the first.
+    /// Gear; default: the first.
     pub gear: Option<String>,
-    /// Sets of models; absent, the models of the gearbox. `PRODUCT/SET` takes another gearbox, `PRODUCT/own` its own models.
+    /// Model sets; default: the models of the gearbox. `PRODUCT/SET` selects another gearbox, `PRODUCT/own` its default models.
     #[serde(default)]
     pub model_sets: Vec<String>,
-    /// Resolved path whose value changes, such as `lubricants.sump.viscosity.kv100`, or `thermal.oil` for the temperature.
+    /// Resolved path that is varied, such as `lubricants.sump.viscosity.kv100`, or `thermal.oil` for the temperature.
     pub path: String,
     /// Values, each as in a gearbox: `[4 mm2/s, 6 mm2/s]`.
     #[schemars(length(min = 1))]
     pub values: Vec<Value>,
-    /// A second path whose values change too: every combination is solved.
+    /// A second varied path: every combination is solved.
     pub second: Option<SecondEntry>,
-    /// What the losses are summed by.
+    /// Grouping of losses.
     #[serde(default)]
     pub by: By,
     /// Torques.
     pub torque: TorqueAxis,
     /// Speeds.
     pub speed: SpeedAxis,
-    /// Formats to write; absent, CSV, JSON and SVG.
+    /// Formats to write; default: CSV, JSON and SVG.
     #[serde(default = "Write::every_format")]
     pub write: Vec<Write>,
 }
@@ -51,7 +51,7 @@ pub struct SweepEntry {
 /// The second path of a sweep.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct SecondEntry {
-    /// Resolved path whose value changes.
+    /// Resolved path that is varied.
     pub path: String,
     /// Values, each as in a gearbox.
     #[schemars(length(min = 1))]
@@ -76,7 +76,7 @@ impl Analysis for SweepEntry {
         self.oil_is_free(cx)?;
         let all = self.solve(cx)?;
         cx.begin()?;
-        cx.undivided()?;
+        cx.complete()?;
         let shares = together(all.iter().map(|value| &value.built.transmission), self.by);
         let quantity = |built: &Built<'_>, path: &String| Varied::new(cx.language, &built.resolved, path, Tie::Value);
         let varied: Vec<Varied> = match all.first() {
@@ -100,9 +100,9 @@ impl Analysis for SweepEntry {
     }
 }
 
-/// All points under one set at one value.
+/// All points with one set at one value.
 struct Solved<'a> {
-    /// Number of the value, and of the second one.
+    /// Index of the value, and of the second one.
     places: [usize; 2],
     built: Built<'a>,
     gear: String,
@@ -110,25 +110,25 @@ struct Solved<'a> {
 }
 
 impl SweepEntry {
-    /// The paths whose values change.
+    /// The varied paths.
     fn paths(&self) -> impl Iterator<Item = &String> {
         std::iter::once(&self.path).chain(self.second.as_ref().map(|second| &second.path))
     }
 
-    /// Refuses a temperature that the conditions fix.
+    /// Rejects a temperature that the conditions fix.
     fn oil_is_free(&self, cx: &Context<'_>) -> Result<(), Stopped> {
         if cx.study.entry.conditions.oil_temperature.is_none() || self.paths().all(|path| path != "thermal.oil") {
             return Ok(());
         }
         let error = Diagnostic::error(
             format!("{}.path", cx.path()),
-            "the conditions fix the temperature, so it cannot change",
+            "the conditions fix the temperature, so it cannot be varied",
         )
-        .help("leave `conditions.oil_temperature` out");
+        .help("delete `conditions.oil_temperature`");
         Err(cx.found(vec![error]))
     }
 
-    /// Every set at every value; nothing where the analysis is only checked.
+    /// Every set at every value; absent if the analysis is only checked.
     fn solve<'s>(&'s self, cx: &'s Context<'_>) -> Result<Vec<Solved<'s>>, Stopped> {
         let path = cx.path();
         let gearbox = cx.gearbox(self.gearbox.as_ref())?;
@@ -136,15 +136,16 @@ impl SweepEntry {
             Some(second) => second.values.iter().map(|value| Some((&second.path, value))).collect(),
             None => vec![None],
         };
-        let (mut all, mut held) = (Vec::new(), 0);
+        let (mut all, mut held, mut number) = (Vec::new(), 0, 0);
         for (k, second) in seconds.iter().enumerate() {
             for (i, value) in self.values.iter().enumerate() {
-                // Where every value fails it is the path that is wrong, which stands first.
+                // If every value fails, the path is wrong, which is reported first.
                 let mut changes = vec![(self.path.clone(), value.clone(), format!("{path}.values.{i}"))];
                 let second =
                     second.map(|(own, value)| (own.clone(), value.clone(), format!("{path}.second.values.{k}")));
                 changes.extend(second);
                 for built in cx.built_with(gearbox, &self.model_sets, &changes)? {
+                    number += 1;
                     let t = &built.transmission;
                     let gear = gear_of(self.gear.as_deref(), t).to_owned();
                     let torques = torques(cx, &format!("{path}.torque"), &self.torque, t)?;
@@ -155,8 +156,10 @@ impl SweepEntry {
                     if cx.checked(&built, &points)? {
                         continue;
                     }
-                    let result = cx.solve(&built, &points)?;
-                    held += result.points.len();
+                    held += points.field.len();
+                    let Some(result) = cx.part(number, || cx.solve(&built, &points))? else {
+                        continue;
+                    };
                     all.push(Solved {
                         places: [i, k],
                         built,

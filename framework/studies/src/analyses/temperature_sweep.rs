@@ -1,4 +1,4 @@
-//! Where losses arise, over the temperature of the oil.
+//! Loss breakdown over oil temperature.
 
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -11,36 +11,36 @@ use crate::analysis::Given;
 use crate::register_analysis;
 use crate::study::{By, SpeedAxis, TemperatureAxis, TorqueAxis, Uses, Write};
 
-/// Where losses arise, over the temperature of the oil.
+/// Loss breakdown over oil temperature.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct TemperatureSweepEntry {
-    /// Gearbox; absent, the first.
+    /// Gearbox; default: the first.
     pub gearbox: Option<String>,
-    /// Gear state; absent, the first.
+    /// Gear; default: the first.
     pub gear: Option<String>,
-    /// Sets of models; absent, the models of the gearbox. `PRODUCT/SET` takes another gearbox, `PRODUCT/own` its own models.
+    /// Model sets; default: the models of the gearbox. `PRODUCT/SET` selects another gearbox, `PRODUCT/own` its default models.
     #[serde(default)]
     pub model_sets: Vec<String>,
-    /// What the losses are summed by.
+    /// Grouping of losses.
     #[serde(default)]
     pub by: By,
-    /// Watts, or percent of the whole loss.
+    /// Watts, or percent of the total loss.
     #[serde(default, rename = "as")]
     pub unit: As,
-    /// Temperatures of the oil, in place of that of the conditions.
+    /// Oil temperatures, instead of that of the conditions.
     pub oil_temperature: TemperatureAxis,
     /// Torques.
     pub torque: TorqueAxis,
     /// Speeds.
     pub speed: SpeedAxis,
-    /// Formats to write; absent, CSV and JSON.
+    /// Formats to write; default: CSV and JSON.
     #[serde(default = "Write::data")]
     pub write: Vec<Write>,
 }
 
 impl Entry for TemperatureSweepEntry {
     const TYPE: &'static str = "temperature_sweep";
-    const MEANING: &'static str = "Where losses arise, over the temperature of the oil.";
+    const MEANING: &'static str = "Loss breakdown over oil temperature.";
 
     fn uses(&self) -> Uses<'_> {
         Uses::new(self.gearbox.as_ref(), &self.model_sets).at(&self.gear)
@@ -59,7 +59,7 @@ impl Analysis for TemperatureSweepEntry {
         let temperatures = axis(cx, &format!("{path}.oil_temperature"), own)?;
         let stacks = Stacks::new(self.by, self.unit, &built);
         let mut breakdowns = Vec::new();
-        for b in &built {
+        for (i, b) in built.iter().enumerate() {
             let t = &b.transmission;
             let speeds = speeds(cx, &format!("{path}.speed"), &self.speed, t)?;
             let torques = torques(cx, &format!("{path}.torque"), &self.torque, t)?;
@@ -71,8 +71,9 @@ impl Analysis for TemperatureSweepEntry {
                 }
             }
             let gear = gear_of(self.gear.as_deref(), t);
-            breakdowns.extend(stacks.solve(cx, b, gear, rows, &|_| None)?);
+            breakdowns.extend(cx.part(i, || stacks.solve(cx, b, gear, rows, &|_| None))?.flatten());
         }
+        cx.complete()?;
         stacks.outcome(cx, &built, breakdowns)
     }
 

@@ -1,4 +1,4 @@
-//! The torque, or the speed, at which the balance reaches a given temperature.
+//! The torque, or the speed, at which the heat balance reaches a given temperature.
 
 use gearloss_framework::evaluate::{Point, Scratch};
 use gearloss_framework::flow::Tolerance;
@@ -17,33 +17,32 @@ use crate::register_analysis;
 use crate::study::{SpeedAxis, TorqueAxis, Uses, Write};
 use crate::table::{Column, Table};
 
-/// The torque, or the speed, at which the balance reaches a given temperature.
+/// The torque, or the speed, at which the heat balance reaches a given temperature.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct ThermalLimitEntry {
-    /// Gearbox; absent, the first.
+    /// Gearbox; default: the first.
     pub gearbox: Option<String>,
-    /// Gear state; absent, the first.
+    /// Gear; default: the first.
     pub gear: Option<String>,
-    /// Sets of models; absent, the models of the gearbox. `PRODUCT/SET` takes another gearbox, `PRODUCT/own` its own models.
+    /// Model sets; default: the models of the gearbox. `PRODUCT/SET` selects another gearbox, `PRODUCT/own` its default models.
     #[serde(default)]
     pub model_sets: Vec<String>,
-    /// Temperatures of the oil that may be reached. [degC]
+    /// Limits of the oil temperature. [degC]
     #[schemars(inner(range(min = 0.0, max = 250.0)), length(min = 1))]
     pub temperature: Vec<f64>,
-    /// What is looked for: the torque at each speed, or the speed at each torque.
+    /// Unknown: the torque at each speed, or the speed at each torque.
     #[serde(default)]
     pub find: Find,
-    /// Torques: the range in which the limit is looked for, from the value nearest to zero to the farthest; or those at which
-    /// the speed is.
+    /// Torques: the range of the search, from the value nearest to zero to the farthest; or the given torques.
     pub torque: TorqueAxis,
-    /// Speeds: those at which the torque is looked for; or the range in which the limit is.
+    /// Speeds: the given speeds, or the range of the search.
     pub speed: SpeedAxis,
-    /// Formats to write; absent, CSV, JSON and SVG.
+    /// Formats to write; default: CSV, JSON and SVG.
     #[serde(default = "Write::every_format")]
     pub write: Vec<Write>,
 }
 
-/// What a limit is looked for in.
+/// Unknown of a thermal limit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Find {
@@ -56,7 +55,7 @@ pub enum Find {
 
 impl Entry for ThermalLimitEntry {
     const TYPE: &'static str = "thermal_limit";
-    const MEANING: &'static str = "The torque, or the speed, at which the balance reaches a given temperature.";
+    const MEANING: &'static str = "The torque, or the speed, at which the heat balance reaches a given temperature.";
 
     fn uses(&self) -> Uses<'_> {
         Uses::new(self.gearbox.as_ref(), &self.model_sets).at(&self.gear)
@@ -65,54 +64,54 @@ impl Entry for ThermalLimitEntry {
 
 register_analysis!(ThermalLimitEntry);
 
-/// The thermal limits under each model set.
+/// The thermal limits with each model set.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct ThermalLimitOutcome {
-    /// Where it comes from.
+    /// Provenance.
     #[serde(flatten)]
     pub head: Head,
     /// One for each model set.
     pub thermal_limits: Vec<ThermalLimitsOfSet>,
 }
 
-/// The thermal limits under one model set.
+/// The thermal limits with one model set.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct ThermalLimitsOfSet {
     /// Name of the set.
     pub model_set: String,
     /// Gear state.
     pub gear: String,
-    /// What was looked for.
+    /// The unknown.
     pub find: Find,
     /// One for each temperature and each speed or torque.
     pub limits: Vec<ThermalLimit>,
-    /// What models noted.
+    /// Notes of models.
     pub notes: Vec<Note>,
 }
 
 /// The limit at one speed, or at one torque.
 #[derive(Debug, Clone, Copy, Serialize, JsonSchema)]
 pub struct ThermalLimit {
-    /// Temperature of the oil that may be reached. [degC]
+    /// Limit of the oil temperature. [degC]
     pub limit_degc: f64,
-    /// Torque; absent where it was looked for and there is none. [Nm]
+    /// Torque; absent if it is the unknown and there is no solution. [Nm]
     pub torque_nm: Option<f64>,
-    /// Speed; absent where it was looked for and there is none. [rpm]
+    /// Speed; absent if it is the unknown and there is no solution. [rpm]
     pub speed_rpm: Option<f64>,
-    /// What became of the search: `reached`, `at_discontinuity` where the losses jump over the heat, `exceeded_from_the_start`,
-    /// `not_reached`, or `undefined` where losses or heat have no value.
+    /// Result of the search: `reached`, `at_discontinuity` if the losses are discontinuous there, `exceeded_from_the_start`, `not_reached`,
+    /// or `undefined` if losses or heat have no value.
     pub outcome: &'static str,
     /// Loss there. [W]
     pub loss_w: Option<f64>,
-    /// Power in. [W]
+    /// Input power. [W]
     pub input_w: Option<f64>,
-    /// Power out. [W]
+    /// Output power. [W]
     pub output_w: Option<f64>,
-    /// Power out over power in. [-]
+    /// Output power over input power. [-]
     pub efficiency: Option<f64>,
-    /// Lowest temperature that keeps itself there: another one than the limit where several do. [degC]
+    /// Lowest stable temperature there: differs from the limit if there are several. [degC]
     pub lowest_balance_degc: Option<f64>,
-    /// The speed as it was solved, with the digits that `speed_rpm` rounds; pictures show it. [rpm]
+    /// The speed without rounding, for figures. [rpm]
     #[serde(skip)]
     pub solved_speed_rpm: Option<f64>,
 }
@@ -123,6 +122,7 @@ impl Analysis for ThermalLimitEntry {
     fn run(&self, cx: &Context<'_>) -> Result<ThermalLimitOutcome, Stopped> {
         let path = cx.path();
         let built = cx.built(cx.gearbox(self.gearbox.as_ref())?, &self.model_sets)?;
+        cx.undivided()?;
         let mut thermal_limits = Vec::new();
         for b in &built {
             needs_balance(cx, b)?;
@@ -136,8 +136,8 @@ impl Analysis for ThermalLimitEntry {
             let points = cx.points(&b.transmission, gear, Vec::new(), Vec::new());
             let case = cx.case(b.gearbox, &b.transmission, &points)?;
             if case.torque_ports.is_empty() && self.find == Find::Torque {
-                let message = format!("`{gear}` takes no torque, so none can be its limit");
-                return Err(cx.wrong(&path, message, "name another gear, or look for the speed"));
+                let message = format!("`{gear}` has no given torque, so there is no torque limit");
+                return Err(cx.wrong(&path, message, "choose another gear, or find the speed"));
             }
             if cx.only_checks {
                 continue;
@@ -155,7 +155,6 @@ impl Analysis for ThermalLimitEntry {
             thermal_limits.push(search.all(&self.temperature, outwards(&range), &fixed));
         }
         cx.begin()?;
-        cx.undivided()?;
         let head = cx.head(&built.iter().collect::<Vec<_>>());
         Ok(ThermalLimitOutcome { head, thermal_limits })
     }
@@ -165,23 +164,23 @@ impl Analysis for ThermalLimitEntry {
     }
 }
 
-/// A limit is looked for between two values on one side of zero.
+/// The search needs two values of the same sign.
 fn is_range(cx: &Context<'_>, path: &str, range: &[f64]) -> Result<(), Stopped> {
     let (Some(first), Some(last), true) = (range.first(), range.last(), range.len() > 1) else {
-        let message = "one value is no range to look for a limit in";
+        let message = "the search for a limit needs a range, not one value";
         return Err(cx.wrong(path, message, "write `{ from: ..., to: ..., step: ... }`"));
     };
     if range.iter().any(|x| x * first < 0.0 || x * last < 0.0) {
         return Err(cx.wrong(
             path,
-            "the range goes through zero",
-            "look on one side of zero at a time",
+            "the range contains zero",
+            "use separate analyses for positive and negative values",
         ));
     }
     Ok(())
 }
 
-/// From the value nearest to zero outwards, whichever way the axis runs.
+/// From the value nearest to zero outwards.
 fn outwards(range: &[f64]) -> [f64; 2] {
     let values = || range.iter().copied();
     let nearest = values().min_by(|a, b| a.abs().total_cmp(&b.abs()));
@@ -189,7 +188,7 @@ fn outwards(range: &[f64]) -> [f64; 2] {
     [nearest, farthest].map(|end| end.unwrap_or(0.0))
 }
 
-/// What all limits under one model set share.
+/// Common data of all limits with one model set.
 struct Search<'a> {
     find: Find,
     built: &'a Built<'a>,
@@ -217,7 +216,7 @@ impl Search<'_> {
         }
     }
 
-    /// Speed and torque where the value that is looked for is `x`.
+    /// Speed and torque if the unknown is `x`.
     fn given(&self, fixed: f64, x: f64) -> ([f64; 1], [f64; 1]) {
         match self.find {
             Find::Torque => ([fixed], [x]),
@@ -282,20 +281,16 @@ impl Outcome for ThermalLimitOutcome {
             &self.head.analysis,
             [
                 Column::text("model_set", "Model set"),
-                Column::text("gear", "Gear state"),
-                Column::number("limit_degc", "degC", "Temperature of the oil that may be reached"),
+                Column::text("gear", "Gear"),
+                Column::number("limit_degc", "degC", "Limit of the oil temperature"),
                 Column::number("torque_nm", "Nm", "Torque"),
                 Column::number("speed_rpm", "rpm", "Speed"),
-                Column::text("outcome", "What became of the search"),
+                Column::text("outcome", "Result of the search"),
                 Column::number("loss_w", "W", "Loss"),
-                Column::number("input_w", "W", "Power in"),
-                Column::number("output_w", "W", "Power out"),
-                Column::number("efficiency", "-", "Power out over power in"),
-                Column::number(
-                    "lowest_balance_degc",
-                    "degC",
-                    "Lowest temperature of the oil that keeps itself",
-                ),
+                Column::number("input_w", "W", "Input power"),
+                Column::number("output_w", "W", "Output power"),
+                Column::number("efficiency", "-", "Output power over input power"),
+                Column::number("lowest_balance_degc", "degC", "Lowest stable oil temperature"),
             ],
         );
         for of_set in &self.thermal_limits {

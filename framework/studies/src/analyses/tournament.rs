@@ -1,4 +1,4 @@
-//! Every combination of the models of some mechanisms: ranked by a measurement, or the spread that they leave.
+//! Every combination of the models of some mechanisms: ranked by a measurement, or their spread.
 
 mod candidates;
 mod field;
@@ -24,49 +24,49 @@ use super::{Analysis, Context, Entry, Stopped};
 use crate::register_analysis;
 use crate::study::{Data, Difference, Quantity, Uses, Write};
 
-/// The most combinations.
+/// Maximum number of combinations.
 const MOST: usize = 200_000;
 
-/// Every combination of the models of some mechanisms. The loss of each is evaluated once and added; against measured points
-/// combinations are ranked by their cross-validated error over the accuracy of the measured loss, without them their spread is the
-/// uncertainty of the models.
+/// Every combination of the models of some mechanisms. The loss of each model is evaluated once and added. With measured points,
+/// combinations are ranked by their cross-validated error relative to the accuracy of the measured loss; without them, their spread is the
+/// model-form uncertainty.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct TournamentEntry {
-    /// Gearbox; absent, the first.
+    /// Gearbox; default: the first.
     pub gearbox: Option<String>,
-    /// Gear state of the data; absent, the first. A grid has its own.
+    /// Gear of the data; default: the first. A grid has its own.
     pub gear: Option<String>,
-    /// Set of models for everything else; absent, the models of the gearbox.
+    /// Model set of all other components; default: the models of the gearbox.
     pub model_set: Option<String>,
-    /// The mechanisms whose models change.
+    /// The mechanisms whose models are varied.
     #[schemars(length(min = 1))]
     pub mechanisms: Vec<CandidatesEntry>,
-    /// Grid, of one gear state; not with `data`.
+    /// Grid with one gear; not with `data`.
     pub grid: Option<String>,
-    /// Measured points that the combinations are ranked by.
+    /// Measured points for the ranking.
     pub data: Option<Data>,
-    /// Accuracy of the loss at points for which the file states none: of the loss, the loss torque or the efficiency, or of the
-    /// torque meters. Absent too, 5 % of the loss and 1 % of the root mean square of all losses are assumed.
+    /// Accuracy of the loss at points without an accuracy of loss, loss torque, efficiency or torque meters in the file. Default (assumed):
+    /// 5 % of the loss and 1 % of the root mean square of all losses.
     pub errors: Option<LossErrorsEntry>,
-    /// Correlation between the errors of any two points, which is the share of common errors in their variance: 0 where each point errs on its
-    /// own, 1 where all err together, as by a gain or an offset of a torque meter; more than 0.99 counts as 0.99. Absent, it is estimated
-    /// from the residuals of the best combination. [-]
+    /// Correlation between the errors of any two points, the share of common errors in their variance: 0 for independent errors, 1 for
+    /// common errors only, such as a gain or an offset of a torque meter; limited to 0.99. Default: estimated from the residuals of the
+    /// best combination. [-]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub correlation: Option<f64>,
-    /// The unit in which errors are printed: efficiency points, watts, or newton metres. The ranking is the same for all.
+    /// Printed unit of errors: percentage points of efficiency, watts, or newton metres. The ranking is the same for all.
     #[serde(default)]
     pub quantity: Quantity,
-    /// Each mechanism's loss may be scaled by a factor, fitted within these bounds for each combination.
+    /// Bounds of a factor on each mechanism's loss, fitted for each combination.
     pub factors: Option<FactorsEntry>,
-    /// Groups of neighbouring torques of which each is predicted from the others. [-]
+    /// Number of groups of neighbouring torques for cross-validation. [-]
     #[serde(default = "folds")]
     #[schemars(range(min = 2, max = 20))]
     pub folds: u32,
-    /// How many combinations are printed. [-]
+    /// Number of printed combinations. [-]
     #[serde(default = "shown")]
     #[schemars(range(min = 1, max = 1000))]
     pub shown: u32,
-    /// Formats to write; absent, CSV, JSON and SVG.
+    /// Formats to write; default: CSV, JSON and SVG.
     #[serde(default = "Write::every_format")]
     pub write: Vec<Write>,
 }
@@ -79,27 +79,27 @@ fn shown() -> u32 {
     10
 }
 
-/// The models of one mechanism that take part.
+/// The candidate models of one mechanism.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct CandidatesEntry {
     /// Mechanism, such as `bearing`.
     pub mechanism: String,
-    /// Slot of a mechanism of which a gear has several models: `churning` of `gear_drag`.
+    /// Slot, if a gear has several models of the mechanism: `churning` of `gear_drag`.
     pub slot: Option<String>,
-    /// Models by name, each as in a gearbox: `{ type: skf }`; absent, all that this gearbox has the inputs
-    /// for, with their defaults. A model that takes another one, such as a mesh model that takes a `tooth_friction`, takes part with each of them.
-    /// Those of drags are named always, because laws for churning, injection and windage are one mechanism.
+    /// Models by name, each as in a gearbox: `{ type: skf }`; default: all models whose inputs this gearbox has, with their defaults. A
+    /// model with a nested model, such as a mesh model with `tooth_friction`, is combined with each nested model. Models of drags must be
+    /// listed, because laws for churning, injection and windage are one mechanism.
     #[serde(default)]
     pub models: Ordered<Value>,
 }
 
-/// Accuracy of measured losses: a share of the loss, a constant, or both, which add as squares.
+/// Accuracy of measured losses: relative, constant, or both, which are added as squares.
 #[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
 pub struct LossErrorsEntry {
-    /// Standard deviation in percent of the loss, above zero. [-]
+    /// Standard deviation in percent of the loss, positive. [-]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub percent: Option<f64>,
-    /// Standard deviation at every point, above zero. [W]
+    /// Standard deviation at every point, positive. [W]
     #[schemars(range(min = 0.0, max = 1e9))]
     pub absolute: Option<f64>,
 }
@@ -107,10 +107,10 @@ pub struct LossErrorsEntry {
 /// Bounds of the factors.
 #[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
 pub struct FactorsEntry {
-    /// Least factor. [-]
+    /// Minimum factor. [-]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub least: f64,
-    /// Greatest factor. [-]
+    /// Maximum factor. [-]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub greatest: f64,
 }
@@ -161,7 +161,7 @@ impl Analysis for TournamentEntry {
 }
 
 impl TournamentEntry {
-    /// Refuses what fits no tournament, whatever it takes.
+    /// Rejects invalid keys.
     fn check(&self, cx: &Context<'_>) -> Result<(), Stopped> {
         let path = cx.path();
         if self.quantity == Quantity::Temperature {
@@ -171,20 +171,20 @@ impl TournamentEntry {
         if let Some(errors) = self.errors {
             let both = [errors.percent, errors.absolute];
             if both.iter().all(Option::is_none) || both.iter().flatten().any(|x| *x <= 0.0) {
-                let message = "accuracies of losses are above zero, and one at least is stated";
-                let help = "write `{ percent: 2, absolute: 5 W }`, or one of the two";
+                let message = "accuracies of losses must be positive, and at least one must be stated";
+                let help = "write `{ percent: 2, absolute: 5 W }`, or one of them";
                 return Err(cx.wrong(&format!("{path}.errors"), message, help));
             }
         }
         if let Some(f) = self.factors.filter(|f| f.least >= f.greatest) {
-            let message = format!("factors from {} to {} leave no room", f.least, f.greatest);
+            let message = format!("factors from {} to {} are not a range", f.least, f.greatest);
             let help = "write `{ least: 0.5, greatest: 2 }`";
             return Err(cx.wrong(&format!("{path}.factors"), message, help));
         }
         Ok(())
     }
 
-    /// Unit of errors in words.
+    /// Unit of errors as text.
     fn unit_in_words(&self) -> &'static str {
         self.quantity.words(Difference::Points).1
     }

@@ -1,4 +1,4 @@
-//! A gearbox under one set with some values changed, built and solved anew; on any thread.
+//! A gearbox with one set and some changed values, rebuilt and solved on any thread.
 
 use std::collections::BTreeSet;
 
@@ -13,9 +13,9 @@ use super::{Built, Context};
 use crate::study::Study;
 
 /// Stated ranges that were left: path and quantity.
-pub type Left = BTreeSet<(String, &'static str)>;
+pub type Left = BTreeSet<(String, String)>;
 
-/// What is built anew.
+/// Data for rebuilding.
 pub struct Trial<'a> {
     cx: &'a Context<'a>,
     language: &'a Language,
@@ -25,7 +25,7 @@ pub struct Trial<'a> {
 }
 
 impl<'a> Trial<'a> {
-    /// That of a gearbox under a set.
+    /// For a gearbox with a set.
     pub fn new(cx: &'a Context<'a>, built: &'a Built<'_>) -> Self {
         Self {
             cx,
@@ -36,7 +36,7 @@ impl<'a> Trial<'a> {
         }
     }
 
-    /// The transmission with overrides, or the first thing that is wrong with it.
+    /// The transmission with overrides, or its first error.
     pub fn build(&self, overrides: impl IntoIterator<Item = (String, Value)>) -> Result<Transmission, String> {
         let mut choice = self.study.choice(self.set);
         choice.overrides.extend(overrides);
@@ -49,7 +49,7 @@ impl<'a> Trial<'a> {
             .map_err(|findings| findings.first())
     }
 
-    /// All points of it. Their temperature follows the overrides, where nothing else gives it.
+    /// Solves all points. Their temperature follows the overrides unless given otherwise.
     pub fn solve(&self, transmission: &Transmission, points: &Points) -> Result<GridResult, String> {
         let points = Points {
             oil: OilTemperature::of(transmission, self.study.entry.conditions.oil_temperature),
@@ -79,9 +79,9 @@ impl<'a> Trial<'a> {
 }
 
 /// The stated ranges that a solved trial left.
-pub fn left(transmission: &Transmission, seen: &[Extent]) -> impl Iterator<Item = (String, &'static str)> {
+pub fn left(transmission: &Transmission, seen: &[Extent]) -> impl Iterator<Item = (String, String)> {
     let outside = notes(transmission, seen).into_iter().filter(|n| n.outside > 0);
-    outside.map(|n| (n.path, n.name))
+    outside.map(|n| (n.path, n.name.to_owned()))
 }
 
 /// Why a point has no loss.

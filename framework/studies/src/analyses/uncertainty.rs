@@ -1,4 +1,4 @@
-//! What uncertain inputs do: samples of all inputs, solved over a grid, and the bands that they leave.
+//! Uncertainty propagation: samples of all inputs, solved over a grid, and the resulting bands.
 
 mod samples;
 
@@ -15,24 +15,24 @@ use crate::register_analysis;
 use crate::study::{NameOr, ToleranceEntry, Uses, Write};
 use crate::table::{Cell, Column, Table};
 
-/// What uncertain inputs do to efficiency, loss and temperature over a grid: every input is drawn from its distribution.
+/// Effect of uncertain inputs on efficiency, loss and temperature over a grid: every input is drawn from its distribution.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct UncertaintyEntry {
-    /// Gearbox; absent, the first.
+    /// Gearbox; default: the first.
     pub gearbox: Option<String>,
-    /// Grid, of one gear state.
+    /// Grid with one gear.
     pub grid: String,
-    /// Sets of models; absent, the models of the gearbox. `PRODUCT/SET` takes another gearbox, `PRODUCT/own` its own models.
+    /// Model sets; default: the models of the gearbox. `PRODUCT/SET` selects another gearbox, `PRODUCT/own` its default models.
     #[serde(default)]
     pub model_sets: Vec<String>,
-    /// The uncertain inputs. A name takes over a parameter of the study, evenly distributed.
+    /// The uncertain inputs. A name refers to a parameter of the study, uniformly distributed.
     #[schemars(length(min = 1), with = "Vec<NameOr<ToleranceEntry>>")]
     pub inputs: Vec<ToleranceEntry>,
     /// Number of samples; powers of two fill the ranges most evenly. [-]
     #[serde(default = "samples")]
     #[schemars(range(min = 8, max = 65536))]
     pub samples: u32,
-    /// Formats to write; absent, CSV, JSON and SVG.
+    /// Formats to write; default: CSV, JSON and SVG.
     #[serde(default = "Write::every_format")]
     pub write: Vec<Write>,
 }
@@ -43,7 +43,7 @@ fn samples() -> u32 {
 
 impl Entry for UncertaintyEntry {
     const TYPE: &'static str = "uncertainty";
-    const MEANING: &'static str = "Bands of efficiency, loss and temperature from uncertain inputs.";
+    const MEANING: &'static str = "Uncertainty bands of efficiency, loss and temperature from uncertain inputs.";
 
     fn uses(&self) -> Uses<'_> {
         Uses {
@@ -55,31 +55,31 @@ impl Entry for UncertaintyEntry {
 
 register_analysis!(UncertaintyEntry);
 
-/// Bands over a grid under each model set.
+/// Uncertainty bands over a grid with each model set.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct UncertaintyOutcome {
-    /// Where it comes from.
+    /// Provenance.
     #[serde(flatten)]
     pub head: Head,
     /// One for each model set.
     pub bands: Vec<BandsOfSet>,
-    /// Stated ranges that the nominal points or samples left, set after set.
+    /// Quantities outside their stated ranges at nominal points or in samples, by set.
     #[serde(skip)]
-    pub left: Vec<(String, &'static str)>,
+    pub left: Vec<(String, String)>,
 }
 
-/// Bands over a grid under one model set.
+/// Uncertainty bands over a grid with one model set.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct BandsOfSet {
     /// Name of the set.
     pub model_set: String,
     /// Gear state.
     pub gear: String,
-    /// Number of samples that were solved. [-]
+    /// Number of solved samples. [-]
     pub samples: usize,
-    /// Number of samples that could not be built or solved. [-]
+    /// Number of failed samples. [-]
     pub failed: usize,
-    /// Shares of the samples below the lower end, the middle and the upper end of each band. [-]
+    /// Probabilities of the lower end, the middle and the upper end of each band. [-]
     pub quantiles: [f64; 3],
     /// The inputs, those with the strongest correlation first.
     pub inputs: Vec<UncertainInput>,
@@ -88,13 +88,13 @@ pub struct BandsOfSet {
     /// Torques of the grid. [Nm]
     #[serde(skip)]
     pub torques_nm: Vec<f64>,
-    /// Speeds of the grid with the noise of their conversion. [rpm]
+    /// Speeds of the grid, not rounded. [rpm]
     #[serde(skip)]
     pub speeds_rpm: Vec<f64>,
     /// Why the first of the failed samples has no value.
     #[serde(skip)]
     pub first_failure: Option<String>,
-    /// Which of the inputs are coefficients of formulas, in the order of the study.
+    /// Inputs that are coefficients of formulas, in the order of the study.
     #[serde(skip)]
     pub published: Vec<PublishedCoefficient>,
 }
@@ -102,7 +102,7 @@ pub struct BandsOfSet {
 /// An uncertain input.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct UncertainInput {
-    /// Path of the quantity as the study writes it, perhaps a pattern.
+    /// Path of the quantity as in the study, possibly a pattern.
     pub path: String,
     /// Resolved paths that change together.
     pub paths: Vec<String>,
@@ -112,9 +112,9 @@ pub struct UncertainInput {
     pub from: f64,
     /// Upper end of the range, in the unit of the input.
     pub to: f64,
-    /// Correlation with the mean loss over the grid; absent where one of both is the same in all samples. [-]
+    /// Correlation with the mean loss over the grid; absent if one of them is constant. [-]
     pub correlation_with_mean_loss: Option<f64>,
-    /// Both ends with their unit, in words.
+    /// Both ends with their unit, as text.
     #[serde(skip)]
     pub words: [String; 2],
 }
@@ -126,15 +126,15 @@ pub struct PointOfBand {
     pub torque_nm: f64,
     /// Given speed. [rpm]
     pub speed_rpm: f64,
-    /// Power out over power in. [-]
+    /// Output power over input power. [-]
     pub efficiency: QuantityBand,
     /// Sum of all losses. [W]
     pub loss_w: QuantityBand,
     /// Loss over the speed of the reference port. [Nm]
     pub loss_torque_nm: QuantityBand,
-    /// Temperature of the oil. [degC]
+    /// Oil temperature. [degC]
     pub oil_temperature_degc: QuantityBand,
-    /// The efficiency as it is printed. [%]
+    /// The efficiency in percent. [%]
     #[serde(skip)]
     pub efficiency_percent: QuantityBand,
 }
@@ -142,14 +142,14 @@ pub struct PointOfBand {
 /// A quantity at one point, in its unit.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, JsonSchema)]
 pub struct QuantityBand {
-    /// Value without any deviation; absent where there is none.
+    /// Nominal value; absent if there is none.
     pub nominal: Option<f64>,
-    /// Lower end, median and upper end of the 95 % band; absent where fewer than half of the samples have a value.
+    /// Lower end, median and upper end of the 95 % band; absent if fewer than half the samples have a value.
     pub band: Option<[f64; 3]>,
 }
 
 impl QuantityBand {
-    /// Half of the width of the band.
+    /// Half the width of the band.
     pub fn half_width(&self) -> Option<f64> {
         self.band.map(|band| 0.5 * (band[2] - band[0]))
     }
@@ -170,13 +170,13 @@ impl Analysis for UncertaintyEntry {
         let gearbox = cx.gearbox(self.gearbox.as_ref())?;
         let grid = cx.study.grid(&path, &self.grid)?;
         if !grid.bind.is_empty() || grid.envelope.is_some() {
-            let message = "a band takes a grid without bound values and envelope";
-            return Err(cx.wrong(&path, message, "give it a grid of its own"));
+            let message = "uncertainty bands need a grid without bound values and envelope";
+            return Err(cx.wrong(&path, message, "give it its own grid"));
         }
         let built = cx.built(gearbox, &self.model_sets)?;
         let gear = cx.one_gear(&path, grid, &built[0].transmission)?;
         let (mut bands, mut all_left) = (Vec::new(), Vec::new());
-        for b in &built {
+        for (i, b) in built.iter().enumerate() {
             let (torques, speeds) = grid_axes(cx, &self.grid, grid, &b.transmission)?;
             let points = cx.points(&b.transmission, &gear, torques.clone(), speeds.clone());
             cx.holds(&format!("{path}.samples"), points.field.len(), self.samples as usize)?;
@@ -184,9 +184,11 @@ impl Analysis for UncertaintyEntry {
             if cx.checked(b, &points)? {
                 continue;
             }
-            let nominal = cx.solve(b, &points)?;
-            let mut left: Left = super::trial::left(&b.transmission, &nominal.seen).collect();
-            let samples = samples::solve(cx, self.samples, b, &inputs, &points, &mut left)?;
+            let mut left = Left::new();
+            let samples = cx.part(i, || samples::solve(cx, self.samples, b, &inputs, &points, &mut left))?;
+            let Some(samples) = samples else { continue };
+            let nominal = cx.solve_here(b, &points)?;
+            left.extend(super::trial::left(&b.transmission, &nominal.seen));
             all_left.extend(left);
             let points = samples.points(&nominal.points);
             bands.push(BandsOfSet {
@@ -204,7 +206,7 @@ impl Analysis for UncertaintyEntry {
             });
         }
         cx.begin()?;
-        cx.undivided()?;
+        cx.complete()?;
         Ok(UncertaintyOutcome {
             head: cx.head(&built.iter().collect::<Vec<_>>()),
             bands,
@@ -226,7 +228,7 @@ type Quantity = (
 );
 
 const QUANTITIES: [Quantity; 4] = [
-    ("efficiency", "-", "Power out over power in", |p| &p.efficiency),
+    ("efficiency", "-", "Output power over input power", |p| &p.efficiency),
     ("loss_w", "W", "Sum of all losses", |p| &p.loss_w),
     (
         "loss_torque_nm",
@@ -234,7 +236,7 @@ const QUANTITIES: [Quantity; 4] = [
         "Loss over the speed of the reference port",
         |p| &p.loss_torque_nm,
     ),
-    ("oil_temperature_degc", "degC", "Temperature of the oil", |p| {
+    ("oil_temperature_degc", "degC", "Oil temperature", |p| {
         &p.oil_temperature_degc
     }),
 ];
@@ -247,7 +249,7 @@ impl Outcome for UncertaintyOutcome {
     fn tables(&self) -> Vec<Table> {
         let mut columns = vec![
             Column::text("model_set", "Model set"),
-            Column::text("gear", "Gear state"),
+            Column::text("gear", "Gear"),
             Column::number("torque_nm", "Nm", "Given torque"),
             Column::number("speed_rpm", "rpm", "Given speed"),
         ];
@@ -286,6 +288,9 @@ impl Outcome for UncertaintyOutcome {
     }
 
     fn left_at_samples(&self) -> Vec<(&str, &str)> {
-        self.left.iter().map(|(path, name)| (path.as_str(), *name)).collect()
+        self.left
+            .iter()
+            .map(|(path, name)| (path.as_str(), name.as_str()))
+            .collect()
     }
 }

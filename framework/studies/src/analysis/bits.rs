@@ -1,4 +1,4 @@
-//! Solved pieces as bytes that give back every bit: numbers as their 64 bits, little end first.
+//! Lossless serialisation of solved pieces: numbers as 64 bits, little-endian.
 
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -36,12 +36,12 @@ const OUTCOMES: [Outcome; 6] = [
 #[derive(Debug, Clone, Default)]
 pub struct Bits {
     bytes: Vec<u8>,
-    /// Where each point ends in the bytes.
+    /// End of each point in the bytes.
     ends: Vec<usize>,
 }
 
 impl Bits {
-    /// Points as bytes; what becomes of them as [`super::solve_pieces`] understands it.
+    /// Serialises points; a `make` function for [`super::solve_pieces`].
     pub fn of(points: &mut Numbered<'_>) -> Self {
         let mut bits = Self::default();
         for (_, point) in points {
@@ -76,7 +76,7 @@ impl Piece<Bits> {
 }
 
 impl Piece {
-    /// Takes a piece from the front of bytes; absent where they hold none.
+    /// Reads a piece from the front of bytes; absent if there is none.
     pub fn read_bits(from: &mut &[u8]) -> Option<Self> {
         let [number, points, seen] = [take_count(from)?, take_count(from)?, take_count(from)?];
         let points = (0..points).map(|_| PointResult::read_bits(from));
@@ -89,7 +89,7 @@ impl Piece {
 impl PointResult {
     /// Adds the point to bytes.
     pub fn write_bits(&self, to: &mut Vec<u8>) {
-        // Spelled out, so that a field that comes later is not forgotten.
+        // Explicit pattern, so that a new field is not forgotten.
         let Self {
             torque,
             speed,
@@ -144,7 +144,7 @@ impl PointResult {
         }
     }
 
-    /// Takes a point from the front of bytes; absent where they hold none.
+    /// Reads a point from the front of bytes; absent if there is none.
     pub fn read_bits(from: &mut &[u8]) -> Option<Self> {
         let status = *STATUSES.get(usize::from(take_byte(from)?))?;
         let balance = OUTCOMES.get(usize::from(take_byte(from)?)).copied();
@@ -260,7 +260,7 @@ fn take_reason(from: &mut &[u8]) -> Option<Undefined> {
     })
 }
 
-/// A reason as a text that lasts as long as the program. There are as many as models have reasons, and each is kept once.
+/// A reason as a static text. The number of reasons is limited, and each is stored once.
 fn lasting(text: &str) -> &'static str {
     static KNOWN: Mutex<BTreeSet<&'static str>> = Mutex::new(BTreeSet::new());
     let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);

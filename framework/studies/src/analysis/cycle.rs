@@ -1,7 +1,7 @@
-//! A duty driven through a transmission: losses, energies and temperatures in time.
+//! Simulation of a cycle: losses, energy and temperatures over time.
 //!
-//! Each interval has constant speeds and torques. At the wheels of a vehicle the torque is given behind the transmission, whose losses
-//! decide what the input needs; while braking the input gives back no more than its limit, and the brakes do the rest.
+//! Each interval has constant speeds and torques. At the wheels of a vehicle the torque is given at the output, and the losses of the
+//! transmission determine the input torque; while braking, regeneration at the input is limited, and the brakes supply the remainder.
 
 use super::OilTemperature;
 use crate::duty::{Demand, Interval, Vehicle, input_torque};
@@ -13,37 +13,37 @@ use gearloss_framework::thermal::Unbalanced;
 use gearloss_framework::thermal::network::{Heats, March, Moment, Scheme, StepSize, Surroundings};
 use gearloss_framework::transmission::{Case, Transmission, WHEELS};
 
-/// How a duty is driven.
+/// Settings of a simulation.
 #[derive(Clone, Copy)]
 pub struct Ride<'a> {
-    /// The duty.
+    /// The cycle.
     pub intervals: &'a [Interval],
     /// Port of recorded torques and speeds.
     pub port: &'a str,
-    /// The vehicle, where the duty is one of its speed.
+    /// The vehicle, if the cycle states its speed.
     pub vehicle: Option<&'a Vehicle>,
-    /// Gear state where the duty names none.
+    /// Gear if the cycle states none.
     pub gear: &'a str,
-    /// How temperatures are known.
+    /// Origin of the temperatures.
     pub oil: OilTemperature,
-    /// True for loads without order in time, each of which rests at its own temperatures.
+    /// True for loads without order in time; each is solved at its own steady-state temperature.
     pub spectrum: bool,
-    /// Temperature at the start; absent, that of the surroundings. \[degC\]
+    /// Temperature at the start; absent: ambient temperature. \[degC\]
     pub start: Option<f64>,
-    /// Temperature of the surroundings where the duty tells none; absent, that of the gearbox. \[degC\]
+    /// Ambient temperature if the cycle states none; absent: from the gearbox. \[degC\]
     pub ambient: Option<f64>,
-    /// Losses of the end or of the beginning of a step.
+    /// Whether losses are evaluated at the end or at the start of a step.
     pub scheme: Scheme,
-    /// Length of steps.
+    /// Step size.
     pub step: StepSize,
     /// Real or ideal flow.
     pub flow: PowerFlow,
 }
 
-/// One interval as it was driven.
+/// One simulated interval.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stretch {
-    /// Time at its begin. \[s\]
+    /// Time at its start. \[s\]
     pub start: f64,
     /// Torque of the reference port at its end. \[Nm\]
     pub torque: f64,
@@ -53,49 +53,49 @@ pub struct Stretch {
     pub vehicle_speed: Option<f64>,
     /// Energies.
     pub heats: Heats,
-    /// Energy that brakes of the vehicle take. \[J\]
+    /// Energy dissipated in the brakes of the vehicle. \[J\]
     pub brakes: f64,
-    /// Temperatures at its end: of the nodes, or of the oil alone. \[degC\]
+    /// Temperatures at its end: of the nodes, or of the oil only. \[degC\]
     pub temperatures: Vec<f64>,
-    /// What the transmission does.
+    /// State of the transmission.
     pub status: Status,
 }
 
-/// A duty as it was driven.
+/// A simulated cycle.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Driven {
-    /// The intervals, as far as they went.
+    /// The simulated intervals.
     pub stretches: Vec<Stretch>,
     /// All energies.
     pub total: Heats,
-    /// Energy that brakes of the vehicle take. \[J\]
+    /// Energy dissipated in the brakes of the vehicle. \[J\]
     pub brakes: f64,
     /// Temperatures at the start. \[degC\]
     pub start: Vec<f64>,
-    /// What was seen of limits and observed quantities.
+    /// Observed limits and quantities.
     pub seen: Vec<Extent>,
     /// Evaluations of the losses.
     pub evaluations: usize,
     /// Calls of loss models.
     pub calls: usize,
-    /// Steps in time, and those tried in vain.
+    /// Time steps, and rejected time steps.
     pub steps: [usize; 2],
-    /// Time at which it could not go on, and why.
+    /// Time at which the simulation stopped, and why.
     pub broken: Option<(f64, Unbalanced)>,
 }
 
-/// Where torque is given.
+/// Port of the given torque.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum At {
-    /// At the recorded port, with the speed there.
+    /// At the recorded port, with its speed.
     Port,
-    /// At the wheels, with the speed there.
+    /// At the wheels, with their speed.
     Wheels,
     /// At the reference port, with the speed of the wheels.
     Input,
 }
 
-/// Gear states with their cases, prepared when they come up first.
+/// Gears with their cases, prepared at first use.
 struct Cases<'a> {
     transmission: &'a Transmission,
     ride: &'a Ride<'a>,
@@ -124,7 +124,7 @@ impl Cases<'_> {
         Ok(self.known.len() - 1)
     }
 
-    /// Speed of the reference port over that of the wheels.
+    /// Ratio of the speed of the reference port to that of the wheels.
     fn ratio(&mut self, gear: &str) -> Result<f64, Vec<Diagnostic>> {
         let place = self.place(gear, At::Wheels)?;
         let t = self.transmission;
@@ -133,14 +133,14 @@ impl Cases<'_> {
     }
 }
 
-/// What an interval asks.
+/// Demand of an interval.
 struct Asked {
     place: usize,
     torque: f64,
     speed: f64,
-    /// Power that the brakes and the transmission take together, while braking. \[W\]
+    /// Braking power of brakes and transmission. \[W\]
     braking: f64,
-    /// Power that the brakes take, where it is known beforehand. \[W\]
+    /// Power of the brakes, if known beforehand. \[W\]
     brakes: Option<f64>,
 }
 
@@ -157,10 +157,10 @@ impl<'a> Cases<'a> {
     }
 }
 
-/// That every interval of a duty finds its gear state and its ports; nothing is solved.
+/// Checks gears and ports of every interval of a cycle without solving.
 ///
 /// # Errors
-/// If a gear state or a port is unknown, or does not fit.
+/// If a gear or a port is unknown or invalid.
 pub fn can_drive(transmission: &Transmission, ride: &Ride<'_>) -> Result<(), Vec<Diagnostic>> {
     let mut cases = Cases::new(transmission, ride)?;
     for interval in ride.intervals {
@@ -178,10 +178,10 @@ pub fn can_drive(transmission: &Transmission, ride: &Ride<'_>) -> Result<(), Vec
     Ok(())
 }
 
-/// Drives a duty. `progress` hears of each interval; where it answers false the work is broken off, and there is no result.
+/// Simulates a cycle. `progress` is called for each interval; if it returns false, the simulation stops without a result.
 ///
 /// # Errors
-/// If a gear state or a port is unknown, or does not fit.
+/// If a gear or a port is unknown or invalid.
 pub fn drive(
     transmission: &Transmission,
     ride: &Ride<'_>,
@@ -270,7 +270,7 @@ pub fn drive(
         }
     }
     if let (true, Some(first)) = (march.is_none(), driven.stretches.first()) {
-        // Nothing goes on in time, so nothing starts.
+        // Steady-state: there is no initial state.
         driven.start.clone_from(&first.temperatures);
     }
     for (.., scratch) in &cases.known {
@@ -280,10 +280,10 @@ pub fn drive(
     Ok(Some(driven))
 }
 
-/// The port that drives the wheels: `wheels`, `output`, or the one beside the reference port.
+/// The port of the wheels: `wheels`, `output`, or the only port other than the reference port.
 ///
 /// # Errors
-/// If there is none of these.
+/// If there is none.
 fn wheels(t: &Transmission) -> Result<usize, Diagnostic> {
     let named = |name: &str| t.ports().iter().position(|p| p.name == name);
     let other = (t.ports().len() == 2).then(|| 1 - t.reference_port());
@@ -292,10 +292,10 @@ fn wheels(t: &Transmission) -> Result<usize, Diagnostic> {
         let reference = &t.ports()[t.reference_port()].name;
         let names: Vec<&str> = t.ports().iter().map(|p| p.name.as_str()).collect();
         let others: Vec<&str> = names.iter().copied().filter(|name| name != reference).collect();
-        Diagnostic::error("ports", "a vehicle needs the port that drives its wheels")
+        Diagnostic::error("ports", "a vehicle needs the port of its wheels")
             .note(format!("there are: {}", names.join(", ")))
             .help(format!(
-                "write `conditions: {{ wheels: [{}] }}` in the study where both wheels are ports, or call the one port `output`",
+                "write `conditions: {{ wheels: [{}] }}` in the study if both wheels are ports, or rename the port to `output`",
                 others.join(", ")
             ))
     })
@@ -312,7 +312,7 @@ fn around(ride: &Ride<'_>, interval: Option<&Interval>) -> Surroundings {
     }
 }
 
-/// Torque and speed of an interval, and where they are given.
+/// Torque and speed of an interval, and their ports.
 fn ask(
     cases: &mut Cases<'_>,
     interval: &Interval,
@@ -336,7 +336,7 @@ fn ask(
                 });
             };
             let ratio = cases.ratio(gear)?;
-            // The input turns forwards.
+            // The input turns forward.
             let wheel_speed = speed * ratio.signum();
             let input_speed = speed * ratio.abs();
             let braking = (-torque * speed).max(0.0);
@@ -353,7 +353,7 @@ fn ask(
             if let Some(efficiency) = vehicle.efficiency {
                 let wanted = input_torque(torque, ratio.abs(), efficiency);
                 let taken = regained(wanted);
-                // Brakes take what the input does not give back, as the efficiency has it at the wheels.
+                // The brakes supply what regeneration does not, with the efficiency at the wheels.
                 let brakes = Some((taken - wanted).max(0.0) * input_speed / efficiency);
                 return Ok(Asked {
                     brakes,
@@ -369,7 +369,7 @@ fn ask(
                 brakes: None,
             };
             let ideal = torque / ratio.abs();
-            // Losses take from what comes back, so what the limit leaves without them it leaves with them.
+            // Losses reduce the regenerated power, so a demand within the limit without losses is within it with losses.
             if regained(ideal) <= ideal {
                 return Ok(at_wheels);
             }
@@ -392,7 +392,7 @@ fn ask(
                 gearloss_framework::evaluate::Noting::Muted,
             );
             let own = scratch.port_torque(t.ports()[t.reference_port()].member);
-            // Where losses have no value the point itself will say so.
+            // If losses have no value, the solved point reports it.
             return if tried.is_err() || regained(own) <= own {
                 Ok(at_wheels)
             } else {
@@ -409,7 +409,7 @@ fn ask(
     })
 }
 
-/// An interval without memory: at a given temperature, or at rest with its own losses.
+/// A steady-state interval: at a given temperature, or at the equilibrium with its own losses.
 fn rest(
     t: &Transmission,
     ride: &Ride<'_>,

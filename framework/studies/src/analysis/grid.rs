@@ -1,4 +1,4 @@
-//! Many points: every torque at every speed of a grid, or a list.
+//! Points: every torque at every speed of a grid, or a list.
 
 use std::sync::Arc;
 
@@ -10,23 +10,22 @@ use gearloss_framework::loss::{Extent, MOST_TERMS, Undefined};
 use gearloss_framework::thermal::Outcome as ThermalOutcome;
 use gearloss_framework::transmission::{Case, Transmission};
 
-/// The points of a grid and how they are prescribed.
+/// Points and their prescription.
 #[derive(Debug, Clone)]
 pub struct Points {
     /// Gear state.
     pub gear: String,
-    /// Ports with given torque: that of the points at the first, none at the others. Those that the gear state has no use for
-    /// are left out.
+    /// Ports with given torque: that of the points at the first, zero at the others. Ports that the gear does not need are omitted.
     pub torque_at: Vec<String>,
-    /// Ports with given speed: that of the points at the first; the others stand still.
+    /// Ports with given speed: that of the points at the first; the others are stationary.
     pub speed_at: Vec<String>,
     /// Torques and speeds.
     pub field: Field,
-    /// Temperature of the oil where the list gives none.
+    /// Oil temperature if the list gives none.
     pub oil: OilTemperature,
     /// Real or ideal flow.
     pub flow: PowerFlow,
-    /// Whether losses are kept term by term.
+    /// Whether losses are stored by term.
     pub terms: bool,
 }
 
@@ -37,11 +36,20 @@ pub struct Given {
     pub torque: f64,
     /// Speed. \[rad/s\]
     pub speed: f64,
-    /// Temperature of the oil at this point; absent, that of all. \[degC\]
+    /// Oil temperature at this point; absent: the common one. \[degC\]
     pub oil: Option<f64>,
 }
 
 impl Given {
+    /// A point at a torque in Nm and a speed in rad/s, at the temperature of all points.
+    pub fn new(torque: f64, speed: f64) -> Self {
+        Self {
+            torque,
+            speed,
+            oil: None,
+        }
+    }
+
     fn on_grid(torques: &[f64], speeds: &[f64], place: usize) -> Self {
         Self {
             torque: torques[place / speeds.len()],
@@ -54,23 +62,23 @@ impl Given {
 /// Torques and speeds of many points.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Field {
-    /// Every torque at every speed; torques outside, speeds inside.
+    /// Every torque at every speed; speeds vary fastest.
     Grid {
         /// Torques. \[Nm\]
         torques: Vec<f64>,
         /// Speeds. \[rad/s\]
         speeds: Vec<f64>,
     },
-    /// Some places of such a grid.
+    /// Some positions of such a grid.
     Part {
         /// Torques. \[Nm\]
         torques: Vec<f64>,
         /// Speeds. \[rad/s\]
         speeds: Vec<f64>,
-        /// Numbers of the places, rising.
+        /// Indices of the positions, ascending.
         places: Arc<[u32]>,
     },
-    /// One after the other.
+    /// A list.
     List(Vec<Given>),
 }
 
@@ -89,10 +97,10 @@ impl Field {
         self.len() == 0
     }
 
-    /// A point by its number.
+    /// A point by its index.
     ///
     /// # Panics
-    /// If there are not as many points: a bug of the caller.
+    /// If the index is out of bounds: a bug of the caller.
     pub fn at(&self, i: usize) -> Given {
         match self {
             Self::Grid { torques, speeds } => Given::on_grid(torques, speeds, i),
@@ -105,7 +113,7 @@ impl Field {
         }
     }
 
-    /// The place on the grid of a point by its number; the number itself for a list.
+    /// The position on the grid of a point by its index; the index itself for a list.
     pub fn place(&self, i: usize) -> usize {
         match self {
             Self::Part { places, .. } => places[i] as usize,
@@ -121,52 +129,52 @@ pub struct PointResult {
     pub torque: f64,
     /// Given speed. \[rad/s\]
     pub speed: f64,
-    /// Speed of the port at which the torque is given; zero where none is. \[rad/s\]
+    /// Speed of the port with given torque; zero if there is none. \[rad/s\]
     pub torque_speed: f64,
     /// Speed of the reference port. \[rad/s\]
     pub reference_speed: f64,
-    /// Speed of the other port, where there are two. \[rad/s\]
+    /// Speed of the other port, if there are two. \[rad/s\]
     pub output_speed: Option<f64>,
     /// Whether the torque is given at the reference port.
     pub at_reference: bool,
-    /// Temperature of the oil; absent where no balance was found, and with it everything that hangs on it. \[degC\]
+    /// Oil temperature; absent if no balance was found, like everything that depends on it. \[degC\]
     pub oil: Option<f64>,
-    /// Temperature of the surface, where it was found by balance. \[degC\]
+    /// Surface temperature if found by heat balance. \[degC\]
     pub surface: Option<f64>,
-    /// What became of the balance, where the temperature is not given.
+    /// Status of the heat balance if the temperature is not given.
     pub balance: Option<ThermalOutcome>,
-    /// Temperatures of the nodes of a thermal network; none without one. \[degC\]
+    /// Temperatures of the nodes of a thermal network; empty without one. \[degC\]
     pub nodes: Vec<f64>,
-    /// What the transmission does.
+    /// State of the transmission.
     pub status: Status,
-    /// Power out over power in.
+    /// Output power over input power.
     pub efficiency: Option<f64>,
     /// Sum of all losses. \[W\]
     pub loss: Option<f64>,
     /// Loss over the speed of the reference port. \[Nm\]
     pub loss_torque: Option<f64>,
-    /// Power in. \[W\]
+    /// Input power. \[W\]
     pub input: Option<f64>,
-    /// Power out. \[W\]
+    /// Output power. \[W\]
     pub output: Option<f64>,
     /// The usual sums, in the order of [`super::SUMS`]. \[W\]
     pub sums: [f64; 6],
-    /// Losses of all parts, in the order of the parts. \[W\]
+    /// Losses of all components, in order. \[W\]
     pub parts: Vec<f64>,
-    /// The same by the terms of their models, where that was asked for. \[W\]
+    /// The same by the terms of their models, if requested. \[W\]
     pub terms: Vec<[f64; MOST_TERMS]>,
-    /// True where a model left its stated range.
+    /// True if a model is outside its stated range.
     pub outside: bool,
-    /// Why a loss has no value: number of the part and the reason.
+    /// Why a loss has no value: index of the component and the reason.
     pub undefined: Option<(usize, Undefined)>,
-    /// Passes over the loss models.
+    /// Number of iterations over the loss models.
     pub passes: usize,
-    /// Evaluations of the point on the way to its temperature.
+    /// Evaluations of the point to find its temperature.
     pub evaluations: usize,
 }
 
 impl PointResult {
-    /// Without all that hangs on a temperature that was not found.
+    /// Removes everything that depends on a temperature that was not found.
     pub(super) fn without_temperature(self) -> Self {
         Self {
             oil: None,
@@ -189,17 +197,32 @@ impl PointResult {
 pub struct GridResult {
     /// The points, in the order of the field.
     pub points: Vec<PointResult>,
-    /// What was seen of limits and observed quantities over all points.
+    /// Observed limits and quantities over all points.
     pub seen: Vec<Extent>,
-    /// Wall time is no result; calls of loss models are: the sum of passes.
+    /// Number of calls of loss models: the sum of iterations.
     pub passes: usize,
 }
 
 impl Points {
+    /// Points whose torques and speeds are given at the reference port, with real flow and the temperatures that the gearbox
+    /// states.
+    pub fn at_reference(transmission: &Transmission, gear: &str, field: Field) -> Self {
+        let port = transmission.ports()[transmission.reference_port()].name.clone();
+        Self {
+            gear: gear.to_owned(),
+            torque_at: vec![port.clone()],
+            speed_at: vec![port],
+            field,
+            oil: OilTemperature::of(transmission, None),
+            flow: PowerFlow::Real,
+            terms: false,
+        }
+    }
+
     /// The case of these points.
     ///
     /// # Errors
-    /// If the gear state or a port is unknown, or the prescription does not fit.
+    /// If the gear or a port is unknown, or the prescription is invalid.
     pub fn case(&self, transmission: &Transmission) -> Result<Case, Vec<Diagnostic>> {
         let state = transmission.state(&self.gear).map_err(|e| vec![e])?;
         let needed = transmission.torques_needed(state);
@@ -209,11 +232,11 @@ impl Points {
     }
 }
 
-/// Solves all points and holds them. `progress` hears how many more are solved; where it answers false the work is broken
-/// off, and there is no result.
+/// Solves all points and stores them. `progress` is called with the number of newly solved points; if it returns false, the work stops
+/// without a result.
 ///
 /// # Errors
-/// If the case does not fit.
+/// If the case is invalid.
 pub fn run_grid(
     transmission: &Transmission,
     points: &Points,
@@ -229,7 +252,7 @@ pub fn run_grid(
 }
 
 impl GridResult {
-    /// Adds the piece that follows.
+    /// Adds the next piece.
     pub fn add(&mut self, piece: Piece) {
         merge(&mut self.seen, &piece.seen);
         self.passes += piece.points().map(|p| p.passes).sum::<usize>();
@@ -237,7 +260,7 @@ impl GridResult {
     }
 }
 
-/// Adds what was seen of limits and observed quantities to what was seen before; both in the order of one transmission.
+/// Merges observed limits and quantities; both in the order of one transmission.
 pub fn merge(total: &mut Vec<Extent>, more: &[Extent]) {
     if total.is_empty() {
         total.extend_from_slice(more);

@@ -1,4 +1,4 @@
-//! What was seen of limits and observed quantities, with the paths of their models, and how well models are known.
+//! Notes on limits and observed quantities with the paths of their models, and evidence of models.
 
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -7,7 +7,7 @@ use serde_json::Value;
 use gearloss_framework::loads::LEAST_STATIC_SAFETY;
 use gearloss_framework::loss::Extent;
 use gearloss_framework::registry::{Evidence, Instance};
-use gearloss_framework::resolve::{Came, Resolved, lookup};
+use gearloss_framework::resolve::{Resolved, ValueSource, lookup};
 use gearloss_framework::transmission::Transmission;
 
 /// Name of the note of a bearing's static safety.
@@ -22,34 +22,34 @@ pub struct Note {
     pub name: &'static str,
     /// Unit.
     pub unit: &'static str,
-    /// Least value seen; null where it is not finite.
+    /// Minimum; null if it is not finite.
     #[schemars(with = "Option<f64>")]
     pub least: f64,
-    /// Greatest value seen; null where it is not finite.
+    /// Maximum; null if it is not finite.
     #[schemars(with = "Option<f64>")]
     pub greatest: f64,
-    /// At how many points it was seen.
+    /// Number of points with the quantity.
     pub points: u32,
-    /// At how many points it was outside of the stated range; zero for an observed quantity.
+    /// Number of points outside the stated range; zero for an observed quantity.
     pub outside: u32,
     /// The stated range; absent for an observed quantity.
     pub range: Option<Stated>,
 }
 
-/// The range in which a model is stated to hold, in the unit of the note.
+/// The stated range of a model, in the unit of the note.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct Stated {
-    /// Lower end; null where it is not finite.
+    /// Lower end; null if it is not finite.
     #[schemars(with = "Option<f64>")]
     pub least: f64,
-    /// Upper end; null where it is not finite.
+    /// Upper end; null if it is not finite.
     #[schemars(with = "Option<f64>")]
     pub greatest: f64,
-    /// Where it comes from.
+    /// Provenance.
     pub origin: &'static str,
 }
 
-/// All limits and observed quantities that were seen, and the static safety of bearings that have too little of it.
+/// Notes on all limits and observed quantities, and on bearings with insufficient static safety.
 pub fn notes(transmission: &Transmission, seen: &[Extent]) -> Vec<Note> {
     let mut notes = Vec::new();
     for instance in transmission.instances() {
@@ -72,7 +72,7 @@ pub fn notes(transmission: &Transmission, seen: &[Extent]) -> Vec<Note> {
             ));
         }
     }
-    // A safety that suffices is no news.
+    // Sufficient safety is not reported.
     let rated = transmission.rated().iter().zip(&seen[transmission.rated_cells()..]);
     notes.extend(rated.filter(|(_, seen)| seen.outside > 0).map(|(rated, seen)| Note {
         path: transmission.supports()[rated.support].clone(),
@@ -110,21 +110,20 @@ fn note(
     })
 }
 
-/// A formula, default or catalogue value that a result rests on, with its grade.
+/// A formula, default or catalogue value that a result depends on, with its evidence grade.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct WeakPoint {
-    /// Model, and the parameter where the grade is that of a default.
+    /// Model, and the parameter if the grade is that of a default.
     pub what: String,
     /// The grade.
     pub grade: Evidence,
-    /// What it rests on.
+    /// Reason of the grade.
     pub because: String,
     /// Paths that use it.
     pub paths: Vec<String>,
 }
 
-/// How well everything that the transmission uses is known, the weakest first. A parameter that is written counts as the
-/// user's own and is left out.
+/// Evidence of everything that the transmission uses, the lowest grade first. Written parameters are the user's and omitted.
 pub fn evidence(transmission: &Transmission, resolved: &Resolved, written: &dyn Fn(&str) -> bool) -> Vec<WeakPoint> {
     let mut points: Vec<WeakPoint> = Vec::new();
     let mut add =
@@ -150,7 +149,7 @@ pub fn evidence(transmission: &Transmission, resolved: &Resolved, written: &dyn 
             }
             let path = format!("{}.{}", instance.path, graded.key);
             let value = lookup(&resolved.value, &path);
-            let own = written(&path) || *resolved.came(&path) == Came::Override;
+            let own = written(&path) || *resolved.source_of(&path) == ValueSource::Override;
             // A parameter with a default that nobody wrote, or one that the model fills itself.
             if !own || value.is_none_or(Value::is_null) {
                 add(
@@ -162,12 +161,16 @@ pub fn evidence(transmission: &Transmission, resolved: &Resolved, written: &dyn 
             }
         }
     }
-    for (path, _) in resolved.came.iter().filter(|(_, came)| **came == Came::Network) {
+    for (path, _) in resolved
+        .sources
+        .iter()
+        .filter(|(_, came)| **came == ValueSource::Network)
+    {
         let because = "capacities and conductances by size";
         add("network: auto".to_owned(), Evidence::Assumed, because, path);
     }
-    for (path, came) in &resolved.came {
-        if let Came::Catalogue {
+    for (path, came) in &resolved.sources {
+        if let ValueSource::Catalogue {
             designation,
             confidence,
         } = came

@@ -1,4 +1,4 @@
-//! Many points, solved in parallel piece by piece, so that few of them are held.
+//! Points solved in parallel, piece by piece, so that few are in memory.
 
 use std::iter::repeat_n;
 use std::ops::Range;
@@ -14,41 +14,41 @@ use gearloss_framework::lanes::LANES;
 use gearloss_framework::loss::Extent;
 use gearloss_framework::transmission::Transmission;
 
-/// Points of a piece that is no part of a grid.
+/// Points of a piece of a list.
 const PIECE: usize = 1024;
 
-/// The most points of a piece that is a part of a grid: so many that a square map of 10^7 points has full blocks.
+/// Maximum number of points of a piece of a grid: sufficient for full blocks of a square map with 10^7 points.
 const LARGEST: usize = LANES * 3200;
 
-/// Points that are solved at once: at least one piece, at most as many pieces as make this number.
+/// Number of points that are solved at once, at least one piece.
 const TOGETHER: usize = LANES * 2048;
 
-/// Of how many points something is held at most while a field is solved piece by piece.
+/// Maximum number of points with data in memory while a field is solved piece by piece.
 pub const MOST_HELD: usize = 2 * LARGEST;
 
-/// Points of a task, where a piece has more of them. Each begins anew, without what the speeds before say.
+/// Maximum number of points of a task. Each task starts without results of previous speeds.
 const TASK: usize = 4096;
 
-/// Some points of a field that follow each other, solved: what became of them, by tasks.
+/// Results of consecutive points of a field, by task.
 #[derive(Debug, Clone)]
 pub struct Piece<T = Vec<PointResult>> {
-    /// Number of the piece among those of the field.
+    /// Index of the piece in the field.
     pub number: usize,
-    /// What became of the points of each task, which are in the order of the field.
+    /// Results of the points of each task, in the order of the field.
     pub(super) tasks: Vec<T>,
-    /// The order of the field: number of a task and how many of its next points follow.
+    /// The order of the field: index of a task and number of its following points.
     order: Vec<(usize, usize)>,
-    /// What was seen of limits and observed quantities over these points.
+    /// Observed limits and quantities over these points.
     pub seen: Vec<Extent>,
 }
 
-/// Points with their numbers in the field, rising.
+/// Points with their indices in the field, ascending.
 pub type Numbered<'a> = [(usize, &'a mut PointResult)];
 
-/// What is made of the points of a task where they were solved.
+/// Function applied to the points of a task after solving.
 pub type Make<'a, T> = dyn Fn(&mut Numbered<'_>) -> T + Sync + 'a;
 
-/// The points themselves, where they are still wanted; what is left has no parts, terms and nodes.
+/// The points themselves; the originals remain without components, terms and nodes.
 pub fn held(points: &mut Numbered<'_>) -> Vec<PointResult> {
     let taken = |(_, point): &mut (usize, &mut PointResult)| PointResult {
         nodes: std::mem::take(&mut point.nodes),
@@ -60,7 +60,7 @@ pub fn held(points: &mut Numbered<'_>) -> Vec<PointResult> {
 }
 
 impl<T> Piece<T> {
-    /// The order of the points in the field: number of a task and its points that follow.
+    /// The order of the points in the field: index of a task and its following points.
     pub fn runs(&self) -> impl Iterator<Item = (usize, Range<usize>)> {
         let mut done = vec![0; self.tasks.len()];
         self.order.iter().map(move |(task, count)| {
@@ -70,7 +70,7 @@ impl<T> Piece<T> {
         })
     }
 
-    /// The piece with something else in place of what became of each task.
+    /// The piece with the results of each task mapped.
     pub fn map<U>(self, other: impl FnMut(T) -> U) -> Piece<U> {
         Piece {
             number: self.number,
@@ -92,7 +92,7 @@ impl<T> Piece<T> {
 }
 
 impl Piece {
-    /// A piece of points in the order of the field, and what was seen of limits and observed quantities over them.
+    /// A piece of points in the order of the field, with observed limits and quantities.
     pub fn new(number: usize, points: Vec<PointResult>, seen: Vec<Extent>) -> Self {
         Self {
             number,
@@ -107,14 +107,14 @@ impl Piece {
         self.runs().flat_map(|(task, own)| &self.tasks[task][own])
     }
 
-    /// The same, without the piece.
+    /// The same, consuming the piece.
     pub fn into_points(self) -> impl Iterator<Item = PointResult> {
         let mut tasks: Vec<_> = self.tasks.into_iter().map(Vec::into_iter).collect();
         let in_order = self.order.into_iter().flat_map(|(task, count)| repeat_n(task, count));
         in_order.filter_map(move |task| tasks[task].next())
     }
 
-    /// What becomes of points that were solved elsewhere, the first of which has a number in the field.
+    /// Applies `make` to points that were solved elsewhere; `first` is the index of the first in the field.
     pub fn made<T: Send>(self, first: usize, make: &Make<'_, T>) -> Piece<T> {
         let (number, seen) = (self.number, self.seen.clone());
         let mut points: Vec<PointResult> = self.into_points().collect();
@@ -129,8 +129,8 @@ impl Piece {
 }
 
 impl Field {
-    /// Points of a piece. On a grid a piece is made of whole lines of one torque, so many that blocks of one speed are full
-    /// where memory allows it.
+    /// Number of points of a piece. On a grid a piece has complete rows of one torque, enough for full blocks of one speed if memory
+    /// allows.
     fn piece(&self) -> usize {
         match self {
             Self::Grid { speeds, .. } if (1..=LARGEST).contains(&speeds.len()) => {
@@ -145,13 +145,13 @@ impl Field {
         self.len().div_ceil(self.piece())
     }
 
-    /// Numbers of the points of a piece.
+    /// Indices of the points of a piece.
     pub fn of_piece(&self, number: usize) -> Range<usize> {
         let piece = self.piece();
         number * piece..((number + 1) * piece).min(self.len())
     }
 
-    /// The points of a piece in the order in which they are solved: those of one speed and oil one after the other.
+    /// The points of a piece in solution order: grouped by speed and oil temperature.
     fn in_order(&self, number: usize) -> Vec<usize> {
         let own = self.of_piece(number);
         if let Self::Grid { speeds, .. } = self {
@@ -171,21 +171,21 @@ impl Field {
     }
 }
 
-/// What became of a task.
+/// Result of a task.
 struct Task<T> {
     made: T,
-    /// Number of a point, and how many follow in the order of the field with it.
+    /// Index of a point, and number of consecutive points in the order of the field.
     runs: Vec<(usize, usize)>,
     seen: Vec<Extent>,
 }
 
-/// Solves the pieces of given numbers and hands them over in this order. What is wanted of the points `make` takes from them
-/// where they were solved, while they are in the caches, on all threads; a point itself does not last, but where that is what it
-/// makes ([`held`]). Of no more points than [`MOST_HELD`] something is held: while some are taken, the next are solved.
-/// `progress` hears how many more are solved; where it or `take` answers false the work is broken off, and so does this answer.
+/// Solves the pieces with the given indices and passes them on in this order. `make` extracts the requested data of the points on all
+/// threads, while they are in the caches; points are not stored unless `make` returns them ([`held`]). Data of at most [`MOST_HELD`] points
+/// are in memory: while some are taken, the next are solved. `progress` is called with the number of newly solved points; if it or `take`
+/// returns false, the work stops and this returns false.
 ///
 /// # Errors
-/// If the case does not fit.
+/// If the case is invalid.
 pub fn solve_pieces<T: Send>(
     transmission: &Transmission,
     points: &Points,
@@ -197,7 +197,7 @@ pub fn solve_pieces<T: Send>(
     let case = points.case(transmission)?;
     let solver = Solver::new(transmission, &case, points);
     let going = AtomicBool::new(true);
-    // As many as tasks run at once, kept from task to task.
+    // One for each concurrent task, reused.
     let spaces: Mutex<Vec<Space>> = Mutex::default();
     let solve = |task: &[usize]| {
         if !going.load(Ordering::Relaxed) {
@@ -207,7 +207,7 @@ pub fn solve_pieces<T: Send>(
         let mut space = spare.unwrap_or_else(|| solver.space());
         let solved = solver.solve(task, &mut space);
         let mut points: Vec<(usize, &mut PointResult)> = task.iter().copied().zip(solved).collect();
-        // They rise in runs, which this sort merges.
+        // Stable sort: the runs are already sorted.
         points.sort_by_key(|(number, _)| *number);
         let made = make(&mut points);
         if !progress(task.len()) {
@@ -222,9 +222,9 @@ pub fn solve_pieces<T: Send>(
     let solve_all = |numbers: &[usize]| -> Vec<Piece<T>> {
         let orders: Vec<Vec<usize>> = numbers.iter().map(|number| points.field.in_order(*number)).collect();
         let tasks: Vec<&[usize]> = orders.iter().flat_map(|order| order.chunks(TASK)).collect();
-        // One by one, or the last threads would have several left while others have none.
+        // One by one for load balancing.
         let solved: Option<Vec<Task<T>>> = tasks.into_par_iter().with_max_len(1).map(solve).collect();
-        // Nothing, where the work was broken off.
+        // Nothing after an interruption.
         let Some(solved) = solved else {
             return Vec::new();
         };

@@ -1,4 +1,4 @@
-//! Points of a file, solved under one choice of models, with the transmissions that their bound columns need.
+//! Points of a file, solved with one choice of models, with the transmissions for their bound columns.
 
 use serde_json::Value;
 
@@ -13,28 +13,28 @@ use gearloss_framework::loss::{Extent, Step};
 use gearloss_framework::resolve::{Choice, Resolved};
 use gearloss_framework::transmission::Transmission;
 
-/// Rows of a file and how they are prescribed.
+/// Rows of a file and their prescription.
 #[derive(Debug, Clone)]
 pub struct Rows<'a> {
     /// The rows.
     pub measured: &'a Measured,
     /// Paths of the bound columns, in the order of their values.
     pub bind: Vec<&'a str>,
-    /// Gear state where a row tells none; absent, the first.
+    /// Gear of rows without one; absent: the first.
     pub gear: Option<&'a str>,
-    /// Port at which the torque is given.
+    /// Port with given torque.
     pub torque_at: &'a str,
-    /// Port at which the speed is given.
+    /// Port with given speed.
     pub speed_at: &'a str,
-    /// Temperature of the oil where a row tells none; absent, that of the gearbox. \[degC\]
+    /// Oil temperature of rows without one; absent: from the gearbox. \[degC\]
     pub oil: Option<f64>,
     /// Real or ideal flow.
     pub flow: PowerFlow,
-    /// Whether losses are kept term by term.
+    /// Whether losses are stored by term.
     pub terms: bool,
 }
 
-/// What a rig adds, and at which speeds of the ports in every row.
+/// Contribution of a rig, with the speeds of the ports in every row.
 #[derive(Debug, Clone, Copy)]
 pub struct OnRig<'a> {
     /// The rig.
@@ -43,16 +43,16 @@ pub struct OnRig<'a> {
     pub speeds: &'a [PortSpeeds],
 }
 
-/// A transmission with the resolved description that it was built from.
+/// A transmission with its resolved description.
 pub type BuiltFrom = (Resolved, Transmission);
 
 /// Solved rows.
 pub struct SolvedRows {
-    /// One transmission for each combination of bound values, in the order in which rows name them.
+    /// One transmission for each combination of bound values, in order of first occurrence.
     pub transmissions: Vec<BuiltFrom>,
-    /// For each row the number of its transmission, its gear state and its point.
+    /// For each row the index of its transmission, its gear and its point.
     pub rows: Vec<(usize, String, PointResult)>,
-    /// What was seen of limits and observed quantities over all rows.
+    /// Observed limits and quantities over all rows.
     pub seen: Vec<Extent>,
 }
 
@@ -60,7 +60,7 @@ impl Rows<'_> {
     /// The transmissions of a choice: one for each combination of bound values.
     ///
     /// # Errors
-    /// Everything that resolving and building find.
+    /// All errors of resolving and building.
     pub fn build(&self, language: &Language, gearbox: &Gearbox, choice: &Choice) -> Result<Vec<BuiltFrom>, Findings> {
         let of = |bound: &&Vec<String>| {
             let mut choice = choice.clone();
@@ -87,7 +87,7 @@ impl Rows<'_> {
         combinations
     }
 
-    /// The points of each gear state of each transmission, with the number of the latter; without torques and speeds.
+    /// The points of each gear of each transmission, with the index of the latter; without torques and speeds.
     pub fn kinds(&self, transmissions: &[BuiltFrom]) -> Vec<(usize, Points)> {
         let mut kinds: Vec<(usize, Points)> = Vec::new();
         for (place, gear) in self.keys(transmissions) {
@@ -101,7 +101,7 @@ impl Rows<'_> {
         kinds
     }
 
-    /// Number of the transmission and gear state of each row.
+    /// Index of the transmission and gear of each row.
     fn keys<'s>(&'s self, transmissions: &'s [BuiltFrom]) -> Vec<(usize, &'s str)> {
         let combinations = self.combinations();
         let key = |row: &'s Row| {
@@ -111,10 +111,10 @@ impl Rows<'_> {
         self.measured.rows.iter().map(key).collect()
     }
 
-    /// Whether the transmission has one other port than that of the conditions, where rows give torque or speed there.
+    /// Whether the transmission has exactly one port other than that of the conditions, if rows give torque or speed there.
     ///
     /// # Errors
-    /// If it is not clear which port that is.
+    /// If that port is ambiguous.
     pub fn ports_fit(&self, transmission: &Transmission) -> Result<(), Diagnostic> {
         let out = match (self.measured.torque_at_other_port, self.measured.speed_at_other_port) {
             (true, _) => "torque_out",
@@ -124,25 +124,25 @@ impl Rows<'_> {
         let wrong = |message: String, help: &str| Err(Diagnostic::error("", message).help(help));
         if self.torque_at != self.speed_at {
             let message = format!(
-                "`{out}` alone does not say at which port it was measured: the conditions give the torque at `{}` and the speed at `{}`",
+                "the port of `{out}` is ambiguous: the conditions give the torque at `{}` and the speed at `{}`",
                 self.torque_at, self.speed_at
             );
             return wrong(
                 message,
-                "name one port in `torque_at` and `speed_at`, or the columns `torque` and `speed`",
+                "give the same port in `torque_at` and `speed_at`, or the columns `torque` and `speed`",
             );
         }
         match transmission.ports().len() {
             2 => Ok(()),
             count => wrong(
                 format!("`{out}` alone needs a gearbox with two ports; this one has {count}"),
-                "join ports as `wheels`, or name the columns `torque` and `speed` and their ports in the conditions",
+                "combine ports as `wheels`, or give the columns `torque` and `speed` and their ports in the conditions",
             ),
         }
     }
 
-    /// Signs that turn torque and speed as they were measured into those of the transmission: other than one only at the other
-    /// port, which may turn backward where that of the conditions turns forward.
+    /// Signs from measured torque and speed to those of the transmission: may be negative only at the other port, which may turn in the
+    /// opposite direction.
     fn signs(&self, gear: &str, transmission: &Transmission) -> [f64; 2] {
         let [torque, speed] = [self.measured.torque_at_other_port, self.measured.speed_at_other_port];
         if !torque && !speed {
@@ -171,12 +171,11 @@ impl Rows<'_> {
         }
     }
 
-    /// Solves every row with the torque that is left for the transmission once a rig has had its share. A measured temperature
-    /// of the oil counts where the model does not find its own. `progress` hears how many more are solved; where it answers
-    /// false there is no result.
+    /// Solves every row with the torque corrected for the rig. A measured oil temperature is used unless the model computes one. `progress`
+    /// is called with the number of newly solved points; if it returns false, there is no result.
     ///
     /// # Errors
-    /// If a row's gear state or the ports do not fit.
+    /// If the gear of a row or the ports are invalid.
     pub fn solve(
         &self,
         transmissions: Vec<BuiltFrom>,
@@ -186,7 +185,7 @@ impl Rows<'_> {
         let keys = self.keys(&transmissions);
         let mut found: Vec<Option<PointResult>> = vec![None; keys.len()];
         let mut seen: Vec<Extent> = Vec::new();
-        // Rows of one transmission and gear state are solved together.
+        // Rows of one transmission and gear are solved together.
         for (i, key) in keys.iter().enumerate() {
             if found[i].is_some() {
                 continue;
@@ -199,7 +198,7 @@ impl Rows<'_> {
             let Some(solved) = run_grid(transmission, &points, progress)? else {
                 return Ok(None);
             };
-            // The transmissions of one choice differ in bound values only, so their limits stand in the same order.
+            // The transmissions of one choice differ only in bound values, so their limits have the same order.
             merge(&mut seen, &solved.seen);
             for (k, point) in own.into_iter().zip(solved.points) {
                 found[k] = Some(point);
@@ -216,8 +215,8 @@ impl Rows<'_> {
         }))
     }
 
-    /// Branches that the models of a part take at a solved point of [`Self::solve`], each with the path of its model; none where the
-    /// point cannot be prescribed.
+    /// Branches of the models of a component at a solved point of [`Self::solve`], each with the path of its model; empty if the point
+    /// cannot be prescribed.
     pub fn branches(
         &self,
         transmission: &Transmission,
@@ -257,7 +256,7 @@ impl Rows<'_> {
         trace.into_steps().into_iter().filter_map(branch).collect()
     }
 
-    /// The gear state of a row.
+    /// The gear of a row.
     fn state<'s>(&'s self, row: &'s Row, transmission: &'s Transmission) -> &'s str {
         let first = transmission.states().first().map_or("", |s| s.name.as_str());
         row.gear.as_deref().or(self.gear).unwrap_or(first)
@@ -283,30 +282,30 @@ impl Rows<'_> {
         }
     }
 
-    /// Speeds of the reference port and of the other one in solved rows; they follow from the gear states alone.
+    /// Speeds of the reference port and of the other port in solved rows; they depend only on the gears.
     ///
     /// # Errors
-    /// If a rig adds something at a second port of a transmission that has not two ports.
+    /// If a rig contributes at a second port, but the transmission does not have two ports.
     pub fn speeds(&self, solved: &SolvedRows, at_out: bool) -> Result<Vec<PortSpeeds>, Diagnostic> {
         let of = |(_, _, point): &(usize, String, PointResult)| match point.output_speed {
             None if at_out => Err(Diagnostic::error(
                 "",
-                "a rig has something at `out`, but this gearbox has not two ports",
+                "the rig has data at `out`, but this gearbox does not have two ports",
             )
-            .help("leave what belongs to `out` out of `rig`")),
+            .help("delete the keys of `out` under `rig`")),
             speed => Ok([point.reference_speed, speed.unwrap_or(0.0)]),
         };
         solved.rows.iter().map(of).collect()
     }
 }
 
-/// The port that rows count from, or the other one.
+/// The port of the rows, or the other one.
 fn port_of<'s>(transmission: &'s Transmission, own: &'s str, other: bool) -> &'s str {
     let mut ports = transmission.ports().iter().map(|port| port.name.as_str());
     ports.find(|port| other && *port != own).unwrap_or(own)
 }
 
-/// A bound value as it goes into the document: a text with its unit, or a bare number.
+/// A bound value for the document: a text with its unit, or a number.
 fn bound_value(text: &str) -> Value {
     text.parse::<f64>().map_or_else(|_| Value::from(text), Value::from)
 }

@@ -1,41 +1,41 @@
-//! Points of a field, solved one by one or, where several have speed and temperature in common, side by side.
+//! Points of a field, solved singly or, if several have the same speed and temperature, batched.
 
 use super::{Given, OilTemperature, PointResult, Points, sums};
-use gearloss_framework::evaluate::{Block, Point, PowerFlow, RowScratch, Scratch, Solution};
+use gearloss_framework::evaluate::{BatchScratch, Block, Point, PowerFlow, Scratch, Solution};
 use gearloss_framework::lanes::{LANES, Lane};
 use gearloss_framework::loss::Extent;
 use gearloss_framework::transmission::{Case, Transmission};
 
-/// A block of fewer points takes longer than they do alone.
+/// Minimum size of a block; smaller blocks are slower than single points.
 const FEW: usize = 6;
 
-/// What all points of a field have in common.
+/// Common data of all points of a field.
 pub(super) struct Solver<'a> {
     transmission: &'a Transmission,
     case: &'a Case,
     points: &'a Points,
-    /// Member at the port of the torque.
+    /// Member of the port of the torque.
     at_torque: Option<usize>,
     reference: usize,
     other: Option<usize>,
     at_reference: bool,
-    /// Part and term with the sum that the term belongs to, in the order in which they are added.
+    /// Component and term with its sum, in the order of addition.
     terms: Vec<(usize, usize, usize)>,
 }
 
-/// Space for solving; as many as tasks are solved at once.
+/// Working memory for one concurrent task.
 pub(super) struct Space {
     single: Scratch,
-    rows: Option<RowScratch>,
+    rows: Option<BatchScratch>,
     results: Vec<PointResult>,
-    /// Room for the parts of points.
+    /// Buffers for the components of points.
     spare: Vec<Vec<f64>>,
     torques: Vec<f64>,
     speeds: Vec<f64>,
 }
 
 impl Space {
-    /// What was seen since this was asked last.
+    /// Observations since the last call.
     pub fn take_seen(&mut self) -> Vec<Extent> {
         let single = self.single.take_totals();
         match &mut self.rows {
@@ -84,12 +84,12 @@ impl<'a> Solver<'a> {
         }
     }
 
-    /// Solves the points of given numbers, in their order; neighbours with one speed and temperature are solved together.
+    /// Solves the points with the given indices, in order; neighbours with equal speed and temperature are solved together.
     pub fn solve<'s>(&self, numbers: &[usize], space: &'s mut Space) -> &'s mut [PointResult] {
         let mut results = std::mem::take(&mut space.results);
         space.spare.clear();
         space.spare.extend(results.drain(..).map(|point| point.parts));
-        // Or the numbers would hang on what this thread solved before.
+        // Otherwise results would depend on previous points of this thread.
         if let Some(rows) = &mut space.rows {
             rows.forget();
         }
@@ -173,9 +173,9 @@ impl<'a> Solver<'a> {
             flow: self.points.flow,
             ..Point::default()
         };
-        let rows = rows.get_or_insert_with(|| self.transmission.row_scratch(self.case));
+        let rows = rows.get_or_insert_with(|| self.transmission.batch_scratch(self.case));
         let temperature = [oil];
-        let mut row = self.transmission.row(self.case, &point, &temperature, rows);
+        let mut row = self.transmission.batch(self.case, &point, &temperature, rows);
         // Where the torque turns so do the drivers, which the points of a block have in common.
         let torque = |number: &usize| self.points.field.at(*number).torque;
         let blocks = run
@@ -213,7 +213,7 @@ impl<'a> Solver<'a> {
         }
     }
 
-    /// The points of a block; those that have to be evaluated alone stand for their place only.
+    /// The points of a block; points that must be evaluated singly are placeholders.
     fn of_block(
         &self,
         torques: &[f64],
@@ -278,7 +278,7 @@ impl<'a> Solver<'a> {
         }
     }
 
-    /// What a solution says of a point, at a temperature of the oil that is given.
+    /// Results of a solution at a point, at a given oil temperature.
     fn of_solution(&self, given: Given, oil: f64, solution: &Solution<'_>) -> PointResult {
         let mut totals = [0.0; 6];
         let mut terms = Vec::new();

@@ -4,17 +4,17 @@ use gearloss_framework::evaluate::{PartLoss, Solution};
 use gearloss_framework::registry::Instance;
 use gearloss_framework::transmission::{PartInfo, Transmission};
 
-/// Names and meanings of the sums, in their order.
+/// Names and meanings of the sums, in order.
 pub const SUMS: [(&str, &str); 6] = [
     ("P_VZP", "gears, load-dependent"),
-    ("P_VZ0", "gears, not load-dependent"),
+    ("P_VZ0", "gears, load-independent"),
     ("P_VLP", "bearings, load-dependent"),
-    ("P_VL0", "bearings, not load-dependent"),
+    ("P_VL0", "bearings, load-independent"),
     ("P_VD", "seals"),
     ("P_VX", "others"),
 ];
 
-/// Number of the sum that a term of a mechanism belongs to.
+/// Index of the sum of a term of a mechanism.
 pub fn sum_of(mechanism: &str, load_dependent: bool) -> usize {
     match (mechanism, load_dependent) {
         ("gear_mesh" | "gear_drag" | "planetary_drag", true) => 0,
@@ -26,7 +26,7 @@ pub fn sum_of(mechanism: &str, load_dependent: bool) -> usize {
     }
 }
 
-/// Adds the terms of a part to the sums.
+/// Adds the terms of a component to the sums.
 pub(super) fn add(sums: &mut [f64; 6], transmission: &Transmission, part: &PartInfo, loss: &PartLoss) {
     let instance: &Instance = &transmission.instances()[part.notes.instance()];
     for term in instance.entry.terms {

@@ -6,30 +6,30 @@ use gearloss_framework::thermal::network::{Moment, Steady, Surroundings};
 use gearloss_framework::thermal::{Equilibrium, Outcome};
 use gearloss_framework::transmission::{Case, Transmission};
 
-/// How the temperature of the oil is known.
+/// Origin of the oil temperature.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum OilTemperature {
-    /// It is given. \[degC\]
+    /// Given. \[degC\]
     Fixed(f64),
-    /// Losses and heat are in balance, at every point anew.
+    /// Heat balance at every point.
     Balance,
-    /// Every node of the thermal network is in balance, at every point anew.
+    /// Steady state of the thermal network at every point.
     Network,
 }
 
-/// The temperatures of a point, and how they were found.
+/// The temperatures of a point and their origin.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Found {
-    /// Temperature of the oil of the housing; where there is no balance, the greatest that was asked for. \[degC\]
+    /// Oil temperature of the housing; without a balance the maximum evaluated one. \[degC\]
     pub oil: f64,
-    /// The balance behind it.
+    /// The heat balance.
     pub balance: Option<Equilibrium>,
-    /// The thermal network at rest.
+    /// The steady state of the thermal network.
     pub network: Option<Steady>,
 }
 
 impl Found {
-    /// Temperatures to evaluate the point at: that of the oil, or those of all nodes. \[degC\]
+    /// Temperatures for the evaluation: of the oil, or of all nodes. \[degC\]
     pub fn temperatures(&self) -> &[f64] {
         match &self.network {
             Some(steady) => &steady.temperatures,
@@ -37,19 +37,19 @@ impl Found {
         }
     }
 
-    /// What became of the search; absent where the temperature is given.
+    /// Result of the search; absent if the temperature is given.
     pub fn outcome(&self) -> Option<Outcome> {
         let balance = self.balance.as_ref().map(|b| b.outcome);
         balance.or(self.network.as_ref().map(|n| n.outcome))
     }
 
-    /// True where temperatures are given, or were found.
+    /// True if temperatures are given or were found.
     pub fn is_sound(&self) -> bool {
         self.balance.as_ref().is_none_or(|b| b.oil().is_some())
             && self.network.as_ref().is_none_or(|n| n.outcome == Outcome::Converged)
     }
 
-    /// Evaluations of the point on the way.
+    /// Number of evaluations of the point.
     pub fn evaluations(&self) -> usize {
         let balance = self.balance.as_ref().map_or(0, Equilibrium::evaluations);
         balance + self.network.as_ref().map_or(0, |n| n.evaluations)
@@ -57,7 +57,7 @@ impl Found {
 }
 
 impl OilTemperature {
-    /// That of the conditions where they give one, else that of the gearbox.
+    /// From the conditions if given, otherwise from the gearbox.
     pub fn of(transmission: &Transmission, given: Option<f64>) -> Self {
         match (given, transmission.thermal_mode) {
             (Some(given), _) => Self::Fixed(given),

@@ -1,4 +1,4 @@
-//! A duty as a study writes it: a shipped cycle, a file, or a spectrum of loads.
+//! The entry of a cycle: a shipped cycle, a file, or a load spectrum.
 
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -9,31 +9,31 @@ use gearloss_framework::description::Ordered;
 use gearloss_framework::document::did_you_mean;
 use gearloss_framework::registry::Registry;
 
-/// A duty: a shipped cycle, a recorded file, or a spectrum of loads.
+/// A shipped cycle, a recorded file, or a load spectrum.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum CycleEntry {
-    /// A cycle that ships by name.
+    /// A shipped cycle by name.
     Shipped(ShippedCycleEntry),
     /// A file of a vehicle's speed, or of torque and speed at a port, over time.
     File(Box<FileCycleEntry>),
-    /// Loads with their shares of the time.
+    /// Load cases with their shares of the time.
     Spectrum(SpectrumCycleEntry),
 }
 
-/// A cycle that ships by name.
+/// A shipped cycle by name.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct ShippedCycleEntry {
     /// Name of the cycle, such as `wltc_class3b`.
     pub shipped: String,
-    /// How often it is driven. [-]
+    /// Number of repetitions. [-]
     #[serde(default = "one_time")]
     #[schemars(range(min = 1, max = 1000))]
     pub repeat: u32,
-    /// Rows before this time are left out. [s]
+    /// Rows before this time are omitted. [s]
     #[schemars(range(min = -1e9, max = 1e9))]
     pub start: Option<f64>,
-    /// Rows behind this time are left out. [s]
+    /// Rows after this time are omitted. [s]
     #[schemars(range(min = -1e9, max = 1e9))]
     pub end: Option<f64>,
 }
@@ -41,61 +41,61 @@ pub struct ShippedCycleEntry {
 /// A file of a vehicle's speed, or of torque and speed at a port, over time.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct FileCycleEntry {
-    /// CSV file beside the study.
+    /// CSV file, relative to the study.
     pub file: String,
-    /// What a reader of the report has to know of these data: where they come from, or that they are synthetic.
+    /// Note for the report: origin of these data, or that they are synthetic.
     pub about: Option<String>,
-    /// Column of each quantity, where it is not named as the quantity: `torque: T_in`. Quantities: `time`, `vehicle_speed`,
-    /// `grade` (rise over run), `torque` and `speed` at the port, `oil_flow`, `oil_temperature`, `coolant_flow`,
-    /// `coolant_temperature`, `ambient`, `gear`.
+    /// Column of each quantity, unless it has the name of the quantity: `torque: T_in`. Quantities: `time`, `vehicle_speed`, `grade` (rise
+    /// over run), `torque` and `speed` at the port, `oil_flow`, `oil_temperature`, `coolant_flow`, `coolant_temperature`, `ambient`,
+    /// `gear`.
     #[serde(default)]
     pub columns: Ordered<String>,
-    /// Columns of measured temperatures by the node of the thermal network that they belong to.
+    /// Columns of measured temperatures by node of the thermal network.
     #[serde(default)]
     pub temperatures: Ordered<String>,
-    /// Unit of each quantity or node, where neither the header nor a row of units states it: `vehicle_speed: km/h`.
+    /// Unit of each quantity or node, unless the header or a row of units states it: `vehicle_speed: km/h`.
     #[serde(default)]
     pub units: Ordered<String>,
     /// Port at which torque and speed were recorded.
     #[serde(default = "input")]
     pub port: String,
-    /// What separates cells; absent, it is recognised.
+    /// Cell separator; default: detected.
     pub separator: Option<Separator>,
-    /// Decimal sign; absent, it is recognised.
+    /// Decimal sign; default: detected.
     pub decimal: Option<Decimal>,
-    /// Encoding; absent, UTF-8, and Latin-1 where that fails.
+    /// Encoding; default: UTF-8, or Latin-1 if that fails.
     pub encoding: Option<Encoding>,
-    /// How often the series is driven. [-]
+    /// Number of repetitions. [-]
     #[serde(default = "one_time")]
     #[schemars(range(min = 1, max = 1000))]
     pub repeat: u32,
-    /// Rows before this time are left out. [s]
+    /// Rows before this time are omitted. [s]
     #[schemars(range(min = -1e9, max = 1e9))]
     pub start: Option<f64>,
-    /// Rows behind this time are left out. [s]
+    /// Rows after this time are omitted. [s]
     #[schemars(range(min = -1e9, max = 1e9))]
     pub end: Option<f64>,
-    /// The longest step between rows that is no gap; absent, five times the median step. [s]
+    /// Maximum step between rows; longer steps are gaps. Default: five times the median step. [s]
     #[schemars(range(min = 0.0, max = 1e9))]
     pub gap: Option<f64>,
-    /// The greatest acceleration of the vehicle that is believed. [m/s2]
+    /// Maximum plausible acceleration of the vehicle. [m/s2]
     #[serde(default = "most_acceleration")]
     #[schemars(range(min = 0.1, max = 1000.0))]
     pub most_acceleration: f64,
-    /// The fastest change of the port's speed that is believed; absent, any. [rpm/s]
+    /// Maximum plausible rate of change of the port speed; default: unlimited. [rpm/s]
     #[schemars(range(min = 1.0, max = 1e9))]
     pub most_speed_change: Option<f64>,
 }
 
-/// Loads with their shares of the time.
+/// Load cases with their shares of the time.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct SpectrumCycleEntry {
     /// The loads: a list, or a file.
     pub spectrum: Spectrum,
-    /// Port that torque and speed belong to.
+    /// Port of torque and speed.
     #[serde(default = "input")]
     pub port: String,
-    /// Time that shares are of; times of loads stand for themselves. [s]
+    /// Total time for `share`; not used with `time`. [s]
     #[serde(default = "hour")]
     #[schemars(range(min = 1e-3, max = 1e12))]
     pub duration: f64,
@@ -107,7 +107,7 @@ pub(super) fn one_time() -> u32 {
 pub(super) fn input() -> String {
     "input".to_owned()
 }
-// Assumed: a tyre on dry road carries about one g; what is beyond is a fault of the recording.
+// Assumed: a tyre on dry road allows about one g; larger values are recording errors.
 pub(super) fn most_acceleration() -> f64 {
     12.0
 }
@@ -115,27 +115,27 @@ fn hour() -> f64 {
     3600.0
 }
 
-/// A duty as read.
+/// A cycle as read.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Duty {
     /// A series over time.
     Trace(Trace),
-    /// Loads with their times, in the order of the list, which says nothing of the order on the road.
+    /// Load cases with their times, in the order of the list, which is not an order in time.
     Spectrum(Vec<Interval>),
 }
 
 impl CycleEntry {
-    /// Reads the duty. `bytes` reads a file beside the study.
+    /// Reads the cycle. `bytes` reads a file relative to the study.
     ///
     /// # Errors
-    /// An unknown cycle, an unreadable file, and what is wrong in a file, with its line.
+    /// An unknown cycle, an unreadable file, or errors in a file with their lines.
     pub fn read(
         &self,
         registry: &Registry,
         bytes: impl Fn(&str) -> Result<Vec<u8>, String>,
     ) -> Result<Duty, Vec<MeasuredFault>> {
         let bytes =
-            |file: &str| bytes(file).map_err(|reason| vec![fault(reason, "name a file that stands beside the study")]);
+            |file: &str| bytes(file).map_err(|reason| vec![fault(reason, "file names are relative to the study")]);
         match self {
             Self::Shipped(entry) => entry.read(registry).map(Duty::Trace),
             Self::File(entry) => Trace::read(entry, &bytes(&entry.file)?).map(Duty::Trace),
@@ -152,7 +152,7 @@ impl CycleEntry {
         }
     }
 
-    /// What a reader has to know of the file; absent where nothing is said.
+    /// Note on the file; absent if there is none.
     pub fn about(&self) -> Option<&str> {
         match self {
             Self::Shipped(_) => None,
@@ -164,7 +164,7 @@ impl CycleEntry {
         }
     }
 
-    /// Port that recorded torques and speeds belong to; absent for a shipped cycle, which knows none.
+    /// Port of recorded torques and speeds; absent for a shipped cycle.
     pub fn port(&self) -> Option<&str> {
         match self {
             Self::Shipped(_) => None,
@@ -182,7 +182,7 @@ impl ShippedCycleEntry {
                 Some(close) => format!("write `{close}`"),
                 None => format!("there are: {}", names.join(", ")),
             };
-            return Err(vec![fault(format!("no cycle is called `{}`", self.shipped), help)]);
+            return Err(vec![fault(format!("there is no cycle `{}`", self.shipped), help)]);
         };
         let entry = FileCycleEntry {
             columns: Ordered(vec![("vehicle_speed".to_owned(), "speed".to_owned())]),
@@ -196,7 +196,7 @@ impl ShippedCycleEntry {
 }
 
 impl FileCycleEntry {
-    /// An entry that states the file alone.
+    /// An entry with only a file.
     pub fn named(file: &str) -> Self {
         Self {
             file: file.to_owned(),
@@ -219,7 +219,7 @@ impl FileCycleEntry {
 }
 
 impl Duty {
-    /// The intervals of the duty, repeated as stated. A series of the vehicle's speed needs the vehicle.
+    /// The intervals of the cycle, including repetitions. A series of vehicle speed needs the vehicle.
     ///
     /// # Errors
     /// If the vehicle is missing.

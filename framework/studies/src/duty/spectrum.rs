@@ -1,4 +1,4 @@
-//! Spectra of loads: torques and speeds with their shares of the time.
+//! Load spectra: torques and speeds with their shares of the time.
 
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -9,17 +9,17 @@ use crate::measured::{Decimal, Encoding, MeasuredFault, Separator, fault};
 use gearloss_document::data::sheet::{Sheet, Wanted, limited_faults};
 use gearloss_framework::description::Ordered;
 
-/// The loads of a spectrum: a list, or a file.
+/// The load cases of a spectrum: a list, or a file.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum Spectrum {
     /// The loads.
     Loads(#[schemars(length(min = 1))] Vec<SpectrumPoint>),
-    /// A file with a row for each load.
+    /// A file with a row for each load case.
     File(Box<SpectrumFile>),
 }
 
-/// One load of a spectrum.
+/// One load case of a spectrum.
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 pub struct SpectrumPoint {
     /// Torque at the port. [Nm]
@@ -28,13 +28,13 @@ pub struct SpectrumPoint {
     /// Speed of the port. [rpm]
     #[schemars(range(min = -1e6, max = 1e6))]
     pub speed: f64,
-    /// Share of the time; all loads have shares, which sum up to one, or all have times. [-]
+    /// Share of the time; all load cases have shares with the sum one, or all have times. [-]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub share: Option<f64>,
     /// Time. [s]
     #[schemars(range(min = 0.0, max = 1e12))]
     pub time: Option<f64>,
-    /// Temperature of the oil. [degC]
+    /// Oil temperature. [degC]
     #[schemars(range(min = -60.0, max = 250.0))]
     pub oil_temperature: Option<f64>,
 }
@@ -42,22 +42,22 @@ pub struct SpectrumPoint {
 /// A file of loads.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct SpectrumFile {
-    /// CSV file beside the study.
+    /// CSV file, relative to the study.
     pub file: String,
-    /// What a reader of the report has to know of these data: where they come from, or that they are synthetic.
+    /// Note for the report: origin of these data, or that they are synthetic.
     pub about: Option<String>,
-    /// Column of each quantity, where it is not named as the quantity. Quantities: `torque`, `speed`, `share` or `time`,
+    /// Column of each quantity, unless it has the name of the quantity. Quantities: `torque`, `speed`, `share` or `time`,
     /// `oil_temperature`.
     #[serde(default)]
     pub columns: Ordered<String>,
-    /// Unit of each quantity, where neither the header nor a row of units states it.
+    /// Unit of each quantity, unless the header or a row of units states it.
     #[serde(default)]
     pub units: Ordered<String>,
-    /// What separates cells; absent, it is recognised.
+    /// Cell separator; default: detected.
     pub separator: Option<Separator>,
-    /// Decimal sign; absent, it is recognised.
+    /// Decimal sign; default: detected.
     pub decimal: Option<Decimal>,
-    /// Encoding; absent, UTF-8, and Latin-1 where that fails.
+    /// Encoding; default: UTF-8, or Latin-1 if that fails.
     pub encoding: Option<Encoding>,
 }
 
@@ -108,21 +108,21 @@ impl SpectrumFile {
         if faulty.is_empty() {
             Ok(loads)
         } else {
-            Err(limited_faults(faulty, "correct the cell, or leave the row out"))
+            Err(limited_faults(faulty, "correct the cell, or delete the row"))
         }
     }
 }
 
-/// The loads one behind the other, with their times or shares of a duration.
+/// The load cases in sequence, with their times or shares of a duration.
 pub(super) fn intervals(loads: &[SpectrumPoint], duration: f64) -> Result<Vec<Interval>, Vec<MeasuredFault>> {
-    let help = "state a `share` for each load, or a `time` for each";
+    let help = "state `share` for all loads, or `time` for all loads";
     let times: Vec<f64> = if loads.iter().all(|l| l.share.is_some() && l.time.is_none()) {
         let shares: Vec<f64> = loads.iter().filter_map(|l| l.share).collect();
         let sum: f64 = shares.iter().sum();
-        // Shares in whole percents or with three digits may miss one by their rounding.
+        // The sum of rounded shares may differ slightly from one.
         if (sum - 1.0).abs() > 0.01 {
             return Err(vec![fault(
-                format!("the shares sum up to {}, not to one", (sum * 1e4).round() / 1e4),
+                format!("the sum of the shares is {}, not one", (sum * 1e4).round() / 1e4),
                 "correct the shares, or state times",
             )]);
         }
@@ -131,12 +131,12 @@ pub(super) fn intervals(loads: &[SpectrumPoint], duration: f64) -> Result<Vec<In
         loads.iter().filter_map(|l| l.time).collect()
     } else {
         return Err(vec![fault(
-            "some loads have a share and some a time, or both, or none",
+            "loads have inconsistent keys: each needs either `share` or `time`, the same for all",
             help,
         )]);
     };
     if times.iter().all(|time| *time <= 0.0) {
-        return Err(vec![fault("no load lasts", help)]);
+        return Err(vec![fault("all loads have zero time", help)]);
     }
     let mut start = 0.0;
     let mut intervals = Vec::new();
@@ -211,13 +211,13 @@ mod tests {
     fn a_spectrum_that_does_not_add_up_is_refused() {
         let message = |loads: &[SpectrumPoint]| intervals(loads, 3600.0).unwrap_err()[0].message.clone();
         let shares = [load(10.0, Some(0.25), None), load(20.0, Some(0.7), None)];
-        assert_eq!(message(&shares), "the shares sum up to 0.95, not to one");
+        assert_eq!(message(&shares), "the sum of the shares is 0.95, not one");
         let mixed = [load(10.0, Some(0.25), None), load(20.0, None, Some(7.0))];
         assert_eq!(
             message(&mixed),
-            "some loads have a share and some a time, or both, or none"
+            "loads have inconsistent keys: each needs either `share` or `time`, the same for all"
         );
-        assert_eq!(message(&[load(10.0, None, Some(0.0))]), "no load lasts");
+        assert_eq!(message(&[load(10.0, None, Some(0.0))]), "all loads have zero time");
     }
 
     #[test]
@@ -230,12 +230,12 @@ mod tests {
         let faults = file().read(b"T [Nm],speed [rpm],share\n10,3000,0.4\n").unwrap_err();
         assert_eq!(
             faults[0].message,
-            "line 1: no column holds the torque; there are: T, speed, share"
+            "line 1: there is no column for the torque; there are: T, speed, share"
         );
         let faults = file()
             .read(b"torque [Nm],speed [rpm],share\n10,3000,0.4\n1,x,0.6\n2,2,-1\n")
             .unwrap_err();
         assert_eq!(faults[0].message, "line 3, column 2 `speed`: `x` is not a number");
-        assert_eq!(faults[1].message, "line 4, column 3 `share`: `-1` is below zero");
+        assert_eq!(faults[1].message, "line 4, column 3 `share`: `-1` is negative");
     }
 }

@@ -101,7 +101,7 @@ motor: { map: map.csv, rotor: rotor, stator: stator, rotor_share: [{ speed: 0, s
     let car = document.vehicle.unwrap().vehicle("vehicle").unwrap();
     assert_eq!(car.regeneration, None);
     let share = document.motor.unwrap().rotor_share;
-    assert!((share.at(0.5 * std::f64::consts::PI).unwrap() - 0.2).abs() < 1e-12);
+    assert!((share.share_at(0.5 * std::f64::consts::PI).unwrap() - 0.2).abs() < 1e-12);
     let document = read("cycle: { spectrum: [{ torque: 1 Nm, speed: 30 rpm, share: 1 }] }").unwrap();
     let CycleEntry::Spectrum(entry) = document.cycle else {
         panic!("{:?}", document.cycle)

@@ -1,4 +1,4 @@
-//! A duty over time: rows of a file, checked, and the intervals between them.
+//! A time series: checked rows of a file, and the intervals between them.
 
 use super::{Demand, FileCycleEntry, Given, Interval, Vehicle};
 use crate::measured::text::Form;
@@ -12,11 +12,11 @@ pub struct Sample {
     pub line: u64,
     /// \[s\]
     pub time: f64,
-    /// Torque and speed at the port, where they were recorded. \[Nm, rad/s\]
+    /// Torque and speed at the port, if recorded. \[Nm, rad/s\]
     pub port: Option<(f64, f64)>,
     /// Rise over run of the road. \[-\]
     pub grade: f64,
-    /// What else the row tells.
+    /// Boundary conditions of the row.
     pub given: Given,
     /// Measured temperatures in the order of [`Trace::nodes`]. \[degC\]
     pub temperatures: Vec<f64>,
@@ -25,20 +25,20 @@ pub struct Sample {
 /// A series over time.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Trace {
-    /// The rows, at rising times; at least two.
+    /// The rows in ascending time; at least two.
     pub samples: Vec<Sample>,
     /// Nodes of the thermal network whose temperatures were measured.
     pub nodes: Vec<String>,
-    /// How often the series is driven.
+    /// Number of repetitions.
     pub repeat: u32,
-    /// How the file was understood, in sentences.
+    /// Notes on the detected format of the file.
     pub notes: Vec<String>,
 }
 
-/// The most intervals that a series may have, repeated: a gigabyte of them.
+/// Maximum number of intervals of a repeated series: one gigabyte.
 const MOST_INTERVALS: usize = 5_000_000;
 
-/// A step longer than this many median steps is a gap.
+/// Steps longer than this many median steps are gaps.
 const GAP: f64 = 5.0;
 
 const TIME: usize = 0;
@@ -53,7 +53,7 @@ const COOLANT_TEMPERATURE: usize = 8;
 const AMBIENT: usize = 9;
 const GEAR: usize = 10;
 
-/// What a file may hold, in the order of the places above; nodes come behind.
+/// Quantities of a file in the order of the indices above, followed by nodes.
 const QUANTITIES: [Wanted; 11] = [
     ("time", "s"),
     ("vehicle_speed", "m/s"),
@@ -69,10 +69,10 @@ const QUANTITIES: [Wanted; 11] = [
 ];
 
 impl Trace {
-    /// Reads the bytes of the file that an entry names.
+    /// Reads the bytes of the file of an entry.
     ///
     /// # Errors
-    /// What is wrong, with line and column: columns first, then cells, then the course of times and speeds.
+    /// Errors with line and column: columns first, then cells, then times and speeds.
     pub fn read(entry: &FileCycleEntry, bytes: &[u8]) -> Result<Self, Vec<MeasuredFault>> {
         let sheet = open(entry, bytes)?;
         let mut samples = Vec::new();
@@ -84,7 +84,7 @@ impl Trace {
             }
         }
         if !faulty.is_empty() {
-            return Err(limited_faults(faulty, "correct the cell, or leave the row out"));
+            return Err(limited_faults(faulty, "correct the cell, or delete the row"));
         }
         let found = sheet.table.rows.len();
         let inside = |s: &Sample| entry.start.is_none_or(|t| s.time >= t) && entry.end.is_none_or(|t| s.time <= t);
@@ -92,7 +92,7 @@ impl Trace {
         if !ordered.is_empty() {
             return Err(limited_faults(
                 ordered,
-                "sort the rows by time, with one row for each; a recording that starts again is another file",
+                "sort the rows by time and remove duplicates; put a restarted recording into another file",
             ));
         }
         samples.retain(inside);
@@ -105,7 +105,7 @@ impl Trace {
             let count = samples.len();
             let rows = if count == 1 { "row" } else { "rows" };
             return Err(vec![fault(
-                format!("{count} {rows} of {found} count; a series over time needs two"),
+                format!("{count} {rows} of {found} can be used; a time series needs at least two"),
                 help,
             )]);
         }
@@ -122,7 +122,7 @@ impl Trace {
         })
     }
 
-    /// Time from the first row to the last, once. \[s\]
+    /// Time from the first row to the last, without repetitions. \[s\]
     pub fn duration(&self) -> f64 {
         match (self.samples.first(), self.samples.last()) {
             (Some(first), Some(last)) => last.time - first.time,
@@ -130,20 +130,20 @@ impl Trace {
         }
     }
 
-    /// The intervals between rows, with the mean of each number over its two rows and the gear of the first of them, repeated.
+    /// The intervals between rows, with the mean of each value over its two rows and the gear of the first, including repetitions.
     ///
     /// # Errors
-    /// If the rows tell the vehicle's speed alone and no vehicle is stated.
+    /// If the rows have only the vehicle speed and no vehicle is stated.
     pub fn intervals(&self, vehicle: Option<&Vehicle>) -> Result<Vec<Interval>, MeasuredFault> {
         let count = self.samples.len().saturating_mul(self.repeat as usize);
         if count > MOST_INTERVALS {
             return Err(fault(
                 format!(
-                    "{} rows {} times are more than {MOST_INTERVALS} intervals",
+                    "{} rows repeated {} times exceed {MOST_INTERVALS} intervals",
                     self.samples.len(),
                     self.repeat
                 ),
-                "repeat it less often, or give fewer rows",
+                "use fewer repetitions or fewer rows",
             ));
         }
         let mut once = Vec::with_capacity(self.samples.len());
@@ -163,7 +163,7 @@ impl Trace {
                 }
                 _ => {
                     return Err(fault(
-                        "the duty tells the speed of a vehicle and no torque",
+                        "the cycle has a vehicle speed but no torque",
                         "state the `vehicle`, or columns of torque and speed at a port",
                     ));
                 }
@@ -224,9 +224,9 @@ fn open(entry: &FileCycleEntry, bytes: &[u8]) -> Result<Sheet, Vec<MeasuredFault
         lacks.push(sheet.lacks("the time", "time"));
     }
     match (sheet.holds(VEHICLE_SPEED), sheet.holds(TORQUE), sheet.holds(SPEED)) {
-        (_, true, false) => lacks.push(sheet.lacks("the speed beside the torque", "speed")),
-        (_, false, true) => lacks.push(sheet.lacks("the torque beside the speed", "torque")),
-        (false, false, false) => lacks.push(sheet.lacks("the vehicle's speed, nor torque and speed", "vehicle_speed")),
+        (_, true, false) => lacks.push(sheet.lacks("the speed in addition to the torque", "speed")),
+        (_, false, true) => lacks.push(sheet.lacks("the torque in addition to the speed", "torque")),
+        (false, false, false) => lacks.push(sheet.lacks("the vehicle speed, or torque and speed", "vehicle_speed")),
         _ => {}
     }
     if lacks.is_empty() { Ok(sheet) } else { Err(lacks) }
@@ -254,7 +254,7 @@ fn sample(sheet: &Sheet, row: usize, nodes: usize) -> Result<Sample, String> {
     })
 }
 
-/// Times that repeat or fall.
+/// Repeated or decreasing times.
 fn not_rising(samples: &[Sample]) -> Vec<String> {
     let pairs = samples.windows(2).filter(|pair| pair[1].time <= pair[0].time);
     pairs
@@ -266,18 +266,18 @@ fn not_rising(samples: &[Sample]) -> Vec<String> {
                     b.line, b.time, a.time, a.line
                 )
             } else {
-                format!("line {}: time {} s stands already in line {}", b.line, b.time, a.line)
+                format!("line {}: time {} s is already in line {}", b.line, b.time, a.line)
             }
         })
         .collect()
 }
 
-/// Steps that are much longer than the usual one.
+/// Steps that are much longer than the median.
 fn gaps(samples: &[Sample], stated: Option<f64>) -> Vec<MeasuredFault> {
     let mut steps: Vec<f64> = samples.windows(2).map(|pair| pair[1].time - pair[0].time).collect();
     steps.sort_by(f64::total_cmp);
     let median = steps[steps.len() / 2];
-    // Differences of decimal times carry their rounding.
+    // Differences of decimal times have rounding errors.
     let most = stated.unwrap_or(GAP * median) * (1.0 + 1e-9);
     let mut longest = 0.0_f64;
     let mut messages = Vec::new();
@@ -302,7 +302,7 @@ fn gaps(samples: &[Sample], stated: Option<f64>) -> Vec<MeasuredFault> {
     )
 }
 
-/// Accelerations that no vehicle, or no shaft, has.
+/// Implausible accelerations of vehicle or shaft.
 fn jumps(samples: &[Sample], entry: &FileCycleEntry) -> Vec<MeasuredFault> {
     let rates = |value: fn(&Sample) -> Option<f64>| {
         samples.windows(2).filter_map(move |pair| {
@@ -315,7 +315,7 @@ fn jumps(samples: &[Sample], entry: &FileCycleEntry) -> Vec<MeasuredFault> {
     let vehicle = vehicle
         .map(|(line, a)| {
             format!(
-                "line {line}: an acceleration of {} m/s2 from the line before; the most is {} m/s2",
+                "line {line}: an acceleration of {} m/s2 from the previous line; the maximum is {} m/s2",
                 tidy(a),
                 tidy(most)
             )
@@ -331,7 +331,7 @@ fn jumps(samples: &[Sample], entry: &FileCycleEntry) -> Vec<MeasuredFault> {
         let shaft = shaft
             .map(|(line, a)| {
                 format!(
-                    "line {line}: the speed changes by {} rpm/s from the line before; the most is {} rpm/s",
+                    "line {line}: the speed changes by {} rpm/s from the previous line; the maximum is {} rpm/s",
                     tidy(a * rpm),
                     tidy(most * rpm)
                 )
@@ -345,7 +345,7 @@ fn jumps(samples: &[Sample], entry: &FileCycleEntry) -> Vec<MeasuredFault> {
     found
 }
 
-/// A number without the rounding of its last digits.
+/// A number without rounding errors in its last digits.
 fn tidy(x: f64) -> f64 {
     let digits = 10_f64.powi(5 - x.abs().max(1e-30).log10().floor().clamp(-20.0, 20.0) as i32);
     (x * digits).round() / digits

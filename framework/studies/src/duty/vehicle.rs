@@ -1,5 +1,6 @@
-//! The vehicle between wheels and road: what torque a course of speeds asks of the wheels, and how much of it may be regained.
+//! The vehicle: torque at the wheels for a speed profile, and regeneration.
 
+use crate::codes;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -9,7 +10,7 @@ use gearloss_framework::document::Diagnostic;
 /// Standard gravity. \[m/s2\]
 pub const STANDARD_GRAVITY: f64 = 9.806_65;
 
-/// Density of air at 20 degC and one atmosphere, as usual in road loads. \[kg/m3\]
+/// Density of air at 20 degC and one atmosphere, as usual for road loads. \[kg/m3\]
 const AIR_DENSITY: f64 = 1.2;
 
 /// A vehicle. Its road load is stated by `coast_down`, or by `drag_area` and `rolling_resistance`.
@@ -26,20 +27,19 @@ pub struct VehicleEntry {
     /// Rolling resistance per weight. [-]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub rolling_resistance: Option<f64>,
-    /// Density of the air beside `drag_area`; absent, 1.2 kg/m3. [kg/m3]
+    /// Air density for `drag_area`; default: 1.2 kg/m3. [kg/m3]
     #[schemars(range(min = 0.1, max = 10.0))]
     pub air_density: Option<f64>,
     /// Rolling radius of the driven wheels. [mm]
     #[schemars(range(min = 10.0, max = 5000.0))]
     pub tyre_radius: f64,
-    /// Mass that accelerates, with that of turning parts, over the mass. The default is assumed: cars with one ratio have 1.03
-    /// to 1.05. [-]
+    /// Accelerated mass, including rotating parts, over the mass. The default is assumed: cars with one ratio have 1.03 to 1.05. [-]
     #[serde(default = "rotating_mass_factor")]
     #[schemars(range(min = 1.0, max = 3.0))]
     pub rotating_mass_factor: f64,
-    /// What may be regained while braking: `none`, or its limits.
+    /// Regeneration while braking: `none`, or its limits.
     pub regeneration: RegenerationEntry,
-    /// A fixed efficiency between port and wheels; absent, the losses of the transmission count. [-]
+    /// A fixed efficiency between port and wheels; default: the losses of the transmission are used. [-]
     #[schemars(range(min = 0.01, max = 1.0))]
     pub efficiency: Option<f64>,
 }
@@ -62,34 +62,34 @@ pub struct CoastDownEntry {
     pub c: f64,
 }
 
-/// What may be regained while braking.
+/// Regeneration while braking.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum RegenerationEntry {
     /// A word.
     Word(NoRegeneration),
-    /// Limits up to which all braking goes through the transmission.
+    /// Limits up to which braking is regenerative.
     Limits(Regeneration),
 }
 
-/// The word for brakes that do all the braking.
+/// No regeneration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum NoRegeneration {
-    /// The brakes do all the braking.
+    /// All braking by the brakes.
     None,
 }
 
-/// Limits of regeneration at the port of the motor; the brakes do the rest.
+/// Limits of regeneration at the port of the motor; the brakes supply the remainder.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
 pub struct Regeneration {
-    /// Greatest torque. [Nm]
+    /// Maximum torque. [Nm]
     #[schemars(range(min = 0.0, max = 1e6))]
     pub torque: f64,
-    /// Greatest power. [kW]
+    /// Maximum power. [kW]
     #[schemars(range(min = 0.0, max = 1e6))]
     pub power: f64,
-    /// Speed of the vehicle below which it fades away. The default is assumed. [m/s]
+    /// Vehicle speed below which regeneration is reduced linearly to zero. The default is assumed. [m/s]
     #[serde(default = "fade_speed")]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub fade_speed: f64,
@@ -100,8 +100,8 @@ fn fade_speed() -> f64 {
 }
 
 impl Regeneration {
-    /// The greatest braking torque at the port, min(T, P/w) min(1, v/v_fade), at a speed of the port \[rad/s\] and of the
-    /// vehicle \[m/s\]. \[Nm\]
+    /// Maximum braking torque at the port, min(T, P/w) min(1, v/v_fade), at a speed of the port \[rad/s\] and of the vehicle \[m/s\].
+    /// \[Nm\]
     pub fn limit(&self, port_speed: f64, vehicle_speed: f64) -> f64 {
         let speed = port_speed.abs();
         let torque = if self.torque * speed > self.power {
@@ -118,8 +118,8 @@ impl Regeneration {
     }
 }
 
-/// Torque at the port for a torque at the wheels with a fixed efficiency, which divides while driving and multiplies while
-/// braking. `ratio` is the speed of the port over that of the wheels. \[Nm\]
+/// Torque at the port for a torque at the wheels with a fixed efficiency, as a divisor in drive and a factor while braking. `ratio` is the
+/// speed of the port over that of the wheels. \[Nm\]
 pub fn input_torque(wheel_torque: f64, ratio: f64, efficiency: f64) -> f64 {
     if wheel_torque > 0.0 {
         wheel_torque / (ratio * efficiency)
@@ -144,7 +144,7 @@ pub enum RoadLoad {
     },
 }
 
-/// A vehicle as it counts; SI.
+/// A vehicle; SI.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Vehicle {
     /// \[kg\]
@@ -157,9 +157,9 @@ pub struct Vehicle {
     pub rotating_mass_factor: f64,
     /// \[m/s2\]
     pub gravity: f64,
-    /// Limits of regeneration; absent, there is none.
+    /// Limits of regeneration; absent: none.
     pub regeneration: Option<Regeneration>,
-    /// Fixed efficiency between port and wheels, where it is stated. \[-\]
+    /// Fixed efficiency between port and wheels, if stated. \[-\]
     pub efficiency: Option<f64>,
 }
 
@@ -167,17 +167,15 @@ impl VehicleEntry {
     /// The vehicle. `path` is that of the entry in its document.
     ///
     /// # Errors
-    /// If no road load is stated, or two are.
+    /// If no road load is stated, or two.
     pub fn vehicle(&self, path: &str) -> Result<Vehicle, Diagnostic> {
         let help = "state `coast_down`, or `drag_area` and `rolling_resistance`";
         let road_load = match (self.coast_down, self.drag_area, self.rolling_resistance) {
             (Some(coast_down), None, None) => {
                 if self.air_density.is_some() {
                     let at = format!("{path}.air_density");
-                    return Err(
-                        Diagnostic::error(at, "a coast-down test holds the air's density already")
-                            .help("leave `air_density` out"),
-                    );
+                    return Err(vehicle_error(at, "a coast-down test already includes the air density")
+                        .help("delete `air_density`"));
                 }
                 RoadLoad::CoastDown(coast_down)
             }
@@ -186,14 +184,14 @@ impl VehicleEntry {
                 rolling_resistance,
                 air_density: self.air_density.unwrap_or(AIR_DENSITY),
             },
-            (None, None, None) => return Err(Diagnostic::error(path, "no road load is stated").help(help)),
+            (None, None, None) => return Err(vehicle_error(path, "no road load is stated").help(help)),
             (None, Some(_), None) => {
-                return Err(Diagnostic::error(path, "`rolling_resistance` is missing beside `drag_area`").help(help));
+                return Err(vehicle_error(path, "`drag_area` needs `rolling_resistance`").help(help));
             }
             (None, None, Some(_)) => {
-                return Err(Diagnostic::error(path, "`drag_area` is missing beside `rolling_resistance`").help(help));
+                return Err(vehicle_error(path, "`rolling_resistance` needs `drag_area`").help(help));
             }
-            (Some(_), ..) => return Err(Diagnostic::error(path, "the road load is stated twice").help(help)),
+            (Some(_), ..) => return Err(vehicle_error(path, "the road load is stated twice").help(help)),
         };
         Ok(Vehicle {
             mass: self.mass,
@@ -240,7 +238,7 @@ impl Vehicle {
         speed / self.tyre_radius
     }
 
-    /// What is asked of the driven wheels; rest at standstill, where brakes hold the vehicle.
+    /// Demand at the driven wheels; none at standstill, where brakes hold the vehicle.
     pub fn demand(&self, speed: f64, acceleration: f64, grade: f64) -> Demand {
         if speed <= 0.0 {
             return Demand::Rest;
@@ -251,8 +249,8 @@ impl Vehicle {
         }
     }
 
-    /// A braking torque at the port as far as it may be regained, the rest being left to the brakes; a driving torque as it is.
-    /// Speeds of the port \[rad/s\] and of the vehicle \[m/s\]. \[Nm\]
+    /// Limits a braking torque at the port to regeneration; a driving torque is unchanged. Speeds of the port \[rad/s\] and of the vehicle
+    /// \[m/s\]. \[Nm\]
     pub fn regained(&self, port_torque: f64, port_speed: f64, vehicle_speed: f64) -> f64 {
         if port_torque >= 0.0 {
             return port_torque;
@@ -260,6 +258,11 @@ impl Vehicle {
         let limit = self.regeneration.map_or(0.0, |r| r.limit(port_speed, vehicle_speed));
         port_torque.max(-limit)
     }
+}
+
+/// A finding about a vehicle.
+fn vehicle_error(path: impl Into<String>, message: impl Into<String>) -> Diagnostic {
+    Diagnostic::error(path, message).code(codes::DUTY)
 }
 
 #[cfg(test)]

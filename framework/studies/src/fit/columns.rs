@@ -1,5 +1,6 @@
 //! Columns of a CSV file by name, in SI: `name [unit]` in the header, comments after `#`.
 
+use crate::codes;
 use gearloss_framework::document::{Diagnostic, Dimension, Unit, did_you_mean};
 
 /// Dimension of a unit.
@@ -66,7 +67,7 @@ pub struct Columns {
 }
 
 fn wrong_input(message: String, help: impl Into<String>) -> Diagnostic {
-    Diagnostic::error("", message).help(help)
+    Diagnostic::error("", message).help(help).code(codes::DATA)
 }
 
 fn cells(record: &csv::StringRecord) -> Vec<String> {
@@ -173,7 +174,7 @@ impl Columns {
             if any || number > 0.0 {
                 Ok(number * factor + zero)
             } else {
-                let message = format!("{place}: {cell} is not above zero");
+                let message = format!("{place}: {cell} is not positive");
                 Err(self.wrong(Some(row), &message, "write magnitudes, and delete points at standstill"))
             }
         };

@@ -1,5 +1,6 @@
 //! Drag of a planetary set as a power law of speed, viscosity and oil volume.
 
+use crate::codes;
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::table::{Reading, Table, columns};
 use gearloss_numerics::fit::{PowerFit, power_law};
@@ -92,5 +93,5 @@ impl DragLaw {
 }
 
 fn wrong(message: String, help: impl Into<String>) -> Diagnostic {
-    Diagnostic::error("", message).help(help)
+    Diagnostic::error("", message).help(help).code(codes::DATA)
 }

@@ -1,4 +1,4 @@
-//! The fit of an identification, and what is asked of it afterwards: statistics, profiles, folds.
+//! The fit of an identification, with statistics, profiles and cross-validation.
 
 use rayon::prelude::*;
 
@@ -6,14 +6,15 @@ use super::{Identification, ModelKink};
 use crate::study::Quantity;
 use gearloss_numerics::inference::{self, Fold, ProfileFault, ProfileInterval, Refit, RobustRows, Validation};
 use gearloss_numerics::least_squares::{
-    Differences, Fault, Loss, Minima, Minimum, Noise, Options, Problem, Scale, Status, UNTOLD, multistart, solve,
+    Differences, Fault, Loss, Minima, Minimum, Noise, Options, Problem, Scale, Searches, Status, UNTOLD, multistart,
+    solve,
 };
 
-/// Confidence of intervals by profile.
+/// Confidence of profile intervals.
 const CONFIDENCE: f64 = 0.95;
-/// Distance from its limit at which an end of such an interval is found: a thousandth of its half-width.
+/// Tolerance of the ends of such an interval: a thousandth of its half-width.
 const FOUND: f64 = 1e-3;
-/// Rounds in which factors of accuracies settle at most, and the relative change at which they have.
+/// Maximum number of rounds for factors of accuracies, and their relative tolerance.
 const ROUNDS: usize = 10;
 const SETTLED: f64 = 0.01;
 
@@ -21,33 +22,35 @@ const SETTLED: f64 = 0.01;
 const REMAINING: f64 = 1e-3;
 /// Relative noise of the residuals: the remaining change of the iterated flow of power.
 const NOISE: f64 = 1e-9;
-/// The same for a search: jumps of published laws make the misfit uneven. A search ends where derivatives promise a fall that is a
-/// thousand times this share of the misfit or less, in the worst case a fifth of a standard error along one combination.
+/// The same for a search: discontinuities of published laws make the misfit uneven. A search ends if derivatives predict a decrease of at
+/// most a thousand times this share of the misfit, in the worst case a fifth of a standard error along one combination.
 const UNEVEN: f64 = 1e-7;
-/// Jumps of single residuals over all: published laws change at a regime without meeting, by a percent of one component's loss. Steps
-/// of differences are a hundredth of usual sizes, so that a jump inside of one is no slope. The needle cages of the two-speed example
-/// jump by 2e-5 of its residuals where Palmgren's product of viscosity and speed passes 2000.
+/// Relative discontinuities of single residuals: published laws are discontinuous at a change of regime by a percent of one component's
+/// loss. Steps of differences are a hundredth of typical sizes, so that a jump within a step is not a slope. The needle cages of the
+/// two-speed example jump by 2e-5 of its residuals if Palmgren's product of viscosity and speed passes 2000.
 pub(super) const JUMPS: f64 = 1e-5;
-/// Relative step at which a search ends: beside a jump no direction lowers the misfit, and what derivatives promise is never met. Such a search
-/// is finished without derivatives.
+/// Relative step at which a search ends: near a jump no direction reduces the misfit as derivatives predict. Such a search is completed
+/// without derivatives.
 const SMALLEST: f64 = 1e-5;
 
-/// A hook that says whether to stop.
+/// A function that returns whether to stop.
 type Interrupt<'s> = Option<&'s (dyn Fn() -> bool + Sync)>;
 
-/// How an identification is solved.
+/// Settings of an identification.
 #[derive(Clone, Copy)]
 pub struct Settings<'s> {
-    /// What a residual costs.
+    /// Loss function.
     pub loss: Loss,
-    /// Residual from which on a point counts as far. \[-\]
+    /// Scale of the loss. \[-\]
     pub loss_scale: f64,
     /// Number of starts.
     pub starts: usize,
-    /// Whether the accuracies of quantities are given up to a factor each.
+    /// Whether each accuracy has an unknown factor.
     pub accuracy_factors: bool,
-    /// Asked again and again: whether to stop.
+    /// Called repeatedly: whether to stop.
     pub interrupt: Interrupt<'s>,
+    /// Who runs the searches of several starts; absent, the threads of this process.
+    pub searches: Option<&'s Searches<'s>>,
 }
 
 impl Default for Settings<'_> {
@@ -58,6 +61,7 @@ impl Default for Settings<'_> {
             starts: 1,
             accuracy_factors: false,
             interrupt: None,
+            searches: None,
         }
     }
 }
@@ -67,11 +71,11 @@ impl Default for Settings<'_> {
 pub struct Fitted {
     /// All minima that were found; the first is the fit.
     pub minima: Minima,
-    /// Factors by which the accuracies of the quantities were found to be wrong; empty where that was not asked.
+    /// Estimated factors on the accuracies of the quantities; empty if not requested.
     pub factors: Vec<(Quantity, f64)>,
-    /// What it says of the parameters.
+    /// Inference on the parameters.
     pub inference: inference::Fit,
-    /// Models whose kinks hold the minimum; none at a smooth one.
+    /// Models with kinks at the minimum; empty if it is smooth.
     pub kinks: Vec<ModelKink>,
 }
 
@@ -81,12 +85,12 @@ impl Fitted {
         &self.minima.minima[0].fit
     }
 
-    /// Whether a kink lies across a parameter, so that its linearised interval is a guess.
+    /// Whether there is a kink along a parameter, so that its linearised interval is only approximate.
     pub fn is_kinked(&self, parameter: usize) -> bool {
         self.fit().kinks.iter().any(|kink| kink.parameter == parameter)
     }
 
-    /// Distance of a parameter at another minimum, in its standard errors at the fit; absent where it has none.
+    /// Distance of a parameter at another minimum, in its standard errors at the fit; absent if it has none.
     pub fn distance(&self, minimum: &Minimum, parameter: usize) -> Option<f64> {
         let deviation = self.inference.deviation(parameter).filter(|d| *d > 0.0)?;
         Some((minimum.fit.u[parameter] - self.fit().u[parameter]) / deviation)
@@ -98,31 +102,31 @@ impl Fitted {
     }
 }
 
-/// An interval by profile, or why there is none.
+/// A profile interval, or why there is none.
 pub type Profiled = Result<ProfileInterval, String>;
 
 impl<'s> Settings<'s> {
-    /// With what the search is called, for those who call it themselves: on [`Identification::problem`], say, with every call
-    /// noted down.
+    /// Options of the search, for direct calls with [`Identification::problem`].
     pub fn options(&self, accuracy: inference::Accuracy) -> Options<'s> {
         let mut options = Options {
             loss: self.loss,
             loss_scale: self.loss_scale,
             estimate_spread: accuracy == inference::Accuracy::Estimated,
-            // Central differences are taken once, at the end, for the intervals.
+            // Central differences are used once, at the end, for the intervals.
             differences: Differences::Forward,
             noise: Noise::Known(UNEVEN),
             jumps: JUMPS,
             polish: true,
-            // Other starts take the place of other steps.
+            // Other starts replace attempts with other steps.
             attempts: false,
             interrupt: self.interrupt,
+            searches: self.searches,
             ..Options::fit()
         };
         options.forward.relative_offset = REMAINING;
         options.forward.step = SMALLEST;
         options.forward.cost = SMALLEST * SMALLEST;
-        // A tenth of a step tells no curvature where laws have kinks.
+        // With kinks a tenth of a step gives no valid curvature.
         options.steps.second_order = false;
         options
     }
@@ -132,7 +136,7 @@ impl Identification<'_> {
     /// Finds the parameters.
     ///
     /// # Errors
-    /// If the problem makes no sense, or the end of the search says nothing of the parameters.
+    /// If the problem is invalid, or inference at the end of the search is impossible.
     pub fn fit(&mut self, settings: &Settings<'_>) -> Result<Fitted, Fault> {
         let options = settings.options(self.accuracy);
         let mut minima = multistart(&self.problem(), &options, settings.starts.max(1))?;
@@ -146,7 +150,7 @@ impl Identification<'_> {
         Ok(fitted)
     }
 
-    /// What no residual depends on stays where the search of the user began, whichever start led to the minimum.
+    /// Parameters without effect keep the user's start value, whichever start led to the minimum.
     fn keep_unseen(&self, fit: &mut gearloss_numerics::least_squares::Fit) {
         let Some(derivative) = &fit.derivative else { return };
         let start = self.start();
@@ -161,7 +165,7 @@ impl Identification<'_> {
         }
     }
 
-    /// Finds factors of the accuracies: the scatter of each quantity, less what its points have lost to the parameters.
+    /// Estimates factors of the accuracies from the scatter of each quantity, corrected for fitted parameters.
     fn settle(&mut self, fitted: &mut Fitted, options: &Options<'_>) -> Result<(), Fault> {
         let mut quantities: Vec<Quantity> = Vec::new();
         for observation in &self.observations {
@@ -191,7 +195,7 @@ impl Identification<'_> {
             let mut again = multistart(&problem, options, 1)?;
             let mut fit = again.minima.swap_remove(0).fit;
             self.keep_unseen(&mut fit);
-            // Other starts and minima are those of the first round.
+            // Other starts and minima are from the first round.
             let mut minima = fitted.minima.clone();
             minima.minima[0].fit = fit;
             minima.evaluations += again.evaluations;
@@ -204,7 +208,7 @@ impl Identification<'_> {
         Ok(())
     }
 
-    /// The problem with the search beginning elsewhere; with one parameter held where it begins.
+    /// The problem with another start, and with one parameter fixed at its start.
     fn problem_from(&self, theta: &[f64], held: Option<usize>) -> Problem<'_> {
         let parameters = self
             .parameters
@@ -222,19 +226,21 @@ impl Identification<'_> {
         Problem::new(|theta: &[f64]| self.residuals(theta), parameters.collect())
     }
 
-    /// What a fit says of the parameters.
+    /// Inference on the parameters of a fit.
     fn fitted(&self, minima: Minima, options: &Options<'_>) -> Result<Fitted, Fault> {
         let fit = &minima.minima[0].fit;
-        let none = |message: String| Fault::single("the end of the search", message, "begin with other values");
+        let none = |message: String| Fault::single("the end of the search", message, "use other start values");
         let Some(derivative) = &fit.derivative else {
             let reason = fit.reason.name();
-            return Err(none(format!("it ended ({reason}) where residuals have no derivatives")));
+            return Err(none(format!(
+                "it ended ({reason}) at a point without derivatives of the residuals"
+            )));
         };
         let mut parameters = Vec::new();
         for (k, (parameter, theta)) in self.parameters.iter().zip(&fit.theta).enumerate() {
             let [low, high] = parameter.bounds;
             let mut stated = parameter.stated(theta.clamp(low, high)).map_err(none)?;
-            // The solver knows which bounds hold.
+            // The solver reports the active bounds.
             stated.standing = match fit.active[k] {
                 _ if fit.fixed[k] => inference::Standing::Fixed,
                 None => inference::Standing::Free,
@@ -269,7 +275,7 @@ impl Identification<'_> {
         })
     }
 
-    /// Intervals of all parameters by profile; absent for those that are held or not seen. All others follow in each fit.
+    /// Profile intervals of all parameters; absent for those that are fixed or without effect. All others follow in each fit.
     pub fn profiles(&self, fitted: &Fitted, interrupt: Interrupt<'_>) -> Vec<Option<Profiled>> {
         let of = |k: usize| {
             let mut profile = fitted.inference.to_profile(k, CONFIDENCE)?;
@@ -278,7 +284,10 @@ impl Identification<'_> {
             let found = fitted.inference.profiled(&profile, CONFIDENCE, refit);
             Some(found.map_err(|fault| match fault {
                 ProfileFault::BetterOptimum(found) => {
-                    format!("a better fit was found on the way, of objective {:.6}", found.objective)
+                    format!(
+                        "a better fit was found on the way, with objective {:.6}",
+                        found.objective
+                    )
                 }
                 ProfileFault::Failed(reason) | ProfileFault::Meaningless(reason) => reason,
             }))
@@ -290,7 +299,7 @@ impl Identification<'_> {
             .collect()
     }
 
-    /// The best that is left when one parameter is held at a coordinate, from coordinates of all.
+    /// The optimum of the others with one parameter fixed at a coordinate, starting from coordinates of all.
     pub(super) fn refit(
         &self,
         fitted: &Fitted,
@@ -298,7 +307,7 @@ impl Identification<'_> {
         from: &[f64],
         interrupt: Interrupt<'_>,
     ) -> Result<Refit, String> {
-        // The others begin where the linearised fit takes them.
+        // The others start at the prediction of the linearised fit.
         let follow = |j: usize| {
             let slope = fitted.inference.covariance(j, k) / fitted.inference.covariance(k, k);
             if slope.is_finite() { slope * (v - from[k]) } else { 0.0 }
@@ -318,11 +327,11 @@ impl Identification<'_> {
             })
             .collect();
         let options = Options {
-            // It begins near its end, and a hundredth of a standard error raises the misfit by no more than a thousandth.
+            // It starts near its end, and a hundredth of a standard error increases the misfit by at most a thousandth.
             differences: Differences::Forward,
             noise: Noise::Known(NOISE),
             jumps: JUMPS,
-            // Where kinks hold the minimum they hold the ends of these searches, too.
+            // Kinks at the minimum also occur at the ends of these searches.
             polish: !fitted.kinks.is_empty(),
             attempts: false,
             interrupt,
@@ -330,9 +339,9 @@ impl Identification<'_> {
         };
         let fit = solve(&self.problem_from(&theta, Some(k)), &options).map_err(|fault| fault.to_string())?;
         if fit.status == Status::Interrupted {
-            return Err("broken off".to_owned());
+            return Err("interrupted".to_owned());
         }
-        // The row of its prior falls away with a parameter that is held, but it still counts.
+        // The row of the prior is absent for a fixed parameter, but its contribution remains.
         let own = self.parameters[k].prior.map_or(0.0, |prior| {
             let row = match self.parameters[k].fitted().scale {
                 Scale::Linear => (v - prior.mean) / prior.deviation,
@@ -343,7 +352,7 @@ impl Identification<'_> {
         let mut u = fit.u;
         u[k] = v;
         let mut objective = 2.0 * fit.cost + own;
-        // Beside a kink the minimum is one of many that the data cannot tell apart: a hair below it is no better optimum.
+        // Near a kink the minimum is one of many indistinguishable ones: a slightly lower value is not a better optimum.
         let least = fitted.inference.objective();
         if !fitted.kinks.is_empty() && least - objective <= UNTOLD * fitted.fit().scatter() {
             objective = objective.max(least);
@@ -351,8 +360,7 @@ impl Identification<'_> {
         Ok(Refit { objective, u })
     }
 
-    /// Errors of each fold, predicted with the parameters that the others give. The folds are those of
-    /// [`Identification::groups`].
+    /// Errors of each fold, predicted with the parameters fitted to the others. The folds are those of [`Identification::groups`].
     ///
     /// # Errors
     /// If a fit fails.
@@ -369,7 +377,7 @@ impl Identification<'_> {
             let options = settings.options(self.accuracy);
             let fit = solve(&partial, &options).map_err(|fault| fault.to_string())?;
             if fit.status == Status::Interrupted {
-                return Err("broken off".to_owned());
+                return Err("interrupted".to_owned());
             }
             let all = self.residuals(&fit.theta)?;
             Ok(fold.points.iter().map(|i| (*i, all[*i])).collect())

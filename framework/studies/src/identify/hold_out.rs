@@ -1,5 +1,6 @@
-//! Rows that are held out of a fit, and groups of rows of which each is predicted from the others.
+//! Held-out rows, and groups of rows for cross-validation.
 
+use crate::codes;
 use crate::measured::{Condition, Measured, Row};
 use crate::study::{FoldsBy, FoldsEntry, HoldOutEntry, HoldOutRows};
 use gearloss_framework::document::{Diagnostic, did_you_mean};
@@ -8,24 +9,24 @@ use gearloss_numerics::sampling::Generator;
 
 use super::Identification;
 
-/// What cells of a column say of rows that are held out, and of the others; small letters.
+/// Cell texts for held-out rows, and for the others; lower case.
 const HELD: [&str; 4] = ["1", "true", "yes", "x"];
 const FITTED: [&str; 4] = ["", "0", "false", "no"];
-/// Groups by the texts of a column at most.
+/// Maximum number of groups by the texts of a column.
 const GROUPS: usize = 20;
-/// Groups where no count is stated.
+/// Default number of groups.
 const COUNT: usize = 5;
 
-/// Rows of a measurement that are fitted, and rows that are held out, each as a measurement of its own.
+/// Fitted and held-out rows of a measurement, each as a separate measurement.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HoldOut {
-    /// Rows that are fitted.
+    /// Fitted rows.
     pub fitted: Measured,
-    /// Rows that are predicted afterwards.
+    /// Held-out rows, predicted after the fit.
     pub held_out: Measured,
-    /// How they were chosen, in words.
+    /// Their selection as text.
     pub words: String,
-    /// Rows that are fitted because they lack what the condition asks for.
+    /// Rows that are fitted because they lack a value that the condition uses.
     pub undecided: usize,
 }
 
@@ -33,8 +34,8 @@ impl HoldOut {
     /// Chooses the rows.
     ///
     /// # Errors
-    /// What is wrong with the choice, with its path below the analysis: no or several ways, a condition that does not fit the data,
-    /// cells of a column that say neither yes nor no, nothing held out, nothing left.
+    /// Errors of the selection, with their path below the analysis: none or several selections, an invalid condition, invalid cells, no
+    /// held-out row, no fitted row.
     pub fn choose(entry: &HoldOutEntry, measured: &Measured) -> Result<Self, Diagnostic> {
         let rows = entry.rows();
         let place = |key: &str| match entry {
@@ -50,16 +51,16 @@ impl HoldOut {
         let count = ways.iter().filter(|way| **way).count();
         if count != 1 {
             let message = if count == 0 {
-                "nothing says which rows are held out"
+                "the selection of held-out rows is missing"
             } else {
-                "the rows that are held out are chosen in several ways"
+                "there are several selections of held-out rows"
             };
-            return Err(Diagnostic::error("hold_out", message)
+            return Err(hold_out_error("hold_out", message)
                 .help("write one of `column`, `where`, `every` and `random`, such as `hold_out: torque > 1000 Nm`"));
         }
         if rows.seed.is_some() && rows.random.is_none() {
-            return Err(Diagnostic::error(place("seed"), "nothing is drawn at random here")
-                .help("leave `seed` out, or write `random`"));
+            return Err(hold_out_error(place("seed"), "`seed` applies to random groups only")
+                .help("delete `seed`, or write `random`"));
         }
         let (chosen, words) = choice(&rows, measured, &place)?;
         let of_kind = |held: bool| Measured {
@@ -81,21 +82,21 @@ impl HoldOut {
         let all = measured.rows.len();
         if found.held_out.rows.is_empty() {
             return Err(
-                Diagnostic::error("hold_out", format!("none of {all} rows is held out ({})", found.words))
-                    .help("hold out rows that the data have, or leave `hold_out` out"),
+                hold_out_error("hold_out", format!("none of {all} rows is held out ({})", found.words))
+                    .help("select rows of the data, or delete `hold_out`"),
             );
         }
         if found.fitted.rows.is_empty() {
-            return Err(Diagnostic::error(
+            return Err(hold_out_error(
                 "hold_out",
-                format!("all {all} rows are held out: nothing is left to be fitted"),
+                format!("all {all} rows are held out, so there are no rows to fit"),
             )
             .help("hold out fewer rows"));
         }
         Ok(found)
     }
 
-    /// Refuses what leaves fewer rows than are needed for the parameters, `parameters` less `priors`.
+    /// Rejects a selection with fewer rows than needed for the parameters, `parameters` minus `priors`.
     ///
     /// # Errors
     /// If there are fewer.
@@ -104,12 +105,12 @@ impl HoldOut {
         if left + priors >= parameters {
             return Ok(());
         }
-        let message = format!("{left} rows are left to be fitted, for {parameters} parameters");
-        Err(Diagnostic::error("hold_out", message).help("hold out fewer rows, or identify fewer parameters"))
+        let message = format!("{left} rows remain for the fit of {parameters} parameters");
+        Err(hold_out_error("hold_out", message).help("hold out fewer rows, or identify fewer parameters"))
     }
 }
 
-/// Whether each row is held out, absent where it lacks what decides; and the choice in words.
+/// Whether each row is held out, absent if a value is missing; and the selection as text.
 fn choice(
     rows: &HoldOutRows,
     measured: &Measured,
@@ -129,19 +130,16 @@ fn choice(
             if FITTED.contains(&cell.as_str()) {
                 return Ok(Some(false));
             }
-            let message = format!(
-                "line {}: `{cell}` in column `{column}` says neither yes nor no",
-                row.line
-            );
-            Err(Diagnostic::error(place("column"), message)
-                .help("write 1, true or yes in rows that are held out, 0, false, no or nothing in the others"))
+            let message = format!("line {}: `{cell}` in column `{column}` is neither yes nor no", row.line);
+            Err(hold_out_error(place("column"), message)
+                .help("write 1, true or yes in held-out rows, and 0, false, no or nothing in the others"))
         };
         let held = measured.rows.iter().map(held).collect::<Result<_, _>>()?;
         return Ok((held, format!("column `{column}`")));
     }
     if let Some(text) = &rows.condition {
         let wrong = |found: crate::measured::ConditionFault| {
-            Diagnostic::error(place("where"), format!("`{text}`, {}", found.message)).help(found.help)
+            hold_out_error(place("where"), format!("`{text}`, {}", found.message)).help(found.help)
         };
         let condition = Condition::parse(text).map_err(wrong)?;
         condition.check(measured).map_err(wrong)?;
@@ -173,7 +171,7 @@ fn tidy_percent(share: f64) -> String {
     text.trim_end_matches(".0").to_owned()
 }
 
-/// The place of a column, or its nearest name.
+/// The index of a column, or the nearest name.
 fn column_place(measured: &Measured, name: &str) -> Result<usize, Diagnostic> {
     measured.column(name).ok_or_else(|| {
         let headers: Vec<&str> = measured.columns.iter().map(|c| c.header.as_str()).collect();
@@ -181,11 +179,11 @@ fn column_place(measured: &Measured, name: &str) -> Result<usize, Diagnostic> {
             Some(near) => format!("did you mean `{near}`?"),
             None => format!("the columns are {}", headers.join(", ")),
         };
-        Diagnostic::error("", format!("the file has no column `{name}`")).help(help)
+        hold_out_error("", format!("the file has no column `{name}`")).help(help)
     })
 }
 
-/// By what rows are grouped, in words that follow `without its own`.
+/// Grouping of rows as text.
 pub fn group_words(entry: &FoldsEntry) -> String {
     match entry {
         FoldsEntry::Torques(_) => "band of torque".to_owned(),
@@ -200,15 +198,15 @@ pub fn group_words(entry: &FoldsEntry) -> String {
 }
 
 impl Identification<'_> {
-    /// Groups of observations of which each is to be predicted from the others.
+    /// Groups of observations for cross-validation.
     ///
     /// # Errors
-    /// If there are too few groups, or the data do not hold what they are made by, with the path below the analysis.
+    /// If there are too few groups, or the data lack the grouping quantity, with the path below the analysis.
     pub fn groups(&self, entry: &FoldsEntry) -> Result<Vec<Fold>, Diagnostic> {
         let measured = self.measured();
         let rows: Vec<&Row> = self.observations.iter().map(|o| &measured.rows[o.row]).collect();
         let too_few = |path: &str, message: String| {
-            Diagnostic::error(path, message).help("group by what differs between rows, or write `folds: 0` for none")
+            hold_out_error(path, message).help("group by a quantity that varies, or write `folds: 0` for none")
         };
         let values = |quantity: &str| {
             rows.iter()
@@ -225,8 +223,8 @@ impl Identification<'_> {
         let most = by.count.map_or(COUNT, |count| count as usize);
         let few = |message: String| too_few("folds.by", message);
         if by.seed.is_some() && by.by != "random" {
-            return Err(Diagnostic::error("folds.seed", "nothing is drawn at random here")
-                .help("leave `seed` out, or write `by: random`"));
+            return Err(hold_out_error("folds.seed", "`seed` applies to random groups only")
+                .help("delete `seed`, or write `by: random`"));
         }
         let found = match by.by.as_str() {
             "random" => {
@@ -247,8 +245,8 @@ impl Identification<'_> {
             }
             quantity if measured.holds(quantity) => {
                 let Some(values) = values(quantity) else {
-                    return Err(Diagnostic::error("folds.by", format!("some rows have no `{quantity}`"))
-                        .help("group by another quantity, or leave these rows out"));
+                    return Err(hold_out_error("folds.by", format!("some rows have no `{quantity}`"))
+                        .help("group by another quantity, or omit these rows"));
                 };
                 return folds(&values, most).map_err(few);
             }
@@ -257,11 +255,10 @@ impl Identification<'_> {
         Self::labelled(by, found, most)
     }
 
-    /// Groups of texts: bands where all are numbers, else a group for each.
+    /// Groups of texts: bands if all are numbers, otherwise a group for each text.
     fn labelled(by: &FoldsBy, texts: Vec<String>, most: usize) -> Result<Vec<Fold>, Diagnostic> {
         let few = |message: String| {
-            Diagnostic::error("folds.by", message)
-                .help("group by what differs between rows, or write `folds: 0` for none")
+            hold_out_error("folds.by", message).help("group by a quantity that varies, or write `folds: 0` for none")
         };
         let numbers: Option<Vec<f64>> = texts
             .iter()
@@ -271,11 +268,11 @@ impl Identification<'_> {
             return folds(&numbers, most).map_err(few);
         }
         if by.count.is_some() {
-            return Err(Diagnostic::error(
+            return Err(hold_out_error(
                 "folds.count",
-                format!("the groups of `{}` are given by its values", by.by),
+                format!("the number of groups of `{}` is given by its values", by.by),
             )
-            .help("leave `count` out"));
+            .help("delete `count`"));
         }
         let name = |text: String| match (by.by.as_str(), text.as_str()) {
             ("sign", _) => text,
@@ -285,16 +282,20 @@ impl Identification<'_> {
         let labels: Vec<String> = texts.into_iter().map(name).collect();
         let found = labelled_folds(&labels).map_err(few)?;
         if found.len() > GROUPS {
-            let message = format!("`{}` makes {} groups, and each is a fit", by.by, found.len());
+            let message = format!(
+                "`{}` results in {} groups, each of which needs a fit",
+                by.by,
+                found.len()
+            );
             return Err(
-                Diagnostic::error("folds.by", message).help(format!("group by a column with {GROUPS} values at most"))
+                hold_out_error("folds.by", message).help(format!("group by a column with at most {GROUPS} values"))
             );
         }
         Ok(found)
     }
 }
 
-/// Texts of a column, or of gear states and names.
+/// Texts of a column, or of gears and names.
 fn texts(measured: &Measured, rows: &[&Row], name: &str) -> Result<Vec<String>, Diagnostic> {
     let known = |text: &dyn Fn(&Row) -> Option<String>| -> Option<Vec<String>> {
         measured.rows.iter().any(|row| text(row).is_some()).then(|| {
@@ -313,8 +314,8 @@ fn texts(measured: &Measured, rows: &[&Row], name: &str) -> Result<Vec<String>, 
     let at = column_place(measured, name).map_err(|found| {
         let words = "torque, speed, oil_temperature, sign, random";
         if words.split(", ").any(|word| word == name) {
-            return Diagnostic::error("folds.by", format!("the data hold no `{name}`")).help(format!(
-                "name its column under `columns: {{ {name}: ... }}`, or group by another quantity"
+            return hold_out_error("folds.by", format!("the data do not contain `{name}`")).help(format!(
+                "state its column under `columns: {{ {name}: ... }}`, or group by another quantity"
             ));
         }
         let help = match did_you_mean(name, words.split(", ")) {
@@ -324,10 +325,15 @@ fn texts(measured: &Measured, rows: &[&Row], name: &str) -> Result<Vec<String>, 
                 found.help.unwrap_or_default()
             ),
         };
-        Diagnostic::error("folds.by", found.message).help(help)
+        hold_out_error("folds.by", found.message).help(help)
     })?;
     Ok(rows
         .iter()
         .map(|row| row.cells.get(at).cloned().unwrap_or_default())
         .collect())
+}
+
+/// A finding about held-out rows or folds.
+fn hold_out_error(path: impl Into<String>, message: impl Into<String>) -> Diagnostic {
+    Diagnostic::error(path, message).code(codes::HOLD_OUT)
 }

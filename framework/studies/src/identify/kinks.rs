@@ -1,32 +1,32 @@
-//! Which models hold a minimum at a kink, and between which of their regimes.
+//! Models with kinks at a minimum, and their regimes.
 
 use super::Identification;
 use gearloss_numerics::least_squares::{Fit, Kink};
 
-/// Change of a part's loss over the loss, below which nothing jumps there but rounding and the iterated flow of power. \[-\]
+/// Relative change of a component's loss below which it is due to rounding and the iterated power flow. \[-\]
 const LEAST: f64 = 1e-9;
 
-/// A model whose loss or slope jumps at the minimum.
+/// A model whose loss or slope is discontinuous at the minimum.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ModelKink {
     /// Path of the part, such as `gears.G4.drag.churning`.
     pub path: String,
     /// Name of its model.
     pub model: String,
-    /// Regimes on the lower and on the upper side in the model's words; absent where it says none that change.
+    /// Regimes on the lower and on the upper side as named by the model; absent if none change.
     pub regimes: Option<[String; 2]>,
-    /// Whether the loss itself jumps, rather than its slope alone.
+    /// Whether the loss is discontinuous, not only its slope.
     pub jumps: bool,
-    /// Greatest change of the part's loss between both sides that no straight line explains, over its loss. \[-\]
+    /// Maximum deviation of the component's loss from a straight line between both sides, relative to its loss. \[-\]
     pub change: f64,
     /// Lines of the measured points concerned.
     pub lines: Vec<u64>,
-    /// Numbers of the parameters across which it lies.
+    /// Indices of the parameters along which it occurs.
     pub parameters: Vec<usize>,
 }
 
 impl ModelKink {
-    /// A sentence without an end: `minimum at a kink of ...`.
+    /// A sentence without full stop: `minimum at a kink of ...`.
     pub fn sentence(&self) -> String {
         let lines = match self.lines.as_slice() {
             [line] => format!("line {line}"),
@@ -38,28 +38,28 @@ impl ModelKink {
         };
         let place = format!("`{}` of {}", self.model, self.path);
         let what = if self.jumps {
-            "loss jumps"
+            "loss changes abruptly"
         } else {
-            "slope of the loss jumps"
+            "slope of the loss changes abruptly"
         };
         match &self.regimes {
             Some([a, b]) => format!("minimum at a kink of {place} between the regimes \"{a}\" and \"{b}\" ({lines})"),
             None if self.jumps => format!(
-                "minimum at a kink of {place}, where its {what} by {:.2} % ({lines})",
+                "minimum at a kink of {place}: the {what} by {:.2} % ({lines})",
                 100.0 * self.change
             ),
-            None => format!("minimum at a kink of {place}, where the {what} ({lines})"),
+            None => format!("minimum at a kink of {place}: the {what} ({lines})"),
         }
     }
 }
 
 impl Identification<'_> {
-    /// The models behind the kinks that hold the minimum of a fit, those first whose change is the greatest share of all losses.
+    /// Models with kinks at the minimum of a fit, sorted by their change relative to the total loss.
     ///
     /// # Errors
-    /// If the gearbox has no value beside the minimum.
+    /// If the gearbox has no value near the minimum.
     pub fn model_kinks(&self, fit: &Fit) -> Result<Vec<ModelKink>, String> {
-        // Each with its greatest change over the whole loss, by which they are ordered.
+        // Each with its maximum change relative to the total loss.
         let mut all: Vec<(f64, ModelKink)> = Vec::new();
         if fit.kinks.is_empty() {
             return Ok(Vec::new());
@@ -77,7 +77,7 @@ impl Identification<'_> {
                 let [below, above] = [0, 1].map(|k| sides[k].point(row));
                 let loss = here.loss.unwrap_or(0.0).abs().max(f64::MIN_POSITIVE);
                 let parts = here.parts.iter().zip(below.parts.iter().zip(&above.parts)).enumerate();
-                // The farthest from a straight line between both sides.
+                // The maximum deviation from a straight line between both sides.
                 let bent = |(part, (here, (below, above))): (usize, (&f64, (&f64, &f64)))| {
                     (part, (below + above - 2.0 * here).abs(), *here)
                 };
@@ -110,7 +110,7 @@ impl Identification<'_> {
         Ok(all.into_iter().map(|(_, kink)| kink).collect())
     }
 
-    /// Adds what was found at a row to what was found for the same model and regimes.
+    /// Merges the finding at a row with those of the same model and regimes.
     fn note(
         &self,
         all: &mut Vec<(f64, ModelKink)>,
@@ -150,7 +150,7 @@ impl Identification<'_> {
     }
 }
 
-/// The branches that differ between both sides, in words; absent where none does or a side says none.
+/// The branches that differ between both sides as text; absent if none differ or a side has none.
 fn changed([below, above]: &[Vec<(String, &'static str)>; 2]) -> Option<[String; 2]> {
     let only = |own: &[(String, &'static str)], other: &[(String, &'static str)]| {
         let mut words: Vec<&str> = Vec::new();
@@ -199,7 +199,7 @@ mod tests {
         (kink.regimes, kink.lines) = (None, vec![2, 4, 6, 8, 9]);
         assert_eq!(
             kink.sentence(),
-            format!("{words}, where its loss jumps by 0.20 % (5 lines, 2 to 9)")
+            format!("{words}: the loss changes abruptly by 0.20 % (5 lines, 2 to 9)")
         );
     }
 }

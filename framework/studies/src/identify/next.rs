@@ -1,4 +1,4 @@
-//! What to measure next: points that tell most about the parameters.
+//! Experimental design: proposed measurements with the most information on the parameters.
 
 use nalgebra::DMatrix;
 
@@ -10,7 +10,7 @@ use gearloss_numerics::design::{Design, Information, Plan, Rule, uniform_row};
 use gearloss_numerics::inference::Standing;
 use gearloss_numerics::sensitivity::gradients;
 
-/// Draws from the joint region at which the plan is made again, and its confidence.
+/// Number of draws from the joint region for alternative plans, and its confidence.
 const DRAWS: (u32, f64) = (5, 0.95);
 
 /// A point that a rig can run.
@@ -20,32 +20,32 @@ pub struct Candidate {
     pub torque: f64,
     /// Speed. \[rad/s\]
     pub speed: f64,
-    /// Temperature of the oil; absent, that of the study. \[degC\]
+    /// Oil temperature; absent: from the study. \[degC\]
     pub oil: Option<f64>,
 }
 
-/// Points to be measured.
+/// Proposed points.
 #[derive(Debug, Clone)]
 pub struct NextPlan {
     /// The plan.
     pub plan: Plan,
-    /// Standard deviation of the measured quantity at every candidate; efficiencies as shares.
+    /// Standard deviation of the measured quantity at every candidate; efficiencies as fractions.
     pub deviations: Vec<f64>,
-    /// Gain of measuring each candidate once, alone.
+    /// Gain of each candidate as the only measurement.
     pub gains: Vec<f64>,
-    /// Candidates of the plan that plans for other parameters of the joint region lack at least once, with the number of such plans.
+    /// Candidates of the plan that are absent from alternative plans, with the number of such plans.
     pub lacking: Vec<(usize, usize)>,
-    /// Plans for other parameters that could be made.
+    /// Number of alternative plans.
     pub others: usize,
-    /// Parameters that the plan is about, by their numbers.
+    /// Indices of the parameters of the plan.
     pub parameters: Vec<usize>,
 }
 
 impl Identification<'_> {
-    /// Ranks candidates by what they tell beyond the fitted points.
+    /// Ranks candidates by their information in addition to the fitted points.
     ///
     /// # Errors
-    /// If no parameter can move, or a candidate has no value.
+    /// If no parameter is free, or a candidate has no value.
     pub fn next(
         &self,
         fitted: &Fitted,
@@ -59,7 +59,7 @@ impl Identification<'_> {
             .filter(|k| inference.parameters()[*k].standing == Standing::Free && inference.column(*k) > 0.0)
             .collect();
         if free.is_empty() {
-            return Err("no parameter can move".to_owned());
+            return Err("no parameter is free".to_owned());
         }
         let quantity = self.observations.first().map_or(Quantity::Efficiency, |o| o.quantity);
         let shown = self.shown(fitted, candidates, gear, quantity)?;
@@ -84,7 +84,7 @@ impl Identification<'_> {
         };
         let ranges: Vec<f64> = free.iter().map(|k| inference.parameters()[*k].range()).collect();
         let derivative = fitted.fit().derivative.as_ref().ok_or("the fit has no derivatives")?;
-        // Without accuracies residuals are not in units of their deviation, which the scatter tells.
+        // Without accuracies residuals are not in units of their standard deviation, which is estimated from the scatter.
         let known = known(&derivative.jacobian, &free, &ranges, inference.scatter(), |k| {
             self.parameters[k].prior.is_some()
         });
@@ -101,7 +101,7 @@ impl Identification<'_> {
         let mut lacking = std::collections::BTreeMap::new();
         let mut others = 0;
         for u in inference.draws(DRAWS.0, DRAWS.1)? {
-            // A draw may lie where the gearbox has no value: the plan is then about the others.
+            // Draws without a value of the gearbox are omitted.
             let Ok((other, _)) = plan(&u) else { continue };
             others += 1;
             let lacking_here: std::collections::BTreeSet<usize> = best.lacking_in(&other).into_iter().collect();
@@ -119,8 +119,7 @@ impl Identification<'_> {
         })
     }
 
-    /// What the meters of the rig would show at candidates, with the accuracy of the instruments, or else that of the nearest
-    /// measured point.
+    /// Expected measurements of the rig at candidates, with the accuracy of the instruments, or of the nearest measured point.
     fn shown(
         &self,
         fitted: &Fitted,
@@ -199,13 +198,13 @@ impl Identification<'_> {
     }
 }
 
-/// Candidates as the rig would show them.
+/// Candidates as measured by the rig.
 struct Shown {
     measured: Measured,
     deviations: Vec<f64>,
 }
 
-/// Rows of what is known: those of the fit, and the range of each parameter without prior.
+/// Rows of the current information: those of the fit, and the range of each parameter without prior.
 fn known(
     jacobian: &DMatrix<f64>,
     free: &[usize],

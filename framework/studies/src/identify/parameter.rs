@@ -1,5 +1,6 @@
-//! Parameters that are identified: what they move, from where, and how far.
+//! Identified parameters: targets, start values and bounds.
 
+use crate::codes;
 use serde_json::{Value, json};
 
 use crate::measured::Rig;
@@ -14,9 +15,9 @@ use gearloss_numerics::least_squares::{self, Prior};
 /// A quantity of the rig.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RigQuantity {
-    /// What the torque meter at `in` shows too much.
+    /// Offset of the torque meter at `in`.
     OffsetIn,
-    /// What the torque meter at `out` shows too much.
+    /// Offset of the torque meter at `out`.
     OffsetOut,
     /// Drag torque of the rig's bearings at `in`.
     SupportIn,
@@ -48,16 +49,16 @@ impl RigQuantity {
     }
 }
 
-/// What a parameter moves.
+/// Target of a parameter.
 #[derive(Debug, Clone)]
 pub enum Target {
     /// Quantities of the gearbox.
     Path(Varied),
-    /// Load factors over the torque of a port: this one belongs to one of the torques.
+    /// Load factors over the torque of a port: this one is for one of the torques.
     Over {
         /// The factors.
         varied: Varied,
-        /// Port whose torque counts.
+        /// Port of the torque.
         port: String,
         /// All torques. \[Nm\]
         torques: Vec<f64>,
@@ -68,39 +69,39 @@ pub enum Target {
     Rig(RigQuantity),
 }
 
-/// A parameter that is identified; numbers are in the unit of its path.
+/// An identified parameter; numbers are in the unit of its path.
 #[derive(Debug, Clone)]
 pub struct Identified {
     /// Name.
     pub name: String,
     /// The path as written.
     pub path: String,
-    /// What it moves.
+    /// Target.
     pub target: Target,
     /// Unit of its numbers.
     pub unit: &'static Unit,
-    /// Value of the gearbox or the rig, before anything is fitted; absent where none is stated.
+    /// Value of the gearbox or the rig before the fit; absent if not stated.
     pub stated: Option<f64>,
-    /// Where the search begins.
+    /// Start value.
     pub start: f64,
-    /// Least and greatest value.
+    /// Lower and upper bound.
     pub bounds: [f64; 2],
-    /// How it is counted.
+    /// Scale.
     pub scale: ScaleEntry,
-    /// What is known of it beside the points.
+    /// Prior.
     pub prior: Option<Prior>,
-    /// Size by which its interval is judged, where its value may be zero so that it tells none: `usual_size` for a path; for an
-    /// offset of a torque meter the median of the measured loss torques there, to which it adds.
+    /// Reference size of its interval if its value may be zero: `usual_size` for a path; for an offset of a torque meter the median of the
+    /// measured loss torques.
     pub size: Option<f64>,
 }
 
-/// Length by which an interval about a length is judged that may be zero, such as an offset of the oil level: an assumption, about the
-/// depth of teeth and dips of a car's gears. \[m\]
+/// Reference length for intervals of a length that may be zero, such as an offset of the oil level. An assumption: about the tooth depth
+/// and immersion depth of car gears. \[m\]
 const LENGTH: f64 = 0.01;
-/// The same of a temperature: an assumption, within which oils change their viscosity by a third. \[K\]
+/// The same for a temperature. An assumption: changes the viscosity of oils by a third. \[K\]
 const TEMPERATURE: f64 = 10.0;
 
-/// Size by which an interval is judged, in the unit of a path whose values may have either sign; absent where the value itself tells it.
+/// Reference size of an interval, in the unit of a path whose values may have either sign; absent if the value provides it.
 fn usual_size(unit: &Unit, range: [f64; 2]) -> Option<f64> {
     let signed = range[0] < 0.0 && range[1] > 0.0;
     match unit.dimension {
@@ -111,16 +112,16 @@ fn usual_size(unit: &Unit, range: [f64; 2]) -> Option<f64> {
     }
 }
 
-/// A path of the study below the analysis, with what is wrong there.
+/// An error at a path of the study below the analysis.
 fn fault(place: &str, message: impl Into<String>, help: impl Into<String>) -> Diagnostic {
-    Diagnostic::error(place, message).help(help)
+    Diagnostic::error(place, message).help(help).code(codes::VARIED)
 }
 
 impl Identified {
     /// The parameters of an entry: one, or one for each torque of `over`. Paths of findings begin with `parameters`.
     ///
     /// # Errors
-    /// What is wrong with path, bounds, start or prior.
+    /// Errors of path, bounds, start or prior.
     pub fn from_entry(
         name: &str,
         entry: &IdentifiedEntry,
@@ -134,8 +135,8 @@ impl Identified {
                 let names = RIG.map(|(path, _)| path).join(", ");
                 return Err(fault(
                     &place("path"),
-                    format!("`{}` is no quantity of a rig that can be identified", entry.path),
-                    format!("these can: {names}"),
+                    format!("`{}` is not an identifiable quantity of a rig", entry.path),
+                    format!("write one of {names}"),
                 ));
             };
             let unit = Unit::of_symbol("Nm").unwrap_or(Unit::ONE);
@@ -165,8 +166,8 @@ impl Identified {
                 None => Err(fault(
                     &place("path"),
                     format!(
-                        "no {} of `{}` is known",
-                        if key == "from" { "least value" } else { "greatest value" },
+                        "the {} of `{}` is unknown",
+                        if key == "from" { "lower bound" } else { "upper bound" },
                         entry.path
                     ),
                     format!("add `{key}: ...`"),
@@ -181,7 +182,11 @@ impl Identified {
         if bounds[0] > bounds[1] {
             return Err(fault(
                 &place("to"),
-                format!("the bounds cross: from {} to {}", said(bounds[0]), said(bounds[1])),
+                format!(
+                    "the bounds are reversed: from {} to {}",
+                    said(bounds[0]),
+                    said(bounds[1])
+                ),
                 "exchange `from` and `to`",
             ));
         }
@@ -189,7 +194,7 @@ impl Identified {
             return Err(fault(
                 &place(if bounds[0] < range[0] { "from" } else { "to" }),
                 format!(
-                    "{} to {} leaves what the path allows, {} to {}",
+                    "{} to {} is outside the range of the path, {} to {}",
                     said(bounds[0]),
                     said(bounds[1]),
                     said(range[0]),
@@ -201,8 +206,11 @@ impl Identified {
         if entry.scale == ScaleEntry::Log && bounds[0] <= 0.0 {
             return Err(fault(
                 &place("scale"),
-                format!("a logarithm needs a least value above zero, not {}", said(bounds[0])),
-                "write `from:` with a value above zero, or `scale: linear`",
+                format!(
+                    "a logarithmic scale needs a positive lower bound, not {}",
+                    said(bounds[0])
+                ),
+                "write `from:` with a positive value, or `scale: linear`",
             ));
         }
         // A curve of factors may be stated already.
@@ -217,24 +225,15 @@ impl Identified {
                 if start < bounds[0] || start > bounds[1] {
                     return Err(fault(
                         &place("start"),
-                        format!(
-                            "{} is outside of {} to {}",
-                            said(start),
-                            said(bounds[0]),
-                            said(bounds[1])
-                        ),
-                        "begin between the bounds",
+                        format!("{} is outside {} to {}", said(start), said(bounds[0]), said(bounds[1])),
+                        "choose a start within the bounds",
                     ));
                 }
                 start
             }
-            None => stated.ok_or_else(|| {
-                fault(
-                    &place("path"),
-                    "the gearbox states no value to begin with",
-                    "add `start: ...`",
-                )
-            })?,
+            None => {
+                stated.ok_or_else(|| fault(&place("path"), "the gearbox states no start value", "add `start: ...`"))?
+            }
         };
         let prior = entry
             .prior
@@ -244,14 +243,14 @@ impl Identified {
             fault(
                 &place(&format!("prior.{key}")),
                 reason,
-                "write a quantity of the path above zero; for `scale: log` a number, relative to the mean",
+                "write a positive quantity of the path; for `scale: log` a number, relative to the mean",
             )
         })?;
         if let Some(prior) = prior.filter(|p| p.mean < bounds[0] || p.mean > bounds[1]) {
             return Err(fault(
                 &place("prior"),
                 format!(
-                    "its mean, {}, is outside of {} to {}",
+                    "its mean, {}, is outside {} to {}",
                     said(prior.mean),
                     said(bounds[0]),
                     said(bounds[1])
@@ -278,7 +277,7 @@ impl Identified {
             return Err(fault(
                 &place("over"),
                 "a quantity of the rig is one number",
-                "leave `over` out",
+                "delete `over`",
             ));
         };
         if ![".radial_factor", ".axial_factor"]
@@ -287,15 +286,15 @@ impl Identified {
         {
             return Err(fault(
                 &place("over"),
-                format!("`{}` is no load factor", entry.path),
-                "leave `over` out, or name `bearings.*.radial_factor` or `axial_factor`",
+                format!("`{}` is not a load factor", entry.path),
+                "delete `over`, or write `bearings.*.radial_factor` or `axial_factor`",
             ));
         }
         if over.torques.windows(2).any(|w| w[0] >= w[1]) {
             return Err(fault(
                 &place("over.torques"),
-                "the torques do not rise",
-                "sort them, and name each once",
+                "the torques are not ascending",
+                "sort them and remove duplicates",
             ));
         }
         let own = |place: usize| curve.as_ref().and_then(|list| list.get(place).copied());
@@ -314,7 +313,7 @@ impl Identified {
         Ok(over.torques.iter().enumerate().map(at).collect())
     }
 
-    /// Paths that it writes; none for a quantity of the rig.
+    /// Paths that it changes; empty for a quantity of the rig.
     pub fn paths(&self) -> &[String] {
         match &self.target {
             Target::Path(varied) | Target::Over { varied, .. } => &varied.paths,
@@ -322,7 +321,7 @@ impl Identified {
         }
     }
 
-    /// The published value, where it moves coefficients of formulas; one for a factor.
+    /// The published value, if it changes coefficients of formulas; one for a factor.
     pub fn published(&self) -> Option<f64> {
         match &self.target {
             Target::Path(varied) => varied.published(),
@@ -330,7 +329,7 @@ impl Identified {
         }
     }
 
-    /// What a value changes of the source, in words; absent where it changes no coefficient of a formula.
+    /// The difference of a value from the source as text; absent if it changes no coefficient of a formula.
     pub fn changed_from_source(&self, value: f64) -> Option<String> {
         match &self.target {
             Target::Path(varied) => varied.changed_from_source(value),
@@ -354,10 +353,10 @@ impl Identified {
         parameter
     }
 
-    /// For statements about a fit.
+    /// For inference.
     ///
     /// # Errors
-    /// If a value has no place on the scale or between the bounds.
+    /// If a value is not possible on the scale or not within the bounds.
     pub(super) fn stated(&self, theta: f64) -> Result<inference::Parameter, String> {
         let scale = match self.scale {
             ScaleEntry::Linear => inference::Scale::Linear,
@@ -366,13 +365,13 @@ impl Identified {
         Ok(inference::Parameter::new(&self.name, scale, theta, self.bounds)?.sized(self.size))
     }
 
-    /// Overrides that write values of all parameters into the gearbox.
+    /// Overrides with the values of all parameters of the gearbox.
     pub fn overrides(parameters: &[Self], theta: &[f64]) -> Vec<(String, Value)> {
         let mut overrides = Vec::new();
         for (i, (parameter, value)) in parameters.iter().zip(theta).enumerate() {
             match &parameter.target {
                 Target::Path(varied) => overrides.extend(varied.overrides(*value)),
-                // All factors of a curve are written together, with the first.
+                // All factors of a curve are written with the first.
                 Target::Over {
                     varied,
                     port,
@@ -389,7 +388,7 @@ impl Identified {
         overrides
     }
 
-    /// A rig with the values of all parameters that belong to it.
+    /// A rig with the values of its parameters.
     pub fn rig(parameters: &[Self], theta: &[f64], stated: &Rig) -> Rig {
         let mut rig = *stated;
         for (parameter, value) in parameters.iter().zip(theta) {
@@ -400,7 +399,7 @@ impl Identified {
         rig
     }
 
-    /// Faults of parameters that write the same value twice. Paths of findings begin with `parameters`.
+    /// The first error of parameters that change the same value. Paths of findings start with `parameters`.
     pub(super) fn find_duplicate(parameters: &[Self]) -> Option<Diagnostic> {
         for (i, one) in parameters.iter().enumerate() {
             for other in &parameters[..i] {
@@ -413,8 +412,8 @@ impl Identified {
                     let what = common.map_or(one.path.as_str(), String::as_str);
                     return Some(fault(
                         &format!("parameters.{}.path", one.base_name()),
-                        format!("`{}` moves `{what}` too", other.base_name()),
-                        "name every value once",
+                        format!("`{}` also changes `{what}`", other.base_name()),
+                        "list every value once",
                     ));
                 }
             }
@@ -431,7 +430,7 @@ impl Identified {
     }
 }
 
-/// Factors at some torques of the curve that the first path states; absent where it states none.
+/// Factors at some torques of the curve of the first path; absent if it has none.
 fn curve_at(resolved: &Resolved, target: &Target, torques: &[f64]) -> Option<Vec<f64>> {
     let Target::Path(varied) = target else { return None };
     let stated = lookup(&resolved.value, varied.paths.first()?)?;
@@ -464,7 +463,7 @@ fn read(target: &Target, unit: &'static Unit, value: &Value) -> Result<f64, Stri
             number
                 .is_finite()
                 .then_some(number)
-                .ok_or_else(|| format!("{value} is no torque"))
+                .ok_or_else(|| format!("{value} is not a torque"))
         }
     }
 }
@@ -481,13 +480,13 @@ fn prior_of(
     let deviation = match (scale, target, &entry.deviation) {
         (ScaleEntry::Log, _, value) => value
             .as_f64()
-            .ok_or_else(|| format!("{value} is no number, relative to the mean")),
+            .ok_or_else(|| format!("{value} is not a number relative to the mean")),
         (ScaleEntry::Linear, Target::Path(varied) | Target::Over { varied, .. }, value) => varied.quantity(value, true),
         (ScaleEntry::Linear, Target::Rig(_), value) => read(target, unit, value),
     };
     let deviation = deviation.map_err(|reason| ("deviation", reason))?;
     if deviation <= 0.0 {
-        return Err(("deviation", format!("{deviation} is not above zero")));
+        return Err(("deviation", format!("{deviation} is not positive")));
     }
     if scale == ScaleEntry::Log && mean <= 0.0 {
         return Err(("mean", format!("{mean} has no logarithm")));

@@ -1,29 +1,29 @@
-//! The posterior of the parameters: what is left of their stated ranges once the points have been measured.
+//! The posterior of the parameters.
 //!
-//! Every value of a range counts alike before (of a logarithmic parameter, every ratio), a `prior` beside.
+//! The prior is uniform over the range (for a logarithmic parameter in the logarithm), in addition to `prior`.
 
 use super::{Fitted, Identification, Identified};
 use crate::study::ScaleEntry;
 use gearloss_numerics::inference::{Accuracy, Draws, Ensemble, Marginal};
 
-/// Walkers for each parameter, and walkers at least, where their number is not stated.
+/// Default number of walkers for each parameter, and minimum number.
 const WALKERS: [usize; 2] = [4, 16];
-/// Standard errors about the fit within which the walkers begin.
+/// Standard errors about the fit in which the walkers start.
 const BEGIN: f64 = 0.1;
 
 /// Draws from a posterior.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Posterior {
-    /// One for each parameter, in the unit of its path; absent for those that are held.
+    /// One for each parameter, in the unit of its path; absent for fixed parameters.
     pub marginals: Vec<Option<Marginal>>,
     /// The draws of the free parameters.
     pub draws: Draws,
-    /// Whether every walker ran long enough for its draws to be trusted.
+    /// Whether the sampling has converged.
     pub is_settled: bool,
 }
 
 impl Identified {
-    /// What it is counted in.
+    /// Scale.
     fn coordinate(&self, value: f64) -> f64 {
         match self.scale {
             ScaleEntry::Linear => value,
@@ -31,7 +31,7 @@ impl Identified {
         }
     }
 
-    /// Its value at a coordinate; rounding leaves no bound.
+    /// Its value at a coordinate, within the bounds.
     fn value_at(&self, coordinate: f64) -> f64 {
         let value = match self.scale {
             ScaleEntry::Linear => coordinate,
@@ -40,22 +40,22 @@ impl Identified {
         value.clamp(self.bounds[0], self.bounds[1])
     }
 
-    /// Least and greatest coordinate.
+    /// Minimum and maximum coordinate.
     fn ends(&self) -> [f64; 2] {
         self.bounds.map(|bound| self.coordinate(bound))
     }
 }
 
 impl Identification<'_> {
-    /// Number of walkers where it is not stated.
+    /// Default number of walkers.
     pub fn walkers(&self) -> usize {
         WALKERS[1].max(WALKERS[0] * self.parameters.len())
     }
 
-    /// Draws from the posterior, beginning about a fit.
+    /// Draws from the posterior, starting near a fit.
     ///
     /// # Errors
-    /// If no parameter is free, or the draws were broken off.
+    /// If no parameter is free, or after an interruption.
     pub fn posterior(
         &self,
         fitted: &Fitted,
@@ -69,7 +69,7 @@ impl Identification<'_> {
         }
         let begin: Vec<[f64; 2]> = free.iter().map(|k| self.beginning(fitted, *k)).collect();
         let density = |u: &[f64]| self.log_density(fitted.theta(), &free, u);
-        let draws = ensemble.draws(density, &begin, interrupt).ok_or("broken off")?;
+        let draws = ensemble.draws(density, &begin, interrupt).ok_or("interrupted")?;
         let mut marginals = vec![None; self.parameters.len()];
         for (place, k) in free.iter().enumerate() {
             marginals[*k] = Some(draws.marginal(place, |u| self.parameters[*k].value_at(u)));
@@ -81,17 +81,17 @@ impl Identification<'_> {
         })
     }
 
-    /// Between which coordinates the walkers begin: near the fit, inside of the range.
+    /// Start range of the walkers: near the fit, within the bounds.
     fn beginning(&self, fitted: &Fitted, k: usize) -> [f64; 2] {
         let parameter = &self.parameters[k];
         let [low, high] = parameter.ends();
         let fit = parameter.coordinate(fitted.theta()[k]).clamp(low, high);
-        // What the points do not tell begins anywhere.
+        // Parameters that are not identifiable start anywhere.
         let reach = fitted.inference.deviation(k).map_or(high - low, |d| BEGIN * d);
         [(fit - reach).max(low), (fit + reach).min(high)]
     }
 
-    /// The logarithm of the posterior's density at coordinates of the free parameters; the others keep their values.
+    /// Logarithm of the posterior density at coordinates of the free parameters; the others are constant.
     fn log_density(&self, held: &[f64], free: &[usize], u: &[f64]) -> f64 {
         let mut theta = held.to_vec();
         let mut priors = 0.0;
@@ -110,7 +110,7 @@ impl Identification<'_> {
             return f64::NEG_INFINITY;
         };
         let squares: f64 = residuals.iter().map(|r| r * r).sum();
-        // Of an accuracy that nobody states every ratio counts alike before.
+        // The prior of an unknown accuracy is uniform in the logarithm.
         let misfit = match self.accuracy() {
             Accuracy::Given => squares,
             Accuracy::Estimated => residuals.len() as f64 * squares.ln(),

@@ -12,20 +12,20 @@ pub const CONFIDENCE: f64 = 0.95;
 /// Radians per second in one revolution per minute.
 const RPM: f64 = std::f64::consts::PI / 30.0;
 
-/// A measured number that was not fitted.
+/// A measured value that was not fitted.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PredictedNumber {
-    /// Row of the measurement held out, quantity, and standard deviation of one measurement: the stated accuracy, or the scatter
-    /// of the fitted points. Not finite where neither is known.
+    /// Row of the held-out measurement, quantity, and standard deviation of one measurement: the stated accuracy, or the scatter of the
+    /// fitted points. Not finite if both are unknown.
     pub observation: Observation,
-    /// Measured, without what the identified rig adds, and predicted.
+    /// Measured, without the contribution of the identified rig, and predicted.
     pub pair: Pair,
-    /// 95 % band of the measurement, about the predicted value; absent where the fitted points do not determine it.
+    /// 95 % band of the measurement about the predicted value; absent if the fitted points do not determine it.
     pub band: Option<[f64; 2]>,
 }
 
 impl PredictedNumber {
-    /// Whether the measurement lies inside of its band.
+    /// Whether the measurement is inside its band.
     pub fn is_inside(&self) -> Option<bool> {
         self.band
             .map(|[low, high]| low <= self.pair.measured && self.pair.measured <= high)
@@ -34,20 +34,20 @@ impl PredictedNumber {
 
 /// Rows that were not fitted, predicted.
 pub struct Predictions {
-    /// The numbers, quantity by quantity in the order of the rows.
+    /// The values, by quantity in the order of the rows.
     pub numbers: Vec<PredictedNumber>,
-    /// What the gearbox does at the rows.
+    /// State of the gearbox at the rows.
     pub calculated: Calculated,
-    /// Rows that have no calculated value, and why.
+    /// Rows without a calculated value, with the reason.
     pub missing: Vec<String>,
-    /// By how much bands are wider than the fit itself says.
+    /// Widening of the bands relative to the fit.
     pub widening: Widening,
-    /// Why there are no bands, where there are none.
+    /// Why there are no bands, if there are none.
     pub no_bands: Option<String>,
 }
 
 impl Predictions {
-    /// How many numbers of a quantity, or of all, lie inside of their bands.
+    /// Coverage of the bands of a quantity, or of all quantities.
     pub fn coverage(&self, quantity: Option<Quantity>) -> Option<Coverage> {
         let own = self
             .numbers
@@ -58,14 +58,14 @@ impl Predictions {
 }
 
 impl Identification<'_> {
-    /// Predicts rows that were not fitted. A measurement less its prediction depends on the parameters of the gearbox and of the rig,
-    /// and so does its band: their whole covariance and the scatter of one measurement.
+    /// Predicts rows that were not fitted. The difference between measurement and prediction depends on the parameters of gearbox and rig,
+    /// and its band on their full covariance and the scatter of one measurement.
     ///
-    /// A parameter on its bound has no part in the covariance; the band is the hull with that at the other end of its interval by
-    /// profile, as for losses by mechanism.
+    /// A parameter at its bound is not part of the covariance; the band is the hull with the band at the other end of its profile interval,
+    /// as for losses by mechanism.
     ///
     /// # Errors
-    /// If the gearbox does not take the rows.
+    /// If the rows are invalid for the gearbox.
     pub fn predict(
         &self,
         fitted: &Fitted,
@@ -120,7 +120,7 @@ impl Identification<'_> {
         })
     }
 
-    /// Bands of observations of this identification from what another one has fitted.
+    /// Bands of observations of this identification from the fit of another one.
     fn bands(
         &self,
         of_fit: &Identification<'_>,
@@ -128,7 +128,7 @@ impl Identification<'_> {
         (observations, pairs): (&[Observation], &[Pair]),
         (widening, profiles): (Widening, &[Option<Result<ProfileInterval, String>>]),
     ) -> Result<Vec<Option<[f64; 2]>>, String> {
-        // What the rig adds goes from the measurement: the difference depends on its parameters, too.
+        // The contribution of the rig is subtracted from the measurement, so the difference also depends on its parameters.
         let errors = |theta: &[f64]| -> Result<Vec<f64>, String> {
             let calculated = self.calculate(theta)?;
             let error = |o: &Observation| self.pair(o, &calculated).map(|pair| pair.model - pair.measured);
@@ -151,7 +151,7 @@ impl Identification<'_> {
         Ok(bands)
     }
 
-    /// Errors of a fitted quantity with their places; in efficiency points, W, Nm or K.
+    /// Errors of a fitted quantity with their points; in percentage points, W, Nm or K.
     pub fn placed_errors(&self, calculated: &Calculated, pairs: &[Pair], quantity: Quantity) -> Vec<PlacedError> {
         let is_stated = self.accuracy == Accuracy::Given;
         let own = self
@@ -168,7 +168,7 @@ impl Identification<'_> {
 }
 
 impl Predictions {
-    /// Errors of a quantity with their places; in efficiency points, W, Nm or K. `accuracy` is that of the fit.
+    /// Errors of a quantity with their points; in percentage points, W, Nm or K. `accuracy` is that of the fit.
     pub fn placed_errors(&self, held_out: &Measured, accuracy: Accuracy, quantity: Quantity) -> Vec<PlacedError> {
         let own = self.numbers.iter().filter(|n| n.observation.quantity == quantity);
         own.filter_map(|n| {

@@ -1,6 +1,7 @@
-//! The least-squares problem of an identification: measured points, and what a gearbox with given parameters does there.
+//! The least-squares problem of an identification: measured points, and the gearbox with given parameters.
 
 use crate::analysis::{OnRig, PointResult, Rows, SolvedRows};
+use crate::codes;
 use crate::measured::{Measured, PortSpeeds, Rig, Seen};
 use crate::study::{IdentifiedEntry, Quantity};
 use gearloss_framework::document::Diagnostic;
@@ -12,36 +13,36 @@ use gearloss_numerics::least_squares::Problem;
 
 use super::{Identified, RigQuantity, Target};
 
-/// One measured number that is fitted.
+/// One fitted measured value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Observation {
-    /// Number of the row.
+    /// Index of the row.
     pub row: usize,
-    /// What was measured.
+    /// Measured values.
     pub quantity: Quantity,
-    /// Standard deviation of the measurement, its weight counted in: efficiencies as shares, temperatures in K. Without any
-    /// accuracy the unit in which residuals are counted: an efficiency point, 1 W, 1 Nm or 1 K.
+    /// Standard deviation of the measurement, including its weight: efficiencies as fractions, temperatures in K. Without any accuracy the
+    /// unit of residuals: one percentage point, 1 W, 1 Nm or 1 K.
     pub deviation: f64,
 }
 
 impl Observation {
-    /// Whether another of the fitted quantities counts a point whose efficiency says nothing.
+    /// Whether another fitted quantity is used for points without a meaningful efficiency.
     pub(super) fn is_counted_by(&self, asked: Quantity, residuals: &[Quantity]) -> bool {
         let other = |q: &Quantity| matches!(q, Quantity::Loss | Quantity::LossTorque);
         self.quantity != asked && residuals.iter().any(other)
     }
 }
 
-/// A measured number beside the calculated one; efficiencies as shares.
+/// A measured and calculated value; efficiencies as fractions.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pair {
-    /// Measured, without what the rig adds.
+    /// Measured, without the contribution of the rig.
     pub measured: f64,
     /// Calculated.
     pub model: f64,
 }
 
-/// What a gearbox with given parameters does at all rows.
+/// State of a gearbox with given parameters at all rows.
 pub struct Calculated {
     /// The solved rows.
     pub solved: SolvedRows,
@@ -56,7 +57,7 @@ impl Calculated {
     }
 }
 
-/// Measured points, a gearbox under one choice of models, and parameters.
+/// Measured points, a gearbox with one choice of models, and parameters.
 pub struct Identification<'a> {
     pub(super) language: &'a Language,
     pub(super) gearbox: &'a Gearbox,
@@ -70,11 +71,11 @@ pub struct Identification<'a> {
 }
 
 impl<'a> Identification<'a> {
-    /// Joins rows, a gearbox and parameters. Paths of findings that belong to the study begin with `parameters` or `data`.
+    /// Combines rows, a gearbox and parameters. Paths of findings of the study start with `parameters` or `data`.
     ///
     /// # Errors
-    /// Everything that is wrong with the parameters, or that resolving and building find; points without a calculated value;
-    /// quantities that nothing measures, or of which only some have an accuracy.
+    /// All errors of the parameters, of resolving and of building; points without a calculated value; quantities without measurements, or
+    /// with accuracies for some points only.
     pub fn new<'e>(
         language: &'a Language,
         gearbox: &'a Gearbox,
@@ -94,7 +95,9 @@ impl<'a> Identification<'a> {
         }
         found.extend(Identified::find_duplicate(&parameters));
         if parameters.is_empty() && found.is_empty() {
-            found.push(Diagnostic::error("parameters", "there is nothing to identify").help("name a parameter"));
+            found.push(
+                identification_error("parameters", "there are no parameters to identify").help("add a parameter"),
+            );
         }
         for parameter in &parameters {
             if let Target::Over { port, .. } = &parameter.target
@@ -121,7 +124,7 @@ impl<'a> Identification<'a> {
         };
         let solved = identification.rows.solve(built, None, &|_| true);
         let solved = solved.map_err(|list| Faults::Gearbox(gearbox.findings(list)))?;
-        // Without anyone to break it off there is a result.
+        // Without an interruption there is always a result.
         if let Some(solved) = solved {
             let at_out = identification.rows.measured.rig.at_out() || identification.parameters.iter().any(is_out);
             let speeds = identification.rows.speeds(&solved, at_out);
@@ -136,10 +139,10 @@ impl<'a> Identification<'a> {
         Ok(identification)
     }
 
-    /// The same with other rows, of which all observations are given: simulated ones, or points that may be measured.
+    /// The same with other rows and given observations, for example simulated or proposed points.
     ///
     /// # Errors
-    /// If the gearbox does not take the rows.
+    /// If the rows are invalid for the gearbox.
     pub fn with_rows<'b>(
         &'b self,
         measured: &'b Measured,
@@ -188,12 +191,12 @@ impl<'a> Identification<'a> {
         self.accuracy
     }
 
-    /// What a user should know of the points.
+    /// Notes on the points.
     pub fn notes(&self) -> &[String] {
         &self.notes
     }
 
-    /// Values at which the search begins, each in the unit of its path.
+    /// Start values, each in the unit of its path.
     pub fn start(&self) -> Vec<f64> {
         self.parameters
             .iter()
@@ -201,7 +204,7 @@ impl<'a> Identification<'a> {
             .collect()
     }
 
-    /// What the gearbox does with given parameters, each in the unit of its path.
+    /// State of the gearbox with given parameters, each in the unit of its path.
     ///
     /// # Errors
     /// If it cannot be built with them.
@@ -220,14 +223,14 @@ impl<'a> Identification<'a> {
         let on = Some(on).filter(|on| !on.rig.is_silent());
         let solved = self.rows.solve(built, on, &|_| true);
         let solved = solved.map_err(|list| list.first().map_or_else(String::new, |d| d.message.clone()))?;
-        let solved = solved.ok_or_else(|| "broken off".to_owned())?;
+        let solved = solved.ok_or_else(|| "interrupted".to_owned())?;
         Ok(Calculated { solved, rig })
     }
 
-    /// An observation beside what was calculated.
+    /// An observation with its calculated value.
     ///
     /// # Errors
-    /// Which row has no value, and why.
+    /// The row without a value, and why.
     pub fn pair(&self, observation: &Observation, calculated: &Calculated) -> Result<Pair, String> {
         let row = &self.rows.measured.rows[observation.row];
         let point = calculated.point(observation.row);
@@ -236,7 +239,7 @@ impl<'a> Identification<'a> {
         let none = |which: &str| {
             let reason = match (&point.undefined, point.balance) {
                 (Some((_, undefined)), _) => format!(": {undefined}"),
-                (None, Some(_)) if point.oil.is_none() => ": no balance of heat was found".to_owned(),
+                (None, Some(_)) if point.oil.is_none() => ": no heat balance was found".to_owned(),
                 _ => String::new(),
             };
             format!("{}: no {which} {what}{reason}", self.rows.measured.origin(row))
@@ -247,15 +250,15 @@ impl<'a> Identification<'a> {
         Ok(Pair { measured, model })
     }
 
-    /// All observations beside what was calculated.
+    /// All observations with their calculated values.
     ///
     /// # Errors
-    /// Which row has no value, and why.
+    /// The row without a value, and why.
     pub fn pairs(&self, calculated: &Calculated) -> Result<Vec<Pair>, String> {
         self.observations.iter().map(|o| self.pair(o, calculated)).collect()
     }
 
-    /// Residuals: calculated less measured over the standard deviation.
+    /// Residuals: calculated minus measured over the standard deviation.
     ///
     /// # Errors
     /// If the gearbox cannot be built, or a row has no value.
@@ -274,7 +277,7 @@ impl<'a> Identification<'a> {
         Problem::new(|theta: &[f64]| self.residuals(theta), parameters)
     }
 
-    /// Judges offsets of torque meters by the loss torques to which they add.
+    /// Sets the reference size of offsets of torque meters from the loss torques.
     fn size_offsets(&mut self, start: &Calculated) {
         for port in [0, 1] {
             let torque = |(i, row): (usize, &crate::measured::Row)| {
@@ -303,9 +306,9 @@ impl<'a> Identification<'a> {
         }
     }
 
-    /// Refuses quantities that follow from the same measured numbers.
+    /// Rejects quantities that are computed from the same measured values.
     fn counted_once(&self, residuals: &[Quantity]) -> Result<(), Vec<Diagnostic>> {
-        let wrong = |message: String, help: &str| Err(vec![Diagnostic::error("residuals", message).help(help)]);
+        let wrong = |message: String, help: &str| Err(vec![identification_error("residuals", message).help(help)]);
         let powers: Vec<Quantity> = residuals
             .iter()
             .copied()
@@ -314,7 +317,7 @@ impl<'a> Identification<'a> {
         for (i, quantity) in residuals.iter().enumerate() {
             let what = quantity.words(crate::study::Difference::Points).0;
             if residuals[..i].contains(quantity) {
-                return wrong(format!("the {what} stands here twice"), "name every quantity once");
+                return wrong(format!("the {what} is listed twice"), "list every quantity once");
             }
             let column = match quantity {
                 Quantity::Efficiency => "efficiency",
@@ -323,19 +326,18 @@ impl<'a> Identification<'a> {
                 Quantity::Temperature => continue,
             };
             if powers.len() > 1 && !self.rows.measured.holds(column) {
-                let message =
-                    format!("the {what} has no column of its own: it follows from the same numbers as the others");
+                let message = format!("the {what} has no column and is computed from the same values as the others");
                 return wrong(
                     message,
-                    "name one of efficiency, loss and loss torque, or give each its column",
+                    "use one of efficiency, loss and loss torque, or give each a column",
                 );
             }
         }
         Ok(())
     }
 
-    /// What a row gives to be fitted by a quantity, with the accuracy that is stated of it; absent where it gives nothing. An
-    /// efficiency at hardly any torque counts by its loss torque.
+    /// The observation of a quantity in a row with its stated accuracy; absent if there is none. An efficiency at very low torque is
+    /// replaced by its loss torque.
     pub(super) fn observable(
         &self,
         row: usize,
@@ -361,12 +363,12 @@ impl<'a> Identification<'a> {
         Some((observation, accuracy))
     }
 
-    /// Chooses what is fitted, with its standard deviations at the start.
+    /// Selects the observations with their standard deviations at the start.
     fn observe(&mut self, residuals: &[Quantity]) -> Result<(), Vec<Diagnostic>> {
-        let data = |message: String, help: &str| vec![Diagnostic::error("data", message).help(help)];
+        let data = |message: String, help: &str| vec![identification_error("data", message).help(help)];
         self.counted_once(residuals)?;
         let start = self.calculate(&self.start());
-        let start = start.map_err(|reason| data(reason, "begin with other values"))?;
+        let start = start.map_err(|reason| data(reason, "use other start values"))?;
         let measured = self.rows.measured;
         let mut found: Vec<(Observation, Option<f64>)> = Vec::new();
         for quantity in residuals {
@@ -384,7 +386,7 @@ impl<'a> Identification<'a> {
                     let message = format!("{}: an accuracy of zero", measured.origin(row));
                     return Err(data(
                         message,
-                        "state how accurate the instruments are, or leave all accuracies out",
+                        "state the accuracy of the instruments, or omit all accuracies",
                     ));
                 }
                 found.push((observation, accuracy));
@@ -396,17 +398,17 @@ impl<'a> Identification<'a> {
                 .all(|row| measured.value(row, "weight") == Some(0.0))
             {
                 return Err(data(
-                    "all points have no weight".to_owned(),
-                    "give some of them a weight",
+                    "all points have zero weight".to_owned(),
+                    "give some of them a positive weight",
                 ));
             }
             if found.len() == before {
-                let help = "name a column of it, or columns of torque and speed at both ports";
-                return Err(data(format!("nothing gives a measured {what}"), help));
+                let help = "add a column of it, or columns of torque and speed at both ports";
+                return Err(data(format!("there is no measured {what}"), help));
             }
             if *quantity == Quantity::Temperature && start.solved.rows.iter().all(|(_, _, p)| p.balance.is_none()) {
                 return Err(vec![
-                    Diagnostic::error("residuals", "the temperature of the oil is given, not calculated")
+                    identification_error("residuals", "the oil temperature is given, not calculated")
                         .help("write `thermal: { mode: balance, ... }` in the gearbox, and no oil_temperature in the conditions"),
                 ]);
             }
@@ -417,19 +419,19 @@ impl<'a> Identification<'a> {
             };
             let below = found[before..].iter().filter(below).count();
             if below > 0 && *quantity != Quantity::Temperature {
-                self.notes.push(format!("{below} measured losses are below zero"));
+                self.notes.push(format!("{below} measured losses are negative"));
             }
             if drowned > 0 {
                 self.notes.push(format!(
-                    "{drowned} points with less torque than three times its accuracy count by their loss torque"
+                    "{drowned} points with less torque than three times its accuracy are fitted by their loss torque"
                 ));
             }
         }
-        // What has no value at the start is told by its line, before the search and before its accuracy.
+        // Points without a value at the start are reported by line, before the search and before their accuracy.
         if let Some(reason) = found.iter().find_map(|(o, _)| self.pair(o, &start).err()) {
             return Err(data(
                 format!("{reason}, at the start of the search"),
-                "begin with other values, or give the line no weight",
+                "use other start values, or give the line zero weight",
             ));
         }
         let with = found.iter().filter(|(_, accuracy)| accuracy.is_some()).count();
@@ -437,14 +439,14 @@ impl<'a> Identification<'a> {
             let bare = found.iter().find(|(_, accuracy)| accuracy.is_none());
             let line = bare.map_or_else(String::new, |(o, _)| measured.origin(&measured.rows[o.row]));
             let message = format!(
-                "{line} has no accuracy, as {} of {} measured numbers; {with} have one",
+                "{line} has no accuracy, like {} of {} measured values; {with} have one",
                 found.len() - with,
                 found.len()
             );
             return Err(data(message, "state the accuracies of all, or of none"));
         }
         if with == 0 && residuals.len() > 1 {
-            let message = "several quantities count together only by their accuracies, and none is stated".to_owned();
+            let message = "a fit of several quantities needs their accuracies, and none is stated".to_owned();
             return Err(data(
                 message,
                 "state the instruments under `rig`, or columns such as `loss_accuracy`",
@@ -459,14 +461,14 @@ impl<'a> Identification<'a> {
         let free = free.count();
         if let Some(parameter) = prior.filter(|_| with == 0) {
             let place = format!("parameters.{}.prior", parameter.base_name());
-            let message = "a prior and the points count together only by their accuracies, and none is stated";
-            let help = "state the instruments under `rig`, or columns such as `loss_accuracy`, or leave the prior out";
-            return Err(vec![Diagnostic::error(place, message).help(help)]);
+            let message = "a prior needs accuracies of the points, and none is stated";
+            let help = "state the instruments under `rig`, or columns such as `loss_accuracy`, or delete the prior";
+            return Err(vec![identification_error(place, message).help(help)]);
         }
         if with == 0 && self.observations.len() <= free {
             return Err(data(
                 format!(
-                    "{} measured numbers without accuracies for {free} parameters",
+                    "{} measured values without accuracies for {free} parameters",
                     self.observations.len()
                 ),
                 "identify fewer parameters, or state the accuracies",
@@ -475,7 +477,7 @@ impl<'a> Identification<'a> {
         if self.observations.len() + priors < free {
             return Err(data(
                 format!(
-                    "{} measured numbers and {priors} priors for {free} parameters",
+                    "{} measured values and {priors} priors for {free} parameters",
                     self.observations.len()
                 ),
                 "identify fewer parameters, or give some of them a `prior`",
@@ -489,34 +491,30 @@ fn is_out(parameter: &Identified) -> bool {
     matches!(&parameter.target, Target::Rig(quantity) if RigQuantity::is_out(*quantity))
 }
 
-/// What is wrong with an identification as it is stated.
+/// Errors in the statement of an identification.
+#[derive(thiserror::Error)]
 pub enum Faults {
-    /// Faults of the study, with paths below the analysis.
+    /// Errors of the study, with paths below the analysis.
+    #[error("{}", lines(.0))]
     Study(Vec<Diagnostic>),
-    /// Faults of the gearbox.
-    Gearbox(Findings),
+    /// Errors of the gearbox.
+    #[error(transparent)]
+    Gearbox(#[from] Findings),
 }
 
-impl std::fmt::Display for Faults {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Gearbox(findings) => f.write_str(&findings.render()),
-            Self::Study(list) => list.iter().try_for_each(|found| writeln!(f, "{found}")),
-        }
-    }
+fn lines(list: &[Diagnostic]) -> String {
+    list.iter()
+        .fold(String::new(), |text, found| text + &found.to_string() + "\n")
 }
 
-/// As shown, because a `main` that returns an error prints it so.
+/// As `Display`, because a `main` that returns an error prints `Debug`.
 impl std::fmt::Debug for Faults {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         std::fmt::Display::fmt(self, f)
     }
 }
 
-impl std::error::Error for Faults {}
-
-impl From<Findings> for Faults {
-    fn from(findings: Findings) -> Self {
-        Self::Gearbox(findings)
-    }
+/// A finding about an identification.
+fn identification_error(path: impl Into<String>, message: impl Into<String>) -> Diagnostic {
+    Diagnostic::error(path, message).code(codes::IDENTIFICATION)
 }

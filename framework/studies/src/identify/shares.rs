@@ -1,4 +1,4 @@
-//! Losses by mechanism at the measured points, with the bands that the parameters leave them.
+//! Losses by mechanism at the measured points, with bands due to the parameters.
 
 use super::fit::JUMPS;
 use super::{Fitted, Identification};
@@ -16,19 +16,18 @@ pub struct ShareBands {
     pub mechanisms: Vec<&'static str>,
     /// For each of the rows the losses of the mechanisms, their sum and their shares.
     pub rows: Vec<Breakdown>,
-    /// For each of the rows the 95 % bands of the losses of the mechanisms and, last, of their sum, widened by what parameters on
-    /// a bound would do. \[W\]
+    /// For each row the 95 % bands of the losses of the mechanisms and, last, of their sum, widened for parameters at a bound. \[W\]
     pub bands: Vec<Vec<Option<[f64; 2]>>>,
 }
 
-/// Which mechanism each part belongs to; none where its model is `none` in all transmissions.
+/// Mechanism of each component; none if its model is `none` in all transmissions.
 fn places(t: &Transmission, mechanisms: &[&'static str]) -> Vec<Option<usize>> {
     let place = |mechanism: &str| mechanisms.iter().position(|m| *m == mechanism);
     t.parts().iter().map(|part| place(part.mechanism)).collect()
 }
 
 impl Identification<'_> {
-    /// Losses by mechanism at some rows, with the deviations that follow from the covariance of all parameters.
+    /// Losses by mechanism at some rows, with standard deviations from the covariance of all parameters.
     ///
     /// # Errors
     /// If a neighbour of the optimum has no value.
@@ -95,8 +94,7 @@ impl Identification<'_> {
 }
 
 impl Identification<'_> {
-    /// Parameters at the far end of the interval by profile of each parameter that is on a bound, the others following. Such a
-    /// parameter has no part in the covariance: there it shows what it would do.
+    /// Parameters at the other end of the profile interval of each parameter at a bound, which is not part of the covariance.
     pub(super) fn far_ends(
         &self,
         fitted: &Fitted,
@@ -120,7 +118,7 @@ impl Identification<'_> {
 }
 
 impl ShareBands {
-    /// The share of a mechanism at a row with its 95 % band; absent where the loss is zero.
+    /// The share of a mechanism at a row with its 95 % band; absent if the loss is zero.
     pub fn share(&self, row: usize, mechanism: usize) -> Option<(Derived, Option<[f64; 2]>)> {
         let share = *self.rows[row].shares.get(mechanism)?;
         Some((share, share.share_band(DEVIATIONS)))

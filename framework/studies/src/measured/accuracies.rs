@@ -5,7 +5,7 @@ use serde::Deserialize;
 
 use super::MeasuredFault;
 
-/// Accuracies of measured quantities, where no column states them. What they mean is said by `stated_as`.
+/// Accuracies of measured quantities without an accuracy column. `stated_as` defines their meaning.
 #[derive(Debug, Clone, Copy, Default, Deserialize, JsonSchema)]
 pub struct AccuraciesEntry {
     /// Accuracy of the efficiency.
@@ -20,7 +20,7 @@ pub struct AccuraciesEntry {
     pub surface_temperature: Option<TemperatureAccuracyEntry>,
 }
 
-/// Accuracy of an efficiency: independent contributions, which add up as squares.
+/// Accuracy of an efficiency: independent contributions, added as squares.
 #[derive(Debug, Clone, Copy, Default, Deserialize, JsonSchema)]
 pub struct EfficiencyAccuracyEntry {
     /// Accuracy in percent of the efficiency. [-]
@@ -35,7 +35,7 @@ pub struct EfficiencyAccuracyEntry {
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub percent_of_full_scale: f64,
-    /// Accuracy that does not depend on the efficiency, as a share: 0.002 is 0.2 points. [-]
+    /// Accuracy independent of the efficiency, as a fraction: 0.002 is 0.2 percentage points. [-]
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub absolute: f64,
@@ -45,7 +45,7 @@ fn whole() -> f64 {
     1.0
 }
 
-/// Accuracy of a power loss: independent contributions, which add up as squares.
+/// Accuracy of a power loss: independent contributions, added as squares.
 #[derive(Debug, Clone, Copy, Default, Deserialize, JsonSchema)]
 pub struct LossAccuracyEntry {
     /// Accuracy in percent of the loss. [-]
@@ -60,13 +60,13 @@ pub struct LossAccuracyEntry {
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub percent_of_full_scale: f64,
-    /// Accuracy that does not depend on the loss. [W]
+    /// Accuracy independent of the loss. [W]
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1e9))]
     pub absolute: f64,
 }
 
-/// Accuracy of a loss torque: independent contributions, which add up as squares.
+/// Accuracy of a loss torque: independent contributions, added as squares.
 #[derive(Debug, Clone, Copy, Default, Deserialize, JsonSchema)]
 pub struct LossTorqueAccuracyEntry {
     /// Accuracy in percent of the loss torque. [-]
@@ -81,20 +81,20 @@ pub struct LossTorqueAccuracyEntry {
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub percent_of_full_scale: f64,
-    /// Accuracy that does not depend on the loss torque. [Nm]
+    /// Accuracy independent of the loss torque. [Nm]
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1e9))]
     pub absolute: f64,
 }
 
-/// Accuracy of a temperature: independent contributions, which add up as squares.
+/// Accuracy of a temperature: independent contributions, added as squares.
 #[derive(Debug, Clone, Copy, Default, Deserialize, JsonSchema)]
 pub struct TemperatureAccuracyEntry {
-    /// Accuracy in percent of the temperature in degC, as of thermocouples. [-]
+    /// Accuracy in percent of the temperature in degC, as for thermocouples. [-]
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub percent_of_reading: f64,
-    /// Span of temperature that the instrument shows. [K]
+    /// Temperature span of the instrument. [K]
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1e4))]
     pub full_scale: f64,
@@ -102,31 +102,31 @@ pub struct TemperatureAccuracyEntry {
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub percent_of_full_scale: f64,
-    /// Accuracy that does not depend on the temperature. [K]
+    /// Accuracy independent of the temperature. [K]
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1000.0))]
     pub absolute: f64,
 }
 
-/// The accuracy of one quantity as it is stated; SI.
+/// The stated accuracy of one quantity; SI.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Stated {
     quantity: &'static str,
-    /// Share of the reading. \[-\]
+    /// Fraction of the reading. \[-\]
     of_reading: f64,
     /// Root of the sum of the squares of the other contributions, in the unit of the quantity.
     fixed: f64,
 }
 
-/// Accuracies of quantities, as they are stated; SI.
+/// Stated accuracies of quantities; SI.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Accuracies(Vec<Stated>);
 
 impl Accuracies {
-    /// Accuracies as an entry states them.
+    /// Accuracies from an entry.
     ///
     /// # Errors
-    /// Accuracies of zero, and percentages of a full scale that is not stated.
+    /// If an accuracy is zero, or a percentage of the full scale has no full scale.
     pub fn new(entry: &AccuraciesEntry) -> Result<Self, Vec<MeasuredFault>> {
         let (mut stated, mut faults) = (Vec::new(), Vec::new());
         macro_rules! take {
@@ -154,7 +154,7 @@ impl Accuracies {
         self.0.iter().map(|stated| stated.quantity)
     }
 
-    /// Accuracy of a quantity at a reading, as it is stated; absent where it is not stated.
+    /// Stated accuracy of a quantity at a reading; absent if not stated.
     pub fn stated(&self, quantity: &str, reading: f64) -> Option<f64> {
         let stated = self.0.iter().find(|stated| stated.quantity == quantity)?;
         Some((stated.of_reading * reading).hypot(stated.fixed))

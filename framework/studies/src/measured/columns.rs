@@ -1,4 +1,4 @@
-//! Which column of a file holds which quantity, in which unit, and how its numbers are changed.
+//! Assignment of columns to quantities, with units, scales and signs.
 
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -14,11 +14,11 @@ use gearloss_framework::document::{Unit, did_you_mean};
 pub enum ColumnEntry {
     /// Its header.
     Header(String),
-    /// Its header, and how its numbers are changed.
+    /// Its header, scale and sign.
     Changed(ChangedColumnEntry),
 }
 
-/// A column whose numbers are changed before their unit applies.
+/// A column with a scale and a sign, which apply before its unit.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct ChangedColumnEntry {
     /// Header of the column.
@@ -27,7 +27,7 @@ pub struct ChangedColumnEntry {
     #[serde(default = "unit_factor")]
     #[schemars(range(min = -1e12, max = 1e12))]
     pub scale: f64,
-    /// Sign of the numbers of the column: -1 for a rig that counts the other way, otherwise 1. [-]
+    /// Sign of the numbers of the column: -1 for a rig with the opposite sign convention, otherwise 1. [-]
     #[serde(default = "unit_factor")]
     #[schemars(range(min = -1.0, max = 1.0))]
     pub sign: f64,
@@ -60,10 +60,10 @@ impl ColumnEntry {
     }
 }
 
-/// A quantity that a file may hold.
+/// A quantity of a file.
 pub(super) struct Known {
     pub name: &'static str,
-    /// Documented unit; empty for texts, a dash for shares.
+    /// Documented unit; empty for texts, a dash for fractions.
     pub unit: &'static str,
 }
 
@@ -71,7 +71,7 @@ const fn known(name: &'static str, unit: &'static str) -> Known {
     Known { name, unit }
 }
 
-/// All quantities; SI after reading, shares as numbers of one.
+/// All quantities; SI after reading.
 pub(super) const KNOWN: [Known; 17] = [
     known("torque", "Nm"),
     known("speed", "rpm"),
@@ -92,7 +92,7 @@ pub(super) const KNOWN: [Known; 17] = [
     known("name", ""),
 ];
 
-/// A column that holds a quantity.
+/// A column of a quantity.
 pub(super) struct Column {
     pub name: &'static str,
     pub place: usize,
@@ -105,7 +105,7 @@ pub(super) struct Column {
 
 /// A column that changes the gearbox.
 pub(super) struct BoundColumn {
-    /// Name under which it is bound.
+    /// Bound name.
     pub name: String,
     pub column: Column,
     /// Symbol of its unit; empty for a plain number.
@@ -117,13 +117,13 @@ pub(super) struct BoundColumn {
 pub(super) struct Columns {
     pub quantities: Vec<Column>,
     pub bound: Vec<BoundColumn>,
-    /// Time, where steady stretches are asked for.
+    /// Time, if steady stretches are requested.
     pub time: Option<Column>,
-    /// How columns are changed, in sentences.
+    /// Notes on changed columns.
     pub notes: Vec<String>,
 }
 
-/// Looks for columns and collects everything that is wrong with them.
+/// Finds columns and collects all errors.
 pub(super) struct Finder<'a> {
     pub entry: &'a MeasuredEntry,
     pub file: MeasuredFile<'a>,
@@ -132,7 +132,7 @@ pub(super) struct Finder<'a> {
 }
 
 impl<'a> Finder<'a> {
-    /// The columns that hold quantities, those that are bound, and the time.
+    /// The columns of quantities, bound columns, and the time.
     pub(super) fn columns(&mut self, bind: &[&str]) -> Columns {
         let mut columns = Columns::default();
         for known in &KNOWN {
@@ -181,7 +181,7 @@ impl<'a> Finder<'a> {
         self.table.names.join(", ")
     }
 
-    /// Headers of columns that are not stated for any quantity.
+    /// Headers of columns that are not assigned to a quantity.
     fn free_headers(&self) -> impl Iterator<Item = &'a str> {
         let own = self.file.own.into_iter().flat_map(|own| own.columns.iter());
         let stated = own.chain(self.entry.columns.iter()).map(|(_, column)| column.header());
@@ -195,7 +195,7 @@ impl<'a> Finder<'a> {
         own.or_else(|| self.entry.columns.get(quantity))
     }
 
-    /// The key that states something of a quantity: that of the file, or that of the measurement.
+    /// The key of a quantity: in the file entry, or in the measurement.
     fn key(&self, section: &str, quantity: &str) -> FaultPlace {
         let stated_by_file = self.file.own.is_some_and(|own| match section {
             "columns" => own.columns.get(quantity).is_some(),
@@ -209,10 +209,10 @@ impl<'a> Finder<'a> {
         })
     }
 
-    /// Place and header of the column of a quantity: the one that is stated, or the one of the same name.
+    /// Index and header of the column of a quantity: the assigned one, or the one with the same name.
     fn place(&mut self, quantity: &str) -> Option<(usize, String)> {
         let written = self.written(quantity).map(ColumnEntry::header);
-        // A column that is stated for another quantity does not count by its own name.
+        // A column that is assigned to another quantity is not used by its own name.
         let taken = written.is_none()
             && (KNOWN.iter().filter_map(|known| self.written(known.name))).any(|column| column.header() == quantity);
         if taken {
@@ -223,10 +223,10 @@ impl<'a> Finder<'a> {
             (Some(place), _) => Some((place, header.to_owned())),
             (None, None) => None,
             (None, Some(_)) => {
-                let message = format!("no column is called `{header}`; there are: {}", self.headers());
+                let message = format!("there is no column `{header}`; there are: {}", self.headers());
                 let help = match did_you_mean(header, self.free_headers()) {
                     Some(close) => format!("write `{close}`"),
-                    None => "name one of them under `columns`".to_owned(),
+                    None => "state one of them under `columns`".to_owned(),
                 };
                 self.fault(self.key("columns", quantity), &message, help);
                 None
@@ -234,18 +234,18 @@ impl<'a> Finder<'a> {
         }
     }
 
-    /// Refuses a file that gives neither a quantity nor its value at the other port.
+    /// Rejects a file with neither a quantity nor its value at the other port.
     fn due(&mut self, due: &str) {
         let out = format!("{due}_out");
-        // A column that is stated and missing is reported already.
+        // A missing assigned column is already reported.
         let stated = |quantity: &str| self.written(quantity).is_some();
         let held = |quantity: &str| self.table.names.iter().any(|name| name == quantity);
         if stated(due) || stated(&out) || held(due) || held(&out) {
             return;
         }
-        let message = format!("no column holds the {due}; there are: {}", self.headers());
+        let message = format!("there is no column for the {due}; there are: {}", self.headers());
         let place = FaultPlace::Entry("columns".to_owned());
-        self.fault(place, &message, format!("name one under `columns: {{ {due}: ... }}`"));
+        self.fault(place, &message, format!("state one under `columns: {{ {due}: ... }}`"));
     }
 
     /// Scale and sign of a column as one factor.
@@ -261,7 +261,7 @@ impl<'a> Finder<'a> {
         } else if scale * sign != 1.0 && known.unit.is_empty() {
             Some((
                 format!("the {} is a text, which has no scale and no sign", known.name),
-                "leave them out",
+                "delete them",
             ))
         } else {
             None
@@ -295,13 +295,13 @@ impl<'a> Finder<'a> {
     fn bound(&mut self, name: &str, notes: &mut Vec<String>) -> Option<BoundColumn> {
         let at_bind = || FaultPlace::Bind(name.to_owned());
         let Some((place, header)) = self.place(name) else {
-            // A column that is stated and missing is reported already.
+            // A missing assigned column is already reported.
             if self.written(name).is_none() {
                 let headers = self.headers();
-                let message = format!("no column is called `{name}`, which is bound; there are: {headers}");
+                let message = format!("there is no column `{name}`, which is bound; there are: {headers}");
                 let help = match did_you_mean(name, self.table.names.iter().map(String::as_str)) {
-                    Some(close) => format!("bind `{close}`, or name it under `columns: {{ {name}: {close} }}`"),
-                    None => "name a column of the file, or take it out of `bind`".to_owned(),
+                    Some(close) => format!("bind `{close}`, or state it under `columns: {{ {name}: {close} }}`"),
+                    None => "use a column of the file, or delete it from `bind`".to_owned(),
                 };
                 self.fault(at_bind(), &message, help);
             }
@@ -324,7 +324,7 @@ impl<'a> Finder<'a> {
         };
         let unit = self.stated_unit(name, place).unwrap_or_default();
         if !unit.is_empty() && Unit::of_symbol(&unit).is_none() {
-            let message = format!("`{unit}` of column `{name}` is no unit");
+            let message = format!("`{unit}` of column `{name}` is not a unit");
             self.fault(
                 at_bind(),
                 &message,
@@ -349,10 +349,10 @@ impl<'a> Finder<'a> {
     fn time(&mut self, header: &str) -> Option<Column> {
         let place = self.table.names.iter().position(|name| name == header);
         let Some(place) = place else {
-            let message = format!("no column is called `{header}`; there are: {}", self.headers());
+            let message = format!("there is no column `{header}`; there are: {}", self.headers());
             let help = match did_you_mean(header, self.table.names.iter().map(String::as_str)) {
                 Some(close) => format!("write `time: {close}`"),
-                None => "name the column of the time, `time: ...`".to_owned(),
+                None => "state the column of the time, `time: ...`".to_owned(),
             };
             self.fault(FaultPlace::Entry("steady.time".to_owned()), &message, help);
             return None;
@@ -369,10 +369,10 @@ impl<'a> Finder<'a> {
 }
 
 fn changed(header: &str, quantity: &str, scale: f64, sign: f64) -> Option<String> {
-    let scaled = (scale != 1.0).then(|| format!("times {scale}"));
-    let turned = (sign < 0.0).then(|| "with the other sign".to_owned());
+    let scaled = (scale != 1.0).then(|| format!("multiplied by {scale}"));
+    let turned = (sign < 0.0).then(|| "with the opposite sign".to_owned());
     let words: Vec<String> = scaled.into_iter().chain(turned).collect();
-    (!words.is_empty()).then(|| format!("column `{header}` counts {} as {quantity}", words.join(", ")))
+    (!words.is_empty()).then(|| format!("column `{header}` is read {} as {quantity}", words.join(", ")))
 }
 
 fn unit_help(written: &str, symbols: impl Iterator<Item = &'static str>, otherwise: &str) -> String {

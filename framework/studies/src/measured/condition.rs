@@ -1,16 +1,16 @@
-//! Conditions on measured rows as users write them: `torque > 1000 Nm and not (speed <= 500 rpm)`.
+//! Conditions on measured rows in the syntax of users: `torque > 1000 Nm and not (speed <= 500 rpm)`.
 //!
-//! Words: the quantities of a measurement, names that are bound, and headers of columns; `==`, `!=`, `<`, `<=`, `>`, `>=`; `and`,
-//! `or`, `not`, parentheses. `not` binds tightest, `or` weakest.
+//! Operands: the quantities of a measurement, bound names, and headers of columns; `==`, `!=`, `<`, `<=`, `>`, `>=`; `and`, `or`, `not`,
+//! parentheses. `not` has the highest precedence, `or` the lowest.
 
 use super::{KNOWN, Measured, Row};
 use gearloss_framework::document::{Unit, did_you_mean, number_length};
 
-/// Characters of a condition at most.
+/// Maximum number of characters of a condition.
 const LONGEST: usize = 2000;
-/// Parentheses and `not` inside of each other at most.
+/// Maximum nesting of parentheses and `not`.
 const DEEPEST: usize = 50;
-/// Relative difference up to which two numbers are equal: that of a unit's conversion, far below any meter.
+/// Relative difference of equal numbers: rounding of unit conversions, far below the resolution of instruments.
 const EQUAL: f64 = 1e-9;
 
 /// A condition on measured rows.
@@ -20,14 +20,14 @@ pub struct Condition {
     rule: Rule,
 }
 
-/// What is wrong with a condition.
+/// An error in a condition.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ConditionFault {
-    /// What is wrong, with the column.
+    /// Message with the column.
     pub message: String,
     /// How to fix it.
     pub help: String,
-    /// Column of the text at which it is wrong, from one.
+    /// Column of the error in the text, starting at one.
     pub column: usize,
 }
 
@@ -45,7 +45,7 @@ struct Comparison {
     subject: String,
     operator: Operator,
     value: Literal,
-    /// Columns of the text at which the subject and the value begin.
+    /// Columns of subject and value in the text.
     columns: [usize; 2],
 }
 
@@ -60,7 +60,7 @@ enum Operator {
 }
 
 impl Operator {
-    /// The longer sign before the shorter one that it begins with.
+    /// Longer operators precede their prefixes.
     const ALL: [(&'static str, Self); 6] = [
         ("==", Self::Equal),
         ("!=", Self::Unequal),
@@ -87,7 +87,7 @@ impl Operator {
     }
 }
 
-/// The right-hand side as it was written.
+/// The right-hand side as written.
 #[derive(Debug, Clone, PartialEq)]
 struct Literal {
     text: String,
@@ -96,7 +96,7 @@ struct Literal {
 }
 
 impl Literal {
-    /// The value for a quantity of a unit, `%` for shares; SI.
+    /// The value for a quantity with a unit, `%` for fractions; SI.
     fn value_for(&self, subject: &str, unit: &str, column: usize) -> Result<f64, ConditionFault> {
         let text = &self.text;
         let wrong = |message: String, help: String| fault(column, message, help);
@@ -108,8 +108,8 @@ impl Literal {
         };
         match symbol.as_deref() {
             None if unit == "%" => Err(wrong(
-                format!("`{text}` does not say whether it is in percent"),
-                format!("write `{text} %`, or `{text} -` for a share of one"),
+                format!("`{text}`: fraction or percent?"),
+                format!("write `{text} %`, or `{text} -` for a fraction"),
             )),
             Some("%") if unit == "%" => Ok(0.01 * number),
             None | Some("-") if is_plain(unit) => Ok(*number),
@@ -129,7 +129,7 @@ impl Literal {
                                 "units of {subject}: {}",
                                 Unit::symbols(due.dimension).collect::<Vec<_>>().join(", ")
                             ),
-                            None => "write the number alone".to_owned(),
+                            None => "write the number without unit".to_owned(),
                         },
                     )
                 })
@@ -158,7 +158,7 @@ fn fault(column: usize, message: impl Into<String>, help: impl Into<String>) -> 
     }
 }
 
-/// Unit in which a quantity that every file may hold is documented, `%` for efficiencies; empty for texts.
+/// Documented unit of a quantity, `%` for efficiencies; empty for texts.
 fn known_unit(subject: &str) -> Option<&'static str> {
     let known = KNOWN.iter().find(|known| known.name == subject)?;
     let is_share = known.unit == "-" && subject.starts_with("efficiency");
@@ -166,16 +166,16 @@ fn known_unit(subject: &str) -> Option<&'static str> {
 }
 
 impl Condition {
-    /// Reads a condition. Names that are no measured quantity may be columns of a file, which [`Condition::check`] looks up.
+    /// Reads a condition. Names that are not measured quantities may be columns of a file, which [`Condition::check`] verifies.
     ///
     /// # Errors
-    /// What is wrong with it, with the column: a sign that is missing, a quantity without unit or with a wrong one.
+    /// The first error with its column: for example a missing operator, or a missing or wrong unit.
     pub fn parse(text: &str) -> Result<Self, ConditionFault> {
         if text.chars().count() > LONGEST {
             return Err(fault(
                 LONGEST,
                 format!("more than {LONGEST} characters"),
-                "write a column into the file, and name it",
+                "add a column to the file, and use its name",
             ));
         }
         let mut reader = Reader { text, at: 0 };
@@ -184,14 +184,11 @@ impl Condition {
         if reader.at < text.len() {
             let rest = reader.rest().chars().next().unwrap_or_default();
             let help = if rest == ')' {
-                "remove the parenthesis, or open one before"
+                "delete the parenthesis, or add the opening one"
             } else {
                 "join comparisons by `and` or `or`"
             };
-            return Err(reader.fault(
-                format!("nothing is due here, but `{}` follows", reader.word_here()),
-                help,
-            ));
+            return Err(reader.fault(format!("unexpected `{}`", reader.word_here()), help));
         }
         Ok(Self {
             text: text.trim().to_owned(),
@@ -199,12 +196,12 @@ impl Condition {
         })
     }
 
-    /// The condition as it was written.
+    /// The condition as written.
     pub fn text(&self) -> &str {
         &self.text
     }
 
-    /// Refuses names that neither are measured quantities nor stand in the file, and values that do not fit a column.
+    /// Rejects names that are neither measured quantities nor columns of the file, and invalid values.
     ///
     /// # Errors
     /// The first such name or value, with the column of the text.
@@ -212,7 +209,7 @@ impl Condition {
         self.rule.check(measured)
     }
 
-    /// Whether a row meets the condition; absent where the row has no such value and the rest does not decide.
+    /// Whether a row satisfies the condition; absent if a missing value makes it undecidable.
     pub fn holds(&self, measured: &Measured, row: &Row) -> Option<bool> {
         self.rule.holds(measured, row)
     }
@@ -228,7 +225,7 @@ impl Rule {
     }
 
     fn holds(&self, measured: &Measured, row: &Row) -> Option<bool> {
-        // One rule that decides is enough, whatever another row of blanks would say.
+        // One decisive rule is sufficient.
         let joined = |rules: &[Rule], decides: bool| {
             let mut all_known = true;
             for rule in rules {
@@ -250,12 +247,12 @@ impl Rule {
 }
 
 impl Comparison {
-    /// What can be said without a file.
+    /// Checks without a file.
     fn check_known(&self) -> Result<(), ConditionFault> {
         match known_unit(&self.subject) {
             Some("") if self.operator.compares_sizes() => Err(fault(
                 self.columns[0],
-                format!("{} is a text, which is neither greater nor less", self.subject),
+                format!("{} is a text, which has no order", self.subject),
                 "compare it by `==` or `!=`",
             )),
             Some("") | None => Ok(()),
@@ -276,9 +273,9 @@ impl Comparison {
             } else {
                 Err(fault(
                     subject,
-                    format!("the data hold no `{}`", self.subject),
+                    format!("the data do not contain `{}`", self.subject),
                     format!(
-                        "name its column under `columns: {{ {}: ... }}`, or leave it out",
+                        "state its column under `columns: {{ {}: ... }}`, or delete it",
                         self.subject
                     ),
                 ))
@@ -294,11 +291,14 @@ impl Comparison {
             };
             return Err(fault(
                 subject,
-                format!("`{}` is no measured quantity and no column of the file", self.subject),
+                format!(
+                    "`{}` is neither a measured quantity nor a column of the file",
+                    self.subject
+                ),
                 help,
             ));
         };
-        // As a header it would be without the sign, the scale and the unit that the quantity has.
+        // As a header it would lack the sign, the scale and the unit of the quantity.
         if let Some(quantity) = measured.columns[place].quantity {
             return Err(fault(
                 subject,
@@ -359,7 +359,7 @@ fn text_of<'r>(row: &'r Row, subject: &str) -> Option<&'r str> {
     }
 }
 
-/// Reads a text from its front.
+/// Parser of a text.
 struct Reader<'t> {
     text: &'t str,
     /// Bytes read.
@@ -384,7 +384,7 @@ impl Reader<'_> {
         self.at += rest.len() - rest.trim_start().len();
     }
 
-    /// What stands here, for messages.
+    /// The next word, for messages.
     fn word_here(&self) -> String {
         self.rest()
             .split_whitespace()
@@ -395,7 +395,7 @@ impl Reader<'_> {
             .collect()
     }
 
-    /// Takes a word such as `and` where it stands alone.
+    /// Consumes a separate word such as `and`.
     fn take_word(&mut self, word: &str) -> bool {
         self.skip_spaces();
         let Some(behind) = self.rest().strip_prefix(word) else {
@@ -443,8 +443,8 @@ impl Reader<'_> {
     fn single(&mut self, depth: usize) -> Result<Rule, ConditionFault> {
         if depth > DEEPEST {
             return Err(self.fault(
-                format!("more than {DEEPEST} parentheses inside of each other"),
-                "write a column into the file, and name it",
+                format!("more than {DEEPEST} nested parentheses"),
+                "add a column to the file, and use its name",
             ));
         }
         if self.take_word("not") {
@@ -466,16 +466,16 @@ impl Reader<'_> {
         let begin = self.column();
         if number_length(self.rest()) > 0 {
             return Err(self.fault(
-                "a comparison begins with a number",
-                "begin with the quantity: `speed > 500 rpm and speed < 3000 rpm`",
+                "a comparison cannot start with a number",
+                "start with the quantity: `speed > 500 rpm and speed < 3000 rpm`",
             ));
         }
         let subject = self.quoted()?.unwrap_or_else(|| self.name());
         if subject.is_empty() {
             let message = if self.rest().is_empty() {
-                "the condition ends where a comparison is due".to_owned()
+                "the condition ends before a comparison".to_owned()
             } else {
-                format!("`{}` where a quantity is due", self.word_here())
+                format!("expected a quantity, found `{}`", self.word_here())
             };
             return Err(self.fault(
                 message,
@@ -485,7 +485,7 @@ impl Reader<'_> {
         self.skip_spaces();
         let operator = Operator::ALL.iter().find(|(sign, _)| self.rest().starts_with(sign));
         let Some((sign, operator)) = operator else {
-            let message = format!("no comparison follows `{subject}`");
+            let message = format!("`{subject}` is not followed by a comparison");
             let help = if self.rest().starts_with('=') {
                 "write `==`"
             } else {
@@ -507,14 +507,14 @@ impl Reader<'_> {
         Ok(comparison)
     }
 
-    /// A name in quotes, where one stands here.
+    /// A name in quotes, if next.
     fn quoted(&mut self) -> Result<Option<String>, ConditionFault> {
         let Some(quote) = self.rest().chars().next().filter(|c| matches!(c, '"' | '\'')) else {
             return Ok(None);
         };
         let inner = &self.rest()[1..];
         let Some(end) = inner.find(quote) else {
-            return Err(self.fault("quotes are not closed", format!("write `{quote}` behind the name")));
+            return Err(self.fault("quotes are not closed", format!("write `{quote}` after the name")));
         };
         let name = inner[..end].to_owned();
         self.at += end + 2;
@@ -548,15 +548,12 @@ impl Reader<'_> {
             };
         }
         if behind == Some(',') {
-            return Err(self.fault(
-                "a comma in a number",
-                "write a decimal point, and nothing between thousands",
-            ));
+            return Err(self.fault("a comma in a number", "use a decimal point and no thousands separators"));
         }
         let text = self.rest()[..length].to_owned();
         let number = text.parse::<f64>().ok().filter(|x| x.is_finite());
         let Some(number) = number else {
-            return Err(self.fault(format!("`{text}` is too great"), "write another number"));
+            return Err(self.fault(format!("`{text}` is too large"), "write another number"));
         };
         self.at += length;
         let unit = self.unit()?;
@@ -566,7 +563,7 @@ impl Reader<'_> {
         })
     }
 
-    /// The longest unit that stands here; absent where the number stands alone.
+    /// The longest matching unit; absent if the number has none.
     fn unit(&mut self) -> Result<Option<String>, ConditionFault> {
         self.skip_spaces();
         let rest = self.rest();
@@ -584,7 +581,7 @@ impl Reader<'_> {
             return Ok(None);
         }
         Err(self.fault(
-            format!("`{word}` is no unit"),
+            format!("`{word}` is not a unit"),
             "write a unit such as Nm, rpm, W, degC or %, or join comparisons by `and` or `or`",
         ))
     }
@@ -678,21 +675,21 @@ mod tests {
         for (text, column, message, help) in [
             ("torque > 1000", 10, "has no unit", "`1000 Nm`"),
             ("torque > 1000 rpm", 10, "`rpm` is not a unit of torque", "kNm"),
-            ("torque > 1000 Mm", 15, "`Mm` is no unit", "Nm"),
-            ("torque > 1000 Nm speed < 2 rpm", 18, "`speed` follows", "`and`"),
+            ("torque > 1000 Mm", 15, "`Mm` is not a unit", "Nm"),
+            ("torque > 1000 Nm speed < 2 rpm", 18, "unexpected `speed`", "`and`"),
             ("torque > 1,5 Nm", 10, "a comma", "point"),
             ("torque = 5 Nm", 8, "no comparison", "`==`"),
             ("torque > first", 10, "not a number", "`1 Nm`"),
             ("torque >", 9, "a value is missing", "1000 Nm"),
-            ("torque > 1e999 Nm", 10, "too great", "another"),
-            ("5 Nm < torque", 1, "begins with a number", "speed > 500 rpm and"),
+            ("torque > 1e999 Nm", 10, "too large", "another"),
+            ("5 Nm < torque", 1, "cannot start with a number", "speed > 500 rpm and"),
             ("efficiency > 95", 14, "percent", "`95 %`"),
-            ("gear > first", 1, "neither greater", "`==`"),
+            ("gear > first", 1, "has no order", "`==`"),
             ("(torque > 1 Nm", 15, "not closed", "`)`"),
-            ("torque > 1 Nm)", 14, "`)` follows", "parenthesis"),
-            ("torque > 1 Nm and", 18, "ends where", "comparison"),
-            ("", 1, "ends where", "torque > 1000 Nm"),
-            ("'T > 5", 1, "quotes", "behind"),
+            ("torque > 1 Nm)", 14, "unexpected `)`", "parenthesis"),
+            ("torque > 1 Nm and", 18, "ends before", "comparison"),
+            ("", 1, "ends before", "torque > 1000 Nm"),
+            ("'T > 5", 1, "quotes", "after"),
         ] {
             let found = Condition::parse(text).unwrap_err();
             assert!(
@@ -709,13 +706,23 @@ mod tests {
     #[test]
     fn names_that_no_file_holds_find_their_neighbour() {
         for (text, column, message, help) in [
-            ("torqe > 1 Nm", 1, "`torqe` is no measured quantity", "`torque`"),
-            ("gear == first and use_for_tset == 1", 19, "no column", "`use_for_test`"),
-            ("loss > 5 W", 1, "the data hold no `loss`", "columns: { loss: ... }"),
+            ("torqe > 1 Nm", 1, "`torqe` is neither a measured quantity", "`torque`"),
+            (
+                "gear == first and use_for_tset == 1",
+                19,
+                "nor a column",
+                "`use_for_test`",
+            ),
+            (
+                "loss > 5 W",
+                1,
+                "the data do not contain `loss`",
+                "columns: { loss: ... }",
+            ),
             ("V_oil > 5", 9, "has no unit", "`5 ml`"),
             ("V_oil > 5 Nm", 9, "`Nm` is not a unit of V_oil", "ml"),
-            ("use_for_test > 5 Nm", 16, "`Nm` is not a unit", "alone"),
-            ("xyzxyz == 1", 1, "no column", "the columns are torque"),
+            ("use_for_test > 5 Nm", 16, "`Nm` is not a unit", "without unit"),
+            ("xyzxyz == 1", 1, "nor a column", "the columns are torque"),
         ] {
             let found = Condition::parse(text).unwrap().check(&measured()).unwrap_err();
             assert!(

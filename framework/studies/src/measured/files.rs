@@ -1,4 +1,4 @@
-//! The files of one set of measured points: one, or several that are read one after the other.
+//! The files of one set of measured points: one, or several read in sequence.
 
 use std::fmt;
 
@@ -12,9 +12,9 @@ use gearloss_framework::description::Ordered;
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum MeasuredFiles {
-    /// CSV file beside the study.
+    /// CSV file, relative to the study.
     One(String),
-    /// Several files with the same quantities, read one after the other.
+    /// Several files with the same quantities, read in sequence.
     Several(#[schemars(length(min = 1))] Vec<FileEntry>),
 }
 
@@ -22,18 +22,18 @@ pub enum MeasuredFiles {
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum FileEntry {
-    /// CSV file beside the study.
+    /// CSV file, relative to the study.
     Name(String),
-    /// A file whose columns, units or name differ from those of the others.
+    /// A file with different columns, units or name.
     Own(Box<OwnFileEntry>),
 }
 
-/// A file whose columns, units or name differ from those of the others.
+/// A file with different columns, units or name.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct OwnFileEntry {
-    /// CSV file beside the study.
+    /// CSV file, relative to the study.
     pub file: String,
-    /// Name of the file in messages and tables; absent, the file name.
+    /// Name of the file in messages and tables; default: the file name.
     pub name: Option<String>,
     /// Columns of this file; they replace those of the measurement, quantity by quantity.
     #[serde(default)]
@@ -43,19 +43,19 @@ pub struct OwnFileEntry {
     pub units: Ordered<String>,
 }
 
-/// A file of a measurement as it is to be read.
+/// A file of a measurement with its settings.
 #[derive(Debug, Clone, Copy)]
 pub struct MeasuredFile<'a> {
     /// File name, relative to the study.
     pub file: &'a str,
     /// Name in messages.
     pub name: &'a str,
-    /// What is stated for this file alone.
+    /// Settings for this file only.
     pub(super) own: Option<&'a OwnFileEntry>,
 }
 
 impl MeasuredFiles {
-    /// The files in the order in which they are read.
+    /// The files in reading order.
     pub fn list(&self) -> Vec<MeasuredFile<'_>> {
         match self {
             Self::One(file) => vec![MeasuredFile {

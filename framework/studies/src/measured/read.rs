@@ -1,4 +1,4 @@
-//! Reading the files of a measurement: every fault at once.
+//! Reads the files of a measurement and collects all errors.
 
 use super::columns::{Column, Columns, Finder, KNOWN};
 use super::files::MeasuredFile;
@@ -9,14 +9,14 @@ use super::{
 };
 use gearloss_framework::document::{Dimension, Unit, did_you_mean};
 
-/// How many faulty cells of a file are listed.
+/// Maximum number of listed faulty cells of a file.
 const LISTED: usize = 10;
 
-/// How many rows that are left out are listed.
+/// Maximum number of listed omitted rows.
 const LISTED_LEFT_OUT: usize = 5;
 
 impl MeasuredEntry {
-    /// What stated accuracies are divided by to give standard deviations.
+    /// Divisor from stated accuracies to standard deviations.
     fn divisor(&self) -> f64 {
         self.stated_as.divisor(self.coverage_factor)
     }
@@ -29,19 +29,19 @@ impl MeasuredEntry {
         }
     }
 
-    /// Reads the bytes of its one file. `bind` names columns that change the gearbox.
+    /// Reads the bytes of its single file. `bind` lists columns that change the gearbox.
     ///
     /// # Errors
-    /// Everything that is wrong, with line and column.
+    /// All errors, with line and column.
     pub fn read(&self, bytes: &[u8], bind: &[&str]) -> Result<Measured, Vec<MeasuredFault>> {
         self.read_files(&[bytes], bind, &[])
     }
 
-    /// Reads the bytes of its files, in their order. `bind` names columns that change the gearbox; `elsewhere` names columns that
-    /// are bound by other users of the measurement, which may be stated here as well.
+    /// Reads the bytes of its files in order. `bind` lists columns that change the gearbox; `elsewhere` lists columns that other analyses
+    /// bind, which may also be stated here.
     ///
     /// # Errors
-    /// Everything that is wrong, with file, line and column.
+    /// All errors, with file, line and column.
     pub fn read_files(
         &self,
         contents: &[impl AsRef<[u8]>],
@@ -57,7 +57,7 @@ impl MeasuredEntry {
             faults.push(MeasuredFault::new(
                 "accuracies.oil_temperature",
                 "the accuracy of the oil temperature is stated twice, here and under `rig`",
-                "leave one of them out",
+                "delete one of them",
             ));
         }
         if let Some(steady) = &self.steady {
@@ -76,7 +76,7 @@ impl MeasuredEntry {
                 faults.push(MeasuredFault::new(
                     format!("file.{i}"),
                     format!("`{}` is listed twice", file.name),
-                    "list every file once; `{ file: ..., name: ... }` tells files of one name apart",
+                    "list every file once; `{ file: ..., name: ... }` distinguishes files of the same name",
                 ));
             }
         }
@@ -124,18 +124,18 @@ impl MeasuredEntry {
         for quantity in measured.accuracies.quantities() {
             if measured.holds(&format!("{quantity}_accuracy")) {
                 measured.notes.push(format!(
-                    "the column of its accuracy counts for the {}, not `accuracies`, but where a cell is blank",
+                    "the accuracy column is used for the {}; `accuracies` only for blank cells",
                     quantity.replace('_', " ")
                 ));
             }
         }
         if measured.rows.is_empty() {
             let message = match &self.steady {
-                Some(_) => format!("{}: no stretch is steady", self.file),
-                None => format!("{}: no point stands below the header", self.file),
+                Some(_) => format!("{}: no steady stretch found", self.file),
+                None => format!("{}: no points below the header", self.file),
             };
             let help = match &self.steady {
-                Some(_) => "allow more drift, or take a shorter window",
+                Some(_) => "allow more drift, or use a shorter window",
                 None => "check the file, its header and its separator",
             };
             return Err(vec![fault(message, help)]);
@@ -159,7 +159,7 @@ impl MeasuredEntry {
                 Some(close) => format!("write `{close}`; the quantities are {}", all.join(", ")),
                 None => format!("the quantities are {}", all.join(", ")),
             };
-            let message = format!("`{quantity}` is no measured quantity");
+            let message = format!("`{quantity}` is not a measured quantity");
             Some(MeasuredFault::new(format!("{key}.{quantity}"), message, help))
         };
         let mut faults: Vec<MeasuredFault> = Vec::new();
@@ -174,7 +174,7 @@ impl MeasuredEntry {
         faults
     }
 
-    /// The quantities and rows of one file; faults are added to the others.
+    /// The quantities and rows of one file; errors are added to the others.
     fn read_file(
         &self,
         file: MeasuredFile<'_>,
@@ -227,14 +227,14 @@ impl MeasuredEntry {
         })
     }
 
-    /// All columns as the header states them.
+    /// All columns from the header.
     fn file_columns(&self, table: &Table, columns: &Columns) -> Vec<FileColumn> {
         let column = |(place, header): (usize, &String)| {
             let own = columns.bound.iter().find(|bound| bound.column.place == place);
             let name = own.map(|bound| bound.name.clone());
             let stated = name.as_ref().and_then(|name| self.units.get(name)).cloned();
             let unit = stated.or_else(|| table.units[place].clone());
-            // What stands in brackets need not be a unit.
+            // Text in brackets is not always a unit.
             let has_dimension =
                 |unit: &String| unit == "%" || Unit::of_symbol(unit).is_some_and(|u| u.dimension != Dimension::None);
             FileColumn {
@@ -247,7 +247,7 @@ impl MeasuredEntry {
         table.names.iter().enumerate().map(column).collect()
     }
 
-    /// The rows of a file, each with its time; faulty ones are refused together, or left out with a note.
+    /// The rows of a file, each with its time; faulty rows are rejected together, or omitted with a note.
     fn rows(
         &self,
         table: &Table,
@@ -269,7 +269,7 @@ impl MeasuredEntry {
                 Err(reasons) => {
                     rows_at_fault += 1;
                     cells_at_fault += reasons.len();
-                    // Of a row that is left out one reason is enough.
+                    // One reason is sufficient for an omitted row.
                     let told = if self.faulty_rows == FaultyRows::Skip {
                         1
                     } else {
@@ -286,7 +286,7 @@ impl MeasuredEntry {
         let shown = faulty.join("; ");
         if self.faulty_rows == FaultyRows::Skip {
             let more = if rows_at_fault > faulty.len() { "; ..." } else { "" };
-            notes.push(format!("{rows_at_fault} rows left out: {shown}{more}"));
+            notes.push(format!("{rows_at_fault} rows omitted: {shown}{more}"));
             return Some(rows);
         }
         let more = match cells_at_fault - faulty.len() {
@@ -295,13 +295,13 @@ impl MeasuredEntry {
         };
         faults.push(fault(
             format!("{}: {shown}{more}", file.name),
-            "correct the cell, or write `faulty_rows: skip` to leave such rows out",
+            "correct the cell, or write `faulty_rows: skip` to omit such rows",
         ));
         None
     }
 }
 
-/// One file as it was read.
+/// One file as read.
 struct ReadFile {
     quantities: Vec<&'static str>,
     columns: Vec<FileColumn>,
@@ -309,7 +309,7 @@ struct ReadFile {
 }
 
 impl ReadFile {
-    /// Puts the cells into the places of the columns of the first file; says which columns have another unit and so stay blank.
+    /// Aligns the cells with the columns of the first file; returns a note on columns with another unit, which remain blank.
     fn align(&mut self, first: &[FileColumn]) -> Option<String> {
         let place = |column: &FileColumn| self.columns.iter().position(|own| own.header == column.header);
         let places: Vec<Option<usize>> = first.iter().map(place).collect();
@@ -332,7 +332,7 @@ impl ReadFile {
             .collect();
         (!other.is_empty()).then(|| {
             let names = other.join(", ");
-            format!("{names}: another unit than in the first file, so conditions on such headers do not see these rows")
+            format!("{names}: the unit differs from the first file, so conditions on these headers ignore these rows")
         })
     }
 }
@@ -341,7 +341,7 @@ fn wrong_rows(wrong: ConditionFault) -> MeasuredFault {
     MeasuredFault::new("rows", wrong.message, wrong.help)
 }
 
-/// A file that does not hold the quantities of the first one.
+/// A file without the quantities of the first one.
 fn other_quantities(file: MeasuredFile<'_>, number: usize, own: &[&str], first: &Measured) -> MeasuredFault {
     let beyond = |a: &[&str], b: &[&str]| -> Vec<String> {
         let beyond = a.iter().filter(|quantity| !b.contains(quantity));
@@ -350,20 +350,20 @@ fn other_quantities(file: MeasuredFile<'_>, number: usize, own: &[&str], first: 
     let (missing, more) = (beyond(&first.quantities, own), beyond(own, &first.quantities));
     let mut words = Vec::new();
     if !missing.is_empty() {
-        words.push(format!("does not hold {}", missing.join(", ")));
+        words.push(format!("lacks {}", missing.join(", ")));
     }
     if !more.is_empty() {
-        words.push(format!("holds {} beside", more.join(", ")));
+        words.push(format!("also has {}", more.join(", ")));
     }
     MeasuredFault::new(
         format!("file.{number}"),
         format!("{}: unlike {} it {}", file.name, first.files[0], words.join(" and ")),
-        "the files of a measurement hold the same quantities: name its columns, or make it a measurement of its own",
+        "the files of a measurement need the same quantities: state its columns, or make it a separate measurement",
     )
 }
 
 impl Measured {
-    /// Leaves out the rows that do not meet a condition, with a note.
+    /// Omits the rows that do not satisfy a condition, with a note.
     fn keep(&mut self, condition: &Condition) -> Result<(), MeasuredFault> {
         condition.check(self).map_err(wrong_rows)?;
         let before = self.rows.len();
@@ -372,26 +372,26 @@ impl Measured {
         let mut meets = meets.into_iter();
         self.rows.retain(|_| meets.next().flatten() == Some(true));
         if self.rows.is_empty() {
-            let message = format!("no row meets `{}`", condition.text());
+            let message = format!("no row satisfies `{}`", condition.text());
             return Err(MeasuredFault::new(
                 "rows",
                 message,
-                "write a wider condition, or leave it out",
+                "write a wider condition, or delete it",
             ));
         }
         let left_out = before - self.rows.len();
         let blank = match unknown {
             0 => String::new(),
-            _ => format!("; {unknown} of them hold no value to decide it"),
+            _ => format!("; {unknown} of them have no value for it"),
         };
         self.notes.push(format!(
-            "{left_out} of {before} rows are left out by `rows: {}`{blank}",
+            "{left_out} of {before} rows are omitted by `rows: {}`{blank}",
             condition.text()
         ));
         Ok(())
     }
 
-    /// Takes torque and speed from the columns of the other port where only these hold them.
+    /// Uses the columns of the other port for torque and speed if only these exist.
     fn take_other_port(&mut self) {
         for (quantity, out) in [("torque", "torque_out"), ("speed", "speed_out")] {
             let (false, Some(place)) = (self.holds(quantity), self.place(out)) else {
@@ -407,7 +407,7 @@ impl Measured {
                 }
             }
             self.notes.push(format!(
-                "no column holds `{quantity}`: `{out}` gives it at the other port"
+                "there is no column for `{quantity}`: `{out}` gives it at the other port"
             ));
             match quantity {
                 "torque" => self.torque_at_other_port = true,
@@ -417,7 +417,7 @@ impl Measured {
     }
 }
 
-/// A row with its time, which is zero where none is asked for; or all faults of its cells.
+/// A row with its time, zero if not requested; or all errors of its cells.
 fn timed_row(
     line: u64,
     cells: &[String],
@@ -470,7 +470,7 @@ fn timed_row(
     }
 }
 
-/// Whether a quantity gives the torque or the speed of its point: such a cell cannot be blank.
+/// Whether a quantity defines the torque or the speed of its point: such a cell cannot be blank.
 fn is_given(name: &str, columns: &Columns) -> bool {
     let held = |name: &str| columns.quantities.iter().any(|column| column.name == name);
     match name {
@@ -485,7 +485,7 @@ fn in_si(number: f64, (factor, offset): (f64, f64), line: u64, column: &Column) 
     let value = number * factor + offset;
     let at = || format!("line {line}, column {} `{}`", column.place + 1, column.header);
     if value < 0.0 && (column.name.ends_with("_accuracy") || column.name == "weight") {
-        return Err(format!("{}: {value} is below zero", at()));
+        return Err(format!("{}: {value} is negative", at()));
     }
     if column.name == "efficiency" && !(-0.2..=1.2).contains(&value) {
         return Err(format!(

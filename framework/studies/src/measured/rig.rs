@@ -1,25 +1,24 @@
-//! The rig on which points were measured: what its meters and its own bearings add to what the transmission does, and how
-//! accurate its instruments are.
+//! The rig of a measurement: offsets of its meters, drag of its bearings, and accuracy of its instruments.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// The rig on which points were measured. `in` is the reference port of the gearbox, `out` its other port; torques at `out`
-/// count positive where they leave a driven transmission.
+/// The rig of a measurement. `in` is the reference port of the gearbox, `out` its other port; torques at `out` are positive if they leave a
+/// driven transmission.
 #[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
 pub struct RigEntry {
-    /// What the torque meter at `in` shows too much. [Nm]
+    /// Offset of the torque meter at `in`. [Nm]
     #[serde(default)]
     #[schemars(range(min = -1e6, max = 1e6))]
     pub torque_offset_in: f64,
-    /// What the torque meter at `out` shows too much. [Nm]
+    /// Offset of the torque meter at `out`. [Nm]
     #[serde(default)]
     #[schemars(range(min = -1e6, max = 1e6))]
     pub torque_offset_out: f64,
-    /// Bearings of the rig between the torque meter and the transmission at `in`, all together.
+    /// All bearings of the rig between the torque meter and the transmission at `in`.
     #[serde(default)]
     pub support_in: SupportLossEntry,
-    /// Bearings of the rig between the transmission and the torque meter at `out`, all together.
+    /// All bearings of the rig between the transmission and the torque meter at `out`.
     #[serde(default)]
     pub support_out: SupportLossEntry,
     /// Accuracy of the torque meter at `in`.
@@ -34,23 +33,23 @@ pub struct RigEntry {
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1e6))]
     pub speed_out: f64,
-    /// Accuracy of the temperature of the oil. [K]
+    /// Accuracy of the oil temperature. [K]
     #[schemars(range(min = 1e-6, max = 1000.0))]
     pub oil_temperature: Option<f64>,
 }
 
-/// Drag of bearings of a rig: the torque at one speed, rising with a power of the speed.
+/// Drag of bearings of a rig: the torque at one speed, proportional to a power of the speed.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
 pub struct SupportLossEntry {
-    /// Drag torque at the speed below. [Nm]
+    /// Drag torque at `speed`. [Nm]
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1e6))]
     pub torque: f64,
-    /// Speed at which the drag torque is stated. [rpm]
+    /// Reference speed of the drag torque. [rpm]
     #[serde(default = "stated_speed")]
     #[schemars(range(min = 1e-3, max = 1e6))]
     pub speed: f64,
-    /// Exponent of the speed: 0 for a constant torque, 2/3 for bearings that run in oil or grease, 1 for a viscous torque. [-]
+    /// Exponent of the speed: 0 for a constant torque, 2/3 for lubricated bearings, 1 for a viscous torque. [-]
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 3.0))]
     pub exponent: f64,
@@ -83,14 +82,14 @@ impl SupportLossEntry {
     }
 }
 
-/// Accuracy of a torque meter: independent contributions, which add up as squares.
+/// Accuracy of a torque meter: independent contributions, added as squares.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
 pub struct TorqueMeterEntry {
-    /// Greatest torque that it shows. [Nm]
+    /// Full scale torque. [Nm]
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1e9))]
     pub full_scale: f64,
-    /// Accuracy in percent of the full scale, as of an accuracy class. [-]
+    /// Accuracy in percent of the full scale, as for an accuracy class. [-]
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub percent_of_full_scale: f64,
@@ -98,25 +97,25 @@ pub struct TorqueMeterEntry {
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub percent_of_torque: f64,
-    /// Accuracy whatever the torque. [Nm]
+    /// Accuracy independent of the torque. [Nm]
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1e9))]
     pub absolute: f64,
 }
 
 impl TorqueMeterEntry {
-    /// Accuracy at a torque, as it is stated. \[Nm\]
+    /// Stated accuracy at a torque. \[Nm\]
     fn at(self, torque: f64) -> f64 {
         let scale = 0.01 * self.percent_of_full_scale * self.full_scale;
         self.absolute.hypot(0.01 * self.percent_of_torque * torque).hypot(scale)
     }
 }
 
-/// What a stated accuracy means.
+/// Meaning of a stated accuracy.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum StatedAs {
-    /// No error is greater, as of an accuracy class; all within are as likely, so the standard deviation is 1/sqrt(3) of it.
+    /// Maximum error, as for an accuracy class, with uniform distribution: the standard deviation is 1/sqrt(3) of it.
     #[default]
     Limit,
     /// The standard deviation.
@@ -126,7 +125,7 @@ pub enum StatedAs {
 }
 
 impl StatedAs {
-    /// What a stated accuracy is divided by to give a standard deviation. \[-\]
+    /// Divisor from a stated accuracy to a standard deviation. \[-\]
     pub fn divisor(self, coverage_factor: f64) -> f64 {
         match self {
             Self::Limit => 3.0_f64.sqrt(),
@@ -136,10 +135,10 @@ impl StatedAs {
     }
 }
 
-/// What the rig adds to the torques that its meters show.
+/// Contribution of the rig to the measured torques.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Rig {
-    /// What the meters at `in` and `out` show too much. \[Nm\]
+    /// Offsets of the meters at `in` and `out`. \[Nm\]
     pub offset: [f64; 2],
     /// Bearings of the rig at `in` and `out`.
     pub support: [SupportLossEntry; 2],
@@ -149,7 +148,7 @@ pub struct Rig {
 pub type PortSpeeds = [f64; 2];
 
 impl Rig {
-    /// As an entry states it.
+    /// From an entry.
     pub fn from_entry(entry: &RigEntry) -> Self {
         Self {
             offset: [entry.torque_offset_in, entry.torque_offset_out],
@@ -157,7 +156,7 @@ impl Rig {
         }
     }
 
-    /// Whether it adds nothing at all.
+    /// Whether it has no contribution.
     pub fn is_silent(&self) -> bool {
         !self.at_in() && !self.at_out()
     }
@@ -166,15 +165,15 @@ impl Rig {
         self.offset[0] != 0.0 || self.support[0].torque != 0.0
     }
 
-    /// Whether it adds something at `out`.
+    /// Whether it has a contribution at `out`.
     pub fn at_out(&self) -> bool {
         self.offset[1] != 0.0 || self.support[1].torque != 0.0
     }
 
-    /// What is added to the torques applied to the transmission at `in` and `out`. \[Nm\]
+    /// Contribution to the torques applied to the transmission at `in` and `out`. \[Nm\]
     ///
-    /// The meter at `out` counts positive where power leaves a driven transmission: there the torque that is applied to the
-    /// transmission has the other sign, or the same one where the transmission turns the sense of rotation.
+    /// The meter at `out` is positive if power leaves a driven transmission: the torque applied to the transmission has the opposite sign,
+    /// or the same sign if the transmission reverses the direction of rotation.
     pub fn added(&self, [input, output]: PortSpeeds) -> [f64; 2] {
         let sense = if input == 0.0 { 1.0 } else { input.signum() } * if output == 0.0 { 1.0 } else { output.signum() };
         [
@@ -183,7 +182,7 @@ impl Rig {
         ]
     }
 
-    /// Power that is added to the loss that the meters show. \[W\]
+    /// Contribution to the measured loss. \[W\]
     pub fn power(&self, speeds: PortSpeeds) -> f64 {
         let [input, output] = self.added(speeds);
         input * speeds[0] + output * speeds[1]
@@ -197,23 +196,23 @@ pub struct Instruments {
     torque: [TorqueMeterEntry; 2],
     /// Speeds at `in` and `out`, as stated. \[rad/s\]
     speed: [f64; 2],
-    /// What both are divided by.
+    /// Divisor of both.
     divisor: f64,
 }
 
-/// A point as the instruments see it: torques and speeds of `in` and `out` as magnitudes, SI.
+/// A point as measured by the instruments: torques and speeds of `in` and `out` as magnitudes, SI.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Powers {
     /// Torques. \[Nm\]
     pub torque: [f64; 2],
     /// Speeds. \[rad/s\]
     pub speed: [f64; 2],
-    /// Number of the port where power goes in: 0 is `in`.
+    /// Index of the input port: 0 is `in`.
     pub driven: usize,
 }
 
 impl Instruments {
-    /// Of a rig whose torque meters are both stated.
+    /// From a rig with both torque meters.
     pub fn from_entry(entry: &RigEntry, divisor: f64) -> Option<Self> {
         let torque = [entry.torque_in?, entry.torque_out?];
         let speed = [entry.speed_in, entry.speed_out];
@@ -240,8 +239,8 @@ impl Instruments {
     pub fn loss_torque(&self, at: &Powers, loss_torque: f64) -> f64 {
         let ports = self.of_ports(at);
         let ratio = at.speed[1] / at.speed[0];
-        // The loss torque is T1 + i T2 with i the ratio of the speeds, T2 as magnitude of the other sign: an error of w1 moves the
-        // ratio alone.
+        // The loss torque is T1 + i T2 with the speed ratio i, T2 as magnitude with the opposite sign: an error of w1 changes only the
+        // ratio.
         let other = (at.torque[0] - loss_torque).abs();
         let torques = ports[0].0.hypot(ratio * ports[1].0);
         torques
@@ -256,8 +255,7 @@ impl Instruments {
         efficiency * of(0).hypot(of(1))
     }
 
-    /// Whether the torque at the port where power goes in is below three of its standard deviations: its efficiency then says
-    /// nothing.
+    /// Whether the torque at the input port is below three of its standard deviations: its efficiency is then meaningless.
     pub fn drowns(&self, at: &Powers) -> bool {
         let port = at.driven;
         at.torque[port] < 3.0 * self.torque(port, at.torque[port])

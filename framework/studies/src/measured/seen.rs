@@ -1,13 +1,13 @@
-//! What was measured at a point, from whichever columns give it.
+//! Measured values at a point, from the available columns.
 
 use super::{Instruments, Measured, Powers, Rig, Row};
 use crate::analysis::PointResult;
 use crate::study::{Difference, Quantity};
 
-/// What was measured, from whichever columns give it, without what the rig adds.
+/// Measured values from the available columns, without the contribution of the rig.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Seen {
-    /// Power out over power in. \[-\]
+    /// Output power over input power. \[-\]
     pub efficiency: Option<f64>,
     /// \[W\]
     pub loss: Option<f64>,
@@ -15,26 +15,26 @@ pub struct Seen {
     pub loss_torque: Option<f64>,
     /// \[degC\]
     pub oil: Option<f64>,
-    /// Power at the port with given torque: positive where it goes in. \[W\]
+    /// Power at the port with given torque: positive if it enters. \[W\]
     here: f64,
     /// Speed of the reference port. \[rad/s\]
     reference: f64,
-    /// Standard deviations of efficiency, loss, loss torque and temperature, as far as columns tell them.
+    /// Standard deviations of efficiency, loss, loss torque and temperature, if columns state them.
     accuracies: [Option<f64>; 4],
-    /// The instruments and the calculated point, where columns tell nothing.
+    /// The instruments and the calculated point, if columns do not state them.
     instruments: Option<(Instruments, Powers)>,
     /// Calculated efficiency and loss torque.
     calculated: [Option<f64>; 2],
 }
 
 impl Seen {
-    /// Torque and speed are those at the ports of the conditions, `out` columns those at the other port. The solved point tells
-    /// the speeds of the ports, which follow from the gear state alone, and with them what the rig of the data adds.
+    /// Torque and speed are at the ports of the conditions, `out` columns at the other port. The speeds of the ports, which depend only on
+    /// the gear, and with them the contribution of the rig, are from the solved point.
     pub fn without_rig(measured: &Measured, row: &Row, point: &PointResult) -> Self {
         Self::with_rig(&measured.rig, measured, row, point)
     }
 
-    /// As [`Seen::without_rig`], with what another rig adds. The point was solved with the torque that is left for the transmission.
+    /// As [`Seen::without_rig`], with the contribution of another rig. The point was solved with the corrected torque.
     pub fn with_rig(rig: &Rig, measured: &Measured, row: &Row, point: &PointResult) -> Self {
         let value = |quantity: &str| measured.value(row, quantity);
         let shown = value("torque").map_or(0.0, |t| measured.applied_torque(t, point)) * point.torque_speed;
@@ -45,17 +45,17 @@ impl Seen {
         };
         let added = rig.power([point.reference_speed, point.output_speed.unwrap_or(0.0)]);
         let reference = point.reference_speed.abs();
-        // A torque that is given at the other port is no second one.
+        // A torque given at the other port is not a second one.
         let torque_there = value("torque_out").filter(|_| !measured.torque_at_other_port);
         let there = torque_there.zip(value("speed_out")).map(|(t, w)| (t * w).abs());
-        // Without its column the speed there follows from the gear state.
+        // Without its column the speed there follows from the gear.
         let speed_there = if point.at_reference {
             point.output_speed
         } else {
             Some(point.reference_speed)
         };
         let by_ratio = torque_there.zip(speed_there).map(|(t, w)| (t * w).abs());
-        // Each quantity from its own column first: other columns may be rounded, or say something else.
+        // Each quantity is read from its own column first, because other columns may be rounded or inconsistent.
         let of_efficiency = value("efficiency").and_then(|eta| {
             if shown > 0.0 {
                 Some(shown * (1.0 - eta))
@@ -65,8 +65,8 @@ impl Seen {
         });
         let of_torque = value("loss_torque").map(|t| t * reference);
         let own = value("loss");
-        // Rigs write the torque of the brake with either sign; where power goes in, the sign here tells. Noise may make the
-        // difference negative.
+        // Rigs write the torque of the brake with either sign; the sign here shows where power enters. Noise may make the difference
+        // negative.
         let lost = |there: f64| if shown > 0.0 { shown - there } else { there + shown };
         let left = |loss: Option<f64>| loss.map(|loss| loss - added);
         let of_ports = there.map(lost);
@@ -80,7 +80,7 @@ impl Seen {
             }
         });
         let loss_torque = left(of_torque).or(loss).map(|loss| loss / reference);
-        // The accuracy as it is stated, and the standard error of the mean of a steady stretch beside it.
+        // The stated accuracy, and the standard error of the mean of a steady stretch.
         let accuracy = |quantity: &str, reading: Option<f64>| {
             let stated = measured.stated_accuracy(row, quantity, reading)? / measured.divisor;
             Some(stated.hypot(measured.standard_error(row, quantity).unwrap_or(0.0)))
@@ -113,8 +113,8 @@ impl Seen {
         }
     }
 
-    /// Watts of loss for a change of the efficiency by one: the power in where it goes in here, else its square over what comes
-    /// out here. \[W\]
+    /// Change of loss for a change of efficiency by one: the input power if it enters here, otherwise its square over the output power.
+    /// \[W\]
     fn watts_per_efficiency(&self) -> Option<f64> {
         if self.here > 0.0 {
             return Some(self.here);
@@ -123,8 +123,8 @@ impl Seen {
         (self.here < 0.0).then(|| input * input / -self.here)
     }
 
-    /// Standard deviation of a quantity: from its own column, from that of another one, or from the instruments and the
-    /// calculated point. The reading itself does not count: one that happens to be low would get more weight.
+    /// Standard deviation of a quantity: from its own column, from that of another one, or from the instruments and the calculated point.
+    /// The reading is not used, because low readings would get more weight.
     pub fn accuracy(&self, quantity: Quantity) -> Option<f64> {
         let [efficiency, loss, loss_torque, temperature] = self.accuracies;
         let watts = loss
@@ -151,7 +151,7 @@ impl Seen {
         }
     }
 
-    /// Whether the efficiency says nothing, because the torque that goes in is below three of its standard deviations.
+    /// Whether the efficiency is meaningless, because the input torque is below three of its standard deviations.
     pub fn is_drowned(&self) -> bool {
         match (&self.instruments, self.accuracies[0]) {
             (_, Some(accuracy)) => self.efficiency.is_some_and(|eta| 3.0 * accuracy > eta.abs()),
@@ -161,12 +161,12 @@ impl Seen {
     }
 }
 
-/// The calculated point as the instruments see it; absent where it has no loss or more than two ports.
+/// The calculated point as measured by the instruments; absent if it has no loss or more than two ports.
 fn powers(point: &PointResult) -> Option<Powers> {
     let speed = [point.reference_speed.abs(), point.output_speed?.abs()];
     let here = point.torque * point.torque_speed;
     let there = point.loss? - here;
-    // Which of the two the given torque stands at: the port whose power it is.
+    // The port of the given torque: the one with this power.
     let [input, output] = if point.at_reference {
         [here, there]
     } else {
@@ -179,7 +179,7 @@ fn powers(point: &PointResult) -> Option<Powers> {
     })
 }
 
-/// Accuracy of a measured quantity counted as its difference is: a share is a hundred points.
+/// Accuracy of a measured quantity in the unit of its difference: fractions in percentage points.
 pub fn counted(quantity: Quantity, difference: Difference, accuracy: f64, measured: Option<f64>) -> Option<f64> {
     match quantity {
         _ if difference == Difference::Percent => measured.filter(|m| *m != 0.0).map(|m| 100.0 * accuracy / m),

@@ -1,10 +1,10 @@
-//! Steady stretches of a time series: found by their drift, and averaged to one point each.
+//! Steady stretches of a time series: detected by their drift, and averaged to one point each.
 //!
-//! A stretch begins where every limited quantity stays within its limits over one window, or up to half a window later where less
-//! is left of a ramp before it, and grows sample by sample while that holds over its last window and over all of it. The drift is the slope of a line fitted by least squares times the duration,
-//! the scatter is the standard deviation about that line. So the ends of a stretch may hold the first samples of a ramp; they
-//! move the mean by about a sixth of the drift limit at most, because a sum S of deviations at one end of n samples
-//! gives a drift of 6 S / n.
+//! A stretch starts when every limited quantity is within its limits over one window, or up to half a window later if that contains less of
+//! a preceding ramp, and grows sample by sample while the limits hold over its last window and over the whole stretch. The drift is the
+//! slope of a least-squares line times the duration, the scatter is the standard deviation about that line. The ends of a stretch may
+//! contain the first samples of a ramp; they change the mean by at most about a sixth of the drift limit, because a sum S of deviations at
+//! one end of n samples gives a drift of 6 S / n.
 
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -13,31 +13,31 @@ use super::columns::KNOWN;
 use super::{MeasuredFault, Row};
 use gearloss_framework::document::Unit;
 
-/// Fewest samples in a window, so that a slope and a scatter follow. An assumption.
+/// Minimum number of samples in a window. An assumption.
 const FEWEST: usize = 5;
 
-/// A gap between samples longer than this share of the window ends a stretch. An assumption.
+/// Gaps between samples longer than this share of the window end a stretch. An assumption.
 const GAP: f64 = 0.5;
 
-/// Share of the drift limit below which the beginning of a stretch need not be looked for further on. An assumption.
+/// Share of the drift limit below which a later start is not searched. An assumption.
 const SETTLED: f64 = 0.25;
 
-/// Most lags of the autocorrelation that are summed, and most products.
+/// Maximum number of summed lags of the autocorrelation, and of products.
 const MOST_LAGS: usize = 1000;
 const MOST_PRODUCTS: usize = 20_000_000;
 
-/// How steady stretches of a time series are found; each becomes one point.
+/// Detection of steady stretches of a time series; each becomes one point.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct SteadyEntry {
-    /// Column of the time; its unit is stated in the header, in the row of units or as `units: { time: s }`.
+    /// Column of the time; its unit is in the header, in the row of units or in `units: { time: s }`.
     #[serde(default = "time")]
     pub time: String,
-    /// Shortest stretch. [s]
+    /// Minimum duration of a stretch. [s]
     #[schemars(range(min = 1e-3, max = 1e6))]
     pub window: f64,
-    /// Largest drift within a window and over the whole stretch: the slope times the duration.
+    /// Maximum drift within a window and over the whole stretch: slope times duration.
     pub drift: SteadyLimitsEntry,
-    /// Largest standard deviation about the drift.
+    /// Maximum standard deviation about the drift.
     #[serde(default)]
     pub scatter: SteadyLimitsEntry,
 }
@@ -46,7 +46,7 @@ fn time() -> String {
     "time".to_owned()
 }
 
-/// Limits of quantities; those that are absent may change.
+/// Limits of quantities; other quantities are not limited.
 #[derive(Debug, Clone, Copy, Default, Deserialize, JsonSchema)]
 pub struct SteadyLimitsEntry {
     /// Limit of the torque. [Nm]
@@ -61,7 +61,7 @@ pub struct SteadyLimitsEntry {
     /// Limit of the speed at the other port. [rpm]
     #[schemars(range(min = 1e-9, max = 1e6))]
     pub speed_out: Option<f64>,
-    /// Limit of the efficiency, as a share. [-]
+    /// Limit of the efficiency, as a fraction. [-]
     #[schemars(range(min = 1e-9, max = 1.0))]
     pub efficiency: Option<f64>,
     /// Limit of the power loss. [W]
@@ -79,7 +79,7 @@ pub struct SteadyLimitsEntry {
 }
 
 impl SteadyLimitsEntry {
-    /// The limits that are stated, by quantity.
+    /// The stated limits by quantity.
     fn stated(&self) -> Vec<(&'static str, f64)> {
         let all = [
             ("torque", self.torque),
@@ -99,37 +99,37 @@ impl SteadyLimitsEntry {
 }
 
 impl SteadyEntry {
-    /// What is wrong with the entry itself.
+    /// Errors of the entry.
     pub(super) fn faults(&self) -> Option<MeasuredFault> {
         self.drift.stated().is_empty().then(|| {
             MeasuredFault::new(
                 "steady.drift",
-                "no drift is limited, so every stretch would be steady",
+                "no drift limit is given, so every stretch would be steady",
                 "write limits such as `drift: { torque: 0.5 Nm, speed: 5 rpm }`",
             )
         })
     }
 }
 
-/// What was averaged to a point.
+/// The averaged samples of a point.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Stretch {
     /// Number of samples.
     pub samples: usize,
     /// \[s\]
     pub duration: f64,
-    /// Standard error of the mean of each quantity, corrected for autocorrelation; by the places of the quantities.
+    /// Standard error of the mean of each quantity, corrected for autocorrelation; in the order of the quantities.
     pub standard_errors: Vec<Option<f64>>,
 }
 
-/// A limited quantity: its place among the values, and its limits.
+/// A limited quantity: its index and its limits.
 struct Limited {
     place: usize,
     drift: Option<f64>,
     scatter: Option<f64>,
 }
 
-/// The steady stretches of rows in time, each as one row, and a sentence about them.
+/// The steady stretches of a time series, each as one row, and a note on them.
 pub(super) fn stretches(
     entry: &SteadyEntry,
     quantities: &[&'static str],
@@ -140,8 +140,8 @@ pub(super) fn stretches(
     if let Some(k) = (1..times.len()).find(|k| times[*k] <= times[*k - 1]) {
         return Err(MeasuredFault::new(
             "steady.time",
-            format!("line {}: the time does not rise", rows[k].line),
-            "sort the rows by time, and give every recording a file of its own",
+            format!("line {}: the time does not increase", rows[k].line),
+            "sort the rows by time, and use a separate file for each recording",
         ));
     }
     let series = Series {
@@ -163,8 +163,8 @@ fn limited(entry: &SteadyEntry, quantities: &[&'static str]) -> Result<Vec<Limit
             let Some(place) = quantities.iter().position(|q| *q == quantity) else {
                 return Err(MeasuredFault::new(
                     format!("steady.{key}.{quantity}"),
-                    format!("no column holds `{quantity}`, whose {key} is limited"),
-                    format!("the file holds {}: limit one of these", quantities.join(", ")),
+                    format!("there is no column of `{quantity}`, whose {key} is limited"),
+                    format!("the file has {}: limit one of these", quantities.join(", ")),
                 ));
             };
             let (drift, scatter) = match key {
@@ -215,14 +215,14 @@ impl Series<'_> {
         if windows > 0 && sparse == windows {
             return Err(MeasuredFault::new(
                 "steady.window",
-                format!("a window of {} s holds fewer than {FEWEST} samples", self.entry.window),
-                "take a longer window, or a file with more samples",
+                format!("a window of {} s has fewer than {FEWEST} samples", self.entry.window),
+                "use a longer window, or a file with more samples",
             ));
         }
         Ok(found)
     }
 
-    /// Pieces in one gear state with one set of bound values, without gaps in time.
+    /// Pieces with one gear and one set of bound values, without gaps in time.
     fn pieces(&self) -> Vec<Span> {
         let mut pieces: Vec<Span> = Vec::new();
         for (k, row) in self.rows.iter().enumerate() {
@@ -238,12 +238,12 @@ impl Series<'_> {
         pieces
     }
 
-    /// A window with room for the rounding of times.
+    /// A window with tolerance for the rounding of times.
     fn window(&self) -> f64 {
         self.entry.window * (1.0 - 1e-9)
     }
 
-    /// Last sample of the window that begins at a sample.
+    /// Last sample of the window that starts at a sample.
     fn window_after(&self, start: usize, last: usize) -> Option<usize> {
         let end = start + self.times[start..=last].partition_point(|t| t - self.times[start] < self.window());
         (end <= last).then_some(end)
@@ -263,8 +263,8 @@ impl Series<'_> {
         line
     }
 
-    /// The first steady window, or one behind it that holds less of a ramp: within half a window the first whose drift is a
-    /// quarter of the limit, or else that with the least drift.
+    /// The first steady window, or a later one with less of a ramp: within half a window the first whose drift is a quarter of the limit,
+    /// otherwise the one with the minimum drift.
     fn settled(&self, sliding: &mut Sliding<'_>, first: Span, last: usize) -> Span {
         let (mut best, mut least) = (first, sliding.drift());
         let mut start = first[0];
@@ -277,7 +277,7 @@ impl Series<'_> {
             if end - start + 1 < FEWEST || !sliding.is_steady([start, end]) {
                 break;
             }
-            // Rounding alone makes no window better.
+            // Ignore differences due to rounding.
             if sliding.drift() < 0.99 * least {
                 (best, least) = ([start, end], sliding.drift());
             }
@@ -285,7 +285,7 @@ impl Series<'_> {
         best
     }
 
-    /// Last sample of the stretch that begins with a steady window.
+    /// Last sample of the stretch that starts with a steady window.
     fn grown(&self, sliding: &mut Sliding<'_>, [start, end]: Span, last: usize) -> usize {
         let mut lines: Vec<Line> = self.limits.iter().map(|l| self.line(l, [start, end])).collect();
         for next in end + 1..=last {
@@ -333,7 +333,7 @@ impl Series<'_> {
         }
     }
 
-    /// How many stretches there are, which share of the time they hold, and how well their means are known.
+    /// Number of stretches, their share of the time, and the standard errors of their means.
     fn note(&self, quantities: &[&str], points: &[Row]) -> String {
         let stretches: Vec<&Stretch> = points.iter().filter_map(|row| row.stretch.as_ref()).collect();
         let whole = self.times.last().unwrap_or(&0.0) - self.times.first().unwrap_or(&0.0);
@@ -362,7 +362,7 @@ impl Series<'_> {
     }
 }
 
-/// The cell of a column over several rows: the mean of its numbers, or the text that all of them hold; otherwise blank.
+/// The cell of a column over several rows: the mean of its numbers, or the common text; otherwise blank.
 fn averaged(rows: &[Row], place: usize) -> String {
     let cell = |row: &Row| row.cells.get(place).cloned().unwrap_or_default();
     let first = cell(&rows[0]);
@@ -391,13 +391,13 @@ fn shown(quantity: &str, difference: f64) -> String {
     format!("{:.2e}{symbol}", difference / factor)
 }
 
-/// Lines over a window that moves forward, sample by sample.
+/// Lines over a moving window.
 struct Sliding<'a> {
     series: &'a Series<'a>,
     /// One for each limited quantity.
     lines: Vec<Line>,
     span: Option<Span>,
-    /// Samples removed since the lines were fitted anew.
+    /// Samples removed since the lines were refitted.
     removed: usize,
 }
 
@@ -429,7 +429,7 @@ impl<'a> Sliding<'a> {
 
     fn move_to(&mut self, [start, end]: Span) {
         let series = self.series;
-        // Rounding of what was removed adds up, so the lines are fitted anew once a whole window was.
+        // Rounding errors of removals accumulate, so the lines are refitted after each complete window.
         let goes_on = self.span.filter(|[first, last]| {
             *first <= start && start <= *last && *last <= end && self.removed + start - first <= end - start
         });
@@ -448,7 +448,7 @@ impl<'a> Sliding<'a> {
     }
 }
 
-/// A line fitted to samples as they come, by the updating formulas of Welford.
+/// A line fitted incrementally by the updating formulas of Welford.
 #[derive(Debug, Clone, Copy, Default)]
 struct Line {
     count: f64,
@@ -509,10 +509,9 @@ impl Line {
     }
 }
 
-/// Standard error of the mean of samples with these deviations from their line: that of independent samples, times the root of
-/// the integrated autocorrelation time 1 + 2 (r1 + r2 + ...). The sum ends before the first autocorrelation that is not
-/// positive, since what follows is noise (after Geyer, Practical Markov Chain Monte Carlo, 1992, who ends it at
-/// sums of pairs).
+/// Standard error of the mean of samples with these deviations from their line: that of independent samples, times the root of the
+/// integrated autocorrelation time 1 + 2 (r1 + r2 + ...). The sum ends before the first autocorrelation that is not positive, because later
+/// ones are noise (after Geyer, Practical Markov Chain Monte Carlo, 1992, who ends it at sums of pairs).
 fn standard_error(deviations: &[f64]) -> Option<f64> {
     let count = deviations.len();
     if count < FEWEST {
@@ -711,7 +710,7 @@ mod tests {
         backwards[7].0 = 0.0;
         let fault = stretches(&entry(None), &QUANTITIES, backwards).unwrap_err();
         assert!(
-            fault.message.contains("line 9: the time does not rise"),
+            fault.message.contains("line 9: the time does not increase"),
             "{}",
             fault.message
         );

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// The most values that one axis may have.
+/// Maximum number of values of one axis.
 const MOST: usize = 100_000;
 
 /// From, to and step of an axis, SI.
@@ -11,7 +11,7 @@ const MOST: usize = 100_000;
 pub struct Span {
     /// First value.
     pub from: f64,
-    /// Last value, which is reached to rounding.
+    /// Last value, reached within rounding.
     pub to: f64,
     /// Step.
     pub step: f64,
@@ -26,7 +26,7 @@ impl Span {
     /// The values.
     ///
     /// # Errors
-    /// If the step does not lead from one end to the other, or to too many values.
+    /// If the step does not divide the range, or gives too many values.
     pub fn values(&self) -> Result<Vec<f64>, String> {
         let count = (self.to - self.from) / self.step;
         if !count.is_finite() || count < 0.0 {
@@ -40,23 +40,23 @@ impl Span {
     }
 }
 
-/// Shares of a rating.
+/// Fractions of a rating.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum Shares {
-    /// Several shares. [-]
+    /// Several fractions. [-]
     List(#[schemars(inner(range(min = -10.0, max = 10.0)), length(min = 1))] Vec<f64>),
-    /// Shares at equal steps.
+    /// Fractions at equal steps.
     Steps(ShareSpan),
 }
 
-/// Shares at equal steps.
+/// Fractions at equal steps.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize, JsonSchema)]
 pub struct ShareSpan {
-    /// First share. [-]
+    /// First fraction. [-]
     #[schemars(range(min = -10.0, max = 10.0))]
     pub from: f64,
-    /// Last share. [-]
+    /// Last fraction. [-]
     #[schemars(range(min = -10.0, max = 10.0))]
     pub to: f64,
     /// Step. [-]
@@ -64,16 +64,16 @@ pub struct ShareSpan {
     pub step: f64,
 }
 
-/// Values that count in shares of what the gearbox is made for, so that gearboxes of different size can be compared.
+/// Values as fractions of the rating, to compare gearboxes of different size.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct OfRating {
-    /// Shares of the torque, or speed, that the gearbox states under `rating`: a list, or from, to and step.
+    /// Fractions of the torque or speed under `rating` of the gearbox: a list, or from, to and step.
     pub of_rating: Shares,
 }
 
 impl OfRating {
     fn values(&self, rating: Option<f64>) -> Result<Vec<f64>, String> {
-        let rating = rating.ok_or("the axis counts in shares of a rating, and the gearbox states none")?;
+        let rating = rating.ok_or("the axis uses fractions of a rating, but the gearbox has none")?;
         let shares = match &self.of_rating {
             Shares::List(list) => list.clone(),
             Shares::Steps(s) => Span::new(s.from, s.to, s.step).values()?,
@@ -92,7 +92,7 @@ pub enum TorqueAxis {
     List(#[schemars(inner(range(min = -1e9, max = 1e9)), length(min = 1))] Vec<f64>),
     /// Torques at equal steps.
     Steps(TorqueSpan),
-    /// Torques as shares of the torque that the gearbox is made for.
+    /// Torques as fractions of the rated torque.
     Rated(OfRating),
 }
 
@@ -114,7 +114,7 @@ impl TorqueAxis {
     /// The torques. \[Nm\]
     ///
     /// # Errors
-    /// As [`Span::values`], or if the axis counts in shares of a rating that is absent.
+    /// As [`Span::values`], or if the axis uses fractions of a missing rating.
     pub fn values(&self, rating: Option<f64>) -> Result<Vec<f64>, String> {
         match self {
             Self::One(torque) => Ok(vec![*torque]),
@@ -124,7 +124,7 @@ impl TorqueAxis {
         }
     }
 
-    /// True where the axis counts in shares of a rating.
+    /// True if the axis uses fractions of a rating.
     pub fn is_rated(&self) -> bool {
         matches!(self, Self::Rated(_))
     }
@@ -140,7 +140,7 @@ pub enum SpeedAxis {
     List(#[schemars(inner(range(min = -1e6, max = 1e6)), length(min = 1))] Vec<f64>),
     /// Speeds at equal steps.
     Steps(SpeedSpan),
-    /// Speeds as shares of the speed that the gearbox is made for.
+    /// Speeds as fractions of the rated speed.
     Rated(OfRating),
 }
 
@@ -162,7 +162,7 @@ impl SpeedAxis {
     /// The speeds. \[rad/s\]
     ///
     /// # Errors
-    /// As [`Span::values`], or if the axis counts in shares of a rating that is absent.
+    /// As [`Span::values`], or if the axis uses fractions of a missing rating.
     pub fn values(&self, rating: Option<f64>) -> Result<Vec<f64>, String> {
         match self {
             Self::One(speed) => Ok(vec![*speed]),
@@ -172,7 +172,7 @@ impl SpeedAxis {
         }
     }
 
-    /// True where the axis counts in shares of a rating.
+    /// True if the axis uses fractions of a rating.
     pub fn is_rated(&self) -> bool {
         matches!(self, Self::Rated(_))
     }
@@ -258,44 +258,44 @@ impl TemperatureAxis {
     }
 }
 
-/// Largest torque over speed: points beyond it are left out.
+/// Maximum torque over speed: points outside are omitted.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct Envelope {
-    /// Speeds, rising, from zero on; their sign does not count. [rpm]
+    /// Speeds, ascending from zero; signs are ignored. [rpm]
     #[schemars(inner(range(min = 0.0, max = 1e6)), length(min = 2))]
     pub speed: Vec<f64>,
-    /// Largest torque at each speed, straight between them; its sign does not count. [Nm]
+    /// Maximum torque at each speed, linear in between; signs are ignored. [Nm]
     #[schemars(inner(range(min = 0.0, max = 1e9)), length(min = 2))]
     pub torque: Vec<f64>,
 }
 
 impl Envelope {
-    /// Why it is none.
+    /// Checks the envelope.
     ///
     /// # Errors
-    /// If the lists differ in length or speeds do not rise.
+    /// If the lists differ in length or speeds are not ascending.
     pub fn check(&self) -> Result<(), String> {
         if self.speed.len() != self.torque.len() {
             return Err(format!(
-                "{} speeds and {} torques do not make an envelope",
+                "an envelope needs equal numbers of speeds and torques, not {} and {}",
                 self.speed.len(),
                 self.torque.len()
             ));
         }
         if self.speed.first().is_some_and(|first| *first > 0.0) {
-            return Err("the envelope does not begin at 0 rpm".to_owned());
+            return Err("the envelope does not start at 0 rpm".to_owned());
         }
         if self.speed.windows(2).all(|w| w[0] < w[1]) {
             Ok(())
         } else {
-            Err("the speeds of the envelope do not rise".to_owned())
+            Err("the speeds of the envelope are not ascending".to_owned())
         }
     }
 
-    /// True for a point that the envelope holds; torque in Nm, speed in rad/s.
+    /// True for a point inside the envelope; torque in Nm, speed in rad/s.
     pub fn holds(&self, torque: f64, speed: f64) -> bool {
         let speed = speed.abs();
-        // Speeds of a grid are sums of steps, so the last digits do not count.
+        // Speeds of a grid are sums of steps, so the last digits are ignored.
         let near = 1e-9 * self.speed.last().copied().unwrap_or(0.0);
         let right = self.speed.iter().position(|s| speed <= s + near);
         let most = match right {
@@ -383,6 +383,6 @@ mod tests {
             of_rating: Shares::List(vec![0.5, 1.0]),
         });
         assert_eq!(axis.values(Some(20.0)).unwrap(), [10.0, 20.0]);
-        assert!(axis.values(None).unwrap_err().contains("states none"));
+        assert!(axis.values(None).unwrap_err().contains("has none"));
     }
 }

@@ -1,9 +1,9 @@
-//! What losses are summed by.
+//! Grouping of losses.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// What losses are summed by.
+/// Grouping of losses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum By {
@@ -16,6 +16,6 @@ pub enum By {
     Stage,
     /// By mechanism and term, such as the rolling and sliding terms of a bearing.
     Term,
-    /// By the usual sums: gears, bearings, seals, others; load-dependent and not.
+    /// By the usual sums: gears, bearings, seals, others; load-dependent and load-independent.
     Sum,
 }

@@ -1,11 +1,11 @@
-//! Quantities that are compared, and how their differences count.
+//! Compared quantities and units of their differences.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::analysis::PointResult;
 
-/// What is compared.
+/// Compared quantity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Quantity {
@@ -16,7 +16,7 @@ pub enum Quantity {
     Loss,
     /// Loss over the speed of the reference port.
     LossTorque,
-    /// Temperature of the oil, where it is found by balance.
+    /// Oil temperature if found by heat balance.
     Temperature,
 }
 
@@ -42,7 +42,7 @@ impl Quantity {
         }
     }
 
-    /// The quantity and the unit of a difference in words.
+    /// The quantity and the unit of a difference as text.
     pub fn words(self, difference: Difference) -> (&'static str, &'static str) {
         let what = match self {
             Self::Efficiency => "efficiency",
@@ -52,7 +52,7 @@ impl Quantity {
         };
         let unit = match (difference, self) {
             (Difference::Percent, _) => "%",
-            (Difference::Points, Self::Efficiency) => "efficiency points",
+            (Difference::Points, Self::Efficiency) => "percentage points",
             (Difference::Points, Self::Loss) => "W",
             (Difference::Points, Self::LossTorque) => "Nm",
             (Difference::Points, Self::Temperature) => "K",
@@ -60,7 +60,7 @@ impl Quantity {
         (what, unit)
     }
 
-    /// The quantity of a solved point; efficiency as a share, temperature in degC.
+    /// The quantity of a solved point; efficiency as a fraction, temperature in degC.
     pub fn value(self, point: &PointResult) -> Option<f64> {
         match self {
             Self::Efficiency => point.efficiency,
@@ -70,7 +70,7 @@ impl Quantity {
         }
     }
 
-    /// The other value minus the base, in that unit; absent where the base is zero and a percentage is asked for.
+    /// The other value minus the base, in that unit; absent for percent of a zero base.
     pub fn difference(self, difference: Difference, base: f64, other: f64) -> Option<f64> {
         match (difference, self) {
             (Difference::Percent, _) => (base != 0.0).then(|| 100.0 * (other - base) / base),
@@ -80,11 +80,11 @@ impl Quantity {
     }
 }
 
-/// How a difference counts.
+/// Unit of a difference.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Difference {
-    /// Efficiency points (0.01), watts for a loss, kelvins for a temperature.
+    /// Percentage points of an efficiency (0.01), watts for a loss, kelvins for a temperature.
     #[default]
     Points,
     /// Percent of the base.

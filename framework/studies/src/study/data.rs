@@ -1,4 +1,4 @@
-//! Data that an analysis uses: measurements that the study names, or its own.
+//! Data of an analysis: a measurement of the study, or its own.
 
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -11,12 +11,12 @@ use crate::measured::MeasuredEntry;
 pub enum Data {
     /// Name under `measurements`.
     Named(String),
-    /// A file, and how to read it.
+    /// A file with its settings.
     Own(Box<MeasuredEntry>),
 }
 
 impl Data {
-    /// The name, where it is one.
+    /// The name, if it is one.
     pub fn name(&self) -> Option<&String> {
         match self {
             Self::Named(name) => Some(name),

@@ -1,6 +1,8 @@
 //! A study with its gearboxes.
 
+use std::io;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use serde_json::{Map, Value};
 
@@ -10,11 +12,12 @@ use super::then::PromisedSets;
 use super::{Data, Grid, StudyEntry, Uses};
 use crate::analyses::AnalysisEntry;
 use crate::analysis::{Field, OilTemperature, Points, Rows};
+use crate::codes;
 use crate::measured::{FaultPlace, Measured, MeasuredEntry, MeasuredFault};
 use gearloss_framework::attach::dangling;
 use gearloss_framework::description::Ordered;
-use gearloss_framework::document::{Code, Diagnostic, Places, Sources, read_yaml};
-use gearloss_framework::files::{LONGEST_DATA, LONGEST_TEXT, read_bytes, read_text};
+use gearloss_framework::document::{self, Diagnostic, Places, Sources, read_yaml};
+use gearloss_framework::files::{Disk, LONGEST_DATA, LONGEST_TEXT, SharedSource};
 use gearloss_framework::gearbox::{DocumentKind, Findings, Gearbox, other_kind};
 use gearloss_framework::language::Language;
 use gearloss_framework::resolve::{Choice, OWN_MODELS, Resolved, called_own, expand_set, meets, sets_of};
@@ -22,7 +25,7 @@ use gearloss_framework::transmission::{Case, Transmission, WHEELS};
 
 /// A study as read, with its gearboxes.
 pub struct Study {
-    /// What is written.
+    /// The entry.
     pub entry: StudyEntry,
     /// Its sets of models.
     pub sets: Map<String, Value>,
@@ -30,8 +33,9 @@ pub struct Study {
     pub gearboxes: Vec<(String, Gearbox)>,
     /// Its text.
     pub text: String,
-    /// Where the files that it names lie.
+    /// Folder of its files.
     pub folder: PathBuf,
+    files: SharedSource,
     places: Places,
     sources: Sources,
     promised: PromisedSets,
@@ -39,25 +43,48 @@ pub struct Study {
 }
 
 impl Study {
-    /// Reads a study and its gearboxes.
+    /// Reads a study of the disk and its gearboxes.
     ///
     /// # Errors
-    /// Everything that reading and the walk find.
+    /// All errors of reading and of the walk.
     pub fn read(language: &Language, file: &Path) -> Result<Self, Findings> {
-        let text = read_text(file, LONGEST_TEXT).map_err(|e| {
-            let error = Diagnostic::error("", format!("cannot read {}: {e}", file.display()));
-            Findings::from(vec![error.help("check the file name").code(Code::Unreadable)])
-        })?;
-        let folder = file.parent().unwrap_or(Path::new(""));
-        Self::of_text(language, text, &file.display().to_string(), folder)
+        Self::read_from(language, &Disk::shared(), file)
     }
 
-    /// Reads a study from a text, with its gearboxes; `folder` is where the files that it names lie.
+    /// Reads a study of a source and its gearboxes. Data that they name are read from the same source.
     ///
     /// # Errors
     /// Everything that reading and the walk find.
+    pub fn read_from(language: &Language, files: &SharedSource, file: &Path) -> Result<Self, Findings> {
+        let text = files.read_text(file, LONGEST_TEXT).map_err(|e| {
+            Diagnostic::error("", format!("cannot read {}: {e}", file.display()))
+                .help("check the file name")
+                .code(document::codes::UNREADABLE)
+        })?;
+        let folder = file.parent().unwrap_or(Path::new(""));
+        Self::from_text(language, files, text, &file.display().to_string(), folder)
+    }
+
+    /// Reads a study from a text, with its gearboxes; `folder` is where the files on the disk that it names lie.
+    ///
+    /// # Errors
+    /// All errors of reading and of the walk.
     pub fn of_text(
         language: &Language,
+        text: String,
+        name: &str,
+        folder: impl Into<PathBuf>,
+    ) -> Result<Self, Findings> {
+        Self::from_text(language, &Disk::shared(), text, name, folder)
+    }
+
+    /// Reads a study from a text, with its gearboxes; the files that it names are read from a source, relative to `folder`.
+    ///
+    /// # Errors
+    /// Everything that reading and the walk find.
+    pub fn from_text(
+        language: &Language,
+        files: &SharedSource,
         text: String,
         name: &str,
         folder: impl Into<PathBuf>,
@@ -88,7 +115,7 @@ impl Study {
         let taken_over = match replace_names(&mut walked.value) {
             Ok(taken_over) => taken_over,
             Err(list) => {
-                let list = list.into_iter().map(|d| walked.places.place(d).code(Code::Study));
+                let list = list.into_iter().map(|d| walked.places.place(d).code(codes::STUDY));
                 return Err(Findings {
                     list: list.collect(),
                     sources,
@@ -110,13 +137,17 @@ impl Study {
         });
         if !unusable.is_empty() {
             return Err(Findings {
-                list: unusable.into_iter().map(|d| walked.places.place(d)).collect(),
+                list: unusable
+                    .into_iter()
+                    .map(|d| walked.places.place(d).code(codes::STUDY))
+                    .collect(),
                 sources,
             });
         }
         let mut gearboxes = Vec::new();
         for (name, gearbox) in entry.gearboxes.iter() {
-            gearboxes.push((name.to_owned(), Gearbox::read(language, &folder.join(gearbox))?));
+            let gearbox = Gearbox::read_from(language, files, &folder.join(gearbox))?;
+            gearboxes.push((name.to_owned(), gearbox));
         }
         Ok(Self {
             entry,
@@ -124,6 +155,7 @@ impl Study {
             gearboxes,
             text,
             folder,
+            files: Arc::clone(files),
             places: walked.places,
             sources,
             promised,
@@ -159,7 +191,7 @@ impl Study {
                 Some(path) => Diagnostic { path, ..found },
                 None => found,
             };
-            self.places.place(found).code(Code::Study)
+            self.places.place(found).code(codes::STUDY)
         };
         Findings {
             list: list.into_iter().map(placed).collect(),
@@ -167,7 +199,7 @@ impl Study {
         }
     }
 
-    /// A gearbox by name; the first where none is named.
+    /// A gearbox by name; the first if no name is given.
     ///
     /// # Errors
     /// If there is none.
@@ -176,7 +208,7 @@ impl Study {
         match name {
             None => self.gearboxes.first().ok_or_else(|| {
                 self.findings(vec![
-                    Diagnostic::error("gearboxes", "no gearbox is named")
+                    Diagnostic::error("gearboxes", "no gearbox is given")
                         .help("add `gearboxes: { ours: gearbox.yaml }`"),
                 ])
             }),
@@ -188,8 +220,7 @@ impl Study {
         }
     }
 
-    /// A set that an analysis names: `SET` of the given gearbox, or `PRODUCT/SET`; the set `own` stands for the own models of
-    /// the gearbox.
+    /// A model set of an analysis: `SET` of the given gearbox, or `PRODUCT/SET`; `own` means the default models of the gearbox.
     ///
     /// # Errors
     /// If there is no such product.
@@ -226,11 +257,11 @@ impl Study {
         }
     }
 
-    /// The transmission of a gearbox under a choice. `changes` are paths that an analysis changes beside the conditions, each with its
-    /// place in the study: what is wrong with a change is told there.
+    /// The transmission of a gearbox with a choice. `changes` are further changed paths, each with its place in the study, where its errors
+    /// are reported.
     ///
     /// # Errors
-    /// Everything that resolving and building find.
+    /// All errors of resolving and building.
     pub fn built(
         &self,
         language: &Language,
@@ -274,12 +305,12 @@ impl Study {
         })
     }
 
-    /// Gives the set that `then` of an analysis names its values, resolved path to value, for all that choose it from now on.
+    /// Sets the values of the model set from `then` of an analysis, resolved path to value, for later analyses.
     pub fn keep_found(&self, set: &str, values: impl IntoIterator<Item = (String, Value)>) {
         self.promised.keep(set, values.into_iter().collect());
     }
 
-    /// The first set of an analysis whose values another analysis has still to find, with that analysis.
+    /// The first model set of an analysis that needs values from another analysis, with that analysis.
     pub fn pending(&self, analysis: &AnalysisEntry) -> Option<(String, String)> {
         let sets = analysis.uses().sets;
         let name = |set: &&String| set.rsplit('/').next().unwrap_or(set).to_owned();
@@ -305,7 +336,7 @@ impl Study {
     /// The case of points under the conditions.
     ///
     /// # Errors
-    /// If the gear state, the ports or their number do not fit: at the conditions where these name a port, or at `place`.
+    /// If the gear, the ports or their number are invalid: at the conditions if these state a port, otherwise at `place`.
     pub fn case(
         &self,
         place: &str,
@@ -361,10 +392,10 @@ impl Study {
         }
     }
 
-    /// Checks every name that the analyses use, and builds every gearbox under every set.
+    /// Checks every name of the analyses, and builds every gearbox with every set.
     ///
     /// # Errors
-    /// Everything that is wrong.
+    /// All errors.
     pub fn check(&self, language: &Language) -> Result<(), Findings> {
         let mut found: Vec<Diagnostic> = Vec::new();
         found.extend(called_own(self.sets.keys()));
@@ -415,14 +446,15 @@ impl Study {
                 let order = |analysis: &str| self.entry.analyses.index(analysis);
                 if order(name) <= order(&by) {
                     let message = format!("the set `{set}` has no values before the analysis `{by}`");
-                    found.push(Diagnostic::error(&path, message).help(format!("write this analysis below `{by}`")));
+                    let below = Diagnostic::error(&path, message).help(format!("write this analysis below `{by}`"));
+                    found.push(below.code(codes::NOT_FOUND_YET));
                 }
             }
             for set in sets {
                 let (gearbox, set) = self.reference(&path, set, gearbox)?;
                 let at_hand = sets_of(language, &gearbox.value, &self.sets);
                 match set.map(|set| expand_set(&at_hand, set)) {
-                    // A set that is wrong in itself is reported where it is.
+                    // An invalid set is reported at its definition.
                     Some(Err(error)) if error.path != "model_sets" => {}
                     Some(Err(error)) => found.push(Diagnostic {
                         path: path.clone(),
@@ -469,10 +501,10 @@ impl Study {
         }
     }
 
-    /// The entry of data: that of the measurements of the study, or the analysis' own.
+    /// The data entry: from the measurements of the study, or from the analysis.
     ///
     /// # Errors
-    /// If nothing has the name.
+    /// If the name is unknown.
     pub fn measurement<'a>(&'a self, path: &str, data: &'a Data) -> Result<&'a MeasuredEntry, Findings> {
         match data {
             Data::Own(entry) => Ok(entry),
@@ -480,11 +512,10 @@ impl Study {
         }
     }
 
-    /// Reads measured points with the bytes that they stand in, file by file; `path` is the key that names them, `bind` are
-    /// columns that change the gearbox.
+    /// Reads measured points and the bytes of their files; `path` is their key, `bind` are columns that change the gearbox.
     ///
     /// # Errors
-    /// If nothing has the name, a file cannot be read, or everything that is wrong in it, with line and column.
+    /// If the name is unknown or a file cannot be read; all errors in the file, with line and column.
     pub fn measured(
         &self,
         path: &str,
@@ -510,23 +541,32 @@ impl Study {
         used.filter_map(|uses| uses.bind).flat_map(Ordered::ids).collect()
     }
 
+    /// The bytes of a file of data that the study names.
+    ///
+    /// # Errors
+    /// The reason why it cannot be read.
+    pub fn read_file(&self, name: &str) -> io::Result<Vec<u8>> {
+        self.files.read(&self.folder.join(name), LONGEST_DATA)
+    }
+
     /// The bytes of the files of a measurement.
     fn contents(&self, entry: &MeasuredEntry, place: &str) -> Result<Vec<Vec<u8>>, Vec<Diagnostic>> {
         let (mut contents, mut faults) = (Vec::new(), Vec::new());
         for file in entry.file.list() {
-            match read_bytes(&self.folder.join(file.file), LONGEST_DATA) {
+            match self.read_file(file.file) {
                 Ok(bytes) => contents.push(bytes),
                 Err(e) => {
                     let error = Diagnostic::error(format!("{place}.file"), format!("{}: cannot read: {e}", file.file));
-                    faults.push(error.help("file names are relative to the study"));
+                    let error = error.help("file names are relative to the study");
+                    faults.push(error.code(document::codes::UNREADABLE));
                 }
             }
         }
         if faults.is_empty() { Ok(contents) } else { Err(faults) }
     }
 
-    /// Everything that is wrong with the files of points; absent where nothing is. Each fault is found once, at its key of the
-    /// measurement, whatever number of analyses uses it.
+    /// All errors of the files of points; absent if there are none. Each error is reported once, at its key of the measurement, for any
+    /// number of analyses.
     pub fn data_findings(&self) -> Option<Findings> {
         let list = self.faults_of_data();
         (!list.is_empty()).then(|| self.findings(list))
@@ -565,7 +605,7 @@ impl Study {
                     continue;
                 };
                 let bind = uses.bound_of(key);
-                // Files that are read alike are read once.
+                // Files with equal settings are read once.
                 if bind.is_empty() && users.iter().any(|(_, other)| other.is_empty()) {
                     continue;
                 }
@@ -610,13 +650,13 @@ impl Study {
     }
 }
 
-/// Where data are described: under `measurements`, or at the key of the analysis.
+/// Place of data: under `measurements`, or at the key of the analysis.
 fn own_place(path: &str, data: &Data) -> String {
     data.name()
         .map_or_else(|| path.to_owned(), |name| format!("measurements.{name}"))
 }
 
-/// Faults of data at their places: the description of the data, or the columns that an analysis binds.
+/// Errors of data at their places: the entry of the data, or the bound columns of an analysis.
 fn diagnostics(faults: Vec<MeasuredFault>, own: &str, analysis: &str) -> Vec<Diagnostic> {
     let at_place = |fault: MeasuredFault| {
         let path = match fault.place {
@@ -624,7 +664,9 @@ fn diagnostics(faults: Vec<MeasuredFault>, own: &str, analysis: &str) -> Vec<Dia
             FaultPlace::Entry(key) => format!("{own}.{key}"),
             FaultPlace::Bind(column) => format!("{analysis}.bind.{column}"),
         };
-        Diagnostic::error(path, fault.message).help(fault.help)
+        Diagnostic::error(path, fault.message)
+            .help(fault.help)
+            .code(codes::DATA)
     };
     faults.into_iter().map(at_place).collect()
 }

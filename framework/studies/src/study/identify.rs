@@ -1,4 +1,4 @@
-//! What an identification is given: parameters, rows that are held out, groups of rows.
+//! Input of an identification: parameters, held-out rows, groups of rows.
 
 mod hold_out;
 
@@ -13,30 +13,29 @@ pub use hold_out::{FoldsBy, FoldsEntry, HoldOutEntry, HoldOutRows};
 /// One parameter.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct IdentifiedEntry {
-    /// Resolved path; with `*` all that it meets move together. Of the rig: `rig.torque_offset_in`, `rig.torque_offset_out`,
+    /// Resolved path; with `*` all matches change together. Of the rig: `rig.torque_offset_in`, `rig.torque_offset_out`,
     /// `rig.support_in.torque`, `rig.support_out.torque`.
     pub path: String,
-    /// How several quantities move together.
+    /// How several quantities change together.
     #[serde(default)]
     pub tie: Tie,
-    /// Where the search begins; absent, the value of the gearbox or the rig.
+    /// Start value; default: the value of the gearbox or the rig.
     pub start: Option<Value>,
-    /// Least value, as a quantity of the path; absent, that of the schema.
+    /// Lower bound, as a quantity of the path; default: from the schema.
     pub from: Option<Value>,
-    /// Greatest value; absent, that of the schema.
+    /// Upper bound; default: from the schema.
     pub to: Option<Value>,
-    /// How it is counted: `log` for factors above zero that may vary by more than three to one.
+    /// Scale: `log` for positive factors that may vary by more than three to one.
     #[serde(default)]
     pub scale: ScaleEntry,
-    /// What is known of it beside the points.
+    /// Prior.
     pub prior: Option<PriorEntry>,
-    /// For load factors: one factor at each of these torques, linear in between, in place of a single one.
+    /// For load factors: one factor at each of these torques, linear in between, instead of a single one.
     pub over: Option<OverEntry>,
 }
 
 impl IdentifiedEntry {
-    /// A parameter between two values as one writes them, counted as it is; the search begins at the value of the gearbox or the
-    /// rig.
+    /// A linear parameter between two values; the start is the value of the gearbox or the rig.
     pub fn between(path: impl Into<String>, from: impl Into<Value>, to: impl Into<Value>) -> Self {
         Self {
             path: path.into(),
@@ -51,32 +50,32 @@ impl IdentifiedEntry {
     }
 }
 
-/// How a parameter is counted.
+/// Scale of a parameter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum ScaleEntry {
-    /// As it is.
+    /// Linear.
     #[default]
     Linear,
-    /// By its logarithm.
+    /// Logarithmic.
     Log,
 }
 
-/// What is known of a parameter beside the points: it counts like one more measurement.
+/// Prior of a parameter: equivalent to one more measurement.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct PriorEntry {
-    /// Mean; absent, the start.
+    /// Mean; default: the start.
     pub mean: Option<Value>,
-    /// Standard deviation, as a quantity of the path; of a logarithmic parameter a number, relative to the mean.
+    /// Standard deviation, as a quantity of the path; for a logarithmic parameter a number relative to the mean.
     pub deviation: Value,
 }
 
-/// Torques at which a load factor is found.
+/// Torques at which a load factor is identified.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct OverEntry {
-    /// Port whose torque counts.
+    /// Port of the torque.
     pub port: String,
-    /// Torques, rising. [Nm]
+    /// Torques, ascending. [Nm]
     #[schemars(inner(range(min = 0.0, max = 1e9)), length(min = 2, max = 20))]
     pub torques: Vec<f64>,
 }

@@ -1,14 +1,14 @@
-//! Names of a study that become files.
+//! Names of a study that are used for files.
 
 use super::StudyEntry;
 use gearloss_framework::document::Diagnostic;
 
-/// Names of devices on Windows, where no file can have one whatever its ending; `com` and `lpt` with a digit are others.
+/// Device names on Windows, which no file can have with any extension; `com` and `lpt` with a digit are also reserved.
 ///
 /// Source: Microsoft, Naming Files, Paths, and Namespaces.
 const DEVICES: [&str; 4] = ["con", "prn", "aux", "nul"];
 
-/// True where no file can be called so on every system.
+/// True if the name is invalid for a file on some system.
 pub fn is_device(name: &str) -> bool {
     let name = name.to_ascii_lowercase();
     let port = |kind: &str| {
@@ -18,16 +18,16 @@ pub fn is_device(name: &str) -> bool {
     DEVICES.contains(&name.as_str()) || port("com") || port("lpt")
 }
 
-/// Analyses and products whose files could not be written everywhere.
+/// Analyses and products with invalid file names.
 pub(super) fn devices(entry: &StudyEntry) -> Vec<Diagnostic> {
     let of = |section: &'static str, ids: Vec<&str>| -> Vec<Diagnostic> {
         let found = ids.into_iter().filter(|id| is_device(id));
         let said = found.map(|id| {
             Diagnostic::error(
                 format!("{section}.{id}"),
-                format!("`{id}` names a device on Windows, so no file of results can be called so"),
+                format!("`{id}` is a device name on Windows, so it cannot be a file name"),
             )
-            .help(format!("call it `{id}_`, or by another name"))
+            .help(format!("rename it, for example to `{id}_`"))
         });
         said.collect()
     };

@@ -1,4 +1,4 @@
-//! Parameters that a study states once, and analyses that take them over by their names.
+//! Parameters of a study, and analyses that refer to them by name.
 
 use schemars::JsonSchema;
 use serde_json::{Map, Value};
@@ -7,7 +7,7 @@ use super::IdentifiedEntry;
 use gearloss_framework::description::Ordered;
 use gearloss_framework::document::{Diagnostic, did_you_mean};
 
-/// Parameters as `identify` writes them.
+/// Parameters as in `identify`.
 #[derive(JsonSchema)]
 #[serde(untagged)]
 #[expect(
@@ -15,13 +15,13 @@ use gearloss_framework::document::{Diagnostic, did_you_mean};
     reason = "its schema alone counts: names are replaced before the study is read into types"
 )]
 pub(crate) enum NamesOrParameters {
-    /// Names of parameters that the study states under `parameters`.
+    /// Names of parameters from `parameters` of the study.
     Names(#[schemars(length(min = 1))] Vec<String>),
     /// The parameters by name.
     Own(Ordered<IdentifiedEntry>),
 }
 
-/// One quantity with its range, as other analyses write it.
+/// One quantity with its range, as in other analyses.
 #[derive(JsonSchema)]
 #[serde(untagged)]
 #[expect(
@@ -29,19 +29,19 @@ pub(crate) enum NamesOrParameters {
     reason = "its schema alone counts: names are replaced before the study is read into types"
 )]
 pub(crate) enum NameOr<T> {
-    /// Name of a parameter that the study states under `parameters`; its range is `from` and `to`.
+    /// Name of a parameter from `parameters` of the study; its range is `from` and `to`.
     Name(String),
     /// The quantity and its range.
     Own(T),
 }
 
-/// What a range takes over of a parameter.
+/// Keys of a parameter that define a range.
 const OF_RANGE: [&str; 4] = ["path", "tie", "from", "to"];
 
-/// Where parameters were taken over: the path in the analysis, and that under `parameters`, where they are written.
+/// References to parameters: the path in the analysis, and the path under `parameters`.
 pub(super) type TakenOver = Vec<(String, String)>;
 
-/// The path under `parameters` where something below an analysis is written, where it was taken over from there.
+/// The path under `parameters` of a key below an analysis, if it refers to a parameter.
 pub(super) fn written_at(taken_over: &TakenOver, path: &str) -> Option<String> {
     taken_over.iter().find_map(|(at, from)| {
         let rest = path.strip_prefix(at.as_str())?;
@@ -49,10 +49,10 @@ pub(super) fn written_at(taken_over: &TakenOver, path: &str) -> Option<String> {
     })
 }
 
-/// Puts the parameters of a walked study in the place of their names.
+/// Replaces names of parameters of a walked study by the parameters.
 ///
 /// # Errors
-/// Every name that the study does not state, and every parameter without both ends where a range is due.
+/// Every unknown name, and every parameter without both ends if a range is needed.
 pub(super) fn replace_names(study: &mut Value) -> Result<TakenOver, Vec<Diagnostic>> {
     let stated = study.get("parameters").and_then(Value::as_object).cloned();
     let stated = stated.unwrap_or_default();
@@ -84,8 +84,9 @@ pub(super) fn replace_names(study: &mut Value) -> Result<TakenOver, Vec<Diagnost
             let place = entry_place;
             match stated.get(&parameter) {
                 None => found.push(unknown(&place, &parameter, &stated)),
-                Some(_) if identifies && named.contains_key(&parameter) => found
-                    .push(Diagnostic::error(place, format!("`{parameter}` stands here twice")).help("name it once")),
+                Some(_) if identifies && named.contains_key(&parameter) => {
+                    found.push(Diagnostic::error(place, format!("`{parameter}` is listed twice")).help("list it once"));
+                }
                 Some(whole) if identifies => {
                     named.insert(parameter, whole.clone());
                 }
@@ -110,10 +111,7 @@ fn unknown(place: &str, name: &str, stated: &Map<String, Value>) -> Diagnostic {
         None if names.is_empty() => error.help(format!(
             "state it: `parameters: {{ {name}: {{ path: ..., from: ..., to: ... }} }}`"
         )),
-        None => error.help(format!(
-            "name one of {}, or add it under `parameters`",
-            names.join(", ")
-        )),
+        None => error.help(format!("use one of {}, or add it under `parameters`", names.join(", "))),
     }
 }
 
@@ -121,8 +119,8 @@ fn unknown(place: &str, name: &str, stated: &Map<String, Value>) -> Diagnostic {
 fn range(name: &str, whole: &Value) -> Result<Value, Diagnostic> {
     let stated = |key: &str| whole.get(key).is_some_and(|value| !value.is_null());
     if stated("over") {
-        let message = format!("`{name}` has one value for each of some torques, and a range is due");
-        return Err(Diagnostic::error("", message).help("write the quantity with a range of its own"));
+        let message = format!("`{name}` has several values over torque, but a range is needed");
+        return Err(Diagnostic::error("", message).help("write the quantity with its own range"));
     }
     if !(stated("from") && stated("to")) {
         let message = format!("the parameter `{name}` states no range");
@@ -183,7 +181,7 @@ mod tests {
             "{words:?}"
         );
         assert!(words[1].contains("no parameter `z`"), "{words:?}");
-        assert!(words[2].contains("one value for each"), "{words:?}");
+        assert!(words[2].contains("several values over torque"), "{words:?}");
         let mut identify = study(stated, json!({ "type": "identify", "parameters": ["x", "x"] }));
         assert!(replace_names(&mut identify).unwrap_err()[0].message.contains("twice"));
     }

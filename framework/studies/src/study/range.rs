@@ -1,4 +1,4 @@
-//! A quantity of a gearbox and the range over which a study varies it.
+//! A quantity of a gearbox and its range.
 
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -9,12 +9,12 @@ use crate::varied::Tie;
 /// One quantity and its range: `plus_minus`, `percent`, or `from` and `to`.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct RangeEntry {
-    /// Resolved path; with `*` all that it meets move together.
+    /// Resolved path; with `*` all matches change together.
     pub path: String,
-    /// How several quantities move together.
+    /// How several quantities change together.
     #[serde(default)]
     pub tie: Tie,
-    /// Half of the range about the value of the gearbox, as a quantity of the path: `0.1 um`.
+    /// Half width of the range about the value of the gearbox, as a quantity of the path: `0.1 um`.
     pub plus_minus: Option<Value>,
     /// The same in percent of the value of the gearbox. [-]
     #[schemars(range(min = 1e-9, max = 1000.0))]

@@ -1,4 +1,4 @@
-//! Sets of models that an analysis of the study finds the values of, for the analyses after it.
+//! Model sets with values from an analysis, for later analyses.
 
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
@@ -8,33 +8,33 @@ use serde_json::{Map, Value, json};
 use super::StudyEntry;
 use gearloss_framework::document::Diagnostic;
 
-/// What an analysis leaves for those after it: a set of models with the values that it finds.
+/// The model set of an analysis for later analyses.
 #[derive(Debug, Clone, Copy)]
 pub struct Then<'a> {
     /// Name of the set.
     pub set: &'a str,
-    /// Sets that the analysis fits; the first is what the new one extends.
+    /// Sets that the analysis fits; the new set extends the first.
     pub model_sets: &'a [String],
 }
 
-/// A set that `then` of an analysis names.
+/// A model set from `then` of an analysis.
 struct Promised {
     /// The analysis.
     by: String,
-    /// Resolved path to value, once the analysis has found them.
+    /// Resolved path to value, after the analysis.
     values: Option<Map<String, Value>>,
 }
 
-/// Sets that analyses promise, by name.
+/// Model sets from analyses, by name.
 #[derive(Default)]
 pub(super) struct PromisedSets(Mutex<BTreeMap<String, Promised>>);
 
 impl PromisedSets {
-    /// The sets that a study promises. They join its own as what they extend, so that everything that names them can be checked
-    /// before any value is found.
+    /// The model sets from analyses of a study. They are added with the values of the extended set, so that references can be checked
+    /// before the values are known.
     ///
     /// # Errors
-    /// Names that are taken, and analyses that fit more than one set.
+    /// If a name is already used, or an analysis fits more than one set.
     pub fn new(entry: &StudyEntry, sets: &mut Map<String, Value>) -> Result<Self, Vec<Diagnostic>> {
         let mut found = Vec::new();
         let mut promised: BTreeMap<String, Promised> = BTreeMap::new();
@@ -46,26 +46,26 @@ impl PromisedSets {
                 |message: String, help: &str| Diagnostic::error(format!("analyses.{name}.then"), message).help(help);
             if let Some(other) = promised.get(set) {
                 found.push(wrong(
-                    format!("the analysis `{}` already calls its set `{set}`", other.by),
-                    "give this one another name",
+                    format!("the analysis `{}` already uses the name `{set}`", other.by),
+                    "choose another name",
                 ));
             } else if sets.contains_key(set) || set == "own" {
                 found.push(wrong(
-                    format!("a set of models is already called `{set}`"),
+                    format!("there is already a model set `{set}`"),
                     "choose another name",
                 ));
             } else if set.is_empty() || set.contains('/') {
                 found.push(wrong(
-                    format!("`{set}` cannot name a set of models"),
+                    format!("`{set}` is not a valid name of a model set"),
                     "write a name without `/`, such as `fitted`",
                 ));
             } else if model_sets.len() > 1 {
                 found.push(wrong(
                     format!(
-                        "{} sets are fitted, and `{set}` can hold the values of one",
+                        "{} sets are fitted, but `{set}` can contain the values of only one",
                         model_sets.len()
                     ),
-                    "fit the set that the later analyses shall use in an analysis of its own",
+                    "fit the set for later analyses in a separate analysis",
                 ));
             } else {
                 let base = model_sets.first().map(|set| set.rsplit('/').next().unwrap_or(set));
@@ -85,14 +85,14 @@ impl PromisedSets {
         }
     }
 
-    /// Keeps what an analysis has found for its set.
+    /// Stores the values of an analysis for its set.
     pub fn keep(&self, set: &str, values: Map<String, Value>) {
         if let Some(promised) = self.lock().get_mut(set) {
             promised.values = Some(values);
         }
     }
 
-    /// Puts the values that were found into the sets.
+    /// Adds the values to the sets.
     pub fn fill(&self, sets: &mut Map<String, Value>) {
         for (name, promised) in self.lock().iter() {
             if let (Some(values), Some(set)) = (&promised.values, sets.get_mut(name)) {
@@ -101,12 +101,12 @@ impl PromisedSets {
         }
     }
 
-    /// The analysis that promises a set.
+    /// The analysis of a set.
     pub fn promised_by(&self, set: &str) -> Option<String> {
         self.lock().get(set).map(|promised| promised.by.clone())
     }
 
-    /// True where a set is promised and has no values yet.
+    /// True if a set has no values yet.
     pub fn is_pending(&self, set: &str) -> bool {
         self.lock().get(set).is_some_and(|promised| promised.values.is_none())
     }

@@ -11,20 +11,20 @@ pub struct ToleranceEntry {
     /// The quantity and its range.
     #[serde(flatten)]
     pub range: RangeEntry,
-    /// How values lie in the range.
+    /// Distribution in the range.
     #[serde(default)]
     pub distribution: Shape,
 }
 
-/// How values lie in a range.
+/// Distribution in a range.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Shape {
-    /// All are as likely.
+    /// Uniform.
     #[default]
     Uniform,
-    /// Normal: the range holds 95 % of the values; those beyond the range of the schema are moved onto it.
+    /// Normal: the range contains 95 % of the values; values outside the range of the schema are moved to its ends.
     Normal,
-    /// The value of the gearbox is the likeliest, the ends are not reached.
+    /// Triangular: mode at the value of the gearbox, zero density at the ends.
     Triangular,
 }

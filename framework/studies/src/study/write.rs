@@ -13,17 +13,17 @@ pub enum Write {
     Json,
     /// Parquet, with the columns of the CSV.
     Parquet,
-    /// Pictures, one file each.
+    /// Figures, one file each.
     Svg,
 }
 
 impl Write {
     /// CSV and JSON.
-    pub(crate) fn data() -> Vec<Self> {
+    pub fn data() -> Vec<Self> {
         vec![Self::Csv, Self::Json]
     }
 
-    /// CSV, JSON and pictures.
+    /// CSV, JSON and figures.
     pub(crate) fn every_format() -> Vec<Self> {
         vec![Self::Csv, Self::Json, Self::Svg]
     }

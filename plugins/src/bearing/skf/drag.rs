@@ -1,8 +1,8 @@
-//! Drag of rolling elements in an oil bath or under an oil jet, SKF catalogue; the simpler form of its earlier edition.
+//! Drag of rolling elements in an oil bath or under an oil jet, SKF catalogue, including the simpler form of its 2004 edition.
 
 use super::Constants;
 
-/// V_M over H/d_m for balls, read from the catalogue's diagram, about 2 %.
+/// V_M over H/d_m for balls, read from the catalogue's diagram to about 2 %.
 const V_M: [(f64, f64); 30] = [
     (0.0, 0.0),
     (0.01, 2.2e-6),
@@ -36,7 +36,7 @@ const V_M: [(f64, f64); 30] = [
     (f64::INFINITY, 1.245e-3),
 ];
 
-/// V_M over H/d_m for rollers, read from the same diagram, about 2 %, 5 to 10 % near 0.2.
+/// V_M over H/d_m for rollers, read from the same diagram to about 2 %, 5 to 10 % near 0.2.
 const V_M_ROLLERS: [(f64, f64); 30] = [
     (0.0, 0.0),
     (0.01, 5.600e-06),
@@ -70,36 +70,36 @@ const V_M_ROLLERS: [(f64, f64); 30] = [
     (f64::INFINITY, 1.44e-3),
 ];
 
-/// The bearing as drag sees it; lengths in mm.
+/// The bearing data for the drag; lengths in mm.
 pub struct Body {
     pub d: f64,
     pub big_d: f64,
     pub k_z: f64,
-    /// K_L and width of rollers; absent for balls.
+    /// K_L and width of rollers; `None` for balls.
     pub roller: Option<(f64, f64)>,
     /// Rows of balls.
     pub rows: f64,
 }
 
-/// How the height of the oil counts.
+/// How the oil height enters.
 #[derive(Debug, Clone, Copy)]
 pub enum Bath {
-    /// As it stands.
+    /// The actual height.
     Level,
     /// A jet: a fixed height in mm, and twice the drag.
     Jet(f64),
-    /// A vertical shaft: covered, times the share of the width in the oil.
+    /// A vertical shaft: full immersion, times the immersed share of the width.
     Vertical(f64),
 }
 
-/// How deep a bath is, for its range of viscosity.
+/// Depth of a bath, which selects the stated viscosity range.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Depth {
     /// No bath.
     None,
-    /// To half of the outside diameter.
+    /// Up to half of the outside diameter.
     Low,
-    /// Deeper.
+    /// Above it.
     Deep,
 }
 
@@ -114,12 +114,12 @@ pub struct Drag {
     f_a: f64,
     bath: Bath,
     rollers: bool,
-    /// V_M of the earlier edition, whose form has no other term.
+    /// V_M of the 2004 edition, whose form has no other term.
     v_m: Option<f64>,
 }
 
 impl Drag {
-    /// The drag of a body. `v_m` makes it that of the edition of 2004, whose diagram is not public.
+    /// The drag of a body. `v_m` selects the edition of 2004, whose diagram is not public.
     pub fn new(body: &Body, bath: Bath, v_m: Option<f64>, coefficients: &Constants) -> Self {
         let d_m = 0.5 * (body.d + body.big_d);
         let ratio = body.k_z * (body.d + body.big_d) / (body.big_d - body.d);
@@ -146,7 +146,7 @@ impl Drag {
         }
     }
 
-    /// Which range of viscosity the source states for a height of the oil, half of the outside diameter being deep.
+    /// Depth class of an oil height; deep is above half of the outside diameter.
     pub fn depth(&self, height: f64, half: f64) -> Depth {
         match self.bath {
             Bath::Level if height > half => Depth::Deep,
@@ -156,16 +156,16 @@ impl Drag {
         }
     }
 
-    /// Moment for a height of the oil in mm, speed in 1/min, viscosity in mm2/s. \[N mm\]
+    /// Moment at an oil height in mm, speed in 1/min, viscosity in mm2/s. \[N mm\]
     pub fn moment(&self, height: f64, n: f64, nu: f64) -> f64 {
         match self.bath {
-            Bath::Level => self.at(height, n, nu),
-            Bath::Jet(height) => 2.0 * self.at(height, n, nu),
-            Bath::Vertical(share) => share * self.at(1.2 * self.d_m, n, nu),
+            Bath::Level => self.moment_at_height(height, n, nu),
+            Bath::Jet(height) => 2.0 * self.moment_at_height(height, n, nu),
+            Bath::Vertical(share) => share * self.moment_at_height(1.2 * self.d_m, n, nu),
         }
     }
 
-    fn at(&self, height: f64, n: f64, nu: f64) -> f64 {
+    fn moment_at_height(&self, height: f64, n: f64, nu: f64) -> f64 {
         if height <= 0.0 || n == 0.0 {
             return 0.0;
         }
@@ -298,7 +298,7 @@ mod tests {
     #[test]
     fn every_value_of_v_m_is_that_of_the_diagram() {
         let table = crate::printed::Printed::read(include_str!("../../../tests/tables/skf_v_m.csv"));
-        // The last row of the code holds beyond the diagram.
+        // The last row of the code extends beyond the diagram.
         assert_eq!(table.rows().count(), V_M.len() - 1);
         for (line, (ball, roller)) in table.rows().zip(V_M.iter().zip(V_M_ROLLERS)) {
             for (column, own) in [("ball", *ball), ("roller", roller)] {
@@ -306,7 +306,7 @@ mod tests {
                 line.is(column, own.1);
             }
         }
-        // Flat from there on.
+        // Constant from there on.
         assert_eq!((v_m(&V_M, 5.0), v_m(&V_M_ROLLERS, 5.0)), (1.245e-3, 1.44e-3));
     }
 }

@@ -1,9 +1,9 @@
-//! Constants of the SKF model by kind and series of a bearing.
+//! Constants of the SKF model by kind and series of bearing.
 
 use gearloss_framework::lanes::{LANES, Lane, Powers, count, cube_root, each, exp, ln, sine};
 use gearloss_framework::mechanism::bearing::{BearingKind, BearingPart};
 
-/// What is missing, and what the user can write.
+/// What is missing, and how to fix it.
 pub type Lack = (String, String);
 
 /// Constants by series.
@@ -21,7 +21,7 @@ const DEEP_GROOVE: Rows<4> = &[
     (&["617", "618", "628", "637", "638"], [4.7, 1.7, 6.50, 0.78]),
     (&["619", "639"], [4.3, 1.7, 4.75, 3.6]),
 ];
-/// R1/1e-7, R2, R3, S1/1e-2, S2, S3. `other` is written for every other series.
+/// R1/1e-7, R2, R3, S1/1e-2, S2, S3. `other` applies to all other series.
 const ANGULAR: Rows<6> = &[
     (&["72 BE"], [4.33, 2.02, 2.44e-12, 1.82, 0.71, 2.44e-12]),
     (&["73 BE"], [4.54, 2.02, 1.84e-12, 1.64, 0.71, 1.84e-12]),
@@ -58,7 +58,7 @@ const CYLINDRICAL: Rows<2> = &[
 ];
 /// R1/1e-6 and S1 of cylindrical roller bearings, full complement.
 const FULL_COMPLEMENT: [f64; 2] = [2.13, 0.16];
-/// R1/1e-6, R2, S1. `other` is written for every other series.
+/// R1/1e-6, R2, S1. `other` applies to all other series.
 const TAPERED: Rows<3> = &[
     (&["302"], [1.76, 10.9, 0.017]),
     (&["303"], [1.69, 10.9, 0.017]),
@@ -98,7 +98,7 @@ const SPHERICAL: Rows<8> = &[
     (&["248"], [3.8, 9.4, 5.09, 9.3, 2.80, 3415.0, 12.0, 486.0]),
     (&["249"], [3.0, 6.67, 5.09, 6.62, 3.90, 887.0, 17.0, 180.0]),
 ];
-/// R1/1e-6, R2/1e-6, S1/1e-3, S2/1e-2. S2 of C22 and C23 after the transcription that fits the others.
+/// R1/1e-6, R2/1e-6, S1/1e-3, S2/1e-2. S2 of C22 and C23 from the transcription that is consistent with the others.
 const TOROIDAL: Rows<4> = &[
     (&["C22"], [1.17, 2.08, 1.32, 0.8]),
     (&["C23"], [1.20, 2.28, 1.24, 0.9]),
@@ -122,7 +122,7 @@ const SPHERICAL_THRUST: Rows<9> = &[
     (&["294E"], [1.25, 1.67, 2.15, 2.86, 6.42, 0.21, 0.04, 0.20, 0.54]),
 ];
 
-/// How load makes rolling and sliding moment, with the powers of d_m taken in.
+/// Rolling and sliding variables as functions of load, with the powers of d_m included.
 #[derive(Debug, Clone, Copy)]
 pub enum Variables {
     /// R1 d_m^1.96, R2, S1 d_m^-0.26 and S1 d_m^-0.145, S2 d_m^1.5, C0.
@@ -151,21 +151,21 @@ pub enum Variables {
         sliding: f64,
         s2_y: f64,
     },
-    /// Light and heavy branch of rolling, light and heavy branch of sliding, each with its factor of axial load.
+    /// Light and heavy branch of rolling, light and heavy branch of sliding, each with its axial load factor.
     Spherical {
         rolling: [(f64, f64); 2],
         sliding: [(f64, f64); 2],
     },
-    /// Light and heavy branch of rolling and of sliding, with the load where they change.
+    /// Light and heavy branch of rolling and of sliding, with the load at which they change.
     Toroidal {
         rolling: [f64; 2],
         rolling_change: f64,
         sliding: [f64; 2],
         sliding_change: f64,
     },
-    /// Axial load alone: factors and powers of rolling and sliding.
+    /// Axial load only: factors and exponents of rolling and sliding.
     Thrust { rolling: (f64, f64), sliding: (f64, f64) },
-    /// Branches of rolling, of sliding (factor and factor of axial load), then S4 d_m^0.76 and S5, and d_m.
+    /// Branches of rolling, of sliding (factor and axial load factor), then S4 d_m^0.76 and S5, and d_m.
     SphericalThrust {
         rolling: [(f64, f64); 2],
         light: (f64, f64),
@@ -175,23 +175,23 @@ pub enum Variables {
     },
 }
 
-/// Everything that the model takes from the kind and the series.
+/// All constants that depend on kind and series.
 #[derive(Debug, Clone, Copy)]
 pub struct Row {
     pub variables: Variables,
     /// K_Z.
     pub k_z: f64,
-    /// K_L of rollers; absent for balls.
+    /// K_L of rollers; `None` for balls.
     pub k_l: Option<f64>,
     /// Number of rows of balls.
     pub rows: f64,
-    /// Coefficient of full-film friction that belongs to the kind, not to the oil.
+    /// Coefficient of full-film friction if the kind, not the oil, determines it.
     pub mu_ehl: Option<f64>,
 }
 
 fn pick<const N: usize>(rows: Rows<N>, part: &BearingPart) -> Result<[f64; N], Lack> {
     let written = part.series.as_deref().unwrap_or("");
-    // `72BE` and `72 BE` are one series.
+    // `72BE` and `72 BE` are the same series.
     let plain = |name: &str| name.split_whitespace().collect::<String>();
     let series = plain(written);
     let row = rows
@@ -209,14 +209,14 @@ fn pick<const N: usize>(rows: Rows<N>, part: &BearingPart) -> Result<[f64; N], L
 /// The constants of a bearing; lengths in mm.
 ///
 /// # Errors
-/// A series or a value that the row needs.
+/// If a series or a value required by the row is missing.
 pub fn row(part: &BearingPart, needle_as_full_complement: bool) -> Result<Row, Lack> {
     use BearingKind as K;
     let d_m = 1e3 * part.mean_diameter();
     let need = |value: Option<f64>, key: &str| {
         value.ok_or_else(|| {
             (
-                format!("skf needs `{key}`"),
+                format!("skf requires `{key}`"),
                 format!("add `{key}:`, or a `designation` of a catalogue"),
             )
         })
@@ -292,7 +292,7 @@ pub fn row(part: &BearingPart, needle_as_full_complement: bool) -> Result<Row, L
         K::NeedleCage => {
             return Err((
                 "skf publishes no row for needle roller bearings".to_owned(),
-                "give this bearing a model of its own, such as `model: { type: iso14179_2 }`, or write \
+                "give this bearing its own model, such as `model: { type: iso14179_2 }`, or write \
                  `needle_as_full_complement: true`"
                     .to_owned(),
             ));
@@ -325,13 +325,13 @@ pub fn row(part: &BearingPart, needle_as_full_complement: bool) -> Result<Row, L
             };
             ball(variables, 3.8, 1.0)
         }
-        // The catalogue has no row for needle thrust bearings; that of cylindrical rollers stands for it.
+        // The catalogue has no row for needle roller thrust bearings; the row of cylindrical roller thrust bearings is used.
         K::CylindricalRollerThrust | K::NeedleRollerThrust => {
             let variables = Variables::Thrust {
                 rolling: (2.25e-6 * d_m.powf(2.38), 0.31),
                 sliding: (0.154 * d_m.powf(0.62), 1.0),
             };
-            // The 0.02 of "cylindrical roller bearings" is that of radial ones: see the head of the model.
+            // The 0.02 of "cylindrical roller bearings" applies to radial ones: see the documentation of the model.
             roller(variables, 4.4, 0.43, None)
         }
         K::SphericalRollerThrust => {
@@ -348,13 +348,13 @@ pub fn row(part: &BearingPart, needle_as_full_complement: bool) -> Result<Row, L
     })
 }
 
-/// A power of a load; that of no load is zero.
+/// A power of a load; zero for zero load.
 #[inline(always)]
 fn power(load: f64, exponent: f64) -> f64 {
     exp(exponent * ln(load))
 }
 
-/// Powers of the load in G_rr, in G_sl under radial load alone, and of the axial load over C0 in the angle of contact.
+/// Exponents of the load in G_rr, in G_sl under radial load only, and of Fa/C0 in the contact angle.
 const ROLLING: f64 = 0.54;
 const SLIDING: f64 = 5.0 / 3.0;
 const ANGLE: f64 = 0.24;
@@ -375,19 +375,19 @@ fn combined(fr: f64, fa: f64, c0: f64, (rolling, r2): (f64, f64), sliding: (f64,
     )
 }
 
-/// The axial load as a share of C0, so that a loop over loads divides once.
+/// The axial load over C0, so that a loop over loads divides once.
 #[inline(always)]
 fn share(fa: f64, c0: f64) -> f64 {
     fa * (1.0 / c0)
 }
 
-/// No axial load, or one so small that its logarithm is that of zero: an angle of zero has no sine to divide by.
+/// True without axial load, or with one so small that its logarithm is that of zero: an angle of zero has no sine to divide by.
 #[inline(always)]
 fn is_nothing(share: f64) -> bool {
     share < f64::MIN_POSITIVE
 }
 
-/// The angle of contact from its power of the axial load over C0. \[rad\]
+/// The contact angle from the power of the axial load over C0. \[rad\]
 #[inline(always)]
 fn angle(power: f64) -> f64 {
     (24.6 * power).to_radians()
@@ -400,7 +400,7 @@ fn cubed_sliding(fr: f64, fa: f64, pushed: f64, s2: f64) -> f64 {
     fr_2 * fr_2 * fr + s2 * (fa * fa * fa) * pushed
 }
 
-/// From the radial to the combined form, without a step, for a share from zero to one.
+/// Blends the radial form continuously into the combined form, for a share from zero to one.
 #[inline(always)]
 fn blended(share: f64, radial: (f64, f64), combined: (f64, f64)) -> (f64, f64) {
     let weight = share * share * (3.0 - 2.0 * share);
@@ -411,26 +411,25 @@ fn blended(share: f64, radial: (f64, f64), combined: (f64, f64)) -> (f64, f64) {
 }
 
 impl Variables {
-    /// Whether there are [`Variables::lanes`]; other kinds are asked one by one.
+    /// True if [`Variables::lanes`] supports this kind; other kinds are evaluated point by point.
     pub fn in_lanes(&self) -> bool {
         matches!(self, Self::DeepGroove { .. })
     }
 
-    /// Whether the centrifugal force of the balls counts beside the load.
+    /// True if the centrifugal force of the balls acts beside the load.
     pub fn feel_centrifugal_force(&self) -> bool {
         matches!(self, Self::Ball { .. })
     }
 
-    /// G_rr and G_sl that remain at a speed in 1/min where the bearing carries no load; zero for all kinds but
-    /// [`Variables::Ball`].
+    /// G_rr and G_sl at a speed in 1/min without load; zero for all kinds but [`Variables::Ball`].
     pub fn without_load(&self, n: f64) -> (f64, f64) {
         match self {
-            Self::Ball { .. } => self.at(0.0, 0.0, n, 0.0, None),
+            Self::Ball { .. } => self.evaluate(0.0, 0.0, n, 0.0, None),
             _ => (0.0, 0.0),
         }
     }
 
-    /// As [`Variables::at`] in all lanes, for kinds that have them, with powers that may be remembered.
+    /// As [`Variables::evaluate`] in all lanes, for kinds that have them, with powers that may be remembered.
     #[inline(always)]
     pub fn lanes(&self, fr: &Lane, fa: &Lane, blend: Option<f64>, powers: &mut Powers) -> (Lane, Lane) {
         let Self::DeepGroove {
@@ -445,19 +444,19 @@ impl Variables {
         };
         let (mut g_rr, mut g_sl) = (Lane::ZERO, Lane::ZERO);
         let unpushed = count(|i| is_nothing(share(fa[i], c0)));
-        // No blending is blending up to an axial load below all.
+        // No blending equals blending up to an axial load below all others.
         let to = blend.unwrap_or(0.0);
         let combined_only = unpushed == 0 && count(|i| fa[i] < to * fr[i]) == 0;
-        // Loops of one function each: their steps wait for each other in a lane, and need not in others.
+        // One function per loop: the steps of a lane depend on each other, those of different lanes do not.
         if !combined_only {
-            g_rr = powers.of(
+            g_rr = powers.raise(
                 0,
                 |i| fr[i],
                 ROLLING,
                 #[inline(always)]
                 |fr| rolling * power(fr, ROLLING),
             );
-            g_sl = powers.of(
+            g_sl = powers.raise(
                 1,
                 |i| fr[i],
                 SLIDING,
@@ -468,7 +467,7 @@ impl Variables {
         if unpushed == LANES as u64 {
             return (g_rr, g_sl);
         }
-        let angles = powers.of(
+        let angles = powers.raise(
             2,
             |i| fa[i],
             ANGLE,
@@ -476,14 +475,14 @@ impl Variables {
             |fa| angle(power(share(fa, c0), ANGLE)),
         );
         let pushed = each(|i| fa[i] / sine(angles[i]));
-        let both_rr = powers.of(
+        let both_rr = powers.raise(
             3,
             |i| fr[i] + r2 * pushed[i],
             ROLLING,
             #[inline(always)]
             |load| rolling * power(load, ROLLING),
         );
-        let both_sl = powers.of(
+        let both_sl = powers.raise(
             4,
             #[inline(always)]
             |i| cubed_sliding(fr[i], fa[i], pushed[i], s2),
@@ -507,7 +506,7 @@ impl Variables {
 
     /// G_rr and G_sl from radial and axial load in N, speed in 1/min and viscosity in mm2/s; `blend` is the share Fa/Fr of deep
     /// groove ball bearings up to which the radial form passes into the combined one.
-    pub fn at(&self, fr: f64, fa: f64, n: f64, nu: f64, blend: Option<f64>) -> (f64, f64) {
+    pub fn evaluate(&self, fr: f64, fa: f64, n: f64, nu: f64, blend: Option<f64>) -> (f64, f64) {
         match *self {
             Self::DeepGroove {
                 rolling,
@@ -599,7 +598,7 @@ mod tests {
     use crate::printed::Printed;
     use gearloss_framework::mechanism::bearing::BearingEntry;
 
-    /// Bore and outside diameter around a mean diameter, mm.
+    /// Bore and outside diameter for a mean diameter, mm.
     fn part(kind: BearingKind, series: &str, d_m: f64) -> BearingPart {
         let entry = BearingEntry {
             kind: Some(kind),
@@ -616,7 +615,7 @@ mod tests {
     #[track_caller]
     fn check(kind: BearingKind, series: &str, d_m: f64, load: [f64; 2], n: f64, g_rr: f64, g_sl: f64) {
         let row = row(&part(kind, series, d_m), false).unwrap();
-        let own = row.variables.at(load[0], load[1], n, 20.0, None);
+        let own = row.variables.evaluate(load[0], load[1], n, 20.0, None);
         assert!((own.0 / g_rr - 1.0).abs() < 1e-5, "{own:?} {g_rr}");
         assert!((own.1 / g_sl - 1.0).abs() < 1e-5, "{own:?} {g_sl}");
     }
@@ -720,7 +719,7 @@ mod tests {
         };
         let fr = 1000.0;
         for blend in [None, Some(0.1)] {
-            // All above the blend; one below, on, near nothing, at nothing; all without.
+            // All above the blend limit; one below it, one on it, near zero, at zero; all without blending.
             let of_one = |one: f64| each(move |i| if i == 7 { one } else { 150.0 + i as f64 });
             for fa in [500.0, 30.0, 0.1 * fr, 1e-310, 0.0]
                 .map(of_one)
@@ -731,7 +730,7 @@ mod tests {
                     let mut exact = Powers::EXACT;
                     let (g_rr, g_sl) = row.lanes(&radial, &fa, blend, &mut exact);
                     for i in 0..LANES {
-                        let own = row.at(radial[i], fa[i], 1000.0, 30.0, blend);
+                        let own = row.evaluate(radial[i], fa[i], 1000.0, 30.0, blend);
                         let lanes = (g_rr[i].to_bits(), g_sl[i].to_bits());
                         assert_eq!(
                             lanes,
@@ -749,7 +748,7 @@ mod tests {
     #[test]
     fn a_blend_joins_radial_and_combined_load() {
         let row = row(&part(BearingKind::DeepGrooveBall, "63", 65.0), false).unwrap();
-        let at = |fa: f64, blend| row.variables.at(3000.0, fa, 3000.0, 15.0, blend);
+        let at = |fa: f64, blend| row.variables.evaluate(3000.0, fa, 3000.0, 15.0, blend);
         // As published, the sliding variable jumps by more than half at the first newton.
         assert!(at(1.0, None).1 / at(0.0, None).1 > 1.5);
         assert!((at(1.0, Some(0.1)).1 / at(0.0, None).1 - 1.0).abs() < 1e-3);
@@ -771,8 +770,8 @@ mod tests {
         let variables = row(&part(BearingKind::ToroidalRoller, "C22", 70.0), false)
             .unwrap()
             .variables;
-        let at = |fr: f64| variables.at(fr, 0.0, 0.0, 10.0, None);
-        // The printed exponent 0.78 is 0.74 by the powers of d_m on both sides: a published step of a tenth at 70 mm.
+        let at = |fr: f64| variables.evaluate(fr, 0.0, 0.0, 10.0, None);
+        // The published exponent 0.78 becomes 0.74 with the powers of d_m on both sides: a published step of a tenth at 70 mm.
         assert!((at(rolling_change * 1.0001).0 / at(rolling_change * 0.9999).0 - 1.0).abs() < 0.11);
         assert!((at(sliding_change * 1.0001).1 / at(sliding_change * 0.9999).1 - 1.0).abs() < 1e-3);
     }
@@ -795,11 +794,11 @@ mod tests {
         // A pair of single-row bearings is two bearings, not a double row.
         assert!(row(&part(BearingKind::AngularContactBallDoubleRow, "72 BE", 65.0), false).is_err());
         let needle = part(BearingKind::NeedleCage, "", 30.0);
-        assert!(row(&needle, false).unwrap_err().1.contains("model of its own"));
+        assert!(row(&needle, false).unwrap_err().1.contains("its own model"));
         assert!(row(&needle, true).is_ok());
     }
 
-    /// Where d_m is 1 mm, its powers are one and the variables are the constants of the catalogue.
+    /// At d_m = 1 mm its powers are one, and the variables are the constants of the catalogue.
     fn constants(kind: BearingKind, series: &str) -> Row {
         let entry = BearingEntry {
             kind: Some(kind),
@@ -970,7 +969,7 @@ mod tests {
             .chain(names(TOROIDAL))
             .chain(names(SPHERICAL_THRUST));
         for name in own {
-            // Other spellings of two series.
+            // Alternative spellings of two series.
             let name = match name {
                 "320" => "320 X",
                 "313 (X)" => "313",

@@ -1,25 +1,25 @@
-//! Tensor product of cubic splines over three axes with even nodes.
+//! Tensor product of cubic splines over three axes with equidistant nodes.
 //!
-//! Source: de Boor, A Practical Guide to Splines: B-splines on even knots, with the third derivative continuous at the second and
-//! the last but one node ("not a knot"), so that polynomials of third degree are met along each axis.
+//! Source: de Boor, A Practical Guide to Splines: B-splines on equidistant knots, with the third derivative continuous at the
+//! second and the last but one node ("not a knot"), so that cubic polynomials are reproduced exactly along each axis.
 
-/// Least number of nodes along an axis: a cubic.
+/// Minimum number of nodes along an axis: a cubic.
 pub const LEAST: usize = 4;
 
-/// Numbers that a table holds.
+/// Number of values that a table holds per node.
 pub const NUMBERS: usize = 3;
 
-/// Some numbers over three axes.
+/// Several values over three axes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Spline {
     /// Number of nodes along each axis.
     nodes: [usize; 3],
-    /// Coefficients of the B-splines, two more than nodes along each axis, the last axis running first.
+    /// Coefficients of the B-splines, two more than nodes along each axis; the last axis varies fastest.
     coefficients: Vec<[f64; NUMBERS]>,
 }
 
 impl Spline {
-    /// Through values at all nodes, the last axis running first; at least [`LEAST`] nodes along each axis.
+    /// Interpolates values at all nodes, the last axis varying fastest; at least [`LEAST`] nodes along each axis.
     pub fn through(nodes: [usize; 3], values: Vec<[f64; NUMBERS]>) -> Self {
         let mut counts = nodes;
         let mut coefficients = values;
@@ -46,14 +46,14 @@ impl Spline {
         Self { nodes, coefficients }
     }
 
-    /// The numbers at a place, which along each axis runs from zero at the first node to one at the last.
+    /// The values at a position, which along each axis is zero at the first node and one at the last.
     pub fn value(&self, place: [f64; 3]) -> [f64; NUMBERS] {
         let mut first = [0; 3];
         let mut weights = [[0.0; 4]; 3];
         for axis in 0..3 {
             let last = self.nodes[axis] - 1;
             let x = place[axis] * last as f64;
-            // What is no number or lies beyond an end falls to the cell at an end.
+            // NaN and positions outside the table fall into the cell at an end.
             first[axis] = (x as usize).min(last - 1);
             weights[axis] = basis(x - first[axis] as f64);
         }
@@ -77,7 +77,7 @@ fn add(sum: &mut [f64; NUMBERS], weight: f64, values: &[f64; NUMBERS]) {
     }
 }
 
-/// The four B-splines over a cell, at a place from zero to one in it.
+/// The four B-splines over a cell, at a position from zero to one in it.
 fn basis(u: f64) -> [f64; 4] {
     let v = 1.0 - u;
     let (u2, v2) = (u * u, v * v);
@@ -89,7 +89,7 @@ fn basis(u: f64) -> [f64; 4] {
     ]
 }
 
-/// For each coefficient its weights on the values at the nodes: the inverse of the conditions, without those at the ends.
+/// For each coefficient its weights on the values at the nodes: the inverse of the collocation matrix, without the end conditions.
 fn rows(nodes: usize) -> Vec<Vec<f64>> {
     const NOT_A_KNOT: [f64; 5] = [1.0, -4.0, 6.0, -4.0, 1.0];
     let size = nodes + 2;

@@ -1,4 +1,4 @@
-//! The table of one mesh: built from the model, asked at a point, with the error found at checks.
+//! The table of one mesh: built from the model, evaluated at a point, with the error measured at check points.
 
 use std::thread;
 
@@ -13,16 +13,16 @@ use std::cell::Cell;
 use super::spline::Spline;
 use crate::tooth_friction::ehl_mixed::LEAST_SHARE;
 
-/// How far checks hold the oil below bodies whose temperatures are known. \[K\]
+/// Maximum by which check points place the oil below known body temperatures. \[K\]
 const OIL_BELOW: f64 = 30.0;
 
-/// How far checks hold bodies apart whose temperatures are known. \[K\]
+/// Maximum difference of known body temperatures at check points. \[K\]
 const APART: f64 = 20.0;
 
-/// Over what a table runs.
+/// Axes of a table: minimum and maximum.
 #[derive(Debug, Clone, Copy)]
 pub struct Extents {
-    /// Speed of the first gear, without its sign. \[rad/s\]
+    /// Magnitude of the speed of the first gear. \[rad/s\]
     pub speeds: [f64; 2],
     /// Torque of the first gear. \[Nm\]
     pub torques: [f64; 2],
@@ -30,7 +30,7 @@ pub struct Extents {
     pub temperatures: [f64; 2],
 }
 
-/// What the model is asked at.
+/// An operating point of the model.
 #[derive(Debug, Clone, Copy)]
 pub struct Point {
     /// Speed of the first gear. \[rad/s\]
@@ -39,13 +39,13 @@ pub struct Point {
     pub torque: f64,
     /// Temperature of the oil. \[degC\]
     pub oil: f64,
-    /// Temperatures of the bodies, where they are known. \[degC\]
+    /// Body temperatures, if they are known. \[degC\]
     pub bodies: Option<[f64; 2]>,
 }
 
 impl Point {
-    /// What a mesh model sees at the point.
-    pub fn at<'a>(&self, part: &'a MeshPart, lubricant: &Lubricant, notes: Notes<'a>) -> GearMeshAt<'a> {
+    /// The context of a mesh model at the point.
+    pub fn context<'a>(&self, part: &'a MeshPart, lubricant: &Lubricant, notes: Notes<'a>) -> GearMeshAt<'a> {
         let Oil {
             temperature,
             nu,
@@ -56,7 +56,7 @@ impl Point {
             conductivity,
             x_l,
             ..
-        } = lubricant.at(self.oil);
+        } = lubricant.oil_at(self.oil);
         let [temperature_1, temperature_2] = self.bodies.unwrap_or([temperature; 2]);
         GearMeshAt::usual(part, notes).with(|to| {
             to.torque = self.torque;
@@ -77,20 +77,20 @@ impl Point {
     }
 }
 
-/// What the model answers at a point.
+/// Result of the model at a point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Answer {
     /// Loss. \[W\]
     watts: f64,
-    /// Share of its heat that goes into the first gear.
+    /// Share of the heat that enters the first gear.
     share: f64,
-    /// How many of the ranges that the model or those nested in it state were left.
+    /// Number of stated ranges exceeded, of the model and its nested models.
     left: usize,
 }
 
-/// A model on its pair with its oil.
+/// A model with its pair and its oil.
 #[derive(Clone, Copy)]
-pub struct Asked<'a> {
+pub struct DirectModel<'a> {
     /// The model.
     pub model: &'a Slot<GearMesh>,
     /// The pair.
@@ -99,16 +99,16 @@ pub struct Asked<'a> {
     pub lubricant: &'a Lubricant,
 }
 
-impl Asked<'_> {
-    /// What the model answers.
+impl DirectModel<'_> {
+    /// Evaluates the model.
     ///
     /// # Errors
-    /// Where it has no value.
+    /// If it is undefined.
     pub fn answer(&self, point: &Point) -> Result<Answer, Undefined> {
         let mut extents = vec![Extent::EMPTY; self.model.notes.end()];
         let cells = Cell::from_mut(extents.as_mut_slice()).as_slice_of_cells();
         let notes = Notes::new(cells, self.model.notes);
-        let loss = self.model.loss(&point.at(self.part, self.lubricant, notes))?;
+        let loss = self.model.loss(&point.context(self.part, self.lubricant, notes))?;
         Ok(Answer {
             watts: loss.total_watts(point.speed),
             share: loss.first_heat(),
@@ -116,10 +116,10 @@ impl Asked<'_> {
         })
     }
 
-    /// Heat that passes from the first body to the second for each kelvin between them, beside an answer for equal bodies. \[W/K\]
+    /// Conductance from the first body to the second, from a result for equal bodies. \[W/K\]
     ///
     /// # Errors
-    /// Where the model has no value.
+    /// If the model is undefined.
     fn conduction(&self, point: &Point, temperature: f64, even: &Answer) -> Result<f64, Undefined> {
         const TRIED: [f64; 4] = [1.0, 0.03, 1e-3, 3e-5];
         let mut conduction = 0.0;
@@ -129,7 +129,7 @@ impl Asked<'_> {
                 ..*point
             })?;
             conduction = (even.share * even.watts - answer.share * answer.watts) / apart;
-            // Models bound the share; where it moves much, closer bodies tell more.
+            // Models bound the share; if the share changes much, a smaller temperature difference is more accurate.
             if (answer.share - even.share).abs() < 0.3 {
                 break;
             }
@@ -137,7 +137,7 @@ impl Asked<'_> {
         Ok(conduction)
     }
 
-    /// True where the model looks at the bodies of the gears once their temperatures are known.
+    /// True if the model uses body temperatures when they are known.
     pub fn follows_bodies(&self, extents: &Extents) -> bool {
         let middle = |ends: [f64; 2]| (ends[0] * ends[1]).sqrt();
         let oil = 0.5 * (extents.temperatures[0] + extents.temperatures[1]);
@@ -153,8 +153,8 @@ impl Asked<'_> {
     }
 }
 
-/// Runs for many points and answers in their order; on all cores. The threads are of their own: a thread of a pool that waited
-/// here would take up other points meanwhile, and these may wait for this very table.
+/// Runs a function for many points in parallel and returns the results in order. It uses its own threads: a pool thread that waited
+/// here could take up other points, and these may wait for this very table.
 fn for_all<T: Copy + Send>(points: &[Point], run: impl Fn(&Point) -> T + Copy + Send) -> Vec<T> {
     let threads = thread::available_parallelism().map_or(1, usize::from).min(points.len());
     let parts: Vec<Vec<T>> = thread::scope(|scope| {
@@ -168,7 +168,7 @@ fn for_all<T: Copy + Send>(points: &[Point], run: impl Fn(&Point) -> T + Copy + 
     (0..points.len()).map(|i| parts[i % threads][i / threads]).collect()
 }
 
-/// Axes of a table: logarithms of speed, torque and fluidity, which runs with temperature.
+/// Axes of a table: logarithms of speed, torque and fluidity (the inverse of viscosity), which increases with temperature.
 #[derive(Debug, Clone, Copy)]
 struct Axes {
     first: [f64; 3],
@@ -194,18 +194,18 @@ impl Axes {
         }
     }
 
-    /// A point in the table as its place along the axes, from zero to one.
+    /// Position of a point along the axes, from zero to one.
     fn place(&self, point: [f64; 3], lubricant: &Lubricant) -> [f64; 3] {
         let [speed, torque, temperature] = point;
         let x = [speed.ln(), torque.ln(), fluidity(lubricant, temperature)];
         std::array::from_fn(|i| (x[i] - self.first[i]) / (self.last[i] - self.first[i]))
     }
 
-    /// The inverse of [`Axes::place`], with the ends of temperature between which it is sought.
+    /// The inverse of [`Axes::place`]; searches between the ends of the temperature axis.
     fn point(&self, place: [f64; 3], ends: [f64; 2], lubricant: &Lubricant) -> [f64; 3] {
         let x: [f64; 3] = std::array::from_fn(|i| self.first[i] + place[i] * (self.last[i] - self.first[i]));
         let [mut cold, mut hot] = ends;
-        // Halving narrows hundreds of kelvin to the last digit.
+        // Bisection narrows hundreds of kelvin to the last digit.
         for _ in 0..60 {
             let middle = 0.5 * (cold + hot);
             if fluidity(lubricant, middle) < x[2] {
@@ -218,55 +218,55 @@ impl Axes {
     }
 }
 
-/// The greatest and the rms error that checks found. \[-\]
+/// Maximum and rms error at the check points. \[-\]
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Errors {
-    /// Greatest relative error of the loss.
+    /// Maximum relative error of the loss.
     pub greatest: f64,
     /// Root mean square of the relative error of the loss.
     pub rms: f64,
-    /// Greatest error of the first gear's share of the heat.
+    /// Maximum error of the heat share of the first gear.
     pub share: f64,
 }
 
-/// What a table says at a point.
+/// Interpolated result at a point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Read {
     /// Loss. \[W\]
     pub watts: f64,
-    /// Share of the heat that goes into the first gear. \[-\]
+    /// Share of the heat that enters the first gear. \[-\]
     pub first_heat: f64,
-    /// How many stated ranges the model leaves at the nearest node.
+    /// Number of stated ranges exceeded at the nearest node.
     pub left: f64,
 }
 
-/// The loss over power, the share of its heat and the conduction between the bodies over speed, torque and temperature.
+/// The loss over power, the heat share of the first gear and the conductance between the bodies over speed, torque and temperature.
 #[derive(Debug)]
 pub struct Table {
     axes: Axes,
     nodes: [usize; 3],
     spline: Spline,
-    /// How many stated ranges the model leaves at each node.
+    /// Number of stated ranges exceeded at each node.
     left: Vec<u8>,
-    /// What the checks found.
+    /// Errors at the check points.
     pub errors: Errors,
 }
 
 impl Table {
-    /// Asks the model at all nodes and at a number of checks.
+    /// Evaluates the model at all nodes and at a number of check points.
     ///
     /// # Errors
-    /// Where it has no value.
+    /// If it is undefined at any of them.
     pub fn new(
-        asked: &Asked<'_>,
+        direct: &DirectModel<'_>,
         extents: &Extents,
         nodes: [usize; 3],
         checks: u32,
         known: bool,
     ) -> Result<Self, Undefined> {
-        let axes = Axes::new(extents, asked.lubricant);
+        let axes = Axes::new(extents, direct.lubricant);
         let ends = extents.temperatures;
-        let point = |place: [f64; 3]| axes.point(place, ends, asked.lubricant);
+        let point = |place: [f64; 3]| axes.point(place, ends, direct.lubricant);
         let mut points = Vec::new();
         for k in 0..nodes.iter().product() {
             let at = [k / (nodes[1] * nodes[2]), k / nodes[2] % nodes[1], k % nodes[2]];
@@ -279,9 +279,9 @@ impl Table {
             });
         }
         let node = |point: &Point| {
-            let answer = asked.answer(point)?;
+            let answer = direct.answer(point)?;
             let conduction = match point.bodies {
-                Some([temperature, _]) => asked.conduction(point, temperature, &answer)?,
+                Some([temperature, _]) => direct.conduction(point, temperature, &answer)?,
                 None => 0.0,
             };
             Ok((answer, conduction))
@@ -297,12 +297,12 @@ impl Table {
             nodes,
             errors: Errors::default(),
         };
-        let checks = table.checks(checks, ends, asked.lubricant, known);
-        table.errors = table.compare(&checks, asked)?;
+        let checks = table.checks(checks, ends, direct.lubricant, known);
+        table.errors = table.compare(&checks, direct)?;
         Ok(table)
     }
 
-    /// Points in the middles of cells, where a spline errs most; where bodies are known, they differ and the oil is colder.
+    /// Points at cell centres, where the spline error is largest; with known body temperatures, these differ and the oil is colder.
     fn checks(&self, count: u32, ends: [f64; 2], lubricant: &Lubricant, known: bool) -> Vec<Point> {
         let Ok(sobol) = Sobol::new(5) else { return Vec::new() };
         (1..=count)
@@ -328,13 +328,13 @@ impl Table {
             .collect()
     }
 
-    fn compare(&self, checks: &[Point], asked: &Asked<'_>) -> Result<Errors, Undefined> {
+    fn compare(&self, checks: &[Point], direct: &DirectModel<'_>) -> Result<Errors, Undefined> {
         let mut errors = Errors::default();
         let mut squares = 0.0;
-        for (point, answer) in checks.iter().zip(for_all(checks, |point| asked.answer(point))) {
+        for (point, answer) in checks.iter().zip(for_all(checks, |point| direct.answer(point))) {
             let Answer { watts, share, .. } = answer?;
             let [first, second] = point.bodies.unwrap_or([point.oil; 2]);
-            let place = self.place([point.speed, point.torque, 0.5 * (first + second)], asked.lubricant);
+            let place = self.place([point.speed, point.torque, 0.5 * (first + second)], direct.lubricant);
             let read = self.read(place, point.torque * point.speed, first - second);
             let error = if read.watts == watts {
                 0.0
@@ -351,15 +351,15 @@ impl Table {
         Ok(errors)
     }
 
-    /// The place of a speed in rad/s, a torque in Nm and a temperature in degC along the axes: zero and one are the ends.
+    /// Position of a speed in rad/s, a torque in Nm and a temperature in degC along the axes; zero and one are the ends.
     pub fn place(&self, point: [f64; 3], lubricant: &Lubricant) -> [f64; 3] {
         self.axes.place(point, lubricant)
     }
 
-    /// What the table says at a place within its ends, of a power in W and with the first body warmer than the second by so many K.
+    /// The table at a position within its ends, for a power in W and a temperature difference of the first to the second body in K.
     pub fn read(&self, place: [f64; 3], input: f64, warmer: f64) -> Read {
         let [fraction, share, conduction] = self.spline.value(place);
-        // A spline may swing below nothing where the loss is small.
+        // A spline may undershoot zero where the loss is small.
         let watts = fraction.max(0.0) * input;
         let first_heat = if warmer != 0.0 && watts > 0.0 {
             (share - conduction * warmer / watts).clamp(LEAST_SHARE, 1.0 - LEAST_SHARE)

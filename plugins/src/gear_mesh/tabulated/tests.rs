@@ -39,8 +39,8 @@ struct Rig {
     cells: usize,
 }
 
-/// What a table answers: power, share of the heat, and what it notes.
-struct Told {
+/// Result of a table: power, heat share, and its notes.
+struct Interpolated {
     watts: f64,
     share: f64,
     extents: Vec<Extent>,
@@ -62,26 +62,29 @@ impl Rig {
         }
     }
 
-    fn itself(&self, point: &Point) -> (f64, f64) {
+    fn direct(&self, point: &Point) -> (f64, f64) {
         let lubricant = &self.part.oil.as_ref().unwrap().lubricant;
-        let loss = self.of.loss(&point.at(&self.part, lubricant, Notes::MUTED)).unwrap();
+        let loss = self
+            .of
+            .loss(&point.context(&self.part, lubricant, Notes::MUTED))
+            .unwrap();
         (loss.sum(), loss.first_heat())
     }
 
-    fn told(&self, point: &Point) -> Told {
+    fn interpolated(&self, point: &Point) -> Interpolated {
         let lubricant = &self.part.oil.as_ref().unwrap().lubricant;
         let mut extents = vec![Extent::EMPTY; self.cells];
         let cells = Cell::from_mut(extents.as_mut_slice()).as_slice_of_cells();
-        let at = point.at(&self.part, lubricant, Notes::new(cells, self.table.notes));
+        let at = point.context(&self.part, lubricant, Notes::new(cells, self.table.notes));
         let loss = self.table.loss(&at).unwrap();
-        Told {
+        Interpolated {
             watts: loss.sum(),
             share: loss.first_heat(),
             extents,
         }
     }
 
-    /// The share of independent points at which the error of the loss exceeds the stated one, with the greatest and the stated, and
+    /// The share of independent points at which the loss error exceeds the stated one, with the maximum and the stated error, and
     /// the rms of both.
     fn exceeding(&self, known: bool, torques: [f64; 2], speeds: [f64; 2], temperatures: [f64; 2]) -> [f64; 5] {
         let sobol = Sobol::new(7).unwrap();
@@ -98,10 +101,10 @@ impl Rig {
                 oil: if known { (t - 30.0 * x[4]).max(-20.0) } else { t },
                 bodies: known.then_some([t + half, t - half]),
             };
-            let told = self.told(&point);
-            let notes = &told.extents[self.table.notes.observed()..];
+            let interpolated = self.interpolated(&point);
+            let notes = &interpolated.extents[self.table.notes.observed()..];
             stated = [notes[0].greatest / 100.0, notes[1].greatest / 100.0];
-            let error = (told.watts / self.itself(&point).0 - 1.0).abs();
+            let error = (interpolated.watts / self.direct(&point).0 - 1.0).abs();
             over += f64::from(u8::from(error > stated[0]));
             most = most.max(error);
             squares += error * error;
@@ -111,7 +114,7 @@ impl Rig {
     }
 }
 
-/// Torques up to which the tables of both stages reach by themselves.
+/// Default maximum torques of the tables of both stages.
 fn torques(number: usize) -> [f64; 2] {
     super::torques(&stage(number))
 }
@@ -173,10 +176,10 @@ fn constant_friction_is_met_to_rounding() {
     );
     for (torque, rpm, oil) in [(1.0, 11.0, -19.0), (33.0, 3210.0, 61.0), (286.0, 19990.0, 139.0)] {
         let point = point(torque, rpm, oil);
-        let (told, (watts, share)) = (rig.told(&point), rig.itself(&point));
-        assert!((told.watts / watts - 1.0).abs() < 1e-12 && (told.share - share).abs() < 1e-12);
-        // The greatest error is rounding as well.
-        assert!(told.extents[rig.table.notes.observed()].greatest < 1e-10);
+        let (interpolated, (watts, share)) = (rig.interpolated(&point), rig.direct(&point));
+        assert!((interpolated.watts / watts - 1.0).abs() < 1e-12 && (interpolated.share - share).abs() < 1e-12);
+        // The maximum error is rounding as well.
+        assert!(interpolated.extents[rig.table.notes.observed()].greatest < 1e-10);
     }
 }
 
@@ -190,21 +193,25 @@ fn beyond_its_ends_and_at_rest_the_model_itself_answers() {
         (50.0, 3000.0, 160.0),
     ] {
         let point = point(torque, rpm, oil);
-        let told = rig.told(&point);
-        assert_eq!((told.watts, told.share), rig.itself(&point));
-        // Its place is noted as outside, and what it observes itself is seen.
-        let [place, left] = [0, 1].map(|i| told.extents[rig.table.notes.limits() + i]);
+        let interpolated = rig.interpolated(&point);
+        assert_eq!((interpolated.watts, interpolated.share), rig.direct(&point));
+        // The exceeded range is noted by position, and the model's own observations are shown.
+        let [place, left] = [0, 1].map(|i| interpolated.extents[rig.table.notes.limits() + i]);
         assert_eq!((place.outside, left.seen), (1, 0));
-        assert!(told.extents[rig.of.notes.observed()..].iter().any(|e| e.seen > 0));
+        assert!(
+            interpolated.extents[rig.of.notes.observed()..]
+                .iter()
+                .any(|e| e.seen > 0)
+        );
     }
-    assert_eq!(rig.told(&point(0.0, 3000.0, 60.0)).watts, 0.0);
-    assert_eq!(rig.told(&point(50.0, 0.0, 60.0)).watts, 0.0);
+    assert_eq!(rig.interpolated(&point(0.0, 3000.0, 60.0)).watts, 0.0);
+    assert_eq!(rig.interpolated(&point(50.0, 0.0, 60.0)).watts, 0.0);
 }
 
 #[test]
 fn both_senses_lose_the_same() {
     let rig = Rig::new(1, &ehl(), &json!({}));
-    let [forward, backward] = [3000.0, -3000.0].map(|rpm| rig.told(&point(50.0, rpm, 60.0)).watts);
+    let [forward, backward] = [3000.0, -3000.0].map(|rpm| rig.interpolated(&point(50.0, rpm, 60.0)).watts);
     assert_eq!(forward.to_bits(), backward.to_bits());
 }
 
@@ -213,12 +220,17 @@ fn any_number_of_threads_reads_the_same_bits() {
     let points: Vec<Point> = (1..40)
         .map(|i| point(7.0 * f64::from(i), 400.0 * f64::from(i), 3.0 * f64::from(i)))
         .collect();
-    let read = |rig: &Rig| points.iter().map(|p| rig.told(p).watts.to_bits()).collect::<Vec<_>>();
+    let read = |rig: &Rig| {
+        points
+            .iter()
+            .map(|p| rig.interpolated(p).watts.to_bits())
+            .collect::<Vec<_>>()
+    };
     let rig = Rig::new(2, &ehl(), &json!({}));
     let one = read(&rig);
     assert_eq!(one, read(&rig));
     let other = Rig::new(2, &ehl(), &json!({}));
-    // All of them need the table at once.
+    // All of them need the table at the same time.
     std::thread::scope(|scope| {
         let started: Vec<_> = (0..4).map(|_| scope.spawn(|| read(&other))).collect();
         for thread in started {
@@ -230,8 +242,11 @@ fn any_number_of_threads_reads_the_same_bits() {
 #[test]
 fn loss_rises_with_speed_torque_and_falls_nowhere_below_zero() {
     let rig = Rig::new(1, &ehl(), &json!({}));
-    let sweep =
-        |f: &dyn Fn(f64) -> Point| -> Vec<f64> { (0..400).map(|i| rig.told(&f(f64::from(i) / 399.0)).watts).collect() };
+    let sweep = |f: &dyn Fn(f64) -> Point| -> Vec<f64> {
+        (0..400)
+            .map(|i| rig.interpolated(&f(f64::from(i) / 399.0)).watts)
+            .collect()
+    };
     for t in [-20.0, 20.0, 60.0, 100.0, 140.0] {
         for x in [0.02, 0.3, 0.7, 0.98] {
             let torque = |x: f64| 0.29 * 985.0_f64.powf(x);
@@ -253,20 +268,20 @@ fn bodies_that_are_known_count_where_the_model_looks_at_them() {
         ..point(100.0, 4000.0, 60.0)
     };
     let rig = Rig::new(1, &ehl(), &json!({}));
-    let [cold, hot] = [60.0, 100.0].map(|t| (rig.told(&with(t)).watts, rig.itself(&with(t)).0));
+    let [cold, hot] = [60.0, 100.0].map(|t| (rig.interpolated(&with(t)).watts, rig.direct(&with(t)).0));
     assert!(hot.1 > 1.2 * cold.1);
-    for (told, itself) in [cold, hot] {
-        assert!((told / itself - 1.0).abs() < 0.01, "{told} {itself}");
+    for (interpolated, itself) in [cold, hot] {
+        assert!((interpolated / itself - 1.0).abs() < 0.01, "{interpolated} {itself}");
     }
-    // Friction by the oil alone reads the table over the oil, to the bit.
+    // Friction that depends on the oil alone uses the table over the oil, to the bit.
     let rig = Rig::new(
         1,
         &path_integral(json!({ "type": "xu", "roughness": "composite_rms" })),
         &json!({}),
     );
-    let plain = rig.told(&point(100.0, 4000.0, 60.0)).watts;
-    assert_eq!(plain.to_bits(), rig.told(&with(100.0)).watts.to_bits());
-    assert!((plain / rig.itself(&with(100.0)).0 - 1.0).abs() < 0.01);
+    let plain = rig.interpolated(&point(100.0, 4000.0, 60.0)).watts;
+    assert_eq!(plain.to_bits(), rig.interpolated(&with(100.0)).watts.to_bits());
+    assert!((plain / rig.direct(&with(100.0)).0 - 1.0).abs() < 0.01);
 }
 
 #[test]
@@ -283,10 +298,10 @@ fn heat_passes_between_bodies_that_differ() {
                 bodies: Some([mean + half, mean - half]),
                 ..point(2.0 * 140.0_f64.powf(x[2]), 20.0 * 900.0_f64.powf(x[3]), mean)
             };
-            let (told, (_, share)) = (rig.told(&point), rig.itself(&point));
-            let stated = told.extents[rig.table.notes.observed() + 2].greatest;
+            let (interpolated, (_, share)) = (rig.interpolated(&point), rig.direct(&point));
+            let stated = interpolated.extents[rig.table.notes.observed() + 2].greatest;
             assert!(stated < 0.05, "{stated}");
-            over += u32::from((told.share - share).abs() > stated);
+            over += u32::from((interpolated.share - share).abs() > stated);
             moved += u32::from((share - 0.5).abs() > 0.4);
         }
         assert!(over <= 5 && moved > 100, "{over} {moved}");
@@ -296,8 +311,8 @@ fn heat_passes_between_bodies_that_differ() {
 #[test]
 fn ranges_that_the_model_leaves_at_a_node_are_noted() {
     let rig = Rig::new(1, &ehl(), &json!({}));
-    let left = |t: f64| rig.told(&point(30.0, 3000.0, t)).extents[rig.table.notes.limits() + 1];
-    // The law of the film holds from 20 degC on.
+    let left = |t: f64| rig.interpolated(&point(30.0, 3000.0, t)).extents[rig.table.notes.limits() + 1];
+    // The film law applies from 20 degC on.
     assert_eq!((left(70.0).outside, left(-10.0).outside), (0, 1));
 }
 
@@ -321,10 +336,10 @@ fn what_makes_no_table_is_refused() {
         }
         build(&part, &model).err().unwrap()
     };
-    assert!(fault(json!({ "of": { "type": "efficiency", "value": 0.99 } })).contains("as quick"));
-    assert!(fault(json!({ "of": "none" })).contains("as quick"));
-    assert!(fault(json!({ "speeds": [100.0, 100.0] })).contains("`speeds` does not rise"));
-    assert!(fault(json!({ "temperatures": [100.0, 0.0] })).contains("`temperatures` does not rise"));
+    assert!(fault(json!({ "of": { "type": "efficiency", "value": 0.99 } })).contains("as fast"));
+    assert!(fault(json!({ "of": "none" })).contains("as fast"));
+    assert!(fault(json!({ "speeds": [100.0, 100.0] })).contains("`speeds` does not increase"));
+    assert!(fault(json!({ "temperatures": [100.0, 0.0] })).contains("`temperatures` does not increase"));
 }
 
 #[test]
@@ -333,24 +348,24 @@ fn a_model_without_a_value_at_a_node_is_told() {
     let formula = json!({ "type": "formula", "formula": "sqrt(temperature)" });
     let (table, _) = build(&part, &json!({ "type": "tabulated", "of": path_integral(formula) })).unwrap();
     let lubricant = &part.oil.as_ref().unwrap().lubricant;
-    let fault = table.loss(&point(50.0, 3000.0, 60.0).at(&part, lubricant, Notes::MUTED));
+    let fault = table.loss(&point(50.0, 3000.0, 60.0).context(&part, lubricant, Notes::MUTED));
     assert!(fault.unwrap_err().what.contains("narrow"));
 }
 
 #[test]
 fn what_a_table_cannot_follow_is_stated() {
-    // Rolling follows the oil, a table over bodies does not.
+    // Rolling friction depends on the oil, a table over bodies does not.
     let rolling = json!({ "type": "path_integral", "load_sharing": "ramp", "rolling_friction": "goksem_hargreaves",
         "tooth_friction": { "type": "ehl_mixed" } });
     let rms = |of: &Value, bodies| {
         let rig = Rig::new(1, of, &json!({}));
-        let told = rig.told(&Point {
+        let interpolated = rig.interpolated(&Point {
             bodies,
             ..point(100.0, 4000.0, 60.0)
         });
-        told.extents[rig.table.notes.observed() + 1].greatest
+        interpolated.extents[rig.table.notes.observed() + 1].greatest
     };
     assert!(rms(&rolling, None) < 1.5 && rms(&rolling, Some([80.0, 70.0])) > 10.0);
-    // Friction that is cut off at nothing has a bend that no spline meets.
+    // Friction that is cut off at zero has a kink that no spline reproduces.
     assert!(rms(&path_integral(json!({ "type": "benedict_kelley" })), None) > 10.0);
 }

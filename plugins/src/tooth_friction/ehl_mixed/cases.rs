@@ -1,4 +1,4 @@
-//! The two stages, the oil and the path that the check cases share.
+//! The two stages, the oil and the path shared by the check cases.
 #![allow(clippy::unwrap_used)]
 
 use std::sync::Arc;
@@ -12,7 +12,7 @@ use gearloss_framework::mechanism::tooth_friction::PathNode;
 
 use super::temperature::Flank;
 
-/// To the digits that the cases are printed with.
+/// Compares to the digits that the cases are published with.
 pub fn close(value: f64, printed: f64) {
     assert!((value / printed - 1.0).abs() < 1e-6, "{value} against {printed}");
 }
@@ -79,7 +79,7 @@ pub fn stage(number: usize) -> MeshPart {
     MeshPart::new(pair, [0.8 * each; 2], [each; 2], 206e9, 0.3).with_oil(Some(oil))
 }
 
-/// A path of even pieces with their middles as nodes, under the ramp of load from first contact to single contact.
+/// A path of equal sections with nodes at their centres, under the load ramp from the first contact to single contact.
 pub fn midpoints(pair: &Pair, count: usize) -> Vec<PathNode> {
     let [start, .., end] = pair.points;
     let step = (end - start) / count as f64;

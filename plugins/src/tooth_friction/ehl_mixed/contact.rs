@@ -1,4 +1,4 @@
-//! Hertzian line contact of two flanks, seen as cones in the normal plane.
+//! Hertzian line contact of two flanks, treated as cones in the normal plane.
 //!
 //! Source: Hertz; the modulus is that of film theory, 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2, twice the one of contact
 //! mechanics.
@@ -39,14 +39,14 @@ impl Contact {
         }
     }
 
-    /// Surface speeds from their difference and their sum; the first flank is the faster one or not. Where they run against
-    /// each other the slower one counts by its magnitude. \[m/s\]
+    /// Surface speeds from their difference and their sum, for a first flank that is the faster one or not. If they are opposite,
+    /// the slower one is used by magnitude. \[m/s\]
     pub fn speeds(sliding: f64, sum: f64, first_faster: bool) -> [f64; 2] {
         let (fast, slow) = (0.5 * (sum + sliding), (0.5 * (sum - sliding)).abs());
         if first_faster { [fast, slow] } else { [slow, fast] }
     }
 
-    /// Greatest pressure. \[Pa\]
+    /// Maximum pressure. \[Pa\]
     pub fn pressure(&self) -> f64 {
         4.0 / PI * self.mean_pressure
     }
@@ -120,11 +120,11 @@ mod tests {
     fn u1d_load_share_and_speeds_on_the_ramp() {
         let pair = stage(1).pair;
         let [start, .., end] = pair.points;
-        // Eleven even places: the fourth is at three tenths of the path.
+        // Eleven equidistant points: the fourth is at three tenths of the path.
         let place = pair.even_path(LoadSharing::Ramp, 11)[3];
         close(place.x, 0.008816232);
         close(place.share, 0.8382395);
-        // The other pair in contact runs one base pitch ahead, on the falling ramp.
+        // The other pair in contact is one base pitch ahead, on the falling ramp.
         let ahead = place.x + pair.base_pitch;
         close((end - ahead) / (end - pair.points[3]), 0.1617605);
         assert!(ahead > pair.points[3] && place.x > start);

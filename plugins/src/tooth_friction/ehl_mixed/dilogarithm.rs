@@ -1,4 +1,4 @@
-//! The dilogarithm, in which the mean stress over a transit is closed.
+//! The dilogarithm, which gives the mean stress over a transit in closed form.
 
 use std::f64::consts::PI;
 
@@ -62,7 +62,7 @@ mod tests {
             let far = -1.0 - f64::from(i * i);
             let inverted = -PI * PI / 6.0 - 0.5 * (-far).ln().powi(2) - dilogarithm(1.0 / far);
             assert!((dilogarithm(far) / inverted - 1.0).abs() < 1e-14, "{far}");
-            // Reflection joins the two sides of one half.
+            // Reflection connects the two sides of one half.
             let y = 0.5 + 0.5 * f64::from(i) / 60.0;
             let both = dilogarithm(y) + dilogarithm(1.0 - y) + y.ln() * (1.0 - y).ln();
             assert!((both - PI * PI / 6.0).abs() < 1e-14, "{y}");

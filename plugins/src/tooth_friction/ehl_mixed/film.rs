@@ -1,30 +1,30 @@
-//! Film thickness and its loss by heating at the inlet.
+//! Film thickness and its reduction by inlet heating.
 //!
 //! Sources: Chittenden, Dowson, Dunn, Taylor, J. Tribol. 107 (1985) 381-397 and 398-405 (ellipses in any direction); Hamrock and
 //! Dowson 1977 (points); Dowson and Toyoda 1979, Dowson and Higginson 1966, Ertel and Grubin (lines). Inlet heating: Murch and
 //! Wilson 1975, Gupta et al. 1992, Wilson and Sheu 1983, Hsu and Lee 1994. U is the mean of both surface speeds throughout,
-//! also in L = eta beta U^2/k; Wilson and Sheu mean the sum, so their formula takes 4 L. Read so, the three that hang on L alone
-//! agree within 4 % in pure rolling up to L = 1, and they do not otherwise.
+//! also in L = eta beta U^2/k; Wilson and Sheu use the sum, so their formula takes 4 L. With this interpretation the three laws
+//! that depend on L only agree within 4 % in pure rolling up to L = 1; otherwise they do not.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use gearloss_framework::contact::{dowson_higginson, thermal_factor};
 
-/// Which film counts.
+/// Film thickness formula.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Film {
-    /// Central film after Chittenden et al., of a long ellipse with the pressure of the line.
+    /// Central film according to Chittenden et al., for a long ellipse with the pressure of the line.
     #[default]
     ChittendenLine,
-    /// Central film after Hamrock and Dowson, of a long ellipse with the pressure of the line.
+    /// Central film according to Hamrock and Dowson, for a long ellipse with the pressure of the line.
     HamrockDowsonLine,
-    /// Central film of a line contact after Dowson and Toyoda; a third above the others.
+    /// Central film of a line contact according to Dowson and Toyoda; a third above the others.
     DowsonToyoda,
-    /// Least film of a line contact after Dowson and Higginson.
+    /// Minimum film of a line contact according to Dowson and Higginson.
     DowsonHigginson,
-    /// Central film of a line contact after Ertel and Grubin.
+    /// Central film of a line contact according to Ertel and Grubin.
     ErtelGrubin,
 }
 
@@ -49,22 +49,22 @@ fn powers(u: f64, g: f64, w: f64, exponents: [f64; 3]) -> f64 {
     (exponents[0] * u.ln() + exponents[1] * g.ln() + exponents[2] * w.ln()).exp()
 }
 
-/// Radii along and across the entrainment, which runs at an angle in rad to the first of two principal radii. \[m\]
+/// Radii along and across the entrainment direction, at an angle in rad to the first of two principal radii. \[m\]
 pub fn turned(radii: [f64; 2], angle: f64) -> [f64; 2] {
     let [x, y] = radii;
     let (sin, cos) = (angle.sin().powi(2), angle.cos().powi(2));
     [1.0 / (cos / x + sin / y), 1.0 / (sin / x + cos / y)]
 }
 
-/// Central and least film over the radius along the entrainment after Chittenden et al., from U, G and W = F/(E' R^2) with that
-/// radius, and the radius across over the one along, from about one half.
+/// Central and minimum film over the radius along the entrainment according to Chittenden et al., from U, G and W = F/(E' R^2) with that
+/// radius, and the ratio of the radius across to the radius along, from about one half.
 pub fn chittenden(u: f64, g: f64, w: f64, across: f64) -> [f64; 2] {
     let flooded = |factor: f64| 1.0 - (-factor * across.powf(2.0 / 3.0)).exp();
     let common = powers(u, g, w, [0.68, 0.49, -0.073]);
     [4.31 * common * flooded(1.23), 3.68 * common * flooded(0.67)]
 }
 
-/// Central and least film over the radius along the entrainment after Hamrock and Dowson, from U, G, W = F/(E' R^2) and the ratio
+/// Central and minimum film over the radius along the entrainment according to Hamrock and Dowson, from U, G, W = F/(E' R^2) and the ratio
 /// of the axes of the ellipse.
 pub fn hamrock_dowson(u: f64, g: f64, w: f64, ellipse: f64) -> [f64; 2] {
     [
@@ -73,20 +73,20 @@ pub fn hamrock_dowson(u: f64, g: f64, w: f64, ellipse: f64) -> [f64; 2] {
     ]
 }
 
-/// Ratio of the axes of an ellipse of contact from that of the radii, across over along.
+/// Ratio of the axes of a contact ellipse from the ratio of the radii, across over along.
 pub fn ellipse(radii: f64) -> f64 {
     1.0339 * radii.powf(0.636)
 }
 
-/// How heating at the inlet thins the film.
+/// Film thinning by inlet heating.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum InletHeating {
-    /// It does not.
+    /// None.
     None,
     /// Murch and Wilson, for pure rolling.
     MurchWilson,
-    /// Gupta et al.; thinned by a factor of twenty at most, beyond which the fit ends.
+    /// Gupta et al.; thinned by a factor of twenty at most, where the fit ends.
     Gupta,
     /// Wilson and Sheu.
     #[default]
@@ -95,7 +95,7 @@ pub enum InletHeating {
     HsuLee,
 }
 
-/// What the film at an inlet may hang on, for a factor that thins it.
+/// The quantities at an inlet on which a thinning factor may depend.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Inlet {
     /// Mean of both surface speeds. \[m/s\]
@@ -104,7 +104,7 @@ pub struct Inlet {
     pub slide_roll: f64,
     /// L = eta beta U^2/k with the mean speed.
     pub thermal_load: f64,
-    /// Greatest pressure over the reduced modulus.
+    /// Maximum pressure over the reduced modulus.
     pub pressure: f64,
     /// G = alpha E'.
     pub g: f64,
@@ -112,12 +112,12 @@ pub struct Inlet {
     pub w: f64,
 }
 
-/// A factor by which a film is thinner than that of isothermal theory: one of [`InletHeating`], or a correction of one's own, such
-/// as one for high speed, in its place. The one or the other: corrections for speed have inlet heating as their cause.
+/// Ratio of film thickness to isothermal film thickness: one of [`InletHeating`], or a user-defined correction such as one for high
+/// speed. Only one applies, because inlet heating is the cause of corrections for speed.
 pub type Factor = fn(&Inlet) -> f64;
 
 impl InletHeating {
-    /// The factor.
+    /// The ratio.
     pub fn factor(self) -> Factor {
         match self {
             Self::None => |_| 1.0,
@@ -226,7 +226,7 @@ mod tests {
             let all =
                 [InletHeating::MurchWilson, InletHeating::Gupta, InletHeating::WilsonSheu].map(|l| l.factor()(&at));
             let (least, most) = all.iter().fold((1.0_f64, 0.0_f64), |(a, b), x| (a.min(*x), b.max(*x)));
-            // At L = 1 they are 3.4 % apart; sum and mean speed taken for one another would be 15 %.
+            // At L = 1 they are 3.4 % apart; confusing sum and mean speed would give 15 %.
             assert!(most / least < 1.035, "{all:?}");
         }
     }

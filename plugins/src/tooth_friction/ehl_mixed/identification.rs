@@ -1,12 +1,12 @@
 //! The rheology of an oil from measurements: Eyring stress and exponent over pressure from traction curves, boundary friction from
 //! a Stribeck curve.
 //!
-//! Source: LaFountain, Johnston, Spikes, Tribol. Trans. 44 (2001) 648-656, in three steps. First, at one pressure and temperature stress
-//! rises with the logarithm of the shear rate, and the slope is the Eyring stress ([`Isotherm::slope`]); it lies low where stress is
-//! not well above it. Then the exponent over pressure with that stress, and both together, by least squares of
-//! [`residual`] ([`TractionFit`]). Points belong in only before the stress has its
-//! maximum over the shear rate, where heat begins to rule, and above 1 % of sliding. Boundary friction stands in its law linearly, so
-//! its least squares are closed ([`boundary_friction`]).
+//! Source: LaFountain, Johnston, Spikes, Tribol. Trans. 44 (2001) 648-656, in three steps. First, at one pressure and temperature
+//! the stress rises with the logarithm of the shear rate, and the slope is the Eyring stress ([`Isotherm::slope`]); it is too low
+//! where the stress is not well above it. Then the exponent over pressure with that stress. Finally both together, by least squares
+//! of [`residual`] ([`TractionFit`]). Use only points above 1 % sliding
+//! and below the shear rate of maximum stress, above which heating dominates. The law is linear in boundary friction, so its least
+//! squares solution is closed ([`boundary_friction`]).
 
 mod curves;
 
@@ -31,36 +31,36 @@ pub struct TractionPoint {
     pub stress: f64,
 }
 
-/// Stress after Eyring at a shear rate for a viscosity law, whose `z` counts. \[Pa\]
+/// Stress according to Eyring at a shear rate for a viscosity law, of which `z` is used. \[Pa\]
 pub fn stress(law: &Roelands, tau0: f64, pressure: f64, temperature: f64, shear_rate: f64) -> f64 {
     tau0 * (law.eta(pressure, temperature) * shear_rate / tau0).asinh()
 }
 
-/// Calculated less measured stress for an Eyring stress (Pa) and an exponent over pressure; the viscosity without pressure is that of
-/// the law. \[Pa\]
+/// Calculated minus measured stress for an Eyring stress (Pa) and an exponent over pressure; the viscosity at zero pressure is that
+/// of the law. \[Pa\]
 pub fn residual(law: &Roelands, tau0: f64, z: f64, point: &TractionPoint) -> f64 {
     let law = Roelands { z, ..*law };
     stress(&law, tau0, point.pressure, point.temperature, point.shear_rate) - point.stress
 }
 
-/// What the points of one pressure and temperature say of the Eyring stress.
+/// Eyring stress from the points of one pressure and temperature.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Isotherm {
     /// Slope of stress over the logarithm of the shear rate: the Eyring stress. \[Pa\]
     pub slope: f64,
-    /// How many points it rests on; the weight of the isotherm in a mean.
+    /// Number of points used; the weight of the isotherm in a mean.
     pub points: usize,
 }
 
-/// Stress over the Eyring stress from which a point lies on the straight part.
+/// Stress over the Eyring stress above which a point is on the straight part.
 const STRAIGHT: f64 = 1.5;
 
 impl Isotherm {
-    /// The slope of the points whose stress is above one and a half times itself, found by repetition from all points; absent where
-    /// fewer than two are.
+    /// The slope of the points whose stress is above one and a half times the slope, by iteration from all points; `None` with
+    /// fewer than two.
     pub fn slope(points: &[TractionPoint]) -> Option<Self> {
         let mut found: Option<Self> = None;
-        // Each time points drop out or return; a set that swings between two keeps the last.
+        // Points may leave or return in each iteration; if the set alternates between two, the last one is used.
         for _ in 0..20 {
             let above = found.map_or(0.0, |f| STRAIGHT * f.slope);
             let chosen = || points.iter().filter(|p| p.stress > above && p.shear_rate > 0.0);
@@ -89,7 +89,7 @@ impl Isotherm {
         found
     }
 
-    /// Mean of several slopes by their points, and the deviation of one from it. \[Pa\] Absent for none.
+    /// Mean of several slopes weighted by their number of points, and the standard deviation. \[Pa\] `None` without slopes.
     pub fn mean(isotherms: &[Self]) -> Option<(f64, f64)> {
         let weight: f64 = isotherms.iter().map(|i| i.points as f64).sum();
         if weight == 0.0 {
@@ -146,20 +146,20 @@ impl TractionFit {
 /// One point of a Stribeck curve.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StribeckPoint {
-    /// Film over roughness.
+    /// Film thickness over roughness.
     pub lambda: f64,
-    /// Friction of the film alone, as calculated.
+    /// Calculated friction of the film alone.
     pub film: f64,
     /// Measured friction.
     pub mu: f64,
 }
 
-/// Calculated less measured friction for a coefficient of boundary friction.
+/// Calculated minus measured friction for a coefficient of boundary friction.
 pub fn mixed_residual(mu_b: f64, exponent: f64, point: &StribeckPoint) -> f64 {
     friction(point.film, mu_b, boundary_share(point.lambda, exponent)) - point.mu
 }
 
-/// The coefficient of boundary friction with the least squares of [`mixed_residual`]; absent where no point has boundary friction.
+/// The least squares coefficient of boundary friction of [`mixed_residual`]; `None` if no point has boundary friction.
 pub fn boundary_friction(points: &[StribeckPoint], exponent: f64) -> Option<f64> {
     let (above, below) = points.iter().fold((0.0, 0.0), |(above, below), p| {
         let share = boundary_share(p.lambda, exponent);
@@ -197,7 +197,7 @@ mod tests {
         }
     }
 
-    /// The synthetic set of the check: three pressures, four shear rates, 5.2 MPa and 0.62.
+    /// The synthetic data of the check: three pressures, four shear rates, 5.2 MPa and 0.62.
     fn synthetic() -> Vec<[TractionPoint; 4]> {
         [0.8e9, 1.0e9, 1.2e9]
             .map(|pressure| {
@@ -244,7 +244,7 @@ mod tests {
         }
         let (mean, deviation) = Isotherm::mean(&isotherms).unwrap();
         assert!(deviation < 0.01 * mean);
-        // With the mean slope the squares are least at this exponent: they rise on both sides of its last digit.
+        // With the mean slope the sum of squares has its minimum at this exponent: it rises on both sides of its last digit.
         let z = 0.6204725;
         let at = |z: f64| squares(mean, z);
         assert!(at(z) < at(z - 1e-6) && at(z) < at(z + 1e-6));
@@ -252,7 +252,7 @@ mod tests {
 
     #[test]
     fn u3n_both_together() {
-        // What a solver must return makes the residuals vanish, and nothing near it does.
+        // The solution makes the residuals vanish, and no nearby value does.
         assert!(squares(5.2e6, 0.62) < 1e-10);
         for (dt, dz) in [
             (1e3, 0.0),

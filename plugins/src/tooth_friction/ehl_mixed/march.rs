@@ -1,9 +1,9 @@
-//! The way along the path of contact: every place settles with its own heat, from where its neighbour settled, and all places
-//! together settle with the bodies of the gears.
+//! Solves the path of contact: each point converges with its own heat, starting from the solution at its neighbour, and all points
+//! together converge with the body temperatures of the gears.
 //!
-//! Source: Shore and Kadiric march twice: first each place warms the bodies alone, then the bodies have the mean of these
-//! temperatures. But the bodies are warmed by the mean heat of the mesh, in which two pairs of teeth work while contact is double:
-//! their rise is that mean times the contact ratio. The balance here takes the heat of the mesh.
+//! Source: Shore and Kadiric solve the path twice: first each point heats the bodies alone, then the bodies get the mean of these
+//! temperatures. But the mean heat of the mesh heats the bodies, and two pairs of teeth are active in double contact: the body
+//! temperature rise is that mean times the contact ratio. The balance here uses the heat of the mesh.
 
 use gearloss_framework::mechanism::tooth_friction::{PathAt, PathNode};
 use schemars::JsonSchema;
@@ -14,42 +14,42 @@ use super::oil::Oil;
 use super::place::{Bodies, Conditions, Laws, Place, first_slope};
 use super::settled::Search;
 
-/// What warms the bodies of the gears.
+/// Heat source of the gear bodies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Warmth {
     /// The mean heat of the mesh over time.
     #[default]
     Balance,
-    /// The mean over the path of what each place alone would make of them, as published; lower by the contact ratio.
+    /// The mean along the path of the temperatures that each point alone would cause, as published; lower by the contact ratio.
     PathMean,
-    /// Nothing: they are as warm as the oil.
+    /// None: they have the oil temperature.
     Oil,
 }
 
-/// How the bodies' temperatures come about.
+/// How the body temperatures are determined.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Warming {
-    /// From friction, through these resistances to the oil. \[K/W\]
+    /// By friction heat through these resistances to the oil. \[K/W\]
     By(Warmth, [f64; 2]),
-    /// They are known. \[degC\]
+    /// They are prescribed. \[degC\]
     Known([f64; 2]),
 }
 
-/// How much work a path took.
+/// Iteration counts of a path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Tally {
-    /// Ways along the path.
+    /// Iterations of the body temperatures.
     pub runs: u32,
-    /// Passes of all places together.
+    /// Iterations of all points together.
     pub passes: u32,
 }
 
-/// Body temperature within which gears and mesh have settled; the loss then is within 1e-4. \[K\]
+/// Convergence tolerance of the body temperatures; the loss is then within 1e-4. \[K\]
 const SETTLED: f64 = 0.01;
-/// Ways along a path after which the bodies count as settled.
+/// Maximum number of body temperature iterations.
 const MOST_RUNS: u32 = 40;
-/// Usual friction, from where a path starts.
+/// Typical friction, the initial guess of a path.
 const USUAL_MU: f64 = 0.05;
 
 /// A path of contact with laws and oil.
@@ -62,22 +62,22 @@ pub struct March<'a> {
     pub oil: &'a Oil<'a>,
 }
 
-/// Sums over a path, each place by its weight.
+/// Sums over a path, each point with its weight.
 #[derive(Debug, Clone, Copy, Default)]
 struct Sums {
     weight: f64,
-    /// Heat of friction. \[W\]
+    /// Friction heat. \[W\]
     heat: f64,
-    /// How much of it would enter the first body, were both equally warm. \[W\]
+    /// Part of it that would enter the first body if both had the same temperature. \[W\]
     first: f64,
-    /// Heat that passes through the contacts per difference of the bodies' temperatures. \[W/K\]
+    /// Heat through the contacts per difference of the body temperatures. \[W/K\]
     conductance: f64,
-    /// Temperatures of the bodies. \[degC\]
+    /// Body temperatures. \[degC\]
     bodies: [f64; 2],
 }
 
 impl Sums {
-    /// Adds a place by its friction and the temperatures of its bodies.
+    /// Adds a point with its friction and body temperatures.
     fn add(&mut self, weight: f64, place: &Place<'_>, mu: f64, bodies: [f64; 2]) {
         let heat = mu * place.heat_per_mu();
         let [b1, b2] = place.bands();
@@ -90,9 +90,9 @@ impl Sums {
         }
     }
 
-    /// Rise of both bodies over the oil, from the resistances to it, for another heat of the same split. \[K\]
+    /// Rise of both body temperatures over the oil, from the resistances to it, for another heat with the same split. \[K\]
     ///
-    /// Heat also passes from body to body through the contacts: H1 = first + conductance (T2 - T1), H2 = heat - H1, Ti = Mi Hi.
+    /// Heat also flows from body to body through the contacts: H1 = first + conductance (T2 - T1), H2 = heat - H1, Ti = Mi Hi.
     fn rise(&self, resistances: [f64; 2], heat: f64) -> [f64; 2] {
         let [m1, m2] = resistances;
         let first = if self.heat > 0.0 {
@@ -106,15 +106,15 @@ impl Sums {
 }
 
 impl March<'_> {
-    /// What the places share with these bodies.
+    /// Conditions that all points share at these body temperatures.
     pub fn conditions(&self, bodies: Bodies) -> Conditions<'_> {
         Conditions::new(self.laws, self.oil, bodies)
     }
 
-    /// A place of the path; absent without load.
+    /// A point of the path; `None` without load.
     ///
     /// The line load is the force on the pair over the length of its line of contact, b/cos beta_b. The reference line load of a
-    /// path is the normal force over the face width, which is more for helical gears.
+    /// path is the normal force over the face width, which is larger for helical gears.
     pub fn place<'b>(&self, node: &PathNode, conditions: &Conditions<'b>) -> Option<Place<'b>> {
         let path = self.path;
         let line_load = node.force * path.line_load * path.mean.part.pair.cos_base_helix;
@@ -130,7 +130,7 @@ impl March<'_> {
         Some(Place::new(conditions, contact, path.rq))
     }
 
-    /// One way along the path with given bodies; `mu` is the guess before and the friction after it.
+    /// One iteration along the path at given body temperatures; `mu` is the initial guess on entry and the friction on return.
     fn run(&self, bodies: Bodies, mu: &mut [f64], tally: &mut Tally) -> Sums {
         let mut sums = Sums::default();
         let conditions = self.conditions(bodies);
@@ -152,7 +152,7 @@ impl March<'_> {
         sums
     }
 
-    /// Settles the whole path and writes its friction; the bodies as they are then, and the work it took.
+    /// Solves the whole path and writes its friction; returns the body temperatures and the iteration counts.
     pub fn settle(&self, warming: Warming, mu: &mut [f64]) -> (Bodies, Tally) {
         let mut tally = Tally::default();
         let oil = self.oil.supplied.temperature;
@@ -177,10 +177,10 @@ impl March<'_> {
         (bodies, tally)
     }
 
-    /// Finds the bodies that the mean heat of the mesh keeps at their temperatures.
+    /// Solves for the body temperatures that balance the mean heat of the mesh.
     fn balance(&self, resistances: [f64; 2], mu: &mut [f64]) -> (Bodies, Tally) {
         let mut tally = Tally::default();
-        // Before anything has settled, all places have the usual friction.
+        // Initially all points have the typical friction.
         let unknown = self.conditions(Bodies::Rising(resistances));
         let mut known = Sums::default();
         for node in self.path.nodes {

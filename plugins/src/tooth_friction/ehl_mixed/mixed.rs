@@ -1,4 +1,4 @@
-//! Mixed friction: boundary friction fades as the film grows over the roughness.
+//! Mixed friction: boundary friction decreases as the film grows relative to the roughness.
 //!
 //! Source: Olver and Spikes, Proc. IMechE J 212 (1998) 321-336, with the exponent 2: mu = mu_f + (mu_b - mu_f)/(1 + Lambda)^m, Lambda
 //! the central film over the rms roughness of both flanks.
@@ -14,7 +14,7 @@ pub fn boundary_share(lambda: f64, exponent: f64) -> f64 {
     }
 }
 
-/// Friction from that of the film and that of the boundary. Where the film's is the greater one, it fades the other way.
+/// Friction from that of the film and boundary friction. If the film friction is the larger one, the transition is reversed.
 #[inline]
 pub fn friction(film: f64, boundary: f64, share: f64) -> f64 {
     film + (boundary - film) * share

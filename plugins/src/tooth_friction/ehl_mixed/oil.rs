@@ -1,4 +1,4 @@
-//! The oil of a mesh as its contacts see it: without pressure at the inlet, under pressure and shear in the film.
+//! The oil of a mesh in its contacts: at zero pressure at the inlet, under pressure and shear in the film.
 
 use std::sync::Arc;
 
@@ -10,7 +10,7 @@ use gearloss_framework::registry::Build;
 
 use crate::rotating::Fluid;
 
-/// Temperatures within which laws of viscosity are asked; a film may be tried hotter than any oil. \[degC\]
+/// Temperature limits for viscosity laws; iterations may try film temperatures above those of any oil. \[degC\]
 const ASKED: [f64; 2] = [-60.0, 400.0];
 
 /// Behaviour of an oil under shear.
@@ -26,7 +26,7 @@ pub struct Rheology {
     pub mu_b: f64,
 }
 
-/// What may be written beside the model, in place of the oil's own.
+/// Values written in the model, which take precedence over those of the oil.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Written {
     /// Eyring stress. \[Pa\]
@@ -41,7 +41,7 @@ pub struct Written {
     pub mu_b: Option<f64>,
 }
 
-/// Effective shear modulus of film and surfaces where none is stated: gears hardly feel it. \[Pa\]
+/// Default effective shear modulus of film and surfaces; it hardly affects gears. \[Pa\]
 const USUAL_MODULUS: f64 = 0.5e9;
 
 /// The oil of a model, prepared.
@@ -54,10 +54,10 @@ pub struct MeshFluid {
 }
 
 impl MeshFluid {
-    /// The oil of a mesh; what is written goes before what the oil states.
+    /// The oil of a mesh; written values take precedence over those of the oil.
     ///
     /// # Errors
-    /// What neither states, all at once.
+    /// All values that neither states.
     pub fn new(written: Written, oil: Option<&MeshOil>, cx: &Build<'_>) -> Result<Self, Diagnostic> {
         let own = oil.map(|oil| *oil.lubricant.rheology()).unwrap_or_default();
         let mut missing = Vec::new();
@@ -75,12 +75,12 @@ impl MeshFluid {
         };
         if !missing.is_empty() {
             let fault = cx.error(format!(
-                "ehl_mixed needs the rheology of the oil: {}",
+                "ehl_mixed requires the rheology of the oil: {}",
                 missing.join(", ")
             ));
             let values = "rheology: { tau0: 5 MPa, limiting_slope: 0.055, mu_b: 0.13 }";
             return Err(match oil {
-                Some(oil) => fault.help(format!("add `{values}` to `lubricants.{}` with your figures", oil.id)),
+                Some(oil) => fault.help(format!("add `{values}` to `lubricants.{}` with your values", oil.id)),
                 None => fault.help(format!("write {} beside `type`", missing.join(", "))),
             });
         }
@@ -93,7 +93,7 @@ impl MeshFluid {
     }
 
     /// The oil at one operating point.
-    pub fn at(&self, supplied: Supplied) -> Oil<'_> {
+    pub fn for_supply(&self, supplied: Supplied) -> Oil<'_> {
         let z = || {
             self.z
                 .unwrap_or_else(|| Roelands::exponent(supplied.alpha, supplied.eta))
@@ -110,7 +110,7 @@ impl MeshFluid {
     }
 }
 
-/// The oil that is supplied to the mesh. SI, temperature in degC.
+/// The oil supplied to the mesh. SI, temperature in degC.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Supplied {
     /// Temperature. \[degC\]
@@ -121,29 +121,29 @@ pub struct Supplied {
     pub eta: f64,
     /// Pressure-viscosity coefficient. \[1/Pa\]
     pub alpha: f64,
-    /// Relative fall of the viscosity with temperature. \[1/K\]
+    /// Relative decrease of the viscosity with temperature. \[1/K\]
     pub beta: f64,
     /// Thermal conductivity. \[W/(m K)\]
     pub conductivity: f64,
 }
 
-/// The oil at one operating point. The inlet follows the oil's own law of viscosity, where there is one; the film follows that of
-/// Roelands, for pressure and temperature together. The slope over temperature is that of Roelands, too: it stands in the heating at
-/// the inlet alone, where the 1.4 % to ASTM D341 with density at 40 degC are 0.1 % of the film.
+/// The oil at one operating point. The inlet uses the oil's own viscosity law, if it has one; the film uses that of Roelands, for
+/// pressure and temperature together. The temperature slope is also that of Roelands: it enters only inlet heating, where its
+/// deviation of 1.4 % from ASTM D341 with density at 40 degC changes the film by 0.1 %.
 #[derive(Debug, Clone, Copy)]
 pub struct Oil<'a> {
     /// Behaviour under shear.
     pub rheology: &'a Rheology,
     /// Viscosity in the film.
     pub law: Roelands,
-    /// What is supplied.
+    /// The supplied oil.
     pub supplied: Supplied,
     lubricant: Option<&'a Lubricant>,
 }
 
 impl Oil<'_> {
-    /// Viscosity (Pa s), pressure-viscosity coefficient (1/Pa) and relative fall with temperature (1/K) at the inlet, without
-    /// pressure, at a temperature in degC.
+    /// Viscosity (Pa s), pressure-viscosity coefficient (1/Pa) and relative decrease with temperature (1/K) at the inlet, at zero
+    /// pressure and a temperature in degC.
     pub fn inlet(&self, temperature: f64) -> [f64; 3] {
         let t = temperature.clamp(ASKED[0], ASKED[1]);
         let eta = match self.lubricant {
@@ -153,7 +153,7 @@ impl Oil<'_> {
         [eta, Roelands::coefficient(self.law.z, eta), self.law.beta(t)]
     }
 
-    /// The oil as a fluid that cools gears.
+    /// The oil as a coolant of gears.
     pub fn fluid(&self) -> Fluid {
         let Supplied {
             temperature,
@@ -169,7 +169,7 @@ impl Oil<'_> {
             density,
             heat_capacity: match self.lubricant {
                 Some(lubricant) => lubricant.heat_capacity(temperature),
-                // Density at the oil's temperature in place of 15 degC is 2 % off in its root.
+                // Density at oil temperature instead of 15 degC differs by 2 % in its root.
                 None => thermal::heat_capacity(density, temperature),
             },
         }

@@ -1,8 +1,8 @@
-//! One contact with its heat: friction decides the temperature of the film, which decides friction.
+//! One contact with its heat: friction determines the film temperature, which determines friction.
 //!
-//! Given a coefficient of friction, the heat is known, from it the temperatures of bodies, surfaces, inlet and film, and from these
-//! the coefficient. So one number is sought, and it lies between zero and the greater of boundary friction and the slope of the
-//! limiting stress. Usual iterations on temperatures are the same loop with a fixed relaxation.
+//! A coefficient of friction gives the heat, the heat gives the temperatures of bodies, surfaces, inlet and film, and these give
+//! the coefficient. The unknown is therefore one number between zero and the larger of boundary friction and the slope of the
+//! limiting stress. Common iterations on temperatures are the same loop with fixed relaxation.
 
 use super::contact::Contact;
 use super::film::{Factor, Film, Inlet};
@@ -12,38 +12,38 @@ use super::settled::Search;
 use super::temperature::{FilmHeat, Flank, first_heat, first_share};
 use super::traction::Transit;
 
-/// Which formulas count, and the properties of the flanks. One for all contacts of a mesh.
+/// Selected formulas and the properties of the flanks, common to all contacts of a mesh.
 #[derive(Debug, Clone, Copy)]
 pub struct Laws {
-    /// Film thickness.
+    /// Film thickness formula.
     pub film: Film,
-    /// Its loss by heating at the inlet.
+    /// Film thinning by inlet heating.
     pub inlet: Factor,
-    /// How the stress builds up.
+    /// Build-up of the stress.
     pub transit: Transit,
-    /// Where in the film its heat arises.
+    /// Location of the heat source in the film.
     pub film_heat: FilmHeat,
     /// Exponent of the share of boundary friction.
     pub exponent: f64,
     /// Flanks.
     pub flank: Flank,
-    /// False for contacts that friction does not warm.
+    /// False for contacts that friction does not heat.
     pub thermal: bool,
 }
 
-/// Temperatures of the bodies of both gears. \[degC\]
+/// Body temperatures of both gears. \[degC\]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Bodies {
-    /// Each contact warms them by its own heat through these resistances. \[K/W\]
+    /// Each contact heats them by its own heat through these resistances. \[K/W\]
     Rising([f64; 2]),
-    /// They have these temperatures; heat goes to where it meets less resistance, as in a contact that warms them through these.
+    /// They are prescribed; the heat is split as in a contact that heats them through these resistances.
     Split([f64; 2], [f64; 2]),
-    /// They have these temperatures, and both sides of a film share one.
+    /// They are prescribed, and both sides of a film have the same temperature.
     Held([f64; 2]),
 }
 
-/// What all places of one way along the path share: formulas, oil and bodies, and the oil at the inlet where the bodies' temperatures
-/// are known beforehand.
+/// Conditions shared by all points of one iteration along the path: formulas, oil and bodies, and the oil at the inlet if the body
+/// temperatures are prescribed.
 #[derive(Clone, Copy)]
 pub struct Conditions<'a> {
     laws: &'a Laws,
@@ -53,7 +53,7 @@ pub struct Conditions<'a> {
 }
 
 impl<'a> Conditions<'a> {
-    /// Conditions with these bodies.
+    /// Conditions at these body temperatures.
     pub fn new(laws: &'a Laws, oil: &'a Oil<'a>, bodies: Bodies) -> Self {
         let enters = match bodies {
             _ if !laws.thermal => Some(oil.supplied.temperature),
@@ -69,47 +69,47 @@ impl<'a> Conditions<'a> {
     }
 }
 
-/// Slide to roll ratio below which nothing but the film acts. Friction is zero at the pitch point, and boundary friction does not
-/// lose power there.
+/// Slide-to-roll ratio below which only the film acts. Friction is zero at the pitch point, where boundary friction does not
+/// dissipate power.
 const ROLLING: f64 = 0.001;
-/// Film temperature within which a contact has settled. Friction falls by about a percent per kelvin, and the last pass takes most of
-/// what is left. \[K\]
+/// Convergence tolerance of the film temperature. Friction falls by about a percent per kelvin, and the last iteration removes most
+/// of the remaining error. \[K\]
 const SETTLED: f64 = 0.005;
-/// Passes after which a contact counts as settled: halving has then closed the bracket to 1e-6.
+/// Maximum number of iterations of a contact: bisection has then narrowed the bracket to 1e-6.
 const MOST_PASSES: u32 = 160;
-/// Usual fall of friction with itself; the first contact of a path starts with it.
+/// Typical derivative of the friction map; initial guess for the first contact of a path.
 const USUAL_SLOPE: f64 = -0.2;
 
-/// A contact that has settled.
+/// A converged contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settled {
     /// Coefficient of friction.
     pub mu: f64,
-    /// That of the film alone.
+    /// Coefficient of friction of the film alone.
     pub mu_film: f64,
-    /// Film over roughness.
+    /// Film thickness over roughness.
     pub lambda: f64,
     /// Share of boundary friction.
     pub boundary: f64,
     /// Film thickness. \[m\]
     pub film: f64,
-    /// Temperature of the film. \[degC\]
+    /// Film temperature. \[degC\]
     pub temperature: f64,
-    /// Temperatures of the bodies. \[degC\]
+    /// Body temperatures. \[degC\]
     pub bodies: [f64; 2],
     /// Heat into both bodies. \[W\]
     pub heats: [f64; 2],
     /// Viscosity in the film. \[Pa s\]
     pub eta: f64,
-    /// Shear rate, viscosity and Eyring stress in one.
+    /// Shear rate times viscosity over Eyring stress.
     pub s: f64,
-    /// Relaxation of the oil over its transit.
+    /// Relaxation of the oil relative to its transit.
     pub d0: f64,
-    /// How much the film warms per coefficient of friction. \[K\]
+    /// Film temperature rise per coefficient of friction. \[K\]
     warming: f64,
 }
 
-/// A place on the path: a contact under load and its oil.
+/// A point on the path: a loaded contact and its oil.
 pub struct Place<'a> {
     laws: &'a Laws,
     oil: &'a Oil<'a>,
@@ -126,12 +126,12 @@ pub struct Place<'a> {
     pressed: f64,
     limit: f64,
     most: f64,
-    /// Film where the bodies' temperatures are known beforehand. \[m\]
+    /// Film thickness if the body temperatures are prescribed. \[m\]
     known_film: Option<f64>,
 }
 
 impl<'a> Place<'a> {
-    /// A contact and the roughness (m). Load and mean speed are above zero.
+    /// A contact with its roughness (m). Load and mean speed are above zero.
     pub fn new(conditions: &Conditions<'a>, contact: Contact, rq: f64) -> Self {
         let Conditions {
             laws,
@@ -164,8 +164,8 @@ impl<'a> Place<'a> {
         place
     }
 
-    /// Film for oil that enters with a viscosity (Pa s), a pressure-viscosity coefficient (1/Pa) and a fall of viscosity with
-    /// temperature (1/K). \[m\]
+    /// Film thickness for inlet oil with a viscosity (Pa s), a pressure-viscosity coefficient (1/Pa) and a relative decrease of
+    /// viscosity with temperature (1/K). \[m\]
     fn film(&self, [eta, alpha, beta]: [f64; 3]) -> f64 {
         let Contact {
             line_load,
@@ -187,7 +187,7 @@ impl<'a> Place<'a> {
         radius * self.laws.film.over_radius(u, g, w, length / radius) * (self.laws.inlet)(&inlet)
     }
 
-    /// What a coefficient of friction leads to; `mu` of the answer is the coefficient that follows.
+    /// Evaluates the contact at a coefficient of friction; `mu` of the result is the resulting coefficient.
     pub fn after(&self, mu: f64) -> Settled {
         let supplied = &self.oil.supplied;
         let heat = mu * self.heat;
@@ -260,7 +260,7 @@ impl<'a> Place<'a> {
         self.heat
     }
 
-    /// Resistances of the bands of contact on both flanks. \[K/W\]
+    /// Resistances of the contact bands on both flanks. \[K/W\]
     pub fn bands(&self) -> [f64; 2] {
         self.bands
     }
@@ -270,14 +270,14 @@ impl<'a> Place<'a> {
         self.contact.mean_pressure
     }
 
-    /// Lower one of the Peclet numbers of both flanks.
+    /// Smaller of the Peclet numbers of both flanks.
     pub fn peclet(&self) -> f64 {
         let slow = self.contact.speeds[0].min(self.contact.speeds[1]);
         self.laws.flank.peclet(self.contact.half_width, slow)
     }
 
-    /// The contact at rest with itself, from a guess at its friction; `slope` is what friction was last seen to fall by with
-    /// itself. Counts passes.
+    /// Solves the contact from an initial guess of its friction; `slope` is the last estimate of the derivative of the friction
+    /// map. Counts iterations.
     pub fn settle(&self, guess: f64, slope: &mut f64, passes: &mut u32) -> Settled {
         let mut search = Search::new(self.most, *slope);
         let mut mu = guess.clamp(0.0, self.most);
@@ -294,7 +294,7 @@ impl<'a> Place<'a> {
     }
 }
 
-/// A slope to start a path with.
+/// An initial slope for a path.
 pub const fn first_slope() -> f64 {
     USUAL_SLOPE
 }

@@ -1,7 +1,7 @@
-//! Where a quantity agrees with what it leads to: the one kind of loop in this model.
+//! Fixed point of a scalar function: the only kind of loop in this model.
 
-/// Searches x with phi(x) = x between zero and a greatest value, where phi(0) is not below zero and phi(most) not above it, so that
-/// there is one. Secants find it; where they leave the bracket, or take long, it is halved.
+/// Finds x with phi(x) = x between zero and a maximum, where phi(0) is not below zero and phi(most) not above it, so that a
+/// solution exists. Uses secants, and bisection where they leave the bracket or converge slowly.
 #[derive(Debug, Clone, Copy)]
 pub struct Search {
     bracket: [f64; 2],
@@ -11,7 +11,7 @@ pub struct Search {
 }
 
 impl Search {
-    /// A search up to a greatest value, with a first guess at the slope of phi.
+    /// A search up to a maximum, with an initial guess for the slope of phi.
     #[inline]
     pub fn new(most: f64, slope: f64) -> Self {
         Self {
@@ -22,13 +22,13 @@ impl Search {
         }
     }
 
-    /// The slope of phi as it was last seen.
+    /// The last estimate of the slope of phi.
     #[inline]
     pub fn slope(&self) -> f64 {
         self.slope
     }
 
-    /// Where to try next, after phi was seen at x.
+    /// The next x, after phi has been evaluated at x.
     #[inline]
     pub fn next(&mut self, x: f64, phi: f64) -> f64 {
         self.bracket[usize::from(phi <= x)] = x;
@@ -54,7 +54,7 @@ impl Search {
 mod tests {
     use super::*;
 
-    /// The answer and the number of passes.
+    /// The solution and the number of iterations.
     fn settle(phi: impl Fn(f64) -> f64, start: f64, most: f64) -> (f64, u32) {
         let mut search = Search::new(most, 0.0);
         let mut x = start;
@@ -65,7 +65,7 @@ mod tests {
             }
             x = search.next(x, y);
         }
-        panic!("not settled: {x}");
+        panic!("not converged: {x}");
     }
 
     #[test]
@@ -75,7 +75,7 @@ mod tests {
         assert!(settle(|x| (0.05 - 40.0 * (x - 0.04)).clamp(0.0, 0.13), 0.1, 0.13).1 < 40);
         let (step, passes) = settle(|x| if x < 0.07 { 0.12 } else { 0.07 }, 0.01, 0.13);
         assert!((step - 0.07).abs() < 1e-6 && passes < 60, "{step} {passes}");
-        // Positive feedback has several answers; one of them is found.
+        // With positive feedback there are several solutions; one of them is found.
         let s_shaped = |x: f64| 0.01 + 0.1 * x * x / (x * x + 1e-3);
         let (found, _) = settle(s_shaped, 0.0, 0.13);
         assert!((s_shaped(found) - found).abs() < 1e-8);

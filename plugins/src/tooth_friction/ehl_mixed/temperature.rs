@@ -1,8 +1,8 @@
-//! How friction heat warms flanks and film of a line contact.
+//! Heating of flanks and film of a line contact by friction.
 //!
-//! Sources: Blok 1937 and Jaeger, Proc. R. Soc. NSW 76 (1942) 203-224 (moving bands; here the mean over the band for heat spread evenly);
-//! Tian and Kennedy, J. Tribol. 116 (1994) 167-174 (circles at any speed); the film above its surfaces as a plate with its heat in
-//! the mid-plane or spread evenly. Each pair of formulas is linear in the heat, so a contact needs only their coefficients.
+//! Sources: Blok 1937 and Jaeger, Proc. R. Soc. NSW 76 (1942) 203-224 (moving bands; here the mean over the band for uniform heat);
+//! Tian and Kennedy, J. Tribol. 116 (1994) 167-174 (circles at any speed); the film relative to its surfaces as a plate with its
+//! heat in the mid-plane or spread evenly. All formulas are linear in the heat, so a contact needs only their coefficients.
 
 use std::f64::consts::PI;
 
@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use super::contact::Contact;
 
-/// What conducts heat into a flank.
+/// Thermal properties of a flank.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Flank {
     /// Thermal conductivity. \[W/(m K)\]
@@ -22,8 +22,8 @@ pub struct Flank {
     pub heat_capacity: f64,
 }
 
-/// Peclet number U a/(2 chi) down to which the law of fast bands, made for more than five, is within 6 % of Jaeger's solution at any
-/// speed. Holding it below five, as some do, would take 25 % off the rise at three and 58 % at one.
+/// Peclet number U a/(2 chi) down to which the law of fast bands, intended for more than five, is within 6 % of Jaeger's solution
+/// at any speed. Limiting it to five, as some authors do, would reduce the rise by 25 % at three and by 58 % at one.
 pub const FAST: f64 = 0.15;
 
 impl Flank {
@@ -37,9 +37,9 @@ impl Flank {
         0.5 * speed * half_width / self.diffusivity()
     }
 
-    /// Mean rise of a flank's surface over the band of contact per heat that enters it, for one surface speed in m/s. \[K/W\]
-    /// The heat is spread evenly and the band is fast; slower than [`FAST`] it counts as at that limit, so that a flank at rest has
-    /// a resistance. The greatest rise, at the trailing edge, is one and a half times the mean.
+    /// Mean surface temperature rise of a flank over the contact band per heat that enters it, for one surface speed in m/s.
+    /// \[K/W\] Uniform heat and a fast band; below [`FAST`] the value is that at the limit, so that a stationary flank has a finite
+    /// resistance. The maximum rise, at the trailing edge, is one and a half times the mean.
     pub fn resistance(&self, half_width: f64, length: f64, speed: f64) -> f64 {
         let least = 2.0 * FAST * self.diffusivity() / half_width;
         let swept = self.conductivity * self.density * self.heat_capacity * speed.max(least);
@@ -47,25 +47,25 @@ impl Flank {
         2.0 / 3.0 * (2.0 / (PI * half_width * swept)).sqrt() / length
     }
 
-    /// Mean rise under an evenly heated circle at any speed after Tian and Kennedy, from heat per area (W/m2), radius (m) and speed
-    /// (m/s). \[K\]
+    /// Mean rise under a uniformly heated circle at any speed according to Tian and Kennedy, from heat per area (W/m2), radius (m) and
+    /// speed (m/s). \[K\]
     pub fn circle(&self, heat: f64, radius: f64, speed: f64) -> f64 {
         1.22 * heat * radius / (self.conductivity * (PI * (0.6575 + self.peclet(radius, speed))).sqrt())
     }
 }
 
-/// Greatest flash temperature of a Hertzian band between two flanks of one material after Blok. \[K\]
+/// Maximum flash temperature of a Hertzian band between two flanks of one material according to Blok. \[K\]
 pub fn blok(mu: f64, contact: &Contact, flank: &Flank) -> f64 {
     let [u1, u2] = contact.speeds;
     let effusivity = (flank.conductivity * flank.density * flank.heat_capacity).sqrt();
     1.11 * mu * contact.line_load * (u1.sqrt() - u2.sqrt()).abs() / (effusivity * (2.0 * contact.half_width).sqrt())
 }
 
-/// Where in the film its heat arises.
+/// Location of the heat source in the film.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum FilmHeat {
-    /// In its middle, where it shears.
+    /// In its middle, where the shear is.
     #[default]
     MidPlane,
     /// Evenly over its thickness.
@@ -73,7 +73,8 @@ pub enum FilmHeat {
 }
 
 impl FilmHeat {
-    /// Mean rise of the film above its surfaces per heat, from film (m), conductivity of the oil (W/(m K)) and area (m2). \[K/W\]
+    /// Mean temperature rise of the film over its surfaces per heat, from film thickness (m), conductivity of the oil (W/(m K)) and
+    /// area (m2). \[K/W\]
     #[inline]
     pub fn resistance(self, film: f64, conductivity: f64, area: f64) -> f64 {
         let n = match self {
@@ -84,15 +85,15 @@ impl FilmHeat {
     }
 }
 
-/// Share of the heat that enters the first body, so that both sides of the film have one temperature, from the resistances of the
-/// band and from body to oil, both steady.
+/// Share of the heat that enters the first body if both sides of the film have the same temperature, from the steady resistances of
+/// the band and from body to oil.
 pub fn first_share(bands: [f64; 2], bodies: [f64; 2]) -> f64 {
     let own = [bands[0] + bodies[0], bands[1] + bodies[1]];
     own[1] / (own[0] + own[1])
 }
 
-/// Heat into the first body between bodies of given temperatures. \[W\] For no friction it is what the warmer body gives to the
-/// other through the contact, so it may lie below zero or above the heat of friction.
+/// Heat into the first body between bodies at given temperatures. \[W\] Without friction it is the heat from the warmer body to the
+/// other through the contact, so it may be negative or above the friction heat.
 #[inline]
 pub fn first_heat(heat: f64, bands: [f64; 2], bodies: [f64; 2]) -> f64 {
     (bands[1] * heat + bodies[1] - bodies[0]) / (bands[0] + bands[1])
@@ -120,13 +121,13 @@ mod tests {
         close(STEEL.circle(1e8, 1e-4, 5.0), 32.98295);
     }
 
-    /// Mean rise over a moving band after Jaeger at any Peclet number, over q'' a/k: the modified Bessel function K0 as its
-    /// integral, and the band as the line source weighted by how much of the band lies at each distance.
+    /// Mean rise over a moving band according to Jaeger at any Peclet number, over q'' a/k: the modified Bessel function K0 as its
+    /// integral, and the band as a line source weighted by the part of the band at each distance.
     fn jaeger(pe: f64) -> f64 {
         let steps = 3000;
         let mut sum = 0.0;
         for i in 0..steps {
-            // A cube tames the logarithm at the source.
+            // A cubic substitution removes the logarithmic singularity at the source.
             let v = (f64::from(i) + 0.5) / f64::from(steps);
             let u = 2.0 * pe * v.powi(3);
             let k0: f64 = (0..400)
@@ -162,7 +163,7 @@ mod tests {
 
     #[test]
     fn blok_agrees_with_the_band() {
-        // One flank stands still against a fast one: the fast one takes nearly all heat, and the greatest rise of an even band
+        // One flank is stationary against a fast one: the fast one receives nearly all heat, and the maximum rise of a uniform band
         // is within a few percent of that of a Hertzian one.
         let contact = Contact::new(2e5, 0.008, 226e9, 0.03, [20.0, 0.0]);
         let heat = 0.05 * contact.line_load * contact.length * 20.0;
@@ -179,7 +180,7 @@ mod tests {
         close(rise(0, share), rise(1, 1.0 - share));
         let first = first_heat(100.0, bands, [80.0, 60.0]);
         close(80.0 + first * bands[0], 60.0 + (100.0 - first) * bands[1]);
-        // Without friction the warmer body gives.
+        // Without friction the warmer body supplies the heat.
         assert!(first_heat(0.0, bands, [80.0, 60.0]) < 0.0);
         assert_eq!(first_heat(0.0, bands, [70.0, 70.0]), 0.0);
     }

@@ -13,7 +13,7 @@ use gearloss_framework::contact::path::Path;
 const RPM: f64 = std::f64::consts::PI / 30.0;
 const RATIO: f64 = 81.0 / 31.0;
 
-/// Parameters as the check cases take them, with changes.
+/// Parameters of the check cases, with changes.
 fn params(changes: &Value) -> Params {
     let mut value = json!({
         "film": "chittenden_line", "inlet_heating": "wilson_sheu", "transit": "exact", "film_heat": "mid_plane",
@@ -32,8 +32,8 @@ struct Rig {
     model: EhlMixed,
 }
 
-/// What a path answers.
-struct Asked {
+/// Result of a path.
+struct Solved {
     loss: f64,
     mu: f64,
     lambda: f64,
@@ -54,15 +54,15 @@ impl Rig {
         }
     }
 
-    /// Nodes that the mesh model would take.
+    /// The nodes of the mesh model.
     fn gauss(&self) -> Vec<PathNode> {
         let path = Path::new(&self.part.pair, LoadSharing::Ramp, self.model.order()).unwrap();
         path.nodes().to_vec()
     }
 
-    /// Asks on nodes at a torque of the first gear in N m, rpm and degC.
-    fn ask(&self, nodes: &[PathNode], torque: f64, rpm: f64, oil: f64) -> Asked {
-        let state = self.part.oil.as_ref().unwrap().lubricant.at(oil);
+    /// Evaluates on nodes at a torque of the first gear in N m, rpm and degC.
+    fn solve(&self, nodes: &[PathNode], torque: f64, rpm: f64, oil: f64) -> Solved {
+        let state = self.part.oil.as_ref().unwrap().lubricant.oil_at(oil);
         let at = GearMeshAt::usual(&self.part, Notes::MUTED).with(|to| {
             to.torque = torque;
             to.speed = rpm * RPM;
@@ -74,10 +74,10 @@ impl Rig {
             to.beta = state.beta;
             to.conductivity = state.conductivity;
         });
-        let mean = MeanFrictionAt::of(&at, Notes::MUTED);
+        let mean = MeanFrictionAt::at_pitch_point(&at, Notes::MUTED);
         let whole = Path::even(&self.part.pair, LoadSharing::Ramp, 3);
-        let extent = PathExtent::of(nodes);
-        let path = whole.at(&mean, Notes::MUTED).with(|to| {
+        let extent = PathExtent::from_nodes(nodes);
+        let path = whole.at_operating_point(&mean, Notes::MUTED).with(|to| {
             to.nodes = nodes;
             to.extent = &extent;
         });
@@ -86,7 +86,7 @@ impl Rig {
         let (tally, _) = self.model.settle(&path, &mut mu, |_, settled| places.push(*settled));
         let per_mu = |n: &PathNode| n.weight * n.force * n.sliding * mean.normal_force * mean.speed;
         let loss: f64 = nodes.iter().zip(&mu).map(|(n, mu)| per_mu(n) * mu).sum();
-        Asked {
+        Solved {
             loss,
             mu: loss / nodes.iter().map(per_mu).sum::<f64>(),
             lambda: places.iter().map(|p| p.lambda).sum::<f64>() / places.len() as f64,
@@ -97,7 +97,7 @@ impl Rig {
 
     /// The loss at a power in kW, rpm of the first gear and degC. \[W\]
     fn loss(&self, power: f64, rpm: f64, oil: f64) -> f64 {
-        self.ask(&self.gauss(), torque(power, rpm), rpm, oil).loss
+        self.solve(&self.gauss(), torque(power, rpm), rpm, oil).loss
     }
 }
 
@@ -127,12 +127,12 @@ fn u4i_mesh_losses_of_both_stages() {
         for (number, slower, [loss, mu, lambda]) in [(1, 1.0, one), (2, RATIO, two)] {
             let rig = Rig::new(number, &json!({}));
             let (torque, rpm) = (torque(30.0, rpm) * slower, rpm / slower);
-            let asked = rig.ask(&midpoints(&rig.part.pair, 200), torque, rpm, 40.0);
-            // What the loop of the check leaves.
-            within(asked.loss, loss, 1e-4);
-            within(asked.mu, mu, 1e-4);
-            within(asked.lambda, lambda, 1e-4);
-            within(rig.ask(&rig.gauss(), torque, rpm, 40.0).loss, asked.loss, 1e-4);
+            let solved = rig.solve(&midpoints(&rig.part.pair, 200), torque, rpm, 40.0);
+            // Tolerance of the loop of the check.
+            within(solved.loss, loss, 1e-4);
+            within(solved.mu, mu, 1e-4);
+            within(solved.lambda, lambda, 1e-4);
+            within(rig.solve(&rig.gauss(), torque, rpm, 40.0).loss, solved.loss, 1e-4);
         }
     }
 }
@@ -140,9 +140,9 @@ fn u4i_mesh_losses_of_both_stages() {
 #[test]
 fn u4j_one_place_in_the_second_run() {
     let rig = Rig::new(1, &json!({}));
-    let asked = rig.ask(&midpoints(&rig.part.pair, 200), torque(30.0, 2000.0), 2000.0, 40.0);
-    let place = &asked.places[40];
-    // The loop of the check ends within 0.01 K, which is 6e-4 of the viscosity and 1e-4 of all else.
+    let solved = rig.solve(&midpoints(&rig.part.pair, 200), torque(30.0, 2000.0), 2000.0, 40.0);
+    let place = &solved.places[40];
+    // The loop of the check ends within 0.01 K, which is 6e-4 of the viscosity and 1e-4 of all other quantities.
     assert!((place.temperature - 53.83846).abs() < 0.01);
     within(place.s, 11.92184, 6e-4);
     within(place.d0, 3.707576e-4, 6e-4);
@@ -157,9 +157,9 @@ fn u4j_one_place_in_the_second_run() {
 fn u4_sensitivities_of_stage_one() {
     let at = |changes: Value, oil: f64, rpm: f64| {
         let rig = Rig::new(1, &changes);
-        rig.ask(&midpoints(&rig.part.pair, 60), torque(30.0, rpm), rpm, oil)
+        rig.solve(&midpoints(&rig.part.pair, 60), torque(30.0, rpm), rpm, oil)
     };
-    // Printed to 0.1 W; the loop of the check and its points leave as much again.
+    // Published to 0.1 W; the loop of the check and its points leave as much again.
     let near = |value: f64, printed: f64| assert!((value - printed).abs() < 0.15, "{value} against {printed}");
     for (m, loss, body) in [
         (0.01, 140.1, 40.4),
@@ -167,9 +167,9 @@ fn u4_sensitivities_of_stage_one() {
         (0.2, 151.1, 49.8),
         (1.0, 223.8, 114.9),
     ] {
-        let asked = at(json!({ "gear_resistance": [m, m] }), 40.0, 2000.0);
-        near(asked.loss, loss);
-        near(asked.places[0].bodies[0], body);
+        let solved = at(json!({ "gear_resistance": [m, m] }), 40.0, 2000.0);
+        near(solved.loss, loss);
+        near(solved.places[0].bodies[0], body);
     }
     for (oil, loss) in [(50.0, 154.3), (60.0, 167.1)] {
         near(at(json!({}), oil, 2000.0).loss, loss);
@@ -185,7 +185,7 @@ fn u4_sensitivities_of_stage_one() {
     }
 }
 
-/// What the defaults make of the bodies.
+/// Body temperatures with the default settings.
 fn balanced(number: usize) -> Rig {
     Rig::new(
         number,
@@ -201,18 +201,18 @@ fn bodies_balance_the_heat_of_the_mesh() {
             &json!({ "bodies": "balance", "gear_resistance": [resistance, 0.5 * resistance] }),
         );
         let nodes = rig.gauss();
-        let asked = rig.ask(&nodes, torque(30.0, 2000.0), 2000.0, 40.0);
+        let solved = rig.solve(&nodes, torque(30.0, 2000.0), 2000.0, 40.0);
         let heat = |i: usize| {
             nodes
                 .iter()
-                .zip(&asked.places)
+                .zip(&solved.places)
                 .map(|(n, p)| n.weight * p.heats[i])
                 .sum::<f64>()
         };
-        // A contact has settled within 5 mK, and friction falls by about a percent per kelvin.
-        within(heat(0) + heat(1), asked.loss, 5e-5);
+        // A contact has converged within 5 mK, and friction falls by about a percent per kelvin.
+        within(heat(0) + heat(1), solved.loss, 5e-5);
         for (i, m) in [resistance, 0.5 * resistance].into_iter().enumerate() {
-            let rise = asked.places[0].bodies[i] - 40.0;
+            let rise = solved.places[0].bodies[i] - 40.0;
             assert!(
                 (rise - m * heat(i)).abs() < 0.05,
                 "{resistance} {i}: {rise} {}",
@@ -224,15 +224,15 @@ fn bodies_balance_the_heat_of_the_mesh() {
 
 #[test]
 fn bodies_are_about_as_warm_as_in_the_standard_for_micropitting() {
-    // ISO/TR 15144-1, recalled: the bodies of dip-lubricated gears are 7400 (P/(a b))^0.72/1.2 warmer than the oil, P in kW, mm.
+    // ISO/TR 15144-1, quoted from memory: the bodies of dip-lubricated gears are 7400 (P/(a b))^0.72/1.2 warmer than the oil, P in kW, mm.
     for number in [1, 2] {
         for rpm in [1000.0, 2000.0, 5000.0, 14000.0] {
             let rig = balanced(number);
-            let asked = rig.ask(&rig.gauss(), torque(30.0, rpm), rpm, 60.0);
+            let solved = rig.solve(&rig.gauss(), torque(30.0, rpm), rpm, 60.0);
             let pair = &rig.part.pair;
             let standard =
-                7400.0 / 1.2 * (asked.loss * 1e-3 / (pair.centre_distance * pair.facewidth * 1e6)).powf(0.72);
-            let bodies = asked.places[0].bodies;
+                7400.0 / 1.2 * (solved.loss * 1e-3 / (pair.centre_distance * pair.facewidth * 1e6)).powf(0.72);
+            let bodies = solved.places[0].bodies;
             let rise = 0.5 * (bodies[0] + bodies[1]) - 60.0;
             assert!(
                 (0.25..3.0).contains(&(rise / standard)),
@@ -244,9 +244,9 @@ fn bodies_are_about_as_warm_as_in_the_standard_for_micropitting() {
 
 #[test]
 fn friction_follows_the_stribeck_curve() {
-    // At one torque friction falls with speed towards that of the film; warm oil rubs more in mixed friction and less in full film.
+    // At constant torque friction falls with speed towards film friction; warm oil gives more in mixed friction and less in full film.
     let rig = balanced(1);
-    let mu = |torque: f64, rpm: f64, oil: f64| rig.ask(&rig.gauss(), torque, rpm, oil).mu;
+    let mu = |torque: f64, rpm: f64, oil: f64| rig.solve(&rig.gauss(), torque, rpm, oil).mu;
     let falling: Vec<f64> = [1.0, 10.0, 100.0, 1000.0, 5000.0]
         .map(|rpm| mu(100.0, rpm, 60.0))
         .to_vec();
@@ -254,37 +254,37 @@ fn friction_follows_the_stribeck_curve() {
     assert!((falling[0] / 0.13 - 1.0).abs() < 0.05, "{falling:?}");
     assert!(mu(100.0, 1000.0, 100.0) > mu(100.0, 1000.0, 40.0));
     let smooth = Rig::new(1, &json!({ "exponent": 10.0, "bodies": "balance" }));
-    let film = |oil: f64| smooth.ask(&smooth.gauss(), 20.0, 6000.0, oil).mu;
+    let film = |oil: f64| smooth.solve(&smooth.gauss(), 20.0, 6000.0, oil).mu;
     assert!(film(0.0) > film(20.0), "{} {}", film(0.0), film(20.0));
-    // Loss rises with torque, and more than half as fast as it.
-    let loss = |torque: f64| rig.ask(&rig.gauss(), torque, 3000.0, 60.0).loss;
+    // Loss increases with torque, and more than half as fast.
+    let loss = |torque: f64| rig.solve(&rig.gauss(), torque, 3000.0, 60.0).loss;
     let losses: Vec<f64> = [0.1, 1.0, 10.0, 50.0, 100.0, 300.0].map(loss).to_vec();
     assert!(losses.windows(2).all(|l| l[1] > l[0]), "{losses:?}");
     within(rig.loss(30.0, 2000.0, 60.0), loss_of_neighbour(&rig), 1e-4);
 }
 
-/// The loss a hair beside a point: what settles does not jump.
+/// The loss at a nearby point: the solution is continuous.
 fn loss_of_neighbour(rig: &Rig) -> f64 {
-    rig.ask(&rig.gauss(), torque(30.0, 2000.0) * (1.0 + 1e-6), 2000.0, 60.0)
+    rig.solve(&rig.gauss(), torque(30.0, 2000.0) * (1.0 + 1e-6), 2000.0, 60.0)
         .loss
 }
 
 #[test]
 fn without_heat_the_oil_is_as_warm_as_it_enters() {
     let rig = Rig::new(1, &json!({ "thermal": false, "bodies": "balance" }));
-    let asked = rig.ask(&rig.gauss(), torque(30.0, 2000.0), 2000.0, 40.0);
+    let solved = rig.solve(&rig.gauss(), torque(30.0, 2000.0), 2000.0, 40.0);
     assert!(
-        asked
+        solved
             .places
             .iter()
             .all(|p| p.temperature == 40.0 && p.bodies == [40.0; 2])
     );
-    // Steel that conducts without end and a film that stays at its surfaces come to the same.
+    // Steel of infinite conductivity and a film at the temperature of its surfaces give the same result.
     let cold = json!({ "flank_conductivity": 1e12, "gear_resistance": [0.0, 0.0], "bodies": "oil" });
     let mut conducting = Rig::new(1, &cold);
     conducting.model.laws.flank.heat_capacity = 1e9;
-    let film_only = conducting.ask(&conducting.gauss(), torque(30.0, 2000.0), 2000.0, 40.0);
-    assert!(film_only.loss < asked.loss && film_only.loss > 0.9 * asked.loss);
+    let film_only = conducting.solve(&conducting.gauss(), torque(30.0, 2000.0), 2000.0, 40.0);
+    assert!(film_only.loss < solved.loss && film_only.loss > 0.9 * solved.loss);
 }
 
 #[test]
@@ -293,8 +293,8 @@ fn a_thin_slow_film_flows_after_newton() {
     let mut rig = Rig::new(1, &json!({ "thermal": false, "exponent": 10.0 }));
     rig.model.fluid.rheology.tau0 = 1e9;
     rig.model.fluid.rheology.shear_modulus = 1e18;
-    let asked = rig.ask(&rig.gauss(), 5.0, 2000.0, 80.0);
-    for (place, node) in asked.places.iter().zip(rig.gauss()) {
+    let solved = rig.solve(&rig.gauss(), 5.0, 2000.0, 80.0);
+    for (place, node) in solved.places.iter().zip(rig.gauss()) {
         let newton = place.eta * node.sliding * 2000.0 * RPM / place.film;
         within(place.s * 1e9, newton, 1e-9);
         let line_load = node.force * 5.0 / rig.part.pair.base_radius[0] / rig.part.pair.facewidth;
@@ -306,9 +306,9 @@ fn a_thin_slow_film_flows_after_newton() {
 #[test]
 fn known_bodies_are_kept_and_a_factor_of_ones_own_thins_the_film() {
     let rig = Rig::new(1, &json!({ "body_temperatures": [90.0, 70.0] }));
-    let asked = rig.ask(&rig.gauss(), torque(30.0, 2000.0), 2000.0, 40.0);
-    assert!(asked.places.iter().all(|p| p.bodies == [90.0, 70.0]));
-    // Oil enters at their mean.
+    let solved = rig.solve(&rig.gauss(), torque(30.0, 2000.0), 2000.0, 40.0);
+    assert!(solved.places.iter().all(|p| p.bodies == [90.0, 70.0]));
+    // Oil enters at the mean body temperature.
     let plain = params(&json!({ "inlet_heating": "none", "thermal": false }));
     let (registry, files) = (Registry::linked().unwrap(), Files::default());
     let cx = Build::new(&registry, &files);
@@ -319,25 +319,25 @@ fn known_bodies_are_kept_and_a_factor_of_ones_own_thins_the_film() {
             part: Arc::new(part),
             model,
         };
-        rig.ask(&rig.gauss(), 100.0, 2000.0, 40.0).places[5].film
+        rig.solve(&rig.gauss(), 100.0, 2000.0, 40.0).places[5].film
     };
     within(film(|_| 0.25), 0.25 * film(plain.inlet_heating.factor()), 1e-12);
 }
 
 #[test]
 fn work_per_place_is_bounded() {
-    // Machine-independent: two or three ways along the path, and few passes on each of its twenty places.
+    // Machine-independent: two or three iterations along the path, and few at each of its twenty points.
     let (mut runs, mut passes, mut places) = (0, 0, 0);
     for number in [1, 2] {
         let rig = balanced(number);
         for rpm in [100.0, 1000.0, 4000.0, 12000.0] {
             for torque in [1.0, 20.0, 150.0] {
                 let nodes = rig.gauss();
-                let asked = rig.ask(&nodes, torque, rpm, 60.0);
-                runs += asked.tally.runs;
-                passes += asked.tally.passes;
+                let solved = rig.solve(&nodes, torque, rpm, 60.0);
+                runs += solved.tally.runs;
+                passes += solved.tally.passes;
                 places += nodes.len();
-                assert!(asked.tally.runs <= 5, "{number} {rpm} {torque}: {:?}", asked.tally);
+                assert!(solved.tally.runs <= 5, "{number} {rpm} {torque}: {:?}", solved.tally);
             }
         }
     }
@@ -365,13 +365,13 @@ fn whatever_is_asked_friction_is_a_number() {
                 for torque in [1e-6, 1.0, 5000.0] {
                     for rpm in [1e-6, 1.0, 3000.0, 1e5] {
                         for oil in [-40.0, 60.0, 200.0] {
-                            let asked = rig.ask(&rig.gauss(), torque, rpm, oil);
-                            let fine = asked
+                            let solved = rig.solve(&rig.gauss(), torque, rpm, oil);
+                            let fine = solved
                                 .places
                                 .iter()
                                 .all(|p| p.temperature.is_finite() && (0.0..=0.13 + 1e-12).contains(&p.mu));
                             assert!(
-                                fine && asked.loss >= 0.0,
+                                fine && solved.loss >= 0.0,
                                 "{film} {inlet} {bodies} {torque} {rpm} {oil}"
                             );
                         }

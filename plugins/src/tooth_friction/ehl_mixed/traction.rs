@@ -1,26 +1,26 @@
-//! Mean shear stress in a film whose oil enters unstressed, thins after Eyring, yields elastically and has a limit.
+//! Mean shear stress in a film: the oil enters unstressed, has Eyring shear thinning, elastic strain and a limiting stress.
 //!
 //! Sources: Johnson and Tevaarwerk, Proc. R. Soc. A 356 (1977) 215-236: D0 dtau/dtheta = S - sinh tau over the share theta of the
-//! transit, in units of the Eyring stress, with D0 = eta U/(2 a G) and S = eta gdot/tau0; limiting stress and regimes after Evans
-//! and Johnson, IMechE C 200 (1986) 313-324; mean over the transit after Olver and Spikes, Proc. IMechE J 212 (1998) 321-336.
-//! The viscosity is that at the mean pressure and the film's temperature: with the one at the inlet S and D0 would be orders of
-//! magnitude too small for the law of flow that they come from.
+//! transit, in units of the Eyring stress, with D0 = eta U/(2 a G) and S = eta gdot/tau0; limiting stress and regimes according to Evans
+//! and Johnson, IMechE C 200 (1986) 313-324; mean over the transit according to Olver and Spikes, Proc. IMechE J 212 (1998) 321-336.
+//! The viscosity is that at the mean pressure and the film temperature: with the inlet viscosity S and D0 would be orders of
+//! magnitude too small for the flow law from which they are derived.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::dilogarithm::dilogarithm;
 
-/// How the stress builds up over the transit.
+/// Build-up of the stress over the transit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Transit {
     /// Exact mean over the transit.
     #[default]
     Exact,
-    /// By regimes; up to 25 % off where S is about 3 and D0 about 1, below 0.4 % for D0 below 0.02, as in gears.
+    /// By regimes; up to 25 % error where S is about 3 and D0 about 1, below 0.4 % for D0 below 0.02, as in gears.
     Chart,
-    /// At once: steady flow.
+    /// Immediately: steady flow.
     Steady,
 }
 
@@ -36,17 +36,18 @@ impl Transit {
     }
 }
 
-/// Below this S, and above this D0 over sqrt(1 + S^2), the oil yields by a fraction of the Eyring stress and flows linearly, to 1e-8.
+/// Below this S, and above this D0 over sqrt(1 + S^2), the stress remains a fraction of the Eyring stress and the flow is linear,
+/// to 1e-8.
 const LINEAR: f64 = 1e-4;
 
-/// Above this S its square might overflow, and one is nothing beside it.
+/// Above this S its square might overflow, and one is negligible.
 const LARGE: f64 = 1e100;
 
-/// Relaxations per transit after which nothing is left of the entry to the last digit.
+/// Number of relaxations per transit after which the entry has no effect to the last digit.
 const STEADY: f64 = 45.0;
 
-/// Exact mean. With c = sqrt(1 + S^2), u = S + c and y = (u (u - 1)/(u + 1)) exp(-c theta/D0) the stress is
-/// ln u + ln(1 - y/u^2) - ln(1 + y), whose integral over theta is closed by dilogarithms; once it meets the limit it stays there.
+/// Exact mean. With c = sqrt(1 + S^2), u = S + c and y = (u (u - 1)/(u + 1)) exp(-c theta/D0) the stress is ln u + ln(1 - y/u^2) -
+/// ln(1 + y), whose integral over theta is closed by dilogarithms; after it reaches the limit it stays there.
 pub fn exact(s: f64, d0: f64, limit: f64) -> f64 {
     if s <= 0.0 {
         return 0.0;
@@ -59,7 +60,7 @@ pub fn exact(s: f64, d0: f64, limit: f64) -> f64 {
     let steady = u.ln();
     let pace = c / d0;
     let entry = u * ((u - 1.0) / (u + 1.0));
-    // Out of the contact at theta = 1, or at the limit before. In gears the flow is steady long before.
+    // Leaves the contact at theta = 1, or reaches the limit before. In gears the flow is steady long before.
     let exit = if pace < STEADY { entry * (-pace).exp() } else { 0.0 };
     let (y, flowing) = if limit < steady {
         let cap = limit.exp();
@@ -84,7 +85,7 @@ pub fn exact(s: f64, d0: f64, limit: f64) -> f64 {
     rising + if flowing < 1.0 { (1.0 - flowing) * limit } else { 0.0 }
 }
 
-/// Mean for an oil that flows linearly.
+/// Mean for a linear viscoelastic oil.
 fn maxwell(s: f64, d0: f64, limit: f64) -> f64 {
     let flowing = if limit < s {
         (-d0 * (-limit / s).ln_1p()).min(1.0)
@@ -92,7 +93,7 @@ fn maxwell(s: f64, d0: f64, limit: f64) -> f64 {
         1.0
     };
     let x = flowing / d0;
-    // The difference of the exact form cancels for stiff oils; its series does not.
+    // The difference in the exact form cancels for stiff oils; its series does not.
     let rising = if x < 1e-3 {
         0.5 * flowing * x * (1.0 - x / 3.0 + x * x / 12.0)
     } else {
@@ -101,26 +102,27 @@ fn maxwell(s: f64, d0: f64, limit: f64) -> f64 {
     s * rising + if flowing < 1.0 { (1.0 - flowing) * limit } else { 0.0 }
 }
 
-/// What decides the stress.
+/// Regime of the stress.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Regime {
     /// Linear flow.
     Newtonian,
-    /// Flow that thins under shear.
+    /// Shear-thinning flow.
     Eyring,
     /// The limiting stress.
     Plastic,
-    /// Elastic strain, all the way.
+    /// Elastic strain only.
     Elastic,
     /// Elastic strain and linear flow.
     Viscoelastic,
-    /// Elastic strain, then thinning flow.
+    /// Elastic strain, then shear-thinning flow.
     ElasticEyring,
     /// Elastic strain, then the limiting stress.
     ElasticPlastic,
 }
 
-/// Mean by regimes, and the regime, as the chart of Evans and Johnson draws them; the limits between them follow from the exact mean.
+/// Mean by regimes, and the regime, as in the chart of Evans and Johnson; the boundaries between regimes follow from the exact
+/// mean.
 pub fn chart(s: f64, d0: f64, limit: f64) -> (f64, Regime) {
     if s <= 0.0 {
         return (0.0, Regime::Newtonian);
@@ -170,7 +172,7 @@ mod tests {
     use super::*;
     use crate::tooth_friction::ehl_mixed::cases::close;
 
-    /// The mean by Runge and Kutta of fourth order, which knows nothing of the closed form.
+    /// The mean by a fourth-order Runge-Kutta integration, independent of the closed form.
     fn integrated(s: f64, d0: f64, limit: f64) -> f64 {
         let steps = 400_000;
         let h = 1.0 / f64::from(steps);
@@ -214,7 +216,7 @@ mod tests {
             for d0 in [0.02, 0.3, 1.0, 30.0, 900.0] {
                 for limit in [FREE, 1.5, 0.2] {
                     let (own, solved) = (exact(s, d0, limit), integrated(s, d0, limit));
-                    // The step of the integration that meets the limit is cut; that leaves about 1e-6.
+                    // The integration step that reaches the limit is cut; that leaves about 1e-6.
                     assert!((own / solved - 1.0).abs() < 3e-6, "{s} {d0} {limit}: {own} {solved}");
                 }
             }
@@ -223,7 +225,7 @@ mod tests {
 
     #[test]
     fn limits_of_the_theory() {
-        // Newton, Eyring and plastic flow at once; linear Maxwell; elastic strain alone.
+        // Newtonian, Eyring and plastic flow without build-up; linear Maxwell; elastic strain only.
         close(exact(1e-3, 1e-9, FREE), 1e-3_f64.asinh());
         close(exact(1e4, 1e-9, FREE), 1e4_f64.asinh());
         close(exact(1e4, 1e-9, 6.0), 6.0);

@@ -1,9 +1,9 @@
-//! The friction of Xu and others, summed over a path with the weights of its places, as pieces of polynomials.
+//! The friction of Xu and others, summed over a path with the weights of its points, as piecewise polynomials.
 //!
-//! Along a path the coefficient at the place k is `exp(common + g_k - b4 x_k + b5 exp(x_k))` with `x_k = -t s_k`. Under `common` and `t`
-//! stand load, speed and oil; `g_k` and `s_k` are geometry. The weighted sum without `exp(common)` is therefore a function of `t`
-//! alone, and a smooth one: polynomials through its values on pieces of `t` come within rounding of it, at a
-//! twentieth of the work. The law is the same, and so is the rule by which the path is integrated.
+//! Along a path the coefficient at point k is `exp(common + g_k - b4 x_k + b5 exp(x_k))` with `x_k = -t s_k`. `common` and `t`
+//! contain load, speed and oil; `g_k` and `s_k` are geometry. The weighted sum without `exp(common)` is therefore a smooth function
+//! of `t` alone. Polynomials through its values on pieces of `t` reproduce it to rounding, at a twentieth of the cost. The law is
+//! the same, and so is the quadrature along the path.
 
 use std::f64::consts::PI;
 
@@ -14,18 +14,18 @@ use super::{Constants, geometry};
 
 /// Terms of the polynomials.
 const TERMS: usize = 16;
-/// Pieces of the range that have a polynomial of their own.
+/// Number of pieces with a polynomial.
 const PIECES: usize = 16;
-/// Pieces of the range that have bounds of their own.
+/// Number of pieces with bounds.
 const BOUNDS: usize = 64;
-/// Pieces with bounds in one with a polynomial.
+/// Number of pieces with bounds per piece with a polynomial.
 const FINER: f64 = (BOUNDS / PIECES) as f64;
-/// How far the exponent at a place bends below the line through its ends over a piece with bounds, at most: an eighth of the
-/// square of the piece times the greatest second derivative.
+/// Maximum deviation of the exponent at a point from the line through its ends over a piece with bounds: an eighth of the square of
+/// the piece times the maximum second derivative.
 fn sag(b5: f64) -> f64 {
     0.125 * b5 * (REACH / BOUNDS as f64) * (REACH / BOUNDS as f64)
 }
-/// The greatest `t s` along the path that is tabulated: slide-roll ratio times pressure in GPa times lg of the viscosity in mPa s.
+/// The maximum tabulated `t s` along the path: slide-to-roll ratio times pressure in GPa times lg of the viscosity in mPa s.
 const REACH: f64 = 8.0;
 
 /// A weighted sum over a path, prepared.
@@ -35,10 +35,10 @@ pub struct Series {
     scale: f64,
     /// Coefficients of powers from -1 to 1 over each piece.
     pieces: Vec<[f64; TERMS]>,
-    /// Lines below and above every exponent along the path, less `common`: value and slope over each piece.
+    /// Lines below and above every exponent along the path, minus `common`: value and slope over each piece.
     bounds: Vec<[(f64, f64); 2]>,
-    /// Over each of these pieces the places, as bits, whose exponent might be the least or the greatest somewhere; empty for a path of
-    /// more places than there are bits.
+    /// For each of these pieces the points, as bits, whose exponent might be the minimum or maximum somewhere in it; empty for a
+    /// path with more points than bits.
     ends: Vec<u64>,
 }
 
@@ -63,7 +63,7 @@ impl Series {
             );
             powers(&values)
         });
-        // Every exponent is convex over `t`: it lies below the line through its ends over a piece, and above that line less `sag`.
+        // Every exponent is convex in `t`: it is below the line through its ends over a piece, and above that line minus `sag`.
         let lines: Vec<Vec<f64>> = (0..=BOUNDS)
             .map(|end| exponents(end as f64 / (scale * FINER)).collect())
             .collect();
@@ -82,7 +82,7 @@ impl Series {
             .array_windows()
             .map(|[start, end]| [0, 1].map(|k| (start[k], end[k] - start[k])));
         let apart = sag + super::ROUNDING;
-        // A place without load or sliding has an exponent of minus infinity everywhere, and is not below another such place.
+        // A point without load or sliding has an exponent of minus infinity everywhere, and is not below another such point.
         let ends = lines.array_windows().map(|[start, end]| {
             let surely_below = |a: usize, b: usize| start[a] + apart < start[b] && end[a] + apart < end[b];
             let all = 0..nodes.len();
@@ -103,8 +103,8 @@ impl Series {
         }
     }
 
-    /// The sum at `t`, without `exp(common)`; no number beyond the range.
-    pub fn at(&self, t: f64) -> f64 {
+    /// The sum at `t`, without `exp(common)`; NaN outside the range.
+    pub fn sum_at(&self, t: f64) -> f64 {
         let number = (t * self.scale) as usize;
         let piece = self.pieces.get(number);
         piece.map_or(f64::NAN, |piece| self.on_piece(piece, number, t))
@@ -116,13 +116,13 @@ impl Series {
         let first = (t[0] * self.scale) as usize;
         let (start, end) = (first as f64, first as f64 + 1.0);
         match self.pieces.get(first) {
-            // Loads that lie close together share a piece.
+            // Similar loads share a piece.
             Some(piece) if count(|i| t[i] * self.scale >= start && t[i] * self.scale < end) == LANES as u64 => over(
                 t,
                 #[inline(always)]
                 |t| self.on_piece(piece, first, t),
             ),
-            _ => over(t, |t| self.at(t)),
+            _ => over(t, |t| self.sum_at(t)),
         }
     }
 
@@ -136,7 +136,7 @@ impl Series {
         four(0) + four(4) * x_4 + (four(8) + four(12) * x_4) * (x_4 * x_4)
     }
 
-    /// Numbers below and above every exponent along the path at `t`, less `common`; absent beyond the range.
+    /// Bounds below and above every exponent along the path at `t`, minus `common`; `None` outside the range.
     pub fn bounds(&self, t: f64) -> Option<[f64; 2]> {
         let place = t * (self.scale * FINER);
         let number = place as usize;
@@ -144,7 +144,8 @@ impl Series {
         Some(lines.map(|(start, rise)| start + rise * (place - number as f64)))
     }
 
-    /// The places, as bits, whose exponent might be the least or the greatest at some `t` between two; absent where that is not known.
+    /// The points, as bits, whose exponent might be the minimum or maximum at some `t` between two values; `None` if that is not
+    /// known.
     pub fn places(&self, low: f64, high: f64) -> Option<u64> {
         let [first, last] = [low, high].map(|t| (t * (self.scale * FINER)) as usize);
         Some(self.ends.get(first..=last)?.iter().fold(0, |all, ends| all | ends))
@@ -155,16 +156,16 @@ fn steepness(node: &PathNode) -> f64 {
     node.slide_roll * node.root_load
 }
 
-/// Places of the values on a piece from -1 to 1, after Chebyshev.
+/// Chebyshev points on a piece from -1 to 1.
 fn place(k: usize) -> f64 {
     ((k as f64 + 0.5) * PI / TERMS as f64).cos()
 }
 
-/// Coefficients of powers from values at the places, by way of Chebyshev's polynomials, whose own coefficients fall so fast that
-/// nothing is lost.
+/// Coefficients of powers from values at the Chebyshev points, by Chebyshev polynomials, whose coefficients decrease so fast that
+/// no precision is lost.
 fn powers(values: &[f64; TERMS]) -> [f64; TERMS] {
     let mut powers = [0.0; TERMS];
-    // The polynomials of the degrees n and n - 1.
+    // The Chebyshev polynomials of degree n and n - 1.
     let (mut own, mut before) = ([0.0; TERMS], [0.0; TERMS]);
     own[0] = 1.0;
     for n in 0..TERMS {
@@ -186,7 +187,7 @@ fn powers(values: &[f64; TERMS]) -> [f64; TERMS] {
 mod tests {
     use super::*;
 
-    /// A path with fast and slow places, one of them close to the pitch point.
+    /// A path with fast and slow points, one of them close to the pitch point.
     fn nodes() -> Vec<PathNode> {
         (0..12)
             .map(|i| {
@@ -223,21 +224,21 @@ mod tests {
             assert!(least_end == least && greatest_end == greatest, "{t}: {ends:b}");
             places += ends.count_ones();
             assert!(
-                (series.at(t) / sum - 1.0).abs() < 2e-14,
+                (series.sum_at(t) / sum - 1.0).abs() < 2e-14,
                 "{t}: {} against {sum}",
-                series.at(t)
+                series.sum_at(t)
             );
             let [below, above] = series.bounds(t).unwrap_or([0.0; 2]);
             assert!(below <= least && greatest <= above);
-            // The bounds are close, or they would spare nothing.
+            // The bounds are close; otherwise they would save nothing.
             assert!(
                 above - greatest < 0.1 && least - below < 0.1,
                 "{t}: {below} {least} {greatest} {above}"
             );
         }
-        // A quarter of the places on the mean, or they would spare little.
+        // A quarter of the points on average; otherwise they would save little.
         assert!(f64::from(places) / 2000.0 <= 3.0, "{places}");
-        assert!(series.at(1.001 * end).is_nan() && series.bounds(1.001 * end).is_none());
+        assert!(series.sum_at(1.001 * end).is_nan() && series.bounds(1.001 * end).is_none());
         assert!(series.places(0.5 * end, 1.001 * end).is_none());
     }
 
@@ -253,7 +254,7 @@ mod tests {
             let t = end * (f64::from(i) + 0.37) / 100.0;
             let ends = series.places(t, t).unwrap_or(0);
             assert!(ends & 1 == 1 && ends >> 11 & 1 == 1, "{ends:b}");
-            assert!(ends & 0x7FE != 0, "one with the greatest as well: {ends:b}");
+            assert!(ends & 0x7FE != 0, "one with the maximum as well: {ends:b}");
         }
     }
 }

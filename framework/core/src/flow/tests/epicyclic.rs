@@ -1,7 +1,7 @@
 //! Epicyclic sets, simple and coupled.
 
 use super::*;
-use crate::flow::{TaskLanes, Trail};
+use crate::flow::{TaskLanes, TorqueHistory};
 use crate::lanes::{LANES, Lane, each};
 
 /// sun 0, carrier 1, ring 2, planet 3.
@@ -85,7 +85,7 @@ fn d1_rolling_power_of_a_planetary_stage() {
             &[(0, rpm(3000.0))],
             &[(0, torque)],
         );
-        // Both meshes roll with the power of the sun against the carrier; printed with six digits.
+        // Both meshes have the power of the sun relative to the carrier; published with six digits.
         let powers = &solved.work.rolling;
         let lost: f64 = powers.iter().zip(factors).map(|(p, h)| p.abs() * mu * h).sum();
         for (value, printed) in [(powers[0], rolling), (powers[1], rolling), (lost, loss)] {
@@ -219,7 +219,7 @@ fn p4_ravigneaux_set_with_two_inputs() {
 
 #[test]
 fn p5_six_speed_automatic() {
-    // In front: ring = input 6, carrier 7, planet 8, sun 9 held.
+    // Front set: ring = input 6, carrier 7, planet 8, sun 9 held.
     let rig = |closed: &str| {
         let rig = ravigneaux(10)
             .mesh(9, 37.0, 8, 17.0, Some(7), 0.010)
@@ -334,7 +334,7 @@ fn p6_wolfrom_set_with_a_law_that_is_not_proportional() {
         close(*value, printed, 65.0);
     }
     close(solved.drag_loss, 3.0426780553, 3.0);
-    // Thirtyfold recirculation; a step without the secant takes eight.
+    // Thirtyfold recirculation; without the secant eight iterations.
     assert!(solved.passes() <= 5, "{:?}", solved.outcome);
     close(run(3, -100.0).work.ports[0], 0.780051307, 1.0);
 }
@@ -371,7 +371,7 @@ fn p7_simpson_set() {
     );
 }
 
-/// A step from a guess neglects the square of the losses of meshes as they feel each other, which is no small share here.
+/// A step from a guess neglects the square of the coupled mesh losses, which is not small here.
 #[test]
 fn a_set_near_self_locking_follows_the_speeds_before() {
     let (ports, mut points, mut single) = ([0, 3], 0, 0);
@@ -381,15 +381,15 @@ fn a_set_near_self_locking_follows_the_speeds_before() {
         let motion = Motion::new(&train, &ports, &[0]).unwrap();
         let meshes: Vec<MeshRow> = rig.meshes.iter().map(|m| m.0).collect();
         let flow = Flow::new(&train, meshes, Vec::new(), &motion.loops, vec![3], vec![0]).unwrap();
-        // A fiftieth below self-locking little losses move much power, and what is left is estimated too low.
+        // A fiftieth below self-locking small losses move much power, and the remaining error is underestimated.
         let limit = if zeta == 0.0105 { 2e-8 } else { 2e-9 };
-        let (mut work, mut trail, mut alone) = (flow.work_abreast(), Trail::default(), flow.work());
+        let (mut work, mut history, mut alone) = (flow.work_batched(), TorqueHistory::default(), flow.work());
         let torques = [each(|i| sense * (20.0 + i as f64))];
         let steady = vec![0.0; rig.columns];
         let mut speed = 100.0;
         for step in 1..=60 {
             let mut speeds = vec![0.0; rig.columns];
-            // Steps ever smaller, so that guesses have errors of all sizes.
+            // Decreasing steps, so that guesses have errors of all sizes.
             speed *= 1.0 + 0.2 * 0.93_f64.powi(step);
             motion.speeds(&[speed], &mut speeds);
             let drag = -0.02 * speed.powf(0.7);
@@ -400,7 +400,7 @@ fn a_set_near_self_locking_follows_the_speeds_before() {
                     _ => (mesh.z1, mesh.first),
                 };
                 let of = |column: Option<usize>| column.map_or(0.0, |c| speeds[c]);
-                // Nearly in proportion, so that passes converge, but not at once.
+                // Nearly proportional, so that the iteration converges, but not immediately.
                 zeta * (multiplier * z * (of(column) - of(mesh.carrier))).abs() * multiplier.abs().max(1e-3).powf(-0.01)
             };
             let task = TaskLanes {
@@ -412,7 +412,7 @@ fn a_set_near_self_locking_follows_the_speeds_before() {
                     passes: 60,
                 },
             };
-            flow.real_abreast(&task, Some((&mut trail, speed.ln())), &mut work, |state| {
+            flow.real_batched(&task, Some((&mut history, speed.ln())), &mut work, |state| {
                 for (k, loss) in state.mesh_loss.iter_mut().enumerate() {
                     let row = rig.meshes[k].0.row;
                     *loss = each(|i| lost(k, state.drives[k], state.multipliers[row][i]));

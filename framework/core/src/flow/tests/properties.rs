@@ -1,4 +1,4 @@
-//! Random trains: what holds for all of them.
+//! Properties of random trains.
 
 use proptest::prelude::*;
 
@@ -10,9 +10,9 @@ enum Stage {
     Pair,
     /// Which member is held: ring, sun or carrier.
     Epicyclic(u8),
-    /// A wheel that carries nothing but its drag.
+    /// A gear that carries only its drag.
     Idle,
-    /// Two equal countershafts with this part of the torque on the first.
+    /// Two equal countershafts with this share of the torque on the first.
     Twin(f64),
 }
 
@@ -76,7 +76,7 @@ fn train() -> impl Strategy<Value = (Rig, usize)> {
                 at = end;
             }
         }
-        // At least one stage lies between both ports.
+        // At least one stage is between both ports.
         if at == 0 {
             at = rig.columns;
             rig.columns += 1;
@@ -94,8 +94,7 @@ fn bent(rig: &Rig, out: usize, power: f64, speed: f64, torque: f64) -> Solved {
     })
 }
 
-/// Residual of equilibrium of the member that has the largest one, over the largest torque, from nothing but the
-/// torques and losses that are reported.
+/// Largest residual of equilibrium of a member over the largest torque, computed only from the reported torques and losses.
 fn unrest(rig: &Rig, solved: &Solved) -> f64 {
     let mut rest: Vec<f64> = solved
         .work
@@ -154,7 +153,7 @@ proptest! {
         (rig, out) in train(), speed in -800.0..800.0_f64, torque in -100.0..100.0_f64, loose in any::<bool>(),
     ) {
         prop_assume!(speed.abs() > 1.0);
-        // Whatever the tolerance of the loop.
+        // For any tolerance of the loop.
         let solved = bent(&rig, out, if loose { 1e-4 } else { 1e-12 }, speed, torque);
         if converged(&solved) {
             let power: f64 = [0, out].iter().map(|p| solved.work.ports[*p] * solved.speeds[*p]).sum();
@@ -174,7 +173,7 @@ proptest! {
             prop_assert!(unrest <= 1e-12, "{unrest}");
             for share in &rig.shares {
                 let z1 = |row: usize| rig.meshes.iter().find(|m| m.0.row == row).unwrap().0;
-                // The first gear drives or not: the share is that of the torques as they are, friction included.
+                // Whether or not the first gear drives, the share is that of the actual torques, including friction.
                 let torque = |row: usize| {
                     let k = rig.meshes.iter().position(|m| m.0.row == row).unwrap();
                     let full = solved.work.multipliers[row] * z1(row).z1;

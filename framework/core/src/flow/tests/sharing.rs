@@ -1,4 +1,4 @@
-//! Torque that is shared: differentials and redundant loops.
+//! Torque splits: differentials and redundant loops.
 
 use super::*;
 

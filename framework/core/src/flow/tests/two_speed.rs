@@ -133,7 +133,7 @@ fn t4_ideal_and_real_agree_to_second_order() {
     }
 }
 
-/// A law with the exponents of measured gears and drags that hang on load.
+/// A law with the exponents of measured gears and drags that depend on load.
 fn measured(rig: &Rig, power: f64, torque: f64) -> Solved {
     solve_to(
         power,
@@ -157,7 +157,7 @@ fn three_passes_agree_to_1e_9_for_laws_that_are_not_proportional() {
     for torque in [10.0, -10.0, 100.0] {
         let (quick, exact) = (measured(&rig, 1e-9, torque), measured(&rig, 1e-12, torque));
         assert_eq!(quick.passes(), 3);
-        // The promise is the tolerance itself; the balance holds to rounding in both.
+        // The tolerance itself is the guarantee; the balance holds to rounding in both.
         assert!((quick.loss() - exact.loss()).abs() <= 1e-9 * exact.work.largest);
         for solved in [quick, exact] {
             let power: f64 = [0, 2].iter().map(|p| solved.work.ports[*p] * solved.speeds[*p]).sum();

@@ -105,7 +105,8 @@ fn a3_internal_24_72() {
     );
 }
 
-/// Derived from ISO 21771 with a negative number of teeth of the ring: inv alpha_wt = inv alpha_t + 2 tan alpha_n (x1 + x2)/(z1 + z2),
+/// Derived from ISO 21771 with a negative number of teeth of the ring gear: inv alpha_wt = inv alpha_t + 2 tan alpha_n (x1 +
+/// x2)/(z1 + z2),
 /// a = m_t (z1 + z2)/2 cos alpha_t/cos alpha_wt.
 #[test]
 fn shifts_of_a_ring_have_the_sign_of_iso_21771() {
@@ -124,7 +125,7 @@ fn shifts_of_a_ring_have_the_sign_of_iso_21771() {
     let distance = |x1: f64, x2: f64| ring([Some(x1), Some(x2)], None).centre_distance;
     near(distance(0.1, 0.2), 47.366_892_046e-3, 1e-12);
     near(distance(0.1, -0.2), 48.196_991_638e-3, 1e-12);
-    // A pinion and a ring with opposite shifts keep the reference distance.
+    // A pinion and a ring gear with opposite shifts keep the reference centre distance.
     near(distance(0.3, -0.3), 48e-3, 1e-15);
     let closed = ring([Some(0.1), None], Some(47.366_892_046e-3)).profile_shift;
     near(closed[1], 0.2, 1e-6);
@@ -193,7 +194,7 @@ fn b1_b1b_b4_loss_factors() {
     ] {
         close(pair.loss_factor_ohlendorf(), ohlendorf);
         close(pair.loss_factor_uniform(), uniform);
-        // Under its own assumptions the local factor is the closed form to rounding.
+        // Under its own assumptions the local factor equals the closed form to rounding.
         assert!((pair.loss_factor_local(LoadSharing::Rigid) / pair.loss_factor_ohlendorf() - 1.0).abs() < 1e-12);
         assert!((pair.loss_factor_local(LoadSharing::Uniform) / pair.loss_factor_uniform() - 1.0).abs() < 1e-12);
     }

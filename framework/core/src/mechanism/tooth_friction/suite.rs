@@ -1,4 +1,4 @@
-//! What the suite asks of a law beside single contacts: whole paths, in one go and side by side.
+//! Conformance checks of a friction law beyond single contacts: whole paths, single and batched.
 
 use std::cell::Cell;
 
@@ -8,17 +8,17 @@ use crate::loss::{MOST_KEPT, NoteBase, Notes, Undefined};
 use crate::mechanism::gear_mesh::MeshPart;
 use crate::mechanism::mean_friction::MeanFrictionAt;
 
-/// Places on the path of the suite, of which one is the pitch point.
+/// Points on the path of the suite, one of which is the pitch point.
 const PLACES: usize = 6;
 const PITCH: f64 = 2.0;
 /// Speed of its first gear. \[rad/s\]
 const SPEED: f64 = 300.0;
-/// How well the sum of [`ToothFrictionModel::weighted`] agrees with that over the places.
+/// Tolerance of the sum of [`ToothFrictionModel::weighted`] to that over the points.
 const SUM: f64 = 1e-9;
-/// Most models within a law that may keep numbers.
+/// Maximum number of models within a law that may keep values.
 const NESTED: usize = 16;
 
-/// A path through the neighbourhood of a contact.
+/// A path near a contact.
 fn nodes(at: &ContactAt<'_>) -> [PathNode; PLACES] {
     std::array::from_fn(|k| {
         let k = k as f64;
@@ -35,14 +35,14 @@ fn nodes(at: &ContactAt<'_>) -> [PathNode; PLACES] {
     })
 }
 
-/// What is wrong with the answers of a law for a whole path, beside those for one line load at a time.
+/// The faults of the results of a law for a whole path, compared with those for one line load at a time.
 pub(super) fn fault(model: &dyn ToothFrictionModel, contact: &ContactAt<'_>, notes: NoteBase) -> Option<&'static str> {
     // A mesh has no path without load, speed and curvature.
     if contact.line_load <= 0.0 || contact.sum_speed <= 0.0 || contact.radius <= 0.0 {
         return None;
     }
     let Ok(part) = MeshPart::fzg_c() else {
-        return Some("cannot be asked: the pair of the suite is impossible");
+        return Some("cannot be evaluated: the pair of the suite is impossible");
     };
     let nodes = nodes(contact);
     let weights = nodes.map(|node| 0.3 * node.share);
@@ -52,7 +52,7 @@ pub(super) fn fault(model: &dyn ToothFrictionModel, contact: &ContactAt<'_>, not
         weighted: weighted.as_deref(),
         weights,
         nodes: &nodes,
-        extent: PathExtent::of(&nodes),
+        extent: PathExtent::from_nodes(&nodes),
         part: &part,
         contact,
         notes,
@@ -71,29 +71,29 @@ struct Law<'a> {
     part: &'a MeshPart,
     contact: &'a ContactAt<'a>,
     notes: NoteBase,
-    /// Those that are asked side by side. \[N/m\]
+    /// The batched line loads. \[N/m\]
     line_loads: Lane,
 }
 
-/// Coefficients at the places of a path, with what else is known of it.
+/// Coefficients at the points of a path, with the other results.
 type Answer = Result<(Along, [f64; PLACES]), Undefined>;
 type Kept = [Cell<[f64; MOST_KEPT]>];
 
-/// Answers for all line loads.
+/// Results for all line loads.
 struct Wide {
-    /// Whether the law has a way of its own to the coefficients.
+    /// True if the law has a batched evaluation of the coefficients.
     answers: bool,
     mu: [Lane; PLACES],
     sums: Lane,
 }
 
-/// The same bits, or both no number.
-fn same(a: f64, b: f64) -> bool {
+/// True if both have the same bits, or are both NaN.
+fn same_bits(a: f64, b: f64) -> bool {
     a.to_bits() == b.to_bits() || a.is_nan() && b.is_nan()
 }
 
 fn all_same(a: &[f64], b: &[f64]) -> bool {
-    a.iter().zip(b).all(|(a, b)| same(*a, *b))
+    a.iter().zip(b).all(|(a, b)| same_bits(*a, *b))
 }
 
 impl Law<'_> {
@@ -101,7 +101,7 @@ impl Law<'_> {
         let answers: [Answer; LANES] = std::array::from_fn(|lane| self.along(lane, Notes::muted(self.notes)));
         let sound = |mu: &f64| *mu >= 0.0 && mu.is_finite();
         if !answers.iter().flatten().all(|(_, mu)| mu.iter().all(sound)) {
-            return Some("`along` leaves a coefficient that is negative or no number");
+            return Some("`along` returns a coefficient that is negative or NaN");
         }
         let wide = self.wide(&[], 1.0, &mut Powers::EXACT.clone());
         self.keeping(&answers, &wide)
@@ -110,8 +110,8 @@ impl Law<'_> {
             .or_else(|| self.noting(&answers, &wide))
     }
 
-    /// Asks something of the path at a line load, with the speed times a factor.
-    fn ask<R>(&self, line_load: f64, faster: f64, notes: Notes<'_>, then: impl FnOnce(&PathAt<'_>) -> R) -> R {
+    /// Evaluates the path at a line load, with the speed times a factor.
+    fn with_path<R>(&self, line_load: f64, faster: f64, notes: Notes<'_>, then: impl FnOnce(&PathAt<'_>) -> R) -> R {
         let (contact, load) = (self.contact, line_load / self.contact.line_load);
         let mean = MeanFrictionAt::usual(self.part, Notes::MUTED).with(|to| {
             to.line_load *= load;
@@ -119,7 +119,7 @@ impl Law<'_> {
             to.pressure *= load.sqrt();
         });
         then(
-            &PathAt::of(self.nodes, &self.extent, contact.length, &mean, notes).with(|to| {
+            &PathAt::new(self.nodes, &self.extent, contact.length, &mean, notes).with(|to| {
                 to.speed = SPEED * faster;
                 to.line_load = line_load;
                 to.modulus = contact.modulus;
@@ -132,7 +132,7 @@ impl Law<'_> {
     }
 
     fn along(&self, lane: usize, notes: Notes<'_>) -> Answer {
-        self.ask(self.line_loads[lane], 1.0, notes, |path| {
+        self.with_path(self.line_loads[lane], 1.0, notes, |path| {
             let mut mu = [f64::NAN; PLACES];
             let along = self.model.along(path, &mut mu)?;
             Ok((along, mu))
@@ -141,16 +141,16 @@ impl Law<'_> {
 
     fn sum(&self, lane: usize, notes: Notes<'_>) -> f64 {
         let sum = |path: &PathAt<'_>| self.weighted.map_or(0.0, |weighted| weighted.sum(path));
-        self.ask(self.line_loads[lane], 1.0, notes, sum)
+        self.with_path(self.line_loads[lane], 1.0, notes, sum)
     }
 
-    /// The answers for all line loads, times a factor, on a path that has none of them.
+    /// The results for all line loads, times a factor, on a path without a load of its own.
     fn wide(&self, kept: &Kept, factor: f64, powers: &mut Powers) -> Wide {
         let line_loads = over(&self.line_loads, |load| load * factor);
         let mut mu = [Lane::ZERO; PLACES];
-        // What was asked for other loads had another speed, too, unless what is kept is looked at.
+        // The evaluation at other loads uses another speed, too, unless kept values are checked.
         let faster = if factor == 1.0 || !kept.is_empty() { 1.0 } else { 1.3 };
-        self.ask(0.0, faster, Notes::muted(self.notes).keeping(kept), |path| Wide {
+        self.with_path(0.0, faster, Notes::muted(self.notes).keeping(kept), |path| Wide {
             answers: self.model.along_lanes(path, &line_loads, &mut mu),
             mu,
             sums: self
@@ -159,9 +159,9 @@ impl Law<'_> {
         })
     }
 
-    /// What is kept over the passes of a point must not hang on the load.
+    /// Checks that values kept over the iterations of a point are independent of the load.
     fn keeping(&self, answers: &[Answer; LANES], wide: &Wide) -> Option<&'static str> {
-        let fault = Some("keeps what hangs on the line load over the passes of a point");
+        let fault = Some("keeps a value that depends on the line load over the iterations of a point");
         let kept = || vec![Cell::new([f64::NAN; MOST_KEPT]); self.notes.instance() + NESTED];
         let (single, own) = (kept(), Notes::muted(self.notes));
         let keeping = own.keeping(&single);
@@ -171,7 +171,7 @@ impl Law<'_> {
             (Err(answer), Err(kept)) => answer.what == kept.what,
             _ => false,
         };
-        if !alike || !same(self.sum(0, own), self.sum(0, keeping)) {
+        if !alike || !same_bits(self.sum(0, own), self.sum(0, keeping)) {
             return fault;
         }
         let together = kept();
@@ -187,22 +187,22 @@ impl Law<'_> {
 
     fn lanes(&self, answers: &[Answer; LANES], wide: &Wide) -> Option<&'static str> {
         let agrees = |lane: usize| match &answers[lane] {
-            Ok((_, mu)) => (0..PLACES).all(|k| same(wide.mu[k][lane], mu[k])),
+            Ok((_, mu)) => (0..PLACES).all(|k| same_bits(wide.mu[k][lane], mu[k])),
             Err(_) => (0..PLACES).any(|k| !wide.mu[k][lane].is_finite()),
         };
         if wide.answers && !(0..LANES).all(agrees) {
-            return Some("`along_lanes` answers otherwise than `along`");
+            return Some("`along_lanes` differs from `along`");
         }
         let alike = |answer: &Answer| answer.as_ref().map_or(true, |(along, _)| *along == Along::default());
         let ways = wide.answers || self.weighted.is_some();
         (ways && !answers.iter().all(alike))
-            .then_some("has lanes or a sum, but its heat does not go into both bodies alike")
+            .then_some("has lanes or a sum, but does not split its heat equally between both bodies")
     }
 
     fn sums(&self, answers: &[Answer; LANES], wide: &Wide) -> Option<&'static str> {
         self.weighted?;
         let sums = each(|lane| self.sum(lane, Notes::muted(self.notes)));
-        // A sum that is no number leaves the path to its places.
+        // NaN as a sum means that the points must be evaluated.
         let agrees = |lane: usize| match &answers[lane] {
             Ok((_, mu)) => {
                 let sum: f64 = self.weights.iter().zip(mu).map(|(weight, mu)| weight * mu).sum();
@@ -211,12 +211,12 @@ impl Law<'_> {
             Err(_) => !sums[lane].is_finite(),
         };
         if !(0..LANES).all(agrees) {
-            return Some("`weighted` sums to something else than the places of `along`");
+            return Some("the sum of `weighted` differs from that over the points of `along`");
         }
         if !all_same(&wide.sums[..], &sums[..]) {
-            return Some("`sums` answers otherwise than `sum`");
+            return Some("`sums` differs from `sum`");
         }
-        // What is remembered comes from another speed and loads close by.
+        // Remembered values come from another speed and similar loads.
         let mut powers = Powers::remembering();
         let _ = self.wide(&[], 1.001, &mut powers);
         let remembered = self.wide(&[], 1.0, &mut powers).sums;
@@ -224,12 +224,13 @@ impl Law<'_> {
             let (own, sum) = (remembered[lane], sums[lane]);
             own.is_nan() && sum.is_nan() || (own - sum).abs() <= REMEMBERED * sum.abs()
         };
-        (!(0..LANES).all(agrees)).then_some("`sums` remembers what is no power of the line loads times a constant")
+        (!(0..LANES).all(agrees))
+            .then_some("`sums` remembers a value that is not a power of the line loads times a constant")
     }
 
     fn noting(&self, answers: &[Answer; LANES], wide: &Wide) -> Option<&'static str> {
         let weighted = self.weighted?;
-        // What is undefined at a load is noted by its point alone.
+        // The single point notes values that are undefined at a load.
         if answers.iter().any(Result::is_err) {
             return None;
         }
@@ -237,7 +238,7 @@ impl Law<'_> {
             let _ = self.along(lane, notes);
         };
         let together = |notes: LaneNotes<'_>| {
-            let noted = self.ask(0.0, 1.0, notes.all(), |path| {
+            let noted = self.with_path(0.0, 1.0, notes.all(), |path| {
                 let noted = weighted.note(path, &self.line_loads, notes);
                 if !noted && wide.answers {
                     self.model.note_lanes(path, &self.line_loads, &wide.mu, notes);
@@ -248,7 +249,7 @@ impl Law<'_> {
                 (0..LANES).for_each(|lane| single(lane, notes.lane(lane)));
             }
         };
-        (!same_notes(self.notes, single, together)).then_some("`note` or `note_lanes` notes otherwise than `along`")
+        (!same_notes(self.notes, single, together)).then_some("`note` or `note_lanes` writes other notes than `along`")
     }
 }
 
@@ -277,7 +278,7 @@ mod tests {
         Notes,
     }
 
-    /// A law that rises with the root of the load, with every way to a path, and one slip.
+    /// A law that increases with the root of the load, with every kind of path evaluation, and one deliberate fault.
     struct RootLaw(Slip);
 
     impl RootLaw {
@@ -352,9 +353,10 @@ mod tests {
                 Slip::Sums => (1.0, (1.0 + 1e-15) * self.law.factor(path)),
                 _ => (1.0, self.law.factor(path)),
             };
-            let raised = powers.of(0, |i| line_loads[i], 0.5, |load| load.sqrt() * within);
-            // Powers that come from a memory are no root.
-            let forgets = self.law.0 == Slip::Forgets && (0..LANES).any(|i| !same(raised[i], line_loads[i].sqrt()));
+            let raised = powers.raise(0, |i| line_loads[i], 0.5, |load| load.sqrt() * within);
+            // Remembered powers are not exact roots.
+            let forgets =
+                self.law.0 == Slip::Forgets && (0..LANES).any(|i| !same_bits(raised[i], line_loads[i].sqrt()));
             let raised = if forgets { Lane::all(f64::NAN) } else { raised };
             over(&raised, |raised| raised * outside * self.sum)
         }
@@ -366,17 +368,17 @@ mod tests {
         let found = |slip| fault(&RootLaw(slip), &ContactAt::usual(&NoPart {}, Notes::MUTED), base);
         assert_eq!(found(Slip::None), None);
         for (slip, words) in [
-            (Slip::Keeps, "keeps what hangs on the line load"),
-            (Slip::LanesKeep, "keeps what hangs on the line load"),
-            (Slip::Negative, "negative or no number"),
-            (Slip::Lanes, "`along_lanes` answers otherwise"),
-            (Slip::Mean, "`along_lanes` answers otherwise"),
-            (Slip::Heat, "heat does not go into both bodies alike"),
-            (Slip::Sum, "`weighted` sums to something else"),
-            (Slip::Sums, "`sums` answers otherwise"),
+            (Slip::Keeps, "keeps a value that depends on the line load"),
+            (Slip::LanesKeep, "keeps a value that depends on the line load"),
+            (Slip::Negative, "negative or NaN"),
+            (Slip::Lanes, "`along_lanes` differs"),
+            (Slip::Mean, "`along_lanes` differs"),
+            (Slip::Heat, "does not split its heat equally"),
+            (Slip::Sum, "the sum of `weighted` differs"),
+            (Slip::Sums, "`sums` differs"),
             (Slip::Remembers, "`sums` remembers"),
             (Slip::Forgets, "`sums` remembers"),
-            (Slip::Notes, "notes otherwise than `along`"),
+            (Slip::Notes, "writes other notes than `along`"),
         ] {
             let fault = found(slip).unwrap();
             assert!(fault.contains(words), "{slip:?}: {fault}");

@@ -1,4 +1,4 @@
-//! From the description of a network to the network: names looked up, laws built.
+//! From the description of a network to the network: resolves names and builds models.
 
 use std::sync::Arc;
 
@@ -15,7 +15,7 @@ use crate::motor::{MotorEntry, MotorMap};
 use crate::registry::{Build, Files};
 use crate::transmission::{AMBIENT, GearSeat, NodeNames, Port};
 
-/// What a network needs of the transmission that is being built.
+/// Data of the transmission that a network needs while it is built.
 pub(crate) struct Around<'a> {
     /// Names of nodes.
     pub names: &'a NodeNames,
@@ -23,18 +23,18 @@ pub(crate) struct Around<'a> {
     pub members: &'a [String],
     /// Gears.
     pub gears: &'a [GearSeat],
-    /// Oils by name; empty where one has a fault that was reported.
+    /// Oils by name; empty if one has a fault that was reported.
     pub lubricants: &'a [(String, Arc<Lubricant>)],
-    /// The outside of the housing.
+    /// The outside the housing.
     pub housing: &'a HousingPart,
     /// Ports.
     pub ports: &'a [Port],
-    /// Files that the description names.
+    /// Files named by the description.
     pub files: &'a Files,
 }
 
 impl Network {
-    /// The network of a description; absent without one, and where it has faults, which go to the findings.
+    /// The network of a description; `None` without one, or if it has faults, which become findings.
     pub(crate) fn new(
         entry: &GearboxEntry,
         around: &Around<'_>,
@@ -72,14 +72,14 @@ impl Network {
             ];
             if flow.capacity.is_some() && flow.share.is_some() {
                 found.push(
-                    Diagnostic::error(path.clone(), "both `capacity` and `share` are given")
-                        .help("leave one of them out"),
+                    Diagnostic::error(path.clone(), "both `capacity` and `share` are stated")
+                        .help("remove one of them"),
                 );
             }
             let rate = rate(&path, flow.capacity, flow.share, network, found);
             if let ([Some(from), Some(to)], Some(rate)) = (ends, rate) {
                 if from == to {
-                    found.push(same(&path));
+                    found.push(same_node(&path));
                 }
                 flows.push(([from, to], rate));
             }
@@ -133,8 +133,8 @@ fn node_of(names: &NodeNames, path: &str, id: &str, found: &mut Vec<Diagnostic>)
     node
 }
 
-fn same(path: &str) -> Diagnostic {
-    Diagnostic::error(path, "both ends are one node").help("name two nodes")
+fn same_node(path: &str) -> Diagnostic {
+    Diagnostic::error(path, "both ends are the same node").help("name two nodes")
 }
 
 fn law(
@@ -162,7 +162,7 @@ fn law(
             let member = around.members.iter().position(|m| m == id);
             if member.is_none() {
                 let ids: Vec<&str> = around.members.iter().map(String::as_str).collect();
-                found.push(dangling(&format!("{path}.shaft"), "shaft or loose gear", id, &ids));
+                found.push(dangling(&format!("{path}.shaft"), "shaft or idler gear", id, &ids));
             }
             member
         }
@@ -208,7 +208,7 @@ fn law(
         }
         (given, _) => {
             let (what, help) = if given.is_some() {
-                ("both `conductance` and `model` are given", "leave one of them out")
+                ("both `conductance` and `model` are stated", "remove one of them")
             } else {
                 ("the link has no conductance", "add `conductance: 10 W/K`, or a `model`")
             };
@@ -220,7 +220,7 @@ fn law(
         return None;
     };
     if first == second {
-        found.push(same(path));
+        found.push(same_node(path));
         return None;
     }
     Some(Link {
@@ -230,7 +230,7 @@ fn law(
     })
 }
 
-/// A gear as a law of heat sees it.
+/// A gear in the form used by heat models.
 fn shape(gear: &GearSeat) -> GearShape {
     let [pitch, tip, root] = gear.diameters;
     GearShape {
@@ -254,7 +254,7 @@ fn rate(
         None if network.oil_flow.is_some() => Some(Rate::Share(share.unwrap_or(1.0))),
         None => {
             found.push(
-                Diagnostic::error(path, "nothing says how much flows")
+                Diagnostic::error(path, "the flow is not stated")
                     .help("add `oil_flow: 8 l/min` to the network, or `capacity: 200 W/K` here"),
             );
             None
@@ -270,7 +270,7 @@ fn motor(path: &str, entry: &MotorEntry, around: &Around<'_>, found: &mut Vec<Di
         let ids: Vec<&str> = around.ports.iter().map(|p| p.name.as_str()).collect();
         found.push(dangling(&format!("{path}.port"), "port", &entry.port, &ids));
     }
-    if let Err(fault) = entry.rotor_share.at(0.0) {
+    if let Err(fault) = entry.rotor_share.share_at(0.0) {
         found.push(Diagnostic::error(format!("{path}.rotor_share"), fault.message).help(fault.help));
     }
     let map = match around.files.text(&entry.map) {
@@ -313,17 +313,20 @@ fn exchanger(
     let to = node_of(around.names, &format!("{path}.to"), &entry.to, found);
     let oil = rate(path, entry.capacity, None, network, found);
     if from.is_some() && from == to {
-        found.push(same(path));
+        found.push(same_node(path));
     }
     let held = network
         .nodes
         .get(&entry.to)
         .is_some_and(|node| node.temperature.is_some());
     if held || entry.to == AMBIENT {
-        let message = format!("`{}` is held at a temperature, and the exchanger decides it", entry.to);
+        let message = format!(
+            "`{}` has a prescribed temperature, but the exchanger determines it",
+            entry.to
+        );
         found.push(
             Diagnostic::error(format!("{path}.to"), message)
-                .help("name a node of its own for the oil behind the exchanger, without a `temperature`"),
+                .help("use a separate node without `temperature` for the oil after the exchanger"),
         );
     }
     Some(Exchanger {

@@ -1,32 +1,32 @@
-//! The numbers of a thermal network at one state: C dT/dt = Q - K T.
+//! Numerical form of a thermal network at one state: C dT/dt = Q - K T.
 //!
-//! Links pass heat both ways and stand in the rows of both ends; a flow carries heat downstream and stands in the row of the node
-//! that it enters only. What leaves the network with a flow, leaves it with the temperature of its last node. A heat exchanger is
-//! a flow whose heat is taken off in between, so that its outlet follows from its inlet. Temperatures in degC, heat in W.
+//! Links transfer heat in both directions and appear in the rows of both nodes; a flow carries heat downstream and appears only in
+//! the row of its downstream node. A flow that leaves the network has the temperature of its last node. A heat exchanger is a flow
+//! from which heat is removed, so that its outlet temperature follows from its inlet temperature. Temperatures in degC, heat in W.
 //!
-//! Source: the usual nodal equations; a step backwards in time (backward Euler) is stable for any length. Nodes without heat capacity
-//! are algebraic. The matrix has positive diagonals and rows that sum to zero, so that no node leaves the range of its neighbours
-//! without a source.
+//! Source: the usual nodal equations; a backward Euler step is stable for any length. Nodes without heat capacity are algebraic.
+//! The matrix has positive diagonals and rows that sum to zero, so without a source the temperature of a node is within the range
+//! of its neighbours.
 
 use nalgebra::{DMatrix, DVector};
 
 /// Heat exchanger between two nodes of oil.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Exchange {
-    /// Node from which the oil comes.
+    /// Node of the incoming oil.
     pub from: usize,
-    /// Node behind the exchanger.
+    /// Node of the outgoing oil.
     pub to: usize,
     /// Capacity flow of the oil. \[W/K\]
     pub oil: f64,
-    /// Heat per difference of oil and coolant as they come in, no more than the capacity flow. \[W/K\]
+    /// Heat per difference of the inlet temperatures of oil and coolant, at most the capacity flow. \[W/K\]
     pub transfer: f64,
-    /// Temperature at which the coolant comes in. \[degC\]
+    /// Inlet temperature of the coolant. \[degC\]
     pub coolant: f64,
 }
 
 impl Exchange {
-    /// Temperature behind the exchanger for oil of a temperature; that of the oil where none flows. \[degC\]
+    /// Outlet temperature for oil of an inlet temperature; equal to it without flow. \[degC\]
     pub fn outlet(&self, inlet: f64) -> f64 {
         if self.oil > 0.0 {
             inlet - self.transfer * (inlet - self.coolant) / self.oil
@@ -36,12 +36,12 @@ impl Exchange {
     }
 }
 
-/// A thermal network in numbers.
+/// A thermal network in numerical form.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Circuit {
     /// Heat capacities. \[J/K\]
     pub capacities: Vec<f64>,
-    /// Temperatures of the nodes that are held. \[degC\]
+    /// Prescribed node temperatures. \[degC\]
     pub held: Vec<Option<f64>>,
     /// Conductances between two nodes. \[W/K\]
     pub links: Vec<([usize; 2], f64)>,
@@ -51,19 +51,19 @@ pub struct Circuit {
     pub exchangers: Vec<Exchange>,
 }
 
-/// Where heat leaves a circuit. \[W\]
+/// Heat that leaves a circuit. \[W\]
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Leaving {
-    /// Into held nodes, through links and by what arises there: one for each node, zero for those that are free.
+    /// Into nodes of prescribed temperature, through links and from their own heat: one for each node, zero for free nodes.
     pub held: Vec<f64>,
     /// Through each heat exchanger.
     pub exchangers: Vec<f64>,
-    /// Carried away by flows: what all of them gain on their way, less what exchangers take off.
+    /// Carried away by flows: the sum of their gains along the way, minus the heat removed by exchangers.
     pub flows: f64,
 }
 
 impl Leaving {
-    /// All of it. \[W\]
+    /// Total. \[W\]
     pub fn total(&self) -> f64 {
         self.held.iter().sum::<f64>() + self.exchangers.iter().sum::<f64>() + self.flows
     }
@@ -80,7 +80,7 @@ impl Circuit {
         self.capacities.is_empty()
     }
 
-    /// K of all nodes, and what heat exchangers bring in from their coolants. \[W/K and W\]
+    /// K of all nodes, and the heat input of heat exchangers from their coolants. \[W/K and W\]
     fn matrix(&self) -> (DMatrix<f64>, DVector<f64>) {
         let mut k = DMatrix::zeros(self.len(), self.len());
         let mut coolants = DVector::zeros(self.len());
@@ -102,8 +102,8 @@ impl Circuit {
         (k, coolants)
     }
 
-    /// Temperatures after a step in time (s) backwards from `before`, under heat (W) at each node; without a step the steady state.
-    /// Absent where a node hangs on nothing.
+    /// Temperatures after a backward step (s) from `before`, under heat (W) at each node; without a step the steady state. `None`
+    /// if a node is isolated.
     pub fn solve(&self, heat: &[f64], step: Option<(f64, &[f64])>) -> Option<Vec<f64>> {
         let (mut k, mut right) = self.matrix();
         for (sum, heat) in right.iter_mut().zip(heat) {
@@ -116,7 +116,7 @@ impl Circuit {
                 right[i] += held_back * before[i];
             }
         }
-        // Oil that stands is as warm as that from which it came, where nothing else warms or cools it.
+        // Stationary oil has the temperature of its upstream node, unless something else heats or cools it.
         let ways = self.flows.iter().map(|(ends, _)| *ends);
         for [from, to] in ways.chain(self.exchangers.iter().map(|e| [e.from, e.to])) {
             if k[(to, to)] == 0.0 && heat[to] == 0.0 {
@@ -138,7 +138,7 @@ impl Circuit {
         solved.iter().all(|t| t.is_finite()).then(|| solved.as_slice().to_vec())
     }
 
-    /// Where heat leaves at given temperatures, under heat (W) at each node: what arises in a held node leaves by it.
+    /// Outgoing heat at given temperatures, under heat (W) at each node: heat of a node with prescribed temperature leaves there.
     pub fn leaving(&self, temperatures: &[f64], heat: &[f64]) -> Leaving {
         let mut leaving = Leaving {
             held: heat.to_vec(),
@@ -195,7 +195,7 @@ pub(super) mod tests {
         );
     }
 
-    /// Held at 23 degC, then 12, 25 and 8 W/K in a row.
+    /// Prescribed at 23 degC, then 12, 25 and 8 W/K in series.
     fn chain() -> Circuit {
         Circuit {
             capacities: vec![0.0, 20e3, 4e3, 6e3],
@@ -247,7 +247,7 @@ pub(super) mod tests {
         close(open.leaving(&t, &[0.0, 1500.0, 300.0]).total(), 1800.0);
     }
 
-    /// The drive unit of seventeen nodes, counted from one as in its publication; node 0 is nothing.
+    /// The drive unit of seventeen nodes, numbered from one as in its publication; node 0 is unused.
     pub fn drive_unit() -> (Circuit, Vec<f64>) {
         let mut links = vec![
             (1, 2, 10.0),
@@ -320,7 +320,7 @@ pub(super) mod tests {
         (circuit, heat)
     }
 
-    /// The published scheme: the exchanger's outlet is held at what the sump of the step before gives.
+    /// The published scheme: the exchanger's outlet is prescribed from the sump temperature of the previous step.
     #[test]
     fn u5k_seventeen_nodes_in_time() {
         let (circuit, heat) = drive_unit();
@@ -383,7 +383,7 @@ pub(super) mod tests {
         }
         let leaving = circuit.leaving(&t, &heat);
         assert!((leaving.held[1] - 297.380).abs() < 1e-3 && (leaving.exchangers[0] - 768.515).abs() < 1e-3);
-        // At rest all that comes in leaves, and both schemes agree.
+        // In steady state all incoming heat leaves, and both schemes agree.
         let rest = circuit.solve(&heat, None).unwrap();
         let all: f64 = heat.iter().sum();
         assert!((circuit.leaving(&rest, &heat).total() - all).abs() < 1e-9 * all);
@@ -397,9 +397,12 @@ pub(super) mod tests {
         t[17] = 31.0;
         for duration in [0.01, 1.0, 1000.0] {
             let after = circuit.solve(&heat, Some((duration, &t))).unwrap();
-            let came: f64 = heat.iter().sum::<f64>() * duration;
+            let supplied: f64 = heat.iter().sum::<f64>() * duration;
             let went = circuit.stored(&t, &after) + circuit.leaving(&after, &heat).total() * duration;
-            assert!((came - went).abs() < 1e-9 * came, "{duration}: {came} {went}");
+            assert!(
+                (supplied - went).abs() < 1e-9 * supplied,
+                "{duration}: {supplied} {went}"
+            );
             t = after;
         }
     }
@@ -415,9 +418,9 @@ pub(super) mod tests {
         heat[1] = 7.0;
         let t = circuit.solve(&heat, Some((1.0, &[23.0; 18]))).unwrap();
         assert_eq!(t[17], 60.0);
-        let came: f64 = heat.iter().sum();
+        let supplied: f64 = heat.iter().sum();
         let went = circuit.stored(&[23.0; 18], &t) + circuit.leaving(&t, &heat).total();
-        assert!((came - went).abs() < 1e-9 * came, "{came} {went}");
+        assert!((supplied - went).abs() < 1e-9 * supplied, "{supplied} {went}");
     }
 
     #[test]

@@ -1,5 +1,6 @@
-//! What makes a thermal network have no temperatures.
+//! Faults of a thermal network that leave temperatures undetermined.
 
+use crate::codes;
 use crate::document::Diagnostic;
 
 /// Names, capacities and connections of a network.
@@ -8,24 +9,24 @@ pub struct Shape<'a> {
     pub names: &'a [String],
     /// Heat capacities. \[J/K\]
     pub capacities: &'a [f64],
-    /// True for nodes that are held at a temperature.
+    /// True for nodes with prescribed temperature.
     pub held: Vec<bool>,
     /// Links.
     pub links: Vec<[usize; 2]>,
     /// Flows and heat exchangers, downstream.
     pub flows: Vec<[usize; 2]>,
-    /// Nodes behind heat exchangers, which hang on a coolant.
+    /// Nodes after heat exchangers, which depend on a coolant.
     pub cooled: Vec<usize>,
 }
 
-/// Finds nodes whose temperature hangs on nothing, and loops of oil without heat capacity.
+/// Finds isolated nodes, and loops of oil without heat capacity.
 pub fn check(shape: &Shape<'_>, found: &mut Vec<Diagnostic>) {
     let at = |node: usize| format!("thermal.network.nodes.{}", shape.names[node]);
     let mut fixed: Vec<bool> = shape.held.clone();
     for node in &shape.cooled {
         fixed[*node] = true;
     }
-    // What a node hangs on: both ends of its links, and what flows into it.
+    // The nodes that determine a node: both ends of its links, and the sources of its incoming flows.
     loop {
         let mut more = false;
         for (ends, both) in shape
@@ -52,8 +53,9 @@ pub fn check(shape: &Shape<'_>, found: &mut Vec<Diagnostic>) {
         found.push(
             Diagnostic::error(
                 at(node),
-                format!("no path leads from `{}` to a fixed temperature", shape.names[node]),
+                format!("no path leads from `{}` to a prescribed temperature", shape.names[node]),
             )
+            .code(codes::NO_HEAT_PATH)
             .help("link it to a neighbour, to `ambient`, or to a heat exchanger, or give it a `temperature`"),
         );
     }
@@ -64,12 +66,13 @@ pub fn check(shape: &Shape<'_>, found: &mut Vec<Diagnostic>) {
                 at(ring[0]),
                 format!("oil flows in a loop without heat capacity: {}", names.join(", ")),
             )
-            .help("give the oil of one of these nodes a `heat_capacity`, mass times specific heat"),
+            .help("state a `heat_capacity`, mass times specific heat, for the oil of one of these nodes")
+            .code(codes::NO_HEAT_PATH),
         );
     }
 }
 
-/// A loop of flows all of whose nodes have no heat capacity and no held temperature.
+/// A loop of flows whose nodes all have no heat capacity and no prescribed temperature.
 fn empty_loop(shape: &Shape<'_>) -> Option<Vec<usize>> {
     let empty = |node: usize| shape.capacities[node] == 0.0 && !shape.held[node];
     (0..shape.names.len()).filter(|node| empty(*node)).find_map(|start| {
@@ -79,7 +82,7 @@ fn empty_loop(shape: &Shape<'_>) -> Option<Vec<usize>> {
     })
 }
 
-/// Follows flows downstream from the end of a way until it comes back to where it began.
+/// Follows flows downstream from the end of a path until it returns to its start.
 fn loop_from(
     shape: &Shape<'_>,
     start: usize,
@@ -135,9 +138,9 @@ mod tests {
         assert_eq!(lost.len(), 2);
         assert_eq!(
             lost[0],
-            "thermal.network.nodes.n2: no path leads from `n2` to a fixed temperature"
+            "thermal.network.nodes.n2: no path leads from `n2` to a prescribed temperature"
         );
-        // Heat goes downstream only: what flows out says nothing of a temperature, what flows in does.
+        // Flows carry heat downstream only: an incoming flow determines a temperature, an outgoing one does not.
         assert_eq!(found(&[0.0, 1.0], &[], &[[1, 0]], &[]).len(), 1);
         assert!(found(&[0.0, 1.0], &[], &[[0, 1]], &[]).is_empty());
         assert!(found(&[0.0, 1.0, 0.0], &[], &[[1, 2], [2, 1]], &[2]).is_empty());

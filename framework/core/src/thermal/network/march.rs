@@ -1,4 +1,4 @@
-//! Temperatures of the network of a transmission in time.
+//! Transient temperatures of the network of a transmission.
 
 use super::circuit::Circuit;
 use super::parts::{Network, Surroundings};
@@ -7,7 +7,7 @@ use crate::evaluate::{Noting, Point, Scratch};
 use crate::thermal::Unbalanced;
 use crate::transmission::{Case, Transmission};
 
-/// Energy of a stretch of time. \[J\]
+/// Energies of a time interval. \[J\]
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Heats {
     /// Length. \[s\]
@@ -16,42 +16,42 @@ pub struct Heats {
     pub parts: Vec<f64>,
     /// Loss of each motor in rotor and stator.
     pub motors: Vec<[f64; 2]>,
-    /// Heat from elsewhere.
+    /// Heat from other sources.
     pub sources: f64,
     /// Heat stored in the nodes.
     pub stored: f64,
-    /// Into each held node.
+    /// Heat into each node of prescribed temperature.
     pub held: Vec<f64>,
-    /// Through each heat exchanger.
+    /// Heat through each heat exchanger.
     pub exchangers: Vec<f64>,
-    /// Carried away by flows.
+    /// Heat carried away by flows.
     pub flows: f64,
-    /// Power that ports put in.
+    /// Input energy over the ports.
     pub input: f64,
-    /// Power that comes out.
+    /// Output energy over the ports.
     pub output: f64,
-    /// True where a motor was beyond its map.
+    /// True if a motor was outside its map.
     pub beyond_map: bool,
 }
 
 impl Heats {
-    /// All heat that came into the nodes.
-    pub fn came(&self) -> f64 {
+    /// Total heat input of the nodes.
+    pub fn heat_input(&self) -> f64 {
         self.parts.iter().sum::<f64>() + self.motors.iter().flatten().sum::<f64>() + self.sources
     }
 
-    /// What is left of the heat that came, less what was stored and what left; zero to rounding.
+    /// Energy balance error: heat input minus stored heat and outgoing heat; zero to rounding.
     pub fn residual(&self) -> f64 {
         let left = self.held.iter().sum::<f64>() + self.exchangers.iter().sum::<f64>() + self.flows;
-        self.came() - self.stored - left
+        self.heat_input() - self.stored - left
     }
 
-    /// Adds another stretch.
+    /// Adds another interval.
     pub fn add(&mut self, more: &Self) {
         self.combine(1.0, more, 1.0);
     }
 
-    /// A multiple of itself and a multiple of another.
+    /// Linear combination with another.
     pub(super) fn combine(&mut self, own: f64, more: &Self, share: f64) {
         let one = |sum: &mut f64, x: f64| *sum = own * *sum + share * x;
         let each = |sums: &mut Vec<f64>, more: &[f64]| {
@@ -76,14 +76,14 @@ impl Heats {
     }
 }
 
-/// What holds over an interval.
+/// Constant conditions of an interval.
 #[derive(Clone, Copy)]
 pub struct Moment<'a> {
     /// Gear state and ports.
     pub case: &'a Case,
     /// Torques and speeds.
     pub point: &'a Point<'a>,
-    /// What surrounds the gearbox.
+    /// Surroundings of the gearbox.
     pub around: &'a Surroundings,
 }
 
@@ -97,29 +97,29 @@ pub(super) struct Warm {
     pub parts: Vec<f64>,
     /// Loss of each motor in rotor and stator. \[W\]
     pub motors: Vec<[f64; 2]>,
-    /// Heat from elsewhere. \[W\]
+    /// Heat from other sources. \[W\]
     pub sources: f64,
     /// Power in and out. \[W\]
     pub power: [f64; 2],
-    /// True where a motor is beyond its map.
+    /// True if a motor is outside its map.
     pub beyond_map: bool,
 }
 
-/// Temperatures that go on in time.
+/// Transient simulation of the node temperatures.
 pub struct March<'a> {
     transmission: &'a Transmission,
     network: &'a Network,
     stepping: Stepping,
-    /// Temperatures of the nodes now. \[degC\]
+    /// Present node temperatures. \[degC\]
     pub temperatures: Vec<f64>,
-    /// Evaluations of the losses so far.
+    /// Number of loss evaluations so far.
     pub evaluations: usize,
-    /// Steps so far, those among them that were tried in vain.
+    /// Number of steps so far, and of rejected steps.
     pub steps: [usize; 2],
 }
 
 impl Transmission {
-    /// Losses, heat and conductances at temperatures of the nodes.
+    /// Losses, heat and conductances at node temperatures.
     pub(super) fn warm(
         &self,
         network: &Network,
@@ -152,7 +152,7 @@ impl Transmission {
     }
 }
 
-/// A transmission under one load, for the steps of its network.
+/// A transmission at one operating point, for the steps of its network.
 struct Loaded<'a, 'b> {
     transmission: &'a Transmission,
     network: &'a Network,
@@ -178,7 +178,7 @@ impl Heated for Loaded<'_, '_> {
 }
 
 impl<'a> March<'a> {
-    /// A march from temperatures of the nodes. \[degC\]
+    /// Starts a simulation from node temperatures. \[degC\]
     pub fn new(
         transmission: &'a Transmission,
         network: &'a Network,
@@ -196,11 +196,11 @@ impl<'a> March<'a> {
         }
     }
 
-    /// Goes on over an interval (s) with constant speeds and torques, and tells its energies.
+    /// Simulates an interval (s) with constant speeds and torques, and returns its energies.
     ///
     /// # Errors
-    /// Where a loss or a conductance has no value, or no step is short enough. The temperatures then are those before the step
-    /// that failed.
+    /// If a loss or a conductance is undefined, or no step is short enough. The temperatures are then those before the
+    /// failed step.
     pub fn advance(&mut self, moment: &Moment<'_>, duration: f64, scratch: &mut Scratch) -> Result<Heats, Unbalanced> {
         let mut loaded = Loaded {
             transmission: self.transmission,

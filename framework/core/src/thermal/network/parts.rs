@@ -1,28 +1,28 @@
-//! A thermal network as built: indices in place of names, laws in place of choices.
+//! A built thermal network: indices instead of names, models instead of choices.
 
 use std::sync::Arc;
 
 use super::faults;
 use crate::document::Diagnostic;
 use crate::lubricant::Lubricant;
+use crate::mechanism::Slot;
 use crate::mechanism::heat_link::{HeatLink, HeatLinkPart};
 use crate::motor::{MotorMap, RotorShare};
-use crate::registry::Slot;
 use crate::thermal::Arrangement;
 use crate::transmission::HeatPath;
 
-/// What surrounds a gearbox at one time. Absent is what the description says.
+/// Surroundings of a gearbox at one time. `None`: as in the description.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Surroundings {
-    /// Temperature of the surroundings. \[degC\]
+    /// Ambient temperature. \[degC\]
     pub ambient: Option<f64>,
     /// Speed of the vehicle. \[m/s\]
     pub vehicle_speed: f64,
-    /// Mass flow of the oil that a pump drives round. \[kg/s\]
+    /// Mass flow of the circulated oil. \[kg/s\]
     pub oil_flow: Option<f64>,
     /// Mass flow of the coolant of every heat exchanger. \[kg/s\]
     pub coolant_flow: Option<f64>,
-    /// Temperature at which it comes in. \[degC\]
+    /// Inlet temperature of the coolant. \[degC\]
     pub coolant_temperature: Option<f64>,
 }
 
@@ -32,7 +32,7 @@ pub(super) enum Law {
     Model(Box<Lawful>),
 }
 
-/// A law with what it sees.
+/// A model with its inputs.
 pub(super) struct Lawful {
     pub(super) model: Slot<HeatLink>,
     pub(super) part: Arc<HeatLinkPart>,
@@ -48,12 +48,12 @@ pub struct Link {
     pub(super) law: Law,
 }
 
-/// How much flows.
+/// Quantity of a flow.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Rate {
     /// Mass flow times specific heat. \[W/K\]
     Given(f64),
-    /// A share of the oil that a pump drives round.
+    /// A share of the circulated oil flow.
     Share(f64),
 }
 
@@ -73,7 +73,7 @@ pub(super) struct Exchanger {
 /// An electric motor at a port.
 pub(super) struct Motor {
     pub(super) path: String,
-    /// What was noted while its map was read.
+    /// Notes of reading its map.
     pub(super) notes: Vec<String>,
     pub(super) map: MotorMap,
     pub(super) rotor_share: RotorShare,
@@ -86,9 +86,9 @@ pub(super) struct Motor {
 pub struct Network {
     pub(super) names: Vec<String>,
     pub(super) capacities: Vec<f64>,
-    /// Temperatures of held nodes; the first node is the surroundings. \[degC\]
+    /// Prescribed node temperatures; the first node is the ambient. \[degC\]
     pub(super) held: Vec<Option<f64>>,
-    /// Temperatures at the start, where stated. \[degC\]
+    /// Initial temperatures, if stated. \[degC\]
     pub(super) starts: Vec<Option<f64>>,
     pub(super) links: Vec<Link>,
     pub(super) flows: Vec<([usize; 2], Rate)>,
@@ -104,7 +104,7 @@ pub struct Network {
 }
 
 impl Network {
-    /// Says where the heat of each part goes, in the order of the parts.
+    /// Assigns the heat of each part to nodes, in the order of the parts.
     pub(crate) fn set_heat(&mut self, heat: Vec<HeatPath>) {
         self.heat = heat;
     }
@@ -124,7 +124,7 @@ impl Network {
             cooled: self.exchangers.iter().map(|e| e.to).collect(),
         }
     }
-    /// Names of the nodes, the surroundings first.
+    /// Names of the nodes, `ambient` first.
     pub fn names(&self) -> &[String] {
         &self.names
     }
@@ -132,7 +132,7 @@ impl Network {
     pub fn capacities(&self) -> &[f64] {
         &self.capacities
     }
-    /// True for nodes that are held at a temperature.
+    /// True for nodes with prescribed temperature.
     pub fn is_held(&self, node: usize) -> bool {
         self.held[node].is_some()
     }
@@ -144,7 +144,7 @@ impl Network {
     pub fn links(&self) -> impl ExactSizeIterator<Item = (&str, [usize; 2])> {
         self.links.iter().map(|link| (link.path.as_str(), link.between))
     }
-    /// True where a pump drives oil round, so that a recorded flow counts.
+    /// True if oil is circulated, so that a recorded flow is used.
     pub fn is_pumped(&self) -> bool {
         self.pumped.is_some()
     }
@@ -152,7 +152,7 @@ impl Network {
     pub fn exchangers(&self) -> impl ExactSizeIterator<Item = &str> {
         self.exchangers.iter().map(|e| e.path.as_str())
     }
-    /// What is worth knowing: notes on the maps of motors, and nodes from which not as much oil flows as comes.
+    /// Warnings: notes on the maps of motors, and nodes whose outgoing oil flow is less than the incoming one.
     pub(crate) fn warnings(&self) -> Vec<Diagnostic> {
         let mut warnings = Vec::new();
         for motor in &self.motors {
@@ -164,7 +164,7 @@ impl Network {
         let exchangers = self.exchangers.iter().map(|e| ([e.from, e.to], e.oil));
         let ways: Vec<([usize; 2], Rate)> = flows.chain(exchangers).collect();
         for (node, name) in self.names.iter().enumerate().filter(|(i, _)| !self.is_held(*i)) {
-            // What is given and what is a share of the pump add up each for itself.
+            // Given flows and shares of the circulated flow are balanced separately.
             let mut net = [0.0_f64; 2];
             for ([from, to], rate) in &ways {
                 let (kind, amount) = match rate {
@@ -182,9 +182,11 @@ impl Network {
                 warnings.push(
                     Diagnostic::warning(
                         format!("thermal.network.nodes.{name}"),
-                        format!("not as much oil flows out of `{name}` as into it: heat leaves with it, or comes from nowhere"),
+                        format!(
+                            "outgoing and incoming oil flow of `{name}` differ: the difference adds or removes heat"
+                        ),
                     )
-                    .help("close the circuit by flows, each with the share that it takes on"),
+                    .help("close the circuit with flows, each with its share"),
                 );
             }
         }
@@ -194,11 +196,11 @@ impl Network {
     pub fn motors(&self) -> impl ExactSizeIterator<Item = &str> {
         self.motors.iter().map(|m| m.path.as_str())
     }
-    /// Heat from elsewhere by node. \[W\]
+    /// Heat from other sources by node. \[W\]
     pub fn sources(&self) -> &[(usize, f64)] {
         &self.sources
     }
-    /// Where the heat of a part goes, by its number.
+    /// Destination of the heat of a part, by its number.
     pub fn heat(&self, part: usize) -> &HeatPath {
         &self.heat[part]
     }

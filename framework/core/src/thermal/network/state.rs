@@ -1,4 +1,4 @@
-//! The numbers of a network at one state: heat of parts and motors, and its circuit.
+//! Numerical form of a network at one state: heat of parts and motors, and its circuit.
 
 use std::cell::Cell;
 
@@ -10,7 +10,7 @@ use crate::mechanism::heat_link::HeatLinkAt;
 use crate::transmission::{HeatPath, PartKind, Transmission};
 
 impl Network {
-    /// Adds the heat of all parts at the point that was evaluated last to that of the nodes. \[W\]
+    /// Adds the heat of all parts at the last evaluated point to that of the nodes. \[W\]
     pub(super) fn add_parts(&self, transmission: &Transmission, scratch: &Scratch, heat: &mut [f64]) {
         for ((part, way), watts) in transmission.parts().iter().zip(&self.heat).zip(scratch.watts()) {
             match (way, part.kind) {
@@ -24,8 +24,8 @@ impl Network {
             }
         }
     }
-    /// Adds the losses of all motors at the point that was evaluated last to the heat of the nodes, and tells them for rotor and
-    /// stator; true where one is beyond its map. \[W\]
+    /// Adds the losses of all motors at the last evaluated point to the heat of the nodes, and returns them for rotor and stator;
+    /// true if one is outside its map. \[W\]
     pub(super) fn add_motors(
         &self,
         temperatures: &[f64],
@@ -40,7 +40,7 @@ impl Network {
             // The windings are in the stator.
             let found = motor.map.loss(speed, torque, temperatures[motor.stator]);
             outside |= found.outside;
-            let share = motor.rotor_share.at(speed.abs()).unwrap_or(0.0);
+            let share = motor.rotor_share.share_at(speed.abs()).unwrap_or(0.0);
             let own = [share * found.loss, (1.0 - share) * found.loss];
             heat[motor.rotor] += own[0];
             heat[motor.stator] += own[1];
@@ -48,26 +48,31 @@ impl Network {
         }
         outside
     }
-    /// Temperatures at the start: held nodes as they are held, others as stated, else `start`, else the surroundings. \[degC\]
+    /// Initial temperatures: prescribed ones, else stated ones, else `start`, else the ambient temperature. \[degC\]
     pub fn start(&self, start: Option<f64>, around: &Surroundings) -> Vec<f64> {
         let ambient = around.ambient.unwrap_or(self.ambient);
         (0..self.names.len())
-            .map(|i| self.held(i, around).or(self.starts[i]).or(start).unwrap_or(ambient))
+            .map(|i| {
+                self.prescribed(i, around)
+                    .or(self.starts[i])
+                    .or(start)
+                    .unwrap_or(ambient)
+            })
             .collect()
     }
 
-    /// Temperature of a held node. \[degC\]
-    fn held(&self, node: usize, around: &Surroundings) -> Option<f64> {
+    /// Prescribed temperature of a node. \[degC\]
+    fn prescribed(&self, node: usize, around: &Surroundings) -> Option<f64> {
         match (node, around.ambient) {
             (0, Some(ambient)) => Some(ambient),
             _ => self.held[node],
         }
     }
 
-    /// Writes the numbers of the network at temperatures of its nodes (degC) and speeds of the members (rad/s).
+    /// Writes the numerical form of the network at node temperatures (degC) and speeds of the members (rad/s).
     ///
     /// # Errors
-    /// Number of the link whose law has no value, and why.
+    /// Number of the link whose model is undefined, and the reason.
     pub(crate) fn circuit(
         &self,
         temperatures: &[f64],
@@ -77,8 +82,10 @@ impl Network {
     ) -> Result<(), (usize, Undefined)> {
         circuit.capacities.clone_from(&self.capacities);
         circuit.held.clear();
-        circuit.held.extend((0..self.names.len()).map(|i| self.held(i, around)));
-        // One mass flow all round, so that none is lost: that of the oil of the housing.
+        circuit
+            .held
+            .extend((0..self.names.len()).map(|i| self.prescribed(i, around)));
+        // A single mass flow in the circuit, so that it is balanced: that of the oil of the housing.
         let oil = temperatures[self.oil];
         let pumped = || self.pumped.unwrap_or(0.0) * self.lubricant.density(oil);
         let mass = around.oil_flow.unwrap_or_else(pumped);
@@ -128,7 +135,7 @@ impl Lawful {
         oil_flow: f64,
         cells: &[Cell<Extent>],
     ) -> Result<f64, Undefined> {
-        let oil = self.lubricant.at(0.5 * (first + second));
+        let oil = self.lubricant.oil_at(0.5 * (first + second));
         let at = HeatLinkAt {
             part: &self.part,
             temperature_1: first,
@@ -155,7 +162,7 @@ impl Lawful {
     }
 }
 
-/// Adds a heat to nodes by equal parts.
+/// Adds heat to nodes in equal shares.
 fn spread(watts: f64, nodes: &[usize], heat: &mut [f64]) {
     for node in nodes {
         heat[*node] += watts / nodes.len() as f64;

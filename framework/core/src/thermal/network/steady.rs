@@ -1,7 +1,7 @@
-//! Temperatures at which a network rests: losses at the temperatures that they lead to.
+//! Steady-state temperatures of a network, with the losses at these temperatures.
 //!
-//! Repeated substitution, accelerated by the last changes (Anderson, J. ACM 12 (1965) 547-560), because losses that fall with
-//! temperature make plain substitution swing.
+//! Fixed-point iteration, accelerated by the last changes (Anderson, J. ACM 12 (1965) 547-560), because losses that decrease with
+//! temperature make the plain iteration oscillate.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -12,42 +12,42 @@ use crate::evaluate::Scratch;
 use crate::thermal::{Outcome, Unbalanced};
 use crate::transmission::Transmission;
 
-/// Temperature within which nothing changes any more. \[K\]
+/// Convergence tolerance of the temperatures. \[K\]
 const SETTLED: f64 = 1e-8;
-/// Passes after which there is no rest.
+/// Maximum number of iterations.
 const MOST: usize = 200;
-/// How many changes are remembered.
+/// Number of stored changes.
 const REMEMBERED: usize = 4;
-/// Passes beyond the range after which nothing is expected to come back.
+/// Number of iterations outside the range after which the search ends.
 const TOO_HOT: usize = 5;
-/// Range in which losses are asked. \[degC\]
+/// Temperature range of loss evaluations. \[degC\]
 const ASKED: [f64; 2] = [-60.0, 250.0];
-/// How much warmer than the surroundings the search begins. \[K\]
+/// Initial guess above the ambient temperature. \[K\]
 const WARMER: f64 = 30.0;
 
-/// A network at rest.
+/// A network in steady state.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Steady {
-    /// What became of the search.
+    /// Outcome of the search.
     pub outcome: Outcome,
-    /// Temperatures of the nodes; the last that were tried where they do not rest. \[degC\]
+    /// Node temperatures; the last iterate if they do not converge. \[degC\]
     pub temperatures: Vec<f64>,
-    /// Where heat leaves. \[W\]
+    /// Outgoing heat. \[W\]
     pub leaving: Leaving,
     /// Heat into each node. \[W\]
     pub heat: Vec<f64>,
     /// Loss of each motor in rotor and stator. \[W\]
     pub motors: Vec<[f64; 2]>,
-    /// Heat that comes, less what leaves. \[W\]
+    /// Incoming heat minus outgoing heat. \[W\]
     pub residual: f64,
-    /// Evaluations of the losses.
+    /// Number of loss evaluations.
     pub evaluations: usize,
-    /// Why there is no value.
+    /// Why there is no steady state.
     pub undefined: Option<Unbalanced>,
 }
 
 impl Transmission {
-    /// Temperatures of the nodes at which a point rests; absent without a network.
+    /// Steady-state node temperatures of a point; `None` without a network.
     pub fn steady(&self, moment: &Moment<'_>, scratch: &mut Scratch) -> Option<Steady> {
         let network = self.network()?;
         let mut guess = network.start(None, moment.around);
@@ -71,8 +71,8 @@ impl Transmission {
         let mut hot = 0;
         while steady.evaluations < MOST {
             steady.evaluations += 1;
-            let asked = self.warm(network, moment, &guess, scratch, &mut warm);
-            let after = asked.and_then(|()| warm.circuit.solve(&warm.heat, None).ok_or(Unbalanced::Network));
+            let warmed = self.warm(network, moment, &guess, scratch, &mut warm);
+            let after = warmed.and_then(|()| warm.circuit.solve(&warm.heat, None).ok_or(Unbalanced::Network));
             let after = match after {
                 Ok(after) => after,
                 Err(reason) => {
@@ -93,11 +93,11 @@ impl Transmission {
                 steady.heat = warm.heat;
                 steady.motors = warm.motors;
                 steady.temperatures = after;
-                // What the models saw there counts once.
+                // Observations of the models at the steady state count once.
                 scratch.count_seen();
                 return Some(steady);
             }
-            // Asked no warmer, a node would be warmer still: there is no rest in the range.
+            // Evaluated at the maximum temperature, a node would be warmer still: there is no steady state in the range.
             let beyond = |(guess, after): (&f64, &f64)| *guess >= ASKED[1] && *after > ASKED[1];
             hot = if guess.iter().zip(&after).any(beyond) {
                 hot + 1
@@ -119,15 +119,15 @@ impl Transmission {
     }
 }
 
-/// The last steps of a repeated substitution.
+/// The last steps of a fixed-point iteration.
 #[derive(Default)]
 struct Memory {
-    /// Guess and what it led to.
+    /// Guess and its result.
     steps: Vec<(Vec<f64>, Vec<f64>)>,
 }
 
 impl Memory {
-    /// The next guess: the mix of the last answers whose mixed changes are least.
+    /// The next guess: the combination of the last results whose combined changes are minimal.
     fn next(&mut self, guess: &[f64], after: &[f64]) -> Vec<f64> {
         if self.steps.len() > REMEMBERED {
             self.steps.remove(0);
@@ -163,7 +163,7 @@ mod tests {
 
     #[test]
     fn what_swings_settles() {
-        // Plain substitution would run away: each answer falls by 1.4 times what the guess rose.
+        // Plain iteration would diverge: each result decreases by 1.4 times the increase of the guess.
         let law = |x: &[f64]| vec![100.0 - 1.4 * x[0] + 0.2 * x[1], 50.0 + 0.3 * x[0] - 0.01 * x[1] * x[1]];
         let mut memory = Memory::default();
         let mut guess = vec![20.0, 20.0];

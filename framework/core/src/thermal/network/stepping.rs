@@ -1,13 +1,12 @@
-//! Steps in time.
+//! Time stepping.
 //!
-//! Each step goes backwards in time (backward Euler), so that it is stable for any length: losses, conductances and flows are those
-//! at its end, found by repeated substitution, or, as some publications have it, those at its beginning with the oil behind a
-//! heat exchanger held at what its inlet was. Energy is kept to rounding either way, because the heat that is counted is
-//! the heat that was solved with.
+//! Each step uses backward Euler, which is stable for any length. Losses, conductances and flows are those at its end, found by
+//! fixed-point iteration. Alternatively, as in some publications, they are those at its start, with the outlet of a heat exchanger
+//! prescribed from its previous inlet. Both conserve energy to rounding, because the energies use the heat of the solved equations.
 //!
-//! The error falls with the length of the steps. A march that adapts them takes each step whole and in two halves; the difference, which
-//! the tolerance bounds, is the error of the halves, so that it is taken off (Richardson). The sum stays stable for any length, and
-//! keeps the energy, because all that is summed is linear in both.
+//! The error decreases with the step length. Adaptive stepping computes each step once as a whole and once in two halves; the
+//! difference, which the tolerance bounds, is the error of the halves and is subtracted (Richardson). The result remains stable for
+//! any length and conserves energy, because all sums are linear in both.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -16,50 +15,50 @@ use super::circuit::Leaving;
 use super::march::{Heats, Warm};
 use crate::thermal::Unbalanced;
 
-/// Temperature within which the losses of a step belong to its end. \[K\]
+/// Tolerance between the temperatures at the end of a step and those of its losses. \[K\]
 const AGREED: f64 = 0.01;
-/// Passes after which a step counts as too long.
+/// Number of iterations above which a step is too long.
 const MOST_PASSES: usize = 30;
-/// Passes from which on only half of each change is taken.
+/// Number of iterations above which only half of each change is applied.
 const CAREFUL: usize = 8;
-/// The shortest step over the longest; no more than the next is needed.
+/// Ratio of the shortest to the longest step; not below the precision of time.
 const SHORTEST: f64 = 1.0 / 4096.0;
 /// A step that is short for every node of a transmission. \[s\]
 const SHORT: f64 = 1e-3;
 
-/// Where in a step its losses, conductances and flows are those of the temperatures.
+/// Time within a step at which losses, conductances and flows are evaluated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Scheme {
-    /// At its end.
+    /// Its end.
     #[default]
     Implicit,
-    /// At its beginning.
+    /// Its start.
     Lagged,
 }
 
-/// How long steps are.
+/// Length of steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum StepSize {
-    /// No longer than this, and no longer than the intervals of the duty. \[s\]
+    /// Fixed maximum, also bounded by the intervals of the cycle. \[s\]
     Fixed(f64),
-    /// As long as one step and two of half its length agree within this. \[K\]
+    /// Adaptive: one step and two half steps agree within this. \[K\]
     Adaptive(f64),
 }
 
-/// What heats the nodes of a network, and what links them, at any temperatures.
+/// Heat and conductances of a network at any temperatures.
 pub(super) trait Heated {
-    /// Losses, heat and conductances at temperatures of the nodes.
+    /// Losses, heat and conductances at node temperatures.
     fn warm(&mut self, temperatures: &[f64], warm: &mut Warm) -> Result<(), Unbalanced>;
-    /// Hears of every step whether it was taken, or tried in vain.
+    /// Called for every step, accepted or rejected.
     fn stepped(&mut self, taken: bool);
 }
 
-/// How a march steps, and what it remembers from step to step.
+/// Stepping method, and its state between steps.
 pub(super) struct Stepping {
     scheme: Scheme,
     step: StepSize,
-    /// Length with which the next adaptive step begins. \[s\]
+    /// Initial length of the next adaptive step. \[s\]
     next: f64,
     warm: Warm,
 }
@@ -74,7 +73,7 @@ impl Stepping {
         }
     }
 
-    /// Goes on over an interval (s).
+    /// Simulates an interval (s).
     pub fn advance(&mut self, heated: &mut dyn Heated, now: &mut Vec<f64>, duration: f64) -> Result<Heats, Unbalanced> {
         let mut heats = Heats::default();
         let mut left = duration;
@@ -95,7 +94,7 @@ impl Stepping {
                         // Back to full length after steps that were too long.
                         StepSize::Fixed(_) => (true, 2.0),
                         StepSize::Adaptive(tolerance) => {
-                            // The error of a step goes with the square of its length.
+                            // The error of a step is proportional to the square of its length.
                             let factor = (0.8 * (tolerance / error.max(1e-12)).sqrt()).clamp(0.2, 4.0);
                             (error <= tolerance || length <= least, factor)
                         }
@@ -105,7 +104,7 @@ impl Stepping {
                         heats.add(&more);
                         left -= length;
                         *now = after;
-                        // What is left of an interval says nothing of the next one's steps.
+                        // The remainder of an interval gives no information on the steps of the next one.
                         self.next = if cut {
                             self.next.max(length * factor)
                         } else {
@@ -124,7 +123,7 @@ impl Stepping {
         Ok(heats)
     }
 
-    /// One step, or where steps adapt two of half its length without their error: temperatures, energies, and that error in K.
+    /// One step, or for adaptive stepping two half steps with the error subtracted: temperatures, energies, and that error in K.
     fn tried(
         &mut self,
         heated: &mut dyn Heated,
@@ -192,8 +191,8 @@ impl Stepping {
             .ok_or(Unbalanced::Network)?;
         let mut leaving = circuit.leaving(&after, &self.warm.heat);
         for e in &exchangers {
-            // What the oil has lost on its way through the exchanger stands among the gains of the other flows. What links bring
-            // to its outlet, which is held over the step, the coolant takes.
+            // The heat that the oil has lost in the exchanger is among the gains of the other flows. The coolant takes the heat
+            // that links bring to the outlet, whose temperature is prescribed over the step.
             let lost = e.oil * (after[e.from] - after[e.to]);
             leaving.flows -= lost;
             leaving.exchangers.push(lost + std::mem::take(&mut leaving.held[e.to]));
@@ -228,7 +227,7 @@ impl Stepping {
     }
 }
 
-/// The greatest difference of two lists of temperatures. \[K\]
+/// Maximum difference of two lists of temperatures. \[K\]
 pub(super) fn farthest(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()))
 }

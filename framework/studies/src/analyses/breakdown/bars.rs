@@ -1,4 +1,4 @@
-//! Rows of stacked bars: the outcome that breakdowns, spin losses and temperature sweeps have in common.
+//! Rows of stacked bars: the common outcome of breakdowns, spin losses and temperature sweeps.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -18,7 +18,7 @@ pub enum As {
     /// Watts.
     #[default]
     Watts,
-    /// Percent of the whole loss.
+    /// Percent of the total loss.
     Percent,
 }
 
@@ -39,7 +39,7 @@ impl As {
         }
     }
 
-    /// What watts at a point are multiplied with; absent where a share of no loss is asked for.
+    /// Factor from watts to the unit at a point; absent for a share of zero loss.
     fn scale(self, point: &PointResult) -> Option<f64> {
         match self {
             Self::Watts => Some(1.0),
@@ -48,10 +48,10 @@ impl As {
     }
 }
 
-/// Where losses arise under each model set.
+/// Loss breakdown with each model set.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct BreakdownOutcome {
-    /// Where it comes from.
+    /// Provenance.
     #[serde(flatten)]
     pub head: Head,
     /// One for each model set and gear state.
@@ -59,30 +59,30 @@ pub struct BreakdownOutcome {
     /// Unit of all losses.
     #[serde(skip)]
     pub unit: As,
-    /// What reading the measured points brought up.
+    /// Notes on the file of measured points.
     #[serde(skip)]
     pub measured_notes: Vec<String>,
 }
 
-/// Where losses arise under one model set in one gear state.
+/// Loss breakdown with one model set in one gear.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct BreakdownOfSet {
     /// Name of the set.
     pub model_set: String,
     /// Gear state.
     pub gear: String,
-    /// Unit of the losses: `w`, or `percent` of the whole loss.
+    /// Unit of the losses: `w`, or `percent` of the total loss.
     pub unit: &'static str,
     /// Names of the shares.
     pub shares: Vec<String>,
-    /// What models noted.
+    /// Notes of models.
     pub notes: Vec<Note>,
     /// One for each bar.
     pub points: Vec<PointOfBreakdown>,
-    /// Port that is turned, which need not be that of the conditions; absent for losses under load.
+    /// Driven port, which may differ from that of the conditions; absent for losses under load.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub turned_at: Option<String>,
-    /// The rows of bars that the points make, in their order.
+    /// The rows of bars in order.
     #[serde(skip)]
     pub rows: Vec<RowOfBars>,
 }
@@ -94,7 +94,7 @@ pub struct PointOfBreakdown {
     pub torque_nm: f64,
     /// Speed. [rpm]
     pub speed_rpm: f64,
-    /// Temperature of the oil; absent where no balance was found. [degC]
+    /// Oil temperature; absent if no balance was found. [degC]
     pub oil_temperature_degc: Option<f64>,
     /// Losses in the unit of the breakdown.
     #[serde(flatten)]
@@ -110,14 +110,14 @@ pub struct PointOfBreakdown {
 pub enum Losses {
     /// In watts.
     Watts {
-        /// Losses in the order of the shares; absent where there is no loss. [W]
+        /// Losses in the order of the shares; absent if there is no loss. [W]
         losses_w: Option<Vec<f64>>,
         /// Measured loss. [W]
         measured_loss_w: Option<f64>,
     },
-    /// In percent of the whole loss.
+    /// In percent of the total loss.
     Percent {
-        /// Losses in the order of the shares, in percent of the whole loss; absent where there is none. [%]
+        /// Losses in the order of the shares, in percent of the total loss; absent if there is none. [%]
         losses_percent: Option<Vec<f64>>,
         /// Measured loss, in percent of the computed one. [%]
         measured_loss_percent: Option<f64>,
@@ -165,15 +165,15 @@ impl Losses {
 /// Bars side by side.
 #[derive(Debug, Clone)]
 pub struct RowOfBars {
-    /// What all of them have in common.
+    /// Common conditions.
     pub common: Common,
-    /// What changes from bar to bar.
+    /// Quantity along the bars.
     pub along: Along,
     /// Its value at each bar, in its unit.
     pub values: Vec<f64>,
 }
 
-/// What all bars of a row have in common.
+/// Common conditions of all bars of a row.
 #[derive(Debug, Clone)]
 pub enum Common {
     /// A torque. [Nm]
@@ -186,14 +186,14 @@ pub enum Common {
     Point(f64, f64),
     /// No torque.
     NoLoad {
-        /// Port that is turned.
+        /// Driven port.
         turned: String,
         /// Free ports that are stationary.
         stationary: Vec<String>,
     },
 }
 
-/// What changes along a row of bars.
+/// Quantity along a row of bars.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Along {
     /// The speed, in rpm.
@@ -202,14 +202,14 @@ pub enum Along {
     Torque,
     /// The power, in W.
     Power,
-    /// The temperature of the oil, in degC.
+    /// The oil temperature, in degC.
     OilTemperature,
 }
 
 /// Measured loss at a point and its accuracy. \[W\]
 pub(in crate::analyses) type MeasuredAt<'m> = &'m dyn Fn(&PointResult) -> Option<(f64, f64)>;
 
-/// What losses of all sets are summed by, and in which unit.
+/// Shares and unit of the losses of all sets.
 pub(in crate::analyses) struct Stacks {
     by: By,
     unit: As,
@@ -225,12 +225,12 @@ impl Stacks {
         }
     }
 
-    /// True where points have to keep their terms.
+    /// True if points must keep their terms.
     pub fn needs_terms(&self) -> bool {
         self.by == By::Term
     }
 
-    /// Solves rows of bars of one set; nothing where an analysis is only checked.
+    /// Solves rows of bars of one set; absent if an analysis is only checked.
     pub fn solve(
         &self,
         cx: &Context<'_>,
@@ -309,16 +309,16 @@ impl Outcome for BreakdownOutcome {
     fn tables(&self) -> Vec<Table> {
         let loss = match self.unit {
             As::Watts => "Loss of the share",
-            As::Percent => "Loss of the share in percent of the whole loss",
+            As::Percent => "Loss of the share in percent of the total loss",
         };
         let mut table = Table::new(
             &self.head.analysis,
             [
                 Column::text("model_set", "Model set"),
-                Column::text("gear", "Gear state"),
+                Column::text("gear", "Gear"),
                 Column::number("torque_nm", "Nm", "Torque"),
                 Column::number("speed_rpm", "rpm", "Speed"),
-                Column::number("oil_temperature_degc", "degC", "Temperature of the oil"),
+                Column::number("oil_temperature_degc", "degC", "Oil temperature"),
                 Column::text("share", "Share of the loss; `measured` is the measured loss"),
                 Column::number(format!("loss_{}", self.unit.name()), self.unit.symbol(), loss),
             ],

@@ -17,11 +17,11 @@ use crate::table::{Column, Table};
 pub struct GridComparison {
     /// Name of the set.
     pub model_set: String,
-    /// Name of the set that it is compared with.
+    /// Name of the base.
     pub base: String,
     /// Gear state.
     pub gear: String,
-    /// What is compared.
+    /// Compared quantity.
     pub quantity: Quantity,
     /// Unit of the differences.
     pub unit: &'static str,
@@ -45,10 +45,10 @@ pub struct GridComparison {
     /// Speeds of the grid for the base. [rad/s]
     #[serde(skip)]
     pub speeds: Vec<f64>,
-    /// At which points models of either set left a stated range.
+    /// Points outside a stated range of a model of either set.
     #[serde(skip)]
     pub outside: Vec<bool>,
-    /// Number of stated ranges that models of the base left.
+    /// Number of quantities outside their stated ranges with the base.
     #[serde(skip)]
     pub ranges_left_by_base: usize,
 }
@@ -74,15 +74,15 @@ pub struct GridDifference {
     pub torque_nm: f64,
     /// Speed. [rpm]
     pub speed_rpm: f64,
-    /// Quantity under the base. [its unit; efficiency as a share]
+    /// Quantity with the base. [its unit; efficiency as a fraction]
     pub base_model: Option<f64>,
-    /// Quantity under the set. [its unit; efficiency as a share]
+    /// Quantity with the set. [its unit; efficiency as a fraction]
     pub model: Option<f64>,
     /// The set minus the base. [unit of the differences]
     pub difference: Option<f64>,
 }
 
-/// What every set is compared with, and where.
+/// The base of the comparison and its grid.
 struct Base<'a> {
     name: &'a str,
     gear: &'a str,
@@ -107,17 +107,20 @@ pub(super) fn compare(
     let built = cx.built(gearbox, &sets)?;
     let gear = cx.one_gear(&path, grid, &built[0].transmission)?;
     let mut solved: Vec<GridResult> = Vec::new();
-    // Axes that count in shares of a rating have other values for each product; tables and pictures show those of the base.
+    // Axes in fractions of a rating have different values for each product; tables and figures show those of the base.
     let (mut torques, mut speeds) = (Vec::new(), Vec::new());
-    for b in built.iter().rev() {
+    for (i, b) in built.iter().enumerate().rev() {
         (torques, speeds) = grid_axes(cx, grid_name, grid, &b.transmission)?;
         let points = cx.points(&b.transmission, &gear, torques.clone(), speeds.clone());
         if cx.checked(b, &points)? {
             continue;
         }
-        solved.insert(0, cx.solve(b, &points)?);
+        if let Some(result) = cx.part(i, || cx.solve(b, &points))? {
+            solved.insert(0, result);
+        }
     }
     cx.begin()?;
+    cx.complete()?;
     let seen = notes(&built[0].transmission, &solved[0].seen);
     let base = Base {
         name: base,
@@ -133,26 +136,26 @@ pub(super) fn compare(
     Ok((cx.head(&built.iter().collect::<Vec<_>>()), comparisons))
 }
 
-/// Refuses a grid with bound values or an envelope.
+/// Rejects a grid with bound values or an envelope.
 fn check_grid(cx: &Context<'_>, name: &str, grid: &Grid) -> Result<(), Stopped> {
     if !grid.bind.is_empty() {
         return Err(cx.wrong(
             &format!("grids.{name}.bind"),
-            "a comparison takes a grid without bound values",
-            "give it a grid of its own, and the value under `conditions: { set: ... }`",
+            "a comparison needs a grid without bound values",
+            "give it its own grid, and the value under `conditions: { set: ... }`",
         ));
     }
     if grid.envelope.is_some() {
         return Err(cx.wrong(
             &format!("grids.{name}.envelope"),
-            "a comparison takes a grid without envelope",
-            "give it a grid of its own",
+            "a comparison needs a grid without envelope",
+            "give it its own grid",
         ));
     }
     Ok(())
 }
 
-/// One set beside the base.
+/// Comparison of one set with the base.
 fn comparison(entry: &CompareEntry, base: &Base<'_>, built: &Built<'_>, other: &GridResult) -> GridComparison {
     let point = |(base, other): (&PointResult, &PointResult)| {
         let (base_model, model) = (entry.quantity.value(base), entry.quantity.value(other));
@@ -221,12 +224,12 @@ pub(super) fn table(name: &str, (quantity, difference): (Quantity, Difference), 
         name,
         [
             Column::text("model_set", "Model set"),
-            Column::text("base", "Model set that it is compared with"),
-            Column::text("gear", "Gear state"),
+            Column::text("base", "Base of the comparison"),
+            Column::text("gear", "Gear"),
             Column::number("torque_nm", "Nm", "Torque"),
             Column::number("speed_rpm", "rpm", "Speed"),
-            Column::number(what, unit(quantity), "Quantity under the set"),
-            Column::number(format!("base_{what}"), unit(quantity), "Quantity under the base"),
+            Column::number(what, unit(quantity), "Quantity with the set"),
+            Column::number(format!("base_{what}"), unit(quantity), "Quantity with the base"),
             Column::number(difference_name, quantity.words(difference).1, "The set minus the base"),
         ],
     );

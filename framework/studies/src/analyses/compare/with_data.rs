@@ -1,4 +1,4 @@
-//! Models against measured points: the model minus the measurement.
+//! Comparison with measured points: model minus measurement.
 
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -30,7 +30,7 @@ pub struct DataOfComparison {
 pub struct DataComparison {
     /// Name of the set.
     pub model_set: String,
-    /// What is compared.
+    /// Compared quantity.
     pub quantity: Quantity,
     /// Unit of the differences.
     pub unit: &'static str,
@@ -64,12 +64,12 @@ pub struct Band {
     pub difference: Option<Statistics>,
 }
 
-/// One measured point beside the model.
+/// One measured point and the model.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct ComparedPoint {
     /// Line in the file. [-]
     pub line: u64,
-    /// Name, where the file has names.
+    /// Name, if the file has names.
     pub name: Option<String>,
     /// Gear state.
     pub gear: String,
@@ -77,33 +77,33 @@ pub struct ComparedPoint {
     pub torque_nm: f64,
     /// Speed. [rpm]
     pub speed_rpm: f64,
-    /// Temperature of the oil. [degC]
+    /// Oil temperature. [degC]
     pub oil_temperature_degc: Option<f64>,
-    /// Measured quantity. [its unit; efficiency as a share]
+    /// Measured quantity. [its unit; efficiency as a fraction]
     pub measured: Option<f64>,
-    /// Quantity under the model set. [its unit; efficiency as a share]
+    /// Quantity with the model set. [its unit; efficiency as a fraction]
     pub model: Option<f64>,
     /// Model minus measurement. [unit of the differences]
     pub difference: Option<f64>,
     /// The same difference as a loss, of the measured loss. [%]
     pub loss_difference_percent_of_loss: Option<f64>,
-    /// Accuracy of the measured quantity, where a column states it. [unit of the quantity]
+    /// Accuracy of the measured quantity, if a column states it. [unit of the quantity]
     pub accuracy: Option<f64>,
-    /// Name of the file, where there are several.
+    /// Name of the file, if there are several.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub file: Option<String>,
     /// Speed as it was solved. [rad/s]
     #[serde(skip)]
     pub speed: f64,
-    /// True where the measured loss is too small for a difference in percent of it.
+    /// True if the measured loss is too small for a difference in percent.
     #[serde(skip)]
     pub omitted: bool,
-    /// How much the point counts; one where no column states it. [-]
+    /// Weight of the point; one if no column states it. [-]
     #[serde(skip)]
     pub weight: f64,
 }
 
-/// Model sets in the order in which they match the measurement.
+/// Model sets in order of agreement with the measurement.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ranking {
     /// Names, each with the root mean square of its differences; the best first. [unit of the differences]
@@ -125,13 +125,13 @@ pub(super) fn compare(
     let file = cx.data(&path, data)?.file.to_string();
     let gearbox = cx.gearbox(entry.gearbox.as_ref())?;
     let gear = entry.gear.as_deref();
+    cx.undivided()?;
     let solved = cx.at_rows(gearbox, &entry.against, &entry.bind, gear, &measured, false)?;
     cx.begin()?;
-    cx.undivided()?;
     let all: Vec<DataComparison> = solved.iter().map(|s| comparison(entry, &measured, s)).collect();
     if all.iter().all(|c| c.points.iter().all(|p| p.measured.is_none())) {
-        let message = format!("{file}: nothing gives a measured {}", entry.quantity.name());
-        let help = "name a column of it, or columns of torque and speed at both ports";
+        let message = format!("{file}: there is no measured {}", entry.quantity.name());
+        let help = "add a column of it, or columns of torque and speed at both ports";
         return Err(cx.wrong(&path, message, help));
     }
     let built: Vec<&Built<'_>> = solved.iter().flat_map(|s| &s.built).collect();
@@ -222,7 +222,7 @@ fn bands_of_points(points: &[ComparedPoint]) -> Vec<Band> {
     list
 }
 
-/// Ranks sets over the points at which every one of them has a value.
+/// Ranks sets over the points at which all sets have a value.
 pub fn ranking(all: &[DataComparison]) -> Ranking {
     let count = all.first().map_or(0, |c| c.points.len());
     let common = |i: &usize| all.iter().all(|c| c.points[*i].difference.is_some());
@@ -256,12 +256,12 @@ pub(super) fn table(name: &str, (quantity, difference): (Quantity, Difference), 
                 Column::number("line", "-", "Line in the file")
             },
             Column::text("name", "Name of the point"),
-            Column::text("gear", "Gear state"),
+            Column::text("gear", "Gear"),
             Column::number("torque_nm", "Nm", "Torque"),
             Column::number("speed_rpm", "rpm", "Speed"),
-            Column::number("oil_temperature_degc", "degC", "Temperature of the oil"),
+            Column::number("oil_temperature_degc", "degC", "Oil temperature"),
             Column::number(format!("measured_{what}"), unit(quantity), "Measured quantity"),
-            Column::number(what, unit(quantity), "Quantity under the set"),
+            Column::number(what, unit(quantity), "Quantity with the set"),
             Column::number(difference_name, quantity.words(difference).1, "Model minus measurement"),
             Column::number(
                 "loss_difference_percent_of_loss",

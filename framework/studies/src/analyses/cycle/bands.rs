@@ -1,7 +1,6 @@
 //! Bands of mean losses from uncertain inputs.
 
 use gearloss_numerics::sampling::Sobol;
-use rayon::prelude::*;
 
 use super::CycleAnalysisEntry;
 use super::outcome::{BandOfDuty, DutyOfSet, InputOfBand};
@@ -11,37 +10,57 @@ use crate::analyses::trial::{Left, Trial};
 use crate::analyses::{Built, Context, Stopped};
 use crate::analysis::{correlation, quantile};
 
-/// Shares of the samples below the ends and the middle of a band.
+/// Probabilities of the ends and the middle of a band.
 const SHARES: [f64; 3] = [0.025, 0.5, 0.975];
 
-/// What samples of a gearbox leave.
+/// Results of samples of a gearbox.
 struct Samples {
-    /// Values of the inputs, and the mean losses of each duty.
+    /// Values of the inputs, and the mean losses of each cycle.
     driven: Vec<(Vec<f64>, Vec<MeanLoss>)>,
-    /// Why each of the others has no value.
+    /// Why each of the other samples has no value.
     failed: Vec<String>,
     left: Left,
 }
 
-/// Drives all duties through samples of a gearbox and adds the bands to the results of the duties; the stated ranges that the
-/// samples left.
-pub fn add(
+/// Simulates all duties with samples of a gearbox.
+pub fn bands(
     cx: &Context<'_>,
     entry: &CycleAnalysisEntry,
     built: &Built<'_>,
     (duties, names): (&Duties<'_>, &[String]),
-    results: &mut [DutyOfSet],
-) -> Result<Left, Stopped> {
+) -> Result<Bands, Stopped> {
     let inputs = Input::all(cx, &cx.path(), &entry.inputs, built)?;
     let samples = sample(cx, entry, built, &inputs, (duties, names))?;
-    for (k, result) in results.iter_mut().enumerate() {
-        let mut band = samples.band(k, &inputs, names.len());
-        let [low, _, high] = band.mean_loss_w;
-        let reference = result.reference.as_ref();
-        band.reference_inside = reference.map(|reference| (low..=high).contains(&reference.mean_loss_w));
-        result.bands = Some(band);
+    Ok(Bands {
+        inputs,
+        samples,
+        shares: names.len(),
+    })
+}
+
+/// Samples of the duties of one model set.
+pub struct Bands {
+    inputs: Vec<Input>,
+    samples: Samples,
+    shares: usize,
+}
+
+impl Bands {
+    /// Adds the bands to the results of the duties.
+    pub fn add_to(&self, results: &mut [DutyOfSet]) {
+        for (k, result) in results.iter_mut().enumerate() {
+            let mut band = self.samples.band(k, &self.inputs, self.shares);
+            let [low, _, high] = band.mean_loss_w;
+            let reference = result.reference.as_ref();
+            band.reference_inside = reference.map(|reference| (low..=high).contains(&reference.mean_loss_w));
+            result.bands = Some(band);
+        }
     }
-    Ok(samples.left)
+
+    /// The stated ranges outside which samples lie.
+    pub fn left(self) -> Left {
+        self.samples.left
+    }
 }
 
 fn sample(
@@ -54,9 +73,8 @@ fn sample(
     let path = cx.path();
     let sobol = Sobol::new(inputs.len()).map_err(|reason| cx.wrong(&path, reason, "use fewer inputs"))?;
     let trial = Trial::new(cx, built);
-    let running = cx.running(entry.samples as usize, &format!("{} samples", built.name));
-    let sample = |i: u32| -> Result<(Vec<f64>, Vec<MeanLoss>, Left), String> {
-        let shares = sobol.point(i);
+    let sample = |i: usize| -> Result<(Vec<f64>, Vec<MeanLoss>, Left), String> {
+        let shares = sobol.point(i as u32);
         let values: Vec<f64> = inputs
             .iter()
             .zip(shares)
@@ -66,13 +84,9 @@ fn sample(
         let t = trial.build(changes.flat_map(|(input, value)| input.range.varied.overrides(*value)))?;
         let driven = duties.mean_losses(cx, &t, entry.by, names);
         let (losses, left) = driven.map_err(|unfinished| unfinished.message)?;
-        running.advance(1);
         Ok((values, losses, left))
     };
-    let all: Vec<_> = (0..entry.samples).into_par_iter().with_max_len(1).map(sample).collect();
-    if !cx.goes_on() {
-        return Err(Stopped::Interrupted);
-    }
+    let all = cx.each(&format!("{} samples", built.name), entry.samples as usize, sample)?;
     let mut samples = Samples {
         driven: Vec::new(),
         failed: Vec::new(),
@@ -89,14 +103,14 @@ fn sample(
     }
     if samples.driven.len() < 2 {
         let first = samples.failed.first().map_or("", String::as_str);
-        let message = format!("hardly a sample could be driven: {first}");
+        let message = format!("hardly any sample could be simulated: {first}");
         return Err(cx.wrong(&path, message, "narrow the ranges of the inputs"));
     }
     Ok(samples)
 }
 
 impl Samples {
-    /// The band of one duty.
+    /// The band of one cycle.
     fn band(&self, duty: usize, inputs: &[Input], shares: usize) -> BandOfDuty {
         let band = |watts: &dyn Fn(&MeanLoss) -> f64| {
             let mut values: Vec<f64> = self.driven.iter().map(|(_, losses)| watts(&losses[duty])).collect();
@@ -115,7 +129,7 @@ impl Samples {
         }
     }
 
-    /// Inputs with their correlation with the mean loss of a duty, the strongest first.
+    /// Inputs with their correlation with the mean loss of a cycle, the strongest first.
     fn ranked(&self, duty: usize, inputs: &[Input]) -> Vec<InputOfBand> {
         let losses: Vec<f64> = self.driven.iter().map(|(_, losses)| losses[duty].loss).collect();
         let input = |(k, input): (usize, &Input)| {

@@ -1,4 +1,4 @@
-//! What comes out of driven duties.
+//! The outcome of simulated cycles.
 
 use gearloss_framework::flow::Status;
 use schemars::JsonSchema;
@@ -7,49 +7,49 @@ use serde::Serialize;
 use crate::analyses::Head;
 use crate::analysis::Note;
 
-/// Duties driven through a gearbox under each model set.
+/// Cycles simulated with each model set.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct CycleOutcome {
-    /// Where it comes from.
+    /// Provenance.
     #[serde(flatten)]
     pub head: Head,
-    /// Every duty under the first model set, then under the next.
+    /// All cycles with the first model set, then with the next.
     pub cycles: Vec<DutyOfSet>,
-    /// Stated ranges that samples of uncertain inputs left, set after set.
+    /// Quantities outside their stated ranges in samples, by set.
     #[serde(skip)]
-    pub left: Vec<(String, &'static str)>,
+    pub left: Vec<(String, String)>,
 }
 
-/// One duty under one model set, without its course in time, which the table holds.
+/// One cycle with one model set; the time series is in the table.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct DutyOfSet {
     /// Name of the set.
     pub model_set: String,
-    /// Name of the duty.
+    /// Name of the cycle.
     pub cycle: String,
-    /// Time that was driven. [s]
+    /// Simulated time. [s]
     pub duration_s: f64,
-    /// Number of intervals that were driven. [-]
+    /// Number of simulated intervals. [-]
     pub intervals: usize,
-    /// Mean loss of the transmission over the whole duty. [W]
+    /// Mean loss of the transmission over the whole cycle. [W]
     pub mean_loss_w: f64,
-    /// Names of the shares of the loss, those of all sets.
+    /// Names of the shares of the loss of all sets.
     pub shares: Vec<String>,
     /// Mean losses by share, in the order of the names. [W]
     pub mean_losses_w: Vec<f64>,
-    /// Where the energy goes.
+    /// Energy balance.
     pub energy: EnergyOfDuty,
-    /// Where the heat goes; absent without a thermal network.
+    /// Heat balance; absent without a thermal network.
     pub heat: Option<HeatOfDuty>,
     /// Losses of the motors of the thermal network.
     pub motors: Vec<HeatOfMotor>,
-    /// True where a motor was beyond its map; the loss at its edge counts.
+    /// True if a motor was outside its map; the loss at the edge of the map is used.
     pub motors_beyond_map: bool,
-    /// Temperatures of the nodes, or of the oil alone.
+    /// Temperatures of the nodes, or of the oil only.
     pub nodes: Vec<TemperatureOfNode>,
-    /// What the study says of the duty.
+    /// Note of the study on the cycle.
     pub about: Option<String>,
-    /// A mean loss from elsewhere.
+    /// A reference mean loss.
     pub reference: Option<ReferenceOfDuty>,
     /// Bands of uncertain inputs; absent without any.
     pub bands: Option<BandOfDuty>,
@@ -61,57 +61,57 @@ pub struct DutyOfSet {
     pub steps: usize,
     /// Number of steps in time that were tried and rejected. [-]
     pub steps_in_vain: usize,
-    /// Where it could not go on; absent where it was driven to its end.
+    /// Time at which the simulation stopped; absent if it reached the end.
     pub broken: Option<BrokenOff>,
-    /// What models noted.
+    /// Notes of models.
     pub notes: Vec<Note>,
-    /// How the file of the duty was understood, in sentences.
+    /// Notes on the detected format of the file.
     #[serde(skip)]
     pub file_notes: Vec<String>,
     /// Losses by share, in the order of the names. [J]
     #[serde(skip)]
     pub energies_j: Vec<f64>,
-    /// The intervals, as far as they went.
+    /// The simulated intervals.
     #[serde(skip)]
     pub series: Vec<IntervalOfDuty>,
 }
 
-/// Where the energy of a duty goes.
+/// Energy balance of a cycle.
 #[derive(Debug, Clone, Copy, Serialize, JsonSchema)]
 pub struct EnergyOfDuty {
-    /// Energy that ports put in. [J]
+    /// Input energy. [J]
     pub input_j: f64,
-    /// Energy that comes out. [J]
+    /// Output energy. [J]
     pub output_j: f64,
     /// Loss of the transmission. [J]
     pub loss_j: f64,
-    /// Loss of all motors; absent where it is not known. [J]
+    /// Loss of all motors; absent if unknown. [J]
     pub motors_j: Option<f64>,
-    /// Energy that brakes of the vehicle take. [J]
+    /// Energy dissipated in the brakes of the vehicle. [J]
     pub brakes_j: f64,
-    /// What is left of input, output and losses over the input. [-]
+    /// Energy balance error relative to the input. [-]
     pub residual_share: f64,
 }
 
-/// Where the heat of a duty goes.
+/// Heat balance of a cycle.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct HeatOfDuty {
-    /// All heat that came into the nodes. [J]
+    /// Total heat into the nodes. [J]
     pub came_j: f64,
     /// Heat stored in the nodes. [J]
     pub stored_j: f64,
-    /// Heat into the nodes whose temperature is held.
+    /// Heat into the nodes with given temperature.
     pub held: Vec<HeatOfNode>,
     /// Heat through the heat exchangers.
     pub exchangers: Vec<HeatOfExchanger>,
-    /// Heat that flows carry away. [J]
+    /// Heat transferred by flows. [J]
     pub carried_away_j: f64,
-    /// What is left of the heat over all heat that came. [-]
+    /// Heat balance error relative to the total heat. [-]
     pub residual_share: f64,
-    /// Heat from elsewhere. [J]
+    /// Heat from other sources. [J]
     #[serde(skip)]
     pub sources_j: f64,
-    /// Heat into all nodes that take some, whether held all the time or not.
+    /// Heat into all nodes with given temperature, also if given only part of the time.
     #[serde(skip)]
     pub taken: Vec<HeatOfNode>,
 }
@@ -145,7 +145,7 @@ pub struct HeatOfMotor {
     pub stator_j: f64,
 }
 
-/// Temperatures of one node over a duty.
+/// Temperatures of one node over a cycle.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct TemperatureOfNode {
     /// Name of the node.
@@ -160,32 +160,32 @@ pub struct TemperatureOfNode {
     pub greatest_degc: f64,
     /// Mean over time. [degC]
     pub mean_degc: f64,
-    /// Root mean square of measurement less calculation; absent without a measurement. [K]
+    /// Root mean square of measurement minus calculation; absent without a measurement. [K]
     pub rms_k: Option<f64>,
-    /// Number of rows of the measurement that count. [-]
+    /// Number of measured rows used. [-]
     pub measured_rows: Option<usize>,
     /// Measured temperatures: time and value. [s and degC]
     #[serde(skip)]
     pub measured: Vec<(f64, f64)>,
 }
 
-/// A mean loss from elsewhere.
+/// A reference mean loss.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct ReferenceOfDuty {
     /// The mean loss. [W]
     pub mean_loss_w: f64,
-    /// Where it comes from.
+    /// Provenance.
     pub source: Option<String>,
 }
 
 /// Bands of mean losses from uncertain inputs.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct BandOfDuty {
-    /// Number of samples that were driven. [-]
+    /// Number of simulated samples. [-]
     pub samples: usize,
-    /// Number of samples that could not be driven. [-]
+    /// Number of failed samples. [-]
     pub failed: usize,
-    /// Shares of the samples below the lower end, the middle and the upper end of each band. [-]
+    /// Probabilities of the lower end, the middle and the upper end of each band. [-]
     pub quantiles: [f64; 3],
     /// Lower end, median and upper end of the mean loss. [W]
     pub mean_loss_w: [f64; 3],
@@ -193,7 +193,7 @@ pub struct BandOfDuty {
     pub mean_losses_w: Vec<[f64; 3]>,
     /// The inputs, those with the strongest correlation first.
     pub inputs: Vec<InputOfBand>,
-    /// Whether the mean loss from elsewhere is inside the band; absent without one.
+    /// Whether the reference mean loss is inside the band; absent without one.
     pub reference_inside: Option<bool>,
     /// Why the first of the failed samples has no value.
     #[serde(skip)]
@@ -203,13 +203,13 @@ pub struct BandOfDuty {
 /// An uncertain input of a band.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct InputOfBand {
-    /// Its path and range, in words.
+    /// Its path and range as text.
     pub input: String,
-    /// Correlation with the mean loss; absent where one of both is the same in all samples. [-]
+    /// Correlation with the mean loss; absent if one of them is constant. [-]
     pub correlation_with_mean_loss: Option<f64>,
 }
 
-/// Where a duty could not go on.
+/// Where the simulation of a cycle stopped.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct BrokenOff {
     /// Time. [s]
@@ -218,32 +218,32 @@ pub struct BrokenOff {
     pub reason: String,
 }
 
-/// One interval of a driven duty, with its mean powers.
+/// One interval of a simulated cycle with its mean powers.
 #[derive(Debug, Clone)]
 pub struct IntervalOfDuty {
-    /// Time at its beginning. [s]
+    /// Time at its start. [s]
     pub time_s: f64,
     /// Its length. [s]
     pub duration_s: f64,
     /// Torque of the reference port at its end. [Nm]
     pub torque_nm: f64,
-    /// Speed of the reference port, with the noise of its conversion. [rpm]
+    /// Speed of the reference port, not rounded. [rpm]
     pub speed_rpm: f64,
     /// Speed of the vehicle. [m/s]
     pub vehicle_speed_m_s: Option<f64>,
-    /// What the transmission does.
+    /// State of the transmission.
     pub status: Status,
-    /// Power that ports put in. [W]
+    /// Input power. [W]
     pub input_w: f64,
-    /// Power that comes out. [W]
+    /// Output power. [W]
     pub output_w: f64,
     /// Loss of the transmission. [W]
     pub loss_w: f64,
     /// Loss by share. [W]
     pub losses_w: Vec<f64>,
-    /// Loss of all motors; absent where it is not known. [W]
+    /// Loss of all motors; absent if unknown. [W]
     pub motors_w: Option<f64>,
-    /// Power that brakes of the vehicle take. [W]
+    /// Power dissipated in the brakes of the vehicle. [W]
     pub brakes_w: f64,
     /// Temperatures of the nodes at its end. [degC]
     pub temperatures_degc: Vec<f64>,

@@ -1,4 +1,4 @@
-//! One duty driven through one gearbox under one set, in numbers for a reader.
+//! Results of one cycle with one gearbox and one model set.
 
 use gearloss_framework::transmission::Transmission;
 
@@ -15,7 +15,7 @@ use crate::analyses::shares::Shares;
 use crate::analysis::{Driven, Stretch, notes};
 use crate::duty::Duty;
 
-/// The numbers of a driven duty.
+/// The results of a simulated cycle.
 pub fn duty(
     b: &Built<'_>,
     read: &Read,
@@ -88,7 +88,7 @@ fn energy(driven: &Driven) -> EnergyOfDuty {
     }
 }
 
-/// Heat, where losses and temperatures depend on each other.
+/// Heat, if losses and temperatures depend on each other.
 fn heat(t: &Transmission, driven: &Driven) -> Option<HeatOfDuty> {
     if driven.start.len() <= 1 {
         return None;
@@ -103,7 +103,7 @@ fn heat(t: &Transmission, driven: &Driven) -> Option<HeatOfDuty> {
     let is_held = |i: usize| network.is_some_and(|n| n.is_held(i));
     let takes = |i: usize, heat: Option<&f64>| heat.is_some_and(|heat| is_held(i) || *heat != 0.0);
     Some(HeatOfDuty {
-        came_j: total.came(),
+        came_j: total.heat_input(),
         stored_j: total.stored,
         held: named()
             .filter(|(i, _)| is_held(*i))
@@ -118,7 +118,7 @@ fn heat(t: &Transmission, driven: &Driven) -> Option<HeatOfDuty> {
             })
             .collect(),
         carried_away_j: total.flows,
-        residual_share: total.residual().abs() / total.came().abs().max(1e-300),
+        residual_share: total.residual().abs() / total.heat_input().abs().max(1e-300),
         sources_j: total.sources,
         taken: named()
             .filter(|(i, _)| takes(*i, total.held.get(*i)))
@@ -139,7 +139,7 @@ fn motors(t: &Transmission, driven: &Driven) -> Vec<HeatOfMotor> {
         .collect()
 }
 
-/// Temperatures of a node over the duty.
+/// Temperatures of a node over the cycle.
 fn temperature(driven: &Driven, node: usize, name: String, measured: Vec<(f64, f64)>) -> TemperatureOfNode {
     let start = driven.start[node];
     let all = || driven.stretches.iter().map(|s| s.temperatures[node]);
@@ -167,7 +167,7 @@ fn temperature(driven: &Driven, node: usize, name: String, measured: Vec<(f64, f
     }
 }
 
-/// Temperature of a node at a time, straight between the ends of intervals; absent outside the duty. \[degC\]
+/// Temperature of a node at a time, linear between the ends of intervals; absent outside the cycle. \[degC\]
 fn calculated_at(driven: &Driven, node: usize, time: f64) -> Option<f64> {
     let stretches = &driven.stretches;
     let i = stretches.partition_point(|s| s.start + s.heats.duration < time);
@@ -206,14 +206,14 @@ fn interval(s: &Stretch, shares: &Shares, has_motors: bool, measured: &[Vec<(f64
     }
 }
 
-/// The temperature that was measured at a time, to a millisecond; absent without one. \[degC\]
+/// The temperature measured at a time, within a millisecond; absent without one. \[degC\]
 fn measured_at(series: &[(f64, f64)], time: f64) -> Option<f64> {
     let i = series.partition_point(|(t, _)| *t < time - 1e-3);
     let (at, value) = series.get(i)?;
     (*at <= time + 1e-3).then_some(*value)
 }
 
-/// Temperatures of a node that a duty states: time and value. \[s and degC\]
+/// Temperatures of a node stated in a cycle: time and value. \[s and degC\]
 fn measured(read: &Read, node: &str) -> Vec<(f64, f64)> {
     let Duty::Trace(trace) = &read.duty else {
         return Vec::new();

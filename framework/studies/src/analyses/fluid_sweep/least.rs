@@ -1,29 +1,29 @@
-//! Where a loss over a positive property is least, and how flat it is there.
+//! Minimum of a loss over a positive property, and its flatness.
 
 use schemars::JsonSchema;
 use serde::Serialize;
 
-/// The most rounds of the search.
+/// Maximum number of rounds of the search.
 pub const ROUNDS: usize = 6;
-/// Logarithm of the property within which the least value counts as found.
+/// Tolerance of the logarithm of the property.
 const FOUND: f64 = 0.005;
-/// Rise of the loss up to which a range counts as flat.
+/// Relative increase of the loss within a flat range.
 const FLAT: f64 = 0.01;
 
-/// The least loss over a property.
+/// The minimum loss over a property.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct LeastLoss {
     /// Value of the property, in its unit.
     pub value: f64,
     /// Mean loss there. [W]
     pub mean_loss_w: f64,
-    /// Values between which the loss stays within a percent of it; at an end of the range, that end. In the unit of the property.
+    /// Range in which the loss is within one percent of the minimum, limited by the range of the values. In the unit of the property.
     pub flat_range: [f64; 2],
-    /// True where it lies at an end of the range, beyond which it may fall on.
+    /// True if the minimum is at an end of the range, beyond which the loss may decrease further.
     pub at_end_of_range: bool,
 }
 
-/// Coordinate of a property: its logarithm where all values are above zero.
+/// Coordinate of a property: its logarithm if all values are positive.
 fn coordinate(points: &[(f64, f64)]) -> (fn(f64) -> f64, fn(f64) -> f64) {
     if points.iter().all(|(value, _)| *value > 0.0) {
         (f64::ln, f64::exp)
@@ -37,8 +37,8 @@ fn best(points: &[(f64, f64)]) -> usize {
     order.map_or(0, |(i, _)| i)
 }
 
-/// The value at which to look next: where a parabola through the least loss and its neighbours is least, or the middle of the
-/// wider side where that is known; absent where the least value is found, or lies at an end. Points rise by value.
+/// The next value of the search: the minimum of a parabola through the lowest loss and its neighbours, or the middle of the wider side if
+/// that is known; absent if the minimum is found or at an end. Points are sorted by value.
 pub fn wanted(points: &[(f64, f64)]) -> Option<f64> {
     let i = best(points);
     if i == 0 || i + 1 >= points.len() {
@@ -61,7 +61,7 @@ pub fn wanted(points: &[(f64, f64)]) -> Option<f64> {
     let inside = vertex.is_finite() && vertex > a.0 && vertex < c.0;
     match inside {
         true if (vertex - b.0).abs() > tolerance => Some(from(vertex)),
-        // The parabola agrees with what is known: one more look on the wider side tells whether it may.
+        // The parabola agrees with the known points: one more evaluation on the wider side confirms it.
         true if (c.0 - a.0) > 40.0 * tolerance => Some(from(wider)),
         true => None,
         false => Some(from(wider)),
@@ -69,7 +69,7 @@ pub fn wanted(points: &[(f64, f64)]) -> Option<f64> {
 }
 
 impl LeastLoss {
-    /// The least loss of points that rise by value.
+    /// The minimum loss of points sorted by value.
     pub fn new(points: &[(f64, f64)]) -> Self {
         let i = best(points);
         let (value, loss) = points[i];

@@ -1,4 +1,4 @@
-//! The property of an oil that changes, and how its values are written into a gearbox.
+//! The varied property of an oil, and its overrides in a gearbox.
 
 use gearloss_framework::attach::dangling;
 use gearloss_framework::description::LubricantEntry;
@@ -15,9 +15,9 @@ use crate::varied::{Tie, Varied};
 /// Kinematic viscosity at 100 degC below which the viscosity index is not defined. \[mm2/s\]
 const DEFINED: f64 = 2.0;
 
-/// What changes.
+/// The varied property.
 pub enum Swept {
-    /// The viscosity, at a constant index. Path of the oil, and what else it says of its viscosity.
+    /// The viscosity, at a constant index. Path of the oil, and the other keys of its viscosity.
     Viscosity {
         oil: String,
         index: f64,
@@ -62,7 +62,7 @@ impl Swept {
             cx.wrong(
                 &format!("{path}.vi"),
                 format!("`{oil}` has no viscosity index"),
-                "state the index that all oils have",
+                "state the common index of all oils",
             )
         })?;
         let own = lookup(&b.resolved.value, &format!("{oil}.viscosity"));
@@ -75,7 +75,7 @@ impl Swept {
         })
     }
 
-    /// Values that are listed, rising.
+    /// Listed values, ascending.
     pub fn values(&self, cx: &Context<'_>, path: &str, entry: &FluidSweepEntry) -> Result<Vec<f64>, Stopped> {
         let mut values = match self {
             Self::Viscosity { .. } => entry.kv100.iter().map(|nu| nu * 1e6).collect(),
@@ -116,8 +116,8 @@ impl Swept {
                 factor,
             } => {
                 let kv40 = at_constant_index(value, *index)
-                    .ok_or_else(|| format!("no oil of {value} mm2/s has the viscosity index {index}"))?;
-                // The usual law of viscosity over temperature begins at 2 mm2/s.
+                    .ok_or_else(|| format!("an oil with {value} mm2/s cannot have the viscosity index {index}"))?;
+                // The law of viscosity over temperature is defined from 2 mm2/s.
                 let law = if value < DEFINED {
                     json!("astm_d341_low")
                 } else {
@@ -151,16 +151,16 @@ impl Swept {
         }
     }
 
-    /// True where the property has no definition.
+    /// True if the property is not defined.
     pub fn is_beyond(&self, value: f64) -> bool {
         matches!(self, Self::Viscosity { .. }) && value < DEFINED
     }
 }
 
-/// Viscosity index of an oil of a resolved document; absent where it has none.
+/// Viscosity index of an oil of a resolved document; absent if it has none.
 fn own_index(document: &Value, oil: &str) -> Option<f64> {
     let entry: LubricantEntry = serde_json::from_value(lookup(document, oil)?.clone()).ok()?;
     let lubricant = Lubricant::new(&entry).ok()?;
-    let [kv40, kv100] = [40.0, 100.0].map(|t| lubricant.at(t).nu * 1e6);
+    let [kv40, kv100] = [40.0, 100.0].map(|t| lubricant.oil_at(t).nu * 1e6);
     index(kv40, kv100)
 }

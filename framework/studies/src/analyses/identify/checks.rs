@@ -1,4 +1,4 @@
-//! Checks of residuals: whether the model reproduces the points as accurately as they are, and whether neighbours err together.
+//! Checks of residuals: whether the model reproduces the points within their accuracy, and whether neighbouring errors are correlated.
 
 use gearloss_numerics::inference::{
     AndersonDarling, BandMean, LackOfFit, PureError, Succession, Widening, anderson_darling, band_means, pure_error,
@@ -13,19 +13,19 @@ use crate::measured::Measured;
 /// Probability of a test below which it is reported.
 const SUSPECT: f64 = 0.01;
 
-/// Ratio of mean squares from which on repeated points are copies, which say nothing.
+/// Ratio of mean squares above which repeated points are considered copies.
 const MOST: f64 = 1e6;
 
-/// What the residuals of a fit say against it.
+/// Diagnostics of the residuals of a fit.
 #[derive(Debug, Clone)]
 pub struct Checks {
-    /// How the scatter goes with the stated accuracy.
+    /// Consistency of the scatter with the stated accuracy.
     pub lack: Option<LackOfFit>,
-    /// The scatter of repeated points beside the rest.
+    /// The scatter of repeated points compared with the remaining residuals.
     pub pure: Option<PureError>,
     /// Whether the residuals are normally distributed.
     pub normality: Option<AndersonDarling>,
-    /// How residuals follow each other along lines of neighbouring points.
+    /// Correlation of residuals along lines of neighbouring points.
     pub succession: Option<Succession>,
     /// Mean standardised residuals over torque in Nm.
     pub over_torque: Vec<BandMean>,
@@ -33,9 +33,9 @@ pub struct Checks {
     pub over_speed: Vec<BandMean>,
     /// Standardised residuals.
     pub standardised: Vec<f64>,
-    /// Places of residuals that are far out.
+    /// Indices of outliers.
     pub outliers: Vec<usize>,
-    /// Places of points that decide more than half of their own calculated value.
+    /// Indices of points with a leverage above one half.
     pub weighty: Vec<usize>,
 }
 
@@ -51,7 +51,7 @@ impl Checks {
             band_means(&standardised, &at).unwrap_or_default()
         };
         Self {
-            // Factors of the accuracies were chosen so that the sum fits.
+            // Factors of the accuracies are chosen to match the sum.
             lack: inference.lack_of_fit().filter(|_| fitted.factors.is_empty()),
             pure: pure_error(inference, &repeated(identification)).filter(|_| !inference.is_robust()),
             normality: anderson_darling(&standardised),
@@ -64,13 +64,12 @@ impl Checks {
         }
     }
 
-    /// Factors by which intervals and bands are too small, where the model does not reproduce the points or neighbours err
-    /// together.
+    /// Factors by which intervals and bands are too small if the model does not reproduce the points or neighbouring errors are correlated.
     pub fn widening(&self) -> Widening {
         Widening::from_checks(self.lack.as_ref(), self.succession.as_ref())
     }
 
-    /// What there is to say, in sentences.
+    /// The notes as sentences.
     pub fn words(&self, measured: &Measured, observations: &[Observation]) -> Vec<String> {
         let line = |place: &usize| measured.line(&measured.rows[observations[*place].row]);
         let list = |places: &[usize]| {
@@ -83,7 +82,7 @@ impl Checks {
         let pure = self.pure.filter(|pure| pure.probability < SUSPECT && pure.ratio < MOST);
         if let Some(pure) = pure {
             words.push(format!(
-                "repeated points scatter {:.2} times less than the rest: it is the model that misses, not the rig",
+                "the scatter of repeated points is {:.2} times smaller than the remaining residuals: the model is wrong, not the rig",
                 pure.ratio.sqrt()
             ));
         }
@@ -105,7 +104,7 @@ impl Checks {
         for (means, unit) in [(&self.over_torque, "Nm"), (&self.over_speed, "rpm")] {
             let far = means.iter().filter(|band| band.mean.abs() > 1.5 * band.limit);
             if let Some(worst) = far.max_by(|a, b| (a.mean / a.limit).abs().total_cmp(&(b.mean / b.limit).abs())) {
-                let side = if worst.mean > 0.0 { "above" } else { "below" };
+                let side = if worst.mean > 0.0 { "over" } else { "under" };
                 let [from, to] = worst.band;
                 let place = if to - from < 0.005 * to.abs() {
                     format!("at {to:.0}")
@@ -113,7 +112,7 @@ impl Checks {
                     format!("from {from:.0} to {to:.0}")
                 };
                 words.push(format!(
-                    "{place} {unit} the model lies {side} the points: {:.2} standard deviations on average, +-{:.2} by chance",
+                    "{place} {unit} the model {side}predicts: {:.2} standard deviations on average, expected scatter +-{:.2}",
                     worst.mean.abs(),
                     worst.limit
                 ));
@@ -121,7 +120,7 @@ impl Checks {
         }
         if !self.outliers.is_empty() {
             words.push(format!(
-                "{} more than 3.5 standard deviations off: {}",
+                "{} more than 3.5 standard deviations away: {}",
                 if self.outliers.len() == 1 {
                     "one point is".to_owned()
                 } else {
@@ -132,7 +131,7 @@ impl Checks {
         }
         if !self.weighty.is_empty() {
             words.push(format!(
-                "points that decide more than half of their own calculated value: {}",
+                "points with a leverage above one half: {}",
                 list(&self.weighty)
             ));
         }
@@ -140,7 +139,7 @@ impl Checks {
     }
 }
 
-/// Places of residuals at the same settings.
+/// Indices of residuals at the same settings.
 fn repeated(identification: &Identification<'_>) -> Vec<Vec<usize>> {
     let measured = identification.measured();
     let observations = identification.observations();
@@ -152,7 +151,7 @@ fn repeated(identification: &Identification<'_>) -> Vec<Vec<usize>> {
                 .value(row, name)
                 .map_or_else(String::new, |x| format!("{x:.4e}"))
         };
-        // The accuracy belongs to the settings: repetitions of different accuracy are no repetitions.
+        // The accuracy is part of the settings: points with different accuracies are not repetitions.
         let key = format!(
             "{:?} {:?} {:?} {} {} {} {:.4e}",
             o.quantity,

@@ -1,4 +1,4 @@
-//! Which set predicts best, and whether the points decide it.
+//! Comparison of model sets by prediction.
 
 use gearloss_numerics::inference::{
     Accuracy, Comparison, FittedModel, PointSet, Succession, Validation, akaike, neighbours, ranking,
@@ -7,50 +7,48 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::outcome::IdentificationOfSet;
-use crate::cells;
 use crate::identify::Observation;
-use crate::table::{Column, Table};
 
-/// Model sets side by side.
+/// Comparison of model sets.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct ComparisonOfSets {
-    /// Whether the points decide which set predicts best.
+    /// Whether the points determine which set predicts best.
     pub sentence: String,
     /// The sets, the best first.
     pub sets: Vec<ComparedSet>,
 }
 
-/// One set beside the first one.
+/// Comparison of one set with the first.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct ComparedSet {
     /// Name of the set.
     pub model_set: String,
     /// Number of its parameters.
     pub parameters: usize,
-    /// Akaike's criterion, corrected for small samples, less that of the first set. [-]
+    /// Akaike's criterion, corrected for small samples, minus that of the first set. [-]
     pub criterion_difference: f64,
-    /// Root of the mean square of the errors of each group that is predicted from the others, over the accuracy. [-]
+    /// Root mean square of the cross-validation errors, relative to the accuracy. [-]
     pub fold_rms: Option<Vec<f64>>,
-    /// Probability of a misfit as great or greater if model and accuracies are right; absent without stated accuracies. [-]
+    /// Probability of a misfit at least this large if model and accuracies are correct; absent without stated accuracies. [-]
     pub lack_of_fit_probability: Option<f64>,
-    /// The first set against this one; absent for the first itself.
+    /// The first set compared with this one; absent for the first.
     pub first_against_it: Option<FirstAgainstSet>,
 }
 
-/// The first set against another one.
+/// The first set compared with another one.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct FirstAgainstSet {
     /// Whether the first is better.
     pub decision: &'static str,
     /// Why.
     pub reason: &'static str,
-    /// Errors of the groups; absent unless both were validated on the same number of groups, two at least.
+    /// Errors of the groups; absent unless both were validated on the same number of groups, at least two.
     pub folds: Option<PairedFolds>,
     /// Distance of the predictions in units of the errors of the set of points; absent without residuals of the same points. [-]
     pub separation: Option<f64>,
-    /// Misfit of this set less that of the first, allowing for common errors. [-]
+    /// Misfit of this set minus that of the first, allowing for common errors. [-]
     pub evidence: Option<f64>,
-    /// Correlation of the errors that the distance is measured in. [-]
+    /// Correlation of the errors used for the distance. [-]
     pub correlation: Option<f64>,
 }
 
@@ -67,8 +65,8 @@ pub struct PairedFolds {
     pub groups: usize,
 }
 
-/// The accuracies over which sets are compared, for each observation: the root of their mean square over the sets, because an accuracy in
-/// percent, and that of an instrument, are those at the loss that a set calculates. Absent where the sets were fitted to different observations.
+/// The common accuracy of each observation for the comparison: the root mean square over the sets, because accuracies in percent and of
+/// instruments depend on the calculated loss. Absent if the sets were fitted to different observations.
 fn common_deviations(outcomes: &[IdentificationOfSet]) -> Option<Vec<f64>> {
     let lists: Vec<&[Observation]> = outcomes.iter().map(|o| &o.found.observations[..]).collect();
     let key = |o: &Observation| (o.row, o.quantity);
@@ -80,7 +78,7 @@ fn common_deviations(outcomes: &[IdentificationOfSet]) -> Option<Vec<f64>> {
     Some((0..lists[0].len()).map(|i| mean(i).sqrt()).collect())
 }
 
-/// A set with its residuals over common accuracies.
+/// A set with its residuals relative to the common accuracies.
 fn model(o: &IdentificationOfSet, common: &[f64]) -> Option<FittedModel> {
     let inference = &o.found.fitted.inference;
     let in_common = |list: &[f64]| -> Vec<f64> {
@@ -110,7 +108,7 @@ fn model(o: &IdentificationOfSet, common: &[f64]) -> Option<FittedModel> {
     })
 }
 
-/// Neighbouring observations of one quantity, gear state and temperature, and the shapes of common errors: for each quantity a share of the
+/// Neighbouring observations of one quantity, gear and temperature, and the shapes of common errors: for each quantity proportional to the
 /// accuracy, a gain and an offset.
 fn points(o: &IdentificationOfSet, common: &[f64]) -> PointSet {
     let measured = &o.found.measured;
@@ -159,12 +157,12 @@ fn points(o: &IdentificationOfSet, common: &[f64]) -> PointSet {
 const NOT_COMPARED: &str =
     "the sets are not compared: they were fitted to different rows, by a robust loss or with factors of the accuracies";
 
-/// Compares the sets. Absent where there is nothing to compare; the reason where it would not be just.
+/// Compares the sets. Absent if there is nothing to compare; the reason if a comparison is invalid.
 pub(super) fn compare(outcomes: &[IdentificationOfSet]) -> Option<Result<ComparisonOfSets, &'static str>> {
     if outcomes.len() < 2 {
         return None;
     }
-    // Sets are compared over the same numbers only, by sums of squares that were made small.
+    // Sets are compared only over the same observations and by minimised sums of squares.
     let squares = |o: &IdentificationOfSet| o.found.fitted.factors.is_empty() && !o.found.fitted.inference.is_robust();
     let common = common_deviations(outcomes).filter(|_| outcomes.iter().all(squares));
     let Some(common) = common else {
@@ -210,84 +208,4 @@ impl From<Comparison> for FirstAgainstSet {
             correlation: comparison.separation.map(|s| s.correlation),
         }
     }
-}
-
-/// The sets side by side.
-pub(super) fn table(name: &str, compared: &ComparisonOfSets) -> Table {
-    let mut table = Table::new(
-        format!("{name}-sets"),
-        [
-            Column::text("model_set", "Model set, the best first"),
-            Column::number("parameters", "-", "Number of parameters"),
-            Column::number(
-                "criterion_difference",
-                "-",
-                "Akaike's criterion less that of the first set",
-            ),
-            Column::text(
-                "fold_rms",
-                "Root of the mean square of the errors of each group, over the accuracy",
-            ),
-            Column::number("folds", "-", "Number of groups"),
-            Column::number(
-                "folds_won_by_first",
-                "-",
-                "Number of groups that the first set predicts better",
-            ),
-            Column::number("ratio_of_first", "-", "Error of the first set over that of this one"),
-            Column::number("ratio_low", "-", "Lower end of the 95 % interval of the ratio"),
-            Column::number("ratio_high", "-", "Upper end of the 95 % interval of the ratio"),
-            Column::number(
-                "separation",
-                "-",
-                "Distance of the predictions in units of the errors of the set of points",
-            ),
-            Column::number(
-                "evidence",
-                "-",
-                "Misfit of this set less that of the first, allowing for common errors",
-            ),
-            Column::number(
-                "correlation",
-                "-",
-                "Correlation of the errors that the distance is measured in",
-            ),
-            Column::number(
-                "lack_of_fit_probability",
-                "-",
-                "Probability of a misfit as great or greater",
-            ),
-            Column::text("decision", "Whether the first set is better"),
-            Column::text("reason", "Why"),
-        ],
-    );
-    for set in &compared.sets {
-        let against = set.first_against_it.as_ref();
-        let folds = against.and_then(|against| against.folds.as_ref());
-        let errors = set.fold_rms.as_deref().unwrap_or_default();
-        let texts: Vec<String> = errors.iter().map(|x| finite(*x)).collect();
-        table.push(cells![
-            &set.model_set,
-            set.parameters,
-            set.criterion_difference,
-            texts.join(" "),
-            errors.len(),
-            folds.map(|p| p.won as f64),
-            folds.map(|p| p.ratio),
-            folds.map(|p| p.interval[0]),
-            folds.map(|p| p.interval[1]),
-            against.and_then(|c| c.separation),
-            against.and_then(|c| c.evidence),
-            against.and_then(|c| c.correlation),
-            set.lack_of_fit_probability,
-            against.map_or("", |c| c.decision),
-            against.map_or("", |c| c.reason),
-        ]);
-    }
-    table
-}
-
-/// A number with all its digits; nothing where it is none.
-fn finite(x: f64) -> String {
-    if x.is_finite() { x.to_string() } else { String::new() }
 }

@@ -1,4 +1,4 @@
-//! Groups of rows of which each is predicted from the others.
+//! Groups of rows for cross-validation.
 
 use gearloss_numerics::inference::Fold;
 use schemars::JsonSchema;
@@ -8,12 +8,12 @@ use super::found::Found;
 use crate::analyses::numbers::RPM;
 use crate::study::FoldsEntry;
 
-/// Errors of groups of rows that are predicted from the others.
+/// Cross-validation errors of groups of rows.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct FoldsOfSet {
-    /// What the rows are grouped by.
+    /// Grouping of the rows.
     pub by: String,
-    /// Root of the mean square of the errors over the accuracies. [-]
+    /// Root mean square of the errors relative to the accuracies. [-]
     pub rms: f64,
     /// The groups.
     pub bands: Vec<FoldOfSet>,
@@ -22,20 +22,20 @@ pub struct FoldsOfSet {
 /// One group.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct FoldOfSet {
-    /// The group in words.
+    /// The group as text.
     pub name: String,
-    /// Least torque; absent for other groups than those of torque. [Nm]
+    /// Minimum torque; only for groups by torque. [Nm]
     pub from_nm: Option<f64>,
-    /// Greatest torque; absent for other groups than those of torque. [Nm]
+    /// Maximum torque; only for groups by torque. [Nm]
     pub to_nm: Option<f64>,
     /// Number of its points.
     pub points: usize,
-    /// Root of the mean square of their errors over the accuracies. [-]
+    /// Root mean square of their errors relative to the accuracies. [-]
     pub rms: f64,
 }
 
 impl FoldsOfSet {
-    /// Absent where none were requested, or there are none.
+    /// Absent if not requested or if there are none.
     pub(super) fn new(found: &Found, entry: &FoldsEntry) -> Option<Self> {
         let Some(Ok((folds, validation))) = &found.folds else {
             return None;
@@ -62,7 +62,7 @@ impl FoldsOfSet {
     }
 }
 
-/// Unit of the bands by which rows are grouped; empty where they are groups, not bands, or of a column.
+/// Unit of the bands of rows; empty for groups that are not bands, and for groups of a column.
 fn fold_unit(entry: &FoldsEntry) -> &'static str {
     match entry {
         FoldsEntry::Torques(_) => "Nm",
@@ -75,7 +75,7 @@ fn fold_unit(entry: &FoldsEntry) -> &'static str {
     }
 }
 
-/// A group in words.
+/// A group as text.
 fn fold_name(fold: &Fold, entry: &FoldsEntry) -> String {
     let [from, to] = match (&fold.label, fold.band) {
         (Some(label), _) => return label.clone(),

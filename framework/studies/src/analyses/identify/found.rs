@@ -1,4 +1,4 @@
-//! All that is found for one set of models.
+//! Results for one model set.
 
 use gearloss_numerics::inference::{Fold, Validation, Widening};
 
@@ -10,54 +10,55 @@ use super::next::{self, Candidates, Next};
 use super::posterior::{self, PosteriorOfSet};
 use crate::analyses::{Context, Stopped};
 use crate::analysis::{Note, merge, notes};
+use crate::codes;
 use crate::identify::{
     Calculated, Fitted, HoldOut, Identification, Identified, Observation, Pair, Profiled, Settings, ShareBands,
 };
 use crate::measured::{Measured, Seen};
 use crate::study::{Difference, Quantity};
 
-/// All that is found for one set of models, as tables and pictures need it.
+/// Results for one model set, for tables and figures.
 #[derive(Debug, Clone)]
 pub struct Found {
     /// The parameters, in the order of the coordinates.
     pub parameters: Vec<Identified>,
-    /// The rows that were fitted.
+    /// The fitted rows.
     pub measured: Measured,
-    /// What was fitted, in the order of the residuals.
+    /// The fitted observations, in the order of the residuals.
     pub observations: Vec<Observation>,
-    /// What a user should know of the points.
+    /// Notes on the points.
     pub notes: Vec<String>,
     /// The fit.
     pub fitted: Fitted,
-    /// Measured and calculated numbers at the start and at the end, in the order of the observations.
+    /// Measured and calculated values at the start and at the end, in the order of the observations.
     pub pairs: [Vec<Pair>; 2],
-    /// What the gearbox does at the rows, at the start and at the end.
+    /// State of the gearbox at the rows, at the start and at the end.
     pub rows: [Vec<RowOfSet>; 2],
-    /// Intervals by profile.
+    /// Profile intervals.
     pub profiles: Vec<Option<Profiled>>,
     /// Errors of predictions.
     pub folds: Option<Result<(Vec<Fold>, Validation), String>>,
-    /// What the residuals say against the fit.
+    /// Diagnostics of the residuals.
     pub checks: Checks,
     /// Losses by mechanism at all rows.
     pub shares: Result<ShareBands, String>,
     /// Rows that belong together.
     pub sheets: Vec<Sheet>,
-    /// What to measure next, or why nothing can be said of it.
+    /// Proposed measurements, or why there are none.
     pub next: Option<Result<Next, String>>,
 }
 
-/// What is published as it was found.
+/// Published as computed.
 pub(super) struct Beside {
-    /// What the draws from the posterior say, where they were requested.
+    /// Summary of the draws from the posterior, if requested.
     pub posterior: Option<Result<PosteriorOfSet, String>>,
-    /// Predictions of rows that were held out.
+    /// Predictions of held-out rows.
     pub held_out: Option<HoldOutOfSet>,
-    /// What was seen of limits at the end.
+    /// Observed limits at the end.
     pub outside: Vec<Note>,
 }
 
-/// What the gearbox does at one row.
+/// State of the gearbox at one row.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RowOfSet {
     /// Gear state.
@@ -66,15 +67,15 @@ pub struct RowOfSet {
     pub torque: f64,
     /// Speed. \[rad/s\]
     pub speed: f64,
-    /// Temperature of the oil; absent where no balance was found. \[degC\]
+    /// Oil temperature; absent if no balance was found. \[degC\]
     pub oil: Option<f64>,
     /// Losses by mechanism, in the order of the mechanisms of [`Found::shares`]; none without them. \[W\]
     pub losses: Vec<f64>,
-    /// Measured loss, without what the identified rig adds, and its standard deviation, zero where none is stated. \[W\]
+    /// Measured loss without the contribution of the identified rig, and its standard deviation, zero if not stated. \[W\]
     pub measured_loss: Option<[f64; 2]>,
 }
 
-/// What is made before a fit for what follows from it.
+/// Data prepared before a fit for its evaluation.
 pub(super) struct Prepared<'h> {
     pub candidates: Option<Candidates>,
     pub groups: Option<Result<Vec<Fold>, String>>,
@@ -82,7 +83,7 @@ pub(super) struct Prepared<'h> {
 }
 
 impl Found {
-    /// Everything that follows from a fit. `gear` is the state of rows that tell none.
+    /// All results of a fit. `gear` is the gear of rows without one.
     pub(super) fn new(
         cx: &Context<'_>,
         entry: &IdentifyEntry,
@@ -92,7 +93,14 @@ impl Found {
         prepared: Prepared<'_>,
     ) -> Result<(Self, Beside), Stopped> {
         let path = cx.path();
-        let failed = |reason: String| cx.wrong(&path, reason, "begin with other values, or narrow the bounds");
+        let failed = |reason: String| {
+            cx.wrong_as(
+                codes::NO_CONVERGENCE,
+                &path,
+                reason,
+                "use other start values, or narrow the bounds",
+            )
+        };
         let at = |theta: &[f64]| -> Result<(Calculated, Vec<Pair>), String> {
             let calculated = identification.calculate(theta)?;
             let pairs = identification.pairs(&calculated)?;
@@ -115,7 +123,7 @@ impl Found {
             Ok((groups, validation))
         });
         if !cx.goes_on() {
-            return Err(Stopped::Interrupted);
+            return Err(cx.why_ended());
         }
         let all: Vec<usize> = (0..identification.measured().rows.len()).collect();
         let shares = identification.share_bands(&fitted, &all, &profiles);
@@ -134,8 +142,8 @@ impl Found {
             )
         });
         let held_out = held_out.transpose().map_err(|reason| {
-            let help = "hold out rows in which what is fitted was measured and the gearbox has a value";
-            cx.wrong(&format!("{path}.hold_out"), reason, help)
+            let help = "hold out rows with measured values of the fitted quantity, at which the gearbox has a value";
+            cx.wrong_as(codes::HOLD_OUT, &format!("{path}.hold_out"), reason, help)
         })?;
         let transmission = &after.solved.transmissions[0].1;
         let mut seen = after.solved.seen.clone();
@@ -167,7 +175,7 @@ impl Found {
         Ok((found, beside))
     }
 
-    /// Root of the mean square of calculated less measured for a quantity, before and after, in efficiency points, W, Nm or K.
+    /// Root mean square of calculated minus measured for a quantity, before and after, in percentage points, W, Nm or K.
     pub fn rms(&self, quantity: Quantity) -> [f64; 2] {
         [0, 1].map(|k| {
             let list: Vec<f64> = self.deviations(quantity, k).into_iter().map(|(_, d)| d).collect();
@@ -175,7 +183,7 @@ impl Found {
         })
     }
 
-    /// Root of the mean square of the residuals of a quantity, before and after.
+    /// Root mean square of the residuals of a quantity, before and after.
     pub fn weighted_rms(&self, quantity: Quantity) -> [f64; 2] {
         [0, 1].map(|k| {
             let all = self.observations.iter().zip(&self.pairs[k]);
@@ -185,7 +193,7 @@ impl Found {
         })
     }
 
-    /// Rows and calculated less measured for a quantity, before (0) or after (1), in efficiency points, W, Nm or K.
+    /// Rows and calculated minus measured for a quantity, before (0) or after (1), in percentage points, W, Nm or K.
     pub fn deviations(&self, quantity: Quantity, which: usize) -> Vec<(usize, f64)> {
         let all = self.observations.iter().zip(&self.pairs[which]);
         all.filter(|(o, _)| o.quantity == quantity)
@@ -193,7 +201,7 @@ impl Found {
             .collect()
     }
 
-    /// The fitted quantities, each once.
+    /// The fitted quantities without repetition.
     pub fn quantities(&self) -> Vec<Quantity> {
         let mut list = Vec::new();
         for observation in &self.observations {
@@ -204,19 +212,18 @@ impl Found {
         list
     }
 
-    /// Factors by which intervals and bands are too small, where the model does not reproduce the points or neighbours err
-    /// together.
+    /// Factors by which intervals and bands are too small if the model does not reproduce the points or neighbouring errors are correlated.
     pub fn intervals_widened(&self) -> Widening {
         self.checks.widening()
     }
 
-    /// Factor by which intervals of parameters are too small, the greater of the two; absent where they are not.
+    /// Factor by which intervals of parameters are too small, the larger of the two; absent if they are not.
     pub fn widening(&self) -> Option<f64> {
         Some(self.intervals_widened().parameters).filter(|widening| *widening > 1.0)
     }
 }
 
-/// What the gearbox does at all rows.
+/// State of the gearbox at all rows.
 fn rows(there: &Calculated, measured: &Measured, mechanisms: &[&'static str]) -> Vec<RowOfSet> {
     let solved = there.solved.rows.iter().zip(&measured.rows);
     let row = |((number, gear, point), row): (&(usize, String, _), _)| {

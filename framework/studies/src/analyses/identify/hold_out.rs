@@ -1,4 +1,4 @@
-//! Rows that were held out of a fit: their predictions beside those of fitted rows.
+//! Held-out rows: their predictions compared with those of fitted rows.
 
 mod errors;
 
@@ -9,89 +9,86 @@ use serde::Serialize;
 
 pub use errors::ErrorsOfQuantity;
 
-use super::outcome::IdentificationOfSet;
 use crate::analyses::numbers::{RPM, tidy};
-use crate::cells;
 use crate::identify::{
     CONFIDENCE, Calculated, Fitted, HoldOut, Identification, Pair, PredictedNumber, Predictions, Profiled,
 };
 use crate::study::{Difference, Quantity};
-use crate::table::{Column, Table};
 
-/// Rows that were held out, predicted with the parameters of a set.
+/// Held-out rows, predicted with the parameters of a set.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct HoldOutOfSet {
-    /// How the rows were chosen, in words.
+    /// Selection of the rows as text.
     pub chosen_by: String,
-    /// Number of rows that were held out.
+    /// Number of held-out rows.
     pub rows: usize,
-    /// Number of rows that were fitted.
+    /// Number of fitted rows.
     pub rows_fitted: usize,
     /// Confidence of the bands. [-]
     pub confidence: f64,
-    /// By how much bands are wider than the fit itself says.
+    /// Widening of the bands relative to the fit.
     pub widening: WideningOfBands,
-    /// Why there are no bands, where there are none.
+    /// Why there are no bands, if there are none.
     pub no_bands: Option<String>,
-    /// Rows that have no calculated value, and why.
+    /// Rows without a calculated value, with the reason.
     pub not_predicted: Vec<String>,
     /// Errors of each quantity.
     pub quantities: Vec<HoldOutQuantity>,
-    /// One for each number that was predicted.
+    /// One for each predicted value.
     pub points: Vec<HoldOutPoint>,
 }
 
-/// Factors by which standard deviations are greater than the fit itself says, because its model misses its own points.
+/// Factors by which standard deviations are increased because the model does not fit the points.
 #[derive(Debug, Clone, Copy, Serialize, JsonSchema)]
 pub struct WideningOfBands {
-    /// Factor on standard deviations of parameters and of what follows from them. [-]
+    /// Factor on standard deviations of parameters and of derived quantities. [-]
     pub parameters: f64,
     /// Factor on the scatter of one measurement about the model. [-]
     pub scatter: f64,
 }
 
-/// Errors of one quantity, of rows that were held out and of fitted rows.
+/// Errors of one quantity, of held-out and fitted rows.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct HoldOutQuantity {
     /// Name of the quantity.
     pub quantity: &'static str,
-    /// Unit of the errors: points, w, nm or k.
+    /// Unit of the errors: `points` (percentage points), `w`, `nm` or `k`.
     pub unit: &'static str,
-    /// Errors of rows that were held out.
+    /// Errors of held-out rows.
     pub held_out: Option<SummaryOfErrors>,
     /// Errors of fitted rows.
     pub fitted: Option<SummaryOfErrors>,
-    /// How many measurements lie inside of their bands.
+    /// Coverage of the bands.
     pub coverage: Option<CoverageOfBands>,
-    /// What there is to say.
+    /// Notes.
     pub sentence: Option<String>,
-    /// Errors over bands of torque, speed and temperature, and in both directions of power.
+    /// Errors over bands of torque, speed and temperature, and for both directions of power.
     pub regions: Vec<ErrorsOfRegion>,
-    /// The errors one by one, and what they were summed up to.
+    /// All errors and their summaries.
     #[serde(skip)]
     pub errors: ErrorsOfQuantity,
 }
 
-/// Errors summed up, calculated less measured.
+/// Summary of errors, calculated minus measured.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct SummaryOfErrors {
     /// Number of errors.
     pub points: usize,
-    /// Root of the mean square. [unit of the quantity]
+    /// Root mean square. [unit of the quantity]
     pub rms: f64,
     /// Mean: the bias of the calculation. [unit of the quantity]
     pub mean: f64,
-    /// The error of the greatest magnitude. [unit of the quantity]
+    /// The error with the largest magnitude. [unit of the quantity]
     pub greatest: f64,
-    /// Where that is.
+    /// Point of this error.
     pub greatest_at: PlaceOfError,
-    /// The same in percent of the measured values; absent unless all of these have one sign and are not zero. [%]
+    /// The same in percent of the measured values; absent unless all measured values have the same sign and are not zero. [%]
     pub in_percent: Option<FiguresOfErrors>,
-    /// The same in standard deviations of the measurements; absent unless all state them. [-]
+    /// The same in standard deviations of the measurements; absent unless all are stated. [-]
     pub in_accuracies: Option<FiguresOfErrors>,
 }
 
-/// Where an error is.
+/// Point of an error.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct PlaceOfError {
     /// Line in the file.
@@ -102,25 +99,25 @@ pub struct PlaceOfError {
     pub speed_rpm: f64,
 }
 
-/// Figures of errors, in the unit of their key.
+/// Statistics of errors in the unit of their key.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct FiguresOfErrors {
-    /// Root of the mean square. [as the key]
+    /// Root mean square. [as the key]
     pub rms: f64,
     /// Mean. [as the key]
     pub mean: f64,
-    /// The value of the greatest magnitude. [as the key]
+    /// The value with the largest magnitude. [as the key]
     pub greatest: f64,
 }
 
-/// How many measurements lie inside of their bands.
+/// Coverage of the bands.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct CoverageOfBands {
-    /// Measurements inside.
+    /// Number of measurements inside their bands.
     pub inside: usize,
-    /// All measurements that have a band.
+    /// Number of measurements with a band.
     pub points: usize,
-    /// Share of those inside. [-]
+    /// Share inside. [-]
     pub share: f64,
     /// 95 % interval of the share. [-]
     pub interval: Option<[f64; 2]>,
@@ -129,21 +126,21 @@ pub struct CoverageOfBands {
 /// Errors in one region.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct ErrorsOfRegion {
-    /// What is divided: `torque`, `speed`, `oil_temperature` or `direction`.
+    /// The divided quantity: `torque`, `speed`, `oil_temperature` or `direction`.
     pub over: &'static str,
-    /// The region in words.
+    /// The region as text.
     pub name: String,
     /// Lower end; absent for directions. [Nm, rpm or degC]
     pub from: Option<f64>,
     /// Upper end; absent for directions. [Nm, rpm or degC]
     pub to: Option<f64>,
-    /// Errors of rows that were held out.
+    /// Errors of held-out rows.
     pub held_out: Option<SummaryOfErrors>,
     /// Errors of fitted rows.
     pub fitted: Option<SummaryOfErrors>,
 }
 
-/// A number that was held out, beside its prediction; efficiencies as shares.
+/// A held-out value and its prediction; efficiencies as fractions.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct HoldOutPoint {
     /// Line in the file.
@@ -156,24 +153,23 @@ pub struct HoldOutPoint {
     pub torque_nm: Option<f64>,
     /// Speed. [rpm]
     pub speed_rpm: f64,
-    /// Temperature of the oil. [degC]
+    /// Oil temperature. [degC]
     pub oil_temperature_degc: Option<f64>,
     /// Name of the quantity.
     pub quantity: &'static str,
-    /// Standard deviation of the measurement; absent where none is known. [unit of the quantity]
+    /// Standard deviation of the measurement; absent if unknown. [unit of the quantity]
     pub accuracy: Option<f64>,
-    /// Measured, without what the identified rig adds. [unit of the quantity]
+    /// Measured, without the contribution of the identified rig. [unit of the quantity]
     pub measured: f64,
     /// Predicted. [unit of the quantity]
     pub predicted: f64,
-    /// 95 % band of the measurement; absent where the fitted points do not determine it. [unit of the quantity]
+    /// 95 % band of the measurement; absent if the fitted points do not determine it. [unit of the quantity]
     pub band: Option<[f64; 2]>,
-    /// Whether the measurement lies inside of its band.
+    /// Whether the measurement is inside its band.
     pub inside: Option<bool>,
 }
 
-/// Predicts what was held out with the parameters of a fit, and says what was seen of limits there. `calculated` and `pairs` are those
-/// of the fit.
+/// Predicts the held-out rows with the parameters of a fit, and returns the observed limits. `calculated` and `pairs` are those of the fit.
 pub(super) fn predict(
     choice: &HoldOut,
     residuals: &[Quantity],
@@ -185,7 +181,7 @@ pub(super) fn predict(
     if predictions.numbers.is_empty() {
         return Err(match predictions.missing.first() {
             Some(reason) => reason.clone(),
-            None => "no row that is held out has a measured number of what is fitted".to_owned(),
+            None => "no held-out row has a measured value of a fitted quantity".to_owned(),
         });
     }
     let mut quantities: Vec<Quantity> = Vec::new();
@@ -298,50 +294,4 @@ impl HoldOutQuantity {
             errors,
         }
     }
-}
-
-/// One row for each number that was held out.
-pub(super) fn table(name: &str, all: &[IdentificationOfSet]) -> Table {
-    const UNIT: &str = "mixed";
-    let mut table = Table::new(
-        format!("{name}-hold-out"),
-        [
-            Column::text("model_set", "Model set"),
-            Column::number("line", "-", "Line in the file"),
-            Column::text("name", "Name of the row"),
-            Column::text("gear", "Gear state"),
-            Column::number("torque_nm", "Nm", "Torque"),
-            Column::number("speed_rpm", "rpm", "Speed"),
-            Column::number("oil_temperature_degc", "degC", "Temperature of the oil"),
-            Column::text(
-                "quantity",
-                "Quantity of this row, with its unit; efficiencies are shares",
-            ),
-            Column::number("measured", UNIT, "Measured, without what the identified rig adds"),
-            Column::number("predicted", UNIT, "Predicted"),
-            Column::number("band_low", UNIT, "Lower end of the 95 % band of the measurement"),
-            Column::number("band_high", UNIT, "Upper end of the 95 % band of the measurement"),
-            Column::text("inside", "Whether the measurement lies inside of its band"),
-        ],
-    );
-    for o in all {
-        for point in o.hold_out.iter().flat_map(|held| &held.points) {
-            table.push(cells![
-                &o.model_set,
-                point.line as usize,
-                point.name.as_deref().unwrap_or_default(),
-                &point.gear,
-                point.torque_nm,
-                point.speed_rpm,
-                point.oil_temperature_degc,
-                point.quantity,
-                point.measured,
-                point.predicted,
-                point.band.map(|band| band[0]),
-                point.band.map(|band| band[1]),
-                point.inside.map_or("", |inside| if inside { "true" } else { "false" }),
-            ]);
-        }
-    }
-    table
 }

@@ -5,19 +5,19 @@ use crate::identify::Identification;
 use crate::measured::Measured;
 use crate::study::Quantity;
 
-/// Temperatures of the oil that are farther apart belong to different lines. \[K\]
+/// Difference of oil temperatures above which points belong to different lines. \[K\]
 const APART: f64 = 3.0;
 
 /// Rows of one gear state, combination of bound values, and temperature of the oil.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Sheet {
-    /// What they have in common, in words; empty where all rows do.
+    /// Their common conditions as text; empty if common to all rows.
     pub name: String,
     /// The rows, in the order of the file.
     pub rows: Vec<usize>,
 }
 
-/// The sheets of a file. `gear` is the state of rows that tell none.
+/// The sheets of a file. `gear` is the gear of rows without one.
 pub(super) fn sheets(measured: &Measured, gear: &str) -> Vec<Sheet> {
     let oil = |i: usize| measured.value(&measured.rows[i], "oil_temperature");
     let mut order: Vec<usize> = (0..measured.rows.len()).collect();
@@ -72,7 +72,7 @@ impl Sheet {
     }
 }
 
-/// Places of residuals along all lines, one quantity after the other.
+/// Indices of residuals along all lines, by quantity.
 pub(super) fn of_residuals(identification: &Identification<'_>, sheets: &[Sheet]) -> Vec<Vec<usize>> {
     let quantities = [
         Quantity::Efficiency,

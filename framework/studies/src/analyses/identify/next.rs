@@ -1,4 +1,4 @@
-//! What to measure next, from the points of a grid.
+//! Proposed measurements from the points of a grid.
 
 use gearloss_numerics::design::{Choice, Precision, Rule};
 use schemars::JsonSchema;
@@ -6,13 +6,10 @@ use serde::Serialize;
 
 use super::entry::{NextEntry, RuleEntry};
 use super::found::Found;
-use super::outcome::IdentificationOfSet;
 use crate::analyses::axes::grid_axes;
 use crate::analyses::numbers::{RPM, tidy};
 use crate::analyses::{Built, Context, Stopped};
-use crate::cells;
 use crate::identify::{Candidate, Fitted, Identification, NextPlan};
-use crate::table::{Column, Table};
 
 /// All points that the rig can run.
 pub(super) struct Candidates {
@@ -22,69 +19,69 @@ pub(super) struct Candidates {
     oils: Vec<Option<f64>>,
 }
 
-/// Points to be measured, with all candidates.
+/// Proposed points, with all candidates.
 #[derive(Debug, Clone)]
 pub struct Next {
     /// All points that the rig can run.
     pub candidates: Vec<Candidate>,
-    /// Which of them to measure, and what each would tell.
+    /// The chosen points, and the gain of each candidate.
     pub plan: NextPlan,
-    /// How many were requested.
+    /// Requested number.
     pub count: u32,
     /// Gear state.
     pub gear: String,
     /// Torques in Nm and speeds in rad/s of the grid.
     pub axes: (Vec<f64>, Vec<f64>),
-    /// Temperatures, in the order of the candidates; one without value for that of the study.
+    /// Temperatures in the order of the candidates; a single empty one for the temperature of the study.
     pub oils: Vec<Option<f64>>,
-    /// What the points are to make small.
+    /// Design criterion.
     pub rule: RuleEntry,
 }
 
-/// What to measure next.
+/// Proposed measurements.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct NextOfSet {
-    /// What the points are to make small.
+    /// Design criterion.
     pub rule: RuleEntry,
     /// Gear state.
     pub gear: String,
-    /// Parameters that the plan is about.
+    /// Parameters of the plan.
     pub parameters: Vec<String>,
-    /// Plans for other parameters of the joint region that could be made.
+    /// Number of alternative plans, for other parameters of the joint region.
     pub other_plans: usize,
-    /// How well the parameters are known now.
+    /// Current precision of the parameters.
     pub before: PrecisionOfSet,
-    /// How well they would be known with the points of the plan.
+    /// Expected precision with the points of the plan.
     pub after: PrecisionOfSet,
-    /// The points, in the order in which they are to be measured.
+    /// The points in measurement order.
     pub points: Vec<NextPoint>,
 }
 
-/// How well parameters are known together.
+/// Joint precision of parameters.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct PrecisionOfSet {
     /// Logarithm of the determinant of the covariance. [-]
     pub ln_determinant: f64,
-    /// Sum of the variances, each over the square of its range. [-]
+    /// Sum of the variances, each relative to the square of its range. [-]
     pub trace: f64,
-    /// Standard deviation of each parameter over its range. [-]
+    /// Standard deviation of each parameter relative to its range. [-]
     pub deviations_over_ranges: Vec<f64>,
 }
 
-/// A point to be measured.
+/// A proposed point.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct NextPoint {
     /// Torque. [Nm]
     pub torque_nm: f64,
     /// Speed. [rpm]
     pub speed_rpm: f64,
-    /// Temperature of the oil; absent, that of the study. [degC]
+    /// Oil temperature; absent: from the study. [degC]
     pub oil_temperature_degc: Option<f64>,
-    /// What it gains by the rule after the points before it. [-]
+    /// Gain by the rule, given the previous points. [-]
     pub gain: f64,
-    /// One, and the change-over from the point before. [-]
+    /// One, plus the cost of the change from the previous point. [-]
     pub cost: f64,
-    /// Number of plans for other parameters that lack it at least once.
+    /// Number of alternative plans without this point.
     pub lacking_in_other_plans: usize,
 }
 
@@ -99,7 +96,7 @@ impl From<&Precision> for PrecisionOfSet {
 }
 
 impl Next {
-    /// As it is published; `found` is that of its set.
+    /// The published record; `found` belongs to its set.
     pub(super) fn record(&self, found: &Found) -> NextOfSet {
         let point = |choice: &Choice| {
             let at = &self.candidates[choice.candidate];
@@ -126,58 +123,13 @@ impl Next {
     }
 }
 
-/// All candidates of all sets, with their places in the plan.
-pub(super) fn table(name: &str, all: &[IdentificationOfSet]) -> Table {
-    let mut table = Table::new(
-        format!("{name}-next"),
-        [
-            Column::text("model_set", "Model set"),
-            Column::text("gear", "Gear state"),
-            Column::number("torque_nm", "Nm", "Torque"),
-            Column::number("speed_rpm", "rpm", "Speed"),
-            Column::number("oil_temperature_degc", "degC", "Temperature of the oil"),
-            Column::number(
-                "accuracy",
-                "mixed",
-                "Standard deviation of a measurement there; of an efficiency as a share",
-            ),
-            Column::number("gain_alone", "-", "Gain of measuring it once, alone"),
-            Column::text(
-                "places_in_plan",
-                "Numbers of the points of the plan that are measured there",
-            ),
-        ],
-    );
-    for o in all {
-        let Some(Ok(next)) = &o.found.next else { continue };
-        for (i, at) in next.candidates.iter().enumerate() {
-            let choices = next.plan.plan.choices.iter().enumerate();
-            let places: Vec<String> = choices
-                .filter(|(_, choice)| choice.candidate == i)
-                .map(|(place, _)| (place + 1).to_string())
-                .collect();
-            table.push(cells![
-                &o.model_set,
-                &next.gear,
-                at.torque,
-                tidy(at.speed * RPM),
-                at.oil,
-                next.plan.deviations[i],
-                next.plan.gains[i],
-                places.join(" "),
-            ]);
-        }
-    }
-    table
-}
-
-/// The candidates of an entry, before anything is fitted.
+/// The candidates of an entry, before the fit.
 pub(super) fn candidates(cx: &Context<'_>, entry: &NextEntry, built: &Built<'_>) -> Result<Candidates, Stopped> {
     let path = format!("{}.next", cx.path());
     let grid = cx.study.grid(&path, &entry.grid)?;
     if !grid.bind.is_empty() || grid.envelope.is_some() {
-        let message = "points to be measured come from a grid without bound values and envelope";
-        return Err(cx.wrong(&format!("{path}.grid"), message, "give it a grid of its own"));
+        let message = "proposed measurements need a grid without bound values and envelope";
+        return Err(cx.wrong(&format!("{path}.grid"), message, "give it its own grid"));
     }
     let gear = cx.one_gear(&format!("{path}.grid"), grid, &built.transmission)?;
     let (torques, speeds) = grid_axes(cx, &entry.grid, grid, &built.transmission)?;
@@ -203,7 +155,7 @@ pub(super) fn candidates(cx: &Context<'_>, entry: &NextEntry, built: &Built<'_>)
     })
 }
 
-/// What to measure next, or why nothing can be said.
+/// Proposed measurements, or why there are none.
 pub(super) fn plan(
     entry: &NextEntry,
     candidates: Candidates,

@@ -1,4 +1,4 @@
-//! What a fit says of each parameter.
+//! Results for each parameter of a fit.
 
 use gearloss_numerics::inference::{Reach, Scale, Standing, Verdict};
 use schemars::JsonSchema;
@@ -8,124 +8,124 @@ use super::found::Found;
 use crate::identify::Profiled;
 use crate::study::ScaleEntry;
 
-/// What a fit says of one parameter.
+/// Results for one parameter of a fit.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct ParameterOfSet {
     /// Name.
     pub name: String,
     /// The path as written.
     pub path: String,
-    /// Resolved paths that it moves; none for a quantity of the rig.
+    /// Resolved paths that it changes; empty for a quantity of the rig.
     pub paths: Vec<String>,
     /// Unit of its values.
     pub unit: &'static str,
-    /// How it is counted.
+    /// Scale.
     pub scale: ScaleEntry,
-    /// Value of the gearbox or the rig, before anything is fitted; absent where none is stated. [unit]
+    /// Value of the gearbox or the rig before the fit; absent if not stated. [unit]
     pub stated: Option<f64>,
-    /// Published value, where it moves coefficients of formulas. [unit]
+    /// Published value, if it changes coefficients of formulas. [unit]
     pub published: Option<f64>,
-    /// Where the search begins. [unit]
+    /// Start value. [unit]
     pub start: f64,
-    /// Least value allowed; absent without bound. [unit]
+    /// Lower bound; absent if none. [unit]
     pub least: Option<f64>,
-    /// Greatest value allowed; absent without bound. [unit]
+    /// Upper bound; absent if none. [unit]
     pub greatest: Option<f64>,
-    /// What is known of it beside the points.
+    /// Prior.
     pub prior: Option<PriorOfParameter>,
-    /// Value that was found. [unit]
+    /// Identified value. [unit]
     pub value: f64,
-    /// Standard deviation of its coordinate: of a logarithmic parameter relative to the value; absent where it does not move.
+    /// Standard deviation of its coordinate: for a logarithmic parameter relative to the value; absent if it is not free.
     /// [unit, or - of a logarithmic one]
     pub standard_deviation: Option<f64>,
-    /// 95 % interval of the linearised fit, inside the bounds. [unit]
+    /// 95 % interval of the linearised fit, within the bounds. [unit]
     pub interval: Option<[f64; 2]>,
-    /// The same without regard to the bounds. [unit]
+    /// The same without the bounds. [unit]
     pub interval_without_bounds: Option<[f64; 2]>,
-    /// 95 % interval by profile; absent where it was not requested or there is nothing to profile.
+    /// 95 % profile interval; absent if not requested or not possible.
     pub profile: Option<ProfileOfParameter>,
-    /// The bound on which it stands, `lower` or `upper`, with the points pulling outward.
+    /// Active bound, `lower` or `upper`.
     pub bound: Option<&'static str>,
-    /// Whether a kink lies across it, so that its linearised interval is a guess.
+    /// Whether there is a kink along it, so that its linearised interval is only approximate.
     pub kink: bool,
-    /// What the points say of it.
+    /// Verdict.
     pub verdict: VerdictOfParameter,
-    /// The same in words.
+    /// The same as text.
     pub sentence: String,
-    /// Parameters that it is known together with, the nearest first.
+    /// Parameters that are identifiable only in combination with it, the strongest first.
     pub partners: Vec<String>,
-    /// Size by which its interval is judged; absent for a logarithmic parameter. [unit]
+    /// Reference size of its interval; absent for a logarithmic parameter. [unit]
     pub size: Option<f64>,
     /// Half-width of the 95 % interval over the size. [-]
     pub half_width_over_size: Option<f64>,
-    /// The same if all other parameters were known. [-]
+    /// The same conditional on all other parameters. [-]
     pub half_width_over_size_alone: Option<f64>,
     /// Share of the range between the bounds that the interval fills. [-]
     pub range_filled: Option<f64>,
     /// Half-width of the 95 % interval over the range. [-]
     pub width_over_range: Option<f64>,
-    /// The same if all other parameters were known. [-]
+    /// The same conditional on all other parameters. [-]
     pub width_over_range_alone: Option<f64>,
-    /// Part of its column that no other parameter explains, from zero to one. [-]
+    /// Part of its column that the other parameters do not explain, from zero to one. [-]
     pub own_share: f64,
-    /// What the points say of it, with the bound on which it stands.
+    /// Verdict with the active bound.
     #[serde(skip)]
     pub judgement: Verdict,
 }
 
-/// What is known of a parameter beside the points.
+/// Prior of a parameter.
 #[derive(Debug, Clone, Copy, Serialize, JsonSchema)]
 pub struct PriorOfParameter {
     /// Mean. [unit]
     pub mean: f64,
-    /// Standard deviation; of a logarithmic parameter relative to the mean. [unit, or - of a logarithmic one]
+    /// Standard deviation; for a logarithmic parameter relative to the mean. [unit, or - of a logarithmic one]
     pub deviation: f64,
 }
 
-/// An interval by profile, or why there is none.
+/// A profile interval, or why there is none.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct ProfileOfParameter {
     /// Why there is none.
     pub failed: Option<String>,
     /// Both ends. [unit]
     pub ends: Option<[f64; 2]>,
-    /// Why each end is where it is.
+    /// Why the search for each end stopped.
     pub reach: Option<[ReachOfProfile; 2]>,
-    /// Fits that it took.
+    /// Number of fits.
     pub fits: Option<usize>,
-    /// Whether a half-width is less than 0.8 or more than 1.25 of the linearised one.
+    /// Whether a half-width is below 0.8 or above 1.25 of the linearised one.
     pub nonlinear: Option<bool>,
 }
 
-/// Why an end of an interval by profile is where it is.
+/// Why the search for an end of a profile interval stopped.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum ReachOfProfile {
-    /// The misfit has risen to its limit there.
+    /// The misfit reaches its limit.
     Limit,
-    /// The parameter meets its bound before.
+    /// The parameter reaches its bound first.
     Bound,
-    /// Neither within the fits that are allowed.
+    /// Neither within the allowed number of fits.
     Unresolved,
 }
 
-/// What the points say of a parameter.
+/// Verdict on a parameter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum VerdictOfParameter {
-    /// The study holds it.
+    /// Fixed by the study.
     Held,
-    /// It is on a bound and would go on.
+    /// At an active bound.
     OnBound,
-    /// A change by its own size moves the results less than the instruments can see.
+    /// Not identifiable: a change by its own size has less effect than the accuracy of the instruments.
     NotSeen,
-    /// The half-width of its interval is a tenth of its size or less.
+    /// The half-width of its interval is at most a tenth of its size.
     WellDetermined,
-    /// It is known only together with others.
+    /// Identifiable only in combination with others.
     OnlyInCombination,
-    /// The half-width of its interval is half of its size or less.
+    /// The half-width of its interval is at most half its size.
     RoughlyDetermined,
-    /// Its interval is nearly as wide as its size, or wider.
+    /// Otherwise.
     NotDetermined,
 }
 
@@ -147,8 +147,8 @@ impl From<Verdict> for VerdictOfParameter {
 pub fn verdict_words(verdict: Verdict) -> String {
     match verdict {
         Verdict::Held => "held".to_owned(),
-        Verdict::OnBound(side) => format!("on its {} bound", side.name()),
-        Verdict::NotSeen => "not seen".to_owned(),
+        Verdict::OnBound(side) => format!("at its {} bound", side.name()),
+        Verdict::NotSeen => "not identifiable".to_owned(),
         Verdict::WellDetermined => "well determined".to_owned(),
         Verdict::OnlyInCombination => "only in combination".to_owned(),
         Verdict::RoughlyDetermined => "roughly determined".to_owned(),

@@ -1,20 +1,17 @@
-//! The posterior: its marginals beside the intervals of the fit and by profile.
+//! The posterior: its marginals compared with the intervals of fit and profiles.
 
 use gearloss_numerics::inference::{Ensemble, Marginal, Reach};
 use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::entry::{IdentifyEntry, PosteriorEntry, RobustLoss};
-use super::outcome::IdentificationOfSet;
 use crate::analyses::{Context, Stopped};
-use crate::cells;
 use crate::identify::{Fitted, Identification, Profiled};
-use crate::table::{Column, Table};
 
-/// The most draws that are held: with ten parameters some 200 MB.
+/// Maximum number of stored draws: with ten parameters about 200 MB.
 const MOST_DRAWS: usize = 2_000_000;
 
-/// Refuses what no posterior can be drawn from.
+/// Rejects entries without a posterior.
 pub(super) fn check(
     cx: &Context<'_>,
     entry: &IdentifyEntry,
@@ -25,19 +22,19 @@ pub(super) fn check(
     };
     let place = format!("{}.posterior", cx.path());
     if entry.robust.is_some_and(|robust| robust.loss != RobustLoss::Linear) {
-        let message = "a robust loss is no density, so nothing can be drawn from it";
-        return Err(cx.wrong(&place, message, "leave `robust` or `posterior` out"));
+        let message = "a robust loss does not define a posterior density";
+        return Err(cx.wrong(&place, message, "delete `robust` or `posterior`"));
     }
     let ensemble = ensemble(posterior, identification);
     let draws = ensemble.steps * ensemble.walkers;
     if draws > MOST_DRAWS {
-        let message = format!("{draws} draws are more than the {MOST_DRAWS} that can be held");
-        return Err(cx.wrong(&place, message, "take fewer steps or walkers"));
+        let message = format!("{draws} draws exceed the maximum of {MOST_DRAWS}");
+        return Err(cx.wrong(&place, message, "use fewer steps or walkers"));
     }
     Ok(())
 }
 
-/// What an entry asks for.
+/// Settings from an entry.
 fn ensemble(entry: PosteriorEntry, identification: &Identification<'_>) -> Ensemble {
     Ensemble {
         walkers: entry.walkers.map_or_else(|| identification.walkers(), |n| n as usize),
@@ -51,30 +48,30 @@ fn ensemble(entry: PosteriorEntry, identification: &Identification<'_>) -> Ensem
 pub struct PosteriorOfSet {
     /// Walkers.
     pub walkers: usize,
-    /// Steps of each that count.
+    /// Retained steps of each walker.
     pub steps: usize,
-    /// Share of the moves that were accepted. [-]
+    /// Share of accepted moves. [-]
     pub acceptance: f64,
-    /// Whether every walker ran long enough for its draws to be trusted.
+    /// Whether the sampling has converged.
     pub is_settled: bool,
     /// The free parameters.
     pub parameters: Vec<ParameterOfPosterior>,
 }
 
-/// What the draws say of one parameter.
+/// Summary of the draws of one parameter.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct ParameterOfPosterior {
     /// Name.
     pub name: String,
-    /// Half of the draws lie below. [unit of the parameter]
+    /// Median. [unit of the parameter]
     pub median: f64,
-    /// 95 % of the draws lie between. [unit of the parameter]
+    /// 95 % interval. [unit of the parameter]
     pub interval: [f64; 2],
     /// Standard deviation of the draws. [unit of the parameter]
     pub standard_deviation: f64,
-    /// Steps after which a walker has forgotten where it was. [-]
+    /// Integrated autocorrelation time in steps. [-]
     pub autocorrelation_steps: f64,
-    /// Independent draws that tell as much as all of these. [-]
+    /// Effective number of independent draws. [-]
     pub independent_draws: f64,
     /// Unit.
     #[serde(skip)]
@@ -82,12 +79,12 @@ pub struct ParameterOfPosterior {
     /// 95 % interval of the linearised fit, not widened.
     #[serde(skip)]
     pub linearised: Option<[f64; 2]>,
-    /// 95 % interval by profile, where both ends were found.
+    /// 95 % profile interval, if both ends were found.
     #[serde(skip)]
     pub profile: Option<[f64; 2]>,
 }
 
-/// Draws from the posterior, and sums up what they say; the draws themselves are not kept.
+/// Draws from the posterior and summarises; the draws are not stored.
 pub(super) fn draw(
     entry: PosteriorEntry,
     (identification, fitted, profiles): (&Identification<'_>, &Fitted, &[Option<Profiled>]),
@@ -117,63 +114,4 @@ pub(super) fn draw(
         is_settled: posterior.is_settled,
         parameters: posterior.marginals.iter().enumerate().filter_map(parameter).collect(),
     })
-}
-
-/// The marginals of all sets, beside the other intervals.
-pub(super) fn table(name: &str, all: &[IdentificationOfSet]) -> Table {
-    const UNIT: &str = "mixed";
-    let mut table = Table::new(
-        format!("{name}-posterior"),
-        [
-            Column::text("model_set", "Model set"),
-            Column::text("parameter", "Name of the parameter"),
-            Column::text("unit", "Unit of the values of this row"),
-            Column::number("median", UNIT, "Half of the draws lie below"),
-            Column::number("low", UNIT, "Lower end of the 95 % interval of the draws"),
-            Column::number("high", UNIT, "Upper end of the 95 % interval of the draws"),
-            Column::number("standard_deviation", UNIT, "Standard deviation of the draws"),
-            Column::number(
-                "linearised_low",
-                UNIT,
-                "Lower end of the 95 % interval of the linearised fit",
-            ),
-            Column::number(
-                "linearised_high",
-                UNIT,
-                "Upper end of the 95 % interval of the linearised fit",
-            ),
-            Column::number("profile_low", UNIT, "Lower end of the 95 % interval by profile"),
-            Column::number("profile_high", UNIT, "Upper end of the 95 % interval by profile"),
-            Column::number(
-                "autocorrelation_steps",
-                "-",
-                "Steps after which a walker has forgotten where it was",
-            ),
-            Column::number(
-                "independent_draws",
-                "-",
-                "Independent draws that tell as much as all of these",
-            ),
-        ],
-    );
-    for o in all {
-        for p in o.posterior.iter().flat_map(|posterior| &posterior.parameters) {
-            table.push(cells![
-                &o.model_set,
-                &p.name,
-                p.unit,
-                p.median,
-                p.interval[0],
-                p.interval[1],
-                p.standard_deviation,
-                p.linearised.map(|ends| ends[0]),
-                p.linearised.map(|ends| ends[1]),
-                p.profile.map(|ends| ends[0]),
-                p.profile.map(|ends| ends[1]),
-                p.autocorrelation_steps,
-                p.independent_draws,
-            ]);
-        }
-    }
-    table
 }

@@ -1,4 +1,4 @@
-//! What is published of a fit.
+//! Published records of a fit.
 
 use gearloss_numerics::inference::{Accuracy, BandMean};
 
@@ -15,7 +15,7 @@ use crate::analyses::numbers::{RPM, tidy};
 use crate::identify::Observation;
 use crate::study::Difference;
 
-/// Singular value of columns times sizes above which a combination is resolved: a 95 % half-width under half of the size.
+/// Singular value of columns times sizes above which a combination is identifiable: a 95 % half-width below half the size.
 const RESOLVED: f64 = 4.0;
 
 impl IdentificationOfSet {
@@ -134,7 +134,7 @@ impl From<&BandMean> for BandOfResiduals {
     }
 }
 
-/// Measured numbers with what was calculated, and losses by mechanism with their bands.
+/// Measured and calculated values, and losses by mechanism with their bands.
 fn points(found: &Found) -> Vec<PointOfFit> {
     let measured = &found.measured;
     let point = |(i, observation): (usize, &Observation)| {

@@ -1,4 +1,4 @@
-//! How a search for parameters went.
+//! Record of a search for parameters.
 
 use gearloss_numerics::least_squares::{Iteration, Kinship, Minimum, Status};
 use schemars::JsonSchema;
@@ -7,66 +7,66 @@ use serde::Serialize;
 use super::found::Found;
 use crate::identify::ModelKink;
 
-/// How the search for parameters went.
+/// Record of the search for parameters.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct SearchOfSet {
-    /// What the fit is worth: `converged`, `singular`, `failed` or `interrupted`.
+    /// Status: `converged`, `singular`, `failed` or `interrupted`.
     pub status: &'static str,
     /// Why the search ended.
     pub reason: &'static str,
     /// Half of the sum of the squared residuals. [-]
     pub cost: f64,
-    /// Evaluations of all points, all starts together.
+    /// Evaluations of all points, over all starts.
     pub evaluations: usize,
-    /// Those of the best start.
+    /// Evaluations of the best start.
     pub evaluations_of_best: usize,
-    /// Steps that were tried.
+    /// Trial steps.
     pub steps: usize,
     /// Cone programs.
     pub cone_programs: usize,
-    /// Cone programs without answer.
+    /// Failed cone programs.
     pub cone_fallbacks: usize,
     /// Evaluations without value.
     pub undefined: usize,
-    /// Number of the attempt that is given back, from 1.
+    /// Number of the returned attempt, starting at 1.
     pub attempt: usize,
-    /// Evaluations that finished searches without derivatives.
+    /// Evaluations for the completion without derivatives.
     pub evaluations_without_derivatives: usize,
-    /// Models whose kinks hold the minimum.
+    /// Models with kinks at the minimum.
     pub kinks: Vec<KinkOfModel>,
-    /// How minima of the same misfit are related; absent where the lowest is alone.
+    /// Relation of minima with the same misfit; absent if the lowest is unique.
     pub kinship: Option<&'static str>,
     /// All minima, the lowest first.
     pub minima: Vec<MinimumOfSearch>,
-    /// What a user should know.
+    /// Notes.
     pub notes: Vec<String>,
-    /// Factors by which the accuracies were found to be wrong; none where that was not requested.
+    /// Estimated factors on the accuracies; empty if not requested.
     pub accuracy_factors: Vec<AccuracyFactor>,
     /// All steps of the best start.
     pub log: Vec<StepOfSearch>,
-    /// What the fit is worth.
+    /// Status.
     #[serde(skip)]
     pub worth: Status,
 }
 
-/// A model whose loss or slope jumps at the minimum.
+/// A model whose loss or slope is discontinuous at the minimum.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct KinkOfModel {
-    /// Path of the part.
+    /// Path of the component.
     pub path: String,
     /// Name of its model.
     pub model: String,
-    /// Regimes on both sides in the model's words; absent where none is known to change.
+    /// Regimes on both sides as named by the model; absent if no change is known.
     pub regimes: Option<[String; 2]>,
-    /// Whether the loss itself jumps, rather than its slope alone.
+    /// Whether the loss is discontinuous, not only its slope.
     pub jumps: bool,
-    /// Greatest change of the loss of the part that no straight line explains, over that loss. [-]
+    /// Maximum deviation of the component's loss from a straight line, relative to the loss. [-]
     pub change: f64,
     /// Lines of the measured points.
     pub lines: Vec<u64>,
-    /// Parameters across which it lies.
+    /// Parameters along which it occurs.
     pub parameters: Vec<String>,
-    /// The same in words.
+    /// The same as text.
     pub sentence: String,
 }
 
@@ -75,13 +75,13 @@ pub struct KinkOfModel {
 pub struct MinimumOfSearch {
     /// Half of the sum of the squared residuals. [-]
     pub cost: f64,
-    /// Share of the starts that lead there. [-]
+    /// Share of the starts that converge to it. [-]
     pub share_of_starts: f64,
-    /// Numbers of these starts; 0 is that of the parameters.
+    /// Indices of these starts; 0 is that of the parameters.
     pub starts: Vec<usize>,
     /// Values of the parameters. [unit of each parameter]
     pub parameters: Vec<f64>,
-    /// Distance of each parameter from the lowest minimum, in its standard errors there; absent where it has none. [-]
+    /// Distance of each parameter from the lowest minimum, in its standard errors there; absent if it has none. [-]
     pub standard_errors_away: Vec<Option<f64>>,
 }
 
@@ -94,20 +94,20 @@ pub struct AccuracyFactor {
     pub factor: f64,
 }
 
-/// One step that was tried.
+/// One trial step.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct StepOfSearch {
-    /// Number of the attempt, from 1.
+    /// Number of the attempt, starting at 1.
     pub attempt: usize,
     /// Cost before the step. [-]
     pub cost: f64,
     /// First-order measure before the step. [-]
     pub first_order: f64,
-    /// Remaining shift in standard errors before the step, where there are more rows than free parameters. [-]
+    /// Remaining shift in standard errors before the step, if there are more rows than free parameters. [-]
     pub relative_offset: Option<f64>,
     /// Whether the derivatives are central differences.
     pub central_differences: bool,
-    /// How the step was found.
+    /// Method of the step.
     pub step: &'static str,
     /// Whether it was corrected to second order.
     pub corrected: bool,
@@ -115,11 +115,11 @@ pub struct StepOfSearch {
     pub radius: f64,
     /// Length of the step in the metric of the ball. [-]
     pub length: f64,
-    /// Fall of the cost that was expected. [-]
+    /// Expected decrease of the cost. [-]
     pub predicted: f64,
-    /// Fall of the cost; absent where the residuals have no value. [-]
+    /// Decrease of the cost; absent if the residuals have no value. [-]
     pub actual: Option<f64>,
-    /// Whether the step was taken.
+    /// Whether the step was accepted.
     pub accepted: bool,
 }
 

@@ -1,5 +1,10 @@
 //! Tables of identifications: points, losses by mechanism, parameters.
 
+pub(super) mod compare;
+pub(super) mod hold_out;
+pub(super) mod next;
+pub(super) mod posterior;
+
 use gearloss_numerics::inference::Reach;
 
 use super::outcome::IdentificationOfSet;
@@ -9,10 +14,10 @@ use crate::cells;
 use crate::identify::Pair;
 use crate::table::{Cell, Column, Table};
 
-/// Unit of columns whose numbers have the unit that another column of the row states.
+/// Unit of columns whose unit is in another column of the row.
 const UNIT: &str = "mixed";
 
-/// Whether lines are stated with their file, because there are several.
+/// Whether lines include their file, because there are several.
 fn has_files(all: &[IdentificationOfSet]) -> bool {
     let mut measured = all.iter().map(|o| &o.found.measured);
     measured.any(|measured| measured.rows.iter().any(|row| measured.file(row).is_some()))
@@ -38,41 +43,45 @@ fn line(o: &IdentificationOfSet, row: usize, has_files: bool) -> Cell<'static> {
     }
 }
 
-/// One row for each measured number.
+/// One row for each measured value.
 pub(super) fn points(name: &str, all: &[IdentificationOfSet]) -> Table {
     let columns = [
         Column::text("model_set", "Model set"),
         line_column(all),
         Column::text("name", "Name of the row"),
-        Column::text("gear", "Gear state"),
+        Column::text("gear", "Gear"),
         Column::number("torque_nm", "Nm", "Torque"),
         Column::number("speed_rpm", "rpm", "Speed"),
-        Column::number("oil_temperature_degc", "degC", "Temperature of the oil"),
+        Column::number("oil_temperature_degc", "degC", "Oil temperature"),
         Column::text(
             "quantity",
-            "Quantity of this row, with its unit; efficiencies are shares",
+            "Quantity of this row with its unit; efficiencies as fractions",
         ),
         Column::number(
             "measured_before",
             UNIT,
-            "Measured, without what the rig adds where the search begins",
+            "Measured, without the contribution of the rig at the start",
         ),
-        Column::number("model_before", UNIT, "Calculated where the search begins"),
-        Column::number("measured", UNIT, "Measured, without what the identified rig adds"),
+        Column::number("model_before", UNIT, "Calculated at the start"),
+        Column::number(
+            "measured",
+            UNIT,
+            "Measured, without the contribution of the identified rig",
+        ),
         Column::number("model", UNIT, "Calculated"),
         Column::number(
             "accuracy",
             UNIT,
-            "Standard deviation of the measurement, its weight counted in",
+            "Standard deviation of the measurement, including its weight",
         ),
         Column::number(
             "residual_before",
             "-",
-            "Calculated less measured over the accuracy where the search begins",
+            "Calculated minus measured, relative to the accuracy, at the start",
         ),
-        Column::number("residual", "-", "Calculated less measured over the accuracy"),
+        Column::number("residual", "-", "Calculated minus measured, relative to the accuracy"),
         Column::number("standardised_residual", "-", "Residual over its own standard deviation"),
-        Column::number("leverage", "-", "How far the point decides its own calculated value"),
+        Column::number("leverage", "-", "Leverage of the point"),
     ];
     let (mut table, files) = (Table::new(name, columns), has_files(all));
     for o in all {
@@ -108,16 +117,16 @@ pub(super) fn shares(name: &str, all: &[IdentificationOfSet]) -> Table {
     let columns = [
         Column::text("model_set", "Model set"),
         line_column(all),
-        Column::text("gear", "Gear state"),
+        Column::text("gear", "Gear"),
         Column::number("torque_nm", "Nm", "Torque"),
         Column::number("speed_rpm", "rpm", "Speed"),
-        Column::number("oil_temperature_degc", "degC", "Temperature of the oil"),
-        Column::text("mechanism", "Mechanism, or all of them"),
-        Column::number("loss_before_w", "W", "Loss where the search begins"),
+        Column::number("oil_temperature_degc", "degC", "Oil temperature"),
+        Column::text("mechanism", "Mechanism, or all mechanisms"),
+        Column::number("loss_before_w", "W", "Loss at the start"),
         Column::number("loss_w", "W", "Loss"),
         Column::number("loss_low_w", "W", "Lower end of the 95 % band of the loss"),
         Column::number("loss_high_w", "W", "Upper end of the 95 % band of the loss"),
-        Column::number("share", "-", "Share of the loss of all"),
+        Column::number("share", "-", "Share of the total loss"),
         Column::number("share_low", "-", "Lower end of the 95 % band of the share"),
         Column::number("share_high", "-", "Upper end of the 95 % band of the share"),
     ];
@@ -163,25 +172,21 @@ pub(super) fn parameters(name: &str, all: &[IdentificationOfSet]) -> Table {
         Column::text("parameter", "Name of the parameter"),
         Column::text("path", "Its path as written"),
         Column::text("unit", "Unit of the values of this row"),
-        Column::number(
-            "stated",
-            UNIT,
-            "Value of the gearbox or the rig, before anything is fitted",
-        ),
+        Column::number("stated", UNIT, "Value of the gearbox or the rig before the fit"),
         Column::number(
             "published",
             UNIT,
-            "Published value, where it moves coefficients of formulas",
+            "Published value, if it changes coefficients of formulas",
         ),
-        Column::number("start", UNIT, "Where the search begins"),
-        Column::number("least", UNIT, "Least value allowed"),
-        Column::number("greatest", UNIT, "Greatest value allowed"),
-        Column::number("fitted", UNIT, "Value that was found"),
+        Column::number("start", UNIT, "Start value"),
+        Column::number("least", UNIT, "Lower bound"),
+        Column::number("greatest", UNIT, "Upper bound"),
+        Column::number("fitted", UNIT, "Identified value"),
         Column::number("low", UNIT, "Lower end of the 95 % interval of the linearised fit"),
         Column::number("high", UNIT, "Upper end of the 95 % interval of the linearised fit"),
-        Column::number("profile_low", UNIT, "Lower end of the 95 % interval by profile"),
-        Column::number("profile_high", UNIT, "Upper end of the 95 % interval by profile"),
-        Column::text("verdict", "What the points say of it"),
+        Column::number("profile_low", UNIT, "Lower end of the 95 % profile interval"),
+        Column::number("profile_high", UNIT, "Upper end of the 95 % profile interval"),
+        Column::text("verdict", "Verdict"),
         Column::text("sentence", "The same as a sentence"),
     ];
     let mut table = Table::new(format!("{name}-parameters"), columns);

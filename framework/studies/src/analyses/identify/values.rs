@@ -1,14 +1,14 @@
-//! The values that were found, as a study takes them.
+//! The identified values in the format of a study.
 
 use std::fmt::Write as _;
 
 use super::outcome::IdentificationOfSet;
 use crate::identify::Target;
 
-/// The values as a study takes them.
+/// The values in the format of a study.
 pub(super) fn as_yaml(name: &str, o: &IdentificationOfSet) -> String {
     let mut text = format!(
-        "# What `{name}` found for the models `{}`. Lines below `set` go into a study.\n",
+        "# Values identified by `{name}` for the models `{}`. Copy the lines below `set` into a study.\n",
         o.model_set
     );
     let theta = o.found.fitted.theta();
@@ -16,7 +16,7 @@ pub(super) fn as_yaml(name: &str, o: &IdentificationOfSet) -> String {
     text.push_str("conditions:\n  set:\n");
     let mut any = false;
     for (i, (parameter, value)) in parameters.iter().zip(theta).enumerate() {
-        // What the points do not see at all is as it was; a curve is written where one of its torques is seen.
+        // Parameters without effect keep their values; a curve is written if one of its torques has an effect.
         let seen = |k: usize| o.found.fitted.inference.column(k) > 0.0;
         let unseen = match &parameter.target {
             Target::Over { torques, place: 0, .. } => !(i..i + torques.len()).any(seen),
@@ -24,7 +24,7 @@ pub(super) fn as_yaml(name: &str, o: &IdentificationOfSet) -> String {
             Target::Path(_) | Target::Rig(_) => !seen(i),
         };
         if unseen {
-            let _ = writeln!(text, "    # not seen: {}", parameter.name);
+            let _ = writeln!(text, "    # not identifiable: {}", parameter.name);
             continue;
         }
         any |= matches!(parameter.target, Target::Path(_) | Target::Over { place: 0, .. });
@@ -62,7 +62,7 @@ pub(super) fn as_yaml(name: &str, o: &IdentificationOfSet) -> String {
     }
     for (parameter, value) in parameters.iter().zip(theta) {
         if matches!(parameter.target, Target::Rig(_)) {
-            let _ = writeln!(text, "# of the rig, under the data: {}: {value} Nm", parameter.path);
+            let _ = writeln!(text, "# rig, see the data: {}: {value} Nm", parameter.path);
         }
     }
     text

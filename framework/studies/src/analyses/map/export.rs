@@ -1,4 +1,4 @@
-//! Tables of losses for other programs: what they need of a map. The formats register themselves, in any crate.
+//! Loss tables for other programs: their data of a map. The formats register themselves, in any crate.
 
 use std::borrow::Cow;
 use std::fmt;
@@ -9,35 +9,34 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use super::super::{Context, Stopped};
-use super::plan::{Axes, Planned};
+use super::axes::Axes;
+use super::outcome::{MapOfSet, MapOutcome};
 use super::shown::LossGrid;
-use super::{Map, MapOfSet, MapOutcome};
-use crate::analysis::{Given, Statistics, held};
+use crate::analysis::Given;
 
-/// A format of tables of losses.
+/// A format of loss tables.
 pub trait ExportFormat: Sync {
     /// Its name under `export`.
     fn name(&self) -> &'static str;
 
-    /// What it is, as a sentence.
+    /// Description as a sentence.
     fn meaning(&self) -> &'static str;
 
-    /// Whether a table can have these axes, which rise.
+    /// Whether a table can have these ascending axes.
     ///
     /// # Errors
-    /// What is wrong with them.
+    /// Errors of the axes.
     fn fits(&self, axes: &Axes) -> Result<(), Refusal>;
 
-    /// Points beside those of the grid whose loss torque it needs; `rated` is the rated torque in Nm.
+    /// Additional points whose loss torque it needs; `rated` is the rated torque in Nm.
     fn further_points(&self, _grid: &LossGrid, _rated: Option<f64>) -> Vec<Given> {
         Vec::new()
     }
 
-    /// The file of a map; absent where another map's file holds it.
+    /// The file of a map; absent if the file of another map contains it.
     ///
     /// # Errors
-    /// Why there can be none.
+    /// Why there is none.
     fn file(&self, map: &ExportMap<'_>) -> Result<Option<ExportFile>, Refusal>;
 }
 
@@ -46,12 +45,12 @@ pub trait ExportFormat: Sync {
 pub struct Refusal {
     /// What is wrong.
     pub message: String,
-    /// What helps.
+    /// Help.
     pub help: String,
 }
 
 impl Refusal {
-    /// A refusal.
+    /// An error.
     pub fn new(message: impl Into<String>, help: impl Into<String>) -> Self {
         Self {
             message: message.into(),
@@ -65,13 +64,13 @@ impl Refusal {
 pub struct ExportFile {
     /// Its name.
     pub name: String,
-    /// What it holds.
+    /// Its content.
     pub bytes: Vec<u8>,
-    /// What a reader has to know, in a line.
+    /// Notes as one line.
     pub about: String,
 }
 
-/// A map as a format gets it.
+/// A map for a format.
 pub struct ExportMap<'a> {
     /// All maps of the analysis.
     pub outcome: &'a MapOutcome,
@@ -79,16 +78,16 @@ pub struct ExportMap<'a> {
     pub map: &'a MapOfSet,
     /// Efficiency and loss torque over its grid.
     pub grid: &'a LossGrid,
-    /// All maps of its set and gear state, which differ in bound values, and itself.
+    /// All maps of its set and gear, which differ in bound values, including itself.
     pub siblings: Vec<&'a MapOfSet>,
-    /// Its number among them, from one.
+    /// Its number among them, starting at one.
     pub number: usize,
-    /// Loss torques at the further points; absent where there is none. [Nm]
+    /// Loss torques at the additional points; absent if there is none. [Nm]
     pub further: &'a [Option<f64>],
 }
 
 impl ExportMap<'_> {
-    /// Name of a file that is the map's own, without extension.
+    /// Name of a file of this map only, without extension.
     pub fn own_name(&self) -> String {
         let name = self.shared_name();
         if self.siblings.len() > 1 {
@@ -98,7 +97,7 @@ impl ExportMap<'_> {
         }
     }
 
-    /// Name of a file that it shares with its siblings, without extension.
+    /// Name of a common file of its siblings, without extension.
     pub fn shared_name(&self) -> String {
         let analysis = &self.outcome.head.analysis;
         format!("{analysis}-{}-{}", self.map.model_set, self.map.gear).replace('/', "-")
@@ -120,7 +119,7 @@ macro_rules! register_export {
     };
 }
 
-/// A format as a study names it.
+/// A format as named in a study.
 #[derive(Clone, Copy)]
 pub struct ExportName(&'static dyn ExportFormat);
 
@@ -158,7 +157,7 @@ impl<'de> Deserialize<'de> for ExportName {
         found.map(|format| Self(*format)).ok_or_else(|| {
             let close = did_you_mean(&name, all.iter().map(|format| format.name()));
             let help = close.map_or_else(String::new, |close| format!(", did you mean `{close}`?"));
-            D::Error::custom(format!("no format is called `{name}`{help}"))
+            D::Error::custom(format!("there is no format `{name}`{help}"))
         })
     }
 }
@@ -171,103 +170,18 @@ impl JsonSchema for ExportName {
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
         let variant = |format: &&dyn ExportFormat| serde_json::json!({ "description": format.meaning(), "type": "string", "const": format.name() });
         let variants: Vec<serde_json::Value> = Self::all().iter().map(variant).collect();
-        json_schema!({ "description": "A table of losses for another program.", "oneOf": variants })
+        json_schema!({ "description": "A loss table for another program.", "oneOf": variants })
     }
 }
 
-/// What tables for other programs need of a map beside its points.
+/// Data of a map for tables of other programs, in addition to its points.
 #[derive(Debug, Clone, Default)]
 pub struct ExportData {
-    /// How far straight lines between the points are from the loss torque half way between them: greatest and root mean square.
+    /// Deviation of linear interpolation from the loss torque midway between the points: maximum and root mean square.
     /// [Nm]
     pub between: Option<(f64, f64)>,
     /// The rated torque. [Nm]
     pub rated: Option<f64>,
-    /// For each format the loss torques at its further points; absent where there is none. [Nm]
+    /// For each format the loss torques at its additional points; absent if there is none. [Nm]
     pub further: Vec<Vec<Option<f64>>>,
-}
-
-impl ExportData {
-    pub(super) fn solve(cx: &Context<'_>, formats: &[ExportName], map: &Map<'_>) -> Result<Self, Stopped> {
-        let Some(grid) = map.shown.whole.as_ref().filter(|_| !formats.is_empty()) else {
-            return Ok(Self::default());
-        };
-        let rated = map.built.transmission.rating.map(|rating| rating.torque);
-        let further = formats.iter().map(|name| name.0.further_points(grid, rated));
-        Ok(Self {
-            between: between(cx, map, grid)?,
-            rated,
-            further: further
-                .map(|list| loss_torques(cx, map, list))
-                .collect::<Result<_, _>>()?,
-        })
-    }
-}
-
-/// Refuses, before anything is computed, grids that a table cannot hold.
-pub(super) fn check(cx: &Context<'_>, formats: &[ExportName], planned: &[Planned<'_>]) -> Result<(), Stopped> {
-    let path = format!("{}.export", cx.path());
-    let conditions = &cx.study.entry.conditions;
-    for name in formats {
-        for plan in planned {
-            let t = &plan.built.transmission;
-            let reference = &t.ports()[t.reference_port()].name;
-            if [&conditions.torque_at, &conditions.speed_at] != [reference, reference] {
-                let message = format!("a table for another program gives torque and speed at `{reference}`");
-                let help = format!("write `torque_at: {reference}` and `speed_at: {reference}` under `conditions`");
-                return Err(cx.wrong(&path, message, &help));
-            }
-            let rising = |list: &[f64]| list.windows(2).all(|w| w[0] < w[1]);
-            let fits = if rising(&plan.axes.torques) && rising(&plan.axes.speeds) {
-                name.0.fits(&plan.axes)
-            } else {
-                Err(Refusal::new(
-                    "a table for another program needs torques and speeds that rise",
-                    "sort the axes of the grid",
-                ))
-            };
-            fits.map_err(|refusal| cx.wrong(&path, refusal.message, &refusal.help))?;
-        }
-    }
-    Ok(())
-}
-
-/// Loss torques at points of a map's gear state, in their order; absent where there is none. \[Nm\]
-fn loss_torques(cx: &Context<'_>, map: &Map<'_>, list: Vec<Given>) -> Result<Vec<Option<f64>>, Stopped> {
-    let mut losses = Vec::new();
-    if list.is_empty() {
-        return Ok(losses);
-    }
-    let points = cx.listed(&map.built.transmission, &map.gear, list);
-    cx.solve_pieces(&map.built, &points, &held, &mut |piece| {
-        losses.extend(piece.points().map(|p| p.loss_torque));
-        Ok(())
-    })?;
-    Ok(losses)
-}
-
-/// How far straight lines between the points of a table are from the loss torque half way between them.
-fn between(cx: &Context<'_>, map: &Map<'_>, grid: &LossGrid) -> Result<Option<(f64, f64)>, Stopped> {
-    let axes = &grid.axes;
-    let (mut list, mut means) = (Vec::new(), Vec::new());
-    for i in 0..axes.torques.len().saturating_sub(1) {
-        for k in 0..axes.speeds.len().saturating_sub(1) {
-            let corners = [(0, 0), (0, 1), (1, 0), (1, 1)].map(|(a, b)| grid.loss_torque(i + a, k + b));
-            let sum: Option<f64> = corners.into_iter().sum();
-            let Some(sum) = sum else { continue };
-            list.push(Given {
-                torque: 0.5 * (axes.torques[i] + axes.torques[i + 1]),
-                speed: 0.5 * (axes.speeds[k] + axes.speeds[k + 1]),
-                oil: None,
-            });
-            means.push(0.25 * sum);
-        }
-    }
-    let losses = loss_torques(cx, map, list)?;
-    let gaps = means
-        .into_iter()
-        .zip(losses)
-        .filter_map(|(mean, loss)| Some(mean - loss?));
-    let gaps = Statistics::from_values(gaps);
-    Ok(gaps.map(|g| (g.greatest.abs().max(g.least.abs()), g.rms)))
 }

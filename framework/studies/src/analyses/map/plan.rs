@@ -1,4 +1,4 @@
-//! Which points a map over a grid solves.
+//! Points of a map over a grid.
 
 use std::sync::Arc;
 
@@ -7,31 +7,21 @@ use serde_json::Value;
 
 use super::super::axes::grid_axes;
 use super::super::{Built, Context, Stopped};
-use super::MapEntry;
+use super::axes::Axes;
+use super::entry::MapEntry;
 use crate::analysis::{Field, Given, Points};
 use crate::study::{Envelope, Grid};
 
-/// Axes of a grid for one gearbox.
-#[derive(Debug, Clone)]
-pub struct Axes {
-    /// Torques. [Nm]
-    pub torques: Vec<f64>,
-    /// Speeds. [rad/s]
-    pub speeds: Vec<f64>,
-    /// Ratings of speed and torque where the axes count in shares of them.
-    pub shares: [Option<f64>; 2],
-}
-
 /// The points of one map over a grid.
 pub struct Planned<'a> {
-    /// Maps that differ in their points only share a transmission.
+    /// Maps that differ only in their points share a transmission.
     pub built: Arc<Built<'a>>,
     pub bound: Vec<(String, Value)>,
     pub axes: Axes,
     pub points: Points,
 }
 
-/// One map for each gear state, each set and each combination of bound values.
+/// One map for each gear, each set and each combination of bound values.
 pub fn on_grid<'s>(
     cx: &'s Context<'_>,
     entry: &'s MapEntry,
@@ -42,10 +32,10 @@ pub fn on_grid<'s>(
     let path = format!("grids.{grid_name}");
     let combinations = grid.combinations().map_err(|bound| {
         let message = format!("`{bound}` has no list of values");
-        cx.wrong(&format!("{path}.bind"), message, "write `[60 ml, 90 ml]`, say")
+        cx.wrong(&format!("{path}.bind"), message, "write for example `[60 ml, 90 ml]`")
     })?;
     if let Some(Err(reason)) = grid.envelope.as_ref().map(Envelope::check) {
-        let help = "give as many torques as speeds, and speeds that rise";
+        let help = "give equal numbers of torques and speeds, with ascending speeds";
         return Err(cx.wrong(&format!("{path}.envelope"), reason, help));
     }
     let mut maps = Vec::new();
@@ -69,7 +59,7 @@ pub fn on_grid<'s>(
                 let path = format!("{path}.envelope");
                 return Err(cx.wrong(
                     &path,
-                    "no point of the grid lies below the envelope",
+                    "no point of the grid is below the envelope",
                     "correct one of them",
                 ));
             }
@@ -86,7 +76,7 @@ pub fn on_grid<'s>(
     Ok(maps)
 }
 
-/// The points of a grid, those below the envelope where it has one.
+/// The points of a grid, below the envelope if there is one.
 fn below(grid: &Grid, axes: &Axes) -> Field {
     let (torques, speeds) = (axes.torques.clone(), axes.speeds.clone());
     let whole = Field::Grid { torques, speeds };

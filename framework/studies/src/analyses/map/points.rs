@@ -20,23 +20,20 @@ const FIXED: usize = 11;
 
 /// The columns of the table.
 pub fn columns(bound: &[String], parts: &[String]) -> Vec<Column> {
-    let mut columns = vec![
-        Column::text("model_set", "Model set"),
-        Column::text("gear", "Gear state"),
-    ];
+    let mut columns = vec![Column::text("model_set", "Model set"), Column::text("gear", "Gear")];
     columns.extend(bound.iter().map(|path| Column::text(path, "Bound value")));
     columns.extend([
         Column::number("torque_nm", "Nm", "Torque"),
         Column::number("speed_rpm", "rpm", "Speed"),
-        Column::number("oil_temperature_degc", "degC", "Temperature of the oil"),
-        Column::number("surface_temperature_degc", "degC", "Temperature of the surface"),
-        Column::text("balance", "What became of the balance of temperature"),
-        Column::text("status", "What the transmission does"),
-        Column::number("efficiency", "-", "Power out over power in"),
+        Column::number("oil_temperature_degc", "degC", "Oil temperature"),
+        Column::number("surface_temperature_degc", "degC", "Surface temperature"),
+        Column::text("balance", "Status of the heat balance"),
+        Column::text("status", "State of the transmission"),
+        Column::number("efficiency", "-", "Output power over input power"),
         Column::number("loss_w", "W", "Sum of all losses"),
         Column::number("loss_torque_nm", "Nm", "Loss over the speed of the reference port"),
-        Column::number("input_w", "W", "Power in"),
-        Column::number("output_w", "W", "Power out"),
+        Column::number("input_w", "W", "Input power"),
+        Column::number("output_w", "W", "Output power"),
     ]);
     columns.extend(
         SUMS.iter()
@@ -45,15 +42,15 @@ pub fn columns(bound: &[String], parts: &[String]) -> Vec<Column> {
     columns.extend(
         parts
             .iter()
-            .map(|part| Column::number(format!("{part}_w"), "W", "Loss of the part")),
+            .map(|part| Column::number(format!("{part}_w"), "W", "Loss of the component")),
     );
     columns
 }
 
-/// What all rows of one map share.
+/// Common data of all rows of one map.
 pub struct RowsOf<'a> {
     constants: Vec<String>,
-    /// For each column of parts the number of the part in this map; absent where it has none.
+    /// For each column of components the index of the component in this map; absent if it has none.
     columns: Vec<Option<usize>>,
     built: &'a Built<'a>,
 }
@@ -72,7 +69,7 @@ impl<'a> RowsOf<'a> {
         }
     }
 
-    /// The values of all columns, from those of the points.
+    /// The values of all columns, from the points.
     pub fn with_constants(&self, values: Vec<Values>) -> Vec<Values> {
         let count = values.first().map_or(0, Values::len);
         let constant = |text: &String| Values::Texts(Texts::repeated(text, count).into());
@@ -106,12 +103,12 @@ impl<'a> RowsOf<'a> {
     }
 }
 
-/// The usual sums of a point; absent without a temperature or a flow. \[W\]
+/// The usual sums of a point; absent without a temperature or a power flow. \[W\]
 fn sums(point: &PointResult) -> Option<[f64; 6]> {
     point.oil.filter(|_| point.status.has_flow()).map(|_| point.sums)
 }
 
-/// Loss of a part at a point; absent without a temperature or a flow, and where its model has no value. \[W\]
+/// Loss of a component at a point; absent without a temperature or a power flow, or if its model has no value. \[W\]
 fn loss_of(point: &PointResult, part: usize) -> Option<f64> {
     let known = point.oil.is_some()
         && point.status.has_flow()
@@ -119,16 +116,16 @@ fn loss_of(point: &PointResult, part: usize) -> Option<f64> {
     known.then(|| point.parts[part])
 }
 
-/// How points are taken as soon as they are solved, on all threads.
+/// Extraction of data from solved points, on all threads.
 pub struct Taker<'a> {
     pub field: &'a Field,
     pub rows: RowsOf<'a>,
     pub selection: &'a Selection,
-    /// Whether rows are wanted.
+    /// Whether rows are requested.
     pub wanted: bool,
 }
 
-/// What was taken from the points of a task.
+/// Data of the points of a task.
 pub struct Taken {
     pub values: Vec<Values>,
     pub picked: Picked,
@@ -163,7 +160,7 @@ impl Taker<'_> {
 /// A loss without a value.
 #[derive(Debug, Clone)]
 pub struct UndefinedLoss {
-    /// Number of the point in its map.
+    /// Index of the point in its map.
     pub number: usize,
     part: String,
     reason: String,
@@ -173,9 +170,9 @@ pub struct UndefinedLoss {
 #[derive(Debug, Clone)]
 pub struct MapPoints {
     table: Table,
-    /// Number of the column of the torque.
+    /// Index of the column of the torque.
     first: usize,
-    /// For each part of the map the number of its column among those of parts.
+    /// For each component of the map the index of its column.
     parts: Vec<usize>,
     rows: Range<usize>,
     undefined: Vec<UndefinedLoss>,
@@ -188,29 +185,29 @@ pub struct MapPoint<'a> {
     torque_nm: Option<f64>,
     /// Speed. [rpm]
     speed_rpm: Option<f64>,
-    /// Temperature of the oil; absent where no balance was found, and with it everything that depends on it. [degC]
+    /// Oil temperature; absent if no balance was found, like everything that depends on it. [degC]
     oil_temperature_degc: Option<f64>,
-    /// Temperature of the surface, where it was found by balance. [degC]
+    /// Surface temperature if found by heat balance. [degC]
     surface_temperature_degc: Option<f64>,
-    /// What became of the balance, where the temperature is not given.
+    /// Status of the heat balance if the temperature is not given.
     #[schemars(with = "Option<thermal::Outcome>")]
     balance: Option<&'a str>,
-    /// What the transmission does.
+    /// State of the transmission.
     #[schemars(with = "Status")]
     status: Option<&'a str>,
-    /// Power out over power in. [-]
+    /// Output power over input power. [-]
     efficiency: Option<f64>,
     /// Sum of all losses. [W]
     loss_w: Option<f64>,
     /// Loss over the speed of the reference port. [Nm]
     loss_torque_nm: Option<f64>,
-    /// Power in. [W]
+    /// Input power. [W]
     input_w: Option<f64>,
-    /// Power out. [W]
+    /// Output power. [W]
     output_w: Option<f64>,
     /// The usual sums. [W]
     sums_w: Option<Sums>,
-    /// Losses of the parts, in their order. [W]
+    /// Losses of the components, in order. [W]
     parts_w: Vec<Option<f64>>,
     /// Why a loss has no value.
     undefined: Option<Missing<'a>>,
@@ -222,13 +219,13 @@ struct Sums {
     /// Gears, load-dependent. [W]
     #[serde(rename = "P_VZP")]
     gears_loaded: f64,
-    /// Gears, not load-dependent. [W]
+    /// Gears, load-independent. [W]
     #[serde(rename = "P_VZ0")]
     gears_unloaded: f64,
     /// Bearings, load-dependent. [W]
     #[serde(rename = "P_VLP")]
     bearings_loaded: f64,
-    /// Bearings, not load-dependent. [W]
+    /// Bearings, load-independent. [W]
     #[serde(rename = "P_VL0")]
     bearings_unloaded: f64,
     /// Seals. [W]
@@ -242,7 +239,7 @@ struct Sums {
 /// A loss without a value.
 #[derive(Debug, Serialize, JsonSchema)]
 struct Missing<'a> {
-    /// Path of the part.
+    /// Path of the component.
     part: &'a str,
     /// Why.
     reason: &'a str,
@@ -289,7 +286,7 @@ impl MapPoints {
         })
     }
 
-    /// A point by its row of the table; its number in the map is that of an undefined loss.
+    /// A point by its row of the table; its index in the map is used for undefined losses.
     fn point(&self, row: usize) -> MapPoint<'_> {
         let number = |column: usize| self.number(column, row);
         let own = row - self.rows.start;

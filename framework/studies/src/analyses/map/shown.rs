@@ -1,19 +1,19 @@
-//! What is kept of the points of a map for pictures and texts, whatever becomes of its rows.
+//! Data of the points of a map for figures and text, independent of its rows.
 
 use super::super::numbers::spread_over;
-use super::Axes;
+use super::axes::Axes;
 use crate::analysis::{Field, Numbered, PointResult};
 
-/// Grids of more points are shown by some of their rows and columns.
+/// Grids with more points are shown by a selection of their rows and columns.
 const MOST_SHOWN: usize = 65_536;
 
-/// Rows and columns of a larger grid that are shown at most: those of the table on the terminal, and 35 between each two.
+/// Maximum number of rows and columns of a larger grid in figures: those of the table on the terminal, and 35 between each two.
 const LINES: usize = 36 * (SHOWN - 1) + 1;
 
-/// The most rows and columns of a table on the terminal.
+/// Maximum number of rows and columns of a table on the terminal.
 pub const SHOWN: usize = 8;
 
-/// One point as pictures and the terminal show it.
+/// One point for figures and the terminal.
 #[derive(Debug, Clone, Copy)]
 pub struct ShownPoint {
     /// Torque. \[Nm\]
@@ -22,13 +22,13 @@ pub struct ShownPoint {
     pub speed: f64,
     /// Temperature of the oil. \[degC\]
     pub oil: Option<f64>,
-    /// Power out over power in.
+    /// Output power over input power.
     pub efficiency: Option<f64>,
     /// Sum of all losses. \[W\]
     pub loss: Option<f64>,
     /// Loss over the speed of the reference port. \[Nm\]
     pub loss_torque: Option<f64>,
-    /// True where a model left its stated range.
+    /// True if a model is outside its stated range.
     pub outside: bool,
 }
 
@@ -46,68 +46,68 @@ impl From<&PointResult> for ShownPoint {
     }
 }
 
-/// A grid as it is shown: its axes, perhaps with gaps, and for each place the number of its point; absent beyond the envelope.
+/// The shown grid: its axes, possibly with gaps, and the index of the point at each position; absent outside the envelope.
 #[derive(Debug, Clone)]
 pub struct ShownGrid {
-    /// The axes of what is shown.
+    /// The shown axes.
     pub axes: Axes,
-    /// For each place the number of its point.
+    /// Index of the point at each position.
     pub places: Vec<Option<usize>>,
 }
 
-/// Points of a map that are shown, and the values of all of them where another program wants them.
+/// Shown points of a map, and the values of all points if an export needs them.
 #[derive(Debug, Clone)]
 pub struct ShownMap {
-    /// All points of a list; those of a grid that are shown.
+    /// All points of a list; the shown points of a grid.
     pub points: Vec<ShownPoint>,
     /// The grid; absent for a list.
     pub grid: Option<ShownGrid>,
-    /// Every torque and speed of a grid with all values, where they are asked for.
+    /// Every torque and speed of a grid with all values, if requested.
     pub whole: Option<LossGrid>,
     /// Torques and speeds of the grid.
     size: Option<(usize, usize)>,
 }
 
-/// Which points are kept.
+/// Selection of points.
 pub struct Selection {
-    /// Whether the values of all places are.
+    /// Whether the values of all positions are stored.
     whole: bool,
-    /// What is shown of a grid; absent for a list, of which all is.
+    /// Shown part of a grid; absent for a list, which is shown completely.
     lines: Option<Lines>,
 }
 
-/// For each torque and each speed of a grid its number among those that are shown.
+/// For each torque and each speed of a grid its index among the shown ones.
 struct Lines {
     torques: Vec<Option<usize>>,
     speeds: Vec<Option<usize>>,
-    /// How many speeds are shown.
+    /// Number of shown speeds.
     columns: usize,
 }
 
-/// What is kept of some points.
+/// Data of some points.
 pub struct Picked {
-    /// Points that are shown, with the places where they are.
+    /// Shown points with their positions.
     shown: Vec<(usize, ShownPoint)>,
-    /// Efficiency and loss torque at the places of the grid.
+    /// Efficiency and loss torque at the grid points.
     values: Vec<(usize, [Option<f64>; 2])>,
 }
 
-/// Efficiency and loss torque at all places of a grid.
+/// Efficiency and loss torque at all grid points.
 #[derive(Debug, Clone)]
 pub struct LossGrid {
     /// The axes.
     pub axes: Axes,
-    /// Efficiency and loss torque; absent beyond the envelope.
+    /// Efficiency and loss torque; absent outside the envelope.
     values: Vec<Option<[Option<f64>; 2]>>,
 }
 
 impl LossGrid {
-    /// The efficiency at a place.
+    /// The efficiency at a grid point.
     pub fn efficiency(&self, torque: usize, speed: usize) -> Option<f64> {
         self.at(torque, speed)?[0]
     }
 
-    /// The loss torque at a place. \[Nm\]
+    /// The loss torque at a grid point. \[Nm\]
     pub fn loss_torque(&self, torque: usize, speed: usize) -> Option<f64> {
         self.at(torque, speed)?[1]
     }
@@ -116,14 +116,14 @@ impl LossGrid {
         self.values[torque * self.axes.speeds.len() + speed]
     }
 
-    /// True where an envelope leaves places empty.
+    /// True if an envelope leaves positions empty.
     pub fn has_gaps(&self) -> bool {
         self.values.contains(&None)
     }
 }
 
 impl Selection {
-    /// Of a grid with its axes, or of a list. `whole` keeps the values of all places.
+    /// For a grid with its axes, or for a list. `whole` stores the values of all positions.
     pub fn new(grid: Option<&Axes>, whole: bool) -> Self {
         let numbers = |lines: &[f64], shown: &[usize]| {
             let mut numbers = vec![None; lines.len()];
@@ -145,7 +145,7 @@ impl Selection {
         }
     }
 
-    /// What is kept of some points.
+    /// Data of some points.
     pub fn pick(&self, field: &Field, points: &Numbered<'_>) -> Picked {
         let mut picked = Picked {
             shown: Vec::new(),
@@ -163,7 +163,7 @@ impl Selection {
         picked
     }
 
-    /// Where a point is shown, by its place; absent where it is not.
+    /// Shown position of a point; absent if it is not shown.
     fn place(&self, place: usize) -> Option<usize> {
         let Some(lines) = &self.lines else {
             return Some(place);
@@ -175,7 +175,7 @@ impl Selection {
 }
 
 impl Axes {
-    /// Numbers of the torques and of the speeds that are shown.
+    /// Indices of the shown torques and speeds.
     fn shown(&self) -> [Vec<usize>; 2] {
         let count = self.torques.len() * self.speeds.len();
         let most = if count > MOST_SHOWN { LINES } else { usize::MAX };
@@ -184,7 +184,7 @@ impl Axes {
 }
 
 impl ShownMap {
-    /// Nothing yet of a map over a grid with its axes, or of a list. `whole` keeps the values of all places.
+    /// Empty data for a map over a grid with its axes, or for a list. `whole` stores the values of all positions.
     pub fn new(grid: Option<&Axes>, whole: bool) -> Self {
         let shown = |axes: &Axes| {
             let [torques, speeds] = axes.shown();
@@ -208,7 +208,7 @@ impl ShownMap {
         }
     }
 
-    /// Adds what was picked from the points of a piece that follows.
+    /// Adds the data of the next piece.
     pub fn add(&mut self, picked: Vec<Picked>) {
         let mut more = Vec::new();
         for picked in picked {
@@ -219,7 +219,7 @@ impl ShownMap {
                 }
             }
         }
-        // Tasks hold points of many places.
+        // Tasks contain points of many positions.
         more.sort_unstable_by_key(|(place, _)| *place);
         for (place, point) in more {
             if let Some(shown) = &mut self.grid {
@@ -229,7 +229,7 @@ impl ShownMap {
         }
     }
 
-    /// Torques and speeds of the grid; points of a list and one.
+    /// Numbers of torques and speeds of the grid; number of points of a list and one.
     pub fn size(&self) -> (usize, usize) {
         self.size.unwrap_or((self.points.len(), 1))
     }
@@ -240,14 +240,14 @@ impl ShownMap {
         grid.is_some_and(|shown| shown.axes.torques.len() == 1 && !shown.places.contains(&None))
     }
 
-    /// Says where pictures show fewer points than there are.
+    /// A note if figures show only a selection of points.
     pub fn thinned(&self) -> Option<String> {
         let (torques, speeds) = self.size();
         let axes = &self.grid.as_ref()?.axes;
         let (rows, columns) = (axes.torques.len(), axes.speeds.len());
         (rows * columns < torques * speeds).then(|| {
             format!(
-                "pictures show {rows} of {torques} torques and {columns} of {speeds} speeds, both ends among them; the files hold \
+                "figures show {rows} of {torques} torques and {columns} of {speeds} speeds; the files contain \
                  all points"
             )
         })

@@ -1,34 +1,34 @@
-//! The least value of a surface, whether it lies inside, and how flat the surface is about it.
+//! The minimum of a surface, whether it is inside, and the flatness of the surface about it.
 
 use gearloss_numerics::inference::Side;
 
-/// Share of the least value by which a value counts as close to it.
+/// Relative difference from the minimum of values that count as close.
 const CLOSE: f64 = 0.05;
-/// Share of a value below which a change is rounding, or what a solver leaves.
+/// Relative change below which a change is rounding or a solver residual.
 const NOISE: f64 = 1e-7;
 
-/// First and last place along each axis.
+/// First and last index along each axis.
 pub type Flat = [[usize; 2]; 2];
 
-/// The least value.
+/// The minimum.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Least {
     /// The value, in the unit of the difference.
     pub value: f64,
-    /// Places along x and y.
+    /// Indices along x and y.
     pub place: [usize; 2],
-    /// End of each axis at which it lies: the values would perhaps fall beyond.
+    /// End of each axis at which it is: the values may decrease beyond.
     pub ends: [Option<Side>; 2],
-    /// Whether anything changes along each axis.
+    /// Whether the values change along each axis.
     pub depends: [bool; 2],
-    /// Places at which some value is within 5 % of it.
+    /// Range of indices with a value within 5 % of it.
     pub close: Flat,
-    /// Places at which some value is above it by less than an accuracy, where one is known.
+    /// Range of indices with a value above it by less than an accuracy, if known.
     pub unseen: Option<Flat>,
 }
 
 impl Least {
-    /// The least of values whose first coordinate runs first, so many in a row; absent where none has a value.
+    /// The minimum of values whose first coordinate varies fastest; absent if none has a value.
     pub fn new(values: &[Option<f64>], columns: usize, accuracy: Option<f64>) -> Option<Self> {
         let known = || values.iter().enumerate().filter_map(|(i, value)| Some((i, (*value)?)));
         let (cell, value) = known().min_by(|a, b| a.1.total_cmp(&b.1))?;

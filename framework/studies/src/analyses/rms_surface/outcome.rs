@@ -15,21 +15,21 @@ use crate::table::{Column, Table};
 /// Surfaces of the difference from measured points.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct RmsSurfaceOutcome {
-    /// Where it comes from.
+    /// Provenance.
     #[serde(flatten)]
     pub head: Head,
     /// One for each model set.
     pub surfaces: Vec<SurfaceOfSet>,
-    /// How the difference counts.
+    /// Kind of difference.
     #[serde(skip)]
     pub difference: Difference,
-    /// What reading the measured points brought up.
+    /// Notes on the file of measured points.
     #[serde(skip)]
     pub measured_notes: Vec<String>,
-    /// Number of measured points, those that count nowhere included.
+    /// Number of measured points, including omitted ones.
     #[serde(skip)]
     pub measured_points: usize,
-    /// Stated ranges that were left at some pair.
+    /// Quantities outside their stated ranges at any pair.
     #[serde(skip)]
     pub left_at_pairs: Left,
 }
@@ -41,15 +41,15 @@ pub struct SurfaceOfSet {
     pub model_set: String,
     /// File of the measured points.
     pub file: String,
-    /// What is compared.
+    /// Compared quantity.
     pub quantity: Quantity,
     /// Unit of the differences: `percent`, `points`, `w`, `nm` or `k`.
     pub unit: &'static str,
-    /// Number of points that count, the same at all pairs.
+    /// Number of points used, the same at all pairs.
     pub points: usize,
-    /// Points that count nowhere, because they lack a value at some pair.
+    /// Points that are omitted because they have no value at some pair.
     pub left_out: Vec<PointLeftOut>,
-    /// Accuracy of the measurement, in the unit of the differences; absent where none is known.
+    /// Accuracy of the measurement, in the unit of the differences; absent if unknown.
     pub accuracy: Option<f64>,
     /// The first quantity.
     pub x: AxisOfSurface,
@@ -57,23 +57,23 @@ pub struct SurfaceOfSet {
     pub y: AxisOfSurface,
     /// Every pair of values, those of x innermost.
     pub pairs: Vec<PairOfSurface>,
-    /// The least value.
+    /// The minimum.
     pub least: LeastOfSurface,
-    /// The least value by the numbers of the values along the axes.
+    /// The minimum by indices along the axes.
     #[serde(skip)]
     pub least_place: Least,
 }
 
-/// A measured point that counts nowhere.
+/// An omitted measured point.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct PointLeftOut {
     /// Line in its file.
     pub line: u64,
-    /// Name, where the file has names.
+    /// Name, if the file has names.
     pub name: Option<String>,
     /// Why.
     pub reason: String,
-    /// Its file, where there are several.
+    /// Its file, if there are several.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub file: Option<String>,
 }
@@ -81,13 +81,13 @@ pub struct PointLeftOut {
 /// A quantity of the gearbox and its values.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct AxisOfSurface {
-    /// Path as it is written in the study.
+    /// Path as in the study.
     pub path: String,
-    /// Paths that it meets.
+    /// Paths that it matches.
     pub paths: Vec<String>,
     /// Unit of the values; empty for a factor.
     pub unit: &'static str,
-    /// Rising values, in that unit.
+    /// Ascending values, in that unit.
     pub values: Vec<f64>,
     /// The values with their unit.
     #[serde(skip)]
@@ -101,32 +101,32 @@ pub struct PairOfSurface {
     pub x: f64,
     /// Value of y, in its unit.
     pub y: f64,
-    /// Root of the weighted mean square of the differences, in their unit; absent where the pair has no value.
+    /// Weighted root mean square of the differences, in their unit; absent if the pair has no value.
     pub rms: Option<f64>,
     /// Why it has none.
     pub reason: Option<String>,
 }
 
-/// The least value of a surface.
+/// The minimum of a surface.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct LeastOfSurface {
     /// Value of x, in its unit.
     pub x: f64,
     /// Value of y, in its unit.
     pub y: f64,
-    /// Root of the mean square there, in the unit of the differences.
+    /// Root mean square there, in the unit of the differences.
     pub rms: f64,
-    /// End of x at which it is, `lower` or `upper`: the values would perhaps fall beyond.
+    /// End of x at which it is, `lower` or `upper`: the values may decrease beyond.
     pub x_end: Option<&'static str>,
     /// End of y at which it is.
     pub y_end: Option<&'static str>,
-    /// Whether anything changes along x.
+    /// Whether the values change along x.
     pub x_depends: bool,
-    /// Whether anything changes along y.
+    /// Whether the values change along y.
     pub y_depends: bool,
-    /// Where some value is within 5 % of it.
+    /// Range with a value within 5 % of it.
     pub close: RangeOfSurface,
-    /// Where some value is above it by less than the accuracy of one measurement; absent where none is known.
+    /// Range with a value above it by less than the accuracy of one measurement; absent if unknown.
     pub within_accuracy: Option<RangeOfSurface>,
 }
 
@@ -179,11 +179,11 @@ impl Outcome for RmsSurfaceOutcome {
                 Column::text("model_set", "Model set"),
                 axis(&first.x),
                 axis(&first.y),
-                Column::number("points", "-", "Number of points that count"),
+                Column::number("points", "-", "Number of points used"),
                 Column::number(
                     format!("rms_{}", first.unit),
                     symbol,
-                    "Root of the mean square of the differences",
+                    "Root mean square of the differences",
                 ),
             ],
         );
@@ -202,6 +202,6 @@ impl Outcome for RmsSurfaceOutcome {
 
     fn left_at_samples(&self) -> Vec<(&str, &str)> {
         let left = self.left_at_pairs.iter();
-        left.map(|(path, name)| (path.as_str(), *name)).collect()
+        left.map(|(path, name)| (path.as_str(), name.as_str())).collect()
     }
 }

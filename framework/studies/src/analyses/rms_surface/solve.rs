@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use super::{Axis, RmsSurfaceEntry};
 use crate::analyses::rows::SolvedRow;
@@ -15,6 +15,7 @@ use crate::measured::{Measured, Seen, counted};
 pub type Difference = Result<f64, String>;
 
 /// A pair of values.
+#[derive(Serialize, Deserialize)]
 pub struct Pair {
     /// Values of x and y, in their units.
     pub at: [f64; 2],
@@ -25,7 +26,7 @@ pub struct Pair {
 }
 
 impl Pair {
-    /// Root of the weighted mean square over some rows.
+    /// Weighted root mean square over some rows.
     pub fn rms(&self, measured: &Measured, places: &[usize]) -> Option<f64> {
         let all = self.differences.as_ref().ok()?;
         let weight = |i: usize| measured.value(&measured.rows[i], "weight").unwrap_or(1.0);
@@ -35,17 +36,17 @@ impl Pair {
         Statistics::weighted(list).map(|s| s.rms)
     }
 
-    /// The pair in words.
+    /// The pair as text.
     fn words(&self, axes: &[Axis; 2]) -> String {
         let word = |k: usize| format!("{} = {}", axes[k].varied.pattern, axes[k].varied.words(self.at[k]));
         format!("{}, {}", word(0), word(1))
     }
 }
 
-/// What the measurement lacks does not depend on the pair.
+/// Missing measured values do not depend on the pair.
 const NOTHING: &str = "nothing was measured";
 
-/// Which points count.
+/// The points used.
 pub struct Counted {
     /// Rows that have a value at every pair of every set.
     pub places: Vec<usize>,
@@ -55,7 +56,7 @@ pub struct Counted {
     pub accuracy: Option<f64>,
 }
 
-/// Solves all pairs of one set; the same whatever the number of threads.
+/// Solves all pairs of one set; independent of the number of threads.
 pub fn pairs(
     cx: &Context<'_>,
     entry: &RmsSurfaceEntry,
@@ -67,26 +68,17 @@ pub fn pairs(
     let [x, y] = axes;
     let count = x.values.len() * y.values.len();
     cx.holds("analyses", rows.measured.rows.len(), count)?;
-    let running = cx.running(count, &built.name);
     let trial = Trial::new(cx, built);
     let speeds = trial.speeds(rows);
-    let speeds = &speeds.map_err(|reason| cx.wrong("analyses", reason, "leave it out of `rig`"))?[..];
+    let speeds = &speeds.map_err(|reason| cx.wrong("analyses", reason, "delete it from `rig`"))?[..];
     let solve = |i: usize| {
         let at = [x.values[i % x.values.len()], y.values[i / x.values.len()]];
         let overrides: Vec<_> = x.varied.overrides(at[0]).chain(y.varied.overrides(at[1])).collect();
         let mut seen = Left::new();
-        let solved = if cx.goes_on() {
-            trial.rows(rows, speeds, &overrides, &mut seen)
-        } else {
-            Err("interrupted".to_owned())
-        };
-        running.advance(1);
+        let solved = trial.rows(rows, speeds, &overrides, &mut seen);
         (pair(entry, rows.measured, at, solved), seen)
     };
-    let all: Vec<(Pair, Left)> = (0..count).into_par_iter().with_max_len(1).map(solve).collect();
-    if !cx.goes_on() {
-        return Err(Stopped::Interrupted);
-    }
+    let all: Vec<(Pair, Left)> = cx.each(&built.name, count, solve)?;
     let mut pairs = Vec::with_capacity(count);
     for (pair, left) in all {
         seen.extend(left);
@@ -118,10 +110,10 @@ fn pair(entry: &RmsSurfaceEntry, measured: &Measured, at: [f64; 2], solved: Resu
             (Some(saw), Some(model)) => entry
                 .quantity
                 .difference(entry.difference, saw, model)
-                .ok_or_else(|| "zero has no percentage".to_owned()),
+                .ok_or_else(|| "percent of zero is undefined".to_owned()),
         });
     }
-    // A pair at which no point has a value would leave nothing to the others.
+    // A pair without any value would exclude all points at the others.
     let none = differences.iter().all(Result::is_err);
     let why = differences
         .iter()
@@ -138,7 +130,7 @@ fn pair(entry: &RmsSurfaceEntry, measured: &Measured, at: [f64; 2], solved: Resu
     }
 }
 
-/// The rows that have a value at every pair of every set, but for pairs that have none at all.
+/// The rows with a value at every pair of every set, except pairs without any value.
 pub fn counted_points(
     cx: &Context<'_>,
     entry: &RmsSurfaceEntry,
@@ -164,11 +156,11 @@ pub fn counted_points(
     let places: Vec<usize> = (0..measured.rows.len()).filter(|i| !faults.contains_key(i)).collect();
     if places.is_empty() && faults.values().all(|why| why == NOTHING) {
         let message = format!(
-            "{}: nothing gives a measured {}",
+            "{}: there is no measured {}",
             cx.data(&path, &entry.data)?.file,
             entry.quantity.name()
         );
-        let help = "name a column of it, or columns of torque and speed at both ports";
+        let help = "add a column of it, or columns of torque and speed at both ports";
         return Err(cx.wrong(&format!("{path}.data"), message, help));
     }
     if let Some(why) = faults
@@ -177,9 +169,9 @@ pub fn counted_points(
         .filter(|_| places.is_empty())
     {
         let message = format!("no point has a value at every pair; {why}");
-        return Err(cx.wrong(&path, message, "leave values of `x` and `y` out"));
+        return Err(cx.wrong(&path, message, "delete values of `x` and `y`"));
     }
-    // Speeds follow from the gear state alone, so one pair tells the accuracies for all.
+    // Speeds depend only on the gear, so one pair provides the accuracies for all.
     let first = solved.iter().flatten().find(|pair| pair.differences.is_ok());
     let own = places
         .iter()

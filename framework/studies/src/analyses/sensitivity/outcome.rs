@@ -1,4 +1,4 @@
-//! What was found of what the losses depend on, as records and columns.
+//! Results of a sensitivity analysis as records and columns.
 
 use gearloss_numerics::sensitivity::{Estimate, Influence};
 use schemars::JsonSchema;
@@ -14,17 +14,17 @@ use crate::cells;
 use crate::table::{Cell, Column, Table};
 use crate::varied::Varied;
 
-/// What the losses over a grid depend on, under each model set.
+/// Sensitivity of the losses over a grid with each model set.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct SensitivityOutcome {
-    /// Where it comes from.
+    /// Provenance.
     #[serde(flatten)]
     pub head: Head,
     /// One for each model set.
     pub sensitivities: Vec<SensitivityOfSet>,
 }
 
-/// What the losses depend on under one model set.
+/// Sensitivity of the losses with one model set.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct SensitivityOfSet {
     /// Name of the set.
@@ -35,22 +35,22 @@ pub struct SensitivityOfSet {
     pub points: usize,
     /// Number of evaluations of each method.
     pub runs: RunsOfMethods,
-    /// The quantities that were varied.
+    /// The varied quantities.
     pub parameters: Vec<VariedParameter>,
     /// The outputs, the mean loss first.
     pub outputs: Vec<OutputSensitivity>,
     /// Samples of the shares of the variance. [-]
     #[serde(skip)]
     pub samples: usize,
-    /// Number of stated ranges that were left at the values of the gearbox. [-]
+    /// Number of quantities outside their stated ranges at the values of the gearbox. [-]
     #[serde(skip)]
     pub left_at_start: usize,
-    /// Stated ranges that some evaluations left.
+    /// Quantities outside their stated ranges in some evaluations.
     #[serde(skip)]
     pub left_at_samples: Left,
 }
 
-/// Number of evaluations of each method; absent for methods that were not wanted.
+/// Number of evaluations of each method; absent for methods that were not requested.
 #[derive(Debug, Clone, Copy, Serialize, JsonSchema)]
 pub struct RunsOfMethods {
     /// Slopes at the values of the gearbox. [-]
@@ -61,7 +61,7 @@ pub struct RunsOfMethods {
     pub sobol: Option<usize>,
 }
 
-/// A quantity that was varied, and its range.
+/// A varied quantity and its range.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct VariedParameter {
     /// Path as in the study.
@@ -70,7 +70,7 @@ pub struct VariedParameter {
     pub paths: Vec<String>,
     /// Unit of its values.
     pub unit: &'static str,
-    /// Value of the gearbox; one for a factor, absent where the gearbox states none. [unit]
+    /// Value of the gearbox; one for a factor, absent if the gearbox states none. [unit]
     pub start: Option<f64>,
     /// Lower end of the range. [unit]
     pub from: f64,
@@ -81,24 +81,24 @@ pub struct VariedParameter {
     pub varied: Varied,
 }
 
-/// What one output depends on.
+/// Sensitivity of one output.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct OutputSensitivity {
     /// `loss`, a mechanism, a mechanism and its term, `efficiency`, or `relative_loss`.
     pub output: String,
-    /// What it is.
+    /// Kind.
     pub kind: OutputKind,
     /// Its unit: `w` or `-`.
     pub unit: &'static str,
-    /// Whether a term vanishes with the load; absent for what is no term, and where models of a mechanism differ in it.
+    /// Whether a term is load-dependent; absent for other outputs, and if models of a mechanism differ in it.
     pub load_dependent: Option<bool>,
     /// Mean over the points at the values of the gearbox. [unit]
     pub mean: f64,
-    /// Slopes over each parameter; absent where they were not wanted, and for `relative_loss`, which has a kink there.
+    /// Slopes over each parameter; absent if not requested, and for `relative_loss`, which has a kink there.
     pub local: Option<Vec<SlopeOfOutput>>,
-    /// Effect of each parameter; absent where they were not wanted.
+    /// Effect of each parameter; absent if not requested.
     pub morris: Option<Vec<EffectOfParameter>>,
-    /// Shares of the variance; absent where they were not wanted.
+    /// Shares of the variance; absent if not requested.
     pub sobol: Option<SharesOfVariance>,
 }
 
@@ -107,9 +107,9 @@ pub struct OutputSensitivity {
 pub struct SlopeOfOutput {
     /// Change of the output over the change of the parameter. [unit of the output over unit of the parameter]
     pub slope: f64,
-    /// Slope times the range of the parameter over the output; absent where the output is zero. [-]
+    /// Slope times the range of the parameter over the output; absent if the output is zero. [-]
     pub scaled: Option<f64>,
-    /// Relative change of the output over the relative change of the parameter; absent where one of the two is zero. [-]
+    /// Relative change of the output over the relative change of the parameter; absent if one of them is zero. [-]
     pub elasticity: Option<f64>,
 }
 
@@ -122,22 +122,22 @@ pub struct EffectOfParameter {
     pub mu_star: f64,
     /// Standard deviation. [unit of the output]
     pub sigma: f64,
-    /// Whether the output depends on the parameter, and how.
+    /// Influence of the parameter on the output.
     pub influence: Influence,
 }
 
-/// How the parameters share the variance of an output.
+/// Variance shares of an output.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct SharesOfVariance {
     /// Mean over the ranges. [unit of the output]
     pub mean: f64,
     /// Variance over the ranges. [unit of the output squared]
     pub variance: f64,
-    /// Whether parameters act together: the shares alone add up to less than 90 %.
+    /// Whether parameters interact: the first-order shares sum to less than 90 %.
     pub interactions: bool,
-    /// Share that each parameter explains alone. [-]
+    /// First-order share of each parameter. [-]
     pub first: Vec<Estimate>,
-    /// Share of each parameter with all its interactions. [-]
+    /// Total share of each parameter, including interactions. [-]
     pub total: Vec<Estimate>,
 }
 
@@ -156,7 +156,7 @@ impl VariedParameter {
     }
 }
 
-/// What every method found of each output.
+/// Results of every method for each output.
 pub(super) fn outputs(list: &[Output], means: &[f64], ranges: &[Range], found: &Found) -> Vec<OutputSensitivity> {
     let output = |(i, (output, mean)): (usize, (&Output, &f64))| OutputSensitivity {
         output: output.name.clone(),
@@ -180,8 +180,8 @@ pub(super) fn outputs(list: &[Output], means: &[f64], ranges: &[Range], found: &
     list.iter().zip(means).enumerate().map(output).collect()
 }
 
-/// Slopes of an output over the parameters, without an elasticity where a parameter is zero: it has no relative change. None of the
-/// relative change over the points, which is least at the values of the gearbox and has a kink there.
+/// Slopes of an output over the parameters, without an elasticity if a parameter is zero. Absent for the relative change over the points,
+/// which has a minimum with a kink at the values of the gearbox.
 fn slopes(kind: OutputKind, output: usize, ranges: &[Range], found: &Found) -> Option<Vec<SlopeOfOutput>> {
     let local = found.local.as_ref().filter(|_| kind != OutputKind::RelativeLoss)?;
     let slopes = local[output].iter().zip(ranges).map(|(local, range)| {
@@ -212,9 +212,9 @@ fn columns() -> [Column; 20] {
     let of_output = "unit of the output";
     [
         Column::text("model_set", "Model set"),
-        Column::text("gear", "Gear state"),
+        Column::text("gear", "Gear"),
         Column::text("output", "Output"),
-        Column::text("kind", "What the output is"),
+        Column::text("kind", "Kind of the output"),
         Column::text("unit", "Unit of the output"),
         Column::text("parameter", "Path of the parameter"),
         Column::text("parameter_unit", "Unit of the parameter"),
@@ -232,11 +232,11 @@ fn columns() -> [Column; 20] {
             "Mean magnitude of the change over the whole range",
         ),
         Column::number("morris_sigma", of_output, "Standard deviation of the change"),
-        Column::text("morris_influence", "Whether the output depends on the parameter"),
-        Column::number("sobol_first", "-", "Share of the variance, alone"),
+        Column::text("morris_influence", "Influence of the parameter on the output"),
+        Column::number("sobol_first", "-", "First-order share of the variance"),
         Column::number("sobol_first_low", "-", "Lower end of its 95 % interval"),
         Column::number("sobol_first_high", "-", "Upper end of its 95 % interval"),
-        Column::number("sobol_total", "-", "Share of the variance, with others"),
+        Column::number("sobol_total", "-", "Total share of the variance"),
         Column::number("sobol_total_low", "-", "Lower end of its 95 % interval"),
         Column::number("sobol_total_high", "-", "Upper end of its 95 % interval"),
     ]
@@ -302,7 +302,7 @@ impl Outcome for SensitivityOutcome {
 
     fn left_at_samples(&self) -> Vec<(&str, &str)> {
         let all = self.sensitivities.iter().flat_map(|of_set| &of_set.left_at_samples);
-        all.map(|(path, name)| (path.as_str(), *name)).collect()
+        all.map(|(path, name)| (path.as_str(), name.as_str())).collect()
     }
 
     fn unlisted(&self) -> usize {

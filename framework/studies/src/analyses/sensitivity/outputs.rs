@@ -1,4 +1,4 @@
-//! What depends: means over the points of a grid, and how far the loss moves at single points.
+//! Outputs: means over the points of a grid, and the relative change of the loss at single points.
 
 use gearloss_framework::transmission::{PartInfo, Transmission};
 use schemars::JsonSchema;
@@ -10,20 +10,20 @@ use super::super::trial::why;
 use crate::analysis::PointResult;
 use crate::study::By;
 
-/// What an output is.
+/// Kind of an output.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum OutputKind {
     /// All losses.
     Loss,
-    /// Those of a mechanism.
+    /// Losses of a mechanism.
     Mechanism,
-    /// Those of a named term of a mechanism.
+    /// Losses of a named term of a mechanism.
     Term,
-    /// Power out over power in.
+    /// Output power over input power.
     Efficiency,
-    /// Root of the mean square, over the points, of the relative change of the loss at each point from the values of the gearbox: what
-    /// moves loss from one region to another is seen here, while the mean may stay.
+    /// Root mean square over the points of the relative change of the loss at each point from the values of the gearbox: it shows
+    /// parameters that shift losses between regions without changing the mean.
     RelativeLoss,
 }
 
@@ -45,7 +45,7 @@ pub struct Output {
     pub kind: OutputKind,
     /// `loss`, a mechanism, a mechanism and its term, `efficiency`, or `relative_loss`.
     pub name: String,
-    /// Whether a term vanishes with the load; absent for what is no term, and where models of a mechanism differ in it.
+    /// Whether a term is load-dependent; absent for other outputs, and if models of a mechanism differ in it.
     pub load_dependent: Option<bool>,
 }
 
@@ -59,20 +59,20 @@ impl Output {
     }
 }
 
-/// All outputs, in the order of their values: the loss, mechanisms, terms, the efficiency where a point has one, and the relative change
-/// of the loss over the points where that is asked for.
+/// All outputs in the order of their values: the loss, mechanisms, terms, the efficiency if a point has one, and the relative change of the
+/// loss over the points if requested.
 pub struct Outputs {
     pub list: Vec<Output>,
     mechanisms: Vec<String>,
     terms: Vec<String>,
-    /// Points that have an efficiency at the values of the gearbox: a mean is taken over the same points everywhere.
+    /// Points with an efficiency at the values of the gearbox: all means are taken over these points.
     efficient: Vec<usize>,
-    /// Losses at the values of the gearbox, of points that have one; none where the relative change is not asked for.
+    /// Losses at the values of the gearbox, of points with a loss; empty if the relative change is not requested.
     nominal: Vec<(usize, f64)>,
 }
 
 impl Outputs {
-    /// With the points at the values of the gearbox; `relative` asks for the relative change of the loss over the points, which has no
+    /// With the points at the values of the gearbox; `relative` requests the relative change of the loss over the points, which has no
     /// slope there.
     pub fn new(t: &Transmission, nominal: &[PointResult], relative: bool) -> Self {
         let [mechanisms, terms] = [By::Mechanism, By::Term].map(|by| together(std::iter::once(t), by));
@@ -107,7 +107,7 @@ impl Outputs {
         }
     }
 
-    /// Values of the outputs, with numbers of parameters changed at most.
+    /// Values of the outputs at solved points.
     ///
     /// # Errors
     /// The first point without a loss, or without an efficiency that it should have.
@@ -145,12 +145,12 @@ impl Outputs {
         if values.iter().all(|x| x.is_finite()) {
             Ok(values)
         } else {
-            Err("a loss is too large to be added".to_owned())
+            Err("a loss is too large".to_owned())
         }
     }
 }
 
-/// Whether the terms of a name vanish with the load; absent where models differ.
+/// Whether the terms of a name are load-dependent; absent if models differ.
 fn load_dependent(t: &Transmission, name: &str) -> Option<bool> {
     let of = |part: &PartInfo| {
         let terms = t.instances()[part.notes.instance()].entry.terms;

@@ -13,23 +13,23 @@ use crate::analysis::Note;
 use crate::cells;
 use crate::table::{Cell, Column, Table};
 
-/// Losses and efficiency at every value under each model set.
+/// Losses and efficiency at every value with each model set.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct SweepOutcome {
-    /// Where it comes from.
+    /// Provenance.
     #[serde(flatten)]
     pub head: Head,
     /// One for each model set at each value: the values of the second path outermost, the sets innermost.
     pub sweep: Vec<SweepOfValue>,
-    /// The paths that are coefficients of formulas.
+    /// Paths that are coefficients of formulas.
     #[serde(skip)]
     pub published: Vec<PublishedCoefficient>,
-    /// What models noted over all values, for each set.
+    /// Notes of models over all values, for each set.
     #[serde(skip)]
     pub notes: Vec<NotesOfSet>,
 }
 
-/// What models noted over all values under one set: a note for each limit and observed quantity.
+/// Notes of models over all values with one set: one for each limit and observed quantity.
 #[derive(Debug, Clone)]
 pub struct NotesOfSet {
     /// Name of the set.
@@ -38,26 +38,26 @@ pub struct NotesOfSet {
     pub notes: Vec<Note>,
 }
 
-/// Losses and efficiency under one model set at one value.
+/// Losses and efficiency with one model set at one value.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct SweepOfValue {
     /// Name of the set.
     pub model_set: String,
     /// Gear state.
     pub gear: String,
-    /// Path whose value changes.
+    /// Varied path.
     pub path: String,
-    /// The value as it is written in the study.
+    /// The value as written in the study.
     pub value: Value,
-    /// The second path and its value, where there are two.
+    /// The second path and its value, if there are two.
     pub second: Option<SecondValue>,
     /// Names of the shares of the losses.
     pub shares: Vec<String>,
     /// The points: torques outermost.
     pub points: Vec<PointOfSweep>,
-    /// What models noted.
+    /// Notes of models.
     pub notes: Vec<Note>,
-    /// Number of the value and of the second value in the study, from zero.
+    /// Indices of the value and of the second value in the study.
     #[serde(skip)]
     pub places: [usize; 2],
 }
@@ -67,7 +67,7 @@ pub struct SweepOfValue {
 pub struct SecondValue {
     /// The path.
     pub path: String,
-    /// The value as it is written in the study.
+    /// The value as written in the study.
     pub value: Value,
 }
 
@@ -78,32 +78,32 @@ pub struct PointOfSweep {
     pub torque_nm: f64,
     /// Speed. [rpm]
     pub speed_rpm: f64,
-    /// Temperature of the oil; absent where no balance was found. [degC]
+    /// Oil temperature; absent if no balance was found. [degC]
     pub oil_temperature_degc: Option<f64>,
-    /// What became of the balance; absent where the temperature is given.
+    /// Status of the heat balance; absent if the temperature is given.
     pub balance: Option<thermal::Outcome>,
-    /// What the transmission does.
+    /// State of the transmission.
     pub status: Status,
-    /// Power out over power in. [-]
+    /// Output power over input power. [-]
     pub efficiency: Option<f64>,
     /// Loss. [W]
     pub loss_w: Option<f64>,
     /// Losses in the order of the shares. [W]
     pub losses_w: Option<Vec<f64>>,
-    /// The speed with the digits that `speed_rpm` rounds; headings show it. [rpm]
+    /// The speed without rounding, for headings. [rpm]
     #[serde(skip)]
     pub solved_speed_rpm: f64,
 }
 
 impl SweepOutcome {
-    /// What belongs to one set, in the order of the values.
+    /// The points of one set, in the order of the values.
     pub fn values_of_set(&self, set: &str) -> impl Iterator<Item = &SweepOfValue> {
         self.sweep.iter().filter(move |value| value.model_set == set)
     }
 }
 
 impl NotesOfSet {
-    /// Those of each set, from all of its values.
+    /// The notes of each set, from all of its values.
     pub(super) fn all(sweep: &[SweepOfValue]) -> Vec<Self> {
         let first = sweep.iter().take_while(|value| value.places == [0, 0]);
         let set = |first: &SweepOfValue| {
@@ -117,7 +117,7 @@ impl NotesOfSet {
     }
 }
 
-/// Notes of several transmissions that differ in some values, a note for each limit and observed quantity.
+/// Notes of several transmissions that differ in some values, one for each limit and observed quantity.
 fn merged<'n>(notes: impl Iterator<Item = &'n Note>) -> Vec<Note> {
     let mut all: Vec<Note> = Vec::new();
     for note in notes {
@@ -144,20 +144,17 @@ impl Outcome for SweepOutcome {
         let first = self.sweep.first();
         let second = first.and_then(|value| value.second.as_ref());
         let shares = first.map_or(&[][..], |value| &value.shares);
-        let mut columns = vec![
-            Column::text("model_set", "Model set"),
-            Column::text("gear", "Gear state"),
-        ];
+        let mut columns = vec![Column::text("model_set", "Model set"), Column::text("gear", "Gear")];
         let paths = first.map(|value| &value.path).into_iter();
         let paths = paths.chain(second.map(|second| &second.path));
-        columns.extend(paths.map(|path| Column::text(path, "Value of the path as the study writes it")));
+        columns.extend(paths.map(|path| Column::text(path, "Value of the path as in the study")));
         columns.extend([
             Column::number("torque_nm", "Nm", "Torque"),
             Column::number("speed_rpm", "rpm", "Speed"),
-            Column::number("oil_temperature_degc", "degC", "Temperature of the oil"),
-            Column::text("balance", "What became of the balance"),
-            Column::text("status", "What the transmission does"),
-            Column::number("efficiency", "-", "Power out over power in"),
+            Column::number("oil_temperature_degc", "degC", "Oil temperature"),
+            Column::text("balance", "Status of the heat balance"),
+            Column::text("status", "State of the transmission"),
+            Column::number("efficiency", "-", "Output power over input power"),
             Column::number("loss_w", "W", "Loss"),
         ]);
         let share = |share: &String| Column::number(format!("{share}_w"), "W", format!("Loss of {share}"));

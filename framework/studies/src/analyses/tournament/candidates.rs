@@ -1,4 +1,4 @@
-//! The models that take part, each evaluated once.
+//! The candidate models, each evaluated once.
 
 use std::time::Instant;
 
@@ -14,32 +14,32 @@ use super::marks::{Mark, marks};
 use super::slot::{Candidate, Slot};
 use crate::analysis::{Field, GridResult, PointResult, Points, notes, run_grid};
 
-/// Relative difference of losses up to which two models lose the same: what the iterated flow of power leaves.
+/// Relative difference of losses below which two models are equal: residual of the iterated power flow.
 const ALIKE: f64 = 1e-9;
 
-/// What is needed to evaluate models, and what was found so far.
+/// Data for the evaluation of models, and the results so far.
 pub struct Gathering<'a> {
     cx: &'a Context<'a>,
     base: &'a Built<'a>,
     points: &'a Points,
     solved: &'a GridResult,
-    /// Time of the set that the tournament starts from. \[s\]
+    /// Time of the base set. \[s\]
     time: f64,
     /// The mechanisms with their candidates.
     pub slots: Vec<Slot>,
-    /// Why others cannot take part.
+    /// Why other models are omitted.
     pub left_out: Vec<String>,
-    /// Number of stated ranges that models left.
+    /// Number of quantities outside their stated ranges.
     pub unlisted: usize,
 }
 
-/// Why a model cannot take part.
+/// Why a model is omitted.
 enum Refused {
     Because(String),
     Interrupted,
 }
 
-/// What a model that can take part shows at the points.
+/// Results of a candidate at the points.
 struct Evaluated {
     /// \[W\]
     loss: Vec<f64>,
@@ -49,7 +49,7 @@ struct Evaluated {
 }
 
 impl<'a> Gathering<'a> {
-    /// All candidates of the mechanisms at points that the base has solved. Where an analysis is only checked, models are built alone.
+    /// All candidates of the mechanisms at the solved points of the base. If an analysis is only checked, models are only built.
     pub fn new(
         cx: &'a Context<'a>,
         entries: &[CandidatesEntry],
@@ -82,11 +82,11 @@ impl<'a> Gathering<'a> {
     fn add(&mut self, path: &str, entry: &CandidatesEntry) -> Result<(), Stopped> {
         let mut slot = Slot::new(self.cx, path, entry)?;
         if self.slots.iter().any(|s| s.name == slot.name) {
-            let message = format!("`{}` stands twice", slot.name);
-            return Err(self.cx.wrong(path, message, "name it once"));
+            let message = format!("`{}` is listed twice", slot.name);
+            return Err(self.cx.wrong(path, message, "list it once"));
         }
         self.fill(path, entry, &mut slot)?;
-        // Where all take part, so does what the set has.
+        // If all models are candidates, so is the model of the set.
         if entry.models.is_empty() {
             self.add_own(&mut slot);
             self.merge_alike(&mut slot);
@@ -95,15 +95,15 @@ impl<'a> Gathering<'a> {
         Ok(())
     }
 
-    /// Evaluates the models that are named, or all of the mechanism.
+    /// Evaluates the listed models, or all models of the mechanism.
     fn fill(&mut self, path: &str, entry: &CandidatesEntry, slot: &mut Slot) -> Result<(), Stopped> {
         let named = !entry.models.is_empty();
         if slot.is_drag() && !named {
             let message = format!(
-                "laws for churning, injection and windage stand side by side in `{}`",
+                "`{}` includes laws for churning, injection and windage",
                 entry.mechanism
             );
-            let help = "name those that take part: `models: { a: { type: diab } }`";
+            let help = "list the candidates: `models: { a: { type: diab } }`";
             return Err(self.cx.wrong(path, message, help));
         }
         let models: Vec<(String, Value)> = if named {
@@ -119,7 +119,7 @@ impl<'a> Gathering<'a> {
             match self.evaluated(slot, &model) {
                 Err(Refused::Interrupted) => return Err(Stopped::Interrupted),
                 Err(Refused::Because(reason)) if named => {
-                    let help = "`gearloss models --needs GEARBOX` tells what a model needs";
+                    let help = "`gearloss models --needs GEARBOX` lists the inputs of a model";
                     return Err(self.cx.wrong(&format!("{path}.models.{name}"), reason, help));
                 }
                 Err(Refused::Because(reason)) => self.left_out.push(format!("{} {name}: {reason}", slot.name)),
@@ -137,14 +137,14 @@ impl<'a> Gathering<'a> {
             }
         }
         if slot.candidates.is_empty() {
-            let message = format!("no model of `{}` can take part", slot.name);
-            let help = "`gearloss models --needs GEARBOX` tells what models need";
+            let message = format!("no model of `{}` can be evaluated", slot.name);
+            let help = "`gearloss models --needs GEARBOX` lists the inputs of models";
             return Err(self.cx.wrong(path, message, help));
         }
         Ok(())
     }
 
-    /// Adds the models of the set as the first candidate, in the place of a candidate that is the same.
+    /// Adds the models of the set as the first candidate, instead of an equal candidate.
     fn add_own(&self, slot: &mut Slot) {
         let (language, base) = (self.cx.language, self.base);
         let own = slot.covered(base.transmission.parts());
@@ -171,8 +171,7 @@ impl<'a> Gathering<'a> {
         slot.candidates.insert(0, own);
     }
 
-    /// Models that lose the same at every point are one candidate: as several they would share its weight, and add nothing to the
-    /// spread.
+    /// Models with equal losses at every point are one candidate, because duplicates would split its weight.
     fn merge_alike(&mut self, slot: &mut Slot) {
         let mut kept: Vec<Candidate> = Vec::new();
         for candidate in std::mem::take(&mut slot.candidates) {
@@ -182,7 +181,7 @@ impl<'a> Gathering<'a> {
             };
             match kept.iter().find(alike) {
                 Some(other) => self.left_out.push(format!(
-                    "{} {}: loses the same as `{}` at every point",
+                    "{} {}: same loss as `{}` at every point",
                     slot.name, candidate.name, other.name
                 )),
                 None => kept.push(candidate),
@@ -191,7 +190,7 @@ impl<'a> Gathering<'a> {
         slot.candidates = kept;
     }
 
-    /// Losses of the slot's parts under one model, how long all points took, and the stated ranges that it left.
+    /// Losses of the slot's components with one model, the time of all points, and quantities outside their stated ranges.
     fn evaluated(&mut self, slot: &Slot, model: &Value) -> Result<Evaluated, Refused> {
         let because = |list: &[Diagnostic]| {
             let first = list.first();
@@ -239,27 +238,27 @@ impl<'a> Gathering<'a> {
     }
 }
 
-/// Number of stated ranges that were left at solved points.
+/// Number of quantities outside their stated ranges at solved points.
 pub fn left(transmission: &Transmission, solved: &GridResult) -> usize {
     let notes = notes(transmission, &solved.seen);
     notes.iter().filter(|note| note.outside > 0).count()
 }
 
-/// The models of a mechanism that take part where none are named.
+/// The default candidates of a mechanism.
 fn takes_part<'a>(registry: &'a Registry, mechanism: &'a str) -> impl Iterator<Item = &'a Entry> {
     let models = registry.models(mechanism);
-    models.filter(|model| model.source != "the user's own" && model.name != "none")
+    models.filter(|model| !model.is_user_defined() && model.name != "none")
 }
 
-/// A model with its defaults: where it cannot do without models of its own, as an integral over the path of contact without a law
-/// of friction, once with each of them. One level deep: a model that takes another one of its own mechanism computes what that one computes, and a law that takes a
-/// further one is for the user to name.
+/// A model with its defaults; if it needs a nested model, such as a law of friction for an integral over the path of contact, once with
+/// each of them. Only one level: models with a nested model of the same mechanism are omitted, and laws with a further nested model must be
+/// listed by the user.
 fn with_nested(registry: &Registry, model: &Entry, slot: &str, left_out: &mut Vec<String>) -> Vec<(String, Value)> {
     let mut all = vec![(Vec::<String>::new(), json!({ "type": model.name }))];
     for (key, mechanism) in model.required_slots() {
         if mechanism == model.mechanism {
             left_out.push(format!(
-                "{slot} {}: it takes another {mechanism}; name it under `models`",
+                "{slot} {}: it needs another {mechanism}; list it under `models`",
                 model.name
             ));
             return Vec::new();
@@ -268,7 +267,7 @@ fn with_nested(registry: &Registry, model: &Entry, slot: &str, left_out: &mut Ve
             takes_part(registry, &mechanism).partition(|nested| !nested.required_slots().is_empty());
         for nested in deep {
             left_out.push(format!(
-                "{slot} {}/{}: its {mechanism} takes a further model; name it under `models`",
+                "{slot} {}/{}: its {mechanism} needs a further model; list it under `models`",
                 model.name, nested.name
             ));
         }
@@ -294,8 +293,7 @@ fn with_nested(registry: &Registry, model: &Entry, slot: &str, left_out: &mut Ve
     all.into_iter().map(named).collect()
 }
 
-/// Time that one thread takes for the points at hand, the least of a few tries; absent where the work was interrupted. Only its ratio to
-/// others counts. \[s\]
+/// Time of one thread for the points, the minimum of a few tries; absent if interrupted. Only ratios of times are used. \[s\]
 fn timed(cx: &Context<'_>, transmission: &Transmission, points: &Points) -> Option<f64> {
     let few = Points {
         field: Field::List((0..points.field.len().min(32)).map(|i| points.field.at(i)).collect()),

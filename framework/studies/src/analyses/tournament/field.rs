@@ -1,4 +1,4 @@
-//! Points, what everything else loses there, and what each candidate loses.
+//! Points, the loss of all other components, and the loss of each candidate.
 
 use gearloss_framework::description::ThermalMode;
 use gearloss_numerics::selection::{Combination, Losses};
@@ -12,25 +12,25 @@ use super::{MOST, TournamentEntry};
 use crate::analysis::{Field as Given, Given as GivenPoint, PointResult, Points};
 use crate::study::Quantity;
 
-/// Points, what everything else loses there, and what each candidate loses.
+/// Points, the loss of all other components, and the loss of each candidate.
 pub struct Field<'a> {
     pub base: &'a Built<'a>,
     pub gear: String,
     pub points: Vec<PointResult>,
-    /// Loss of all parts that no mechanism of the tournament covers. \[W\]
+    /// Loss of all components outside the mechanisms of the tournament. \[W\]
     pub rest: Vec<f64>,
     pub slots: Vec<Slot>,
-    /// What an error of one watt is at each point in the unit in which errors are printed; absent where the quantity does not exist, as an
-    /// efficiency without torque.
+    /// Factor from an error in W to the printed unit at each point; absent if the quantity does not exist, such as an efficiency without
+    /// torque.
     pub scale: Vec<Option<f64>>,
-    /// Why models do not take part.
+    /// Why models are omitted.
     pub left_out: Vec<String>,
-    /// Number of stated ranges that models left.
+    /// Number of quantities outside their stated ranges.
     pub unlisted: usize,
 }
 
 impl<'a> Field<'a> {
-    /// Solves the points under the set, and evaluates every candidate at the temperatures found.
+    /// Solves the points with the set, and evaluates every candidate at the temperatures found.
     pub fn new(
         cx: &'a Context<'a>,
         entry: &TournamentEntry,
@@ -38,7 +38,7 @@ impl<'a> Field<'a> {
         points: &Points,
     ) -> Result<Self, Stopped> {
         let mut points = points.clone();
-        // A measured temperature counts where the model does not find its own.
+        // A measured temperature is used unless the model computes one.
         if base.transmission.thermal_mode != ThermalMode::Fixed
             && let Given::List(list) = &mut points.field
         {
@@ -47,7 +47,7 @@ impl<'a> Field<'a> {
             }
         }
         let solved = cx.solve(base, &points)?;
-        // Every model loses at the temperatures of the set, else losses could not be added.
+        // All models are evaluated at the temperatures of the set, because losses are added.
         points.field = Given::List(given(&solved.points));
         let gathering = Gathering::new(cx, &entry.mechanisms, base, &points, &solved)?;
         let (slots, left_out) = (gathering.slots, gathering.left_out);
@@ -58,7 +58,7 @@ impl<'a> Field<'a> {
                 p.torque,
                 p.speed * RPM
             );
-            return Err(cx.wrong(&cx.path(), message, "choose a set that has one at every point"));
+            return Err(cx.wrong(&cx.path(), message, "choose a set with a loss at every point"));
         }
         let parts = base.transmission.parts();
         let rest = |p: &PointResult| {
@@ -86,7 +86,7 @@ impl<'a> Field<'a> {
         };
         if field.count() > MOST {
             let message = format!("{} combinations are more than {MOST}", field.count());
-            let help = "name those that take part: `mechanisms: [{ mechanism: bearing, models: { skf: { type: skf } } }]`; without names every \
+            let help = "list the candidates: `mechanisms: [{ mechanism: bearing, models: { skf: { type: skf } } }]`; without a list every \
                         model takes part with every model that it takes";
             return Err(cx.wrong(&cx.path(), message, help));
         }
@@ -118,7 +118,7 @@ impl<'a> Field<'a> {
             .collect()
     }
 
-    /// What speaks against a combination, in words: stated ranges that a model left, and factors on a bound.
+    /// Marks of a combination as text: quantities outside stated ranges, and factors at a bound.
     pub fn marks(&self, c: &Combination) -> Vec<String> {
         let ranges = self.slots.iter().zip(&c.places).flat_map(|(slot, place)| {
             let candidate = &slot.candidates[*place];
@@ -128,11 +128,11 @@ impl<'a> Field<'a> {
         let bounds = c
             .on_bound
             .iter()
-            .map(|k| format!("{}: factor {:.2} on a bound", self.slots[*k].name, c.factors[*k]));
+            .map(|k| format!("{}: factor {:.2} at a bound", self.slots[*k].name, c.factors[*k]));
         ranges.chain(bounds).collect()
     }
 
-    /// The mechanisms with their candidates, as results have them.
+    /// The mechanisms with their candidates, for results.
     pub fn mechanisms(&self) -> Vec<MechanismOfTournament> {
         let candidate = |c: &Candidate| CandidateOfTournament {
             name: c.name.clone(),

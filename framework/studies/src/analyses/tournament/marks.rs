@@ -1,4 +1,4 @@
-//! Stated ranges that a candidate leaves at the points of a tournament.
+//! Quantities of a candidate outside their stated ranges at the points of a tournament.
 
 use gearloss_framework::loss::Extent;
 use gearloss_framework::transmission::Transmission;
@@ -6,15 +6,15 @@ use gearloss_framework::transmission::Transmission;
 use super::super::numbers::{beyond, significant};
 use crate::analysis::{Note, STATIC_SAFETY, notes};
 
-/// A quantity of a model that left its stated range.
+/// A quantity of a model outside its stated range.
 pub struct Mark {
     /// Symbol of the quantity.
     pub name: &'static str,
-    /// What was left, by how much and how often.
+    /// Description with range, values and number of points.
     pub words: String,
 }
 
-/// The stated ranges that the models at some paths left, or models nested in them. The safety of a component is no range of a model.
+/// Quantities of models at some paths, including nested models, outside their stated ranges, except the safety of components.
 pub fn marks(transmission: &Transmission, seen: &[Extent], paths: &[String]) -> Vec<Mark> {
     let own = |path: &str| {
         let below = |own: &String| {

@@ -11,22 +11,22 @@ use crate::analysis::Given;
 use crate::measured::{Measured, Row, Seen};
 use crate::study::{Difference, Quantity};
 
-/// The rows of a file in one gear state.
+/// The rows of a file in one gear.
 pub struct OwnRows<'r> {
     pub rows: Vec<&'r Row>,
     pub given: Vec<Given>,
-    /// Number of rows of other gear states.
+    /// Number of rows in other gears.
     pub others: usize,
 }
 
 impl<'r> OwnRows<'r> {
-    /// The rows in the gear state of the analysis.
+    /// The rows in the gear of the analysis.
     pub fn new(cx: &Context<'_>, measured: &'r Measured, gear: &str) -> Result<Self, Stopped> {
         let own = |row: &&Row| row.gear.as_deref().is_none_or(|g| g == gear);
         let rows: Vec<&Row> = measured.rows.iter().filter(own).collect();
         if rows.len() < 3 {
-            let message = format!("{} points in gear `{gear}` rank nothing", rows.len());
-            let help = "name the gear state under `gear`";
+            let message = format!("{} points in gear `{gear}` are not enough for a ranking", rows.len());
+            let help = "select the gear with `gear`";
             return Err(cx.wrong(&format!("{}.data", cx.path()), message, help));
         }
         let given = |row: &&Row| Given {
@@ -49,12 +49,12 @@ pub struct Measurements {
     /// \[rad/s\]
     pub speeds: Vec<f64>,
     pub losses: MeasuredLosses,
-    /// What a reader should know of their accuracy.
+    /// Notes on their accuracy.
     pub notes: Vec<String>,
 }
 
 impl Measurements {
-    /// Measured losses beside the solved points, with the accuracy of each.
+    /// Measured losses at the solved points with their accuracy.
     pub fn new(
         cx: &Context<'_>,
         entry: &TournamentEntry,
@@ -66,7 +66,7 @@ impl Measurements {
         for (row, point) in rows.iter().zip(&field.points) {
             let seen = Seen::without_rig(measured, row, point);
             let Some(loss) = seen.loss else {
-                let message = format!("{}: no measured loss follows", measured.origin(row));
+                let message = format!("{}: the measured loss cannot be determined", measured.origin(row));
                 let help = "give the loss, the loss torque, the efficiency, or torque and speed at both ports";
                 return Err(cx.wrong(&data, message, help));
             };
@@ -86,12 +86,12 @@ impl Measurements {
         let speeds: Vec<f64> = field.points.iter().map(|p| p.speed).collect();
         let oils: Vec<f64> = field.points.iter().map(|p| p.oil.unwrap_or(0.0)).collect();
         let groups = folds(&torques, entry.folds as usize);
-        let groups = groups.map_err(|reason| cx.wrong(&data, reason, "give points at two torques at least"))?;
+        let groups = groups.map_err(|reason| cx.wrong(&data, reason, "give points at two or more torques"))?;
         let without = field.scale.iter().filter(|s| s.is_none()).count();
         if without > 0 {
             let what = entry.quantity.words(Difference::Points).0;
             notes.push(format!(
-                "{without} points have no {what}: they count by their loss, but not in the errors that are printed in {}",
+                "{without} points have no {what}: they are ranked by their loss, but omitted from errors in {}",
                 entry.unit_in_words()
             ));
         }
@@ -112,13 +112,13 @@ impl Measurements {
         })
     }
 
-    /// Accuracy of a point in the unit in which errors are printed.
+    /// Accuracy of a point in the printed unit.
     pub fn accuracy(&self, i: usize) -> Option<f64> {
         Some(self.losses.units[i]? * self.losses.deviations[i])
     }
 }
 
-/// Accuracy of each loss, and notes on those that the file does not state.
+/// Accuracy of each loss, and notes on accuracies that are not in the file.
 fn accuracies(entry: &TournamentEntry, losses: &[f64], stated: &[Option<f64>]) -> (Vec<f64>, Vec<String>) {
     let errors = entry.errors.map(|errors| LossErrors {
         percent: errors.percent.unwrap_or(0.0),
@@ -132,7 +132,7 @@ fn accuracies(entry: &TournamentEntry, losses: &[f64], stated: &[Option<f64>]) -
     let mut notes = Vec::new();
     if lacking > 0 {
         notes.push(format!(
-            "{lacking} of {} points have no accuracy in the file: {} % of the loss and {} W, as standard deviations that add as squares, \
+            "{lacking} of {} points have no accuracy in the file: {} % of the loss and {} W, standard deviations, added as squares, \
              {word}",
             losses.len(),
             significant(errors.percent),

@@ -1,4 +1,4 @@
-//! What comes out of a tournament, as records.
+//! The outcome of a tournament as records.
 
 use gearloss_numerics::inference::Decision;
 use gearloss_numerics::selection::{Losses, Standing};
@@ -11,14 +11,14 @@ use super::super::Head;
 /// Every combination of the models of some mechanisms.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct TournamentOutcome {
-    /// Where it comes from.
+    /// Provenance.
     #[serde(flatten)]
     pub head: Head,
     /// The ranking, or the spread.
     pub tournament: Tournament,
 }
 
-/// A ranking where points were measured, else the spread.
+/// A ranking if there are measured points, otherwise the spread.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum Tournament {
@@ -31,17 +31,17 @@ pub enum Tournament {
 /// Combinations ranked by measured points.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct Ranking {
-    /// Name of the set that gives everything else.
+    /// Name of the model set of all other components.
     pub model_set: String,
     /// Gear state.
     pub gear: String,
-    /// Unit of errors: `points` of efficiency, `w` or `nm`.
+    /// Unit of errors: `points` (percentage points of efficiency), `w` or `nm`.
     pub unit: &'static str,
-    /// Number of combinations that were ranked. [-]
+    /// Number of ranked combinations. [-]
     pub combinations: usize,
-    /// Root mean square of the accuracies of the points; absent where no point has one in this unit. [unit]
+    /// Root mean square of the accuracies of the points; absent if no point has one in this unit. [unit]
     pub accuracy: Option<f64>,
-    /// What a reader should know of the accuracy of the points.
+    /// Notes on the accuracy of the points.
     pub notes: Vec<String>,
     /// Correlation between the errors of any two points. [-]
     pub correlation: f64,
@@ -49,25 +49,25 @@ pub struct Ranking {
     pub correlation_estimated: bool,
     /// Variance of the errors over the stated one. [-]
     pub variance_over_stated: f64,
-    /// Place of the winner in the ranking, from zero. [-]
+    /// Index of the winner in the ranking. [-]
     pub winner: usize,
-    /// Place of the best combination without a mark, from zero; absent where all are marked. [-]
+    /// Index of the best combination without a mark; absent if all are marked. [-]
     pub best_unmarked: Option<usize>,
-    /// The best of all against the best without a mark; absent where they are the same, or all are marked.
+    /// The best of all compared with the best without a mark; absent if they are the same, or all are marked.
     pub best_against_unmarked: Option<Comparison>,
-    /// The mechanisms with the models that take part.
+    /// The mechanisms with their candidates.
     pub mechanisms: Vec<MechanismOfTournament>,
     /// The measured points.
     pub points: Vec<RankedPoint>,
-    /// The combinations, the smallest predicted error first.
+    /// The combinations, sorted by predicted error.
     pub ranking: Vec<RankedCombination>,
-    /// Unit of errors in words.
+    /// Unit of errors as text.
     #[serde(skip)]
     pub unit_in_words: &'static str,
-    /// How the file was understood.
+    /// Notes on the detected format of the file.
     #[serde(skip)]
     pub notes_on_file: Vec<String>,
-    /// Number of measured points of other gear states. [-]
+    /// Number of measured points in other gears. [-]
     #[serde(skip)]
     pub points_of_other_gears: usize,
     /// Number of combinations that could not be ranked. [-]
@@ -79,19 +79,19 @@ pub struct Ranking {
     /// Whether factors on the losses were fitted.
     #[serde(skip)]
     pub fits_factors: bool,
-    /// How many combinations the study wants to see. [-]
+    /// Requested number of printed combinations. [-]
     #[serde(skip)]
     pub shown: usize,
-    /// How far the added losses of the winner are at most from the losses that are solved as a whole. [% of the loss]
+    /// Maximum difference between the added losses of the winner and its losses solved together. [% of the loss]
     #[serde(skip)]
     pub gap_of_sum: f64,
-    /// Number of stated ranges that models left. [-]
+    /// Number of quantities outside their stated ranges. [-]
     #[serde(skip)]
     pub unlisted: usize,
-    /// Loss of all that does not change, by point. [W]
+    /// Loss of all other components, by point. [W]
     #[serde(skip)]
     pub rest_w: Vec<f64>,
-    /// Why models do not take part.
+    /// Why models are omitted.
     #[serde(skip)]
     pub left_out: Vec<String>,
 }
@@ -99,21 +99,21 @@ pub struct Ranking {
 /// The spread of all combinations over a grid.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct Spread {
-    /// Name of the set that gives everything else.
+    /// Name of the model set of all other components.
     pub model_set: String,
     /// Gear state.
     pub gear: String,
-    /// Unit of errors: `points` of efficiency, `w` or `nm`.
+    /// Unit of errors: `points` (percentage points of efficiency), `w` or `nm`.
     pub unit: &'static str,
     /// Number of combinations. [-]
     pub combinations: usize,
-    /// The mechanisms with the models that take part.
+    /// The mechanisms with their candidates.
     pub mechanisms: Vec<MechanismOfTournament>,
-    /// How much each mechanism contributes.
+    /// Contribution of each mechanism.
     pub shares_of_spread: Vec<ShareOfSpread>,
     /// The points of the grid.
     pub points: Vec<SpreadPoint>,
-    /// Unit of errors in words.
+    /// Unit of errors as text.
     #[serde(skip)]
     pub unit_in_words: &'static str,
     /// Standard deviation over the combinations, root mean square over the points. [unit]
@@ -125,43 +125,43 @@ pub struct Spread {
     /// Speeds of the grid. [rad/s]
     #[serde(skip)]
     pub speeds: Vec<f64>,
-    /// Number of stated ranges that models left. [-]
+    /// Number of quantities outside their stated ranges. [-]
     #[serde(skip)]
     pub unlisted: usize,
-    /// Why models do not take part.
+    /// Why models are omitted.
     #[serde(skip)]
     pub left_out: Vec<String>,
 }
 
-/// A mechanism whose models change.
+/// A mechanism with varied models.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct MechanismOfTournament {
     /// Mechanism, with the slot of a drag.
     pub mechanism: String,
-    /// The models that take part.
+    /// The candidates.
     pub candidates: Vec<CandidateOfTournament>,
 }
 
-/// A model that takes part.
+/// A candidate.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct CandidateOfTournament {
     /// Its name in the tournament.
     pub name: String,
-    /// The model as in a gearbox; null for what the set has.
+    /// The model as in a gearbox; null for the model of the set.
     pub model: Value,
     /// Loss of the mechanism at each point. [W]
     pub losses_w: Vec<f64>,
-    /// Stated ranges that it leaves at the points, in words.
+    /// Quantities outside their stated ranges at the points, as text.
     pub outside: Vec<String>,
     /// The quantities of these ranges.
     #[serde(skip)]
     pub quantities_outside: Vec<&'static str>,
-    /// Time of all points over that of the set. [-]
+    /// Time of all points relative to that of the set. [-]
     #[serde(skip)]
     pub time: f64,
 }
 
-/// A measured point, and what the shortlist predicts there.
+/// A measured point and the predictions of the shortlist.
 #[derive(Debug, Clone, Copy, Serialize, JsonSchema)]
 pub struct RankedPoint {
     /// Torque. [Nm]
@@ -172,11 +172,11 @@ pub struct RankedPoint {
     pub measured_loss_w: f64,
     /// Its standard deviation. [W]
     pub loss_accuracy_w: f64,
-    /// The same in the unit of errors; absent where the quantity does not exist. [unit]
+    /// The same in the unit of errors; absent if the quantity does not exist. [unit]
     pub accuracy: Option<f64>,
-    /// How much the point counts. [-]
+    /// Weight of the point. [-]
     pub weight: f64,
-    /// Weighted mean of the losses that the shortlist predicts. [W]
+    /// Weighted mean of the losses predicted by the shortlist. [W]
     pub mean_loss_w: f64,
     /// Their weighted standard deviation. [W]
     pub deviation_w: f64,
@@ -187,76 +187,76 @@ pub struct RankedPoint {
     /// Speed. [rad/s]
     #[serde(skip)]
     pub speed: f64,
-    /// An error of one watt in the unit of errors; absent where the quantity does not exist. [unit/W]
+    /// An error of one watt in the unit of errors; absent if the quantity does not exist. [unit/W]
     #[serde(skip)]
     pub scale: Option<f64>,
 }
 
-/// A combination of models against the measured points.
+/// A combination of models compared with the measured points.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct RankedCombination {
     /// Name of the model of each mechanism.
     pub models: Vec<String>,
-    /// Root mean square of the predicted errors over the accuracy of the points. [-]
+    /// Root mean square of the predicted errors relative to the accuracy of the points. [-]
     pub predicted_over_accuracy: f64,
     /// Root mean square of the predicted errors. [unit]
     pub predicted_rms: Option<f64>,
-    /// That of the worst group. [unit]
+    /// The same of the worst group. [unit]
     pub worst_group_rms: Option<f64>,
     /// Root mean square of the errors with factors fitted to all points. [unit]
     pub fitted_rms: Option<f64>,
     /// Their mean. [unit]
     pub mean: Option<f64>,
-    /// Factor on the loss of each mechanism; one where none are fitted. [-]
+    /// Factor on the loss of each mechanism; one without a fit. [-]
     pub factors: Vec<f64>,
-    /// Mechanisms whose factor is on a bound.
+    /// Mechanisms whose factor is at a bound.
     pub on_bound: Vec<String>,
-    /// What speaks against it: stated ranges that a model left, factors on a bound.
+    /// Marks: quantities outside stated ranges, factors at a bound.
     pub marks: Vec<String>,
-    /// The winner against it; absent for the winner.
+    /// The winner compared with it; absent for the winner.
     pub winner_against_it: Option<Comparison>,
-    /// Weight on the shortlist; absent where it is not on it. [-]
+    /// Weight on the shortlist; absent if it is not on it. [-]
     pub weight: Option<f64>,
-    /// Place of the candidate of each mechanism.
+    /// Index of the candidate of each mechanism.
     #[serde(skip)]
     pub places: Vec<usize>,
-    /// The winner against it, also where it is the winner.
+    /// The winner compared with it, including the winner itself.
     #[serde(skip)]
     pub against: Comparison,
 }
 
-/// One combination against another.
+/// Comparison of one combination with another.
 #[derive(Debug, Clone, Copy, Serialize, JsonSchema)]
 pub struct Comparison {
     /// Whether the first is better.
     pub decision: Decision,
-    /// Errors of the groups of points; absent where too few groups count.
+    /// Errors of the groups of points; absent with too few valid groups.
     pub folds: Option<ComparisonOfGroups>,
-    /// How far apart the predictions are, in standard deviations of the set of points. [-]
+    /// Separation of the predictions in standard deviations of the set of points. [-]
     pub separation: f64,
-    /// Misfit of the second less that of the first, allowing for common errors. [-]
+    /// Misfit of the second minus that of the first, allowing for common errors. [-]
     pub evidence: f64,
 }
 
 /// Errors of two combinations, group by group.
 #[derive(Debug, Clone, Copy, Serialize, JsonSchema)]
 pub struct ComparisonOfGroups {
-    /// Geometric mean of the error of the first over that of the second. [-]
+    /// Geometric mean of the ratio of errors, first over second. [-]
     pub ratio: f64,
     /// Its 95 % interval. [-]
     pub interval: [f64; 2],
-    /// Number of groups that the first predicts better. [-]
+    /// Number of groups in which the first predicts better. [-]
     pub won: usize,
     /// Number of groups. [-]
     pub groups: usize,
 }
 
-/// How much a mechanism contributes to the spread.
+/// Contribution of a mechanism to the spread.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct ShareOfSpread {
     /// Mechanism.
     pub mechanism: String,
-    /// Its share of the variance; absent where nothing spreads. [-]
+    /// Its share of the variance; absent without a spread. [-]
     pub share: Option<f64>,
 }
 
@@ -297,7 +297,7 @@ impl Comparison {
 }
 
 impl Ranking {
-    /// Losses that a combination predicts at the points. \[W\]
+    /// Losses predicted by a combination at the points. \[W\]
     pub fn losses(&self, combination: &RankedCombination) -> Vec<f64> {
         let mechanisms = self.mechanisms.iter().map(|mechanism| {
             let candidates = mechanism.candidates.iter();

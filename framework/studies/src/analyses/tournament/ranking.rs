@@ -1,5 +1,5 @@
-//! Combinations ranked by how well they predict measured losses, over their accuracy; the winner, and those that are not distinguishable
-//! from it.
+//! Combinations ranked by prediction errors of measured losses relative to their accuracy; the winner, and those that are not
+//! distinguishable from it.
 
 use gearloss_numerics::selection::{Combination, MeasuredLosses, Shortlist, Winner, rank, shortlist, winner};
 
@@ -12,7 +12,7 @@ use super::{Comparison, RankedCombination, RankedPoint, Ranking, TournamentEntry
 use crate::analysis::{GridResult, Statistics, run_grid};
 use crate::study::Data;
 
-/// A ranking with what follows from it.
+/// A ranking with its conclusions.
 struct Ranked {
     combinations: Vec<Combination>,
     winner: Winner,
@@ -20,7 +20,7 @@ struct Ranked {
 }
 
 impl Ranked {
-    /// Weight of a combination by its place; absent where it is not on the shortlist.
+    /// Weight of a combination by its index; absent if it is not on the shortlist.
     fn weight(&self, place: usize) -> Option<f64> {
         let member = self.shortlist.members.iter().position(|own| *own == place)?;
         self.shortlist.weights.get(member).copied()
@@ -43,7 +43,7 @@ impl TournamentEntry {
         }
         let (mut list, mut unlisted) = (own.given, 0);
         if !measured.rig.is_silent() {
-            // The speeds tell what the rig adds; the rest of the torque is left for the transmission.
+            // The contribution of the rig depends on the speeds; it is subtracted from the torque.
             let solved = cx.solve(base, &cx.listed(t, &gear, list.clone()))?;
             unlisted += left(t, &solved);
             for (given, p) in list.iter_mut().zip(solved.points) {
@@ -92,7 +92,7 @@ impl TournamentEntry {
         let fewest = outside.min().unwrap_or(0);
         if self.factors.is_some() && fewest < field.slots.len() {
             let message = format!(
-                "{fewest} points outside of a group cannot fit {} factors",
+                "{fewest} points outside a group cannot fit {} factors",
                 field.slots.len()
             );
             return Err(cx.wrong(&data, message, "give more points, or fewer mechanisms"));
@@ -103,12 +103,12 @@ impl TournamentEntry {
         let ranked = rank(&losses, measured, bounds, &|| running.advance(1));
         drop(running);
         if !cx.goes_on() {
-            return Err(Stopped::Interrupted);
+            return Err(cx.why_ended());
         }
         let is_marked = |c: &Combination| !field.marks(c).is_empty();
         let Some(winner) = winner(&ranked, &is_marked, &losses, measured, self.correlation) else {
-            let message = "no combination can be ranked by these points";
-            let help = "give points with a weight above zero, or wider bounds of the factors";
+            let message = "no combination can be ranked with these points";
+            let help = "give points with a positive weight, or wider bounds of the factors";
             return Err(cx.wrong(&data, message, help));
         };
         let shortlist = shortlist(&ranked, &winner, &losses, measured);
@@ -120,7 +120,7 @@ impl TournamentEntry {
     }
 }
 
-/// The measured points, with what the shortlist predicts there.
+/// The measured points with the predictions of the shortlist.
 fn points(rows: &Measurements, list: &Shortlist) -> Vec<RankedPoint> {
     let point = |i: usize| RankedPoint {
         torque_nm: rows.torques[i],
@@ -139,7 +139,7 @@ fn points(rows: &Measurements, list: &Shortlist) -> Vec<RankedPoint> {
     (0..rows.losses.len()).map(point).collect()
 }
 
-/// All combinations, the smallest predicted error first.
+/// All combinations, sorted by predicted error.
 fn combinations(field: &Field<'_>, found: &Ranked) -> Vec<RankedCombination> {
     let combination = |(i, c): (usize, &Combination)| {
         let against = Comparison::new(&found.winner.standings[i]);
@@ -163,7 +163,7 @@ fn combinations(field: &Field<'_>, found: &Ranked) -> Vec<RankedCombination> {
     found.combinations.iter().enumerate().map(combination).collect()
 }
 
-/// How far losses that were added are at most from the combination solved as a whole. \[% of the loss\]
+/// Maximum difference between added losses and the combination solved together. \[% of the loss\]
 fn gap_of_sum(cx: &Context<'_>, field: &Field<'_>, c: &Combination) -> Result<f64, Stopped> {
     let base = field.base;
     let mut resolved = base.resolved.clone();

@@ -1,8 +1,8 @@
-//! A mechanism whose models change, and where they are in a description.
+//! A mechanism with varied models, and their paths in a description.
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::language::{DRAGS, HELD, Language};
-use gearloss_framework::resolve::{Came, Resolved};
+use gearloss_framework::resolve::{Resolved, ValueSource};
 use gearloss_framework::transmission::PartInfo;
 use serde_json::{Map, Value};
 
@@ -10,7 +10,7 @@ use super::super::{Context, Stopped};
 use super::CandidatesEntry;
 use super::marks::Mark;
 
-/// A mechanism whose models change.
+/// A mechanism with varied models.
 pub struct Slot {
     /// Mechanism, with the slot of a drag.
     pub name: String,
@@ -21,7 +21,7 @@ pub struct Slot {
     pub candidates: Vec<Candidate>,
 }
 
-/// A model, and what it loses at every point.
+/// A model and its loss at every point.
 pub struct Candidate {
     /// Name in the tournament.
     pub name: String,
@@ -29,22 +29,22 @@ pub struct Candidate {
     pub model: Value,
     /// \[W\]
     pub loss: Vec<f64>,
-    /// Time of all points over that of the set which the tournament starts from.
+    /// Time of all points relative to that of the base set.
     pub time: f64,
-    /// Stated ranges that it leaves at the points.
+    /// Quantities outside their stated ranges at the points.
     pub marks: Vec<Mark>,
 }
 
 impl Slot {
-    /// That of an entry at a path, without candidates.
+    /// From an entry at a path, without candidates.
     pub fn new(cx: &Context<'_>, path: &str, entry: &CandidatesEntry) -> Result<Self, Stopped> {
         let drag = entry.mechanism == DRAGS;
         if !drag && section(cx.language, &entry.mechanism).is_none() {
             let keys = cx.language.registry().mechanisms();
             let fits = |key: &&str| *key == DRAGS || section(cx.language, key).is_some();
             let keys: Vec<&str> = keys.iter().map(|m| m.key).filter(fits).collect();
-            let message = format!("`{}` is no mechanism whose models change", entry.mechanism);
-            let help = format!("name one of {}", keys.join(", "));
+            let message = format!("`{}` is not a mechanism with exchangeable models", entry.mechanism);
+            let help = format!("write one of {}", keys.join(", "));
             return Err(cx.wrong(&format!("{path}.mechanism"), message, &help));
         }
         let slot = match (&entry.slot, drag) {
@@ -52,7 +52,7 @@ impl Slot {
             (None, false) => None,
             (Some(_), false) => {
                 let message = format!("`{}` has no slots", entry.mechanism);
-                return Err(cx.wrong(&format!("{path}.slot"), message, "leave `slot` out"));
+                return Err(cx.wrong(&format!("{path}.slot"), message, "delete `slot`"));
             }
         };
         Ok(Self {
@@ -77,7 +77,7 @@ impl Slot {
         part.mechanism == self.mechanism && slot.is_none_or(|slot| part.path.ends_with(&slot))
     }
 
-    /// Numbers of the parts that it covers.
+    /// Indices of the components that it covers.
     pub fn covered(&self, parts: &[PartInfo]) -> Vec<usize> {
         (0..parts.len()).filter(|i| self.covers(&parts[*i])).collect()
     }
@@ -98,14 +98,14 @@ impl Slot {
         }
     }
 
-    /// The description with another model, nothing for that of the set, in every place of the mechanism that has no model of its own.
+    /// The description with another model (null for the model of the set) in every slot of the mechanism without its own model.
     pub fn with(&self, language: &Language, resolved: &Resolved, model: &Value) -> Result<Resolved, String> {
         let mut changed = resolved.clone();
         if model.is_null() {
             return Ok(changed);
         }
         let Some(slot) = &self.drag else {
-            let section = section(language, &self.mechanism).ok_or("its models sit in no section of the gearbox")?;
+            let section = section(language, &self.mechanism).ok_or("its models are not in a section of the gearbox")?;
             for (id, record) in records(&mut changed.value, section) {
                 let path = format!("{section}.{id}.model");
                 if taken_over(resolved, &path) {
@@ -134,9 +134,9 @@ impl Slot {
     }
 }
 
-/// True where a model came from a set or the defaults by mechanism.
+/// True if a model is from a set or from the defaults by mechanism.
 fn taken_over(resolved: &Resolved, path: &str) -> bool {
-    matches!(resolved.came(path), Came::Models | Came::Set(_))
+    matches!(resolved.source_of(path), ValueSource::Models | ValueSource::Set(_))
 }
 
 fn checked(language: &Language, model: &Value, path: &str) -> Result<Value, String> {
@@ -150,7 +150,7 @@ fn checked(language: &Language, model: &Value, path: &str) -> Result<Value, Stri
     language.checked(model, path).map_err(first)
 }
 
-/// Section that holds the models of a mechanism.
+/// Section of the models of a mechanism.
 fn section<'l>(language: &'l Language, mechanism: &str) -> Option<&'l str> {
     let held = HELD
         .iter()

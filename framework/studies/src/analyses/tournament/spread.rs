@@ -1,4 +1,4 @@
-//! The spread of all combinations where nothing was measured: the uncertainty of the models.
+//! The spread of all combinations without measurements: model-form uncertainty.
 
 use super::super::axes::grid_axes;
 use super::super::numbers::{RPM, tidy};
@@ -22,13 +22,13 @@ impl TournamentEntry {
         ];
         if of_data.contains(&true) {
             let message = "`factors`, `gear`, `errors` and `correlation` belong to `data`";
-            return Err(cx.wrong(&path, message, "leave them out, or give `data`"));
+            return Err(cx.wrong(&path, message, "delete them, or give `data`"));
         }
         let grid = cx.study.grid(&path, grid_name)?;
         let gear = cx.one_gear(&path, grid, t)?;
         if !grid.bind.is_empty() || grid.envelope.is_some() {
-            let message = "a tournament takes a grid without bound values and envelope";
-            return Err(cx.wrong(&path, message, "give it a grid of its own"));
+            let message = "a tournament needs a grid without bound values and envelope";
+            return Err(cx.wrong(&path, message, "give it its own grid"));
         }
         let (torques, speeds) = grid_axes(cx, grid_name, grid, t)?;
         let points = cx.points(t, &gear, torques.clone(), speeds.clone());
@@ -39,7 +39,7 @@ impl TournamentEntry {
         let field = Field::new(cx, self, base, &points)?;
         if field.scale.iter().any(Option::is_none) {
             let message = "an efficiency, or a loss torque, needs speed and torque at every point";
-            return Err(cx.wrong(&path, message, "leave zero out, or write `quantity: loss`"));
+            return Err(cx.wrong(&path, message, "omit zero, or write `quantity: loss`"));
         }
         let scales: Vec<f64> = field.scale.iter().map(|s| s.unwrap_or(0.0)).collect();
         let variances: Vec<f64> = field.slots.iter().map(|slot| variance(slot, &scales)).collect();
@@ -66,7 +66,7 @@ impl TournamentEntry {
     }
 }
 
-/// All combinations at one point. Losses of mechanisms add up, so extremes and moments over all combinations are the sums of theirs.
+/// All combinations at one point. Losses of mechanisms are added, so extremes and moments over all combinations are the sums of theirs.
 fn point(field: &Field<'_>, i: usize, scale: f64) -> SpreadPoint {
     let p = &field.points[i];
     let mut point = SpreadPoint {

@@ -35,13 +35,13 @@ impl Outcome for TournamentOutcome {
 fn combinations(name: &str, ranking: &Ranking) -> Table {
     let mechanisms = || ranking.mechanisms.iter().map(|m| m.mechanism.as_str());
     let unit = ranking.unit_in_words;
-    let mut columns = vec![Column::number("rank", "-", "Place in the ranking")];
+    let mut columns = vec![Column::number("rank", "-", "Position in the ranking")];
     columns.extend(mechanisms().map(|name| Column::text(name, format!("Model of {name}"))));
     columns.extend([
         Column::number(
             "predicted_over_accuracy",
             "-",
-            "Root mean square of the predicted errors over the accuracy of the points",
+            "Root mean square of the predicted errors relative to the accuracy of the points",
         ),
         Column::number("predicted_rms", unit, "Root mean square of the predicted errors"),
         Column::number(
@@ -56,25 +56,29 @@ fn combinations(name: &str, ranking: &Ranking) -> Table {
         mechanisms().map(|name| Column::number(format!("factor_{name}"), "-", format!("Factor on the loss of {name}"))),
     );
     columns.extend([
-        Column::text("on_bound", "Mechanisms whose factor is on a bound"),
+        Column::text("on_bound", "Mechanisms whose factor is at a bound"),
         Column::text("winner", "Whether it is the winner"),
         Column::text("indistinguishable", "Whether it is not distinguishable from the winner"),
         Column::number(
             "ratio_of_winner",
             "-",
-            "Errors of the winner over its own, group by group",
+            "Ratio of the errors of the winner to its errors, by group",
         ),
         Column::number("ratio_low", "-", "Lower end of the 95 % interval of the ratio"),
         Column::number("ratio_high", "-", "Upper end of the 95 % interval of the ratio"),
-        Column::number("groups_won_by_winner", "-", "Groups that the winner predicts better"),
+        Column::number(
+            "groups_won_by_winner",
+            "-",
+            "Number of groups in which the winner predicts better",
+        ),
         Column::number(
             "separation",
             "-",
-            "Distance of its predictions from those of the winner in standard deviations of the set of points",
+            "Separation of its predictions from those of the winner in standard deviations of the set of points",
         ),
-        Column::number("evidence", "-", "Its misfit less that of the winner"),
+        Column::number("evidence", "-", "Its misfit minus that of the winner"),
         Column::number("weight", "-", "Weight on the shortlist"),
-        Column::text("marks", "What speaks against it"),
+        Column::text("marks", "Marks: quantities outside stated ranges, factors at a bound"),
     ]);
     let mut table = Table::new(name, columns);
     for (i, combination) in ranking.ranking.iter().enumerate() {
@@ -111,21 +115,21 @@ fn row<'c>(ranking: &Ranking, i: usize, c: &'c RankedCombination) -> Vec<Cell<'c
     row
 }
 
-/// One row for each measured point: what the shortlist predicts, and how far it spreads.
+/// One row for each measured point: predictions of the shortlist and their spread.
 fn shortlist(name: &str, ranking: &Ranking) -> Table {
     let mut table = Table::new(
         format!("{name}-shortlist"),
         [
-            Column::text("gear", "Gear state"),
+            Column::text("gear", "Gear"),
             Column::number("torque_nm", "Nm", "Torque"),
             Column::number("speed_rpm", "rpm", "Speed"),
             Column::number("measured_loss_w", "W", "Measured loss"),
             Column::number("loss_accuracy_w", "W", "Standard deviation of the measured loss"),
-            Column::number("winner_loss_w", "W", "Loss that the winner predicts"),
+            Column::number("winner_loss_w", "W", "Loss predicted by the winner"),
             Column::number(
                 "mean_loss_w",
                 "W",
-                "Weighted mean of the losses that the shortlist predicts",
+                "Weighted mean of the losses predicted by the shortlist",
             ),
             Column::number("deviation_w", "W", "Weighted standard deviation of these losses"),
             Column::number("least_loss_w", "W", "The smallest of these losses"),
@@ -155,7 +159,7 @@ fn points(name: &str, spread: &Spread) -> Table {
     let mut table = Table::new(
         name,
         [
-            Column::text("gear", "Gear state"),
+            Column::text("gear", "Gear"),
             Column::number("torque_nm", "Nm", "Torque"),
             Column::number("speed_rpm", "rpm", "Speed"),
             Column::number("least_loss_w", "W", "The smallest loss of all combinations"),

@@ -1,7 +1,7 @@
-//! Samples of uncertain inputs over a grid, and the bands that they leave.
+//! Samples of uncertain inputs over a grid, and the resulting bands.
 
 use gearloss_numerics::sampling::Sobol;
-use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use super::{PointOfBand, QuantityBand, UncertainInput};
 use crate::analyses::inputs::Input;
@@ -10,21 +10,45 @@ use crate::analyses::trial::{Left, Trial, left};
 use crate::analyses::{Built, Context, Stopped};
 use crate::analysis::{PointResult, Points, correlation, quantile};
 
-/// Shares of the samples below the ends and the middle of a band.
+/// Probabilities of the ends and the middle of a band.
 pub const SHARES: [f64; 3] = [0.025, 0.5, 0.975];
 
-/// Values of the inputs, the solved points, and which stated ranges were left: path and quantity.
-type Sample = (Vec<f64>, Vec<PointResult>, Vec<(String, &'static str)>);
+/// Values of the inputs, the solved points, and the stated ranges outside which the sample lies.
+type Sample = (Vec<f64>, Vec<PointOfSample>, Left);
+
+/// A solved point of a sample.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+pub struct PointOfSample {
+    /// Power out over power in. \[-\]
+    efficiency: Option<f64>,
+    /// Sum of all losses. \[W\]
+    loss: Option<f64>,
+    /// Loss over the speed of the reference port. \[Nm\]
+    loss_torque: Option<f64>,
+    /// Temperature of the oil. \[°C\]
+    oil: Option<f64>,
+}
+
+impl From<&PointResult> for PointOfSample {
+    fn from(point: &PointResult) -> Self {
+        Self {
+            efficiency: point.efficiency,
+            loss: point.loss,
+            loss_torque: point.loss_torque,
+            oil: point.oil,
+        }
+    }
+}
 
 /// All samples of one set.
 pub struct Samples {
     /// Values of the inputs and the solved points of each sample that could be built.
-    pub solved: Vec<(Vec<f64>, Vec<PointResult>)>,
+    pub solved: Vec<(Vec<f64>, Vec<PointOfSample>)>,
     /// Why each of the others has no value.
     pub failed: Vec<String>,
 }
 
-/// Solves all samples; the same whatever the number of threads. Adds the stated ranges that they left.
+/// Solves all samples, independent of the number of threads. Adds quantities outside their stated ranges.
 pub fn solve(
     cx: &Context<'_>,
     count: u32,
@@ -35,9 +59,8 @@ pub fn solve(
 ) -> Result<Samples, Stopped> {
     let sobol = Sobol::new(inputs.len()).map_err(|reason| cx.wrong("analyses", reason, "use fewer inputs"))?;
     let trial = Trial::new(cx, built);
-    let running = cx.running(count as usize, &built.name);
-    let sample = |i: u32| -> Result<Sample, String> {
-        let place = sobol.point(i);
+    let sample = |i: usize| -> Result<Sample, String> {
+        let place = sobol.point(i as u32);
         let values: Vec<f64> = inputs
             .iter()
             .zip(place)
@@ -47,14 +70,10 @@ pub fn solve(
         let changes = changes.flat_map(|(input, value)| input.range.varied.overrides(*value));
         let transmission = trial.build(changes)?;
         let solved = trial.solve(&transmission, points)?;
-        running.advance(1);
         let left = left(&transmission, &solved.seen).collect();
-        Ok((values, solved.points, left))
+        Ok((values, solved.points.iter().map(PointOfSample::from).collect(), left))
     };
-    let all: Vec<_> = (0..count).into_par_iter().with_max_len(1).map(sample).collect();
-    if !cx.goes_on() {
-        return Err(Stopped::Interrupted);
-    }
+    let all = cx.each(&built.name, count as usize, sample)?;
     let (mut solved, mut failed) = (Vec::new(), Vec::new());
     for result in all {
         match result {
@@ -67,7 +86,7 @@ pub fn solve(
     }
     if solved.len() < 2 {
         let message = format!(
-            "hardly a sample could be built: {}",
+            "hardly any sample could be built: {}",
             failed.first().map_or("", String::as_str)
         );
         return Err(cx.wrong("analyses", message, "narrow the ranges of the inputs"));
@@ -79,15 +98,16 @@ impl Samples {
     /// The points of the grid with their bands.
     pub fn points(&self, nominal: &[PointResult]) -> Vec<PointOfBand> {
         let point = |(i, p): (usize, &PointResult)| {
-            let quantity = |read: fn(&PointResult) -> Option<f64>| QuantityBand {
-                nominal: read(p),
+            let nominal = PointOfSample::from(p);
+            let quantity = |read: fn(&PointOfSample) -> Option<f64>| QuantityBand {
+                nominal: read(&nominal),
                 band: self.band(i, read),
             };
             let efficiency_percent = quantity(|p| p.efficiency.map(|e| 100.0 * e));
             PointOfBand {
                 torque_nm: p.torque,
                 speed_rpm: tidy(p.speed * RPM),
-                // Results hold efficiencies as shares.
+                // Results contain efficiencies as fractions.
                 efficiency: efficiency_percent.scaled(0.01),
                 loss_w: quantity(|p| p.loss),
                 loss_torque_nm: quantity(|p| p.loss_torque),
@@ -99,7 +119,7 @@ impl Samples {
     }
 
     /// Ends and middle of the band of a quantity at a point; absent where fewer than half of the samples have a value.
-    fn band(&self, point: usize, read: fn(&PointResult) -> Option<f64>) -> Option<[f64; 3]> {
+    fn band(&self, point: usize, read: fn(&PointOfSample) -> Option<f64>) -> Option<[f64; 3]> {
         let all = self.solved.iter();
         let mut values: Vec<f64> = all.filter_map(|(_, points)| read(&points[point])).collect();
         values.sort_by(f64::total_cmp);
@@ -108,7 +128,7 @@ impl Samples {
 
     /// The inputs with their correlation with the mean loss over the grid, the strongest first.
     pub fn ranked(&self, inputs: &[Input]) -> Vec<UncertainInput> {
-        let mean = |points: &Vec<PointResult>| {
+        let mean = |points: &Vec<PointOfSample>| {
             let losses: Vec<f64> = points.iter().filter_map(|p| p.loss).collect();
             (!losses.is_empty()).then(|| losses.iter().sum::<f64>() / losses.len() as f64)
         };

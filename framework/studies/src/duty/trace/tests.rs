@@ -124,17 +124,17 @@ fn a_window_takes_the_rows_within() {
     assert_eq!((trace.samples.len(), trace.duration()), (3, 2.0));
     assert_eq!(
         faults(&window(Some(3.5), None), text),
-        ["1 row of 5 count; a series over time needs two | widen `start` and `end`"]
+        ["1 row of 5 can be used; a time series needs at least two | widen `start` and `end`"]
     );
 }
 
 #[test]
 fn times_that_repeat_or_fall_are_refused() {
-    let help = "sort the rows by time, with one row for each; a recording that starts again is another file";
+    let help = "sort the rows by time and remove duplicates; put a restarted recording into another file";
     assert_eq!(
         faults(&entry(), "t [s],v [m/s]\n0,0\n1,0\n1,0\n2,0\n0.5,0\n"),
         [
-            format!("line 4: time 1 s stands already in line 3 | {help}"),
+            format!("line 4: time 1 s is already in line 3 | {help}"),
             format!("line 6: time 0.5 s is before the 2 s of line 5 | {help}"),
         ]
     );
@@ -158,20 +158,20 @@ fn a_gap_is_refused_unless_it_is_accepted() {
 
 #[test]
 fn cells_without_a_number_are_told_together() {
-    let help = "correct the cell, or leave the row out";
+    let help = "correct the cell, or delete the row";
     assert_eq!(
         faults(&entry(), "t [s],v [m/s]\n0,NaN\n1,\n2,fast\n3,-0.1\n"),
         [
             format!("line 2, column 2 `v`: `NaN` is not a number | {help}"),
             format!("line 3, column 2 `v`: empty | {help}"),
             format!("line 4, column 2 `v`: `fast` is not a number | {help}"),
-            format!("line 5, column 2 `v`: `-0.1` is below zero | {help}"),
+            format!("line 5, column 2 `v`: `-0.1` is negative | {help}"),
         ]
     );
     assert_eq!(
         faults(&entry(), "t [h],v [m/s]\n0,0\n1e308,0\n"),
         [format!(
-            "line 3, column 1 `t`: `1e308` is larger than anything that occurs | {help}"
+            "line 3, column 1 `t`: `1e308` is unrealistically large | {help}"
         )]
     );
     let many = format!("t [s],v [m/s]\n{}", "0,x\n".repeat(8));
@@ -179,7 +179,7 @@ fn cells_without_a_number_are_told_together() {
     assert_eq!(found.len(), 5);
     assert_eq!(
         found[4],
-        format!("line 6, column 2 `v`: `x` is not a number; 3 more of this kind follow | {help}")
+        format!("line 6, column 2 `v`: `x` is not a number; 3 more errors of this kind | {help}")
     );
 }
 
@@ -187,21 +187,21 @@ fn cells_without_a_number_are_told_together() {
 fn missing_columns_tell_those_there_are() {
     assert_eq!(
         faults(&entry(), "time [s],v [m/s]\n0,0\n1,0\n"),
-        ["line 1: no column is called `t`; there are: time, v | name one of them"]
+        ["line 1: there is no column `t`; there are: time, v | choose one of them"]
     );
     let bare = FileCycleEntry::named("drive.csv");
     assert_eq!(
         faults(&bare, "t [s],v [m/s]\n0,0\n1,0\n"),
         [
-            "line 1: no column holds the time; there are: t, v | name one under `columns: { time: ... }`",
-            "line 1: no column holds the vehicle's speed, nor torque and speed; there are: t, v | name one under `columns: { \
+            "line 1: there is no column for the time; there are: t, v | state one under `columns: { time: ... }`",
+            "line 1: there is no column for the vehicle speed, or torque and speed; there are: t, v | state one under `columns: { \
              vehicle_speed: ... }`",
         ]
     );
     assert_eq!(
         faults(&bare, "time [s],torque [Nm]\n0,0\n1,0\n"),
         [
-            "line 1: no column holds the speed beside the torque; there are: time, torque | name one under `columns: { speed: \
+            "line 1: there is no column for the speed in addition to the torque; there are: time, torque | state one under `columns: { speed: \
           ... }`"
         ]
     );
@@ -210,7 +210,7 @@ fn missing_columns_tell_those_there_are() {
         ..FileCycleEntry::named("drive.csv")
     };
     assert!(
-        faults(&wrong, "time [s],v [m/s]\n0,0\n1,0\n")[0].starts_with("`velocity` is no quantity of such a file | ")
+        faults(&wrong, "time [s],v [m/s]\n0,0\n1,0\n")[0].starts_with("`velocity` is not a quantity of this file | ")
     );
 }
 
@@ -218,7 +218,7 @@ fn missing_columns_tell_those_there_are() {
 fn unknown_and_missing_units_are_refused() {
     assert_eq!(
         faults(&entry(), "t [s],v [knots]\n0,0\n1,0\n"),
-        ["line 1, column `v`: `knots` is no unit of speed | state it: `units: { vehicle_speed: m/s }`"]
+        ["line 1, column `v`: `knots` is not a unit of speed | state it: `units: { vehicle_speed: m/s }`"]
     );
     assert_eq!(
         faults(&entry(), "t [s],v\n0,0\n1,0\n"),
@@ -239,8 +239,8 @@ fn accelerations_that_no_vehicle_has_are_refused() {
     assert_eq!(
         faults(&entry(), text),
         [
-            format!("line 3: an acceleration of 13 m/s2 from the line before; the most is 12 m/s2 | {help}"),
-            format!("line 5: an acceleration of -12.5 m/s2 from the line before; the most is 12 m/s2 | {help}"),
+            format!("line 3: an acceleration of 13 m/s2 from the previous line; the maximum is 12 m/s2 | {help}"),
+            format!("line 5: an acceleration of -12.5 m/s2 from the previous line; the maximum is 12 m/s2 | {help}"),
         ]
     );
     let stated = FileCycleEntry {
@@ -262,7 +262,7 @@ fn a_shaft_may_change_its_speed_as_fast_as_it_is_stated() {
     assert_eq!(
         faults(&stated, text),
         [
-            "line 3: the speed changes by 3000 rpm/s from the line before; the most is 1000 rpm/s | correct the speeds and their \
+            "line 3: the speed changes by 3000 rpm/s from the previous line; the maximum is 1000 rpm/s | correct the speeds and their \
           unit, or state another `most_speed_change`"
         ]
     );
@@ -273,11 +273,15 @@ fn fewer_than_two_rows_are_refused() {
     let help = "check the file, its header and its separator";
     assert_eq!(
         faults(&entry(), "t [s],v [m/s]\n0,0\n"),
-        [format!("1 row of 1 count; a series over time needs two | {help}")]
+        [format!(
+            "1 row of 1 can be used; a time series needs at least two | {help}"
+        )]
     );
     assert_eq!(
         faults(&entry(), "t [s],v [m/s]\n"),
-        [format!("0 rows of 0 count; a series over time needs two | {help}")]
+        [format!(
+            "0 rows of 0 can be used; a time series needs at least two | {help}"
+        )]
     );
 }
 
@@ -285,7 +289,7 @@ fn fewer_than_two_rows_are_refused() {
 fn a_speed_of_the_vehicle_needs_the_vehicle() {
     let trace = Trace::read(&entry(), b"t [s],v [m/s]\n0,0\n1,1\n").unwrap();
     let f = trace.intervals(None).unwrap_err();
-    assert_eq!(f.message, "the duty tells the speed of a vehicle and no torque");
+    assert_eq!(f.message, "the cycle has a vehicle speed but no torque");
 }
 
 #[test]
@@ -296,5 +300,8 @@ fn a_series_is_not_repeated_into_more_intervals_than_are_held() {
         ..Trace::default()
     };
     let refused = trace.intervals(None).unwrap_err();
-    assert_eq!(refused.message, "6000 rows 1000 times are more than 5000000 intervals");
+    assert_eq!(
+        refused.message,
+        "6000 rows repeated 1000 times exceed 5000000 intervals"
+    );
 }

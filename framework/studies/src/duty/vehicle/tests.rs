@@ -78,7 +78,7 @@ fn a_road_load_is_stated_once_and_wholly() {
     let drag_area = Some(0.5);
     assert_eq!(
         message(VehicleEntry { drag_area, ..bare() }),
-        format!("vehicle: `rolling_resistance` is missing beside `drag_area` {help}")
+        format!("vehicle: `drag_area` needs `rolling_resistance` {help}")
     );
     let rolling_resistance = Some(0.01);
     assert_eq!(
@@ -86,7 +86,7 @@ fn a_road_load_is_stated_once_and_wholly() {
             rolling_resistance,
             ..bare()
         }),
-        format!("vehicle: `drag_area` is missing beside `rolling_resistance` {help}")
+        format!("vehicle: `rolling_resistance` needs `drag_area` {help}")
     );
     assert_eq!(
         message(VehicleEntry { drag_area, ..sedan() }),
@@ -95,7 +95,7 @@ fn a_road_load_is_stated_once_and_wholly() {
     let air_density = Some(1.1);
     assert_eq!(
         message(VehicleEntry { air_density, ..sedan() }),
-        "vehicle.air_density: a coast-down test holds the air's density already (help: leave `air_density` out)"
+        "vehicle.air_density: a coast-down test already includes the air density (help: delete `air_density`)"
     );
 }
 

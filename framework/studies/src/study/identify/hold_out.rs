@@ -1,20 +1,20 @@
-//! Rows of an identification that are not fitted, and groups of rows that are predicted from the others.
+//! Held-out rows of an identification, and groups of rows for cross-validation.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Rows that are not fitted: they are predicted afterwards.
+/// Held-out rows, which are predicted after the fit.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum HoldOutEntry {
-    /// A condition on the rows that are held out, such as `torque > 1000 Nm`.
+    /// A condition on the held-out rows, such as `torque > 1000 Nm`.
     Where(String),
-    /// Rows that are held out, chosen in one of four ways.
+    /// Held-out rows, by one of four selections.
     Rows(HoldOutRows),
 }
 
 impl HoldOutEntry {
-    /// The ways in which rows are chosen; a bare condition is that under `where`.
+    /// The selections of rows; a condition alone is equivalent to `where`.
     pub fn rows(&self) -> HoldOutRows {
         match self {
             Self::Where(condition) => HoldOutRows {
@@ -26,29 +26,28 @@ impl HoldOutEntry {
     }
 }
 
-/// Rows that are held out: one of `column`, `where`, `every` and `random`.
+/// Held-out rows: one of `column`, `where`, `every` and `random`.
 #[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
 pub struct HoldOutRows {
-    /// Column of the file, by its header, that says 1, true or yes in rows that are held out, and 0, false, no or nothing in the
-    /// others.
+    /// Column of the file, by its header, with 1, true or yes in held-out rows, and 0, false, no or nothing in the others.
     pub column: Option<String>,
-    /// Condition on the rows that are held out: quantities and columns of the file compared by `==`, `!=`, `<`, `<=`, `>`, `>=`
-    /// with values and their units, joined by `and`, `or`, `not` and parentheses. A row without the value is fitted.
+    /// Condition on the held-out rows: quantities and columns of the file compared by `==`, `!=`, `<`, `<=`, `>`, `>=` with values and
+    /// their units, combined by `and`, `or`, `not` and parentheses. Rows without the value are fitted.
     #[serde(rename = "where")]
     pub condition: Option<String>,
-    /// Every n-th row in the order of the file: 5 holds out the fifth, the tenth and so on. [-]
+    /// Every n-th row of the file: 5 means the fifth, the tenth and so on. [-]
     #[schemars(range(min = 2, max = 1_000_000))]
     pub every: Option<u32>,
-    /// Share of the rows that is held out at random. Between neighbours that are fitted a row is easily predicted: a condition
-    /// that holds out a whole torque, speed or temperature tests more. [-]
+    /// Share of randomly held-out rows. A row between fitted neighbours is easily predicted: holding out a whole torque, speed or
+    /// temperature by a condition is a stronger test. [-]
     #[schemars(range(min = 0.001, max = 0.999))]
     pub random: Option<f64>,
-    /// Number from which the random choice follows, the same rows for the same number; absent, 1. [-]
+    /// Seed of the random choice; default: 1. [-]
     #[schemars(range(min = 0, max = 1_000_000_000))]
     pub seed: Option<u32>,
 }
 
-/// Groups of rows of which each is predicted from the others.
+/// Groups of rows for cross-validation.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum FoldsEntry {
@@ -61,15 +60,15 @@ pub enum FoldsEntry {
 /// Groups of rows by a quantity of the data.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct FoldsBy {
-    /// `torque`, `speed`, `oil_temperature` or another measured quantity: groups of neighbouring values. `sign`: rows in which power
-    /// enters at the port of the torque, and those in which it leaves. `random`: rows drawn by lot; neighbouring rows of a rig err together, and a
-    /// group whose neighbours are fitted is predicted too well to tell how the model does elsewhere. Else a column of the file by
-    /// its header: a group for each text, or groups of neighbouring numbers.
+    /// `torque`, `speed`, `oil_temperature` or another measured quantity: groups of neighbouring values. `sign`: rows with power entering
+    /// and rows with power leaving at the port of the torque. `random`: random rows; errors of neighbouring rows are correlated, so
+    /// predictions between fitted neighbours are too optimistic for extrapolation. Otherwise a column of the file by its header: a group
+    /// for each text, or groups of neighbouring numbers.
     pub by: String,
-    /// How many groups, where they are not given by texts or signs; absent, 5. [-]
+    /// Number of groups, unless given by texts or signs; default: 5. [-]
     #[schemars(range(min = 2, max = 20))]
     pub count: Option<u32>,
-    /// Number from which random groups follow, the same groups for the same number; absent, 1. [-]
+    /// Seed of random groups; default: 1. [-]
     #[schemars(range(min = 0, max = 1_000_000_000))]
     pub seed: Option<u32>,
 }

@@ -3,11 +3,11 @@ use super::super::circuit::tests::drive_unit;
 use super::super::circuit::{Circuit, Exchange};
 use super::*;
 
-/// Nodes of the drive unit that store heat; its first is nothing, its second the surroundings, its last behind the exchanger.
+/// Nodes of the drive unit that store heat; its first is unused, its second the ambient, its last behind the exchanger.
 const STORING: std::ops::Range<usize> = 2..17;
 const START: f64 = 23.0;
 
-/// The drive unit, its heat falling and the link of casing and sump rising by a share per kelvin.
+/// The drive unit, with its heat decreasing and the link of casing and sump increasing by a share per kelvin.
 #[derive(Clone)]
 struct Unit {
     circuit: Circuit,
@@ -50,10 +50,10 @@ impl Unit {
         (t, heats)
     }
 
-    /// Temperatures per second, written out once more: without a matrix and without the circuit's own equations.
+    /// Temperature rates, implemented independently: without a matrix and without the circuit's own equations.
     fn slopes(&self, y: &[f64]) -> Vec<f64> {
         let mut t = y.to_vec();
-        // What stores nothing follows at once.
+        // Nodes without heat capacity follow immediately.
         let Exchange { from, to, .. } = self.circuit.exchangers[0];
         t[to] = self.circuit.exchangers[0].outlet(t[from]);
         let mut heat: Vec<f64> = (0..t.len()).map(|i| self.heat(i, t[i])).collect();
@@ -73,13 +73,13 @@ impl Unit {
         slopes
     }
 
-    /// The temperatures that another solver finds.
+    /// The temperatures from another solver.
     fn reference(&self, duration: f64) -> Vec<f64> {
         dormand_prince(|t| self.slopes(t), vec![START; self.heat.len()], duration)
     }
 }
 
-/// Weights of the slopes so far in each stage of Dormand and Prince, 5(4); those of the last give the solution of fifth order.
+/// Weights of the previous slopes in each stage of Dormand and Prince, 5(4); those of the last stage give the fifth-order solution.
 const STAGES: [&[f64]; 6] = [
     &[1.0 / 5.0],
     &[3.0 / 40.0, 9.0 / 40.0],
@@ -102,7 +102,7 @@ const STAGES: [&[f64]; 6] = [
     ],
 ];
 
-/// Weights of all slopes in the difference of fifth and fourth order.
+/// Weights of all slopes in the difference between fifth and fourth order.
 const DIFFERENCE: [f64; 7] = [
     71.0 / 57600.0,
     0.0,
@@ -113,7 +113,7 @@ const DIFFERENCE: [f64; 7] = [
     -1.0 / 40.0,
 ];
 
-/// Solves y' = f(y) explicitly, with steps of its own, each to 1e-11 relative and absolute.
+/// Solves y' = f(y) explicitly, with adaptive steps, each to 1e-11 relative and absolute.
 fn dormand_prince(slopes: impl Fn(&[f64]) -> Vec<f64>, mut y: Vec<f64>, duration: f64) -> Vec<f64> {
     let (mut time, mut step) = (0.0, 1e-3);
     while time < duration {
@@ -209,7 +209,7 @@ fn adapted_steps_keep_to_their_tolerance() {
             let (t, heats) = unit.march(Scheme::Implicit, StepSize::Adaptive(tolerance), &[600.0]);
             let error = error(&t, &reference);
             assert!(error < 0.5 * tolerance, "{per_kelvin} {tolerance}: {error}");
-            assert!(heats.residual().abs() < 1e-9 * heats.came());
+            assert!(heats.residual().abs() < 1e-9 * heats.heat_input());
             assert!(unit.steps[0] < 200 && unit.steps[1] < 20, "{:?}", unit.steps);
         }
     }
@@ -225,7 +225,7 @@ fn energy_is_kept_whatever_the_steps() {
         let (_, heats) = Unit::new(0.01).march(scheme, step, &[30.0, 600.0, 0.5]);
         assert!((heats.duration - 630.5).abs() < 1e-9);
         assert!(
-            heats.residual().abs() < 1e-9 * heats.came(),
+            heats.residual().abs() < 1e-9 * heats.heat_input(),
             "{scheme:?} {step:?} {}",
             heats.residual()
         );
@@ -277,7 +277,7 @@ fn what_never_agrees_is_told_and_changes_nothing() {
     struct Wild(bool);
     impl Heated for Wild {
         fn warm(&mut self, _: &[f64], warm: &mut Warm) -> Result<(), Unbalanced> {
-            // Two answers in turn, far apart however short the step.
+            // Two alternating results, far apart for any step length.
             self.0 = !self.0;
             warm.circuit = Circuit {
                 capacities: vec![0.0, 0.0],

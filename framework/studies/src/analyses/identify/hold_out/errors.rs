@@ -1,4 +1,4 @@
-//! Errors of one quantity, and a sentence about them.
+//! Errors of one quantity, and their verdict.
 
 use gearloss_numerics::inference::{Coverage, ErrorSummary, PlacedError, Region};
 
@@ -6,18 +6,18 @@ use crate::analyses::numbers::{figures, fixed};
 use crate::identify::CONFIDENCE;
 use crate::study::{Difference, Quantity};
 
-/// Errors of one quantity, of fitted rows and of rows held out, in efficiency points, W, Nm or K.
+/// Errors of one quantity, of fitted and held-out rows, in percentage points, W, Nm or K.
 #[derive(Debug, Clone)]
 pub struct ErrorsOfQuantity {
     /// The quantity.
     pub quantity: Quantity,
     /// All errors.
     pub all: Vec<PlacedError>,
-    /// Summed up over fitted rows.
+    /// Summary over fitted rows.
     pub fitted: Option<ErrorSummary>,
-    /// Summed up over rows that were held out.
+    /// Summary over held-out rows.
     pub held_out: Option<ErrorSummary>,
-    /// How many measurements lie inside of their bands.
+    /// Coverage of the bands.
     pub coverage: Option<Coverage>,
     /// Errors by region.
     pub regions: Vec<Region>,
@@ -37,12 +37,12 @@ fn percent(share: f64) -> String {
 }
 
 impl ErrorsOfQuantity {
-    /// Whether errors are also stated in percent of what was measured.
+    /// Whether errors are also stated in percent of the measured values.
     pub fn is_relative(&self) -> bool {
         matches!(self.quantity, Quantity::Loss | Quantity::LossTorque)
     }
 
-    /// What there is to say, in one sentence.
+    /// The verdict as a sentence.
     pub(super) fn sentence(&self, choice: &str) -> Option<String> {
         let held = self.held_out?;
         let (what, unit) = self.quantity.words(Difference::Points);
@@ -64,7 +64,7 @@ impl ErrorsOfQuantity {
         let at = held.greatest;
         let points = if held.count == 1 { "point" } else { "points" };
         let mut words = format!(
-            "predicts the {what} of the {} {points} held out ({choice}) to {} {own} rms{held_over}{beside}, bias {} {own}, worst {} {unit} at \
+            "predicts the {what} of the {} held-out {points} ({choice}) with {} {own} rms{held_over}{beside}, bias {} {own}, maximum {} {unit} at \
              {} Nm and {} rpm (line {})",
             held.count,
             short(rms),
@@ -76,14 +76,14 @@ impl ErrorsOfQuantity {
         );
         if let Some((coverage, [low, high])) = self.coverage.and_then(|c| Some((c, c.interval(CONFIDENCE)?))) {
             let judged = if high < CONFIDENCE {
-                "; the bands are too narrow: the model errs there by more than its fit says"
+                "; the bands are too narrow: the errors there are larger than the fit indicates"
             } else if low > CONFIDENCE {
                 "; the bands are wider than the errors"
             } else {
                 ""
             };
             words += &format!(
-                "; {} of {} lie inside their 95 % bands ({} %, 95 % interval {} to {} %){judged}",
+                "; {} of {} are inside their 95 % bands ({} %, 95 % interval {} to {} %){judged}",
                 coverage.inside,
                 coverage.count,
                 percent(coverage.share()),

@@ -35,7 +35,7 @@ fn compare(t: &Transmission, speeds: &[f64], torques: &[f64], temperatures: &[f6
             continue;
         }
         let mut scratch = t.scratch(&case);
-        let mut rows = t.row_scratch(&case);
+        let mut rows = t.batch_scratch(&case);
         for speed in speeds {
             for temperature in temperatures {
                 let own_speeds = vec![*speed; case.speed_ports.len()];
@@ -49,7 +49,7 @@ fn compare(t: &Transmission, speeds: &[f64], torques: &[f64], temperatures: &[f6
                 let temperature = [*temperature];
                 // Those of one sense first, then a few of both and none.
                 let blocks = torques.chunk_by(|a, b| a * b > 0.0).flat_map(|own| own.chunks(LANES));
-                let mut row = t.row(&case, &point, &temperature, &mut rows);
+                let mut row = t.batch(&case, &point, &temperature, &mut rows);
                 for some in blocks.chain([&torques[12..25]]) {
                     let block = row.solve(some);
                     let mut alone = Vec::new();
@@ -142,7 +142,7 @@ fn what_follows_from_the_speeds_before_agrees_within_the_tolerance() {
             power: 1e-13,
             passes: 60,
         };
-        let mut rows = t.row_scratch(&case);
+        let mut rows = t.batch_scratch(&case);
         let (mut passes, mut fewer, mut points) = (0, 0, 0);
         // Each temperature begins anew.
         for (temperature, sense) in [
@@ -161,7 +161,7 @@ fn what_follows_from_the_speeds_before_agrees_within_the_tolerance() {
                 };
                 let temperature = [temperature];
                 let own: Vec<f64> = torques.iter().map(|torque| sense * torque).collect();
-                let mut row = t.row(&case, &point, &temperature, &mut rows);
+                let mut row = t.batch(&case, &point, &temperature, &mut rows);
                 for some in own.chunks(LANES) {
                     let block = row.follow(some);
                     for (lane, torque) in some.iter().enumerate().filter(|(lane, _)| !block.alone()[*lane]) {
@@ -330,7 +330,7 @@ fn what_was_seen_is_the_same_taken_in_one_go_or_in_the_middle_of_a_row() {
     let case = t.case(&t.states()[0].name, &[], &[t.ports()[0].name.as_str()]).unwrap();
     let torques: Vec<f64> = (1..=200).map(|i| 0.1 * f64::from(i)).collect();
     let seen = |parts: &[&[f64]]| {
-        let mut rows = t.row_scratch(&case);
+        let mut rows = t.batch_scratch(&case);
         let mut seen: Option<Vec<Extent>> = None;
         for part in parts {
             let point = Point {
@@ -338,7 +338,7 @@ fn what_was_seen_is_the_same_taken_in_one_go_or_in_the_middle_of_a_row() {
                 torques: &[0.0],
                 ..Point::default()
             };
-            let mut row = t.row(&case, &point, &[90.0], &mut rows);
+            let mut row = t.batch(&case, &point, &[90.0], &mut rows);
             for some in part.chunks(LANES) {
                 row.solve(some);
             }

@@ -1,4 +1,4 @@
-//! Loads of all supports in the lanes of a block.
+//! Bearing loads in the lanes of a block.
 
 use super::SupportLoad;
 use super::shaft_loads::{ShaftLoads, under};
@@ -6,7 +6,7 @@ use super::statics::Reaction;
 use super::thrust::Taking;
 use crate::lanes::{LANES, Lane, each, gather, is_even, over, wide};
 
-/// Loads of one support in all lanes: what [`SupportLoad`] is for a point.
+/// Loads of one support in all lanes: the batched [`SupportLoad`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LoadLanes {
     /// Radial loads. \[N\]
@@ -15,7 +15,7 @@ pub struct LoadLanes {
     pub axial: Lane,
     /// Tilting moments. \[Nm\]
     pub tilting: Lane,
-    /// Thrust that nothing on the member takes, signed towards +x; zero when all is well. \[N\]
+    /// Untaken thrust of the member, signed towards +x; zero if there is none. \[N\]
     pub untaken: Lane,
 }
 
@@ -38,10 +38,10 @@ impl LoadLanes {
         }
     }
 
-    /// Whether all lanes have the same load, as beside a gear that idles.
+    /// True if all lanes have the same load, as beside an idling gear.
     #[inline]
     pub(crate) fn is_even(&self) -> bool {
-        // Mostly the last one tells.
+        // Usually the last lane decides.
         self.radial[0] == self.radial[LANES - 1]
             && wide(
                 #[inline(always)]
@@ -87,10 +87,10 @@ fn length(
 }
 
 impl ShaftLoads {
-    /// As [`ShaftLoads::evaluate`] for the tangential forces of a block; to be called within [`crate::lanes::wide`]. What is never
-    /// anything but zero is not written: the loads are to be [`LoadLanes::NONE`] before the first call.
+    /// As [`ShaftLoads::evaluate`] for the tangential forces of a block; to be called within [`crate::lanes::wide`]. Loads that are
+    /// always zero are not written, so they must be [`LoadLanes::NONE`] before the first call.
     #[inline(always)]
-    pub(crate) fn evaluate_abreast(
+    pub(crate) fn evaluate_batched(
         &self,
         tangential: &[Lane],
         speeds: &[f64],
@@ -109,7 +109,7 @@ impl ShaftLoads {
             }
         }
         let (passed, sizes) = passed.split_at_mut(self.order.len());
-        // Without carriers nothing is ever passed on.
+        // Without carriers no thrust is passed on.
         let carried = self.order.iter().any(|member| member.carrier.is_some());
         if carried {
             passed.fill(Lane::ZERO);
@@ -117,7 +117,7 @@ impl ShaftLoads {
         }
         for (place, member) in self.order.iter().enumerate() {
             let forces = member.meshes.iter().map(|(mesh, factor)| (*factor, &tangential[*mesh]));
-            // The sum, and that of the magnitudes.
+            // The sum, and the sum of the magnitudes.
             let step = |[sum, size]: [f64; 2], (factor, force): (f64, &Lane), i: usize| {
                 let own = factor * force[i];
                 [sum + own, size + own.abs()]
@@ -139,7 +139,7 @@ impl ShaftLoads {
             } else {
                 (thrust, scale)
             };
-            let untaken = member.taking.share_abreast(&thrust, &scale, loads);
+            let untaken = member.taking.share_batched(&thrust, &scale, loads);
             if let Some((carrier, copies)) = member.carrier {
                 passed[carrier] = each(|i| passed[carrier][i] + (thrust[i] - untaken[i]) * copies);
                 sizes[carrier] = each(|i| sizes[carrier][i] + scale[i] * copies);
@@ -148,14 +148,14 @@ impl ShaftLoads {
     }
 }
 
-/// A sum of forces, or none where only rounding is left of them.
+/// A sum of forces, or zero if it is rounding error.
 #[inline(always)]
 fn settled(sum: f64, size: f64) -> f64 {
     if sum.abs() <= 1e-9 * size { 0.0 } else { sum }
 }
 
 impl Taking {
-    /// The one support that takes thrust of both senses, with its share, where there is nothing but that.
+    /// The single support that takes thrust in both directions, with its share, if there is no other.
     #[inline(always)]
     fn only(&self) -> Option<(usize, f64)> {
         let simple = self.pair.is_none() && self.springs.is_empty() && self.takers[0] == self.takers[1];
@@ -165,9 +165,9 @@ impl Taking {
         }
     }
 
-    /// As [`Taking::share`] in all lanes, where it writes the axial loads anew.
+    /// As [`Taking::share`] in all lanes; overwrites the axial loads.
     #[inline(always)]
-    fn share_abreast(&self, thrust: &Lane, scale: &Lane, loads: &mut [LoadLanes]) -> Lane {
+    fn share_batched(&self, thrust: &Lane, scale: &Lane, loads: &mut [LoadLanes]) -> Lane {
         if let Some((place, share)) = self.only() {
             loads[place].axial = each(|i| settled(thrust[i], scale[i]).abs() * share);
             return Lane::ZERO;
@@ -217,9 +217,9 @@ impl Taking {
 pub(super) mod tests {
     use super::*;
 
-    /// Asserts that loads abreast are those of single points, to the bit.
-    pub fn assert_abreast(loads: &ShaftLoads, meshes: usize, speeds: &[f64]) {
-        // Forces of both senses and none.
+    /// Asserts that batched loads equal those of single points, to the bit.
+    pub fn assert_batched_equals_single(loads: &ShaftLoads, meshes: usize, speeds: &[f64]) {
+        // Forces of both signs and zero.
         let tangential: Vec<Lane> = (0..meshes)
             .map(|k| each(|i| 137.0 * (i as f64 - 5.0) * if (i + k) % 3 == 0 { -1.0 } else { 1.0 + 0.1 * k as f64 }))
             .collect();
@@ -228,7 +228,7 @@ pub(super) mod tests {
         let mut passed = vec![Lane::all(0.0); loads.scratch_len()];
         wide(
             #[inline(always)]
-            || loads.evaluate_abreast(&tangential, speeds, &mut passed, &mut together),
+            || loads.evaluate_batched(&tangential, speeds, &mut passed, &mut together),
         );
         for i in 0..LANES {
             let own: Vec<f64> = tangential.iter().map(|lane| lane[i]).collect();

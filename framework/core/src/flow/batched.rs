@@ -1,53 +1,53 @@
-//! Torque flow with losses for the points of a block, which share speeds and drivers.
+//! Power flow with losses for the points of a block, which share speeds and driving gears.
 //!
-//! This is the loop of [`super::solve`] for points that give it no trouble, in the same operations unless a trail gives a guess of the
-//! torques, with which a first pass may be the last. A lane in which a driver
-//! turns, or that does not settle within a few passes, is left to that loop.
+//! This is the batched loop of [`super::solve`] for points that converge easily. The operations are the same, unless extrapolated
+//! initial torques allow the first iteration to be the last. A lane in which a driving gear changes, or that does not converge
+//! within a few iterations, is excluded and solved by that loop.
 
+use super::history::{TorqueHistory, UNKNOWN};
 use super::linear::{Panels, larger};
 use super::solve::{NO_POWER, PATIENCE, REACH, SAFETY, drive};
 use super::system::{Flow, Friction, Side};
-use super::trail::{Trail, UNKNOWN};
 use super::work::{Drive, Tolerance};
 use crate::lanes::{LANES, Lane, count, each, gather, greatest, over, weighted, wide};
 
-/// Passes after which a lane is left alone; before, the loop for single points changes nothing in its pace.
+/// Iterations after which a lane is excluded; up to here, the loop for single points does not change its relaxation.
 const FEW: usize = PATIENCE - 2;
 
-/// A mismatch below this share of the greatest one may be rounding, and says nothing of how fast it falls.
+/// A mismatch below this share of the largest one may be rounding and gives no convergence rate.
 const NEGLIGIBLE: f64 = 1e-3;
 
 const ZERO: Lane = Lane::all(0.0);
 
-/// What one block needs and leaves.
+/// Workspace and result of one block.
 #[derive(Debug, Clone)]
 pub struct WorkLanes {
-    /// Multipliers of the rows as written, of the torques at which models were asked last.
+    /// Multipliers of the rows as written, at the torques of the last model evaluation.
     multipliers: Vec<Lane>,
     /// Torques of ports on all columns.
     pub ports: Vec<Lane>,
     /// Loss of each mesh as used in the accepted solve. \[W\]
     pub mesh_loss: Vec<Lane>,
-    /// Which gear drives, by mesh, in all lanes that are not left alone.
+    /// Which gear drives, by mesh, in all lanes that are not excluded.
     pub drives: Vec<Drive>,
-    /// Lanes that are left alone.
+    /// Excluded lanes.
     pub alone: [bool; LANES],
-    /// Lanes whose loads and losses agree; what they are asked at no longer changes.
+    /// Converged lanes; their torques no longer change.
     pub done: [bool; LANES],
-    /// Passes over the loss models.
+    /// Iterations over the loss models.
     pub passes: [usize; LANES],
     rolling: Vec<Lane>,
-    /// The share of an error that one pass leaves.
+    /// Share of an error that remains after one iteration.
     rate: Lane,
     largest: Lane,
-    /// What the models answered for the meshes. \[W\]
-    asked: Vec<Lane>,
+    /// Results of the models for the meshes. \[W\]
+    model_losses: Vec<Lane>,
     used: Vec<Lane>,
     used_before: Vec<Lane>,
     answer: Vec<Lane>,
     answer_before: Vec<Lane>,
     weights: Vec<Lane>,
-    /// Entries of the losses that the last two passes have moved.
+    /// Entries of the losses that changed in the last two iterations.
     live: Vec<usize>,
     applied: Vec<Lane>,
     relative: Vec<[f64; 2]>,
@@ -57,27 +57,27 @@ pub struct WorkLanes {
     step: Vec<Lane>,
     active: Vec<usize>,
     small: Vec<Lane>,
-    /// Which entries of the small system are not zero in all lanes.
+    /// Entries of the small system that are nonzero in some lane.
     filled: Vec<bool>,
     shares: Vec<Lane>,
-    /// Power per step of the unknown of each mesh, as if nothing rested.
+    /// Power per step of the unknown of each mesh, ignoring standstill.
     powers: Vec<f64>,
 }
 
-/// What a block is to be solved for.
+/// Right-hand side of a block.
 #[derive(Debug, Clone, Copy)]
 pub struct TaskLanes<'a> {
     /// Speeds of all columns. \[rad/s\]
     pub speeds: &'a [f64],
     /// Torques of the given ports, in their order. \[Nm\]
     pub torques: &'a [Lane],
-    /// Torques on all columns from drags that do not hang on torque. \[Nm\]
+    /// Torques on all columns from drags that are independent of torque. \[Nm\]
     pub steady: &'a [f64],
-    /// How well loads and losses must agree.
+    /// Tolerance of the agreement between loads and losses.
     pub tolerance: Tolerance,
 }
 
-/// Torques at one pass, and where the caller writes the losses that follow from them.
+/// Torques in one iteration, and the target of the losses that follow from them.
 pub struct FlowLanes<'a> {
     /// Multipliers of the rows as written. \[Nm per coefficient\]
     pub multipliers: &'a [Lane],
@@ -85,7 +85,7 @@ pub struct FlowLanes<'a> {
     pub drives: &'a [Drive],
     /// Torques on all columns from ports. \[Nm\]
     pub ports: &'a [Lane],
-    /// Lanes in which torques count no longer.
+    /// Lanes whose torques are no longer used.
     pub done: &'a [bool; LANES],
     /// Loss of each mesh, all copies together, to be written. \[W\]
     pub mesh_loss: &'a mut [Lane],
@@ -93,7 +93,7 @@ pub struct FlowLanes<'a> {
     pub drags: &'a mut [Lane],
 }
 
-/// A matrix without its zeros: for each row its columns and entries.
+/// A sparse matrix: for each row its columns and entries.
 #[derive(Debug, Clone, Default)]
 pub(super) struct SparseMatrix {
     /// For each row the end of its entries.
@@ -123,7 +123,7 @@ impl SparseMatrix {
     }
 }
 
-/// A vector without its zeros: places and entries.
+/// A sparse vector: indices and entries.
 #[derive(Debug, Clone, Default)]
 pub(super) struct SparseVector(Vec<(usize, f64)>);
 
@@ -143,21 +143,21 @@ impl SparseVector {
     }
 }
 
-/// Whether two lanes have the same numbers.
+/// True if two lanes have the same numbers.
 #[inline(always)]
-fn same(a: &Lane, b: &Lane) -> bool {
+fn same_numbers(a: &Lane, b: &Lane) -> bool {
     count(|i| a[i] == b[i]) == LANES as u64
 }
 
-/// What one more pass leaves of an error that falls to some share of it in each, with all passes to come.
+/// Remaining share of an error after one more iteration and all following ones, from the share left by each.
 #[inline(always)]
 fn to_come(error: f64, rate: f64) -> f64 {
     let left = error * rate / larger(1e-3, 1.0 - rate);
-    // Also where the rate is unknown.
+    // Also if the rate is unknown.
     if error == 0.0 { 0.0 } else { left }
 }
 
-/// Whether every lane surely has this driver.
+/// True if every lane certainly has this driving gear.
 #[inline(always)]
 fn all_drive(drives: Drive, rolling: &Lane, largest: &Lane) -> bool {
     let sure = match drives {
@@ -168,7 +168,7 @@ fn all_drive(drives: Drive, rolling: &Lane, largest: &Lane) -> bool {
     sure == LANES as u64
 }
 
-/// The parts of a [`Flow`] without zeros.
+/// The parts of a [`Flow`] as sparse matrices.
 #[derive(Debug, Clone, Default)]
 pub(super) struct SparseFlow {
     base: SparseMatrix,
@@ -192,8 +192,8 @@ impl SparseFlow {
 }
 
 impl Flow {
-    /// Space for the blocks of this flow.
-    pub fn work_abreast(&self) -> WorkLanes {
+    /// Workspace for the blocks of this flow.
+    pub fn work_batched(&self) -> WorkLanes {
         let (n, k) = (self.columns, self.meshes.len());
         let lanes = |count: usize| vec![ZERO; count];
         let size = self.size.max(n);
@@ -208,7 +208,7 @@ impl Flow {
             rolling: lanes(k),
             rate: ZERO,
             largest: ZERO,
-            asked: lanes(k),
+            model_losses: lanes(k),
             used: lanes(2 * k + n),
             used_before: lanes(2 * k + n),
             answer: lanes(2 * k + n),
@@ -229,42 +229,42 @@ impl Flow {
         }
     }
 
-    /// As [`Flow::real`] for the points of a block. With a trail and a place on it the first torques are guessed
-    /// from it, and the block becomes its next step.
-    pub fn real_abreast(
+    /// As [`Flow::real`] for the points of a block. With an extrapolation history the initial torques are extrapolated from it, and
+    /// the block becomes its next step.
+    pub fn real_batched(
         &self,
         task: &TaskLanes<'_>,
-        trail: Option<(&mut Trail, f64)>,
+        history: Option<(&mut TorqueHistory, f64)>,
         work: &mut WorkLanes,
         mut losses: impl FnMut(&mut FlowLanes<'_>),
     ) {
-        let Some((trail, at)) = trail.filter(|_| task.tolerance.passes > 1) else {
-            return self.iterate_abreast(task, false, 0, work, &mut losses);
+        let Some((history, at)) = history.filter(|_| task.tolerance.passes > 1) else {
+            return self.iterate_batched(task, false, 0, work, &mut losses);
         };
         let guess = wide(
             #[inline(always)]
-            || self.guess_abreast(task, trail, at, work),
+            || self.guess_batched(task, history, at, work),
         );
         let guessed = guess && {
-            self.ask_abreast(work, &mut losses);
+            self.evaluate_models_batched(work, &mut losses);
             wide(
                 #[inline(always)]
                 || {
-                    let (growth, measured) = (trail.growth(at), trail.rate.as_ref());
+                    let (growth, measured) = (history.growth(at), history.rate.as_ref());
                     let rate = measured.map_or(Lane::all(UNKNOWN), |rate| over(rate, |rate| rate * growth));
-                    self.judge_abreast(task, &rate, work)
+                    self.finish_guess_batched(task, &rate, work)
                 },
             )
         };
         let good = guessed && !work.done.contains(&false);
-        self.iterate_abreast(task, guessed, usize::from(guess), work, &mut losses);
+        self.iterate_batched(task, guessed, usize::from(guess), work, &mut losses);
         if work.alone.contains(&true) {
-            return trail.clear();
+            return history.clear();
         }
         if !guessed {
-            trail.rate = Some(work.rate);
+            history.rate = Some(work.rate);
         }
-        trail.push(
+        history.push(
             task.torques,
             at,
             &work.drives,
@@ -273,9 +273,9 @@ impl Flow {
         );
     }
 
-    /// Passes over models and equilibrium until they agree: from the beginning, or after a first one from a guess. `pass` is the
-    /// number of those before.
-    fn iterate_abreast(
+    /// Iterates models and equilibrium until they agree: from the start, or after a first iteration from a guess. `pass` is the
+    /// number of previous iterations.
+    fn iterate_batched(
         &self,
         task: &TaskLanes<'_>,
         guessed: bool,
@@ -287,16 +287,16 @@ impl Flow {
         if !guessed {
             wide(
                 #[inline(always)]
-                || self.begin_abreast(task, work),
+                || self.begin_batched(task, work),
             );
         }
         let mut known = false;
         while pass < FEW.min(task.tolerance.passes) && !settled(work) {
             pass += 1;
-            self.ask_abreast(work, losses);
+            self.evaluate_models_batched(work, losses);
             wide(
                 #[inline(always)]
-                || self.pass_abreast(task, work, (known, guessed), pass),
+                || self.iteration_batched(task, work, (known, guessed), pass),
             );
             known = true;
         }
@@ -305,8 +305,8 @@ impl Flow {
         }
     }
 
-    fn ask_abreast(&self, work: &mut WorkLanes, losses: &mut impl FnMut(&mut FlowLanes<'_>)) {
-        work.asked.fill(ZERO);
+    fn evaluate_models_batched(&self, work: &mut WorkLanes, losses: &mut impl FnMut(&mut FlowLanes<'_>)) {
+        work.model_losses.fill(ZERO);
         wide(
             #[inline(always)]
             || {
@@ -321,43 +321,43 @@ impl Flow {
             drives: &work.drives,
             ports: &work.ports,
             done: &work.done,
-            mesh_loss: &mut work.asked,
+            mesh_loss: &mut work.model_losses,
             drags: &mut work.answer[drags..],
         });
     }
 
-    /// Guesses the torques of a first pass from a trail; false where it says nothing.
+    /// Extrapolates the torques of a first iteration; false if there is no basis for it.
     #[inline(always)]
-    fn guess_abreast(&self, task: &TaskLanes<'_>, trail: &mut Trail, at: f64, work: &mut WorkLanes) -> bool {
-        if !trail.weigh(task.torques, at) {
+    fn guess_batched(&self, task: &TaskLanes<'_>, history: &mut TorqueHistory, at: f64, work: &mut WorkLanes) -> bool {
+        if !history.weigh(task.torques, at) {
             return false;
         }
-        self.prepare_abreast(task, work);
-        work.drives.copy_from_slice(&trail.drives);
+        self.prepare_batched(task, work);
+        work.drives.copy_from_slice(&history.drives);
         for (place, unknown) in work.unknown[..self.size].iter_mut().enumerate() {
-            *unknown = trail.guess(place);
+            *unknown = history.guess(place);
         }
-        // Whether the drivers are still those of the trail shows when the losses have been seen.
-        self.torques_abreast(work);
+        // Whether the driving gears are still the same is known only after the losses have been evaluated.
+        self.torques_batched(work);
         true
     }
 
-    /// What follows a first pass from guessed torques: the equilibrium with its losses, and which lanes need no other pass. False
-    /// where a driver turned, so that the guess was none.
+    /// Completes a first iteration from extrapolated torques: the equilibrium with its losses, and which lanes have converged.
+    /// False if a driving gear changed, which invalidates the guess.
     #[inline(always)]
-    fn judge_abreast(&self, task: &TaskLanes<'_>, rate: &Lane, work: &mut WorkLanes) -> bool {
+    fn finish_guess_batched(&self, task: &TaskLanes<'_>, rate: &Lane, work: &mut WorkLanes) -> bool {
         let k = self.meshes.len();
         work.answers();
         std::mem::swap(&mut work.used, &mut work.answer);
-        self.right_abreast(work);
-        // What rests has no power, but its torque loads what turns.
+        self.right_side_batched(work);
+        // A stationary drag has no power, but its torque loads rotating members.
         let fastest = task.speeds.iter().fold(0.0, |most, speed| larger(most, speed.abs()));
         let speed = |speed: f64| if speed == 0.0 { fastest } else { speed.abs() };
         for ((power, row), relative) in work.powers.iter_mut().zip(&self.meshes).zip(&work.relative) {
             *power = (self.scale[row.row] * row.z1 * speed(relative[1])).abs();
         }
-        let neglected = self.close_abreast(task.speeds, speed, work);
-        self.accept_abreast(task.speeds, work);
+        let neglected = self.cfriction_losses_batched(task.speeds, speed, work);
+        self.accept_batched(task.speeds, work);
         let meshes = self.meshes.iter().zip(&work.powers);
         let ports = self.unknown.iter().zip(&work.step[self.rows..]);
         let moved = greatest(
@@ -372,14 +372,14 @@ impl Flow {
         work.passes = [1; LANES];
         if work.done.contains(&false) {
             work.rate = *rate;
-            // What follows takes the torques for an equilibrium with the losses used.
-            self.right_abreast(work);
-            self.friction_abreast(work);
-            self.refine_abreast(work);
+            // The following code takes the torques as an equilibrium with the losses used.
+            self.right_side_batched(work);
+            self.friction_batched(work);
+            self.refine_batched(work);
             for (unknown, step) in work.unknown.iter_mut().zip(&work.step) {
                 *unknown = each(|i| unknown[i] + step[i]);
             }
-            self.accept_abreast(task.speeds, work);
+            self.accept_batched(task.speeds, work);
             for losses in [&mut work.used_before, &mut work.answer_before] {
                 losses.copy_from_slice(&work.used);
             }
@@ -391,12 +391,12 @@ impl Flow {
         })
     }
 
-    /// What is given, for any first pass.
+    /// Writes the given torques, for any first iteration.
     #[inline(always)]
-    fn prepare_abreast(&self, task: &TaskLanes<'_>, work: &mut WorkLanes) {
+    fn prepare_batched(&self, task: &TaskLanes<'_>, work: &mut WorkLanes) {
         work.alone = [false; LANES];
         work.done = [false; LANES];
-        // No other column is ever applied; torques of other ports than these follow from the unknowns.
+        // No other column has an applied torque; torques of the other ports follow from the unknowns.
         for port in &self.given {
             work.applied[*port] = ZERO;
         }
@@ -408,12 +408,12 @@ impl Flow {
     }
 
     #[inline(always)]
-    fn begin_abreast(&self, task: &TaskLanes<'_>, work: &mut WorkLanes) {
+    fn begin_batched(&self, task: &TaskLanes<'_>, work: &mut WorkLanes) {
         let k = self.meshes.len();
-        self.prepare_abreast(task, work);
+        self.prepare_batched(task, work);
         work.rate = Lane::all(UNKNOWN);
         work.used.fill(ZERO);
-        // What an earlier block left there may be no number.
+        // An earlier block may have left NaN.
         work.used_before.fill(ZERO);
         work.answer_before.fill(ZERO);
         for (e, steady) in (2 * k..).zip(task.steady) {
@@ -422,8 +422,8 @@ impl Flow {
             }
         }
         work.drives.fill(Drive::Neither);
-        self.solve_abreast(task.speeds, work, &[false; LANES]);
-        // The drivers of the point with the greatest power are those of most.
+        self.solve_batched(task.speeds, work, &[false; LANES]);
+        // The driving gears of the point with the largest power are usually those of the others.
         let sound = (0..LANES).filter(|i| !work.alone[*i]);
         let most = sound.max_by(|a, b| work.largest[*a].total_cmp(&work.largest[*b]));
         let Some(first) = most else { return };
@@ -441,9 +441,15 @@ impl Flow {
         }
     }
 
-    /// What follows the answers of the models in one pass.
+    /// Processes the results of the models in one iteration.
     #[inline(always)]
-    fn pass_abreast(&self, task: &TaskLanes<'_>, work: &mut WorkLanes, (known, guessed): (bool, bool), pass: usize) {
+    fn iteration_batched(
+        &self,
+        task: &TaskLanes<'_>,
+        work: &mut WorkLanes,
+        (known, guessed): (bool, bool),
+        pass: usize,
+    ) {
         let &TaskLanes { speeds, tolerance, .. } = task;
         let k = self.meshes.len();
         work.answers();
@@ -458,7 +464,7 @@ impl Flow {
         for e in 0..work.used.len() {
             let (used, answer) = (&work.used[e], &work.answer[e]);
             let (used_before, answer_before) = (&work.used_before[e], &work.answer_before[e]);
-            if !(same(used, answer) && same(used, used_before) && same(answer, answer_before)) {
+            if !(same_numbers(used, answer) && same_numbers(used, used_before) && same_numbers(answer, answer_before)) {
                 work.live.push(e);
             }
         }
@@ -469,7 +475,7 @@ impl Flow {
         }
         let left = if known {
             let (left, rate) = work.remaining(&mismatch);
-            // What had no torque before says nothing in the pass in which it gets some, but in the next one.
+            // An entry that had no torque before gives no information in the iteration in which it gets some, but in the next.
             if !guessed {
                 let done = &work.done;
                 work.rate = each(|i| {
@@ -490,7 +496,7 @@ impl Flow {
         let back = if known { work.secant() } else { ZERO };
         let back = each(|i| if last[i] { 0.0 } else { back[i] });
         work.advance(&back, 2 * k);
-        self.solve_abreast(speeds, work, &last);
+        self.solve_batched(speeds, work, &last);
         for mesh in 0..k {
             work.turn(mesh, k);
         }
@@ -502,15 +508,15 @@ impl Flow {
         }
     }
 
-    /// As [`Flow::solve`]; `kept` lanes are refined.
+    /// As [`Flow::solve`]; converged lanes are refined.
     #[inline(always)]
-    fn solve_abreast(&self, speeds: &[f64], work: &mut WorkLanes, kept: &[bool; LANES]) {
-        self.right_abreast(work);
-        self.friction_abreast(work);
-        self.step_abreast(work);
+    fn solve_batched(&self, speeds: &[f64], work: &mut WorkLanes, kept: &[bool; LANES]) {
+        self.right_side_batched(work);
+        self.friction_batched(work);
+        self.step_batched(work);
         work.unknown.copy_from_slice(&work.step);
         if kept.contains(&true) {
-            self.refine_abreast(work);
+            self.refine_batched(work);
             let all = !kept.contains(&false);
             for (unknown, step) in work.unknown.iter_mut().zip(&work.step) {
                 *unknown = if all {
@@ -520,12 +526,12 @@ impl Flow {
                 };
             }
         }
-        self.accept_abreast(speeds, work);
+        self.accept_batched(speeds, work);
     }
 
-    /// What is given and lost, on the right-hand side.
+    /// Writes given torques and losses to the right-hand side.
     #[inline(always)]
-    fn right_abreast(&self, work: &mut WorkLanes) {
+    fn right_side_batched(&self, work: &mut WorkLanes) {
         let k = self.meshes.len();
         let (loaded, others) = work.right.split_at_mut(self.columns);
         for ((right, applied), drag) in loaded.iter_mut().zip(&work.applied).zip(&work.used[2 * k..]) {
@@ -537,7 +543,7 @@ impl Flow {
         for (mesh, row) in self.meshes.iter().enumerate() {
             let side = usize::from(work.drives[mesh] == Drive::Second);
             let (loss, relative) = (&work.used[k + mesh], work.relative[mesh][side]);
-            if relative == 0.0 || same(loss, &ZERO) {
+            if relative == 0.0 || same_numbers(loss, &ZERO) {
                 continue;
             }
             let torque = over(loss, |loss| loss / relative);
@@ -550,22 +556,23 @@ impl Flow {
         }
     }
 
-    /// The step from the unknowns that leaves nothing of what they lack.
+    /// Solves for the correction of the unknowns that removes their residual.
     #[inline(always)]
-    fn refine_abreast(&self, work: &mut WorkLanes) {
-        self.lack_abreast(work);
-        self.step_abreast(work);
+    fn refine_batched(&self, work: &mut WorkLanes) {
+        self.residual_batched(work);
+        self.step_batched(work);
     }
 
-    /// As [`solve_abreast`](Self::solve_abreast) from unknowns that are close: the meshes lose their share of the step as if it were the
-    /// one without friction. Leaves the step as well, and returns the share of its power that this neglects at most, which is about the square of all shares together, as far as meshes and ports feel each
-    /// other. Infinite where that is no small share, as close to self-locking.
+    /// As [`solve_batched`](Self::solve_batched) from unknowns close to the solution: the meshes lose their share of the correction
+    /// as if it were frictionless. Keeps the correction as well, and returns a bound of the neglected share of its power, which is
+    /// about the square of the sum of the loss shares of coupled meshes and ports. Infinite if that is not small, as close to
+    /// self-locking.
     #[inline(always)]
-    fn close_abreast(&self, speeds: &[f64], speed: impl Fn(f64) -> f64, work: &mut WorkLanes) -> Lane {
+    fn cfriction_losses_batched(&self, speeds: &[f64], speed: impl Fn(f64) -> f64, work: &mut WorkLanes) -> Lane {
         work.active.clear();
         work.active.extend(0..self.meshes.len());
-        self.lose_abreast(work);
-        // The new unknowns in place of the step, until the step is known.
+        self.friction_losses_batched(work);
+        // The new unknowns replace the correction until it is known.
         self.sparse.inverse.product(&work.right, &mut work.step);
         for (share, friction) in work.shares.iter_mut().zip(&self.friction) {
             let (new, old) = (&work.step[friction.row], &work.unknown[friction.row]);
@@ -591,7 +598,7 @@ impl Flow {
         for (step, new) in work.step.iter_mut().zip(&work.unknown) {
             *step = each(|i| new[i] - step[i]);
         }
-        // With C for coupling by shares the step is (1 - C) y and the exact one y/(1 + C): they differ by C^2/(1 - C^2) of the step.
+        // With the coupling C by shares the step is (1 - C) y and the exact one y/(1 + C): they differ by C^2/(1 - C^2) of the step.
         over(&together, |shares| {
             let square = (shares * coupling) * (shares * coupling);
             if square < 0.5 {
@@ -602,19 +609,19 @@ impl Flow {
         })
     }
 
-    /// What the unknowns lack, on the right-hand side.
+    /// Writes the residual of the unknowns to the right-hand side.
     #[inline(always)]
-    fn lack_abreast(&self, work: &mut WorkLanes) {
+    fn residual_batched(&self, work: &mut WorkLanes) {
         self.sparse.base.product(&work.unknown, &mut work.residual);
         for (right, residual) in work.right.iter_mut().zip(&work.residual) {
             *right = each(|i| right[i] - residual[i]);
         }
-        self.lose_abreast(work);
+        self.friction_losses_batched(work);
     }
 
-    /// What meshes with friction lose of their torques, on the right-hand side.
+    /// Writes the friction losses of the meshes' torques to the right-hand side.
     #[inline(always)]
-    fn lose_abreast(&self, work: &mut WorkLanes) {
+    fn friction_losses_batched(&self, work: &mut WorkLanes) {
         for &mesh in &work.active {
             let (row, side) = (self.friction[mesh].row, usize::from(work.drives[mesh] == Drive::Second));
             let (share, torque) = (&work.used[mesh], &work.unknown[row]);
@@ -623,10 +630,10 @@ impl Flow {
         }
     }
 
-    /// Torques and the losses used, from solved unknowns.
+    /// Torques and the losses used, from the solved unknowns.
     #[inline(always)]
-    fn accept_abreast(&self, speeds: &[f64], work: &mut WorkLanes) {
-        self.torques_abreast(work);
+    fn accept_batched(&self, speeds: &[f64], work: &mut WorkLanes) {
+        self.torques_batched(work);
         let ports = speeds.iter().copied().zip(&work.ports);
         work.largest = greatest(work.rolling.iter().map(|rolling| (1.0, rolling)).chain(ports));
         let k = self.meshes.len();
@@ -646,7 +653,7 @@ impl Flow {
 
     /// Torques of ports and powers of meshes, from the unknowns.
     #[inline(always)]
-    fn torques_abreast(&self, work: &mut WorkLanes) {
+    fn torques_batched(&self, work: &mut WorkLanes) {
         for (port, torque) in self.unknown.iter().zip(&work.unknown[self.rows..]) {
             work.ports[*port] = *torque;
         }
@@ -657,12 +664,12 @@ impl Flow {
         }
     }
 
-    /// Factors the small system of the meshes with friction. It is close to identity, so that no rows change places.
+    /// Factors the small system of the meshes with friction. It is close to identity, so no pivoting is needed.
     #[inline(always)]
-    fn friction_abreast(&self, work: &mut WorkLanes) {
+    fn friction_batched(&self, work: &mut WorkLanes) {
         work.active.clear();
         for mesh in 0..self.meshes.len() {
-            if !same(&work.used[mesh], &ZERO) {
+            if !same_numbers(&work.used[mesh], &ZERO) {
                 work.active.push(mesh);
             }
         }
@@ -715,7 +722,7 @@ impl Flow {
     }
 
     #[inline(always)]
-    fn step_abreast(&self, work: &mut WorkLanes) {
+    fn step_batched(&self, work: &mut WorkLanes) {
         self.sparse.inverse.product(&work.right, &mut work.step);
         let n = work.active.len();
         for (share, &mesh) in work.shares.iter_mut().zip(&work.active) {
@@ -748,12 +755,12 @@ impl Flow {
 }
 
 impl WorkLanes {
-    /// The entries of the losses from what the models said.
+    /// The entries of the losses from the results of the models.
     #[inline(always)]
     fn answers(&mut self) {
-        let k = self.asked.len();
+        let k = self.model_losses.len();
         for mesh in 0..k {
-            let (loss, rolling) = (&self.asked[mesh], &self.rolling[mesh]);
+            let (loss, rolling) = (&self.model_losses[mesh], &self.rolling[mesh]);
             let proportional = |i: usize| loss[i] > 0.0 && loss[i] < 0.5 * rolling[i].abs();
             self.answer[mesh] = each(|i| {
                 if proportional(i) {
@@ -766,7 +773,8 @@ impl WorkLanes {
         }
     }
 
-    /// Leaves the lanes in which the driver of a mesh is not the common one. One that had no torque may get its driver.
+    /// Excludes the lanes in which the driving gear of a mesh differs from the common one. A lane without previous torque may still
+    /// get its driving gear.
     #[inline(always)]
     fn turn(&mut self, mesh: usize, meshes: usize) {
         if all_drive(self.drives[mesh], &self.rolling[mesh], &self.largest) {
@@ -785,7 +793,7 @@ impl WorkLanes {
         let (share, constant) = (&self.used[mesh], &self.used[meshes + mesh]);
         for i in 0..LANES {
             self.alone[i] |= match now[i] {
-                // Without a driver the loss counts as with the first gear as driver.
+                // Without a driving gear the loss is computed as if the first gear drives.
                 Drive::Neither => now[first] == Drive::Second,
                 own => own != now[first] || share[i] > 0.0 || constant[i] > 0.0,
             };
@@ -799,8 +807,8 @@ impl WorkLanes {
         each(|i| (answer[i] - used[i]) * weight[i])
     }
 
-    /// As `remaining` of the loop for single points; and the greatest share that a pass leaves of any mismatch that counts beside the
-    /// greatest one. Where nothing moved that says nothing.
+    /// As `remaining` of the loop for single points; also returns the largest convergence rate of all mismatches that matter
+    /// relative to the largest one. A mismatch that did not change gives no rate.
     #[inline(always)]
     fn remaining(&self, greatest: &Lane) -> (Lane, Lane) {
         let (mut moved, mut followed) = (ZERO, ZERO);
@@ -831,7 +839,7 @@ impl WorkLanes {
             });
             rate = each(|i| {
                 let counts = mismatch[i].abs() > NEGLIGIBLE * greatest[i];
-                // What gets its first torque says nothing of a rate.
+                // An entry that gets its first torque gives no rate.
                 let (moved, followed) = ((used[i] - used_before[i]).abs(), (answer[i] - answer_before[i]).abs());
                 let own = if moved > 0.0 {
                     larger(common[i], followed / moved)
@@ -863,7 +871,7 @@ impl WorkLanes {
         })
     }
 
-    /// The losses of the next solve; those of lanes that are done stay.
+    /// The losses of the next solve; those of converged lanes stay.
     #[inline(always)]
     fn advance(&mut self, back: &Lane, magnitudes: usize) {
         for &e in &self.live {

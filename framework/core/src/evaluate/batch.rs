@@ -1,7 +1,8 @@
-//! Many points that differ in one torque, in blocks side by side.
+//! Batched points that differ in one torque.
 //!
-//! Speeds, oils and all that hangs on them alone, notes among it, are settled once for the row. The numbers of [`Row::solve`] are those of
-//! [`Transmission::evaluate`] to the bit, but for the sign of zero, also for points that have to be evaluated alone: see [`Block::alone`].
+//! Speeds, oils and all values that depend only on them, including notes, are computed once per batch. The numbers of [`Batch::solve`]
+//! are those of [`Transmission::evaluate`] to the bit, except for the sign of zero; the same holds for points that are evaluated
+//! one by one, see [`Block::alone`].
 
 mod block;
 mod shared;
@@ -13,66 +14,66 @@ use shared::Shared;
 
 use super::{Point, PowerFlow, Scratch, Solution};
 use crate::attach::State;
-use crate::flow::{Drive, FlowLanes, TaskLanes, Trail, WorkLanes};
+use crate::flow::{Drive, FlowLanes, TaskLanes, TorqueHistory, WorkLanes};
 use crate::lanes::{LANES, Lane, LaneNotes, LossLanes, Powers, count, each, is_even, over, weighted, wide};
 use crate::loads::{LEAST_STATIC_SAFETY, LoadLanes, SupportLoad};
 use crate::loss::{Extent, Measure, NoteBase, Notebook, Notes};
 use crate::transmission::{Case, Component, PartInfo, PartKind, Transmission};
 
-/// No thrust that nothing takes.
+/// No untaken thrust.
 static NO_THRUST: Lane = Lane::ZERO;
 
-/// Space for the rows of one case. Everything is allocated here, once, but what [`Row::follow`] keeps of the rows before.
+/// Workspace for the batches of one case. All of it is allocated once, except the values that [`Batch::follow`] keeps of previous batches.
 #[derive(Debug, Clone)]
-pub struct RowScratch {
-    /// The state of the row.
+pub struct BatchScratch {
+    /// The state of the batch.
     state: Scratch,
-    /// For points that are evaluated alone.
+    /// For points that are evaluated one by one.
     alone: Scratch,
     work: WorkLanes,
-    /// One for each block of a row, in their order.
-    trails: Vec<Trail>,
-    /// For each of these blocks what its components and meshes remember.
+    /// One for each block of a batch, in their order.
+    histories: Vec<TorqueHistory>,
+    /// For each of these blocks the remembered values of its components and meshes.
     powers: Vec<Vec<Powers>>,
-    /// The block that comes next.
+    /// The next block.
     next: usize,
-    /// All that is given of the row before, but its first speed and its first torque.
+    /// The given values of the previous batch, except its first speed and its first torque.
     before: Vec<f64>,
     given: Vec<Lane>,
-    /// Torques of ports that corrections of loads may ask for.
+    /// Torques of ports for load corrections.
     ports: Vec<Lane>,
     tangential: Vec<Lane>,
     /// Torques on the first gears of the meshes.
     mesh_torques: Vec<Lane>,
     passed: Vec<Lane>,
     loads: Vec<LoadLanes>,
-    /// Loads and torques of ports of one lane.
+    /// Loads and port torques of one lane.
     one: Vec<SupportLoad>,
     one_ports: Vec<f64>,
     components: Vec<LossLanes>,
     meshes: Vec<LossLanes>,
-    /// Ratio of the power used in the balance to the last answer, times copies, by mesh.
+    /// Ratio of the power used in the balance to the last result, times copies, by mesh.
     factors: Vec<Lane>,
     watts: Vec<Lane>,
     sum: Lane,
     alone_lanes: [bool; LANES],
     outside: [Cell<bool>; LANES],
-    /// Notes that all lanes of a block share, and those of each lane.
+    /// Notes shared by all lanes of a block, and those of each lane.
     common: Vec<Extent>,
     own: Vec<Extent>,
     totals: Vec<Extent>,
-    /// Points of the row, among whose notes those of the whole row are still to be counted.
+    /// Points of the batch for which the shared notes have not been counted yet.
     points: u32,
-    /// True where a note of the whole row left the range of a model.
+    /// True if a shared note is outside the range of a model.
     row_outside: bool,
-    /// What components and meshes answered where all lanes carry the same.
+    /// Results of components and meshes in blocks where all lanes have equal loads.
     shared_loads: Vec<Shared<SupportLoad>>,
     shared_torques: Vec<Shared<(f64, Drive)>>,
     called: usize,
 }
 
-impl RowScratch {
-    /// What was seen of every limit and observed quantity since this was asked last, one count for each point.
+impl BatchScratch {
+    /// Observed extents of every limit and observed quantity since the last call, one count per point.
     pub fn take_totals(&mut self) -> Vec<Extent> {
         self.count_row();
         let pairs = self.totals.iter_mut().zip(self.alone.take_totals());
@@ -81,13 +82,13 @@ impl RowScratch {
             .collect()
     }
 
-    /// Forgets the rows before, so that [`Row::follow`] begins anew.
+    /// Forgets the previous batches, so that [`Batch::follow`] starts again.
     pub fn forget(&mut self) {
-        self.trails.iter_mut().for_each(Trail::clear);
+        self.histories.iter_mut().for_each(TorqueHistory::clear);
         self.powers.iter_mut().flatten().for_each(Powers::forget);
     }
 
-    /// Counts the notes of the whole row for its points.
+    /// Counts the shared notes for the points of the batch.
     fn count_row(&mut self) {
         let points = std::mem::take(&mut self.points);
         for (total, seen) in self.totals.iter_mut().zip(&self.state.cells) {
@@ -97,34 +98,34 @@ impl RowScratch {
         }
     }
 
-    /// What was asked of loss models for all points so far: a question for a block counts once for each of its points, also where the
-    /// answer is that of the block before, because all points carry the same.
+    /// Number of loss model evaluations for all points so far. An evaluation of a block counts once for each of its points, also if
+    /// the result is that of the previous block because all points have equal loads.
     pub fn calls(&self) -> usize {
         self.called + self.state.all_calls() + self.alone.all_calls()
     }
 }
 
 /// Points that differ in the first given torque.
-pub struct Row<'a> {
+pub struct Batch<'a> {
     transmission: &'a Transmission,
     case: &'a Case,
     point: Point<'a>,
     temperatures: &'a [f64],
-    /// False where every point has to be evaluated alone.
+    /// False if every point must be evaluated one by one.
     together: bool,
-    s: &'a mut RowScratch,
+    s: &'a mut BatchScratch,
 }
 
 impl Transmission {
-    /// Space for evaluating the rows of a case; one for each thread.
-    pub fn row_scratch(&self, case: &Case) -> RowScratch {
+    /// Workspace for evaluating the batches of a case; one per thread.
+    pub fn batch_scratch(&self, case: &Case) -> BatchScratch {
         let lanes = |count: usize| vec![Lane::all(0.0); count];
         let supports = self.supports.len();
-        RowScratch {
+        BatchScratch {
             state: self.scratch(case),
             alone: self.scratch(case),
-            work: case.flow.work_abreast(),
-            trails: Vec::new(),
+            work: case.flow.work_batched(),
+            histories: Vec::new(),
             powers: Vec::new(),
             next: 0,
             before: Vec::new(),
@@ -154,7 +155,7 @@ impl Transmission {
         }
     }
 
-    /// False for parts whose loss is settled with the row.
+    /// False for parts whose loss is computed once per batch.
     fn hangs_on_torque(&self, part: &PartInfo) -> bool {
         match part.kind {
             PartKind::Component(i) => self.components[i].loaded && !self.components[i].off,
@@ -163,7 +164,7 @@ impl Transmission {
         }
     }
 
-    /// Notes what hangs on no load, once for all points of a row.
+    /// Writes the notes that are independent of load, once for all points of a batch.
     fn note_row(&self, s: &mut Scratch) {
         let cells = Cell::from_mut(s.cells.as_mut_slice()).as_slice_of_cells();
         let kept = Cell::from_mut(s.kept.as_mut_slice()).as_slice_of_cells();
@@ -173,7 +174,7 @@ impl Transmission {
             temperatures: &s.temperatures,
             surface: s.surface,
             loads: &s.loads,
-            asked: &s.asked,
+            calls: &s.calls,
         };
         for component in &self.components {
             if !component.loaded || component.off || component.notes_hang_on_load {
@@ -196,17 +197,17 @@ impl Transmission {
         }
     }
 
-    /// Settles a row of points at the temperatures of the nodes, or at one for all. \[degC\]
+    /// Prepares a batch of points at the temperatures of the nodes, or at one for all nodes. \[degC\]
     ///
     /// # Panics
     /// As [`Transmission::evaluate`], and if the case gives no torque: bugs of the caller.
-    pub fn row<'a>(
+    pub fn batch<'a>(
         &'a self,
         case: &'a Case,
         point: &Point<'a>,
         temperatures: &'a [f64],
-        scratch: &'a mut RowScratch,
-    ) -> Row<'a> {
+        scratch: &'a mut BatchScratch,
+    ) -> Batch<'a> {
         assert!(!case.torque_ports.is_empty(), "a case that gives a torque");
         let speeds = point.speeds.get(1..).unwrap_or_default().iter();
         let rest = speeds
@@ -245,7 +246,7 @@ impl Transmission {
                 }
             }
         }
-        Row {
+        Batch {
             transmission: self,
             case,
             point: *point,
@@ -256,21 +257,21 @@ impl Transmission {
     }
 }
 
-impl Row<'_> {
-    /// Solves the points with these first torques, as many as [`LANES`] at most. \[Nm\]
+impl Batch<'_> {
+    /// Solves the points with these first torques, at most [`LANES`]. \[Nm\]
     ///
     /// # Panics
-    /// If there are none or more: a bug of the caller.
+    /// If there are none or too many: a bug of the caller.
     pub fn solve(&mut self, torques: &[f64]) -> Block<'_> {
         self.block(torques, false)
     }
 
-    /// As [`Row::solve`], where the first torques are guessed from the blocks of the same number and torques in the rows before,
-    /// if these rows differ in the first speed alone, and powers of loads are remembered from there. One pass is then often enough, and
-    /// the losses agree with those of [`Row::solve`] within the tolerance, not to the bit.
+    /// As [`Batch::solve`], with the first torques extrapolated from the blocks with the same number and torques in previous batches
+    /// that differ only in the first speed, and with remembered powers of loads. One iteration is then often enough, and the losses
+    /// agree with those of [`Batch::solve`] within the tolerance, not to the bit.
     ///
     /// # Panics
-    /// As [`Row::solve`].
+    /// As [`Batch::solve`].
     pub fn follow(&mut self, torques: &[f64]) -> Block<'_> {
         self.block(torques, true)
     }
@@ -291,7 +292,7 @@ impl Row<'_> {
         }
     }
 
-    /// Evaluates one point of the row alone.
+    /// Evaluates a single point of the batch.
     pub fn alone(&mut self, torque: f64) -> Solution<'_> {
         let count = self.point.torques.len();
         let torques = &mut self.s.state.given[..count];
@@ -304,10 +305,10 @@ impl Row<'_> {
     #[inline(always)]
     fn solve_together(&mut self, torques: &[f64], following: bool) {
         let (t, case) = (self.transmission, self.case);
-        let RowScratch {
+        let BatchScratch {
             state: settled,
             work,
-            trails,
+            histories,
             powers,
             next,
             given,
@@ -335,7 +336,7 @@ impl Row<'_> {
             called,
             ..
         } = &mut *self.s;
-        // Lanes without a point repeat the last one; nobody reads them.
+        // Lanes without a point repeat the last one and are not read.
         let (first, others) = given[0].split_at_mut(torques.len());
         first.copy_from_slice(torques);
         others.fill(torques[torques.len() - 1]);
@@ -347,8 +348,8 @@ impl Row<'_> {
         let followed = self.point.speeds.first().filter(|_| following).map(|speed| {
             let number = *next;
             *next += 1;
-            if trails.len() == number {
-                trails.push(Trail::default());
+            if histories.len() == number {
+                histories.push(TorqueHistory::default());
             }
             (number, speed.abs().ln())
         });
@@ -360,7 +361,7 @@ impl Row<'_> {
         });
         exchange(&mut remembered, components, meshes);
         let kept = Cell::from_mut(settled.kept.as_mut_slice()).as_slice_of_cells();
-        // Notes are taken once, of the last answers.
+        // Notes are written once, for the last results.
         let book = Notebook {
             kept,
             ..Notebook::CLOSED
@@ -371,7 +372,7 @@ impl Row<'_> {
             temperatures: &settled.temperatures,
             surface: settled.surface,
             loads: &settled.loads,
-            asked: &settled.asked,
+            calls: &settled.calls,
         };
         let corrected = t.imported.is_some() || !t.load_factors.is_empty();
         let braking = &settled.braking;
@@ -392,7 +393,7 @@ impl Row<'_> {
                     if corrected {
                         loads.fill(LoadLanes::NONE);
                     }
-                    t.loads.evaluate_abreast(tangential, state.speeds, passed, loads);
+                    t.loads.evaluate_batched(tangential, state.speeds, passed, loads);
                 },
             );
             if corrected {
@@ -401,7 +402,7 @@ impl Row<'_> {
                 }
                 t.correct_lanes(case, ports, (one, one_ports), loads);
             }
-            let (wanted, asked) = wide(
+            let (wanted, calls) = wide(
                 #[inline(always)]
                 || {
                     for (drags, idle) in flow.drags.iter_mut().zip(&settled.idle_drags) {
@@ -416,11 +417,11 @@ impl Row<'_> {
             );
             for &i in braking {
                 let (component, speed) = (&t.components[i], settled.relative[i]);
-                *called += asked;
-                if asked < torques.len() {
+                *called += calls;
+                if calls < torques.len() {
                     components[i].want(&wanted);
                 }
-                let untaken = ask(
+                let untaken = evaluate_component(
                     component,
                     &state,
                     loads,
@@ -454,8 +455,8 @@ impl Row<'_> {
                         is_even(own_torques)
                     },
                 );
-                *called += asked;
-                if asked < torques.len() {
+                *called += calls;
+                if calls < torques.len() {
                     meshes[i].want(&wanted);
                 }
                 if even {
@@ -486,20 +487,20 @@ impl Row<'_> {
             steady: &settled.idle_drags,
             tolerance: self.point.tolerance,
         };
-        let trail = followed.map(|(number, place)| (&mut trails[number], place));
-        case.flow.real_abreast(&task, trail, work, losses);
+        let history = followed.map(|(number, place)| (&mut histories[number], place));
+        case.flow.real_batched(&task, history, work, losses);
         for (own, flow) in alone_lanes.iter_mut().zip(&work.alone) {
             *own |= flow;
         }
         exchange(&mut remembered, components, meshes);
-        // What carries load and rests brakes nothing, but it may be undefined.
+        // Stationary components that carry load have no drag, but their loss may be undefined.
         let resting = |i: &usize| {
             let component = &t.components[*i];
             component.loaded && !component.off && settled.relative[*i] == 0.0
         };
         for i in (0..t.components.len()).filter(resting) {
             *called += torques.len();
-            let untaken = ask(
+            let untaken = evaluate_component(
                 &t.components[i],
                 &state,
                 loads,
@@ -512,7 +513,7 @@ impl Row<'_> {
             leave(alone_lanes, &components[i]);
         }
 
-        // Notes of the last answers, once.
+        // Notes of the last results, once.
         let counted: [bool; LANES] = std::array::from_fn(|i| i < torques.len() && !alone_lanes[i]);
         let points = counted.iter().filter(|counted| **counted).count() as u32;
         if points == 0 {
@@ -540,7 +541,7 @@ impl Row<'_> {
                     base,
                 }
             };
-            // What was noted of one part.
+            // Notes of one part.
             let gather = |base: NoteBase| {
                 if handed.get() {
                     gather(base, own, totals, &counted, outside);
@@ -566,7 +567,7 @@ impl Row<'_> {
                 };
                 let notes = notes(component.notes);
                 let own_loads = &loads[support as usize];
-                // What all lanes have in common is noted once.
+                // Notes common to all lanes are written once.
                 if own_loads.is_even() {
                     let load = own_loads.lane(0);
                     shared_loads[i].note(load, || {
@@ -645,8 +646,8 @@ impl Row<'_> {
                             let total = meshes[i].total_watts(speed, |watts| watts);
                             let used = &work.mesh_loss[i];
                             factors[i] = each(|lane| {
-                                let asked = total[lane] * count;
-                                count * if asked > 0.0 { used[lane] / asked } else { 1.0 }
+                                let returned = total[lane] * count;
+                                count * if returned > 0.0 { used[lane] / returned } else { 1.0 }
                             });
                             if speed == 0.0 {
                                 Lane::ZERO
@@ -654,7 +655,7 @@ impl Row<'_> {
                                 each(|lane| total[lane] * factors[i][lane])
                             }
                         }
-                        // Settled with the row.
+                        // Computed once per batch.
                         PartKind::Drag(_) => *watts,
                     };
                 }
@@ -664,8 +665,8 @@ impl Row<'_> {
     }
 }
 
-/// Asks the model of a component for its losses in all lanes; returns the thrust that nothing takes.
-fn ask<'a>(
+/// Evaluates the model of a component in all lanes; returns the untaken thrust.
+fn evaluate_component<'a>(
     component: &Component,
     state: &State<'_>,
     loads: &'a [LoadLanes],
@@ -696,7 +697,7 @@ fn ask<'a>(
     &own.untaken
 }
 
-/// Gives components and meshes what they remember of a block, or takes it back.
+/// Moves the remembered values of a block to components and meshes, or back.
 fn exchange(remembered: &mut Option<&mut Vec<Powers>>, components: &mut [LossLanes], meshes: &mut [LossLanes]) {
     if let Some(remembered) = remembered {
         for (losses, own) in components.iter_mut().chain(meshes).zip(remembered.iter_mut()) {
@@ -705,7 +706,7 @@ fn exchange(remembered: &mut Option<&mut Vec<Powers>>, components: &mut [LossLan
     }
 }
 
-/// Lanes that a model left alone.
+/// Lanes that a model excludes from the batch.
 fn leave(alone: &mut [bool; LANES], losses: &LossLanes) {
     for (alone, left) in alone.iter_mut().zip(losses.alone()) {
         *alone |= left;
@@ -726,7 +727,7 @@ fn brake_lanes(between: [Option<u16>; 2], count: f64, speed: f64, sums: &Lane, m
     }
 }
 
-/// Counts what the lanes noted one by one, and empties their cells.
+/// Counts the notes of individual lanes, and clears their cells.
 fn gather(
     base: NoteBase,
     own: &[Cell<Extent>],

@@ -1,4 +1,4 @@
-//! The place of a model in a document, and the model in its place.
+//! The slot of a model in a document, and the built model.
 
 use std::borrow::Cow;
 use std::marker::PhantomData;
@@ -13,8 +13,8 @@ use crate::description::Ordered;
 use crate::loss::NoteBase;
 use crate::mechanism::Mechanism;
 
-/// The choice of a model, as data: `{ type: ..., ... }` or `none`. Its schema is a reference; the registry at hand writes
-/// the definition, so that a registry made by hand has a schema too, and slots may nest.
+/// The choice of a model, as data: `{ type: ..., ... }` or `none`. Its schema is a reference; the registry in use writes the
+/// definition, so that any registry has a schema and slots may nest.
 pub struct ModelRef<M> {
     /// The resolved choice.
     pub value: Value,
@@ -107,17 +107,17 @@ impl<M: Mechanism> JsonSchema for NamedSlots<M> {
     }
 }
 
-/// A model in its place. Dereferences to the mechanism's trait.
+/// A built model. Dereferences to the mechanism's trait.
 pub struct Slot<M: Mechanism> {
     model: Arc<M::Model>,
-    /// Where the model's notes stand.
+    /// Position of the model's notes.
     pub notes: NoteBase,
-    /// True for `none`, which need not be asked.
+    /// True for `none`, which need not be evaluated.
     pub off: bool,
 }
 
 impl<M: Mechanism> Slot<M> {
-    pub(super) fn new(model: Arc<M::Model>, notes: NoteBase, off: bool) -> Self {
+    pub(crate) fn new(model: Arc<M::Model>, notes: NoteBase, off: bool) -> Self {
         Self { model, notes, off }
     }
 }

@@ -1,21 +1,21 @@
-//! What is known of some solved points of a row.
+//! Results of some solved points of a batch.
 
-use super::RowScratch;
+use super::BatchScratch;
 use crate::flow::{Balance, Status};
 use crate::lanes::{LANES, Lane, each, over, wide};
 use crate::transmission::{PartKind, Transmission};
 
-/// Some solved points of a row.
+/// Some solved points of a batch.
 pub struct Block<'a> {
     pub(super) transmission: &'a Transmission,
     /// Number of the reference port.
     pub(super) reference: usize,
-    pub(super) s: &'a RowScratch,
+    pub(super) s: &'a BatchScratch,
 }
 
 impl Block<'_> {
-    /// By lane: true where the point has to be evaluated by [`Row::alone`](super::Row::alone); nothing else of the block counts for it. Lanes beyond
-    /// the torques given mean nothing, here and in the passes.
+    /// By lane: true if the point must be evaluated by [`Batch::alone`](super::Batch::alone); the other results of the lane are then
+    /// undefined. Lanes beyond the given torques are undefined, here and in the iterations.
     pub fn alone(&self) -> &[bool; LANES] {
         &self.s.alone_lanes
     }
@@ -25,14 +25,14 @@ impl Block<'_> {
         ports.map(move |p| self.s.work.ports[p.member][lane] * self.s.state.speeds[p.member])
     }
 
-    /// What the transmission does.
+    /// Operating state of the transmission.
     pub fn status(&self, lane: usize) -> Status {
-        Status::of(self.powers(lane), self.reference)
+        Status::from_powers(self.powers(lane), self.reference)
     }
 
-    /// Power in and out. \[W\]
+    /// Input and output power. \[W\]
     pub fn balance(&self, lane: usize) -> Balance {
-        Balance::of(self.powers(lane))
+        Balance::from_powers(self.powers(lane))
     }
 
     /// Sums of all losses. \[W\]
@@ -45,7 +45,7 @@ impl Block<'_> {
         &self.s.watts
     }
 
-    /// Power of one term of a part, all copies together. \[W\]
+    /// Power of one term of a part, all copies. \[W\]
     pub fn term_watts(&self, part: usize, term: usize) -> Lane {
         let (t, s) = (self.transmission, self.s);
         let info = &t.parts[part];
@@ -77,12 +77,12 @@ impl Block<'_> {
         }
     }
 
-    /// True where a model left its stated range.
+    /// True if a model is outside its stated range.
     pub fn outside(&self, lane: usize) -> bool {
         self.s.outside[lane].get()
     }
 
-    /// Passes over the loss models, by lane.
+    /// Iterations over the loss models, by lane.
     pub fn passes(&self) -> &[usize; LANES] {
         &self.s.work.passes
     }

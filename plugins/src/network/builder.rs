@@ -1,20 +1,20 @@
-//! A thermal network while it is laid out: names that are free, numbers that can be read.
+//! Builds a thermal network in its written form: generates unique names and rounds numbers.
 
 use serde_json::{Map, Value, json};
 
-/// Nodes and links so far.
+/// Nodes and links added so far.
 #[derive(Default)]
-pub struct Lay {
+pub struct NetworkBuilder {
     nodes: Map<String, Value>,
     links: Map<String, Value>,
     sources: Map<String, Value>,
-    /// Shafts and loose gears with their nodes.
+    /// Shafts and idler gears with their nodes.
     members: Vec<(String, String)>,
     /// Gears with their nodes.
     gears: Vec<(String, String)>,
 }
 
-/// A name that nothing has: the wanted one, else with what the thing is, else with a number.
+/// A unique name: the wanted one, else with the kind appended, else with a number.
 fn free(taken: &Map<String, Value>, wanted: &str, what: &str) -> String {
     if !taken.contains_key(wanted) && wanted != "ambient" {
         return wanted.to_owned();
@@ -26,13 +26,13 @@ fn free(taken: &Map<String, Value>, wanted: &str, what: &str) -> String {
         .unwrap_or(named)
 }
 
-/// A number with four digits, as many as an assumed one deserves.
+/// A number rounded to four digits, as many as an assumed value justifies.
 pub fn number(value: f64) -> Value {
     json!(format!("{value:.3e}").parse::<f64>().unwrap_or(value))
 }
 
-impl Lay {
-    /// A node with a heat capacity in J/K; its name.
+impl NetworkBuilder {
+    /// Adds a node with a heat capacity in J/K and returns its name.
     pub fn node(&mut self, wanted: &str, what: &str, capacity: f64) -> String {
         let name = free(&self.nodes, wanted, what);
         self.nodes
@@ -40,28 +40,28 @@ impl Lay {
         name
     }
 
-    /// Says that a node is the oil of the housing.
+    /// Assigns the oil of the housing to a node.
     pub fn oil(&mut self, node: &str) {
         self.nodes[node]["oil"] = json!(true);
     }
 
-    /// Says which node a shaft or a loose gear is.
+    /// Assigns a shaft or an idler gear to a node.
     pub fn member(&mut self, id: &str, node: &str) {
         self.members.push((id.to_owned(), node.to_owned()));
     }
 
-    /// Says of which node a gear is the body.
+    /// Assigns the body of a gear to a node.
     pub fn gear(&mut self, id: &str, node: &str) {
         self.push(node, "gears", id);
         self.gears.push((id.to_owned(), node.to_owned()));
     }
 
-    /// Says which part heats a node.
+    /// Assigns a part as heat source of a node.
     pub fn part(&mut self, node: &str, path: &str) {
         self.push(node, "parts", path);
     }
 
-    /// Says which part has oil as warm as a node.
+    /// Assigns a node as the oil temperature of a part.
     pub fn oil_of(&mut self, node: &str, path: &str) {
         self.push(node, "oil_of", path);
     }
@@ -74,7 +74,7 @@ impl Lay {
         }
     }
 
-    /// The node of a shaft or a loose gear.
+    /// The node of a shaft or an idler gear.
     pub fn of_member(&self, id: &str) -> Option<String> {
         self.members
             .iter()
@@ -90,12 +90,12 @@ impl Lay {
             .map(|(_, node)| node.clone())
     }
 
-    /// A link with a conductance in W/K; none from a node to itself.
+    /// Adds a link with a conductance in W/K; none from a node to itself.
     pub fn link(&mut self, wanted: &str, one: &str, other: &str, conductance: f64) {
         self.law(wanted, one, other, json!({ "conductance": number(conductance) }));
     }
 
-    /// A link with the keys that make its law.
+    /// Adds a link with the keys of its model.
     pub fn law(&mut self, wanted: &str, one: &str, other: &str, mut keys: Value) {
         if one == other {
             return;
@@ -104,13 +104,13 @@ impl Lay {
         self.links.insert(free(&self.links, wanted, "link"), keys);
     }
 
-    /// Heat from elsewhere in W.
+    /// Adds a heat source in W.
     pub fn source(&mut self, id: &str, heat: f64, into: &str) {
         self.sources
             .insert(id.to_owned(), json!({ "heat": heat, "into": into }));
     }
 
-    /// The network as one writes it.
+    /// The network in its written form.
     pub fn written(self) -> Value {
         json!({ "nodes": self.nodes, "links": self.links, "sources": self.sources })
     }
@@ -122,16 +122,16 @@ mod tests {
 
     #[test]
     fn names_are_free_and_numbers_short() {
-        let mut lay = Lay::default();
-        assert_eq!(lay.node("a", "shaft", 1.0), "a");
-        assert_eq!(lay.node("a", "bearing", 1.0), "a_bearing");
-        assert_eq!(lay.node("a", "bearing", 1.0), "a_bearing_2");
-        assert_eq!(lay.node("ambient", "shaft", 1.0), "ambient_shaft");
+        let mut builder = NetworkBuilder::default();
+        assert_eq!(builder.node("a", "shaft", 1.0), "a");
+        assert_eq!(builder.node("a", "bearing", 1.0), "a_bearing");
+        assert_eq!(builder.node("a", "bearing", 1.0), "a_bearing_2");
+        assert_eq!(builder.node("ambient", "shaft", 1.0), "ambient_shaft");
         assert_eq!(number(1234.567), json!(1235.0));
-        lay.link("self", "a", "a", 1.0);
-        lay.link("l", "a", "a_bearing", 1.53);
-        lay.link("l", "a", "a_bearing", 2.0);
-        let written = lay.written();
+        builder.link("self", "a", "a", 1.0);
+        builder.link("l", "a", "a_bearing", 1.53);
+        builder.link("l", "a", "a_bearing", 2.0);
+        let written = builder.written();
         assert_eq!(
             written["links"],
             json!({ "l": { "conductance": 1.53, "between": ["a", "a_bearing"] },

@@ -1,0 +1,200 @@
+//! An analysis of our own: the torque that turns the unloaded gearbox over the temperature of its oil, and how much more a cold one
+//! needs than a warm one.
+
+use gearloss::pictures::page::Page;
+use gearloss::pictures::register_view;
+use gearloss::studies::prelude::*;
+
+/// Torque that turns the unloaded gearbox, over the temperature of the oil.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+pub struct DragTorqueEntry {
+    /// Gearbox; absent, the first.
+    pub gearbox: Option<String>,
+    /// Gear state; absent, the first.
+    pub gear: Option<String>,
+    /// Model sets; absent, the models of the gearbox.
+    #[serde(default)]
+    pub model_sets: Vec<String>,
+    /// Speed at the port that the conditions name. [rpm]
+    #[schemars(range(min = 1.0, max = 1e6))]
+    pub speed: f64,
+    /// Temperatures of the oil.
+    pub oil_temperature: TemperatureAxis,
+    /// Formats to write; absent, CSV and JSON.
+    #[serde(default = "Write::data")]
+    pub write: Vec<Write>,
+}
+
+impl Entry for DragTorqueEntry {
+    const TYPE: &'static str = "drag_torque";
+    const MEANING: &'static str = "Torque that turns the unloaded gearbox, over the temperature of the oil.";
+
+    fn uses(&self) -> Uses<'_> {
+        Uses::new(self.gearbox.as_ref(), &self.model_sets).at(&self.gear)
+    }
+}
+
+register_analysis!(DragTorqueEntry);
+
+/// Drag torques of each model set.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct DragTorqueOutcome {
+    /// Where it comes from.
+    #[serde(flatten)]
+    pub head: Head,
+    /// One for each model set.
+    pub sets: Vec<DragTorqueOfSet>,
+}
+
+/// Drag torques of one model set.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct DragTorqueOfSet {
+    /// Name of the set.
+    pub model_set: String,
+    /// Torque at the first temperature over that at the last. [-]
+    pub cold_over_warm: Option<f64>,
+    /// One for each temperature.
+    pub torques: Vec<DragTorque>,
+    /// What the models noted.
+    pub notes: Vec<Note>,
+}
+
+/// The drag torque at one temperature.
+#[derive(Debug, Clone, Copy, Serialize, JsonSchema)]
+pub struct DragTorque {
+    /// Temperature of the oil. [degC]
+    pub oil_temperature_degc: f64,
+    /// Torque; absent where a loss has no value. [Nm]
+    pub torque_nm: Option<f64>,
+}
+
+impl Analysis for DragTorqueEntry {
+    type Outcome = DragTorqueOutcome;
+
+    fn run(&self, cx: &Context<'_>) -> Result<DragTorqueOutcome, Stopped> {
+        let built = cx.built(cx.gearbox(self.gearbox.as_ref())?, &self.model_sets)?;
+        let path = format!("{}.oil_temperature", cx.path());
+        let temperatures = axis(cx, &path, self.oil_temperature.values())?;
+        let mut sets = Vec::new();
+        for b in &built {
+            let points = self.points(cx, &b.transmission, &temperatures);
+            if cx.checked(b, &points)? {
+                continue;
+            }
+            sets.push(of_set(b, &temperatures, &cx.solve(b, &points)?));
+        }
+        // Everything that can be wrong was found above: `check` ends here.
+        cx.begin()?;
+        let head = cx.head(&built.iter().collect::<Vec<_>>());
+        Ok(DragTorqueOutcome { head, sets })
+    }
+
+    fn formats(&self) -> &[Write] {
+        &self.write
+    }
+}
+
+impl DragTorqueEntry {
+    /// The turned port has the speed; no torque acts on the others.
+    fn points(&self, cx: &Context<'_>, t: &Transmission, temperatures: &[f64]) -> Points {
+        let given = |oil: &f64| Given {
+            oil: Some(*oil),
+            ..Given::new(0.0, self.speed)
+        };
+        let list = temperatures.iter().map(given).collect();
+        let mut points = cx.listed(t, gear_of(self.gear.as_deref(), t), list);
+        let names = t.ports().iter().map(|port| port.name.clone());
+        points.torque_at = names.filter(|port| !points.speed_at.contains(port)).collect();
+        points
+    }
+}
+
+fn of_set(b: &Built<'_>, temperatures: &[f64], solved: &GridResult) -> DragTorqueOfSet {
+    let torques: Vec<DragTorque> = temperatures
+        .iter()
+        .zip(&solved.points)
+        .map(|(oil, point)| DragTorque {
+            oil_temperature_degc: *oil,
+            torque_nm: point.loss.map(|loss| loss / point.speed),
+        })
+        .collect();
+    let ends = torques.first().zip(torques.last());
+    DragTorqueOfSet {
+        model_set: b.name.clone(),
+        cold_over_warm: ends.and_then(|(first, last)| Some(first.torque_nm? / last.torque_nm?)),
+        torques,
+        notes: notes(&b.transmission, &solved.seen),
+    }
+}
+
+impl Outcome for DragTorqueOutcome {
+    fn head(&self) -> &Head {
+        &self.head
+    }
+
+    fn tables(&self) -> Vec<Table> {
+        let mut table = Table::new(
+            &self.head.analysis,
+            [
+                Column::text("model_set", "Model set"),
+                Column::number("oil_temperature_degc", "degC", "Temperature of the oil"),
+                Column::number("torque_nm", "Nm", "Torque that turns the unloaded gearbox"),
+            ],
+        );
+        for set in &self.sets {
+            for at in &set.torques {
+                table.push(cells![&set.model_set, at.oil_temperature_degc, at.torque_nm]);
+            }
+        }
+        vec![table]
+    }
+
+    fn notes(&self) -> Vec<&Note> {
+        self.sets.iter().flat_map(|set| &set.notes).collect()
+    }
+}
+
+// Without a view, the terminal and the report show the tables.
+register_view!(DragTorqueOutcome, show);
+
+fn show(outcome: &DragTorqueOutcome, page: &mut Page) {
+    page.tables(&outcome.tables());
+    for set in &outcome.sets {
+        if let Some(ratio) = set.cold_over_warm {
+            let name = &outcome.head.analysis;
+            page.verdict(format!(
+                "{name}: models {}: cold oil takes {ratio:.2} times the torque",
+                set.model_set
+            ));
+        }
+        page.outside(&set.notes);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use gearloss::api::{Disk, Language, StudyRun, read_study};
+
+    use super::*;
+
+    /// What `solve` prints for the output without torque, at 80 degC, is the torque of the analysis there.
+    #[test]
+    fn the_torque_is_the_loss_over_the_speed() {
+        let language = Language::linked().expect("all that is linked fits");
+        let file = concat!(env!("CARGO_MANIFEST_DIR"), "/study.yaml");
+        let study = read_study(&language, &Disk::shared(), file).expect("the study is right");
+        let outcome = StudyRun::new(&language, &study).analysis("drag").expect("it runs");
+        let typed: &DragTorqueOutcome = outcome.get().expect("it is an outcome of this analysis");
+        let [set] = &typed.sets[..] else {
+            panic!("one model set: {typed:?}");
+        };
+        let torques: Vec<f64> = set.torques.iter().filter_map(|at| at.torque_nm).collect();
+        assert_eq!(torques.len(), 4, "{set:?}");
+        assert!(
+            torques.windows(2).all(|pair| pair[0] > pair[1]),
+            "cold oil drags more: {torques:?}"
+        );
+        let ratio = torques[0] / torques[3];
+        assert!(set.cold_over_warm.is_some_and(|own| (own - ratio).abs() < 1e-12));
+    }
+}

@@ -1,0 +1,31 @@
+//! Keys of the entry of every component, beside those of its attachment and its part.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// Common keys of every component, whatever its mechanism.
+#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
+pub struct Common {
+    /// Oil; default: that of the housing.
+    pub lubricant: Option<String>,
+    /// Oil temperature at the component minus that of the sump. [K]
+    #[serde(default)]
+    #[schemars(range(min = -200.0, max = 200.0))]
+    pub temperature_offset: f64,
+    /// Factor on the loss of the model, for effects that the model does not include. An identification may fit it. [-]
+    #[serde(default = "whole")]
+    #[schemars(range(min = 0.0, max = 100.0))]
+    pub loss_factor: f64,
+    /// Number of equal components at this position; each carries the full load of the position. [-]
+    #[serde(default = "default_one")]
+    #[schemars(range(min = 1, max = 1000))]
+    pub count: u32,
+}
+
+fn default_one() -> u32 {
+    1
+}
+
+fn whole() -> f64 {
+    1.0
+}

@@ -1,0 +1,63 @@
+//! Map as it is written in a study.
+
+use gearloss_framework::description::Ordered;
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::super::Entry;
+use super::export::ExportName;
+use crate::study::{Data, Uses, Write};
+
+/// Losses and efficiency over a grid.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+pub struct MapEntry {
+    /// Gearbox; default: the first.
+    pub gearbox: Option<String>,
+    /// Grid; not with `points`.
+    pub grid: Option<String>,
+    /// File of points instead of a grid, for example of measured data: torque, speed, and optionally gear and oil temperature of each
+    /// point.
+    pub points: Option<Data>,
+    /// Columns of the points that change a value of the gearbox: column to resolved path.
+    #[serde(default)]
+    pub bind: Ordered<String>,
+    /// Gear of points without a column `gear`; default: the first.
+    pub gear: Option<String>,
+    /// Measured points that are drawn into the figures.
+    pub measured: Option<Data>,
+    /// Model sets; default: the models of the gearbox. `PRODUCT/SET` selects another gearbox, `PRODUCT/own` its default models.
+    #[serde(default)]
+    pub model_sets: Vec<String>,
+    /// Formats to write; default: CSV and JSON. Figures show efficiency, loss and, with a heat balance, temperature.
+    #[serde(default = "Write::data")]
+    pub write: Vec<Write>,
+    /// Loss tables for other programs, one file for each gear; requires a grid.
+    #[serde(default)]
+    pub export: Vec<ExportName>,
+    /// Maximum relative deviation of the straight lines of a `lossy_gear` table from the loss torque at a grid point; above it there is an
+    /// error. [-]
+    #[serde(default = "quarter")]
+    #[schemars(range(min = 0.0, max = 100.0))]
+    pub lossy_gear_limit: f64,
+}
+
+/// About the difference between model sets.
+fn quarter() -> f64 {
+    0.25
+}
+
+impl Entry for MapEntry {
+    const TYPE: &'static str = "map";
+    const MEANING: &'static str = "Losses and efficiency over a grid.";
+
+    fn uses(&self) -> Uses<'_> {
+        Uses {
+            grid: self.grid.as_ref(),
+            ..Uses::new(self.gearbox.as_ref(), &self.model_sets)
+                .at(&self.gear)
+                .bind(&self.bind)
+                .with("points", self.points.as_ref())
+                .with("measured", self.measured.as_ref())
+        }
+    }
+}

@@ -1,0 +1,13 @@
+//! All that a crate with an analysis of its own names: `use gearloss::studies::prelude::*;`.
+
+pub use gearloss_framework::transmission::Transmission;
+pub use schemars::JsonSchema;
+pub use serde::{Deserialize, Serialize};
+
+pub use crate::analyses::axes::{axis, speeds, torques};
+pub use crate::analyses::numbers::{RPM, tidy};
+pub use crate::analyses::{Analysis, Built, Context, Entry, Head, Outcome, Stopped, gear_of};
+pub use crate::analysis::{Given, GridResult, Note, PointResult, Points, notes};
+pub use crate::study::{By, SpeedAxis, TemperatureAxis, TorqueAxis, Uses, Write};
+pub use crate::table::{Column, Table};
+pub use crate::{cells, register_analysis};

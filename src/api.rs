@@ -1,0 +1,135 @@
+//! What programs use: read, override, build, solve, run a study, get typed outcomes. Authors of models use
+//! [`crate::framework::prelude`] instead.
+//!
+//! # A point
+//! ```
+//! use gearloss::api::{self, Choice, Gearbox, Given, Language, solve_point};
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! # let file = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/two-speed-ev/gearbox.yaml");
+//! let language = Language::linked()?; // the models that are linked into the program
+//! let gearbox = Gearbox::read(&language, file.as_ref())?;
+//! let choice = Choice::of_set("joint").with("housing.oil.level_offset", "-10 mm");
+//! let transmission = gearbox.transmission(&language, &choice)?;
+//! let point = solve_point(&gearbox, &transmission, "first", Given::new(10.0, 800.0))?; // Nm, rad/s
+//! println!("{:?} W", point.loss);
+//! # assert!(point.loss.is_some_and(|loss| loss > 0.0));
+//! # Ok(())
+//! # }
+//! ```
+//! [`solve_points`] solves grids and lists on all cores. [`Transmission::evaluate`] solves a single point without allocating.
+//!
+//! # A study
+//! [`read_study`] reads and checks a study. [`StudyRun`] computes the outcomes of its analyses, which [`outcomes`] lists by type;
+//! their tables are columns ([`Table`]). Nothing is printed and no file is written.
+//!
+//! ```
+//! use gearloss::api::{InMemory, Language, StudyRun, outcomes::MapOutcome, read_study};
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! # let gearbox = include_str!("../examples/two-speed-ev/gearbox.yaml");
+//! let study = "
+//! gearloss: study/1
+//! gearboxes: { ev: gearbox.yaml }
+//! grids: { small: { gear: first, torque: [10 Nm, 20 Nm], speed: [3000 rpm, 6000 rpm] } }
+//! analyses: { losses: { type: map, grid: small, model_sets: [joint] } }
+//! ";
+//! let files = InMemory::new([("study.yaml", study), ("gearbox.yaml", gearbox)]).shared();
+//! let language = Language::linked()?;
+//! let study = read_study(&language, &files, "study.yaml")?;
+//! let outcome = StudyRun::new(&language, &study).analysis("losses")?;
+//! assert!(outcome.get::<MapOutcome>().is_some());
+//! let table = outcome.table("losses").ok_or("the first table has the name of the analysis")?;
+//! let losses = table.column("loss_w").and_then(|column| column.numbers());
+//! # assert_eq!(losses.map(<[f64]>::len), Some(4));
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! # Files
+//! Documents and their data are read from a [`SharedSource`]: the [`Disk`], or [`InMemory`], or your own [`FileSource`].
+//!
+//! # Errors
+//! Wrong documents give [`Findings`]: a list of [`Diagnostic`]s with code, path, place in the text and help, and the texts. An
+//! analysis without an outcome gives [`Stopped`], which holds findings or says who broke it off.
+
+use std::path::Path;
+
+pub use gearloss_document::files::{Disk, FileSource, InMemory, SharedSource};
+pub use gearloss_document::{Code, Diagnostic, FilePlace, PlacedDiagnostic, RelatedPlace, Severity, Sources};
+pub use gearloss_framework::evaluate::{Point, PowerFlow, Scratch, Solution};
+pub use gearloss_framework::gearbox::{Findings, Gearbox};
+pub use gearloss_framework::language::Language;
+pub use gearloss_framework::resolve::{Choice, Resolved};
+pub use gearloss_framework::transmission::{Case, Transmission};
+pub use gearloss_studies::analyses::progress::{Progress, Silent, Steps};
+pub use gearloss_studies::analyses::{AnyOutcome, Context, Outcome, Stopped};
+pub use gearloss_studies::analysis::{Field, Given, GridResult, OilTemperature, PointResult, Points};
+pub use gearloss_studies::run::StudyRun;
+pub use gearloss_studies::study::Study;
+pub use gearloss_studies::table::{Column, Table, Texts, Values};
+
+/// The outcome of each analysis, for [`AnyOutcome::get`].
+pub mod outcomes {
+    pub use gearloss_studies::analyses::balance::BalanceOutcome;
+    pub use gearloss_studies::analyses::breakdown::BreakdownOutcome;
+    pub use gearloss_studies::analyses::compare::{CompareOutcome, Comparisons};
+    pub use gearloss_studies::analyses::component_compare::ComponentCompareOutcome;
+    pub use gearloss_studies::analyses::contact_path::ContactPathOutcome;
+    pub use gearloss_studies::analyses::cycle::CycleOutcome;
+    pub use gearloss_studies::analyses::fluid_sweep::FluidSweepOutcome;
+    pub use gearloss_studies::analyses::identify::IdentifyOutcome;
+    pub use gearloss_studies::analyses::map::MapOutcome;
+    pub use gearloss_studies::analyses::operating_points::OperatingPointsOutcome;
+    pub use gearloss_studies::analyses::rms_surface::RmsSurfaceOutcome;
+    pub use gearloss_studies::analyses::sensitivity::SensitivityOutcome;
+    pub use gearloss_studies::analyses::sweep::SweepOutcome;
+    pub use gearloss_studies::analyses::thermal_limit::ThermalLimitOutcome;
+    pub use gearloss_studies::analyses::tournament::TournamentOutcome;
+    pub use gearloss_studies::analyses::uncertainty::UncertaintyOutcome;
+}
+
+/// Every code of a finding, in the order of their numbers; docs/errors.md lists them with cause and help.
+pub fn codes() -> Vec<Code> {
+    let own: [&[Code]; 4] = [
+        gearloss_document::codes::ALL,
+        gearloss_framework::codes::ALL,
+        gearloss_studies::codes::ALL,
+        gearloss_report::codes::ALL,
+    ];
+    own.concat()
+}
+
+/// Reads a study of a source with its gearboxes, and checks every name that its analyses use.
+///
+/// # Errors
+/// Everything that reading, the walk and the check find.
+pub fn read_study(language: &Language, files: &SharedSource, file: impl AsRef<Path>) -> Result<Study, Findings> {
+    let study = Study::read_from(language, files, file.as_ref())?;
+    study.check(language)?;
+    Ok(study)
+}
+
+/// Solves one point of a gear state: torque and speed at the reference port, temperatures as the gearbox states them.
+///
+/// # Errors
+/// That there is no such gear state, or that it needs other ports: use [`solve_points`] there.
+pub fn solve_point(
+    gearbox: &Gearbox,
+    transmission: &Transmission,
+    gear: &str,
+    given: Given,
+) -> Result<PointResult, Findings> {
+    let points = Points::at_reference(transmission, gear, Field::List(vec![given]));
+    let mut solved = solve_points(gearbox, transmission, &points)?.points;
+    // A list of one point has one result.
+    Ok(solved.remove(0))
+}
+
+/// Solves points on all cores. They have the same bits on any number of cores.
+///
+/// # Errors
+/// That the gear state is unknown, or that the ports do not fit.
+pub fn solve_points(gearbox: &Gearbox, transmission: &Transmission, points: &Points) -> Result<GridResult, Findings> {
+    let solved = gearloss_studies::analysis::run_grid(transmission, points, &|_| true);
+    // The progress above breaks nothing off.
+    Ok(solved.map_err(|list| gearbox.findings(list))?.unwrap_or_default())
+}
