@@ -8,7 +8,6 @@ pub mod fit;
 pub mod import;
 pub mod merge;
 pub mod models;
-mod needs;
 pub mod new;
 mod point;
 pub mod run;

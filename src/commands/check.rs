@@ -3,19 +3,15 @@
 mod json;
 
 use std::collections::BTreeSet;
+use std::path::Path;
 
-use gearloss_framework::coefficients::changed_from_source;
-use gearloss_framework::document::{Sources, did_you_mean, read_yaml};
-use gearloss_framework::evaluate::{Point, PowerFlow};
+use gearloss_framework::document::{did_you_mean, read_yaml};
 use gearloss_framework::files::{LONGEST_TEXT, read_text};
 use gearloss_framework::gearbox::{Findings, Gearbox};
 use gearloss_framework::language::Language;
 use gearloss_framework::registry::Evidence;
-use gearloss_framework::transmission::Transmission;
-use gearloss_report::card::{card, stage_lines};
-use gearloss_report::page::outside;
-use gearloss_report::point::remarks;
-use gearloss_studies::analysis::{Note, STATIC_SAFETY, evidence, merge, notes};
+use gearloss_report::check::{checked_text, resolved_text};
+use gearloss_studies::checked::CheckedGearbox;
 
 use super::set;
 use crate::args::{CheckArgs, ChoiceArgs, Format};
@@ -56,7 +52,7 @@ pub fn run(args: &CheckArgs, out: &mut Out) -> Result<End, Failure> {
             }
             continue;
         }
-        match gearbox(language, file, &args.choice, args.resolved) {
+        match gearbox(language, file, args) {
             Ok((text, weakest)) => {
                 out.text(&text)?;
                 if deny.is_some_and(|deny| weakest.is_some_and(|w| w >= deny)) {
@@ -78,7 +74,7 @@ pub fn run(args: &CheckArgs, out: &mut Out) -> Result<End, Failure> {
 }
 
 /// Rejects options that do not apply to a study.
-fn belongs_to_gearboxes(args: &CheckArgs, file: &std::path::Path) -> Result<(), Failure> {
+fn belongs_to_gearboxes(args: &CheckArgs, file: &Path) -> Result<(), Failure> {
     let given = [
         ("--set", !args.choice.set.is_empty()),
         ("--models", args.choice.models.is_some()),
@@ -94,23 +90,12 @@ fn belongs_to_gearboxes(args: &CheckArgs, file: &std::path::Path) -> Result<(), 
     }
 }
 
-/// Grades from highest to lowest.
-const GRADES: [&str; 8] = [
-    "several_sources",
-    "derived",
-    "one_source",
-    "user",
-    "recalled",
-    "reconstructed",
-    "disputed",
-    "assumed",
-];
-
 /// The grade of a name.
 pub fn grade(name: &str) -> Result<Evidence, Failure> {
     Evidence::of_name(name).ok_or_else(|| {
-        let grades = GRADES.join(", ");
-        let help = match did_you_mean(name, GRADES) {
+        let names = Evidence::ALL.map(Evidence::name);
+        let grades = names.join(", ");
+        let help = match did_you_mean(name, names) {
             Some(close) => format!("write {close}; the grades are {grades}"),
             None => format!("write one of {grades}"),
         };
@@ -118,35 +103,7 @@ pub fn grade(name: &str) -> Result<Evidence, Failure> {
     })
 }
 
-/// Bearings with insufficient static safety at the rated torque and speed, in any gear, in drive and coast.
-fn overloaded(t: &Transmission) -> Vec<Note> {
-    let Some(rating) = t.rating else { return Vec::new() };
-    let mut seen = Vec::new();
-    for i in 0..t.states().len() {
-        let Some(case) = t.case_at_reference(i) else { continue };
-        let mut scratch = t.scratch(&case);
-        let mut torques = vec![0.0; case.torque_ports.len()];
-        for sign in [1.0, -1.0] {
-            let Some(first) = torques.first_mut() else { continue };
-            *first = sign * rating.torque;
-            let point = Point {
-                speeds: &[rating.speed],
-                torques: &torques,
-                flow: PowerFlow::Ideal,
-                ..Point::default()
-            };
-            t.evaluate(&case, &point, &[t.oil_temperature], &mut scratch);
-        }
-        merge(&mut seen, &scratch.totals);
-    }
-    if seen.is_empty() {
-        return Vec::new();
-    }
-    let safety = |note: &Note| note.name == STATIC_SAFETY;
-    notes(t, &seen).into_iter().filter(safety).collect()
-}
-
-fn is_study(file: &std::path::Path) -> bool {
+fn is_study(file: &Path) -> bool {
     let text = read_text(file, LONGEST_TEXT).unwrap_or_default();
     let node = read_yaml(0, &text).node;
     node.get("gearloss")
@@ -154,71 +111,21 @@ fn is_study(file: &std::path::Path) -> bool {
         .is_some_and(|kind| kind.starts_with("study"))
 }
 
-fn gearbox(
-    language: &Language,
-    file: &std::path::Path,
-    choice: &ChoiceArgs,
-    print: bool,
-) -> Result<(String, Option<Evidence>), Findings> {
+/// A gearbox, read with all its model sets, resolved and built.
+fn checked(language: &Language, file: &Path, choice: &ChoiceArgs) -> Result<CheckedGearbox, Findings> {
     let gearbox = Gearbox::read(language, file)?;
     gearbox.check_sets(language)?;
     let resolved = set::resolve(language, &gearbox, choice)?;
-    let transmission = gearbox.build(language, &resolved)?;
-    let known = evidence(&transmission, &resolved, &|path| gearbox.places.is_written(path));
-    let weakest = known.first().map(|w| w.grade);
-    let mut text = String::new();
-    if print {
-        match serde_saphyr::to_string(&language.readable(&resolved.value)) {
-            Ok(yaml) => {
-                text.push_str(&format!(
-                    "# {} with all defaults, catalogue values and models; file names are relative to its folder\n",
-                    file.display()
-                ));
-                // As comments, so that the output is a valid gearbox.
-                for warning in &transmission.warnings {
-                    for line in gearbox.sources.render(warning).lines() {
-                        text.push_str(format!("# {line}").trim_end());
-                        text.push('\n');
-                    }
-                }
-                text.push_str(&yaml);
-                // As comments, because they are not keys of a gearbox.
-                text.push_str("# derived geometry\n");
-                for stage in transmission.stages() {
-                    text.push_str(&format!("# {}:\n", stage.mesh));
-                    for figure in stage_lines(&stage) {
-                        text.push_str(&format!("#   {figure}\n"));
-                    }
-                }
-            }
-            Err(e) => {
-                let error = gearloss_framework::document::Diagnostic::error("", format!("cannot write YAML: {e}"));
-                return Err(Findings {
-                    list: vec![error],
-                    sources: Sources::default(),
-                });
-            }
-        }
-        return Ok((text, weakest));
-    }
-    for warning in &transmission.warnings {
-        text.push_str(&gearbox.sources.render(warning));
-        text.push_str("\n\n");
-    }
-    let states: Vec<&str> = transmission.states().iter().map(|s| s.name.as_str()).collect();
-    text.push_str(&format!(
-        "{}: fine; {} components, gears: {}\n",
-        file.display(),
-        transmission.parts().len(),
-        states.join(", ")
-    ));
-    text.push_str(&card(&transmission));
-    for line in outside(&overloaded(&transmission)).lines() {
-        let line = line.trim_start_matches("outside: ");
-        text.push_str(&format!("  at the rated torque: {line}\n"));
-    }
-    for line in remarks(&resolved, &changed_from_source(&transmission, &resolved), &known) {
-        text.push_str(&format!("  {line}\n"));
-    }
-    Ok((text, weakest))
+    CheckedGearbox::new(language, gearbox, resolved)
+}
+
+fn gearbox(language: &Language, file: &Path, args: &CheckArgs) -> Result<(String, Option<Evidence>), Findings> {
+    let checked = checked(language, file, &args.choice)?;
+    let name = file.display().to_string();
+    let text = if args.resolved {
+        resolved_text(language, &name, &checked)?
+    } else {
+        checked_text(&name, &checked)
+    };
+    Ok((text, checked.lowest_evidence()))
 }

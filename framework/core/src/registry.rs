@@ -113,20 +113,21 @@ impl Evidence {
         }
     }
 
+    /// Grades from highest to lowest.
+    pub const ALL: [Self; 8] = [
+        Self::SeveralSources,
+        Self::Derived,
+        Self::OneSource,
+        Self::User,
+        Self::Recalled,
+        Self::Reconstructed,
+        Self::Disputed,
+        Self::Assumed,
+    ];
+
     /// The grade of a name.
     pub fn of_name(name: &str) -> Option<Self> {
-        [
-            Self::SeveralSources,
-            Self::Derived,
-            Self::OneSource,
-            Self::User,
-            Self::Recalled,
-            Self::Reconstructed,
-            Self::Disputed,
-            Self::Assumed,
-        ]
-        .into_iter()
-        .find(|grade| grade.name() == name)
+        Self::ALL.into_iter().find(|grade| grade.name() == name)
     }
 }
 

@@ -5,8 +5,11 @@
 
 // Outcomes, points and models as text and pages.
 pub mod card;
+pub mod check;
 pub mod codes;
+pub mod eval;
 pub mod html;
+pub mod models;
 pub mod page;
 pub mod point;
 pub mod text;

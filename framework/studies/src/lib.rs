@@ -16,6 +16,10 @@ pub mod run;
 pub mod table;
 pub mod tasks;
 
+// What `check` finds and `models --needs` lists.
+pub mod checked;
+pub mod needs;
+
 // What analyses share: points, varied quantities, identification, fits of columns.
 pub mod analysis;
 pub mod fit;

@@ -2,45 +2,53 @@
 //!
 //! Needs are found by trial: an input is needed if building fails without it.
 
-use std::path::Path;
-
-use gearloss_framework::gearbox::Gearbox;
+use gearloss_framework::gearbox::{Findings, Gearbox};
 use gearloss_framework::language::{DRAGS, HELD, Language};
 use gearloss_framework::registry::{Entry, MechanismEntry};
 use gearloss_framework::resolve::{Choice, Resolved, ValueSource, lookup};
 use gearloss_framework::transmission::Transmission;
 use serde_json::Value;
 
-use crate::output::{End, Failure, Out, Table};
+/// An input of a model beyond the inputs of every gearbox.
+#[derive(Debug, Clone)]
+pub struct Need {
+    /// Mechanism of the model.
+    pub mechanism: &'static str,
+    /// Name of the model.
+    pub model: &'static str,
+    /// Path of the input, or the components that lack it.
+    pub input: String,
+    /// Where the gearbox has it from, or what is missing.
+    pub origin: String,
+}
 
-pub fn run(language: &Language, file: &Path, only: Option<&str>, out: &mut Out) -> Result<End, Failure> {
-    let gearbox = Gearbox::read(language, file)?;
+/// The inputs that the models of all mechanisms, or of one, need in a gearbox.
+///
+/// # Errors
+/// Everything that resolving the gearbox finds.
+pub fn needs(language: &Language, gearbox: &Gearbox, only: Option<&str>) -> Result<Vec<Need>, Findings> {
     let resolved = gearbox.resolve(language, &Choice::default())?;
-    let mut table = Table::new(&["mechanism", "model", "input", "in this gearbox"]);
+    let mut needs = Vec::new();
     for mechanism in language.registry().mechanisms() {
-        if only.is_some_and(|key| key != mechanism.key) {
-            continue;
-        }
         let slots = slots(&resolved, mechanism);
-        if slots.is_empty() {
+        if slots.is_empty() || only.is_some_and(|key| key != mechanism.key) {
             continue;
         }
-        for entry in language
-            .registry()
-            .models(mechanism.key)
-            .filter(|e| !e.is_user_defined())
-        {
+        let models = language.registry().models(mechanism.key);
+        for entry in models.filter(|e| !e.is_user_defined()) {
             let Ok((example, _)) = language.example_of(entry) else {
                 continue;
             };
-            for (input, state) in inputs(language, &gearbox, &resolved, entry, &slots, &example) {
-                table.row(vec![mechanism.key.to_owned(), entry.name.to_owned(), input, state]);
-            }
+            let rows = inputs(language, gearbox, &resolved, entry, &slots, &example);
+            needs.extend(rows.into_iter().map(|(input, origin)| Need {
+                mechanism: mechanism.key,
+                model: entry.name,
+                input,
+                origin,
+            }));
         }
     }
-    out.text(&table.render())?;
-    out.line("\ngiven: written; assumed: written and listed under `assumed`; derived: from a catalogue; default: not written")?;
-    Ok(End::Fine)
+    Ok(needs)
 }
 
 /// Paths of the model slots of a mechanism, and of the records that its parts are built from.

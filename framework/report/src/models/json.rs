@@ -1,21 +1,15 @@
 //! `models --format json`: all data of mechanisms and models, for programs.
 
-use gearloss_framework::coefficients::COEFFICIENTS;
-use gearloss_framework::document::{Unit, records_by_type};
+use gearloss_framework::document::Unit;
 use gearloss_framework::language::{Kind, Language};
 use gearloss_framework::mechanism::QuantityDoc;
 use gearloss_framework::registry::{Entry, MechanismEntry};
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
-use crate::output::{Failure, Out};
+use super::parameters;
 
-/// Prints mechanisms with the selected `models`; without a selection all of them.
-pub fn run(
-    language: &Language,
-    mechanism: Option<&MechanismEntry>,
-    model: Option<&Entry>,
-    out: &mut Out,
-) -> Result<(), Failure> {
+/// Mechanisms with their models in the format `gearloss-models/1`; all of them, or the selected ones.
+pub fn models_json(language: &Language, mechanism: Option<&MechanismEntry>, model: Option<&Entry>) -> Value {
     let schema = language.published(Kind::Gearbox);
     let registry = language.registry();
     let mechanisms: Vec<Value> = registry
@@ -45,15 +39,13 @@ pub fn run(
         .iter()
         .map(|set| json!({ "name": set.name, "meaning": set.meaning, "package": set.origin.package.name }))
         .collect();
-    let value = json!({
+    json!({
         "format": "gearloss-models/1",
         "gearloss": env!("CARGO_PKG_VERSION"),
         "packages": registry.packages(),
         "mechanisms": mechanisms,
         "sets": sets,
-    });
-    out.line(serde_json::to_string_pretty(&value).unwrap_or_default())?;
-    Ok(())
+    })
 }
 
 /// A doc comment without its unit at the end.
@@ -79,16 +71,8 @@ fn quantity(quantity: &QuantityDoc) -> Value {
 }
 
 fn of_model(entry: &Entry, schema: &Value) -> Value {
-    let own = records_by_type(&schema["definitions"][format!("{}_model", entry.mechanism)])
-        .into_iter()
-        .find_map(|(name, record)| (name == entry.name).then_some(record));
-    let no_fields = Map::new();
-    let fields = own
-        .and_then(|record| record["properties"].as_object())
-        .unwrap_or(&no_fields);
-    let parameters: Vec<Value> = fields
+    let parameters: Vec<Value> = parameters(entry, schema)
         .iter()
-        .filter(|(name, _)| !["type", COEFFICIENTS].contains(&name.as_str()))
         .map(|(name, field)| {
             let doc = field["description"].as_str().unwrap_or_default();
             json!({

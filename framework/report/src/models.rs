@@ -1,0 +1,179 @@
+//! Mechanisms and models of a program: tables and records.
+
+mod json;
+
+use gearloss_framework::coefficients::COEFFICIENTS;
+use gearloss_framework::document::records_by_type;
+use gearloss_framework::language::{Kind, Language};
+use gearloss_framework::registry::{Entry, MechanismEntry};
+use serde_json::Value;
+
+pub use json::models_json;
+
+use crate::text::{Lines, TextTable, significant};
+
+/// Names and schemas of the parameters of a model, from the schema of gearboxes.
+fn parameters(entry: &Entry, schema: &Value) -> Vec<(String, Value)> {
+    let models = records_by_type(&schema["definitions"][format!("{}_model", entry.mechanism)]);
+    let own = models.into_iter().find(|(name, _)| *name == entry.name);
+    let fields = own.as_ref().and_then(|(_, record)| record["properties"].as_object());
+    let fields = fields.into_iter().flatten();
+    fields
+        .filter(|(name, _)| !["type", COEFFICIENTS].contains(&name.as_str()))
+        .map(|(name, field)| (name.clone(), field.clone()))
+        .collect()
+}
+
+/// All models by mechanism, the model sets, and the crates with models.
+pub fn models_text(language: &Language) -> String {
+    let mut out = Lines::default();
+    let mut table = TextTable::new(&["mechanism", "model", "crate", "evidence", "description"]);
+    for mechanism in language.registry().mechanisms() {
+        for model in language.registry().models(mechanism.key) {
+            let grade = model
+                .evidence
+                .iter()
+                .find(|g| g.key.is_empty())
+                .map_or("", |g| g.grade.name());
+            table.row(vec![
+                mechanism.key.to_owned(),
+                model.name.to_owned(),
+                model.origin.package.name.to_owned(),
+                grade.to_owned(),
+                model.meaning(),
+            ]);
+        }
+    }
+    out.text(&table.render());
+    out.line("");
+    for set in language.registry().shipped_sets() {
+        out.line(format!(
+            "set {}: {} ({})",
+            set.name, set.meaning, set.origin.package.name
+        ));
+    }
+    for package in language.registry().packages() {
+        out.line(format!("crate {package}"));
+    }
+    out.into_text()
+}
+
+/// A mechanism with its quantities and models.
+pub fn mechanism_text(language: &Language, mechanism: &MechanismEntry) -> String {
+    let mut out = Lines::default();
+    out.line(format!("{}: {}", mechanism.key, mechanism.meaning));
+    out.line(format!("answer: {}", mechanism.answer));
+    if let Some(section) = &mechanism.section {
+        out.line(format!("section: {}", section.name));
+    }
+    out.line(format!("registered at {}", mechanism.origin));
+    out.line("");
+    let mut quantities = TextTable::new(&["quantity", "usual", "min", "max", "description", "from"]);
+    for q in (mechanism.quantities)() {
+        quantities.row(vec![
+            q.name.to_owned(),
+            significant(q.usual),
+            significant(q.least),
+            significant(q.greatest),
+            q.doc.trim().to_owned(),
+            q.from.to_owned(),
+        ]);
+    }
+    out.text(&quantities.render());
+    for law in (mechanism.laws)() {
+        out.line(format!("law: {law}"));
+    }
+    out.line("");
+    let mut models = TextTable::new(&["model", "description", "source"]);
+    for model in language.registry().models(mechanism.key) {
+        models.row(vec![model.name.to_owned(), model.meaning(), model.source.to_owned()]);
+    }
+    out.text(&models.render());
+    out.into_text()
+}
+
+/// A model with its parameters, coefficients, stated ranges and evidence.
+pub fn model_text(language: &Language, entry: &Entry) -> String {
+    let mut out = Lines::default();
+    out.line(format!("{}/{}: {}", entry.mechanism, entry.name, entry.meaning()));
+    out.line(format!("source: {}", entry.source));
+    out.line(format!("registered at {}", entry.origin));
+    out.line(format!("example: {}", entry.example));
+    let schema = language.published(Kind::Gearbox);
+    let fields = parameters(entry, &schema);
+    let mut table = TextTable::new(&["parameter", "default", "range", "description"]);
+    for (name, field) in fields {
+        let range = match (field["minimum"].as_f64(), field["maximum"].as_f64()) {
+            (Some(least), Some(greatest)) => format!("{} to {}", significant(least), significant(greatest)),
+            _ => String::new(),
+        };
+        let default = match &field["default"] {
+            Value::Null => "-".to_owned(),
+            value => value.to_string(),
+        };
+        let doc = field["description"].as_str().unwrap_or_default().to_owned();
+        table.row(vec![name.clone(), default, range, doc]);
+    }
+    out.line("");
+    out.text(&table.render());
+    let coefficients = entry.coefficients();
+    if !coefficients.is_empty() {
+        out.line(format!(
+            "\n{COEFFICIENTS} of the formula, under the key `{COEFFICIENTS}`; published by {}",
+            entry.source
+        ));
+        let mut table = TextTable::new(&["coefficient", "published", "range", "description"]);
+        for own in coefficients {
+            let range = format!("{} to {}", significant(own.least), significant(own.greatest));
+            table.row(vec![own.name, own.published.to_string(), range, own.meaning]);
+        }
+        out.text(&table.render());
+    }
+    if !entry.terms.is_empty() {
+        let words: Vec<String> = entry
+            .terms
+            .iter()
+            .map(|t| {
+                format!(
+                    "{} ({})",
+                    t.name,
+                    if t.load_dependent {
+                        "load-dependent"
+                    } else {
+                        "not load-dependent"
+                    }
+                )
+            })
+            .collect();
+        out.line(format!("\nterms: {}", words.join(", ")));
+    }
+    for observed in entry.observed {
+        out.line(format!(
+            "observed: {} [{}]: {}",
+            observed.name, observed.unit, observed.meaning
+        ));
+    }
+    for limit in entry.limits {
+        out.line(format!(
+            "stated range: {} {} to {} {} ({})",
+            limit.name,
+            significant(limit.least),
+            significant(limit.greatest),
+            limit.unit,
+            limit.origin
+        ));
+    }
+    for graded in entry.evidence {
+        let what = if graded.key.is_empty() {
+            "formula".to_owned()
+        } else {
+            format!("default of {}", graded.key)
+        };
+        out.line(format!(
+            "evidence: {what}: {} ({})",
+            graded.grade.name(),
+            graded.because
+        ));
+    }
+    out.into_text()
+}
