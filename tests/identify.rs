@@ -436,7 +436,7 @@ fn what_cannot_be_identified_is_told_with_its_place_and_how_to_mend_it() {
             "",
             &csv,
             "parameters.x.scale",
-            "above zero",
+            "a positive lower bound",
         ),
         (
             "x: { path: rig.torque_offset_in }",

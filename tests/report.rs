@@ -29,7 +29,7 @@ fn the_report_holds_everything_and_needs_no_network() {
                 "twelve tests",
                 "oil temperature in degC",
                 "planet_ring",
-                "stand-in made by the model",
+                "placeholder generated with the model",
             ],
         ),
     ] {
@@ -53,7 +53,7 @@ fn two_products_stand_side_by_side() {
         "Gearbox ours",
         "Gearbox theirs",
         "loss of theirs&#x2f;joint minus ours&#x2f;joint",
-        "by another maker",
+        "Competing product",
     ] {
         assert!(text.contains(word), "{word}");
     }

@@ -165,7 +165,7 @@ fn what_cannot_be_asked_is_told_with_its_place_and_how_to_mend_it() {
             format!("parameters: [{{ path: {kv}, from: 6 mm2/s, to: 6 mm2/s }}]"),
             vec![
                 "two finite ends in ascending order, not 6 mm2/s and 6 mm2/s",
-                "wider than nothing",
+                "give a range with a positive width",
             ],
         ),
         (

@@ -113,6 +113,8 @@ fn same(one: &str, other: &str) {
             chars.map(|(i, c)| if held(i) { c } else { '*' }).collect()
         };
         assert!(masked(a) == masked(b), "{a:.300}\n{b:.300}");
+        // A page escapes the heading `rms / accuracy`, and so shifts it against its columns.
+        let a = a.replace("&#x2f;", "/");
         let long = a.find("  relative time");
         let short = a.find("  time  ").or(a.strip_suffix("  time").map(str::len));
         if let Some(start) = long.or(short.filter(|_| a.starts_with("rank"))) {
@@ -338,7 +340,7 @@ fn parts_of_anything_else_are_refused() {
     let words = refused(&folder, &["merge", "study.yaml", "shards/1-of-2", "third"]);
     assert!(words.contains("belongs to 2 shards") && words.contains("to 3"), "{words}");
     let words = refused(&folder, &["run", "study.yaml", "--shard", "2/3", "-o", "third"]);
-    assert!(words.contains("shard 1/3, not of 2/3"), "{words}");
+    assert!(words.contains("shard 1/3, not to 2/3"), "{words}");
     let words = refused(&folder, &["run", "study.yaml", "--shard", "2/3", "-o", "."]);
     assert!(words.contains("no part of a study"), "{words}");
     let words = refused(&folder, &["merge", "study.yaml", "."]);

@@ -629,7 +629,7 @@ analyses:
     for words in [
         "16 of 16 points have no accuracy in the file: 5 % of the loss",
         "16 of 16 points have no accuracy in the file: 3 % of the loss and 2 W, standard deviations, added as squares, stated under `errors`",
-        "4 points have no efficiency: they count by their loss",
+        "4 points have no efficiency: they are ranked by their loss",
         "accuracies of losses must be positive, and at least one must be stated",
         "`factors`, `gear`, `errors` and `correlation` belong to `data`",
     ] {

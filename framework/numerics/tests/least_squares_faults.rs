@@ -25,7 +25,7 @@ fn check_2_9_what_makes_no_sense_is_told_at_once() {
         assert!(text.contains(part), "{part} is not in\n{text}");
     }
     let twice = vec![Parameter::new("a", 1.0), Parameter::new("a", 1.0)];
-    assert!(fault(&Problem::new(|_: &[f64]| Ok(vec![0.0; 9]), twice)).contains("taken twice"));
+    assert!(fault(&Problem::new(|_: &[f64]| Ok(vec![0.0; 9]), twice)).contains("used twice"));
     assert!(fault(&Problem::new(|_: &[f64]| Ok(vec![0.0; 9]), Vec::new())).contains("there are none"));
     let options = Options {
         loss_scale: 0.0,

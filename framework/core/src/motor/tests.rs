@@ -82,8 +82,8 @@ fn faults_of_a_map_tell_line_and_column() {
     assert_eq!(
         messages("speed [rpm],torque [Nm],efficiency [-]\n1000,10,80\n1000,20,0\n-1,10,0.5\n1000,x,0.5\n"),
         [
-            "line 2, column 3 `efficiency`: an efficiency of 80; it lies between 0 and 1, or 0 and 100 %",
-            "line 3, column 3 `efficiency`: an efficiency of 0; it lies between 0 and 1, or 0 and 100 %",
+            "line 2, column 3 `efficiency`: an efficiency of 80; it must be between 0 and 1, or 0 and 100 %",
+            "line 3, column 3 `efficiency`: an efficiency of 0; it must be between 0 and 1, or 0 and 100 %",
             "line 4, column 1 `speed`: `-1` is negative",
             "line 5, column 2 `torque`: `x` is not a number",
         ]

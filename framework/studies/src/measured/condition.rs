@@ -678,7 +678,7 @@ mod tests {
             ("torque > 1000 Mm", 15, "`Mm` is not a unit", "Nm"),
             ("torque > 1000 Nm speed < 2 rpm", 18, "unexpected `speed`", "`and`"),
             ("torque > 1,5 Nm", 10, "a comma", "point"),
-            ("torque = 5 Nm", 8, "no comparison", "`==`"),
+            ("torque = 5 Nm", 8, "not followed by a comparison", "`==`"),
             ("torque > first", 10, "not a number", "`1 Nm`"),
             ("torque >", 9, "a value is missing", "1000 Nm"),
             ("torque > 1e999 Nm", 10, "too large", "another"),
