@@ -4,7 +4,7 @@ use std::io::{self, IsTerminal, Write};
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::gearbox::Findings;
-pub use gearloss_report::text::{TextTable as Table, beyond, figures, number, significant};
+pub use gearloss_report::text::{TextTable as Table, figures, number, significant};
 use gearloss_studies::analyses::Stopped;
 
 /// How a command ended.

@@ -338,7 +338,10 @@ fn parts_of_anything_else_are_refused() {
     // Shards of two splittings, a folder of something else, a shard in the folder of another.
     fine(&folder, &["run", "study.yaml", "--shard", "1/3", "-o", "third"]);
     let words = refused(&folder, &["merge", "study.yaml", "shards/1-of-2", "third"]);
-    assert!(words.contains("belongs to 2 shards") && words.contains("to 3"), "{words}");
+    assert!(
+        words.contains("belongs to 2 shards") && words.contains("to 3"),
+        "{words}"
+    );
     let words = refused(&folder, &["run", "study.yaml", "--shard", "2/3", "-o", "third"]);
     assert!(words.contains("shard 1/3, not to 2/3"), "{words}");
     let words = refused(&folder, &["run", "study.yaml", "--shard", "2/3", "-o", "."]);

@@ -424,7 +424,11 @@ analyses:
     let inputs = band["inputs"].as_array().unwrap();
     same(number(&inputs[0]["correlation_with_mean_loss"]), 1.0, 1e-5);
     assert!(number(&inputs[1]["correlation_with_mean_loss"]).abs() < 0.05);
-    for words in ["valeu", "one of `plus_minus`, `percent`", "two finite ends in ascending order"] {
+    for words in [
+        "valeu",
+        "one of `plus_minus`, `percent`",
+        "two finite ends in ascending order",
+    ] {
         assert!(text.contains(words), "{words}: {text}");
     }
 }

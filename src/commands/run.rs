@@ -6,7 +6,6 @@ mod result_files;
 mod runner;
 mod shard;
 mod shard_tasks;
-mod stated_ranges;
 mod table;
 mod task_file;
 mod write;
@@ -235,7 +234,13 @@ pub(super) fn all(
         }
         done_so_far += 1;
     }
-    runner.print_stated_ranges(out)?;
+    let outside = runner.stated_ranges.borrow().lines();
+    for line in &outside {
+        out.line(line)?;
+    }
+    if !outside.is_empty() {
+        out.line("")?;
+    }
     write::report(&runner, template.as_deref())?;
     held.finish();
     out.line(format!(

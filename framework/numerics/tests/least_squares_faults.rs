@@ -108,7 +108,11 @@ fn check_2_9_a_parameter_that_is_not_seen() {
     let fit = solve(&problem(law, &[3.0, 7.0], &[-INF; 2], &[INF; 2]), &Options::fit()).unwrap();
     assert!(fit.converged() && (fit.theta[0] - 1.2).abs() < 1e-9 && fit.theta[1] == 7.0);
     assert_eq!(fit.derivative.unwrap().unseen, [false, true]);
-    assert!(fit.notes.iter().any(|n| n.contains("`x2` has no effect on any residual")));
+    assert!(
+        fit.notes
+            .iter()
+            .any(|n| n.contains("`x2` has no effect on any residual"))
+    );
     // Unseen at the start only: it joins.
     let law: Residual = |x| vec![x[0] - 3.0, (x[0] - 1.0).max(0.0) * (x[1] - 2.0), 0.1];
     let fit = solve(&problem(law, &[0.0, 7.0], &[-INF; 2], &[INF; 2]), &Options::fit()).unwrap();

@@ -12,6 +12,7 @@ pub mod html;
 pub mod models;
 pub mod page;
 pub mod point;
+pub mod stated_ranges;
 pub mod text;
 mod views;
 

@@ -2,5 +2,6 @@
 
 pub mod columns;
 mod drag_law;
+pub mod openfoam;
 
 pub use drag_law::DragLaw;

@@ -85,9 +85,7 @@ fn study(looked: Looked) -> Result<Checked, Failure> {
     };
     for failure in looked.refused {
         match failure {
-            Failure::Found(findings) => checked
-                .findings
-                .extend(placed(&findings.list, &findings.sources)),
+            Failure::Found(findings) => checked.findings.extend(placed(&findings.list, &findings.sources)),
             Failure::Input(text) => {
                 let finding = Diagnostic::error("", text.trim().trim_start_matches("error: "));
                 let finding = finding.code(gearloss_studies::codes::STUDY);
@@ -97,9 +95,7 @@ fn study(looked: Looked) -> Result<Checked, Failure> {
         }
     }
     for found in &looked.warnings {
-        checked
-            .findings
-            .extend(placed(&found.list, &found.sources));
+        checked.findings.extend(placed(&found.list, &found.sources));
     }
     checked.notes = looked.notes;
     Ok(checked)

@@ -7,6 +7,7 @@ use std::path::PathBuf;
 use gearloss_framework::language::Language;
 use gearloss_report::html::{Report, Section};
 use gearloss_report::page::{Page, Text};
+use gearloss_report::stated_ranges::StatedRanges;
 use gearloss_studies::analyses::progress::{Progress, Steps};
 use gearloss_studies::analyses::{AnalysisEntry, AnyOutcome, Context, Stopped};
 use gearloss_studies::run::StudyRun;
@@ -16,7 +17,6 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use super::result_files::Files;
 use super::shard_tasks::ShardTasks;
-use super::stated_ranges::StatedRanges;
 use super::table::Tables;
 use super::write;
 use crate::interrupt;
@@ -169,17 +169,10 @@ impl<'a> Run<'a> {
 impl Runner<'_> {
     /// Prints an outcome, writes its files and adds it to the report.
     fn present(&self, analysis: &AnalysisEntry, outcome: &dyn AnyOutcome, out: &mut Out) -> Result<(), Failure> {
-        let notes: Vec<_> = outcome.notes().into_iter().filter(|note| note.outside > 0).collect();
-        let samples = outcome.left_at_samples();
-        self.run
-            .left
-            .set(self.run.left.get() + notes.len() + samples.len() + outcome.unlisted());
-        for note in &notes {
-            self.keep_outside(note);
-        }
-        for (path, name) in samples {
-            self.keep_outside_at_samples(path, name);
-        }
+        let outside = outcome.notes().iter().filter(|note| note.outside > 0).count();
+        let left = outside + outcome.left_at_samples().len() + outcome.unlisted();
+        self.run.left.set(self.run.left.get() + left);
+        self.run.stated_ranges.borrow_mut().add_outcome(self.name, outcome);
         let page = Page::from_outcome(outcome);
         self.run.in_section(|section| section.add_text(&page));
         for text in &page.text {

@@ -179,7 +179,11 @@ fn parameters_that_nothing_depends_on_are_not_seen() {
     assert_eq!(fit.determination(8).verdict, Verdict::NotSeen);
     assert_eq!(fit.determination(9).verdict, Verdict::Held);
     assert!(fit.deviation(8).is_none() && fit.deviation(9).is_none() && fit.to_profile(8, 0.95).is_none());
-    assert!(fit.sentence(8).contains("less effect than the accuracy of the instruments") && fit.sentence(9).contains("fixed at 1"));
+    assert!(
+        fit.sentence(8)
+            .contains("less effect than the accuracy of the instruments")
+            && fit.sentence(9).contains("fixed at 1")
+    );
     near(deviation(&fit, 1), 0.0560232651, 1e-7);
     let mut gradient = vec![0.0; 10];
     gradient[8] = 1.0;

@@ -1,10 +1,6 @@
 //! Output of OpenFOAM's `forces` function object: `forces.dat` (all releases until about 2016, and openfoam.org) and `moment.dat`
 //! (openfoam.com), with or without parentheses and porous parts.
 
-use std::path::{Path, PathBuf};
-
-use gearloss_framework::files::{LONGEST_DATA, read_text};
-
 /// Moments at one time. \[Nm\]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sample {
@@ -33,6 +29,9 @@ pub struct Mean {
 
 impl Mean {
     /// Mean between two times, weighted by the length of the time steps.
+    ///
+    /// # Errors
+    /// That fewer than two samples lie between the times, with the times that there are.
     pub fn over_time(samples: &[Sample], axis: usize, [from, to]: [f64; 2]) -> Result<Self, String> {
         let inside: Vec<&Sample> = samples.iter().filter(|s| s.time >= from && s.time <= to).collect();
         if inside.len() < 2 {
@@ -77,54 +76,12 @@ impl Mean {
     }
 }
 
-/// All samples of a run: from a file, or from a folder with one subfolder for each start of the solver. Samples of a later start replace
-/// earlier samples at the same times.
-pub fn history(place: &Path) -> Result<Vec<Sample>, String> {
-    let files = if place.is_file() {
-        vec![place.to_path_buf()]
-    } else {
-        files(place)?
-    };
-    let mut all: Vec<Sample> = Vec::new();
-    for file in files {
-        let text = read_text(&file, LONGEST_DATA).map_err(|e| format!("cannot read {}: {e}", file.display()))?;
-        let samples = samples(&text).map_err(|fault| format!("{}, {fault}", file.display()))?;
-        if let Some(first) = samples.first() {
-            all.retain(|s| s.time < first.time);
-        }
-        all.extend(samples);
-    }
-    Ok(all)
-}
-
-fn files(folder: &Path) -> Result<Vec<PathBuf>, String> {
-    let own = |folder: &Path| {
-        ["moment.dat", "forces.dat"]
-            .map(|name| folder.join(name))
-            .into_iter()
-            .find(|file| file.is_file())
-    };
-    if let Some(file) = own(folder) {
-        return Ok(vec![file]);
-    }
-    let entries = std::fs::read_dir(folder).map_err(|e| format!("cannot read: {e}"))?;
-    let mut starts: Vec<(f64, PathBuf)> = entries
-        .filter_map(|entry| {
-            let path = entry.ok()?.path();
-            let time = path.file_name()?.to_str()?.parse::<f64>().ok()?;
-            Some((time, own(&path)?))
-        })
-        .collect();
-    starts.sort_by(|a, b| a.0.total_cmp(&b.0));
-    if starts.is_empty() {
-        return Err("no moment.dat or forces.dat in the folder or in its time folders".to_owned());
-    }
-    Ok(starts.into_iter().map(|(_, file)| file).collect())
-}
-
 /// Samples of one file. `forces.dat` contains forces, then moments, each as pressure, viscous and optionally porous; `moment.dat` contains
 /// the total, pressure, viscous and optionally porous moment. The number of columns identifies the format.
-fn samples(text: &str) -> Result<Vec<Sample>, String> {
+///
+/// # Errors
+/// The line that cannot be read, and why.
+pub fn samples(text: &str) -> Result<Vec<Sample>, String> {
     let mut samples: Vec<Sample> = Vec::new();
     for (i, line) in text.lines().enumerate() {
         let line = line.trim();

@@ -1,9 +1,9 @@
-//! Quantities outside their stated ranges in all analyses of a run, printed at its end.
+//! Quantities outside their stated ranges in all analyses of a run, for the end of its output.
 
+use gearloss_studies::analyses::AnyOutcome;
 use gearloss_studies::analysis::Note;
 
-use super::runner::{Run, Runner};
-use crate::output::{Failure, Out, beyond, significant};
+use crate::text::{beyond, significant};
 
 /// Start of each line.
 const OUTSIDE: &str = "outside: ";
@@ -21,7 +21,7 @@ struct Values {
 }
 
 impl Values {
-    fn of(note: &Note) -> Option<Self> {
+    fn from_note(note: &Note) -> Option<Self> {
         let stated = note.range.filter(|_| note.outside > 0)?;
         Some(Self {
             least: note.least,
@@ -59,6 +59,26 @@ struct Left {
 pub struct StatedRanges(Vec<Left>);
 
 impl StatedRanges {
+    /// Adds what an analysis found.
+    pub fn add_outcome(&mut self, analysis: &str, outcome: &dyn AnyOutcome) {
+        for note in outcome.notes().iter().filter(|note| note.outside > 0) {
+            self.add(Left {
+                path: note.path.clone(),
+                name: note.name.to_owned(),
+                values: Values::from_note(note),
+                analyses: vec![analysis.to_owned()],
+            });
+        }
+        for (path, name) in outcome.left_at_samples() {
+            self.add(Left {
+                path: path.to_owned(),
+                name: name.to_owned(),
+                values: None,
+                analyses: vec![analysis.to_owned()],
+            });
+        }
+    }
+
     fn add(&mut self, other: Left) {
         let known = |own: &&mut Left| (&own.path, &own.name) == (&other.path, &other.name);
         let Some(own) = self.0.iter_mut().find(known) else {
@@ -78,7 +98,7 @@ impl StatedRanges {
     }
 
     /// A line for each quantity and range, with all its models.
-    fn lines(&self) -> Vec<String> {
+    pub fn lines(&self) -> Vec<String> {
         let mut groups: Vec<Vec<&Left>> = Vec::new();
         for left in &self.0 {
             let range = |left: &Left| left.values.as_ref().map(|values| values.range.clone());
@@ -123,42 +143,6 @@ fn line(group: &[&Left]) -> String {
         all.outside,
         all.points
     )
-}
-
-impl Runner<'_> {
-    /// Records a quantity outside its range.
-    pub(super) fn keep_outside(&self, note: &Note) {
-        self.run.stated_ranges.borrow_mut().add(Left {
-            path: note.path.clone(),
-            name: note.name.to_owned(),
-            values: Values::of(note),
-            analyses: vec![self.name.to_owned()],
-        });
-    }
-
-    /// Records a quantity outside its range in some samples.
-    pub(super) fn keep_outside_at_samples(&self, path: &str, name: &str) {
-        self.run.stated_ranges.borrow_mut().add(Left {
-            path: path.to_owned(),
-            name: name.to_owned(),
-            values: None,
-            analyses: vec![self.name.to_owned()],
-        });
-    }
-}
-
-impl Run<'_> {
-    /// Prints the records.
-    pub(super) fn print_stated_ranges(&self, out: &mut Out) -> Result<(), Failure> {
-        let lines = self.stated_ranges.borrow().lines();
-        for line in &lines {
-            out.line(line)?;
-        }
-        if !lines.is_empty() {
-            out.line("")?;
-        }
-        Ok(())
-    }
 }
 
 #[cfg(test)]
