@@ -345,9 +345,9 @@ fn parts_of_anything_else_are_refused() {
     let words = refused(&folder, &["run", "study.yaml", "--shard", "2/3", "-o", "third"]);
     assert!(words.contains("shard 1/3, not to 2/3"), "{words}");
     let words = refused(&folder, &["run", "study.yaml", "--shard", "2/3", "-o", "."]);
-    assert!(words.contains("no part of a study"), "{words}");
+    assert!(words.contains("not part of a study"), "{words}");
     let words = refused(&folder, &["merge", "study.yaml", "."]);
-    assert!(words.contains("no part of a study"), "{words}");
+    assert!(words.contains("not a part of a study"), "{words}");
 }
 
 #[test]
