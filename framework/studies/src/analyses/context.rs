@@ -406,12 +406,12 @@ impl<'a> Context<'a> {
         let Some(kept) = self.tasks else { return Ok(own) };
         missing.end()?;
         let mut own = missing.own.iter().zip(own).peekable();
-        let result = |number: usize| match own.next_if(|(own, _)| **own == number) {
-            Some((_, result)) => Ok(result),
-            None => {
-                let task = self.task(stage, number);
-                postcard::from_bytes(&kept.read(task)?).map_err(|_| unlike(task))
+        let result = |number: usize| {
+            if let Some((_, result)) = own.next_if(|(own, _)| **own == number) {
+                return Ok(result);
             }
+            let task = self.task(stage, number);
+            postcard::from_bytes(&kept.read(task)?).map_err(|_| unlike(task))
         };
         (0..count).map(result).collect()
     }
