@@ -2,8 +2,8 @@
 
 use gearloss_framework::prelude::*;
 
-const BAFFLED: Term = Term::no_load(0, "baffled");
-const FACTOR: Observed = Observed::new(0, "factor", "-", "Ratio of drag with and without the baffle.");
+terms! { BAFFLED = no_load("baffled"); }
+observed! { FACTOR = ("factor", "-", "Ratio of drag with and without the baffle."); }
 
 /// Drag of a gear with a baffle.
 #[derive(Debug, Deserialize, JsonSchema)]

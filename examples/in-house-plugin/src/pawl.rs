@@ -4,8 +4,8 @@ use gearloss_framework::prelude::*;
 
 use crate::parking_lock::{ParkingLock, ParkingLockAt, ParkingLockModel};
 
-const RATTLE: Term = Term::no_load(0, "rattle");
-const SPEED: Limit = Limit::new(0, "n", "1/min", 0.0, 6000.0, "rig of the example");
+terms! { RATTLE = no_load("rattle"); }
+limits! { SPEED = ("n", "1/min", 0.0, 6000.0, "rig of the example"); }
 
 /// A pawl that rattles on the wheel.
 #[derive(Debug, Deserialize, JsonSchema)]

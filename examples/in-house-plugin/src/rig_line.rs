@@ -2,9 +2,11 @@
 
 use gearloss_framework::prelude::*;
 
-const VISCOUS: Term = Term::no_load(0, "viscous");
-const LOADED: Term = Term::load(1, "loaded");
-const SPEED: Limit = Limit::new(0, "n", "1/min", 200.0, 9000.0, "speeds on the rig");
+terms! {
+    VISCOUS = no_load("viscous");
+    LOADED = load("loaded");
+}
+limits! { SPEED = ("n", "1/min", 200.0, 9000.0, "speeds on the rig"); }
 
 coefficients! {
     /// Constants of the line through the points of the rig.

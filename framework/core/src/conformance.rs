@@ -239,28 +239,26 @@ fn head(entry: &Entry) -> Vec<String> {
     if entry.meaning().is_empty() {
         faults.push("has no description: write a doc comment on its parameters".to_owned());
     }
-    for (i, limit) in entry.limits.iter().enumerate() {
-        if limit.index != i {
-            faults.push(format!(
-                "limit `{}` has index {} at position {i}",
-                limit.name, limit.index
-            ));
-        }
+    for limit in entry.limits {
         if limit.least.is_nan() || limit.greatest.is_nan() || limit.least > limit.greatest {
             faults.push(format!("limit `{}` has an empty range", limit.name));
         }
     }
-    for (i, observed) in entry.observed.iter().enumerate() {
-        if observed.index != i {
-            faults.push(format!(
-                "observed `{}` has index {} at position {i}",
-                observed.name, observed.index
-            ));
-        }
-    }
-    for (i, term) in entry.terms.iter().enumerate() {
-        if term.index != i {
-            faults.push(format!("term `{}` has index {} at position {i}", term.name, term.index));
+    let named = [
+        (
+            "limits",
+            entry.limits.iter().map(|l| (l.name, l.index)).collect::<Vec<_>>(),
+        ),
+        ("observed", entry.observed.iter().map(|o| (o.name, o.index)).collect()),
+        ("terms", entry.terms.iter().map(|t| (t.name, t.index)).collect()),
+    ];
+    for (list, named) in named {
+        for (i, (name, index)) in named.into_iter().enumerate() {
+            if index != i {
+                faults.push(format!(
+                    "`{name}` is number {index} of `{list}!` and number {i} of `{list}` in the registration"
+                ));
+            }
         }
     }
     if entry.source.trim().is_empty() {

@@ -8,7 +8,7 @@
 //! ```
 //! use gearloss_framework::prelude::*;
 //!
-//! const DRAG: Term = Term::no_load(0, "drag");
+//! terms! { DRAG = no_load("drag"); }
 //!
 //! /// Seal with a friction torque proportional to the diameter.
 //! #[derive(Debug, Deserialize, JsonSchema)]

@@ -26,25 +26,95 @@ pub struct Term {
 }
 
 impl Term {
-    /// A term that depends on the load.
-    pub const fn load(index: usize, name: &'static str) -> Self {
-        assert!(index < MOST_TERMS);
+    /// The only term of a model, which depends on the load; [`terms!`](crate::terms) declares several.
+    pub const fn load(name: &'static str) -> Self {
         Self {
-            index,
+            index: 0,
             name,
             load_dependent: true,
         }
     }
 
-    /// A term that does not depend on the load.
-    pub const fn no_load(index: usize, name: &'static str) -> Self {
-        assert!(index < MOST_TERMS);
+    /// The only term of a model, which does not depend on the load; [`terms!`](crate::terms) declares several.
+    pub const fn no_load(name: &'static str) -> Self {
         Self {
-            index,
-            name,
             load_dependent: false,
+            ..Self::load(name)
         }
     }
+
+    /// The same at a position among the terms of its model.
+    #[doc(hidden)]
+    pub const fn at(self, index: usize) -> Self {
+        assert!(index < MOST_TERMS);
+        Self { index, ..self }
+    }
+}
+
+/// Declares the terms of a model as constants, numbered in the order of writing, which is that of `terms` in
+/// [`register!`](crate::register).
+///
+/// ```
+/// gearloss_framework::terms! {
+///     ROLLING = load("rolling");
+///     DRAG = no_load("drag");
+/// }
+/// assert_eq!((ROLLING.index, DRAG.index), (0, 1));
+/// ```
+#[macro_export]
+macro_rules! terms {
+    ($($all:tt)+) => { $crate::numbered! { Term, 0; $($all)+ } };
+}
+
+/// Declares the limits of a model as constants: symbol, unit, least, greatest, origin of the range. They are numbered in the order of
+/// writing, which is that of `limits` in [`register!`](crate::register). Limits of another module that the model lists first are named
+/// in front: `after PLACE;`.
+///
+/// ```
+/// use gearloss_framework::generic::PLACE;
+///
+/// gearloss_framework::limits! {
+///     after PLACE;
+///     SPEED = ("v", "m/s", 0.0, 60.0, "speeds on the rig");
+/// }
+/// assert_eq!((SPEED.index, SPEED.greatest), (1, 60.0));
+/// ```
+#[macro_export]
+macro_rules! limits {
+    (after $($before:ident),+; $($(#[$attribute:meta])* $vis:vis $NAME:ident = $limit:tt;)+) => {
+        $crate::numbered! { Limit, [$(&$before),+].len(); $($(#[$attribute])* $vis $NAME = new $limit;)+ }
+    };
+    ($($(#[$attribute:meta])* $vis:vis $NAME:ident = $limit:tt;)+) => {
+        $crate::numbered! { Limit, 0; $($(#[$attribute])* $vis $NAME = new $limit;)+ }
+    };
+}
+
+/// Declares the observed quantities of a model as constants: symbol, unit, meaning; otherwise as [`limits!`](crate::limits).
+///
+/// ```
+/// gearloss_framework::observed! { MU = ("mu", "-", "Coefficient of friction."); }
+/// assert_eq!(MU.name, "mu");
+/// ```
+#[macro_export]
+macro_rules! observed {
+    (after $($before:ident),+; $($(#[$attribute:meta])* $vis:vis $NAME:ident = $observed:tt;)+) => {
+        $crate::numbered! { Observed, [$(&$before),+].len(); $($(#[$attribute])* $vis $NAME = new $observed;)+ }
+    };
+    ($($(#[$attribute:meta])* $vis:vis $NAME:ident = $observed:tt;)+) => {
+        $crate::numbered! { Observed, 0; $($(#[$attribute])* $vis $NAME = new $observed;)+ }
+    };
+}
+
+/// One constant after the other, each with the next index.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! numbered {
+    ($Kind:ident, $index:expr;) => {};
+    ($Kind:ident, $index:expr; $(#[$attribute:meta])* $vis:vis $NAME:ident = $new:ident $arguments:tt; $($rest:tt)*) => {
+        $(#[$attribute])*
+        $vis const $NAME: $crate::loss::$Kind = $crate::loss::$Kind::$new $arguments.at($index);
+        $crate::numbered! { $Kind, $index + 1; $($rest)* }
+    };
 }
 
 /// Whether the values of a loss are moments about the attachment's relative speed or powers.
@@ -208,23 +278,22 @@ pub struct Limit {
 }
 
 impl Limit {
-    /// A stated range with its origin.
-    pub const fn new(
-        index: usize,
-        name: &'static str,
-        unit: &'static str,
-        least: f64,
-        greatest: f64,
-        origin: &'static str,
-    ) -> Self {
+    /// A stated range with its origin, the only one of its model; [`limits!`](crate::limits) declares several.
+    pub const fn new(name: &'static str, unit: &'static str, least: f64, greatest: f64, origin: &'static str) -> Self {
         Self {
-            index,
+            index: 0,
             name,
             unit,
             least,
             greatest,
             origin,
         }
+    }
+
+    /// The same at a position among the limits of its model.
+    #[doc(hidden)]
+    pub const fn at(self, index: usize) -> Self {
+        Self { index, ..self }
     }
 }
 
@@ -242,14 +311,20 @@ pub struct Observed {
 }
 
 impl Observed {
-    /// An observed quantity.
-    pub const fn new(index: usize, name: &'static str, unit: &'static str, meaning: &'static str) -> Self {
+    /// The only observed quantity of a model; [`observed!`](crate::observed) declares several.
+    pub const fn new(name: &'static str, unit: &'static str, meaning: &'static str) -> Self {
         Self {
-            index,
+            index: 0,
             name,
             unit,
             meaning,
         }
+    }
+
+    /// The same at a position among the observed quantities of its model.
+    #[doc(hidden)]
+    pub const fn at(self, index: usize) -> Self {
+        Self { index, ..self }
     }
 }
 
@@ -620,9 +695,11 @@ impl<'a> Notes<'a> {
 mod tests {
     use super::*;
 
-    const ROLLING: Term = Term::load(0, "rolling");
-    const DRAG: Term = Term::no_load(1, "drag");
-    const RANGE: Limit = Limit::new(0, "x", "-", 0.0, 1.0, "test");
+    terms! {
+        ROLLING = load("rolling");
+        DRAG = no_load("drag");
+    }
+    limits! { RANGE = ("x", "-", 0.0, 1.0, "test"); }
 
     #[test]
     fn total_derives_from_terms_to_the_last_bit() {

@@ -49,7 +49,7 @@ pub trait Mechanism: Sized + 'static {
     /// The laws between them, as listed by [`context!`](crate::context).
     const LAWS: &'static [Law<Self>] = &[];
     /// The term set by `constant`, `formula` and `table`.
-    const TOTAL: Term = Term::no_load(0, "total");
+    const TOTAL: Term = Term::no_load("total");
     /// The component: the typed fields of its entry. [`NoPart`] if there is none. Derived values are computed during
     /// deserialisation (`serde(try_from)`), so that an existing part is complete.
     type Part: DeserializeOwned + JsonSchema + Send + Sync;

@@ -3,14 +3,14 @@
 //! User-defined. At standstill it consumes no power. At vanishing speed its torque would grow without bound, so below `least_speed`
 //! the torque stays at its value at that speed.
 
-use gearloss_framework::loss::{Loss, Term, Undefined};
+use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::auxiliary::{Auxiliary, AuxiliaryAt, AuxiliaryModel};
-use gearloss_framework::register;
 use gearloss_framework::registry::{Evidence, USER_DEFINED, default_of, formula};
+use gearloss_framework::{register, terms};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-const POWER: Term = Term::no_load(0, "power");
+terms! { POWER = no_load("power"); }
 
 /// The same power at any speed.
 #[derive(Debug, Deserialize, JsonSchema)]

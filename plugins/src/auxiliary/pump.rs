@@ -5,15 +5,15 @@
 //! All of the power heats the oil if the pressure is throttled inside the gearbox.
 
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::loss::{Loss, Observed, Term, Undefined};
+use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::auxiliary::{Auxiliary, AuxiliaryAt, AuxiliaryModel};
-use gearloss_framework::register;
 use gearloss_framework::registry::{Build, Evidence, default_of, formula};
+use gearloss_framework::{observed, register, terms};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-const PUMP: Term = Term::no_load(0, "pump");
-const FLOW: Observed = Observed::new(0, "Q", "l/min", "Flow that the pump delivers.");
+terms! { PUMP = no_load("pump"); }
+observed! { FLOW = ("Q", "l/min", "Flow that the pump delivers."); }
 
 /// Oil pump from pressure, flow or displacement, and efficiency.
 #[derive(Debug, Deserialize, JsonSchema)]

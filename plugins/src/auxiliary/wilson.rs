@@ -2,16 +2,18 @@
 //!
 //! Source: Wilson 1946, quoted from memory: T = V_g/(2 pi) (dp (1 + C_f) + C_v eta w) + T_c. The user states the coefficients of the pump.
 
-use gearloss_framework::loss::{Loss, Term, Undefined};
+use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::auxiliary::{Auxiliary, AuxiliaryAt, AuxiliaryModel};
-use gearloss_framework::register;
 use gearloss_framework::registry::{Evidence, default_of, formula};
+use gearloss_framework::{register, terms};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-const PRESSURE: Term = Term::no_load(0, "pressure");
-const VISCOUS: Term = Term::no_load(1, "viscous");
-const CONSTANT: Term = Term::no_load(2, "constant");
+terms! {
+    PRESSURE = no_load("pressure");
+    VISCOUS = no_load("viscous");
+    CONSTANT = no_load("constant");
+}
 
 /// Displacement pump with pressure-dependent, viscous and constant friction, according to Wilson.
 #[derive(Debug, Deserialize, JsonSchema)]

@@ -3,27 +3,24 @@
 //! M0 = 1e-7 f0 (nu n)^(2/3) dm^3 from nu n = 2000, 160e-7 f0 dm^3 below (the published step of 0.8 % is retained); M1 = f1 P1^a
 //! dm^b with f1 = z (P0/C0)^y; M2 = f2 Fa dm for axially loaded cylindrical roller bearings.
 
-use gearloss_framework::coefficients;
 use gearloss_framework::lanes::{Lane, LaneNotes, LossLanes, cube_root, each, exp, ln, over, wide};
 use gearloss_framework::loads::LoadLanes;
-use gearloss_framework::loss::{Limit, Loss, Observed, Term, Undefined};
+use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::bearing::{BearingAt, BearingKind, BearingModel, BearingPart};
+use gearloss_framework::{coefficients, limits, observed, terms};
 
 use super::rows::{Lack, LoadLaw};
 
-pub const LOAD: Term = Term::load(0, "load");
-pub const NO_LOAD: Term = Term::no_load(1, "no_load");
-pub const AXIAL_RATIO: Limit = Limit::new(0, "Fa/Fr", "-", 0.0, 0.5, "axial load on cylindrical rollers, SKF 1994");
-pub const RADIAL_RATIO: Limit = Limit::new(
-    1,
-    "Fr/Fa",
-    "-",
-    0.0,
-    0.55,
-    "radial load on spherical roller thrust bearings, SKF 1994",
-);
-pub const P1: Observed = Observed::new(0, "P1", "N", "Equivalent load of the load-dependent moment.");
+terms! {
+    pub LOAD = load("load");
+    pub NO_LOAD = no_load("no_load");
+}
+limits! {
+    pub AXIAL_RATIO = ("Fa/Fr", "-", 0.0, 0.5, "axial load on cylindrical rollers, SKF 1994");
+    pub RADIAL_RATIO = ("Fr/Fa", "-", 0.0, 0.55, "radial load on spherical roller thrust bearings, SKF 1994");
+}
+observed! { pub P1 = ("P1", "N", "Equivalent load of the load-dependent moment."); }
 
 coefficients! {
     /// Constants of the load-independent moment M0 in N mm, from mm2/s, 1/min and mm.

@@ -22,53 +22,37 @@ mod drag;
 mod rows;
 
 use drag::{Bath, Body, Depth, Drag};
-use gearloss_framework::coefficients;
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::lanes::{LaneNotes, LossLanes, count, wide};
 use gearloss_framework::loads::LoadLanes;
-use gearloss_framework::loss::{Limit, Loss, Observed, Term, Undefined};
+use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::bearing::{Bearing, BearingAt, BearingModel, BearingPart, Lubrication, one_by_one};
-use gearloss_framework::register;
 use gearloss_framework::registry::{Build, Evidence, default_of, formula};
+use gearloss_framework::{coefficients, limits, observed, register, terms};
 use rows::{Lack, Variables};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::skf_seal::{Code, SealRow};
 
-const ROLLING: Term = Term::load(0, "rolling");
-const SLIDING: Term = Term::load(1, "sliding");
-const DRAG: Term = Term::no_load(2, "drag");
-const SEAL: Term = Term::no_load(3, "seal");
-const CENTRIFUGAL: Term = Term::no_load(4, "centrifugal");
-const SPEED: Limit = Limit::new(0, "n d_m", "mm/min", 0.0, 0.5e6, "above, drag follows a different law");
-const VISCOSITY: Limit = Limit::new(
-    1,
-    "nu",
-    "mm2/s",
-    0.0,
-    500.0,
-    "stated for the drag of oil baths up to D/2",
-);
-const VISCOSITY_DEEP: Limit = Limit::new(
-    2,
-    "nu (deep bath)",
-    "mm2/s",
-    0.0,
-    250.0,
-    "stated for the drag of oil baths above D/2",
-);
-const OUTER: Limit = Limit::new(
-    3,
-    "n_outer",
-    "1/min",
-    0.0,
-    0.0,
-    "drag and starvation were measured with a stationary outer ring",
-);
-const MU_SL: Observed = Observed::new(0, "mu_sl", "-", "Coefficient of sliding friction.");
-const PHI_BL: Observed = Observed::new(1, "phi_bl", "-", "Weight of boundary friction.");
+terms! {
+    ROLLING = load("rolling");
+    SLIDING = load("sliding");
+    DRAG = no_load("drag");
+    SEAL = no_load("seal");
+    CENTRIFUGAL = no_load("centrifugal");
+}
+limits! {
+    SPEED = ("n d_m", "mm/min", 0.0, 0.5e6, "above, drag follows a different law");
+    VISCOSITY = ("nu", "mm2/s", 0.0, 500.0, "stated for the drag of oil baths up to D/2");
+    VISCOSITY_DEEP = ("nu (deep bath)", "mm2/s", 0.0, 250.0, "stated for the drag of oil baths above D/2");
+    OUTER = ("n_outer", "1/min", 0.0, 0.0, "drag and starvation were measured with a stationary outer ring");
+}
+observed! {
+    MU_SL = ("mu_sl", "-", "Coefficient of sliding friction.");
+    PHI_BL = ("phi_bl", "-", "Weight of boundary friction.");
+}
 
 /// Speed above which the drag follows a different law. \[mm/min\]
 const FASTEST: f64 = 0.5e6;

@@ -6,18 +6,17 @@
 //! program F = f Fr/K with f linear in K Fa/Fr from 0.06 to 2. Single row. Below a minimum speed of the catalogue the torque is
 //! nearly constant.
 
-use gearloss_framework::coefficients;
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::loss::{Loss, Observed, Term, Undefined};
+use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::bearing::{Bearing, BearingAt, BearingKind, BearingModel};
-use gearloss_framework::register;
 use gearloss_framework::registry::{Build, Evidence, default_of, formula};
+use gearloss_framework::{coefficients, observed, register, terms};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-const LOAD: Term = Term::load(0, "load");
-const FORCE: Observed = Observed::new(0, "F_eff", "N", "Equivalent load of the torque.");
+terms! { LOAD = load("load"); }
+observed! { FORCE = ("F_eff", "N", "Equivalent load of the torque."); }
 
 coefficients! {
     /// Constants of the formula of Timken.

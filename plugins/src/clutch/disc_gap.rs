@@ -10,19 +10,18 @@
 //! Kitabayashi 2003, Rao 2011 and Iqbal 2013 describe the same mechanism; their coefficients are not public, so their names are
 //! not used. Not for touching plates, axially vibrating plates, or turbulent flow (rho w r h/eta above about 1000).
 
-use gearloss_framework::coefficients;
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::loss::{Limit, Loss, Observed, Term, Undefined};
+use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::clutch::{Clutch, ClutchAt, ClutchModel};
-use gearloss_framework::register;
 use gearloss_framework::registry::{Build, Evidence, default_of, formula};
+use gearloss_framework::{coefficients, limits, observed, register, terms};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-const SHEAR: Term = Term::no_load(0, "shear");
-const REYNOLDS: Limit = Limit::new(0, "Re", "-", 0.0, 1000.0, "laminar flow in the gap");
-const RADIUS: Observed = Observed::new(0, "r*", "mm", "Radius to which the oil fills the gap.");
+terms! { SHEAR = no_load("shear"); }
+limits! { REYNOLDS = ("Re", "-", 0.0, 1000.0, "laminar flow in the gap"); }
+observed! { RADIUS = ("r*", "mm", "Radius to which the oil fills the gap."); }
 
 /// Shape of the film once centrifugal pumping exceeds the supply.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]

@@ -3,18 +3,17 @@
 //! Source: Anderson, Loewenthal, NASA TP-1622 (1980), quoted from memory: P = 2.82e-7 (1 + 2.3 b/R) n^2.8 R^4.6 (0.028 eta + 0.019)^0.2 in kW; n in
 //! 1/min, R and b in m, eta in mPa s. The constants assume a mist; for air alone only the viscous term is omitted.
 
-use gearloss_framework::coefficients;
-use gearloss_framework::loss::{Loss, Term, Undefined};
+use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::gear_drag::{Covers, GearDrag, GearDragAt, GearDragModel};
-use gearloss_framework::register;
 use gearloss_framework::registry::{Evidence, default_of, formula};
+use gearloss_framework::{coefficients, register, terms};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::WINDAGE;
 
-const TERM: Term = Term::no_load(0, "windage");
+terms! { TERM = no_load("windage"); }
 
 coefficients! {
     /// Constants of the formula of Anderson and Loewenthal.

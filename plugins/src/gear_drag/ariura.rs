@@ -4,16 +4,16 @@
 //! v_t - v_s for a jet along it; C from 0.85 to 1. Computed once for each gear hit by a jet. A jet along the motion and faster than
 //! the rim would drive the gear; the loss is then zero.
 
-use gearloss_framework::loss::{Loss, Term, Undefined};
+use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::gear_drag::{Covers, GearDrag, GearDragAt, GearDragModel};
-use gearloss_framework::register;
 use gearloss_framework::registry::{Evidence, default_of, formula};
+use gearloss_framework::{register, terms};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use gearloss_framework::mechanism::gear_drag::Scope;
 
-const IMPULSE: Term = Term::no_load(0, "impulse");
+terms! { IMPULSE = no_load("impulse"); }
 
 /// Torque of an oil jet on a gear, from its momentum.
 #[derive(Debug, Deserialize, JsonSchema)]

@@ -5,21 +5,22 @@
 //! 3.644 (h/D)^0.1 (V/D^3)^-0.35 Fr^-0.88 (b/D)^0.85 above 9000, linear in between.
 //! For narrow gears at low speed it is up to four times `changenet_2011`, because only Re selects the regime.
 
-use gearloss_framework::coefficients;
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::loss::{Loss, Observed, Term, Undefined};
+use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::gear_drag::{Covers, GearDrag, GearDragAt, GearDragModel};
-use gearloss_framework::register;
 use gearloss_framework::registry::{Build, Evidence, default_of, formula};
+use gearloss_framework::{coefficients, observed, register, terms};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::dipping::Dipping;
 use super::{CHURNING, GRAVITY};
 
-const TERM: Term = Term::no_load(0, "churning");
-const C_M: Observed = Observed::new(0, "C_m", "-", "Dimensionless churning torque.");
-const REYNOLDS: Observed = Observed::new(1, "Re", "-", "Reynolds number.");
+terms! { TERM = no_load("churning"); }
+observed! {
+    C_M = ("C_m", "-", "Dimensionless churning torque.");
+    REYNOLDS = ("Re", "-", "Reynolds number.");
+}
 
 coefficients! {
     /// Constants of the formula of Changenet and Velex 2007.

@@ -8,27 +8,30 @@
 //! gears raise the oil towards the mesh loses more; no reliable formula is public, so the user states the increase `swell`, which
 //! applies if the gear's lowest point moves towards its mate.
 
-use gearloss_framework::coefficients;
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::loss::{Limit, Loss, Observed, Term, Undefined};
+use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::gear_drag::{Covers, GearDrag, GearDragAt, GearDragModel};
-use gearloss_framework::register;
 use gearloss_framework::registry::{Build, Evidence, default_of, formula};
+use gearloss_framework::{coefficients, limits, observed, register, terms};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::dipping::Dipping;
 use super::{CHURNING, GRAVITY};
 
-const TERM: Term = Term::no_load(0, "churning");
+terms! { TERM = no_load("churning"); }
 const RANGE: &str = "gears of the tests, quoted from memory";
-const RADIUS: Limit = Limit::new(0, "R_p", "mm", 40.0, 110.0, RANGE);
-const MODULE: Limit = Limit::new(1, "m_n", "mm", 1.5, 5.0, RANGE);
-const WIDTH: Limit = Limit::new(2, "b", "mm", 14.0, 40.0, RANGE);
-const SPEED: Limit = Limit::new(3, "n", "1/min", 0.0, 7000.0, RANGE);
-const C_M: Observed = Observed::new(0, "C_m", "-", "Dimensionless churning torque.");
-const REYNOLDS: Observed = Observed::new(1, "Re", "-", "Reynolds number.");
+limits! {
+    RADIUS = ("R_p", "mm", 40.0, 110.0, RANGE);
+    MODULE = ("m_n", "mm", 1.5, 5.0, RANGE);
+    WIDTH = ("b", "mm", 14.0, 40.0, RANGE);
+    SPEED = ("n", "1/min", 0.0, 7000.0, RANGE);
+}
+observed! {
+    C_M = ("C_m", "-", "Dimensionless churning torque.");
+    REYNOLDS = ("Re", "-", "Reynolds number.");
+}
 
 coefficients! {
     /// Constants of the formula of Changenet and others 2011.

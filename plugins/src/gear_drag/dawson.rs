@@ -4,18 +4,17 @@
 //! P = 1e-20 n^2.9 (0.16 D^3.9 + D^2.9 b^0.75 m^1.15) Phi lambda in kW; n in 1/min, D root diameter, b and m in mm.
 //! Phi is 1 in air and more in oil mist; lambda is 1 for a free gear, 0.7 in a loose and 0.5 to 0.6 in a tight enclosure.
 
-use gearloss_framework::coefficients;
-use gearloss_framework::loss::{Loss, Term, Undefined};
+use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::gear_drag::{Covers, GearDrag, GearDragAt, GearDragModel};
-use gearloss_framework::register;
 use gearloss_framework::registry::{Evidence, default_of, formula};
+use gearloss_framework::{coefficients, register, terms};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::WINDAGE;
 
-const TERM: Term = Term::no_load(0, "windage");
+terms! { TERM = no_load("windage"); }
 
 coefficients! {
     /// Constants of the formula of Dawson.

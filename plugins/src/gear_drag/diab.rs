@@ -7,20 +7,19 @@
 //! m2 0.2, Re* = 3e5; teeth C_l = xi z/4 (b/R) (r_a/R)^4 (1 - cos phi)(1 + cos phi)^3, phi = pi/z - 2 (inv alpha_p - inv alpha_A).
 //! The medium is air at oil temperature, with a volume fraction of oil for mist.
 
-use gearloss_framework::coefficients;
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::geometry::involute;
-use gearloss_framework::loss::{Loss, Term, Undefined};
+use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::gear_drag::{Covers, GearDrag, GearDragAt, GearDragModel};
-use gearloss_framework::register;
 use gearloss_framework::registry::{Build, Evidence, default_of, formula};
+use gearloss_framework::{coefficients, register, terms};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::WINDAGE;
 
-const TERM: Term = Term::no_load(0, "windage");
+terms! { TERM = no_load("windage"); }
 const PI: f64 = std::f64::consts::PI;
 
 /// Which of the two laws.

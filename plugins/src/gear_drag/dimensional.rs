@@ -6,19 +6,19 @@
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::formula::Formula;
-use gearloss_framework::loss::{Loss, Observed, Term, Undefined};
+use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::gear_drag::{Covers, GearDrag, GearDragAt, GearDragModel};
-use gearloss_framework::register;
 use gearloss_framework::registry::{Build, Evidence, formula};
+use gearloss_framework::{observed, register, terms};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::dipping::Dipping;
 use super::{CHURNING, GRAVITY};
 
-const TERM: Term = Term::no_load(0, "churning");
-const C_M: Observed = Observed::new(0, "C_m", "-", "Dimensionless churning torque.");
+terms! { TERM = no_load("churning"); }
+observed! { C_M = ("C_m", "-", "Dimensionless churning torque."); }
 
 /// Churning of one gear with a user-defined dimensionless torque.
 #[derive(Debug, Deserialize, JsonSchema)]

@@ -9,20 +9,21 @@
 //! with viscosity and the cube of speed: far below other laws for a thin oil, far above for a thick one at high speed. For
 //! industrial units; R_f is limited to zero for transverse modules below 0.586 mm.
 
-use gearloss_framework::coefficients;
-use gearloss_framework::loss::{Loss, Term, Undefined};
+use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::gear_drag::{Covers, GearDrag, GearDragAt, GearDragModel};
-use gearloss_framework::register;
 use gearloss_framework::registry::{Evidence, default_of, formula};
+use gearloss_framework::{coefficients, register, terms};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::CHURNING;
 use crate::powers::power;
 
-const SIDES: Term = Term::no_load(0, "sides");
-const TEETH: Term = Term::no_load(1, "teeth");
+terms! {
+    SIDES = no_load("sides");
+    TEETH = no_load("teeth");
+}
 
 coefficients! {
     /// Constants of the formulas of ISO/TR 14179-1.

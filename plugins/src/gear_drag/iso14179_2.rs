@@ -7,22 +7,23 @@
 //! If the sump itself supplies the mesh (both gears immersed), C_Sp is one. Without immersion the b^3 term would remain; the loss
 //! is then set to zero. Not for face widths far above 100 mm, where the b^3 term becomes unrealistic.
 
-use gearloss_framework::coefficients;
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::loss::{Limit, Loss, Observed, Term, Undefined};
+use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::gear_drag::{Covers, GearDrag, GearDragAt, GearDragModel, Scope};
-use gearloss_framework::register;
 use gearloss_framework::registry::{Build, Evidence, formula};
+use gearloss_framework::{coefficients, limits, observed, register, terms};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::powers::power;
 
-const SPLASH: Term = Term::no_load(0, "splash");
-const PITCH_SPEED: Limit = Limit::new(0, "v_t", "m/s", 0.0, 60.0, "ISO/TR 14179-2");
-const WIDTH: Limit = Limit::new(1, "b", "mm", 0.0, 100.0, "above, the b^3 term is unrealistically large");
-const TORQUE: Observed = Observed::new(0, "T_H", "Nm", "Splash torque.");
+terms! { SPLASH = no_load("splash"); }
+limits! {
+    PITCH_SPEED = ("v_t", "m/s", 0.0, 60.0, "ISO/TR 14179-2");
+    WIDTH = ("b", "mm", 0.0, 100.0, "above, the b^3 term is unrealistically large");
+}
+observed! { TORQUE = ("T_H", "Nm", "Splash torque."); }
 
 /// Gear whose speed multiplies the splash torque.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]

@@ -2,18 +2,17 @@
 //!
 //! Source: Maurer 1994, as quoted by a public gearbox program: T = 1.37e-9 v_t^1.9 d^1.6 b^0.52 m_n^0.69 in N m; v_t in m/s, d, b, m_n in mm.
 
-use gearloss_framework::coefficients;
-use gearloss_framework::loss::{Loss, Term, Undefined};
+use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::gear_drag::{Covers, GearDrag, GearDragAt, GearDragModel};
-use gearloss_framework::register;
 use gearloss_framework::registry::{Evidence, formula};
+use gearloss_framework::{coefficients, register, terms};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::WINDAGE;
 
-const TERM: Term = Term::no_load(0, "windage");
+terms! { TERM = no_load("windage"); }
 
 coefficients! {
     /// Constants of the formula of Maurer.

@@ -7,21 +7,22 @@
 //! are not public; they are user-defined factors that apply above 10 m/s if the gap is below 1.3 tip radii (or not stated). A_B is
 //! the wetted surface of faces and rim at the tip circle. For modules of 3 to 6 mm.
 
-use gearloss_framework::coefficients;
-use gearloss_framework::loss::{Limit, Loss, Term, Undefined};
+use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::gear_drag::{Covers, GearDrag, GearDragAt, GearDragModel};
-use gearloss_framework::register;
 use gearloss_framework::registry::{Evidence, default_of, formula};
+use gearloss_framework::{coefficients, limits, register, terms};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::CHURNING;
 use super::wetted::Wetted;
 
-const TERM: Term = Term::no_load(0, "churning");
-const MODULE: Limit = Limit::new(0, "m_n", "mm", 3.0, 6.0, "Mauz as quoted");
-const SPEED: Limit = Limit::new(1, "v_t", "m/s", 0.0, 60.0, "Mauz as quoted");
+terms! { TERM = no_load("churning"); }
+limits! {
+    MODULE = ("m_n", "mm", 3.0, 6.0, "Mauz as quoted");
+    SPEED = ("v_t", "m/s", 0.0, 60.0, "Mauz as quoted");
+}
 
 coefficients! {
     /// Constants of the formula of Mauz; its scale is the parameter `k_0`.

@@ -4,11 +4,10 @@
 //! nu_0 and h_Z0 are not public, so the user states both ratios. Computed once for each mesh, at the first gear. Oil injected at
 //! the outgoing side is not squeezed.
 
-use gearloss_framework::coefficients;
-use gearloss_framework::loss::{Loss, Term, Undefined};
+use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::gear_drag::{Covers, GearDrag, GearDragAt, GearDragModel};
-use gearloss_framework::register;
 use gearloss_framework::registry::{Evidence, default_of, formula};
+use gearloss_framework::{coefficients, register, terms};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -16,7 +15,7 @@ use super::SQUEEZING;
 use crate::powers::power;
 use gearloss_framework::mechanism::gear_drag::Scope;
 
-const TERM: Term = Term::no_load(0, "squeezing");
+terms! { TERM = no_load("squeezing"); }
 
 coefficients! {
     /// Constants of the formula of Mauz.

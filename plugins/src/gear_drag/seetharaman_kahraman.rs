@@ -6,20 +6,21 @@
 //! immersed area of a face. The laminar constant is that of a flat plate. The root filling and pocketing terms are missing, so the
 //! model is incomplete; at high speed it overpredicts measurements by far, because oil is thrown off. For research.
 
-use gearloss_framework::coefficients;
-use gearloss_framework::loss::{Loss, Term, Undefined};
+use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::gear_drag::{Covers, GearDrag, GearDragAt, GearDragModel};
-use gearloss_framework::register;
 use gearloss_framework::registry::{Evidence, formula};
+use gearloss_framework::{coefficients, register, terms};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::CHURNING;
 use crate::powers::power;
 
-const RIM: Term = Term::no_load(0, "rim");
-const FACES: Term = Term::no_load(1, "faces");
+terms! {
+    RIM = no_load("rim");
+    FACES = no_load("faces");
+}
 
 coefficients! {
     /// Constants of both known terms.

@@ -7,21 +7,20 @@
 //! percent, so the radii must be exact. Immersion depth at the reference circle. Single gear; the source does not state whether d_x
 //! is the gap of one side or both; one side is assumed.
 
-use gearloss_framework::coefficients;
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::loss::{Limit, Loss, Observed, Term, Undefined};
+use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::gear_drag::{Covers, GearDrag, GearDragAt, GearDragModel};
-use gearloss_framework::register;
 use gearloss_framework::registry::{Build, Evidence, default_of, formula};
+use gearloss_framework::{coefficients, limits, observed, register, terms};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::CHURNING;
 
-const TERM: Term = Term::no_load(0, "churning");
-const SPEED: Limit = Limit::new(0, "v", "m/s", 0.0, 90.0, "pitch line velocities of the rig");
-const H_EFF: Observed = Observed::new(0, "h_eff", "mm", "Effective immersion depth while the gear rotates.");
+terms! { TERM = no_load("churning"); }
+limits! { SPEED = ("v", "m/s", 0.0, 90.0, "pitch line velocities of the rig"); }
+observed! { H_EFF = ("h_eff", "mm", "Effective immersion depth while the gear rotates."); }
 
 /// The source rounds gravity. \[m/s2\]
 const G: f64 = 9.8;

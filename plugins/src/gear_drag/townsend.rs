@@ -3,19 +3,18 @@
 //! Source: Townsend (ed.): Dudley's Gear Handbook, 2nd ed., 1991, quoted from memory: P = n^3 D^5 L^0.7/1e17 in hp, n in 1/min, D and L in inches.
 //! A rotor without teeth: the loss is below the laws for gears.
 
-use gearloss_framework::coefficients;
-use gearloss_framework::loss::{Loss, Term, Undefined};
+use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::gear_drag::{Covers, GearDrag, GearDragAt, GearDragModel};
-use gearloss_framework::register;
 use gearloss_framework::registry::{Evidence, formula};
+use gearloss_framework::{coefficients, register, terms};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::WINDAGE;
 use crate::powers::power;
 
-const TERM: Term = Term::no_load(0, "windage");
+terms! { TERM = no_load("windage"); }
 /// One horsepower. \[W\]
 const HP: f64 = 745.699_871_582;
 /// One inch. \[m\]

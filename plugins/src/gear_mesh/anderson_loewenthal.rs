@@ -8,27 +8,25 @@
 //! to 0.01 to 0.02 (quoted from memory, not checked); here that is an option. External spur gears of steel; a rough model that
 //! usually gives more than the path integral.
 
-use gearloss_framework::coefficients;
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::geometry::Pair;
-use gearloss_framework::loss::{Limit, Loss, Observed, Term, Undefined};
+use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt, GearMeshModel};
-use gearloss_framework::register;
 use gearloss_framework::registry::{Build, Evidence, default_of, formula};
+use gearloss_framework::{coefficients, limits, observed, register, terms};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-const SLIDING: Term = Term::load(0, "sliding");
-const ROLLING: Term = Term::load(1, "rolling");
-const HELIX: Limit = Limit::new(0, "beta", "deg", 0.0, 0.0, "spur gears");
-const F: Observed = Observed::new(
-    0,
-    "f",
-    "-",
-    "Coefficient of friction a quarter of the path from the pitch point.",
-);
-const FILM: Observed = Observed::new(1, "h", "um", "Central film a quarter of the path from the pitch point.");
+terms! {
+    SLIDING = load("sliding");
+    ROLLING = load("rolling");
+}
+limits! { HELIX = ("beta", "deg", 0.0, 0.0, "spur gears"); }
+observed! {
+    F = ("f", "-", "Coefficient of friction a quarter of the path from the pitch point.");
+    FILM = ("h", "um", "Central film a quarter of the path from the pitch point.");
+}
 
 coefficients! {
     /// Constants of the formulas of Anderson and Loewenthal.

@@ -5,16 +5,16 @@
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::generic::{Lookup, PLACE};
-use gearloss_framework::loss::{Loss, Observed, Term, Undefined};
+use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt, GearMeshModel};
-use gearloss_framework::register;
 use gearloss_framework::registry::{Build, Evidence, USER_DEFINED, formula};
 use gearloss_framework::table::{Interpolation, Outside, Reading};
+use gearloss_framework::{observed, register, terms};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-const SLIDING: Term = Term::load(0, "sliding");
-const EFFICIENCY: Observed = Observed::new(0, "eta", "-", "Efficiency of the mesh.");
+terms! { SLIDING = load("sliding"); }
+observed! { EFFICIENCY = ("eta", "-", "Efficiency of the mesh."); }
 
 /// Mesh loss from a known efficiency: a number, or a table over quantities of the mesh.
 #[derive(Debug, Deserialize, JsonSchema)]

@@ -1,13 +1,16 @@
 //! Power times mean friction times a tooth loss factor, shared by several models.
 
-use gearloss_framework::loss::{Loss, Observed, Term, Undefined};
+use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::gear_mesh::GearMeshAt;
 use gearloss_framework::mechanism::mean_friction::{MeanFriction, MeanFrictionAt};
 use gearloss_framework::registry::Slot;
+use gearloss_framework::{observed, terms};
 
-pub const SLIDING: Term = Term::load(0, "sliding");
-pub const MU: Observed = Observed::new(0, "mu_m", "-", "Mean coefficient of friction.");
-pub const LOSS_FACTOR: Observed = Observed::new(1, "H_v", "-", "Tooth loss factor.");
+terms! { pub SLIDING = load("sliding"); }
+observed! {
+    pub MU = ("mu_m", "-", "Mean coefficient of friction.");
+    pub LOSS_FACTOR = ("H_v", "-", "Tooth loss factor.");
+}
 
 /// A loss factor with its mean friction law.
 pub struct Factor {

@@ -6,21 +6,24 @@
 //! oils of ISO VG 150 to 460, 2 to 25 m/s and K from 1.4 to 14 N/mm2. Its friction falls with load, contrary to other laws, and is
 //! about a third of theirs.
 
-use gearloss_framework::coefficients;
 use gearloss_framework::geometry::Pair;
-use gearloss_framework::loss::{Limit, Loss, Observed, Term, Undefined};
+use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt, GearMeshModel};
-use gearloss_framework::register;
 use gearloss_framework::registry::{Evidence, default_of, formula};
+use gearloss_framework::{coefficients, limits, observed, register, terms};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-const SLIDING: Term = Term::load(0, "sliding");
-const SPEED: Limit = Limit::new(0, "v", "m/s", 2.0, 25.0, "ISO/TR 14179-1");
-const K_FACTOR: Limit = Limit::new(1, "K", "N/mm2", 1.4, 14.0, "ISO/TR 14179-1");
-const F_M: Observed = Observed::new(0, "f_m", "-", "Mesh coefficient of friction.");
-const M: Observed = Observed::new(1, "M", "-", "Mesh mechanical advantage.");
+terms! { SLIDING = load("sliding"); }
+limits! {
+    SPEED = ("v", "m/s", 2.0, 25.0, "ISO/TR 14179-1");
+    K_FACTOR = ("K", "N/mm2", 1.4, 14.0, "ISO/TR 14179-1");
+}
+observed! {
+    F_M = ("f_m", "-", "Mesh coefficient of friction.");
+    M = ("M", "-", "Mesh mechanical advantage.");
+}
 
 coefficients! {
     /// Constants of the mesh coefficient of friction f_m.

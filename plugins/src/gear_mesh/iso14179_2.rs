@@ -9,11 +9,11 @@
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::geometry::Pair;
-use gearloss_framework::loss::{Limit, Loss, Observed, Term, Undefined};
+use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt, GearMeshModel};
-use gearloss_framework::register;
 use gearloss_framework::registry::{Build, Evidence, default_of, formula};
+use gearloss_framework::{limits, observed, register, terms};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -22,10 +22,16 @@ use crate::mean_friction::schlenk::{
     Constants, LINE_LOAD, MU, Mesh, OilType, PITCH_SPEED, Schlenk, SpeedClamp, VISCOSITY,
 };
 
-const SLIDING: Term = Term::load(0, "sliding");
-const CONTACT_RATIO: Limit = Limit::new(3, "eps_alpha", "-", 1.0, 2.0, "one to two pairs in contact");
-const ADDENDUM: Limit = Limit::new(4, "eps_1, eps_2", "-", 0.0, 1.0, "pitch point on the path of contact");
-const LOSS_FACTOR: Observed = Observed::new(1, "H_v", "-", "Tooth loss factor.");
+terms! { SLIDING = load("sliding"); }
+limits! {
+    after LINE_LOAD, PITCH_SPEED, VISCOSITY;
+    CONTACT_RATIO = ("eps_alpha", "-", 1.0, 2.0, "one to two pairs in contact");
+    ADDENDUM = ("eps_1, eps_2", "-", 0.0, 1.0, "pitch point on the path of contact");
+}
+observed! {
+    after MU;
+    LOSS_FACTOR = ("H_v", "-", "Tooth loss factor.");
+}
 
 /// Loss factor.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]

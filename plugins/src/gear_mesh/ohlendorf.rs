@@ -6,18 +6,20 @@
 //! `path_integral`.
 
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::loss::{Limit, Loss, Undefined};
+use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt, GearMeshModel};
 use gearloss_framework::mechanism::mean_friction::MeanFriction;
-use gearloss_framework::register;
 use gearloss_framework::registry::{Build, Evidence, ModelRef, formula};
+use gearloss_framework::{limits, register};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::factor::{Factor, LOSS_FACTOR, MU, SLIDING};
 
-const CONTACT_RATIO: Limit = Limit::new(0, "eps_alpha", "-", 1.0, 2.0, "one to two pairs in contact");
-const ADDENDUM: Limit = Limit::new(1, "eps_1, eps_2", "-", 0.0, 1.0, "pitch point on the path of contact");
+limits! {
+    CONTACT_RATIO = ("eps_alpha", "-", 1.0, 2.0, "one to two pairs in contact");
+    ADDENDUM = ("eps_1, eps_2", "-", 0.0, 1.0, "pitch point on the path of contact");
+}
 
 /// Mesh loss from the tooth loss factor of Ohlendorf and a mean friction law.
 #[derive(Debug, Deserialize, JsonSchema)]

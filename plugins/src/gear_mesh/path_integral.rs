@@ -20,27 +20,26 @@
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::geometry::LoadSharing;
 use gearloss_framework::lanes::{LANES, Lane, LaneNotes, LossLanes, count, over, wide};
-use gearloss_framework::loss::{Loss, Notes, Observed, Term, Undefined};
+use gearloss_framework::loss::{Loss, Notes, Undefined};
 use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt, GearMeshModel, note_one_by_one, one_by_one};
 use gearloss_framework::mechanism::mean_friction::MeanFrictionAt;
 use gearloss_framework::mechanism::tooth_friction::{Along, PathAt, ToothFriction, WeightedFriction};
-use gearloss_framework::register;
 use gearloss_framework::registry::{Build, Evidence, ModelRef, Slot, default_of, formula};
+use gearloss_framework::{observed, register, terms};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use gearloss_framework::contact::path::Path;
 use gearloss_framework::contact::{dowson_higginson, thermal_factor};
 
-const SLIDING: Term = Term::load(0, "sliding");
-const ROLLING: Term = Term::load(1, "rolling");
-const MU_MEAN: Observed = Observed::new(
-    0,
-    "mu_mean",
-    "-",
-    "Coefficient of friction, weighted by load and sliding speed.",
-);
-const LOSS_FACTOR: Observed = Observed::new(1, "H_vL", "-", "Local tooth loss factor of the load sharing.");
+terms! {
+    SLIDING = load("sliding");
+    ROLLING = load("rolling");
+}
+observed! {
+    MU_MEAN = ("mu_mean", "-", "Coefficient of friction, weighted by load and sliding speed.");
+    LOSS_FACTOR = ("H_vL", "-", "Local tooth loss factor of the load sharing.");
+}
 
 /// Domain of averaging.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]

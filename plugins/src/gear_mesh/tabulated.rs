@@ -27,44 +27,29 @@ use std::sync::OnceLock;
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::generic::PLACE;
-use gearloss_framework::loss::{Limit, Loss, Observed, Term, Undefined};
+use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt, GearMeshModel, MeshPart};
-use gearloss_framework::register;
 use gearloss_framework::registry::{Build, Evidence, ModelRef, Slot, default_of, formula};
+use gearloss_framework::{limits, observed, register, terms};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use table::{DirectModel, Extents, Table};
 
-const TOTAL: Term = Term::load(0, "total");
+terms! { TOTAL = load("total"); }
 
-const LEFT: Limit = Limit::new(
-    1,
-    "ranges left at the nearest node",
-    "-",
-    0.0,
-    0.0,
-    "ranges of the tabulated model; evaluate it directly to see which",
-);
+limits! {
+    after PLACE;
+    LEFT = ("ranges left at the nearest node", "-", 0.0, 0.0,
+        "ranges of the tabulated model; evaluate it directly to see which");
+}
 
-const GREATEST: Observed = Observed::new(
-    0,
-    "greatest error",
-    "%",
-    "Maximum error of the table at its check points.",
-);
-const RMS: Observed = Observed::new(
-    1,
-    "rms error",
-    "%",
-    "Root mean square error of the table at its check points.",
-);
-const SHARE: Observed = Observed::new(
-    2,
-    "error of the heat share",
-    "-",
-    "Maximum error of the heat share of the first gear at the check points.",
-);
+observed! {
+    GREATEST = ("greatest error", "%", "Maximum error of the table at its check points.");
+    RMS = ("rms error", "%", "Root mean square error of the table at its check points.");
+    SHARE = ("error of the heat share", "-",
+        "Maximum error of the heat share of the first gear at the check points.");
+}
 
 /// Models that are as fast as a table.
 const QUICK: [&str; 6] = ["none", "constant", "formula", "table", "efficiency", "tabulated"];

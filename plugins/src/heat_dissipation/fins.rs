@@ -4,13 +4,13 @@
 //! (A_base + eta_f A_fins) (T_surface - T_ambient); any textbook on heat transfer. Shafts and feet can be modelled as fins, too.
 
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::loss::{Observed, Undefined};
+use gearloss_framework::loss::Undefined;
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::heat_dissipation::{
     HeatDissipation, HeatDissipationAt, HeatDissipationModel, HousingPart,
 };
-use gearloss_framework::register;
 use gearloss_framework::registry::{Build, Evidence, formula};
+use gearloss_framework::{observed, register};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -18,7 +18,7 @@ use super::textbook::length;
 use super::{ZERO_CELSIUS, needed, part};
 use crate::convection::{Shape, forced, free, mixed};
 
-const EFFICIENCY: Observed = Observed::new(0, "eta_f", "-", "Efficiency of the fins.");
+observed! { EFFICIENCY = ("eta_f", "-", "Efficiency of the fins."); }
 
 /// A finned part of the housing.
 #[derive(Debug, Deserialize, JsonSchema)]

@@ -5,18 +5,18 @@
 //! in between. A is the free outer surface that oil touches inside and air outside, without fins, bolts and foundation.
 
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::loss::{Limit, Undefined};
+use gearloss_framework::loss::Undefined;
 use gearloss_framework::mechanism::heat_dissipation::{
     HeatDissipation, HeatDissipationAt, HeatDissipationModel, WarmSide,
 };
-use gearloss_framework::register;
 use gearloss_framework::registry::{Build, Evidence, default_of, formula};
+use gearloss_framework::{limits, register};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{needed, part};
 
-const AIR: Limit = Limit::new(0, "v_air", "m/s", 2.5, 15.0, "table of the report, quoted from memory");
+limits! { AIR = ("v_air", "m/s", 2.5, 15.0, "table of the report, quoted from memory"); }
 const FAN: [(f64, f64); 4] = [(2.5, 15.0), (5.0, 24.0), (10.0, 42.0), (15.0, 58.0)];
 
 /// Location of the gearbox.

@@ -7,27 +7,23 @@
 //!
 //! Its free convection is about twice the textbook value, because the air in a workshop moves.
 
-use gearloss_framework::coefficients;
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::loss::{Observed, Undefined};
+use gearloss_framework::loss::Undefined;
 use gearloss_framework::mechanism::heat_dissipation::{
     HeatDissipation, HeatDissipationAt, HeatDissipationModel, HousingPart, WarmSide,
 };
-use gearloss_framework::register;
 use gearloss_framework::registry::{Build, Evidence, default_of, formula};
+use gearloss_framework::{coefficients, observed, register};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::air::Air;
 use super::{ZERO_CELSIUS, needed, part};
 
-const WALL: Observed = Observed::new(0, "T_wall", "degC", "Temperature of the wall.");
-const ALPHA: Observed = Observed::new(
-    1,
-    "alpha_ca",
-    "W/(m2 K)",
-    "Heat transfer coefficient to the air with radiation.",
-);
+observed! {
+    WALL = ("T_wall", "degC", "Temperature of the wall.");
+    ALPHA = ("alpha_ca", "W/(m2 K)", "Heat transfer coefficient to the air with radiation.");
+}
 const GRAVITY: f64 = 9.80665;
 
 coefficients! {

@@ -3,17 +3,17 @@
 //! Source: effectiveness and number of transfer units, textbooks (Kays and London): C = rho c_p V', Q = eps C_min (T_oil -
 //! T_cold,in), as for the heat exchangers of a thermal network.
 
-use gearloss_framework::loss::{Observed, Undefined};
+use gearloss_framework::loss::Undefined;
 use gearloss_framework::mechanism::heat_dissipation::{
     HeatDissipation, HeatDissipationAt, HeatDissipationModel, WarmSide,
 };
-use gearloss_framework::register;
 use gearloss_framework::registry::{Evidence, default_of, formula};
 use gearloss_framework::thermal::Arrangement;
+use gearloss_framework::{observed, register};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-const EFFECTIVENESS: Observed = Observed::new(0, "eps", "-", "Effectiveness of the cooler.");
+observed! { EFFECTIVENESS = ("eps", "-", "Effectiveness of the cooler."); }
 
 /// An oil cooler, described by its effectiveness.
 #[derive(Debug, Deserialize, JsonSchema)]

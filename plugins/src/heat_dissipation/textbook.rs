@@ -6,20 +6,20 @@
 //! T_a^2)(T_w + T_a). Air at the mean temperature of wall and surroundings.
 
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::loss::{Limit, Observed, Undefined};
+use gearloss_framework::loss::Undefined;
 use gearloss_framework::mechanism::heat_dissipation::{
     HeatDissipation, HeatDissipationAt, HeatDissipationModel, HousingPart,
 };
-use gearloss_framework::register;
 use gearloss_framework::registry::{Build, Evidence, formula};
+use gearloss_framework::{limits, observed, register};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{ZERO_CELSIUS, needed, part};
 use crate::convection::{Shape, forced, free, mixed, radiation};
 
-const RAYLEIGH: Limit = Limit::new(0, "Ra", "-", 0.0, 1e12, "Churchill and Chu 1975");
-const ALPHA: Observed = Observed::new(0, "alpha", "W/(m2 K)", "Heat transfer coefficient with radiation.");
+limits! { RAYLEIGH = ("Ra", "-", 0.0, 1e12, "Churchill and Chu 1975"); }
+observed! { ALPHA = ("alpha", "W/(m2 K)", "Heat transfer coefficient with radiation."); }
 
 /// Free and forced convection with radiation.
 #[derive(Debug, Deserialize, JsonSchema)]

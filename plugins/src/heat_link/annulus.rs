@@ -13,23 +13,20 @@
 use std::f64::consts::PI;
 
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::loss::{Limit, Observed, Undefined};
+use gearloss_framework::loss::Undefined;
 use gearloss_framework::mechanism::heat_link::{HeatLink, HeatLinkAt, HeatLinkModel};
-use gearloss_framework::register;
 use gearloss_framework::registry::{Build, Evidence, default_of, formula};
+use gearloss_framework::{limits, observed, register};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::oil;
 
-const TAYLOR: Limit = Limit::new(0, "Ta^2/F_g", "-", 0.0, 1e7, "Becker and Kaye 1962, quoted from memory");
-const NUSSELT: Observed = Observed::new(0, "Nu", "-", "Nusselt number over twice the gap.");
-const ALPHA: Observed = Observed::new(
-    1,
-    "alpha",
-    "W/(m2 K)",
-    "Heat transfer coefficient for the total temperature difference.",
-);
+limits! { TAYLOR = ("Ta^2/F_g", "-", 0.0, 1e7, "Becker and Kaye 1962, quoted from memory"); }
+observed! {
+    NUSSELT = ("Nu", "-", "Nusselt number over twice the gap.");
+    ALPHA = ("alpha", "W/(m2 K)", "Heat transfer coefficient for the total temperature difference.");
+}
 
 /// Onset of vortices in the gap.
 const ONSET: f64 = 1700.0;

@@ -8,10 +8,10 @@
 //! ribs are not modelled: a factor of two in either direction is common. The end faces of a cylinder are included in its `area`.
 
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::loss::{Limit, Observed, Undefined};
+use gearloss_framework::loss::Undefined;
 use gearloss_framework::mechanism::heat_link::{HeatLink, HeatLinkAt, HeatLinkModel};
-use gearloss_framework::register;
 use gearloss_framework::registry::{Build, Evidence, default_of, formula};
+use gearloss_framework::{limits, observed, register};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -19,9 +19,11 @@ use super::{of_housing, part};
 use crate::convection::{Shape, forced, free, mixed, radiation};
 use crate::heat_dissipation::ZERO_CELSIUS;
 
-const RAYLEIGH: Limit = Limit::new(0, "Ra", "-", 0.0, 1e12, "Churchill and Chu 1975");
-const ALPHA: Observed = Observed::new(0, "alpha", "W/(m2 K)", "Heat transfer coefficient with radiation.");
-const AIR: Observed = Observed::new(1, "u", "m/s", "Speed of the air along the casing.");
+limits! { RAYLEIGH = ("Ra", "-", 0.0, 1e12, "Churchill and Chu 1975"); }
+observed! {
+    ALPHA = ("alpha", "W/(m2 K)", "Heat transfer coefficient with radiation.");
+    AIR = ("u", "m/s", "Speed of the air along the casing.");
+}
 
 /// Casing to ambient air: free and forced convection with radiation.
 #[derive(Debug, Deserialize, JsonSchema)]

@@ -11,22 +11,17 @@
 use std::f64::consts::{PI, TAU};
 
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::loss::{Observed, Undefined};
+use gearloss_framework::loss::Undefined;
 use gearloss_framework::mechanism::heat_link::{HeatLink, HeatLinkAt, HeatLinkModel};
-use gearloss_framework::register;
 use gearloss_framework::registry::{Build, Evidence, default_of, formula};
+use gearloss_framework::{observed, register};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{of_gear, oil};
 use crate::rotating::Fluid;
 
-const ALPHA: Observed = Observed::new(
-    0,
-    "alpha",
-    "W/(m2 K)",
-    "Heat transfer coefficient on the wetted flanks.",
-);
+observed! { ALPHA = ("alpha", "W/(m2 K)", "Heat transfer coefficient on the wetted flanks."); }
 
 /// Centrifugal film cooling of wetted teeth, from gear to oil.
 #[derive(Debug, Deserialize, JsonSchema)]

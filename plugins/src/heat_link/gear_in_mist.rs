@@ -9,17 +9,17 @@
 //! authors use twice Becker's Reynolds number, which gives 1.6 times the heat transfer on the toothed face.
 
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::loss::{Limit, Undefined};
+use gearloss_framework::loss::Undefined;
 use gearloss_framework::mechanism::heat_link::{HeatLink, HeatLinkAt, HeatLinkModel};
-use gearloss_framework::register;
 use gearloss_framework::registry::{Build, Evidence, default_of, formula};
+use gearloss_framework::{limits, register};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{of_gear, oil};
 use crate::rotating::Body;
 
-const REYNOLDS: Limit = Limit::new(0, "Re_D", "-", 1e3, 1e5, "Becker 1963, toothed face as a cylinder");
+limits! { REYNOLDS = ("Re_D", "-", 1e3, 1e5, "Becker 1963, toothed face as a cylinder"); }
 
 /// A gear rotating in oil, air or a mist of both: its sides and its toothed face.
 #[derive(Debug, Deserialize, JsonSchema)]

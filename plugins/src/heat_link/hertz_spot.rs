@@ -14,16 +14,16 @@
 use std::f64::consts::PI;
 
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::loss::{Observed, Undefined};
+use gearloss_framework::loss::Undefined;
 use gearloss_framework::mechanism::heat_link::{HeatLink, HeatLinkAt, HeatLinkModel};
-use gearloss_framework::register;
 use gearloss_framework::registry::{Build, Evidence, default_of, formula};
+use gearloss_framework::{observed, register};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::STEEL;
 
-const PECLET: Observed = Observed::new(0, "Pe", "-", "Peclet number of the spot in the first body.");
+observed! { PECLET = ("Pe", "-", "Peclet number of the spot in the first body."); }
 
 /// Hertzian contact spots, stationary or moving, such as between rolling elements and raceways.
 #[derive(Debug, Deserialize, JsonSchema)]

@@ -8,19 +8,21 @@
 //! Oil properties are taken at the mean temperature of both nodes. Splash usually gives 100 to 400 W/(m2 K).
 
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::loss::{Limit, Observed, Undefined};
+use gearloss_framework::loss::Undefined;
 use gearloss_framework::mechanism::heat_link::{HeatLink, HeatLinkAt, HeatLinkModel};
-use gearloss_framework::register;
 use gearloss_framework::registry::{Build, Evidence, default_of, formula};
+use gearloss_framework::{limits, observed, register};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{of_gear, of_housing, oil};
 use crate::convection::{Shape, along_plate, mixed, rayleigh};
 
-const RAYLEIGH: Limit = Limit::new(0, "Ra", "-", 0.0, 1e12, "Churchill and Chu 1975");
-const ALPHA: Observed = Observed::new(0, "alpha", "W/(m2 K)", "Heat transfer coefficient from oil to casing.");
-const REYNOLDS: Observed = Observed::new(1, "Re", "-", "Reynolds number over the height of the casing.");
+limits! { RAYLEIGH = ("Ra", "-", 0.0, 1e12, "Churchill and Chu 1975"); }
+observed! {
+    ALPHA = ("alpha", "W/(m2 K)", "Heat transfer coefficient from oil to casing.");
+    REYNOLDS = ("Re", "-", "Reynolds number over the height of the casing.");
+}
 
 /// Oil to casing inside: splash of an immersed gear, free convection at standstill.
 #[derive(Debug, Deserialize, JsonSchema)]

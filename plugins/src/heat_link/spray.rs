@@ -10,28 +10,20 @@
 //! temperature of both nodes.
 
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::loss::{Observed, Undefined};
+use gearloss_framework::loss::Undefined;
 use gearloss_framework::mechanism::heat_link::{HeatLink, HeatLinkAt, HeatLinkModel};
-use gearloss_framework::register;
 use gearloss_framework::registry::{Build, Evidence, default_of, formula};
+use gearloss_framework::{observed, register};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::oil;
 use crate::rotating::Fluid;
 
-const ALPHA: Observed = Observed::new(
-    0,
-    "alpha",
-    "W/(m2 K)",
-    "Heat transfer coefficient on the wetted surface.",
-);
-const EFFECTIVENESS: Observed = Observed::new(
-    1,
-    "eps",
-    "-",
-    "Ratio of the heat removed to the maximum that the stream can remove.",
-);
+observed! {
+    ALPHA = ("alpha", "W/(m2 K)", "Heat transfer coefficient on the wetted surface.");
+    EFFECTIVENESS = ("eps", "-", "Ratio of the heat removed to the maximum that the stream can remove.");
+}
 
 /// A jet of oil.
 #[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]

@@ -8,17 +8,17 @@
 //! teeth are treated as at that limit. The link adds to the friction heat, which belongs to the sources of both gears.
 
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::loss::{Limit, Undefined};
+use gearloss_framework::loss::Undefined;
 use gearloss_framework::mechanism::heat_link::{HeatLink, HeatLinkAt, HeatLinkModel};
-use gearloss_framework::register;
 use gearloss_framework::registry::{Build, Evidence, default_of, formula};
+use gearloss_framework::{limits, register};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{STEEL, of_gear};
 use crate::tooth_friction::ehl_mixed::temperature::{FAST, Flank};
 
-const PECLET: Limit = Limit::new(0, "Pe", "-", FAST, f64::INFINITY, "fast bands of contact, derived");
+limits! { PECLET = ("Pe", "-", FAST, f64::INFINITY, "fast bands of contact, derived"); }
 /// Sine of a pressure angle of 20 deg.
 const SINE: f64 = 0.342_020_143_325_668_7;
 /// Ratio of Blok's coefficient to that of uniform heat, 4/3/sqrt(pi).

@@ -6,19 +6,18 @@
 //! polyglycol.
 //! An older script uses Ra^2/(eps_alpha l rho) with half the exponent: a factor of eps_alpha^-0.125.
 
-use gearloss_framework::coefficients;
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::loss::{Limit, Observed, Undefined};
+use gearloss_framework::loss::Undefined;
 use gearloss_framework::mechanism::mean_friction::{MeanFriction, MeanFrictionAt, MeanFrictionModel};
-use gearloss_framework::register;
 use gearloss_framework::registry::{Build, Evidence, default_of, formula};
+use gearloss_framework::{coefficients, limits, observed, register};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::boundary::greatest;
 
-const PITCH_SPEED: Limit = Limit::new(0, "v_t", "m/s", 0.5, 20.0, "FZG tests behind X_L, quoted from memory");
-const MU: Observed = Observed::new(0, "mu_m", "-", "Mean coefficient of friction.");
+limits! { PITCH_SPEED = ("v_t", "m/s", 0.5, 20.0, "FZG tests behind X_L, quoted from memory"); }
+observed! { MU = ("mu_m", "-", "Mean coefficient of friction."); }
 
 coefficients! {
     /// Constants of the formula of Fernandes.

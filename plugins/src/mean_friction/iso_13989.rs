@@ -4,26 +4,21 @@
 //! X_R = ((Ra1 + Ra2)/2)^0.25 and X_L = X_L0 eta^-0.05; w_Bt in N/mm, v_SC in m/s, rho_relC in mm, eta in mPa s, Ra in um.
 //! It equals the formula of Schlenk with a factor of 1.25: conservative for scuffing, too high for efficiency.
 
-use gearloss_framework::coefficients;
-use gearloss_framework::loss::{Limit, Observed, Undefined};
+use gearloss_framework::loss::Undefined;
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::mean_friction::{MeanFriction, MeanFrictionAt, MeanFrictionModel};
-use gearloss_framework::register;
 use gearloss_framework::registry::{Evidence, default_of, formula};
+use gearloss_framework::{coefficients, limits, observed, register};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::boundary::greatest;
 
-const PITCH_SPEED: Limit = Limit::new(
-    0,
-    "v_t",
-    "m/s",
-    0.5,
-    60.0,
-    "assumed, not stated by a source: as for Schlenk's formula of the same form",
-);
-const MU: Observed = Observed::new(0, "mu_m", "-", "Mean coefficient of friction.");
+limits! {
+    PITCH_SPEED = ("v_t", "m/s", 0.5, 60.0,
+        "assumed, not stated by a source: as for Schlenk's formula of the same form");
+}
+observed! { MU = ("mu_m", "-", "Mean coefficient of friction."); }
 
 coefficients! {
     /// Constants of the formula of ISO/TR 13989-1.

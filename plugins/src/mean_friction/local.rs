@@ -6,18 +6,18 @@
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::geometry::LoadSharing;
-use gearloss_framework::loss::{Observed, Undefined};
+use gearloss_framework::loss::Undefined;
 use gearloss_framework::mechanism::NoPart;
 use gearloss_framework::mechanism::mean_friction::{MeanFriction, MeanFrictionAt, MeanFrictionModel};
 use gearloss_framework::mechanism::tooth_friction::{ContactAt, ToothFriction};
-use gearloss_framework::register;
 use gearloss_framework::registry::{Build, Evidence, ModelRef, Slot, default_of, formula};
+use gearloss_framework::{observed, register};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use gearloss_framework::contact::path::Path;
 
-const MU: Observed = Observed::new(0, "mu_m", "-", "Mean coefficient of friction.");
+observed! { MU = ("mu_m", "-", "Mean coefficient of friction."); }
 
 /// Laws whose friction vanishes or diverges without sliding.
 const SLIDING_LAWS: [&str; 6] = [

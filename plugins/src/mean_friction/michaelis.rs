@@ -4,27 +4,22 @@
 //! X_R = 2.2 (Ra/rho_redC)^0.25; w_Bt in N/mm and at least 150, v_SC in m/s, rho_redC in mm, eta in mPa s, Ra in um.
 //! The load factors of the standard (K_A and others) are not applied: this is the nominal load.
 
-use gearloss_framework::coefficients;
-use gearloss_framework::loss::{Limit, Observed, Undefined};
+use gearloss_framework::loss::Undefined;
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::mean_friction::{MeanFriction, MeanFrictionAt, MeanFrictionModel};
-use gearloss_framework::register;
 use gearloss_framework::registry::{Evidence, default_of, formula};
+use gearloss_framework::{coefficients, limits, observed, register};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::boundary::greatest;
 
-const LINE_LOAD: Limit = Limit::new(0, "w_Bt", "N/mm", 150.0, 3000.0, "lower clamp of the method");
-const PITCH_SPEED: Limit = Limit::new(
-    1,
-    "v_t",
-    "m/s",
-    0.5,
-    60.0,
-    "assumed, not stated by a source: as for Schlenk's formula of the same form",
-);
-const MU: Observed = Observed::new(0, "mu_m", "-", "Mean coefficient of friction.");
+limits! {
+    LINE_LOAD = ("w_Bt", "N/mm", 150.0, 3000.0, "lower clamp of the method");
+    PITCH_SPEED = ("v_t", "m/s", 0.5, 60.0,
+        "assumed, not stated by a source: as for Schlenk's formula of the same form");
+}
+observed! { MU = ("mu_m", "-", "Mean coefficient of friction."); }
 
 coefficients! {
     /// Constants of the formula of Michaelis.

@@ -7,35 +7,23 @@
 //! or the pitch line velocity. X_L by oil type differs between the standards and fits of test gears; polyglycol falls with speed in
 //! ISO/TR 14179-2. Not for superfinished flanks, whose friction the exponent of Ra overestimates.
 
-use gearloss_framework::coefficients;
-use gearloss_framework::loss::{Limit, Notes, Observed, Undefined};
+use gearloss_framework::loss::{Notes, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::mean_friction::{MeanFriction, MeanFrictionAt, MeanFrictionModel};
-use gearloss_framework::register;
 use gearloss_framework::registry::{Evidence, default_of, formula};
+use gearloss_framework::{coefficients, limits, observed, register};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::boundary::greatest;
 
-pub(crate) const LINE_LOAD: Limit = Limit::new(0, "F_bt/b", "N/mm", 150.0, 3000.0, "lower clamp of the method");
-pub(crate) const PITCH_SPEED: Limit = Limit::new(
-    1,
-    "v_t",
-    "m/s",
-    0.5,
-    60.0,
-    "tests behind the method; lower end as in FZG efficiency tests, quoted from memory",
-);
-pub(crate) const VISCOSITY: Limit = Limit::new(
-    2,
-    "eta",
-    "mPa s",
-    5.0,
-    500.0,
-    "tests behind the method, quoted from memory",
-);
-pub(crate) const MU: Observed = Observed::new(0, "mu_m", "-", "Mean coefficient of friction.");
+limits! {
+    pub(crate) LINE_LOAD = ("F_bt/b", "N/mm", 150.0, 3000.0, "lower clamp of the method");
+    pub(crate) PITCH_SPEED = ("v_t", "m/s", 0.5, 60.0,
+        "tests behind the method; lower end as in FZG efficiency tests, quoted from memory");
+    pub(crate) VISCOSITY = ("eta", "mPa s", 5.0, 500.0, "tests behind the method, quoted from memory");
+}
+observed! { pub(crate) MU = ("mu_m", "-", "Mean coefficient of friction."); }
 
 coefficients! {
     /// Constants of the formula of Schlenk.

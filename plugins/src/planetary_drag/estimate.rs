@@ -7,22 +7,26 @@
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::immersion::{dip, orbiting_dip};
-use gearloss_framework::loss::{Loss, Observed, Term, Undefined};
+use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::gear_drag::{Covers, GearDrag, GearDragAt};
 use gearloss_framework::mechanism::planetary_drag::{PlanetaryDrag, PlanetaryDragAt, PlanetaryDragModel};
-use gearloss_framework::register;
 use gearloss_framework::registry::{Build, Evidence, ModelRef, Slot, default_of, formula};
+use gearloss_framework::{observed, register, terms};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::gear_drag::diab::{Constants, faces};
 use crate::gear_drag::wetted::Wetted;
 
-const PLANETS: Term = Term::no_load(0, "planets");
-const CARRIER: Term = Term::no_load(1, "carrier");
-const SHARE: Observed = Observed::new(0, "A_wet/A", "-", "Oil-covered share of the carrier faces.");
-const REYNOLDS: Observed = Observed::new(1, "Re", "-", "Reynolds number of the carrier in oil.");
+terms! {
+    PLANETS = no_load("planets");
+    CARRIER = no_load("carrier");
+}
+observed! {
+    SHARE = ("A_wet/A", "-", "Oil-covered share of the carrier faces.");
+    REYNOLDS = ("Re", "-", "Reynolds number of the carrier in oil.");
+}
 
 /// A first estimate of carrier and planets in oil; expect a factor of three in either direction.
 #[derive(Debug, Deserialize, JsonSchema)]

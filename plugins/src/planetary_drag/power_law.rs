@@ -6,15 +6,15 @@
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::generic::PLACE;
-use gearloss_framework::loss::{Loss, Term, Undefined};
+use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::gear_drag::Covers;
 use gearloss_framework::mechanism::planetary_drag::{PlanetaryDrag, PlanetaryDragAt, PlanetaryDragModel};
-use gearloss_framework::register;
 use gearloss_framework::registry::{Build, Evidence, USER_DEFINED, formula};
+use gearloss_framework::{register, terms};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-const TERM: Term = Term::no_load(0, "drag");
+terms! { TERM = no_load("drag"); }
 
 /// A power law of speed, viscosity and oil volume, fitted to simulations or measurements.
 #[derive(Debug, Deserialize, JsonSchema)]

@@ -2,16 +2,15 @@
 //!
 //! Source: ISO/TR 14179-1:2001, quoted from memory: T = 3.737e-3 d for fluoro rubber, 2.429e-3 d for nitrile rubber, in N m with d in mm; one lip.
 
-use gearloss_framework::coefficients;
-use gearloss_framework::loss::{Loss, Term, Undefined};
+use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::seal::{Seal, SealAt, SealKind, SealModel};
-use gearloss_framework::register;
 use gearloss_framework::registry::{Evidence, formula};
+use gearloss_framework::{coefficients, register, terms};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-const LIP: Term = Term::no_load(0, "lip");
+terms! { LIP = no_load("lip"); }
 
 /// Material of the lip.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]

@@ -4,27 +4,21 @@
 //! nu40 in mm2/s, d in mm, n in 1/min. The power is linear in speed, so the torque is constant. Assumes one lip. The bracket falls
 //! with temperature and is limited to zero. Not for non-contact seals, which have no loss here.
 
-use gearloss_framework::coefficients;
-use gearloss_framework::loss::{Limit, Loss, Term, Undefined};
+use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::seal::{Seal, SealAt, SealKind, SealModel};
-use gearloss_framework::register;
 use gearloss_framework::registry::{Evidence, formula};
+use gearloss_framework::{coefficients, limits, register, terms};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-const LIP: Term = Term::no_load(0, "lip");
+terms! { LIP = no_load("lip"); }
 
-/// Above, the formula would give a negative loss: above about 128 degC with 30 mm2/s at 40 degC, or 157 degC with 100 mm2/s. The
-/// upper end exceeds any oil temperature.
-const BRACKET: Limit = Limit::new(
-    0,
-    "bracket",
-    "-",
-    0.0,
-    1000.0,
-    "below, the power would be negative; it is set to zero",
-);
+limits! {
+    /// Above, the formula would give a negative loss: above about 128 degC with 30 mm2/s at 40 degC, or 157 degC with 100 mm2/s. The
+    /// upper end exceeds any oil temperature.
+    BRACKET = ("bracket", "-", 0.0, 1000.0, "below, the power would be negative; it is set to zero");
+}
 
 coefficients! {
     /// Constants of the bracket of ISO/TR 14179-2.

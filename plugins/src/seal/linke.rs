@@ -3,16 +3,15 @@
 //! Source: Linke, Stirnradverzahnung: P = 7.69e-6 d^2 n in W, d in mm, n in 1/min; one lip. The torque is independent of speed, oil
 //! and temperature. Some programs attribute it to ISO/TR 14179-2, incorrectly.
 
-use gearloss_framework::coefficients;
-use gearloss_framework::loss::{Loss, Term, Undefined};
+use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::seal::{Seal, SealAt, SealKind, SealModel};
-use gearloss_framework::register;
 use gearloss_framework::registry::{Evidence, formula};
+use gearloss_framework::{coefficients, register, terms};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-const LIP: Term = Term::no_load(0, "lip");
+terms! { LIP = no_load("lip"); }
 
 coefficients! {
     /// The constant of the formula of Linke.

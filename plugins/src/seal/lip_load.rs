@@ -3,15 +3,15 @@
 //! Derived: T = mu q pi d^2/2 with the radial load q per length of the lip, typically 50 to 150 N/m, and a coefficient of friction
 //! of 0.2 to 0.5 when lubricated.
 
-use gearloss_framework::loss::{Loss, Term, Undefined};
+use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::seal::{Seal, SealAt, SealKind, SealModel};
-use gearloss_framework::register;
 use gearloss_framework::registry::{Evidence, formula};
+use gearloss_framework::{register, terms};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-const LIP: Term = Term::no_load(0, "lip");
+terms! { LIP = no_load("lip"); }
 
 /// Radial lip seals from line load and friction coefficient of the lip.
 #[derive(Debug, Deserialize, JsonSchema)]

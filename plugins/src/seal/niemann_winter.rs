@@ -6,16 +6,16 @@
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::generic::{Lookup, PLACE};
-use gearloss_framework::loss::{Loss, Term, Undefined};
+use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::seal::{Seal, SealAt, SealKind, SealModel};
-use gearloss_framework::register;
 use gearloss_framework::registry::{Build, Evidence, formula};
 use gearloss_framework::table::{Outside, Reading};
+use gearloss_framework::{register, terms};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-const LIP: Term = Term::no_load(0, "lip");
+terms! { LIP = no_load("lip"); }
 
 /// Radial lip seals with a user-defined coefficient, a number or a table.
 #[derive(Debug, Deserialize, JsonSchema)]

@@ -2,16 +2,15 @@
 //!
 //! Source: Freudenberg/Simrit, quoted from memory: P = 0.5 d v in W, d in mm, v circumferential speed in m/s. Three to four times the law of Linke.
 
-use gearloss_framework::coefficients;
-use gearloss_framework::loss::{Loss, Term, Undefined};
+use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::seal::{Seal, SealAt, SealKind, SealModel};
-use gearloss_framework::register;
 use gearloss_framework::registry::{Evidence, formula};
+use gearloss_framework::{coefficients, register, terms};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-const LIP: Term = Term::no_load(0, "lip");
+terms! { LIP = no_load("lip"); }
 
 coefficients! {
     /// The constant of the rule.

@@ -6,17 +6,17 @@
 //! covers the same seals with its parameter `seals`.
 
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::loss::{Loss, Term, Undefined};
+use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::seal::{Seal, SealAt, SealKind, SealModel};
-use gearloss_framework::register;
 use gearloss_framework::registry::{Build, Evidence, default_of, formula};
+use gearloss_framework::{register, terms};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::bearing::skf_seal::{Code, SealRow};
 
-const LIP: Term = Term::no_load(0, "lip");
+terms! { LIP = no_load("lip"); }
 
 /// Contact seals of rolling bearings according to the SKF catalogue.
 #[derive(Debug, Deserialize, JsonSchema)]

@@ -6,16 +6,18 @@
 //! the stated Reynolds and Taylor numbers the drag is underpredicted.
 
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::loss::{Limit, Loss, Term, Undefined};
+use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::synchronizer::{CouplingKind, Synchronizer, SynchronizerAt, SynchronizerModel};
-use gearloss_framework::register;
 use gearloss_framework::registry::{Build, Evidence, formula};
+use gearloss_framework::{limits, register, terms};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-const SHEAR: Term = Term::no_load(0, "shear");
-const REYNOLDS: Limit = Limit::new(0, "Re", "-", 0.0, 1000.0, "laminar gap flow");
-const TAYLOR: Limit = Limit::new(1, "Ta", "-", 0.0, 41.3, "onset of Taylor vortices");
+terms! { SHEAR = no_load("shear"); }
+limits! {
+    REYNOLDS = ("Re", "-", 0.0, 1000.0, "laminar gap flow");
+    TAYLOR = ("Ta", "-", 0.0, 41.3, "onset of Taylor vortices");
+}
 
 /// Oil shear in the gap between the cones of an open synchronizer.
 #[derive(Debug, Deserialize, JsonSchema)]

@@ -5,26 +5,18 @@
 //! inch form converts to this one. Roughness, quoted from memory, multiplies by 1.13/(1.13 - S), S in um rms of both flanks, below 1.13 um.
 //! Diverges at the pitch point, where the loss still vanishes; limited to `greatest`. Zero where the logarithm is negative.
 
-use gearloss_framework::coefficients;
-use gearloss_framework::loss::{Limit, Observed, Undefined};
+use gearloss_framework::loss::Undefined;
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::tooth_friction::{CUT_OFF, ContactAt, ToothFriction, ToothFrictionModel};
-use gearloss_framework::register;
 use gearloss_framework::registry::{Evidence, default_of, formula};
+use gearloss_framework::{coefficients, limits, observed, register};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::boundary::greatest;
 
-const SUM_SPEED: Limit = Limit::new(
-    0,
-    "v_S",
-    "m/s",
-    0.4,
-    100.0,
-    "assumed, not stated by a source: gears with lubricant films",
-);
-const MU: Observed = Observed::new(0, "mu", "-", "Coefficient of friction.");
+limits! { SUM_SPEED = ("v_S", "m/s", 0.4, 100.0, "assumed, not stated by a source: gears with lubricant films"); }
+observed! { MU = ("mu", "-", "Coefficient of friction."); }
 
 coefficients! {
     /// Constants of the formula of Benedict and Kelley.

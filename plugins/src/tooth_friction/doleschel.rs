@@ -4,25 +4,21 @@
 //! 0.2 m/s for boundary friction, which is independent of viscosity. Coefficient and exponents are properties of the oil from its
 //! FVA 345 test; no values of standard oils are public, so there are no defaults. Intended for the two slots of `mixed`.
 
-use gearloss_framework::loss::{Limit, Observed, Undefined};
+use gearloss_framework::loss::Undefined;
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::tooth_friction::{ContactAt, ToothFriction, ToothFrictionModel};
-use gearloss_framework::register;
 use gearloss_framework::registry::{Evidence, default_of, formula};
+use gearloss_framework::{limits, observed, register};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{entraining, finite};
 
-const SUM_SPEED: Limit = Limit::new(
-    0,
-    "v_S",
-    "m/s",
-    0.2,
-    15.3,
-    "FVA 345 tests FZG C gears up to 20 m/s, and boundary friction at 0.2 m/s; quoted from memory",
-);
-const MU: Observed = Observed::new(0, "mu", "-", "Coefficient of friction.");
+limits! {
+    SUM_SPEED = ("v_S", "m/s", 0.2, 15.3,
+        "FVA 345 tests FZG C gears up to 20 m/s, and boundary friction at 0.2 m/s; quoted from memory");
+}
+observed! { MU = ("mu", "-", "Coefficient of friction."); }
 
 /// Power law of boundary or fluid friction according to Doleschel, with test constants of an oil.
 #[derive(Debug, Deserialize, JsonSchema)]

@@ -4,23 +4,24 @@
 //! mu = 1/(0.8 nu^0.5 v_g + v_S phi + 13.4), phi = 0.47 - 0.13e-4 p - 0.4e-3 nu; nu in mm2/s, v_g and the sum velocity v_S in m/s, Hertz
 //! pressure p in kgf/cm2. For v_g to 15, v_S from 3 to 20 m/s, nu from 4 to 500 mm2/s, p from 4000 to 20000 kgf/cm2.
 
-use gearloss_framework::coefficients;
-use gearloss_framework::loss::{Limit, Observed, Undefined};
+use gearloss_framework::loss::Undefined;
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::tooth_friction::{ContactAt, ToothFriction, ToothFrictionModel};
-use gearloss_framework::register;
 use gearloss_framework::registry::{Evidence, formula};
+use gearloss_framework::{coefficients, limits, observed, register};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::powers::power;
 
 const FROM: &str = "range of the tests, quoted from memory";
-const SLIDING: Limit = Limit::new(0, "v_g", "m/s", 0.0, 15.0, FROM);
-const SUM_SPEED: Limit = Limit::new(1, "v_S", "m/s", 3.0, 20.0, FROM);
-const VISCOSITY: Limit = Limit::new(2, "nu", "mm2/s", 4.0, 500.0, FROM);
-const PRESSURE: Limit = Limit::new(3, "p", "kgf/cm2", 4000.0, 20000.0, FROM);
-const MU: Observed = Observed::new(0, "mu", "-", "Coefficient of friction.");
+limits! {
+    SLIDING = ("v_g", "m/s", 0.0, 15.0, FROM);
+    SUM_SPEED = ("v_S", "m/s", 3.0, 20.0, FROM);
+    VISCOSITY = ("nu", "mm2/s", 4.0, 500.0, FROM);
+    PRESSURE = ("p", "kgf/cm2", 4000.0, 20000.0, FROM);
+}
+observed! { MU = ("mu", "-", "Coefficient of friction."); }
 
 /// One kgf/cm2. \[Pa\]
 const KGF_CM2: f64 = 98_066.5;

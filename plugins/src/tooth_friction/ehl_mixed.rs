@@ -34,12 +34,12 @@ mod tests;
 use std::sync::Arc;
 
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::loss::{Limit, Notes, Observed, Undefined};
+use gearloss_framework::loss::{Notes, Observed, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::gear_mesh::{GearMesh, MeshPart};
 use gearloss_framework::mechanism::tooth_friction::{Along, ContactAt, PathAt, ToothFriction, ToothFrictionModel};
-use gearloss_framework::register;
 use gearloss_framework::registry::{Build, Evidence, default_of, formula};
+use gearloss_framework::{limits, observed, register};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -52,36 +52,26 @@ use place::{Bodies, Conditions, Laws, Place, Settled, first_slope};
 use temperature::{FAST, FilmHeat, Flank};
 use traction::Transit;
 
-const PRESSURE: Limit = Limit::new(
-    0,
-    "p_mean",
-    "GPa",
-    0.0,
-    1.0,
-    "pressure range of Roelands' law, quoted from memory",
-);
-const WARMTH: Limit = Limit::new(
-    1,
-    "T_film",
-    "degC",
-    20.0,
-    140.0,
-    "where Roelands' law fitted at 40 and 100 degC is within 2 % of ASTM D341",
-);
-const PECLET: Limit = Limit::new(2, "Pe", "-", FAST, f64::INFINITY, "fast bands of contact, derived");
+limits! {
+    PRESSURE = ("p_mean", "GPa", 0.0, 1.0, "pressure range of Roelands' law, quoted from memory");
+    WARMTH = ("T_film", "degC", 20.0, 140.0,
+        "where Roelands' law fitted at 40 and 100 degC is within 2 % of ASTM D341");
+    PECLET = ("Pe", "-", FAST, f64::INFINITY, "fast bands of contact, derived");
+}
 
 /// Bodies at different temperatures exchange heat even without friction; as a share of a small friction heat it would be unbounded.
 pub(crate) const LEAST_SHARE: f64 = -0.5;
 
-const MU: Observed = Observed::new(0, "mu", "-", "Coefficient of friction.");
-const MU_F: Observed = Observed::new(1, "mu_f", "-", "Coefficient of friction of the film alone.");
-const LAMBDA: Observed = Observed::new(2, "lambda", "-", "Film thickness over rms roughness of both flanks.");
-const THICKNESS: Observed = Observed::new(3, "h", "um", "Film thickness.");
-const T_FILM: Observed = Observed::new(4, "T_film", "degC", "Temperature of the film.");
-const T_BODY: [Observed; 2] = [
-    Observed::new(5, "T_b1", "degC", "Body temperature of the first gear."),
-    Observed::new(6, "T_b2", "degC", "Body temperature of the second gear."),
-];
+observed! {
+    MU = ("mu", "-", "Coefficient of friction.");
+    MU_F = ("mu_f", "-", "Coefficient of friction of the film alone.");
+    LAMBDA = ("lambda", "-", "Film thickness over rms roughness of both flanks.");
+    THICKNESS = ("h", "um", "Film thickness.");
+    T_FILM = ("T_film", "degC", "Temperature of the film.");
+    T_B1 = ("T_b1", "degC", "Body temperature of the first gear.");
+    T_B2 = ("T_b2", "degC", "Body temperature of the second gear.");
+}
+const T_BODY: [Observed; 2] = [T_B1, T_B2];
 
 /// Thermal elastohydrodynamic and mixed friction along the path of contact.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -410,4 +400,4 @@ Johnson, Tevaarwerk 1977",
         default_of("z", Evidence::Derived, "follows from the pressure-viscosity coefficient"),
     ],
     limits: [PRESSURE, WARMTH, PECLET],
-    observed: [MU, MU_F, LAMBDA, THICKNESS, T_FILM, T_BODY[0], T_BODY[1]], prepare: prepare);
+    observed: [MU, MU_F, LAMBDA, THICKNESS, T_FILM, T_B1, T_B2], prepare: prepare);

@@ -6,27 +6,22 @@
 //! 0.035 polyalphaolefin, 0.044 polyglycol.
 //! Friction of the film only; usable as the fluid part of mixed friction.
 
-use gearloss_framework::loss::{Limit, Observed, Undefined};
+use gearloss_framework::loss::Undefined;
 use gearloss_framework::lubricant::pressure::roelands;
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::tooth_friction::{CUT_OFF, ContactAt, ToothFriction, ToothFrictionModel};
-use gearloss_framework::register;
 use gearloss_framework::registry::{Evidence, default_of, formula};
+use gearloss_framework::{limits, observed, register};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use gearloss_framework::contact::{self, Film};
 
-const SUM_SPEED: Limit = Limit::new(
-    0,
-    "v_S",
-    "m/s",
-    0.1,
-    100.0,
-    "assumed, not stated by a source: speeds with a lubricant film",
-);
-const MU: Observed = Observed::new(0, "mu_f", "-", "Coefficient of friction.");
-const THICKNESS: Observed = Observed::new(1, "h", "um", "Film thickness.");
+limits! { SUM_SPEED = ("v_S", "m/s", 0.1, 100.0, "assumed, not stated by a source: speeds with a lubricant film"); }
+observed! {
+    MU = ("mu_f", "-", "Coefficient of friction.");
+    THICKNESS = ("h", "um", "Film thickness.");
+}
 
 /// Fluid friction of an EHL film: Eyring's law with a limiting shear stress.
 #[derive(Debug, Deserialize, JsonSchema)]

@@ -3,27 +3,19 @@
 //! Source: ISO/TC 60 draft as quoted in reviews: mu = 0.12 (w S/(R v_e eta))^0.25; w in N/mm, S rms roughness of both flanks in um,
 //! R in mm, v_e mean rolling speed in m/s, eta in mPa s. A public SI form with 0.0254 and the sum velocity is the same.
 
-use gearloss_framework::coefficients;
-use gearloss_framework::loss::{Limit, Observed, Undefined};
+use gearloss_framework::loss::Undefined;
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::tooth_friction::{CUT_OFF, ContactAt, ToothFriction, ToothFrictionModel};
-use gearloss_framework::register;
 use gearloss_framework::registry::{Evidence, default_of, formula};
+use gearloss_framework::{coefficients, limits, observed, register};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::entraining;
 use crate::boundary::greatest;
 
-const ROLLING: Limit = Limit::new(
-    0,
-    "v_e",
-    "m/s",
-    0.2,
-    50.0,
-    "assumed, not stated by a source: gears with lubricant films",
-);
-const MU: Observed = Observed::new(0, "mu", "-", "Coefficient of friction.");
+limits! { ROLLING = ("v_e", "m/s", 0.2, 50.0, "assumed, not stated by a source: gears with lubricant films"); }
+observed! { MU = ("mu", "-", "Coefficient of friction."); }
 
 coefficients! {
     /// Constants of the formula of the draft.

@@ -4,27 +4,21 @@
 //! 0.02 to 0.08, to which it is limited, and for Hertz pressures of 245 MPa and more; the range of slide-to-roll ratios is not
 //! known.
 
-use gearloss_framework::coefficients;
-use gearloss_framework::loss::{Limit, Observed, Undefined};
+use gearloss_framework::loss::Undefined;
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::tooth_friction::{CUT_OFF, ContactAt, ToothFriction, ToothFrictionModel};
-use gearloss_framework::register;
 use gearloss_framework::registry::{Evidence, default_of, formula};
+use gearloss_framework::{coefficients, limits, observed, register};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::boundary::greatest;
 
-const PRESSURE: Limit = Limit::new(0, "p_H", "GPa", 0.245, 4.0, "Misharin, quoted from memory");
-const SUM_SPEED: Limit = Limit::new(
-    1,
-    "v_S",
-    "m/s",
-    0.4,
-    100.0,
-    "assumed, not stated by a source: gears with lubricant films",
-);
-const MU: Observed = Observed::new(0, "mu", "-", "Coefficient of friction.");
+limits! {
+    PRESSURE = ("p_H", "GPa", 0.245, 4.0, "Misharin, quoted from memory");
+    SUM_SPEED = ("v_S", "m/s", 0.4, 100.0, "assumed, not stated by a source: gears with lubricant films");
+}
+observed! { MU = ("mu", "-", "Coefficient of friction."); }
 
 coefficients! {
     /// Constants of the formula of Misharin.

@@ -11,35 +11,28 @@
 //! `doleschel`, `eyring`.
 
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::loss::{Limit, Observed, Undefined};
+use gearloss_framework::loss::Undefined;
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::tooth_friction::{
     Along, CUT_OFF, ContactAt, PathAt, SMOOTH, ToothFriction, ToothFrictionModel,
 };
-use gearloss_framework::register;
 use gearloss_framework::registry::{Build, Evidence, ModelRef, Slot, default_of, formula};
+use gearloss_framework::{limits, observed, register};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use gearloss_framework::contact::{self, Film};
 
-const SUM_SPEED: Limit = Limit::new(
-    0,
-    "v_S",
-    "m/s",
-    0.0,
-    100.0,
-    "assumed, not stated by a source; at zero speed there is no film, only boundary friction",
-);
-const MU: Observed = Observed::new(0, "mu", "-", "Coefficient of friction.");
-const LAMBDA: Observed = Observed::new(
-    1,
-    "lambda",
-    "-",
-    "Film thickness over roughness, as defined by the weight.",
-);
-const XI: Observed = Observed::new(2, "xi", "-", "Share of boundary friction.");
-const THICKNESS: Observed = Observed::new(3, "h", "um", "Film thickness.");
+limits! {
+    SUM_SPEED = ("v_S", "m/s", 0.0, 100.0,
+        "assumed, not stated by a source; at zero speed there is no film, only boundary friction");
+}
+observed! {
+    MU = ("mu", "-", "Coefficient of friction.");
+    LAMBDA = ("lambda", "-", "Film thickness over roughness, as defined by the weight.");
+    XI = ("xi", "-", "Share of boundary friction.");
+    THICKNESS = ("h", "um", "Film thickness.");
+}
 
 /// Share of boundary friction as a function of the film.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]

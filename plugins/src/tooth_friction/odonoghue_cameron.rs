@@ -5,27 +5,19 @@
 //! R in inches. With metres the result is absurd. S was that of the discs before running; here it is the mean Ra of the flanks. At
 //! the pitch point, where the formula diverges and the loss vanishes, the coefficient is limited to `greatest`.
 
-use gearloss_framework::coefficients;
-use gearloss_framework::loss::{Limit, Observed, Undefined};
+use gearloss_framework::loss::Undefined;
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::tooth_friction::{CUT_OFF, ContactAt, ToothFriction, ToothFrictionModel};
-use gearloss_framework::register;
 use gearloss_framework::registry::{Evidence, default_of, formula};
+use gearloss_framework::{coefficients, limits, observed, register};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::entraining;
 use crate::powers::power;
 
-const SUM_SPEED: Limit = Limit::new(
-    0,
-    "v_S",
-    "m/s",
-    0.4,
-    100.0,
-    "assumed, not stated by a source: gears with lubricant films",
-);
-const MU: Observed = Observed::new(0, "mu", "-", "Coefficient of friction.");
+limits! { SUM_SPEED = ("v_S", "m/s", 0.4, 100.0, "assumed, not stated by a source: gears with lubricant films"); }
+observed! { MU = ("mu", "-", "Coefficient of friction."); }
 
 /// One inch. \[m\]
 const INCH: f64 = 25.4e-3;

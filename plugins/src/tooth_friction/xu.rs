@@ -10,15 +10,14 @@ mod series;
 
 use std::f64::consts::LOG10_E;
 
-use gearloss_framework::coefficients;
 use gearloss_framework::lanes::{Lane, LaneNotes, Powers, each, exp, ln, over, wide};
-use gearloss_framework::loss::{Limit, Notes, Observed, Undefined};
+use gearloss_framework::loss::{Notes, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::tooth_friction::{
     Along, ContactAt, PathAt, PathNode, ToothFriction, ToothFrictionModel, WeightedFriction,
 };
-use gearloss_framework::register;
 use gearloss_framework::registry::{Evidence, default_of, formula};
+use gearloss_framework::{coefficients, limits, observed, register};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -26,13 +25,15 @@ use series::Series;
 
 /// Design range of the regression, quoted from memory.
 const FROM: &str = "design range of the regression, quoted from memory";
-const PRESSURE: Limit = Limit::new(0, "P_h", "GPa", 0.5, 2.5, FROM);
-const SLIDE_ROLL: Limit = Limit::new(1, "SR", "-", 0.0, 1.0, FROM);
-const VISCOSITY: Limit = Limit::new(2, "nu0", "mPa s", 6.0, 75.0, FROM);
-const ROLLING: Limit = Limit::new(3, "V_e", "m/s", 1.0, 25.0, FROM);
-const RADIUS: Limit = Limit::new(4, "R", "mm", 5.0, 40.0, FROM);
-const ROUGHNESS: Limit = Limit::new(5, "S", "um", 0.05, 0.6, FROM);
-const MU: Observed = Observed::new(0, "mu", "-", "Coefficient of friction.");
+limits! {
+    PRESSURE = ("P_h", "GPa", 0.5, 2.5, FROM);
+    SLIDE_ROLL = ("SR", "-", 0.0, 1.0, FROM);
+    VISCOSITY = ("nu0", "mPa s", 6.0, 75.0, FROM);
+    ROLLING = ("V_e", "m/s", 1.0, 25.0, FROM);
+    RADIUS = ("R", "mm", 5.0, 40.0, FROM);
+    ROUGHNESS = ("S", "um", 0.05, 0.6, FROM);
+}
+observed! { MU = ("mu", "-", "Coefficient of friction."); }
 
 /// Allowed error of a logarithm of friction.
 const ROUNDING: f64 = 1e-13;

@@ -234,9 +234,12 @@ impl LossLanes {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::terms;
 
-    const FIRST: Term = Term::load(0, "first");
-    const SECOND: Term = Term::no_load(1, "second");
+    terms! {
+        FIRST = load("first");
+        SECOND = no_load("second");
+    }
 
     #[test]
     fn lanes_have_the_bits_of_single_losses() {

@@ -344,7 +344,7 @@ impl Mechanism for Bearing {
     const ANSWER: &'static str = "Friction moment. [Nm]";
     const EXAMPLE: &'static str = "{ kind: deep_groove_ball, series: \"63\", bore: 40 mm, outside: 90 mm, width: 23 mm, c0: 24000 N, c: 42300 N }";
     const QUANTITIES: &'static [Quantity<Self>] = BearingAt::QUANTITIES;
-    const TOTAL: Term = Term::load(0, "total");
+    const TOTAL: Term = Term::load("total");
     type Part = BearingPart;
     type At<'a> = BearingAt<'a>;
     type Answer = Loss;

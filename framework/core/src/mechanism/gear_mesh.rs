@@ -301,7 +301,7 @@ impl Mechanism for GearMesh {
 facewidth: 14 mm, tip_diameter: [82.636 mm, 118.544 mm], ra: [0.4 um, 0.4 um], rq: [0.5 um, 0.5 um] }";
     const QUANTITIES: &'static [Quantity<Self>] = GearMeshAt::QUANTITIES;
     const LAWS: &'static [Law<Self>] = GearMeshAt::LAWS;
-    const TOTAL: Term = Term::load(0, "total");
+    const TOTAL: Term = Term::load("total");
     type Part = MeshPart;
     type At<'a> = GearMeshAt<'a>;
     type Answer = Loss;

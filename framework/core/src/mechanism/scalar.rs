@@ -4,7 +4,8 @@
 
 use crate::document::Unit;
 use crate::formula::Formula;
-use crate::loss::{Limit, Loss, Undefined};
+use crate::limits;
+use crate::loss::{Loss, Undefined};
 use crate::mechanism::{Mechanism, Noted, Quantity};
 use crate::table::Table;
 
@@ -79,15 +80,11 @@ impl<M: Mechanism> Scalar<M> {
     }
 }
 
-/// Position of a point in a table: the first limit of every model that reads one.
-pub const PLACE: Limit = Limit::new(
-    0,
-    "position along the axis that is exceeded most, 0 and 1 are its ends",
-    "-",
-    0.0,
-    1.0,
-    "the ends of the table",
-);
+limits! {
+    /// Position of a point in a table: the first limit of every model that reads one.
+    pub PLACE = ("position along the axis that is exceeded most, 0 and 1 are its ends", "-", 0.0, 1.0,
+        "the ends of the table");
+}
 
 /// A table over quantities of a mechanism's context, for models that read one.
 pub struct Lookup<M: Mechanism> {

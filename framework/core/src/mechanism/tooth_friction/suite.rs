@@ -257,10 +257,10 @@ impl Law<'_> {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
-    use crate::loss::Observed;
     use crate::mechanism::NoPart;
+    use crate::observed;
 
-    const MU: Observed = Observed::new(0, "mu", "-", "Coefficients of friction.");
+    observed! { MU = ("mu", "-", "Coefficients of friction."); }
 
     #[derive(Debug, Clone, Copy, PartialEq)]
     enum Slip {
