@@ -29,11 +29,47 @@ pub fn gearing(
     found: &mut Vec<Diagnostic>,
     warnings: &mut Vec<Diagnostic>,
 ) -> (Vec<GearSeat>, Vec<MeshSeat>) {
-    let mut gears: Vec<GearSeat> = entry
-        .gears
+    let mut gearing = Gearing::new(registry, entry, members, found, warnings);
+    gearing.check_gears();
+    let (meshes, orbits): (Vec<MeshSeat>, Vec<Orbit>) = entry
+        .meshes
         .iter()
-        .zip(&members.of_gear)
-        .map(|((id, gear), member)| GearSeat {
+        .filter_map(|(id, mesh)| gearing.mesh(format!("meshes.{id}"), mesh))
+        .unzip();
+    let Gearing {
+        gears, found, warnings, ..
+    } = gearing;
+    one_orbit(entry, members, meshes.iter().zip(&orbits), found, warnings);
+    (gears, meshes)
+}
+
+/// The gears while their meshes are computed one after the other: what a mesh determines holds for the next ones.
+struct Gearing<'a> {
+    registry: &'a Registry,
+    entry: &'a GearboxEntry,
+    members: &'a Members,
+    gears: Vec<GearSeat>,
+    /// Profile shifts, with the signs of ring gears according to ISO 21771.
+    shifts: Vec<Option<f64>>,
+    /// Hands of helical gears: 1 for right, -1 for left.
+    hands: Vec<Option<f64>>,
+    /// Tip diameters. \[m\]
+    tips: Vec<Option<f64>>,
+    /// Base pitches, each with the mesh that gives it. \[m\]
+    pitches: Vec<Option<(f64, String)>>,
+    found: &'a mut Vec<Diagnostic>,
+    warnings: &'a mut Vec<Diagnostic>,
+}
+
+impl<'a> Gearing<'a> {
+    fn new(
+        registry: &'a Registry,
+        entry: &'a GearboxEntry,
+        members: &'a Members,
+        found: &'a mut Vec<Diagnostic>,
+        warnings: &'a mut Vec<Diagnostic>,
+    ) -> Self {
+        let seat = |((id, gear), member): ((&str, &GearEntry), &Option<usize>)| GearSeat {
             id: id.to_owned(),
             member: member.unwrap_or(0),
             at: gear.at,
@@ -41,99 +77,183 @@ pub fn gearing(
             facewidth: gear.facewidth,
             ring: gear.kind == GearKind::Ring,
             diameters: [0.0; 3],
-        })
-        .collect();
-    let ids: Vec<&str> = entry.gears.ids().collect();
-    // Signs of ring gears according to ISO 21771 from here on.
-    let mut shifts: Vec<Option<f64>> = entry
-        .gears
-        .iter()
-        .map(|(_, g)| match g.kind {
+        };
+        let shift = |g: &GearEntry| match g.kind {
             GearKind::External => g.profile_shift,
             GearKind::Ring => g.profile_shift.map(|x| ShiftSign::standard(g.profile_shift_sign, x)),
-        })
-        .collect();
-    warnings.extend(entry.gears.iter().filter_map(|(id, gear)| unsigned_shift(id, gear)));
-    for (id, gear) in entry.gears.iter() {
-        if gear.bearings.is_some() && gear.mounted == Mounting::Fixed {
-            let message = "a gear that is fixed to its shaft has no separate bearings";
-            found.push(
-                Diagnostic::error(format!("gears.{id}.bearings"), message)
-                    .help("write `bearings: none` for the shaft, or `mounted: loose` here"),
-            );
-        }
-        if gear.profile_shift_sign.is_some() && gear.kind == GearKind::External {
-            let message = "`profile_shift_sign` applies to ring gears only";
-            found.push(Diagnostic::error(format!("gears.{id}.profile_shift_sign"), message).help("remove it"));
+        };
+        let hand = |g: &GearEntry| g.hand.map(|hand| if hand == Hand::Right { 1.0 } else { -1.0 });
+        let gears = || entry.gears.iter().map(|(_, gear)| gear);
+        Self {
+            registry,
+            entry,
+            members,
+            gears: entry.gears.iter().zip(&members.of_gear).map(seat).collect(),
+            shifts: gears().map(shift).collect(),
+            hands: gears().map(hand).collect(),
+            tips: gears().map(|g| g.tip_diameter).collect(),
+            pitches: vec![None; members.of_gear.len()],
+            found,
+            warnings,
         }
     }
-    let mut hands: Vec<Option<f64>> = entry
-        .gears
-        .iter()
-        .map(|(_, g)| g.hand.map(|hand| if hand == Hand::Right { 1.0 } else { -1.0 }))
-        .collect();
-    let mut tips: Vec<Option<f64>> = entry.gears.iter().map(|(_, g)| g.tip_diameter).collect();
-    let mut pitches: Vec<Option<(f64, String)>> = vec![None; gears.len()];
-    let mut meshes = Vec::new();
-    let mut orbits = Vec::new();
-    for (id, mesh) in entry.meshes.iter() {
-        let path = format!("meshes.{id}");
-        let mut pair_of = [0; 2];
-        let mut known = true;
-        for (i, name) in mesh.gears.iter().enumerate() {
-            if let Some(gear) = entry.gears.index(name) {
-                pair_of[i] = gear;
-                known &= members.of_gear[gear].is_some();
-            } else {
-                known = false;
-                found.push(dangling(&format!("{path}.gears.{i}"), "gear", name, &ids));
+
+    /// Checks the keys of each gear that do not depend on its meshes.
+    fn check_gears(&mut self) {
+        for (id, gear) in self.entry.gears.iter() {
+            self.warnings.extend(unsigned_shift(id, gear));
+            if gear.bearings.is_some() && gear.mounted == Mounting::Fixed {
+                let message = "a gear that is fixed to its shaft has no separate bearings";
+                self.found.push(
+                    Diagnostic::error(format!("gears.{id}.bearings"), message)
+                        .help("write `bearings: none` for the shaft, or `mounted: loose` here"),
+                );
+            }
+            if gear.profile_shift_sign.is_some() && gear.kind == GearKind::External {
+                let message = "`profile_shift_sign` applies to ring gears only";
+                self.found
+                    .push(Diagnostic::error(format!("gears.{id}.profile_shift_sign"), message).help("remove it"));
             }
         }
-        if !known {
-            continue;
-        }
-        let [first, second] = pair_of;
-        if first == second {
-            found.push(
-                Diagnostic::error(format!("{path}.gears"), "a gear cannot mesh with itself").help("name two gears"),
-            );
-            continue;
-        }
-        if gears[first].ring {
-            found.push(
-                Diagnostic::error(
-                    format!("{path}.gears"),
-                    format!("`{}` is a ring gear and is listed first", gears[first].id),
-                )
-                .help(format!("write gears: [{}, {}]", gears[second].id, gears[first].id)),
-            );
-            continue;
-        }
-        let sign = if gears[second].ring { -1.0 } else { 1.0 };
-        let at = |gear: usize| members.of_gear[gear].unwrap_or(0);
-        let bodies = [at(first), at(second)];
-        let carried = members.planets[bodies[0]].or(members.planets[bodies[1]]);
-        if let (Some(a), Some(b)) = (members.planets[bodies[0]], members.planets[bodies[1]])
+    }
+
+    /// One mesh with its geometry; `None` if it is wrong, or a member or an axis of it is.
+    fn mesh(&mut self, path: String, mesh: &MeshEntry) -> Option<(MeshSeat, Orbit)> {
+        let members = self.members;
+        let [first, second] = self.mating(&path, mesh)?;
+        let sign = if self.gears[second].ring { -1.0 } else { 1.0 };
+        let bodies = [first, second].map(|gear| members.of_gear[gear].unwrap_or(0));
+        let planets = bodies.map(|body| members.planets[body]);
+        if let [Some(a), Some(b)] = planets
             && a.carrier != b.carrier
         {
-            found.push(Diagnostic::error(
+            self.found.push(Diagnostic::error(
                 format!("{path}.gears"),
                 "the planets belong to different carriers",
             ));
-            continue;
+            return None;
         }
-        // Centre distance: from the axes, as stated, or from the shifts.
-        let axes = if carried.is_some() {
-            None
-        } else {
-            members.axes[bodies[0]].zip(members.axes[bodies[1]])
+        let carried = planets[0].or(planets[1]);
+        let between = match carried {
+            Some(_) => None,
+            None => Some(self.between_axes(&path, mesh, [first, second], bodies)?),
         };
-        let between = axes.map(|(a, b)| [b[0] - a[0], b[1] - a[1]]);
         let apart = between.map(|v| v[0].hypot(v[1]));
-        if let (Some(apart), Some(given)) = (apart, mesh.centre_distance)
+        let spec = PairSpec {
+            z: [self.gears[first].z, self.gears[second].z],
+            internal: sign < 0.0,
+            normal_module: mesh.normal_module,
+            pressure_angle: mesh.pressure_angle,
+            helix_angle: mesh.helix_angle,
+            centre_distance: mesh.centre_distance.or(apart),
+            profile_shift: [self.shifts[first], self.shifts[second]],
+            tip_diameter: [self.tips[first], self.tips[second]],
+            root_diameter: [first, second].map(|g| self.entry.gears.0[g].1.root_diameter),
+            facewidth: self.common_facewidth(&path, [first, second])?,
+            tip_shortening: mesh.tip_shortening,
+        };
+        let schematic = !looks_at_teeth(self.registry, self.entry, mesh);
+        let pair = self.pair(&path, &spec, second, schematic)?;
+        self.adopt(&path, &pair, [first, second]);
+        let helix = if mesh.double_helical { 0.0 } else { mesh.helix_angle };
+        let hand = hand_of(&path, helix, sign, [first, second], &self.gears, &mut self.hands)
+            .map_err(|error| self.found.push(error))
+            .ok()?;
+        let direction = match (between, apart) {
+            (Some(v), Some(apart)) => [sign * v[0] / apart, sign * v[1] / apart],
+            // In the frame of the carrier the planet is on the y axis; its contact with another planet can be anywhere.
+            _ if sign < 0.0 => [1.0, 0.0],
+            _ => [if planets[0].is_some() { -1.0 } else { 1.0 }, 0.0],
+        };
+        let surface = |gear: usize| self.entry.gears.0[gear].1.surface;
+        let written = self.entry.gears.0[second].1.profile_shift.is_some() && spec.centre_distance.is_none();
+        let other = turned(&spec)
+            .filter(|_| written)
+            .and_then(|other| Pair::new(&other).ok());
+        let orbit = Orbit {
+            turned: other.map(|pair| pair.centre_distance),
+            schematic,
+        };
+        let seat = MeshSeat {
+            path,
+            gears: [first, second],
+            members: bodies,
+            carrier: carried.map(|c| c.carrier),
+            count: carried.map_or(1.0, |c| c.count),
+            pair,
+            hand,
+            direction,
+            ra: [first, second].map(|g| surface(g).map_or(USUAL_RA, |s| s.ra)),
+            rq: [first, second].map(|g| surface(g).map_or(1.25 * USUAL_RA, |s| s.rq.unwrap_or(1.25 * s.ra))),
+        };
+        Some((seat, orbit))
+    }
+
+    /// The gears that a mesh names: two different ones, a ring gear second.
+    fn mating(&mut self, path: &str, mesh: &MeshEntry) -> Option<[usize; 2]> {
+        let ids: Vec<&str> = self.entry.gears.ids().collect();
+        let mut pair = [0; 2];
+        let mut known = true;
+        for (i, name) in mesh.gears.iter().enumerate() {
+            if let Some(gear) = self.entry.gears.index(name) {
+                pair[i] = gear;
+                known &= self.members.of_gear[gear].is_some();
+            } else {
+                known = false;
+                self.found
+                    .push(dangling(&format!("{path}.gears.{i}"), "gear", name, &ids));
+            }
+        }
+        if !known {
+            return None;
+        }
+        let [first, second] = pair.map(|gear| &self.gears[gear]);
+        let fault = if pair[0] == pair[1] {
+            Diagnostic::error(format!("{path}.gears"), "a gear cannot mesh with itself").help("name two gears")
+        } else if first.ring {
+            Diagnostic::error(
+                format!("{path}.gears"),
+                format!("`{}` is a ring gear and is listed first", first.id),
+            )
+            .help(format!("write gears: [{}, {}]", second.id, first.id))
+        } else {
+            return Some(pair);
+        };
+        self.found.push(fault);
+        None
+    }
+
+    /// The vector from the first axis to the second, which a stated centre distance has to match; `None` if an axis is unknown. \[m\]
+    fn between_axes(
+        &mut self,
+        path: &str,
+        mesh: &MeshEntry,
+        gears: [usize; 2],
+        bodies: [usize; 2],
+    ) -> Option<[f64; 2]> {
+        let [Some(a), Some(b)] = bodies.map(|body| self.members.axes[body]) else {
+            let on_planet = self.entry.planetary_sets.iter().any(|(_, set)| {
+                gears
+                    .iter()
+                    .any(|g| set.planets.contains(&self.entry.gears.0[*g].1.shaft))
+            });
+            if on_planet {
+                self.found.push(
+                    Diagnostic::error(
+                        format!("{path}.gears"),
+                        "a gear on a planet body cannot be an idler gear",
+                    )
+                    .help("remove `mounted: loose`; a planet that rotates on another planet is a separate shaft"),
+                );
+            }
+            return None;
+        };
+        let between = [b[0] - a[0], b[1] - a[1]];
+        let apart = between[0].hypot(between[1]);
+        if let Some(given) = mesh.centre_distance
             && (apart / given - 1.0).abs() > 1e-4
         {
-            found.push(
+            self.found.push(
                 Diagnostic::error(
                     format!("{path}.centre_distance"),
                     format!(
@@ -144,30 +264,18 @@ pub fn gearing(
                 )
                 .help("correct one of them, or omit `centre_distance`"),
             );
-            continue;
+            return None;
         }
-        if carried.is_none() && axes.is_none() {
-            let on_planet = entry.planetary_sets.iter().any(|(_, set)| {
-                [first, second]
-                    .iter()
-                    .any(|g| set.planets.contains(&entry.gears.0[*g].1.shaft))
-            });
-            if on_planet {
-                found.push(
-                    Diagnostic::error(
-                        format!("{path}.gears"),
-                        "a gear on a planet body cannot be an idler gear",
-                    )
-                    .help("remove `mounted: loose`; a planet that rotates on another planet is a separate shaft"),
-                );
-            }
-            continue;
-        }
+        Some(between)
+    }
+
+    /// The face width that two gears have in common. \[m\]
+    fn common_facewidth(&mut self, path: &str, pair: [usize; 2]) -> Option<f64> {
         let edge = |gear: &GearSeat, side: f64| gear.at + side * 0.5 * gear.facewidth;
-        let (a, b) = (&gears[first], &gears[second]);
+        let [a, b] = pair.map(|gear| &self.gears[gear]);
         let facewidth = edge(a, 1.0).min(edge(b, 1.0)) - edge(a, -1.0).max(edge(b, -1.0));
         if facewidth <= 0.0 {
-            found.push(
+            self.found.push(
                 Diagnostic::error(
                     format!("{path}.gears"),
                     format!(
@@ -179,132 +287,75 @@ pub fn gearing(
                 )
                 .help("correct `at` of one of them"),
             );
-            continue;
+            return None;
         }
-        warnings.extend(plausible::face_overlap(&path, [a, b], facewidth));
-        let spec = PairSpec {
-            z: [a.z, b.z],
-            internal: sign < 0.0,
-            normal_module: mesh.normal_module,
-            pressure_angle: mesh.pressure_angle,
-            helix_angle: mesh.helix_angle,
-            centre_distance: mesh.centre_distance.or(apart),
-            profile_shift: [shifts[first], shifts[second]],
-            tip_diameter: [tips[first], tips[second]],
-            root_diameter: [first, second].map(|g| entry.gears.0[g].1.root_diameter),
-            facewidth,
-            tip_shortening: mesh.tip_shortening,
-        };
-        let schematic = !looks_at_teeth(registry, entry, mesh);
-        let pair = match Pair::new(&spec) {
+        self.warnings.extend(plausible::face_overlap(path, [a, b], facewidth));
+        Some(facewidth)
+    }
+
+    /// The geometry of a pair; pitch circles only if no model uses impossible teeth.
+    fn pair(&mut self, path: &str, spec: &PairSpec, second: usize, schematic: bool) -> Option<Pair> {
+        let pair = match Pair::new(spec) {
             Ok(pair) => pair,
             Err(faults) if schematic && faults.iter().all(PairFault::is_of_teeth) => {
-                warnings.extend(plausible::no_involute(&path, &faults));
-                match Pair::schematic(&spec) {
-                    Ok(pair) => pair,
-                    Err(faults) => {
-                        found.extend(
-                            faults
-                                .iter()
-                                .map(|fault| Diagnostic::error(path.clone(), fault.to_string())),
-                        );
-                        continue;
-                    }
-                }
+                self.warnings.extend(plausible::no_involute(path, &faults));
+                let of_pair = |fault: &PairFault| Diagnostic::error(path, fault.to_string());
+                Pair::schematic(spec)
+                    .map_err(|faults| self.found.extend(faults.iter().map(of_pair)))
+                    .ok()?
             }
             Err(faults) => {
-                let ring = &entry.gears.0[second].1;
+                let ring = &self.entry.gears.0[second].1;
                 let help =
-                    if ring.profile_shift.is_some() && turned(&spec).is_some_and(|other| Pair::new(&other).is_ok()) {
+                    if ring.profile_shift.is_some() && turned(spec).is_some_and(|other| Pair::new(&other).is_ok()) {
                         other_sign(ring.profile_shift_sign)
                     } else {
                         "check teeth, module, angles, centre distance, profile shifts and tip diameters of this pair"
                     };
-                found.extend(faults.iter().map(|fault| match fault {
+                self.found.extend(faults.iter().map(|fault| match fault {
                     PairFault::RingTip => {
-                        let ring = &gears[second].id;
+                        let ring = &self.gears[second].id;
                         Diagnostic::error(format!("gears.{ring}"), fault.to_string()).help(
                             "add `tip_diameter: ... mm`, the inner diameter of its teeth: without profile shift and tip shortening the reference diameter minus two modules",
                         )
                     }
-                    _ => Diagnostic::error(path.clone(), fault.to_string()).help(help),
+                    _ => Diagnostic::error(path, fault.to_string()).help(help),
                 }));
-                continue;
+                return None;
             }
         };
         let closes = spec.centre_distance.is_some();
         let follows = spec.profile_shift.map(|shift| closes && shift.is_none());
         if pair.involute {
-            warnings.extend(plausible::shifts(&path, &spec, &pair, follows));
+            self.warnings.extend(plausible::shifts(path, spec, &pair, follows));
         }
-        for (i, gear) in [first, second].into_iter().enumerate() {
-            shifts[gear] = Some(pair.profile_shift[i]);
-            tips[gear] = Some(pair.tip_diameter[i]);
-            match &pitches[gear] {
-                Some((pitch, other)) if (pair.base_pitch / pitch - 1.0).abs() > 1e-6 => found.push(
+        Some(pair)
+    }
+
+    /// Takes from a pair what it determines for its gears, which have one base pitch in all of their meshes.
+    fn adopt(&mut self, path: &str, pair: &Pair, gears: [usize; 2]) {
+        for (i, gear) in gears.into_iter().enumerate() {
+            self.shifts[gear] = Some(pair.profile_shift[i]);
+            self.tips[gear] = Some(pair.tip_diameter[i]);
+            match &self.pitches[gear] {
+                Some((pitch, other)) if (pair.base_pitch / pitch - 1.0).abs() > 1e-6 => self.found.push(
                     Diagnostic::error(
-                        path.clone(),
+                        path,
                         format!(
                             "the base pitch is {:.5} mm, but `{other}` gives the same gear `{}` one of {:.5} mm",
                             pair.base_pitch * 1e3,
-                            gears[gear].id,
+                            self.gears[gear].id,
                             pitch * 1e3
                         ),
                     )
                     .help("state equal module, pressure angle and helix angle for all meshes of a gear"),
                 ),
                 Some(_) => {}
-                None => pitches[gear] = Some((pair.base_pitch, path.clone())),
+                None => self.pitches[gear] = Some((pair.base_pitch, path.to_owned())),
             }
-            gears[gear].diameters = [pair.reference_diameter[i], pair.tip_diameter[i], pair.root_diameter[i]];
+            self.gears[gear].diameters = [pair.reference_diameter[i], pair.tip_diameter[i], pair.root_diameter[i]];
         }
-        let helix = if mesh.double_helical { 0.0 } else { mesh.helix_angle };
-        let hand = match hand_of(&path, helix, sign, [first, second], &gears, &mut hands) {
-            Ok(hand) => hand,
-            Err(error) => {
-                found.push(error);
-                continue;
-            }
-        };
-        let direction = match (between, apart) {
-            (Some(v), Some(apart)) => [sign * v[0] / apart, sign * v[1] / apart],
-            // In the frame of the carrier the planet is on the y axis; its contact with another planet can be anywhere.
-            _ if sign < 0.0 => [1.0, 0.0],
-            _ => [
-                if members.planets[bodies[0]].is_some() {
-                    -1.0
-                } else {
-                    1.0
-                },
-                0.0,
-            ],
-        };
-        let surface = |gear: usize| entry.gears.0[gear].1.surface;
-        let ra = [first, second].map(|g| surface(g).map_or(USUAL_RA, |s| s.ra));
-        let rq = [first, second].map(|g| surface(g).map_or(1.25 * USUAL_RA, |s| s.rq.unwrap_or(1.25 * s.ra)));
-        let written = entry.gears.0[second].1.profile_shift.is_some() && spec.centre_distance.is_none();
-        let other = turned(&spec)
-            .filter(|_| written)
-            .and_then(|other| Pair::new(&other).ok());
-        orbits.push(Orbit {
-            turned: other.map(|pair| pair.centre_distance),
-            schematic,
-        });
-        meshes.push(MeshSeat {
-            path,
-            gears: [first, second],
-            members: bodies,
-            carrier: carried.map(|c| c.carrier),
-            count: carried.map_or(1.0, |c| c.count),
-            pair,
-            hand,
-            direction,
-            ra,
-            rq,
-        });
     }
-    one_orbit(entry, members, meshes.iter().zip(&orbits), found, warnings);
-    (gears, meshes)
 }
 
 /// A ring gear whose profile shift has no stated sign.
