@@ -2,6 +2,7 @@
 
 mod build;
 mod case;
+mod drag_models;
 mod drags;
 mod gearing;
 mod members;

@@ -127,6 +127,136 @@ impl std::fmt::Display for PairFault {
     }
 }
 
+/// Where the axes of a pair are, and the profile shifts that this takes.
+struct Axes {
+    centre_distance: f64,
+    working_angle: f64,
+    profile_shift: [f64; 2],
+    shortening: f64,
+}
+
+impl Axes {
+    /// From the transverse pressure angle in rad, the sum of the teeth and the reference centre distance in m.
+    fn new(spec: &PairSpec, alpha_t: f64, teeth: f64, a: f64, involute_pair: bool) -> Result<Self, PairFault> {
+        let s = if spec.internal { -1.0 } else { 1.0 };
+        let (m, alpha_n) = (spec.normal_module, spec.pressure_angle);
+        // ISO 21771: inv alpha_wt = inv alpha_t + 2 tan alpha_n (x1 + x2)/(z1 + z2), where z2 of a ring gear is negative; `teeth`
+        // is the magnitude of that sum.
+        let distance_of = |sum: f64| {
+            let involute = involute(alpha_t) + 2.0 * alpha_n.tan() * (s * sum) / teeth;
+            // No angle has a negative involute: the shifts are impossible even at the minimum centre distance.
+            let working = if involute > 0.0 {
+                inverse_involute(involute)
+            } else {
+                0.0
+            };
+            a * alpha_t.cos() / working.cos()
+        };
+        let sum_of = |working: f64| s * ((involute(working) - involute(alpha_t)) * teeth / (2.0 * alpha_n.tan()));
+        let both = match spec.profile_shift {
+            [Some(x1), Some(x2)] => Some(x2 + x1),
+            _ => None,
+        };
+        let centre_distance = match (spec.centre_distance, both) {
+            (Some(distance), Some(sum)) => {
+                let from_shifts = distance_of(sum);
+                if (from_shifts / distance - 1.0).abs() > 1e-4 {
+                    let cos = (a * alpha_t.cos() / distance).min(1.0);
+                    return Err(PairFault::Shifts {
+                        centre_distance: distance,
+                        from_shifts,
+                        sum: sum_of(cos.acos()),
+                    });
+                }
+                distance
+            }
+            (Some(distance), None) => distance,
+            (None, Some(sum)) => distance_of(sum),
+            (None, None) => distance_of(spec.profile_shift[1].unwrap_or(0.0) + spec.profile_shift[0].unwrap_or(0.0)),
+        };
+        let least = a * alpha_t.cos();
+        if centre_distance <= least && involute_pair {
+            return Err(PairFault::TooClose { centre_distance, least });
+        }
+        let working_angle = if centre_distance > least {
+            (least / centre_distance).acos()
+        } else {
+            alpha_t
+        };
+        let sum = sum_of(working_angle);
+        let profile_shift = match spec.profile_shift {
+            [Some(x1), Some(x2)] => [x1, x2],
+            [Some(x1), None] => [x1, sum - x1],
+            [None, Some(x2)] => [sum - x2, x2],
+            // No negative zero.
+            [None, None] if spec.internal => [0.0, sum + 0.0],
+            [None, None] => [0.5 * sum, 0.5 * sum],
+        };
+        let shortening = if spec.internal || !spec.tip_shortening {
+            0.0
+        } else {
+            ((centre_distance - a) / m - (profile_shift[0] + profile_shift[1])).min(0.0)
+        };
+        Ok(Self {
+            centre_distance,
+            working_angle,
+            profile_shift,
+            shortening,
+        })
+    }
+
+    /// As stated, else those of the standard basic rack. \[m\]
+    fn tip_diameters(&self, spec: &PairSpec, reference: [f64; 2]) -> [f64; 2] {
+        let tip = |i: usize| {
+            let outwards = if spec.internal && i == 1 { -1.0 } else { 1.0 };
+            let rack = outwards * 2.0 * spec.normal_module * (1.0 + self.profile_shift[i] + self.shortening);
+            spec.tip_diameter[i].unwrap_or(reference[i] + rack)
+        };
+        [tip(0), tip(1)]
+    }
+
+    /// As stated, else those of the standard basic rack. \[m\]
+    fn root_diameters(&self, spec: &PairSpec, reference: [f64; 2], tip: [f64; 2]) -> [f64; 2] {
+        let m = spec.normal_module;
+        let root = |i: usize| {
+            spec.root_diameter[i].unwrap_or(if spec.internal && i == 1 {
+                tip[1] + 4.5 * m
+            } else {
+                reference[i] - 2.0 * m * (1.25 - self.profile_shift[i])
+            })
+        };
+        [root(0), root(1)]
+    }
+}
+
+/// Gears whose tips do not reach beyond their base circles.
+fn below_base(tip_diameter: [f64; 2], base_radius: [f64; 2]) -> Vec<PairFault> {
+    (0..2)
+        .filter(|i| tip_diameter[*i] <= 2.0 * base_radius[*i])
+        .map(|i| PairFault::Tip {
+            gear: i,
+            diameter: tip_diameter[i],
+            base: 2.0 * base_radius[i],
+        })
+        .collect()
+}
+
+/// Faults of a path of contact between two distances from T1. \[m\]
+fn impossible_contact(
+    spec: &PairSpec,
+    [start, end]: [f64; 2],
+    tangent_length: f64,
+    contact_ratio: f64,
+) -> Vec<PairFault> {
+    let faults = [
+        (start < 0.0, PairFault::BelowBase { gear: 0 }),
+        (!spec.internal && end > tangent_length, PairFault::BelowBase { gear: 1 }),
+        (contact_ratio < 1.0, PairFault::ContactRatio { ratio: contact_ratio }),
+    ];
+    let found = faults.into_iter().filter(|(is_found, _)| *is_found);
+    found.map(|(_, fault)| fault).collect()
+}
+
 /// A pair with its computed geometry. SI; angles in rad.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pair {
@@ -238,91 +368,22 @@ impl Pair {
         let base_helix = (beta.sin() * alpha_n.cos()).asin();
         let teeth = z2 + s * z1;
         let a = 0.5 * module_t * teeth;
-        // ISO 21771: inv alpha_wt = inv alpha_t + 2 tan alpha_n (x1 + x2)/(z1 + z2), where z2 of a ring gear is negative; `teeth`
-        // is the magnitude of that sum.
-        let distance_of = |sum: f64| {
-            let involute = involute(alpha_t) + 2.0 * alpha_n.tan() * (s * sum) / teeth;
-            // No angle has a negative involute: the shifts are impossible even at the minimum centre distance.
-            let working = if involute > 0.0 {
-                inverse_involute(involute)
-            } else {
-                0.0
-            };
-            a * alpha_t.cos() / working.cos()
-        };
-        let sum_of = |working: f64| s * ((involute(working) - involute(alpha_t)) * teeth / (2.0 * alpha_n.tan()));
-        let both = match spec.profile_shift {
-            [Some(x1), Some(x2)] => Some(x2 + x1),
-            _ => None,
-        };
-        let centre_distance = match (spec.centre_distance, both) {
-            (Some(distance), Some(sum)) => {
-                let from_shifts = distance_of(sum);
-                if (from_shifts / distance - 1.0).abs() > 1e-4 {
-                    let cos = (a * alpha_t.cos() / distance).min(1.0);
-                    return Err(vec![PairFault::Shifts {
-                        centre_distance: distance,
-                        from_shifts,
-                        sum: sum_of(cos.acos()),
-                    }]);
-                }
-                distance
-            }
-            (Some(distance), None) => distance,
-            (None, Some(sum)) => distance_of(sum),
-            (None, None) => distance_of(spec.profile_shift[1].unwrap_or(0.0) + spec.profile_shift[0].unwrap_or(0.0)),
-        };
-        let least = a * alpha_t.cos();
-        if centre_distance <= least && involute_pair {
-            return Err(vec![PairFault::TooClose { centre_distance, least }]);
-        }
-        let working_angle = if centre_distance > least {
-            (least / centre_distance).acos()
-        } else {
-            alpha_t
-        };
-        let sum = sum_of(working_angle);
-        let profile_shift = match spec.profile_shift {
-            [Some(x1), Some(x2)] => [x1, x2],
-            [Some(x1), None] => [x1, sum - x1],
-            [None, Some(x2)] => [sum - x2, x2],
-            // No negative zero.
-            [None, None] if spec.internal => [0.0, sum + 0.0],
-            [None, None] => [0.5 * sum, 0.5 * sum],
-        };
-        let shortening = if spec.internal || !spec.tip_shortening {
-            0.0
-        } else {
-            ((centre_distance - a) / m - (profile_shift[0] + profile_shift[1])).min(0.0)
-        };
+        let axes = Axes::new(spec, alpha_t, teeth, a, involute_pair).map_err(|fault| vec![fault])?;
+        let Axes {
+            centre_distance,
+            working_angle,
+            profile_shift,
+            shortening,
+        } = axes;
         let reference_diameter = [module_t * z1, module_t * z2];
         let base_radius = reference_diameter.map(|d| 0.5 * d * alpha_t.cos());
-        let tip = |i: usize| {
-            let outwards = if spec.internal && i == 1 { -1.0 } else { 1.0 };
-            spec.tip_diameter[i]
-                .unwrap_or(reference_diameter[i] + outwards * 2.0 * m * (1.0 + profile_shift[i] + shortening))
-        };
-        let tip_diameter = [tip(0), tip(1)];
-        let root = |i: usize| {
-            spec.root_diameter[i].unwrap_or(if spec.internal && i == 1 {
-                tip_diameter[1] + 4.5 * m
-            } else {
-                reference_diameter[i] - 2.0 * m * (1.25 - profile_shift[i])
-            })
-        };
-        let root_diameter = [root(0), root(1)];
-        let mut faults = Vec::new();
-        for i in 0..2 {
-            if involute_pair && tip_diameter[i] <= 2.0 * base_radius[i] {
-                faults.push(PairFault::Tip {
-                    gear: i,
-                    diameter: tip_diameter[i],
-                    base: 2.0 * base_radius[i],
-                });
+        let tip_diameter = axes.tip_diameters(spec, reference_diameter);
+        let root_diameter = axes.root_diameters(spec, reference_diameter, tip_diameter);
+        if involute_pair {
+            let faults = below_base(tip_diameter, base_radius);
+            if !faults.is_empty() {
+                return Err(faults);
             }
-        }
-        if !faults.is_empty() {
-            return Err(faults);
         }
         let tangent_length = centre_distance * working_angle.sin();
         let reach = |i: usize| ((0.5 * tip_diameter[i]).powi(2) - base_radius[i].powi(2)).sqrt();
@@ -334,17 +395,11 @@ impl Pair {
         };
         let base_pitch = std::f64::consts::PI * module_t * alpha_t.cos();
         let contact_ratio = (end - start) / base_pitch;
-        if involute_pair && start < 0.0 {
-            faults.push(PairFault::BelowBase { gear: 0 });
-        }
-        if involute_pair && !spec.internal && end > tangent_length {
-            faults.push(PairFault::BelowBase { gear: 1 });
-        }
-        if involute_pair && contact_ratio < 1.0 {
-            faults.push(PairFault::ContactRatio { ratio: contact_ratio });
-        }
-        if !faults.is_empty() {
-            return Err(faults);
+        if involute_pair {
+            let faults = impossible_contact(spec, [start, end], tangent_length, contact_ratio);
+            if !faults.is_empty() {
+                return Err(faults);
+            }
         }
         let working_radius = [centre_distance * z1 / teeth, centre_distance * z2 / teeth];
         let mut pair = Self {

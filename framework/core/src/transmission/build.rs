@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::drags::{Covered, DragSeat, body, mates, named, part, twice};
+use super::drag_models::Drags;
 use super::gearing::gearing;
 use super::members::Members;
 use super::nodes::{HeatPath, NodeNames, unmet};
@@ -10,19 +10,18 @@ use super::oils::OilNumbers;
 use super::planets;
 use super::plausible;
 use super::seats::{GearSeat, MeshSeat};
-use super::states::states;
-use super::statics::{imported, load_factors, shaft_loads};
-use super::{Component, DragModel, MeshModel, PartInfo, PartKind, Port, RatedSupport, Sharing, Transmission, WHEELS};
+use super::states::{GearState, states};
+use super::statics::{Imported, imported, load_factors, shaft_loads};
+use super::{Component, MeshModel, PartInfo, PartKind, Port, RatedSupport, Sharing, Transmission, WHEELS};
 use crate::attach::{Common, Level, Names, Places, SeatedClearance, SeatedSupport, dangling};
 use crate::codes;
 use crate::description::{GearboxEntry, NetworkChoice, ThermalMode};
 use crate::document::{Diagnostic, classify};
 use crate::language::Language;
 use crate::mechanism::Mechanism;
-use crate::mechanism::gear_drag::{GearDrag, Scope};
+use crate::mechanism::ModelRef;
 use crate::mechanism::gear_mesh::{GearMesh, MeshPart};
 use crate::mechanism::planetary_drag::PlanetaryDrag;
-use crate::mechanism::{ModelRef, NamedSlots};
 use crate::registry::{Build, Files};
 use crate::resolve::{Resolved, ValueSource};
 use crate::thermal::Housing;
@@ -60,45 +59,31 @@ impl Transmission {
         );
         classify(&mut found, codes::COMPONENT);
         let mut mesh_models = mesh_models(&entry, &meshes, &sharing, &mut oils, &mut build, &mut parts, &mut found);
-        for mesh in &mut mesh_models {
-            let gears = mesh.seat.gears.map(|g| gears[g].id.as_str());
-            mesh.bodies = nodes.bodies(&mesh.seat.path, gears);
-            let known = gears.map(|gear| nodes.of_gear(gear).is_some());
-            if let Some(i) = known.iter().position(|known| *known).filter(|_| known[0] != known[1]) {
-                warnings.push(
-                    Diagnostic::warning(
-                        mesh.seat.path.clone(),
-                        format!(
-                            "`{}` has a thermal node and `{}` has none, so neither is used",
-                            gears[i],
-                            gears[1 - i]
-                        ),
-                    )
-                    .help("name both gears under `gears` of a node, or the mesh under `parts`"),
-                );
-            }
-        }
+        give_bodies(&mut mesh_models, &gears, &nodes, &mut warnings);
         let held = planets::models(&entry, &members, &gears, &meshes, &mut oils, &mut build, &mut found);
         let mut covered = Vec::new();
         for model in held {
-            covered.push(model.covered);
-            parts.push(PartInfo {
-                path: model.path,
-                mechanism: PlanetaryDrag::KEY,
-                kind: PartKind::Component(components.len()),
-                count: 1.0,
-                loss_factor: model.loss_factor,
-                notes: model.placed.notes(),
-            });
+            parts.push(part_of_set(&model, components.len()));
             components.push(Component::new(model.placed, model.loss_factor, None));
+            covered.push(model.covered);
         }
         classify(&mut found, codes::MODEL);
         let levels = levels(&entry, &gears, &oils);
         warnings.extend(plausible::oil_level(&entry, &gears, &levels, &oils));
-        let drags = drags(
-            language, &entry, &gears, &meshes, &levels, covered, &mut oils, &mut build, &mut parts, &mut found,
-        );
-
+        let drags = Drags {
+            registry: language.registry(),
+            entry: &entry,
+            gears: &gears,
+            meshes: &meshes,
+            levels: &levels,
+            covered,
+            oils: &mut oils,
+            build: &mut build,
+            parts: &mut parts,
+            models: Vec::new(),
+            found: &mut found,
+        };
+        let drags = drags.built();
         classify(&mut found, codes::DRAG);
         planets::assembly(&entry, &members, &gears, &meshes, &mut warnings);
         let housing = Housing::new(&entry, &mut build, &mut found);
@@ -113,19 +98,8 @@ impl Transmission {
             files,
         };
         let mut network = Network::new(&entry, &around, &mut build, &mut found);
-        if let Some(NetworkChoice::Written(written)) = &entry.thermal.network {
-            let paths: Vec<&str> = parts.iter().map(|p| p.path.as_str()).collect();
-            unmet(written, &paths, &mut found);
-            let laid_out = *resolved.source_of("thermal.network") == ValueSource::Network;
-            if entry.thermal.mode == ThermalMode::Network {
-                unused(&entry, laid_out, &mut found, &mut warnings);
-            }
-        } else if entry.thermal.mode == ThermalMode::Network {
-            found.push(
-                Diagnostic::error("thermal.mode", "the network is missing")
-                    .help("add `network: auto` under `thermal`, or nodes and links"),
-            );
-        }
+        let laid_out = *resolved.source_of("thermal.network") == ValueSource::Network;
+        check_network(&entry, laid_out, &parts, &mut found, &mut warnings);
         classify(&mut found, codes::NETWORK);
         let states = if found.is_empty() {
             states(&entry, &members, &meshes, &clearances, (&ports, &wheels), &mut found)
@@ -135,23 +109,7 @@ impl Transmission {
         classify(&mut found, codes::POWER_FLOW);
         let loads = shaft_loads(&entry, &members, &meshes, &supports, &mut found, &mut warnings);
         let load_factors = load_factors(&supports, &ports, &mut found);
-        let imported = match &entry.imported_loads {
-            Some(import) => {
-                let names: Vec<String> = states.iter().map(|s| s.name.clone()).collect();
-                let port = ports.iter().position(|p| p.name == import.port);
-                if port.is_none() {
-                    let known: Vec<&str> = ports.iter().map(|p| p.name.as_str()).collect();
-                    found.push(dangling("imported_loads.port", "port", &import.port, &known));
-                }
-                files
-                    .text(&import.file)
-                    .map_err(|reason| Diagnostic::error("imported_loads.file", reason))
-                    .and_then(|text| imported(&text, &import.file, port.unwrap_or(0), &names, &supports))
-                    .map_err(|error| found.push(error))
-                    .ok()
-            }
-            None => None,
-        };
+        let imported = imported_loads(&entry, files, &ports, &states, &supports, &mut found);
         classify(&mut found, codes::SUPPORT);
         let (oils, mut more) = oils.finish();
         classify(&mut more, codes::LUBRICANT);
@@ -160,18 +118,15 @@ impl Transmission {
         if let (true, Some(loads)) = (found.is_empty(), loads) {
             let (instances, cells) = build.finish();
             let rated: Vec<RatedSupport> = components.iter().filter_map(rated).collect();
-            let order = |path: &str| document_order(resolved, path);
-            parts.sort_by_key(|p| order(&p.path));
+            parts.sort_by_key(|p| document_order(resolved, &p.path));
             if let Some(network) = &mut network {
                 warnings.extend(network.warnings());
                 let heat = |part: &PartInfo| match part.kind {
                     PartKind::Mesh(i) => mesh_models[i].bodies.map(HeatPath::Gears),
                     _ => None,
                 };
-                let heat = parts
-                    .iter()
-                    .map(|part| heat(part).unwrap_or_else(|| nodes.heat(&part.path)));
-                network.set_heat(heat.collect());
+                let heat = |part: &PartInfo| heat(part).unwrap_or_else(|| nodes.heat(&part.path));
+                network.set_heat(parts.iter().map(heat).collect());
             }
             let built = Self {
                 title: entry.title.clone().unwrap_or_default(),
@@ -221,6 +176,85 @@ impl Transmission {
         }
         if found.is_empty() { Ok(()) } else { Err(found) }
     }
+}
+
+/// The part of the drag of a planetary set, by the number of its component.
+fn part_of_set(held: &planets::Held, component: usize) -> PartInfo {
+    PartInfo {
+        path: held.path.clone(),
+        mechanism: PlanetaryDrag::KEY,
+        kind: PartKind::Component(component),
+        count: 1.0,
+        loss_factor: held.loss_factor,
+        notes: held.placed.notes(),
+    }
+}
+
+/// Gives meshes the thermal nodes of their gears; warns where only one gear of a mesh has one.
+fn give_bodies(models: &mut [MeshModel], gears: &[GearSeat], nodes: &NodeNames, warnings: &mut Vec<Diagnostic>) {
+    for mesh in models {
+        let gears = mesh.seat.gears.map(|g| gears[g].id.as_str());
+        mesh.bodies = nodes.bodies(&mesh.seat.path, gears);
+        let known = gears.map(|gear| nodes.of_gear(gear).is_some());
+        if let Some(i) = known.iter().position(|known| *known).filter(|_| known[0] != known[1]) {
+            let message = format!(
+                "`{}` has a thermal node and `{}` has none, so neither is used",
+                gears[i],
+                gears[1 - i]
+            );
+            warnings.push(
+                Diagnostic::warning(mesh.seat.path.clone(), message)
+                    .help("name both gears under `gears` of a node, or the mesh under `parts`"),
+            );
+        }
+    }
+}
+
+/// Checks that a network which balances the temperatures is stated and heated by parts that exist.
+fn check_network(
+    entry: &GearboxEntry,
+    laid_out: bool,
+    parts: &[PartInfo],
+    found: &mut Vec<Diagnostic>,
+    warnings: &mut Vec<Diagnostic>,
+) {
+    let balances = entry.thermal.mode == ThermalMode::Network;
+    if let Some(NetworkChoice::Written(written)) = &entry.thermal.network {
+        let paths: Vec<&str> = parts.iter().map(|p| p.path.as_str()).collect();
+        unmet(written, &paths, found);
+        if balances {
+            unused(entry, laid_out, found, warnings);
+        }
+    } else if balances {
+        found.push(
+            Diagnostic::error("thermal.mode", "the network is missing")
+                .help("add `network: auto` under `thermal`, or nodes and links"),
+        );
+    }
+}
+
+/// The bearing loads of the file that `imported_loads` names.
+fn imported_loads(
+    entry: &GearboxEntry,
+    files: &Files,
+    ports: &[Port],
+    states: &[GearState],
+    supports: &[SeatedSupport],
+    found: &mut Vec<Diagnostic>,
+) -> Option<Imported> {
+    let import = entry.imported_loads.as_ref()?;
+    let names: Vec<String> = states.iter().map(|s| s.name.clone()).collect();
+    let port = ports.iter().position(|p| p.name == import.port);
+    if port.is_none() {
+        let known: Vec<&str> = ports.iter().map(|p| p.name.as_str()).collect();
+        found.push(dangling("imported_loads.port", "port", &import.port, &known));
+    }
+    files
+        .text(&import.file)
+        .map_err(|reason| Diagnostic::error("imported_loads.file", reason))
+        .and_then(|text| imported(&text, &import.file, port.unwrap_or(0), &names, supports))
+        .map_err(|error| found.push(error))
+        .ok()
 }
 
 /// The support of a component, if its static load rating is known.
@@ -458,200 +492,6 @@ fn mesh_models(
     models
 }
 
-#[allow(clippy::too_many_arguments)]
-fn drags(
-    language: &Language,
-    entry: &GearboxEntry,
-    gears: &[GearSeat],
-    meshes: &[MeshSeat],
-    levels: &[Level],
-    mut covered: Vec<Covered>,
-    oils: &mut OilNumbers<'_>,
-    build: &mut Build<'_>,
-    parts: &mut Vec<PartInfo>,
-    found: &mut Vec<Diagnostic>,
-) -> Vec<DragModel> {
-    let common_of = |gear: usize| {
-        let written = &entry.gears.0[gear].1;
-        Common {
-            lubricant: written.lubricant.clone(),
-            temperature_offset: written.temperature_offset,
-            loss_factor: written.loss_factor,
-            count: 1,
-        }
-    };
-    let mut drags: Vec<DragModel> = Vec::new();
-    let mut add = |slots: Option<&NamedSlots<GearDrag>>,
-                   of: &str,
-                   scope: Scope,
-                   seat: DragSeat,
-                   part: crate::mechanism::gear_drag::DragPart,
-                   common: &Common,
-                   own: Vec<usize>,
-                   drags: &mut Vec<DragModel>| {
-        let part = Arc::new(part);
-        for (slot, choice) in slots.into_iter().flat_map(|s| s.0.iter()) {
-            let path = format!("{of}.drag.{slot}");
-            let name = choice
-                .value
-                .as_str()
-                .or_else(|| choice.value["type"].as_str())
-                .unwrap_or("none");
-            if name == "none" {
-                continue;
-            }
-            let fits = language
-                .registry()
-                .model(GearDrag::KEY, name)
-                .is_none_or(|e| e.scope == scope);
-            if !fits {
-                let (where_it_is, section) = if scope == Scope::Gear {
-                    ("a gear", "meshes")
-                } else {
-                    ("a mesh", "gears")
-                };
-                found.push(
-                    Diagnostic::error(path, format!("`{name}` is not a law for {where_it_is}"))
-                        .help(format!("write it in `{section}` or in `models`")),
-                );
-                continue;
-            }
-            let model = match build.slot_at::<GearDrag>(&path, &part, &choice.value) {
-                Ok(model) => model,
-                Err(error) => {
-                    found.push(error);
-                    continue;
-                }
-            };
-            let covers = model.covers().unwrap_or_else(|| named(slot));
-            for (others, other, already) in &covered {
-                let both = twice(covers, *already);
-                if !both.is_empty() && others.iter().any(|g| own.contains(g)) {
-                    found.push(
-                        Diagnostic::error(
-                            path.clone(),
-                            format!("{} is computed here and by `{other}`", both.join(" and ")),
-                        )
-                        .help("switch one of them off with `none`"),
-                    );
-                }
-            }
-            // If one model fills several slots of a gear, it is compared with itself only once.
-            covered.push((own.clone(), path.clone(), covers));
-            let Some(oil) = oils.oil(of, common) else { continue };
-            parts.push(PartInfo {
-                path: path.clone(),
-                mechanism: GearDrag::KEY,
-                kind: PartKind::Drag(drags.len()),
-                count: seat.count,
-                loss_factor: common.loss_factor,
-                notes: model.notes,
-            });
-            drags.push(DragModel {
-                loss_factor: common.loss_factor,
-                seat: DragSeat { path, ..seat.clone() },
-                part: Arc::clone(&part),
-                model,
-                oil,
-            });
-        }
-    };
-    let radii = |gear: usize| [0.5 * gears[gear].diameters[1], 0.5 * gears[gear].diameters[0]];
-    for (i, gear) in gears.iter().enumerate() {
-        let Some(mesh) = meshes.iter().find(|m| m.gears.contains(&i)) else {
-            continue;
-        };
-        let seat = DragSeat {
-            path: String::new(),
-            members: [gear.member, gear.member],
-            pair: false,
-            radii: [radii(i), radii(i)],
-            levels: [levels[i], levels[i]],
-            mates: [mates(i, meshes), Vec::new()],
-            count: if mesh.carrier.is_some_and(|c| c != gear.member) && is_planet(entry, &gear.id) {
-                mesh.count
-            } else {
-                1.0
-            },
-        };
-        let path = format!("gears.{}", gear.id);
-        let slots = entry.gears.0[i].1.drag.as_ref();
-        add(
-            slots,
-            &path,
-            Scope::Gear,
-            seat,
-            part(entry, body(gear, i, mesh), None),
-            &common_of(i),
-            vec![i],
-            &mut drags,
-        );
-    }
-    for (number, mesh) in meshes.iter().enumerate() {
-        let [a, b] = mesh.gears;
-        let Some(written) = mesh.path.strip_prefix("meshes.").and_then(|id| entry.meshes.get(id)) else {
-            continue;
-        };
-        let seat = DragSeat {
-            path: String::new(),
-            members: mesh.members,
-            pair: true,
-            radii: [radii(a), radii(b)],
-            levels: [levels[a], levels[b]],
-            mates: [mates(a, meshes), mates(b, meshes)],
-            count: mesh.count,
-        };
-        let factor = |gear: usize| entry.gears.0[gear].1.loss_factor;
-        let both = part(entry, body(&gears[a], a, mesh), Some(body(&gears[b], b, mesh)));
-        let common = Common {
-            lubricant: written.lubricant.clone(),
-            temperature_offset: written.temperature_offset,
-            // Braking of both gears at the mesh is their drag, not the loss of the mesh.
-            loss_factor: 0.5 * (factor(a) + factor(b)),
-            ..Common::default()
-        };
-        // A model for meshes may cover a gear in several meshes without counting it twice: its losses belong to the mesh, whose
-        // number follows those of the gears.
-        add(
-            written.drag.as_ref(),
-            &mesh.path,
-            Scope::Mesh,
-            seat,
-            both,
-            &common,
-            vec![gears.len() + number],
-            &mut drags,
-        );
-    }
-    let is_mesh = |own: &Vec<usize>| own.first().is_some_and(|g| *g >= gears.len());
-    let mesh_covers = covered
-        .iter()
-        .filter(|(own, ..)| is_mesh(own))
-        .cloned()
-        .collect::<Vec<_>>();
-    for (_, mesh_path, mesh_cover) in &mesh_covers {
-        let Some(mesh) = meshes
-            .iter()
-            .find(|m| mesh_path.starts_with(&format!("{}.drag", m.path)))
-        else {
-            continue;
-        };
-        for (own, gear_path, gear_cover) in covered.iter().filter(|(own, ..)| !is_mesh(own)) {
-            let both = twice(*mesh_cover, *gear_cover);
-            if !both.is_empty() && own.iter().any(|g| mesh.gears.contains(g)) {
-                found.push(
-                    Diagnostic::error(
-                        mesh_path.clone(),
-                        format!("{} is computed here and by `{gear_path}`", both.join(" and ")),
-                    )
-                    .help("switch one of them off with `none`"),
-                );
-            }
-        }
-    }
-    drags
-}
-
 /// Oil height at each gear.
 fn levels(entry: &GearboxEntry, gears: &[GearSeat], oils: &OilNumbers<'_>) -> Vec<Level> {
     let seats = gears.iter().enumerate();
@@ -661,13 +501,4 @@ fn levels(entry: &GearboxEntry, gears: &[GearSeat], oils: &OilNumbers<'_>) -> Ve
             own.map_or_else(|| oils.level(Some(g.member as u16), g.at), Level::Own)
         })
         .collect()
-}
-
-fn is_planet(entry: &GearboxEntry, gear: &str) -> bool {
-    entry.gears.get(gear).is_some_and(|g| {
-        entry
-            .planetary_sets
-            .iter()
-            .any(|(_, set)| set.planets.contains(&g.shaft))
-    })
 }

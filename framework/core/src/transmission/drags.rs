@@ -1,4 +1,4 @@
-//! Drag models on gears and meshes: seats, parts, and the check that no cause is counted twice.
+//! Drag on gears and meshes: seats, parts, and the causes that two models both cover.
 
 use super::seats::{GearSeat, MeshSeat};
 use crate::attach::Level;
@@ -8,7 +8,7 @@ use crate::mechanism::gear_drag::{Covers, DragPart, GearBody};
 /// Seat of a drag model.
 #[derive(Debug, Clone)]
 pub struct DragSeat {
-    /// Path with the slot, such as `gears.G4.drag.churning`.
+    /// Path with the slot, such as `gears.G4.drag.churning`; that of the gear or mesh until its slots are known.
     pub path: String,
     /// Members of the gear or of both gears.
     pub members: [usize; 2],

@@ -51,70 +51,7 @@ pub fn states(
     (ports, wheels): (&[super::Port], &[super::Port]),
     found: &mut Vec<Diagnostic>,
 ) -> Vec<GearState> {
-    // The axle of `wheels` follows the members if its port includes it.
-    let axle = members.names.len();
-    let mut base = Train {
-        columns: axle + usize::from(!wheels.is_empty()),
-        rows: Vec::new(),
-    };
-    let mut names = Vec::new();
-    let mut mesh_rows = Vec::new();
-    for mesh in meshes {
-        let [z1, z2] = mesh.pair.z.map(f64::from);
-        let row = MeshRow {
-            row: base.rows.len(),
-            first: Some(mesh.members[0]),
-            z1,
-            second: Some(mesh.members[1]),
-            sz2: mesh.pair.sign() * z2,
-            carrier: mesh.carrier,
-        };
-        base.rows
-            .push(Row::mesh(row.first, row.z1, row.second, row.sz2, row.carrier));
-        names.push(RowName::Path(mesh.path.clone()));
-        mesh_rows.push(row);
-    }
-    let ids: Vec<&str> = members.names.iter().map(String::as_str).collect();
-    let mut equal = Vec::new();
-    for (id, differential) in entry.differentials.iter() {
-        let path = format!("differentials.{id}");
-        let mut member = |key: &str, name: &str| {
-            let index = ids.iter().position(|m| *m == name);
-            if index.is_none() {
-                found.push(dangling(&format!("{path}.{key}"), "shaft", name, &ids));
-            }
-            index
-        };
-        let case = member("case", &differential.case);
-        let left = member("left", &differential.left);
-        let right = member("right", &differential.right);
-        let (Some(case), Some(left), Some(right)) = (case, left, right) else {
-            continue;
-        };
-        base.rows.push(Row::mesh(Some(left), 1.0, Some(right), 1.0, Some(case)));
-        names.push(RowName::Path(path.clone()));
-        if differential.equal_speeds {
-            let column = base.columns;
-            base.columns += 1;
-            base.rows.push(Row::difference(left, right, column));
-            names.push(RowName::Equal(path));
-            equal.push(column);
-        }
-    }
-    let mut shares = shares(entry, members, meshes, &mesh_rows, found);
-    let first_wheel = base.rows.len();
-    for wheel in wheels {
-        base.rows.push(Row::joined(Some(wheel.member), Some(axle)));
-        names.push(RowName::Wheel(wheel.name.clone()));
-    }
-    // If the transmission itself locks the wheels to equal speed, nothing else determines their torque split.
-    for second in 1..wheels.len() {
-        shares.extend((0..second).map(|first| Share {
-            member: axle,
-            a: (first_wheel + first, 1.0),
-            b: (first_wheel + second, 1.0),
-        }));
-    }
+    let base = all_open(entry, members, meshes, wheels, found);
     let written: Vec<(String, Vec<String>, Vec<String>)> = if entry.gear_states.is_empty() {
         vec![("only".to_owned(), Vec::new(), Vec::new())]
     } else {
@@ -124,6 +61,7 @@ pub fn states(
             .map(|(name, s)| (name.to_owned(), s.engaged().to_vec(), s.standstill().to_vec()))
             .collect()
     };
+    let ids: Vec<&str> = members.names.iter().map(String::as_str).collect();
     let closable: Vec<&str> = clearances.iter().map(|c| c.id.as_str()).collect();
     let mut states = Vec::new();
     for (name, engaged, standstill) in written {
@@ -132,14 +70,7 @@ pub fn states(
         let mut state = GearState {
             name,
             engaged: engaged.clone(),
-            train: base.clone(),
-            rows: names.clone(),
-            meshes: mesh_rows.clone(),
-            shares: shares.clone(),
-            equal: equal.clone(),
-            standing: Vec::new(),
-            speed_ports: Vec::new(),
-            freedom: 0,
+            ..base.clone()
         };
         for id in &engaged {
             match clearances.iter().find(|c| c.id == *id) {
@@ -172,6 +103,97 @@ pub fn states(
         states.push(state);
     }
     states
+}
+
+/// What all gear states have in common: meshes, differentials and wheels, without any engaged coupling.
+fn all_open(
+    entry: &GearboxEntry,
+    members: &Members,
+    meshes: &[MeshSeat],
+    wheels: &[super::Port],
+    found: &mut Vec<Diagnostic>,
+) -> GearState {
+    // The axle of `wheels` follows the members if its port includes it.
+    let axle = members.names.len();
+    let mut state = GearState {
+        name: String::new(),
+        engaged: Vec::new(),
+        train: Train {
+            columns: axle + usize::from(!wheels.is_empty()),
+            rows: Vec::new(),
+        },
+        rows: Vec::new(),
+        meshes: Vec::new(),
+        shares: Vec::new(),
+        equal: Vec::new(),
+        standing: Vec::new(),
+        speed_ports: Vec::new(),
+        freedom: 0,
+    };
+    for mesh in meshes {
+        let [z1, z2] = mesh.pair.z.map(f64::from);
+        let row = MeshRow {
+            row: state.rows.len(),
+            first: Some(mesh.members[0]),
+            z1,
+            second: Some(mesh.members[1]),
+            sz2: mesh.pair.sign() * z2,
+            carrier: mesh.carrier,
+        };
+        let speeds = Row::mesh(row.first, row.z1, row.second, row.sz2, row.carrier);
+        state.train.rows.push(speeds);
+        state.rows.push(RowName::Path(mesh.path.clone()));
+        state.meshes.push(row);
+    }
+    add_differentials(&mut state, entry, members, found);
+    state.shares = shares(entry, members, meshes, &state.meshes, found);
+    let first_wheel = state.rows.len();
+    for wheel in wheels {
+        state.train.rows.push(Row::joined(Some(wheel.member), Some(axle)));
+        state.rows.push(RowName::Wheel(wheel.name.clone()));
+    }
+    // If the transmission itself locks the wheels to equal speed, nothing else determines their torque split.
+    for second in 1..wheels.len() {
+        state.shares.extend((0..second).map(|first| Share {
+            member: axle,
+            a: (first_wheel + first, 1.0),
+            b: (first_wheel + second, 1.0),
+        }));
+    }
+    state
+}
+
+/// Adds the row of each differential, and the rule that both of its sides have equal speed.
+fn add_differentials(state: &mut GearState, entry: &GearboxEntry, members: &Members, found: &mut Vec<Diagnostic>) {
+    let ids: Vec<&str> = members.names.iter().map(String::as_str).collect();
+    for (id, differential) in entry.differentials.iter() {
+        let path = format!("differentials.{id}");
+        let mut member = |key: &str, name: &str| {
+            let index = ids.iter().position(|m| *m == name);
+            if index.is_none() {
+                found.push(dangling(&format!("{path}.{key}"), "shaft", name, &ids));
+            }
+            index
+        };
+        let case = member("case", &differential.case);
+        let left = member("left", &differential.left);
+        let right = member("right", &differential.right);
+        let (Some(case), Some(left), Some(right)) = (case, left, right) else {
+            continue;
+        };
+        let train = &mut state.train;
+        train
+            .rows
+            .push(Row::mesh(Some(left), 1.0, Some(right), 1.0, Some(case)));
+        state.rows.push(RowName::Path(path.clone()));
+        if differential.equal_speeds {
+            let column = train.columns;
+            train.columns += 1;
+            train.rows.push(Row::difference(left, right, column));
+            state.rows.push(RowName::Equal(path));
+            state.equal.push(column);
+        }
+    }
 }
 
 /// Selects the ports that prescribe speeds: the reference port first, then the others in their order.

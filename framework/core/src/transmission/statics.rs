@@ -80,115 +80,16 @@ pub fn shaft_loads(
     found: &mut Vec<Diagnostic>,
     warnings: &mut Vec<Diagnostic>,
 ) -> Option<ShaftLoads> {
-    let mut layout = Layout::default();
-    let up = crate::immersion::upward(entry.housing.grade, entry.housing.bank);
-    for (i, name) in members.names.iter().enumerate() {
-        let mut member = MemberLayout {
-            loose: members.loose[i],
-            ..MemberLayout::default()
-        };
-        if let Some(shaft) = entry.shafts.get(name).filter(|_| !members.loose[i]) {
-            if shaft.mass > 0.0 && members.planets[i].is_none() {
-                match shaft.mass_at {
-                    Some(at) => member.forces.push((at, up.map(|u| -u * shaft.mass * GRAVITY))),
-                    None => found.push(
-                        Diagnostic::error(format!("shafts.{name}"), "a mass without `mass_at`")
-                            .help("add `mass_at:`, the position of the centre of mass along the shaft"),
-                    ),
-                }
-            }
-            for load in &shaft.loads {
-                member.forces.push((load.at, load.force));
-                member.moments.push((load.at, load.moment));
-            }
-            member.hinges.clone_from(&shaft.hinges);
-            member.shear = shaft.shear_deformation;
-            for (k, s) in shaft.sections.iter().enumerate() {
-                if s.to <= s.from || s.inner >= s.outer {
-                    found.push(
-                        Diagnostic::error(
-                            format!("shafts.{name}.sections.{k}"),
-                            "the section has zero length or wall thickness",
-                        )
-                        .help("write `from` below `to` and `inner` below `outer`"),
-                    );
-                }
-                member.sections.push(Section {
-                    range: [s.from, s.to],
-                    outer: s.outer,
-                    inner: s.inner,
-                });
-            }
-            if let Some(planet) = members.planets[i] {
-                member.planet = Some(PlanetBody {
-                    carrier: planet.carrier,
-                    orbit: orbit(i, members, meshes).unwrap_or(0.0),
-                    count: planet.count,
-                    mass: shaft.mass,
-                });
-            }
-        }
-        layout.members.push(member);
-    }
-    for support in supports {
-        let place = &support.place;
-        layout.supports.push(SupportLayout {
-            inner: support.inner as usize,
-            outer: support.outer.map(usize::from),
-            at: place.at,
-            axial: place.axial,
-            share: place.axial_share,
-            spring: place.spring_preload,
-            takes_moment: place.takes_moment,
-            radial_stiffness: place.radial_stiffness,
-            tilting_stiffness: place.tilting_stiffness,
-            induced: place.induced_thrust,
-        });
-        if let Some(outer) = support.outer {
-            let axes = [support.inner as usize, outer as usize].map(|m| members.axes[m]);
-            if let [Some(a), Some(b)] = axes
-                && (a[0] - b[0]).hypot(a[1] - b[1]) > 1e-6
-            {
-                found.push(
-                    Diagnostic::error(
-                        &support.path,
-                        format!(
-                            "`{}` and `{}` are not on the same axis",
-                            members.names[support.inner as usize], members.names[outer as usize]
-                        ),
-                    )
-                    .help("place both members on the same axis"),
-                );
-            }
-        }
-    }
-    for mesh in meshes {
-        let central = mesh
-            .members
-            .map(|m| mesh.carrier.is_some() && members.planets[m].is_none());
-        layout.meshes.push(MeshLayout {
-            members: mesh.members,
-            at: 0.0,
-            radius: mesh.pair.working_radius,
-            sign: mesh.pair.sign(),
-            direction: mesh.direction,
-            tan_alpha: mesh.pair.working_angle.tan(),
-            hand_tan_beta: mesh.hand * mesh.pair.working_helix.tan(),
-            count: mesh.count,
-            central,
-        });
-    }
-    for (mesh, seat) in layout.meshes.iter_mut().zip(meshes) {
-        // The force acts in the middle of the common face width.
-        let [a, b] = seat.gears.map(|g| &entry.gears.0[g].1);
-        let left = (a.at - 0.5 * a.facewidth).max(b.at - 0.5 * b.facewidth);
-        let right = (a.at + 0.5 * a.facewidth).min(b.at + 0.5 * b.facewidth);
-        mesh.at = if (a.at - b.at).abs() < 1e-9 {
-            a.at
-        } else {
-            0.5 * (left + right)
-        };
-    }
+    let layout = Layout {
+        members: (0..members.names.len())
+            .map(|i| member_layout(i, entry, members, meshes, found))
+            .collect(),
+        supports: supports
+            .iter()
+            .map(|support| support_layout(support, members, found))
+            .collect(),
+        meshes: meshes.iter().map(|mesh| mesh_layout(mesh, entry, members)).collect(),
+    };
     unsupported(entry, members, &layout, found, warnings);
     match ShaftLoads::new(&layout) {
         Ok(loads) => Some(loads),
@@ -197,6 +98,120 @@ pub fn shaft_loads(
             found.extend(faults.iter().map(|fault| explain(fault, members, &path)));
             None
         }
+    }
+}
+
+/// Forces, moments, hinges and sections of a shaft; what revolves if it is a planet body.
+fn member_layout(
+    i: usize,
+    entry: &GearboxEntry,
+    members: &Members,
+    meshes: &[MeshSeat],
+    found: &mut Vec<Diagnostic>,
+) -> MemberLayout {
+    let name = &members.names[i];
+    let mut member = MemberLayout {
+        loose: members.loose[i],
+        ..MemberLayout::default()
+    };
+    let Some(shaft) = entry.shafts.get(name).filter(|_| !members.loose[i]) else {
+        return member;
+    };
+    if shaft.mass > 0.0 && members.planets[i].is_none() {
+        let up = crate::immersion::upward(entry.housing.grade, entry.housing.bank);
+        match shaft.mass_at {
+            Some(at) => member.forces.push((at, up.map(|u| -u * shaft.mass * GRAVITY))),
+            None => found.push(
+                Diagnostic::error(format!("shafts.{name}"), "a mass without `mass_at`")
+                    .help("add `mass_at:`, the position of the centre of mass along the shaft"),
+            ),
+        }
+    }
+    for load in &shaft.loads {
+        member.forces.push((load.at, load.force));
+        member.moments.push((load.at, load.moment));
+    }
+    member.hinges.clone_from(&shaft.hinges);
+    member.shear = shaft.shear_deformation;
+    for (k, s) in shaft.sections.iter().enumerate() {
+        if s.to <= s.from || s.inner >= s.outer {
+            found.push(
+                Diagnostic::error(
+                    format!("shafts.{name}.sections.{k}"),
+                    "the section has zero length or wall thickness",
+                )
+                .help("write `from` below `to` and `inner` below `outer`"),
+            );
+        }
+        member.sections.push(Section {
+            range: [s.from, s.to],
+            outer: s.outer,
+            inner: s.inner,
+        });
+    }
+    member.planet = members.planets[i].map(|planet| PlanetBody {
+        carrier: planet.carrier,
+        orbit: orbit(i, members, meshes).unwrap_or(0.0),
+        count: planet.count,
+        mass: shaft.mass,
+    });
+    member
+}
+
+/// A support; the two members that it connects are on one axis.
+fn support_layout(support: &SeatedSupport, members: &Members, found: &mut Vec<Diagnostic>) -> SupportLayout {
+    let place = &support.place;
+    let (inner, outer) = (support.inner as usize, support.outer.map(usize::from));
+    if let Some(outer) = outer
+        && let [Some(a), Some(b)] = [inner, outer].map(|m| members.axes[m])
+        && (a[0] - b[0]).hypot(a[1] - b[1]) > 1e-6
+    {
+        found.push(
+            Diagnostic::error(
+                &support.path,
+                format!(
+                    "`{}` and `{}` are not on the same axis",
+                    members.names[inner], members.names[outer]
+                ),
+            )
+            .help("place both members on the same axis"),
+        );
+    }
+    SupportLayout {
+        inner,
+        outer,
+        at: place.at,
+        axial: place.axial,
+        share: place.axial_share,
+        spring: place.spring_preload,
+        takes_moment: place.takes_moment,
+        radial_stiffness: place.radial_stiffness,
+        tilting_stiffness: place.tilting_stiffness,
+        induced: place.induced_thrust,
+    }
+}
+
+/// A mesh; its force acts in the middle of the common face width.
+fn mesh_layout(mesh: &MeshSeat, entry: &GearboxEntry, members: &Members) -> MeshLayout {
+    let [a, b] = mesh.gears.map(|g| &entry.gears.0[g].1);
+    let left = (a.at - 0.5 * a.facewidth).max(b.at - 0.5 * b.facewidth);
+    let right = (a.at + 0.5 * a.facewidth).min(b.at + 0.5 * b.facewidth);
+    MeshLayout {
+        members: mesh.members,
+        at: if (a.at - b.at).abs() < 1e-9 {
+            a.at
+        } else {
+            0.5 * (left + right)
+        },
+        radius: mesh.pair.working_radius,
+        sign: mesh.pair.sign(),
+        direction: mesh.direction,
+        tan_alpha: mesh.pair.working_angle.tan(),
+        hand_tan_beta: mesh.hand * mesh.pair.working_helix.tan(),
+        count: mesh.count,
+        central: mesh
+            .members
+            .map(|m| mesh.carrier.is_some() && members.planets[m].is_none()),
     }
 }
 
