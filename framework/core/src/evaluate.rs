@@ -239,11 +239,8 @@ impl Transmission {
         let (idle_drags, relative) = (&*idle_drags, &*relative);
         let cells = Cell::from_mut(cells.as_mut_slice()).as_slice_of_cells();
         let kept = Cell::from_mut(kept.as_mut_slice()).as_slice_of_cells();
-        let silent = if point.flow == PowerFlow::Real && !standing {
-            SILENT
-        } else {
-            0
-        };
+        let iterates = point.flow == PowerFlow::Real && !standing;
+        let silent = if iterates { SILENT } else { 0 };
         let mut pass = 0;
         let losses = |flow: &mut FlowState<'_>| {
             let book = Notebook {
@@ -257,8 +254,19 @@ impl Transmission {
             {
                 *tangential = multiplier * mesh.force_per_multiplier;
             }
-            self.loads.evaluate(tangential, speeds, passed, loads);
-            self.correct_loads(case, flow.ports, loads);
+            let mut support = |forces: &[f64], loads: &mut [SupportLoad]| {
+                self.loads.evaluate(forces, speeds, passed, loads);
+                self.correct_loads(case, flow.ports, loads);
+            };
+            support(tangential, loads);
+            if self.uneven {
+                for (which, loads) in uneven_loads.iter_mut().enumerate() {
+                    for ((force, mean), mesh) in uneven_forces.iter_mut().zip(&*tangential).zip(&self.meshes) {
+                        *force = mean * mesh.sharing.map_or(1.0, |s| s.factors()[which]);
+                    }
+                    support(uneven_forces, loads);
+                }
+            }
             let state = State {
                 speeds,
                 oils,
@@ -267,15 +275,6 @@ impl Transmission {
                 loads,
                 calls,
             };
-            if self.uneven {
-                for (which, loads) in uneven_loads.iter_mut().enumerate() {
-                    for ((force, mean), mesh) in uneven_forces.iter_mut().zip(&*tangential).zip(&self.meshes) {
-                        *force = mean * mesh.sharing.map_or(1.0, |s| s.factors()[which]);
-                    }
-                    self.loads.evaluate(uneven_forces, speeds, passed, loads);
-                    self.correct_loads(case, flow.ports, loads);
-                }
-            }
             flow.drags[..idle_drags.len()].copy_from_slice(idle_drags);
             for &i in &*braking {
                 let (component, speed) = (&self.components[i], relative[i]);
@@ -285,35 +284,14 @@ impl Transmission {
                 brake(component.between, speed, moment, flow.drags);
                 component_losses[i] = loss;
             }
-            for (i, loss) in mesh_losses.iter_mut().enumerate() {
-                let mesh = &self.meshes[i];
-                if mesh.model.off {
-                    continue;
-                }
-                let drives = flow.drives[i];
-                let answer = self.mesh(i, tangential[i], drives, &state, &book);
-                let speed = self.mesh_speed(i, speeds);
-                flow.mesh_loss[i] = match &answer {
-                    Ok(loss) if speed != 0.0 => {
-                        loss.total_watts(speed) * mesh.seat.count * mesh.loss_factor * self.mesh_grip(i, speeds)
-                    }
-                    _ => 0.0,
-                };
-                *loss = answer;
-            }
+            self.lose_in_meshes(flow, tangential, mesh_losses, &state, &book);
         };
-        let outcome = match point.flow {
-            PowerFlow::Real if standing => {
-                case.flow.ideal(speeds, given, work);
-                work.once(speeds, losses);
-                Outcome::Converged { passes: 1 }
-            }
-            PowerFlow::Real => case.flow.real(speeds, given, idle_drags, point.tolerance, work, losses),
-            PowerFlow::Ideal => {
-                case.flow.ideal(speeds, given, work);
-                work.once(speeds, losses);
-                Outcome::Converged { passes: 1 }
-            }
+        let outcome = if iterates {
+            case.flow.real(speeds, given, idle_drags, point.tolerance, work, losses)
+        } else {
+            case.flow.ideal(speeds, given, work);
+            work.once(speeds, losses);
+            Outcome::Converged { passes: 1 }
         };
         if !quiet && matches!(outcome, Outcome::Converged { passes } if passes <= silent) {
             self.note(s);
@@ -325,6 +303,34 @@ impl Transmission {
         self.finish(standing, point.flow, outcome, s);
         if noting_as == Noting::Counted && matches!(outcome, Outcome::Converged { .. }) {
             s.count_seen();
+        }
+    }
+
+    /// Losses of all meshes at their tangential forces, and the power that each takes from the flow.
+    #[inline]
+    fn lose_in_meshes(
+        &self,
+        flow: &mut FlowState<'_>,
+        tangential: &[f64],
+        losses: &mut [Result<Loss, Undefined>],
+        state: &State<'_>,
+        book: &Notebook<'_>,
+    ) {
+        for (i, loss) in losses.iter_mut().enumerate() {
+            let mesh = &self.meshes[i];
+            if mesh.model.off {
+                continue;
+            }
+            let drives = flow.drives[i];
+            let answer = self.mesh(i, tangential[i], drives, state, book);
+            let speed = self.mesh_speed(i, state.speeds);
+            flow.mesh_loss[i] = match &answer {
+                Ok(loss) if speed != 0.0 => {
+                    loss.total_watts(speed) * mesh.seat.count * mesh.loss_factor * self.mesh_grip(i, state.speeds)
+                }
+                _ => 0.0,
+            };
+            *loss = answer;
         }
     }
 

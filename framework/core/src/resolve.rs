@@ -178,28 +178,73 @@ fn give_models(
     sources: &mut BTreeMap<String, ValueSource>,
     unreached: &mut Vec<String>,
 ) -> Vec<String> {
+    let mut giving = Giving {
+        own,
+        set,
+        sources,
+        unreached,
+    };
     let mut without = Vec::new();
-    let named = |path: &str| set.and_then(|(name, s)| s.named(path).map(|model| (name, model)));
-    let default_of = |key: &str| -> Option<(Value, ValueSource)> {
-        match set {
+    for (section, key) in language.sections() {
+        let bare = giving.give_section(value, section, key);
+        if !bare.is_empty() {
+            without.push(format!(
+                "{section}: no model is chosen for {}, so the loss is zero",
+                bare.join(", ")
+            ));
+        }
+    }
+    giving.give_housing(value);
+    giving.give_gears_and_meshes(language, value);
+    without
+}
+
+/// The models to give to components that have none of their own, with what is reported about them.
+struct Giving<'a> {
+    /// Defaults of the gearbox.
+    own: &'a Value,
+    set: Option<&'a (String, ModelSet)>,
+    sources: &'a mut BTreeMap<String, ValueSource>,
+    unreached: &'a mut Vec<String>,
+}
+
+impl<'a> Giving<'a> {
+    /// The model of the set for one path, with the name of the set.
+    fn named(&self, path: &str) -> Option<(&'a String, &'a Value)> {
+        self.set.and_then(|(name, s)| s.named(path).map(|model| (name, model)))
+    }
+
+    /// The default of the set, else of the gearbox.
+    fn default_of(&self, key: &str) -> Option<(Value, ValueSource)> {
+        match self.set {
             Some((name, s)) if s.models.contains_key(key) => {
                 Some((s.models[key].clone(), ValueSource::Set(name.clone())))
             }
-            _ => own
+            _ => self
+                .own
                 .get(key)
                 .filter(|v| !v.is_null())
                 .map(|v| (v.clone(), ValueSource::Models)),
         }
-    };
-    for (section, key) in language.sections() {
-        let default = default_of(key);
+    }
+
+    /// The defaults of named slots: those of a gear, a mesh or the housing replace the ones of the same name. The defaults of drags are
+    /// in one place in the document, because only the model's scope determines whether they belong to gears or meshes.
+    fn slots_of(&self, key: &str) -> (Map<String, Value>, ValueSource) {
+        let (slots, from) = self.default_of(key).unwrap_or((Value::Null, ValueSource::Models));
+        (slots.as_object().cloned().unwrap_or_default(), from)
+    }
+
+    /// Returns the components of a section for which no model is chosen.
+    fn give_section(&mut self, value: &mut Value, section: &str, key: &str) -> Vec<String> {
+        let default = self.default_of(key);
         let mut taken = 0;
         let (mut kept, mut bare) = (Vec::new(), Vec::new());
         for (id, entry) in entries_mut(value, section) {
             let path = format!("{section}.{id}.model");
-            if let Some((name, model)) = named(&path) {
+            if let Some((name, model)) = self.named(&path) {
                 entry.insert("model".to_owned(), model.clone());
-                sources.insert(path, ValueSource::Set(name.clone()));
+                self.sources.insert(path, ValueSource::Set(name.clone()));
             } else if absent(entry, "model") {
                 taken += 1;
                 if default.is_none() {
@@ -207,98 +252,92 @@ fn give_models(
                 }
                 let (model, from) = default.clone().unwrap_or((Value::from("none"), ValueSource::Models));
                 entry.insert("model".to_owned(), model);
-                sources.insert(path, from);
+                self.sources.insert(path, from);
             } else {
                 kept.push(id.clone());
             }
         }
-        if !bare.is_empty() {
-            without.push(format!(
-                "{section}: no model is chosen for {}, so the loss is zero",
-                bare.join(", ")
-            ));
-        }
-        if let Some((name, s)) = set {
+        if let Some((name, s)) = self.set {
             if s.models.contains_key(key) && !kept.is_empty() {
-                unreached.push(format!(
+                self.unreached.push(format!(
                     "{section}: {} keep their own model under `{name}`",
                     kept.join(", ")
                 ));
             } else if s.models.contains_key(key) && taken == 0 && s.models[key] != "none" {
-                unreached.push(format!("`{name}` states a {key} model, but no component uses it"));
+                self.unreached
+                    .push(format!("`{name}` states a {key} model, but no component uses it"));
             }
         }
+        bare
     }
-    // Named slots: the slots of a gear, a mesh or the housing replace the defaults of the same name. The defaults of drags are in
-    // one place in the document, because only the model's scope determines whether they belong to gears or meshes.
-    let slots_of = |key: &str| {
-        let (slots, from) = default_of(key).unwrap_or((Value::Null, ValueSource::Models));
-        (slots.as_object().cloned().unwrap_or_default(), from)
-    };
-    let (ways, from) = slots_of(HEAT);
-    if let Some(thermal) = value.get_mut("thermal").and_then(Value::as_object_mut) {
-        let own = thermal
-            .get(HEAT)
-            .and_then(Value::as_object)
-            .cloned()
-            .unwrap_or_default();
+
+    /// Ways of heat from the housing.
+    fn give_housing(&mut self, value: &mut Value) {
+        let (ways, from) = self.slots_of(HEAT);
+        let Some(thermal) = value.get_mut("thermal").and_then(Value::as_object_mut) else {
+            return;
+        };
+        let own = written_slots(thermal, HEAT);
         let path = |slot: &str| format!("thermal.{HEAT}.{slot}");
-        let mut slots = Map::new();
-        if let Some((name, s)) = set {
+        if let Some((name, s)) = self.set {
             let kept: Vec<&str> = ways
                 .keys()
                 .filter(|slot| own.contains_key(*slot))
                 .map(String::as_str)
                 .collect();
             if s.models.contains_key(HEAT) && !kept.is_empty() {
-                unreached.push(format!(
+                self.unreached.push(format!(
                     "thermal.{HEAT}: {} keep their own model under `{name}`",
                     kept.join(", ")
                 ));
             }
         }
+        let mut slots = Map::new();
         for (slot, model) in ways.iter().filter(|(slot, _)| !own.contains_key(*slot)) {
             slots.insert(slot.clone(), model.clone());
-            sources.insert(path(slot), from.clone());
+            self.sources.insert(path(slot), from.clone());
         }
         slots.extend(own);
         for (slot, model) in &mut slots {
-            if let Some((name, named)) = named(&path(slot)) {
+            if let Some((name, named)) = self.named(&path(slot)) {
                 *model = named.clone();
-                sources.insert(path(slot), ValueSource::Set(name.clone()));
+                self.sources.insert(path(slot), ValueSource::Set(name.clone()));
             }
         }
         thermal.insert(HEAT.to_owned(), Value::Object(slots));
     }
-    let (drags, from) = slots_of(DRAGS);
-    for section in ["gears", "meshes"] {
-        for (id, entry) in entries_mut(value, section) {
-            let own = entry
-                .get("drag")
-                .and_then(Value::as_object)
-                .cloned()
-                .unwrap_or_default();
-            let mut slots = Map::new();
-            for (slot, model) in &drags {
-                if !own.contains_key(slot) && language.fits_scope(section, model) {
-                    slots.insert(slot.clone(), model.clone());
-                    sources.insert(format!("{section}.{id}.drag.{slot}"), from.clone());
-                }
-            }
-            slots.extend(own);
-            if let Some((name, s)) = set {
-                for slot in s.drag_slots(section, id) {
-                    let path = format!("{section}.{id}.drag.{slot}");
-                    if let Some((_, model)) = named(&path) {
-                        slots.insert(slot, model.clone());
-                        sources.insert(path, ValueSource::Set(name.clone()));
+
+    /// Drags of gears and meshes.
+    fn give_gears_and_meshes(&mut self, language: &Language, value: &mut Value) {
+        let (drags, from) = self.slots_of(DRAGS);
+        for section in ["gears", "meshes"] {
+            for (id, entry) in entries_mut(value, section) {
+                let own = written_slots(entry, "drag");
+                let mut slots = Map::new();
+                for (slot, model) in &drags {
+                    if !own.contains_key(slot) && language.fits_scope(section, model) {
+                        slots.insert(slot.clone(), model.clone());
+                        self.sources.insert(format!("{section}.{id}.drag.{slot}"), from.clone());
                     }
                 }
+                slots.extend(own);
+                for slot in self.set.into_iter().flat_map(|(_, s)| s.drag_slots(section, id)) {
+                    let path = format!("{section}.{id}.drag.{slot}");
+                    if let Some((name, model)) = self.named(&path) {
+                        slots.insert(slot, model.clone());
+                        self.sources.insert(path, ValueSource::Set(name.clone()));
+                    }
+                }
+                entry.insert("drag".to_owned(), Value::Object(slots));
             }
-            entry.insert("drag".to_owned(), Value::Object(slots));
         }
     }
-    without
+}
+
+/// The named slots of an entry as written.
+fn written_slots(entry: &Map<String, Value>, key: &str) -> Map<String, Value> {
+    let slots = entry.get(key).and_then(Value::as_object);
+    slots.cloned().unwrap_or_default()
 }
 
 /// Writes overrides into the resolved document, each checked against the schema at its path.

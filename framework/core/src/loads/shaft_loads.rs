@@ -101,58 +101,24 @@ pub(super) struct Axially {
 
 impl ShaftLoads {
     /// Solves the unit cases.
+    ///
     /// # Errors
     /// All faults of the arrangement.
-    /// Every fault of the arrangement.
     pub fn new(layout: &Layout) -> Result<Self, Vec<LoadFault>> {
         let n = layout.members.len();
         let mut own: Vec<Vec<(usize, SupportLayout)>> = vec![Vec::new(); n];
         let mut carrier_of: Vec<Vec<usize>> = vec![Vec::new(); n];
         for (i, support) in layout.supports.iter().enumerate() {
-            let (carried, carrier) = carried(layout, support);
-            // Thrust of a shaft towards +x is thrust towards -x of the members that it supports.
-            let turned = carried != support.inner;
-            own[carried].push((
-                i,
-                SupportLayout {
-                    outer: carrier,
-                    inner: carried,
-                    axial: if turned {
-                        support.axial.opposite()
-                    } else {
-                        support.axial
-                    },
-                    spring: if turned { -support.spring } else { support.spring },
-                    ..*support
-                },
-            ));
-            carrier_of[carried].extend(carrier);
+            let support = from_the_carried(layout, support);
+            carrier_of[support.inner].extend(support.outer);
+            own[support.inner].push((i, support));
         }
         let order = sort(&carrier_of).map_err(|members| vec![LoadFault::Cycle { members }])?;
         let mut faults = Vec::new();
         let mut statics = vec![Statics::None; n];
         let mut takings = Vec::new();
         for &m in &order {
-            let mut places: Vec<f64> = layout.members[m].forces.iter().map(|f| f.0).collect();
-            places.extend(layout.members[m].moments.iter().map(|f| f.0));
-            places.extend(
-                layout
-                    .meshes
-                    .iter()
-                    .filter(|mesh| mesh.members.contains(&m))
-                    .map(|mesh| mesh.at),
-            );
-            places.extend(
-                layout
-                    .supports
-                    .iter()
-                    .filter(|s| carried(layout, s).1 == Some(m))
-                    .map(|s| s.at),
-            );
-            if layout.members[m].planet.is_some() && !own[m].is_empty() {
-                places.push(middle(&own[m]));
-            }
-            match Statics::new(m, &layout.members[m], &own[m], &places) {
+            match Statics::new(m, &layout.members[m], &own[m], &loaded_places(layout, m, &own[m])) {
                 Ok(found) => statics[m] = found,
                 Err(fault) => faults.push(fault),
             }
@@ -270,6 +236,38 @@ impl ShaftLoads {
             .map(|support| self.cases[support].sum(tangential, |_| 0.0).force)
             .collect()
     }
+}
+
+/// A support as the member that it carries sees it: thrust of a shaft towards +x is thrust towards -x of the members that it supports.
+fn from_the_carried(layout: &Layout, support: &SupportLayout) -> SupportLayout {
+    let (carried, carrier) = carried(layout, support);
+    let turned = carried != support.inner;
+    SupportLayout {
+        outer: carrier,
+        inner: carried,
+        axial: if turned {
+            support.axial.opposite()
+        } else {
+            support.axial
+        },
+        spring: if turned { -support.spring } else { support.spring },
+        ..*support
+    }
+}
+
+/// Where loads can act on a member: its own forces and moments, meshes, members that it carries, a planet's centrifugal force. \[m\]
+fn loaded_places(layout: &Layout, member: usize, own: &[(usize, SupportLayout)]) -> Vec<f64> {
+    let loads = &layout.members[member];
+    let mut places: Vec<f64> = loads.forces.iter().map(|f| f.0).collect();
+    places.extend(loads.moments.iter().map(|f| f.0));
+    let meshes = layout.meshes.iter();
+    places.extend(meshes.filter(|mesh| mesh.members.contains(&member)).map(|m| m.at));
+    let supports = layout.supports.iter();
+    places.extend(supports.filter(|s| carried(layout, s).1 == Some(member)).map(|s| s.at));
+    if loads.planet.is_some() && !own.is_empty() {
+        places.push(middle(own));
+    }
+    places
 }
 
 /// Centre of the supports of a planet, where its centrifugal force acts.

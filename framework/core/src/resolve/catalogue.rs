@@ -118,7 +118,44 @@ pub(super) fn fill(
     sources: &mut BTreeMap<String, ValueSource>,
     found: &mut Vec<Diagnostic>,
 ) {
-    let mut own: BTreeMap<String, CatalogueTable> = BTreeMap::new();
+    let own = written_catalogues(language, files, value, found);
+    let components = language.registry().sections().map(|(_, s)| (s.name, "bore"));
+    // A designation may be just a name, if the required keys are written.
+    let sections: Vec<(&str, &str)> = components.chain([(LUBRICANTS, "viscosity")]).collect();
+    for (section, needed) in sections {
+        let (shipped, own) = (language.catalogue(section), own.get(section));
+        for (id, entry) in entries_mut(value, section) {
+            let Some(designation) = entry.get("designation").and_then(Value::as_str).map(str::to_owned) else {
+                continue;
+            };
+            let row = own.into_iter().chain(shipped).find_map(|t| t.0.get(&designation));
+            if let Some(row) = row {
+                fill_entry(
+                    language,
+                    &format!("{section}.{id}"),
+                    entry,
+                    &designation,
+                    row,
+                    sources,
+                    found,
+                );
+            } else if absent(entry, needed) {
+                let rows = shipped.into_iter().chain(own).flat_map(|t| &t.0);
+                let rows: Vec<(&str, &CatalogueRow)> = rows.map(|(name, row)| (name.as_str(), row)).collect();
+                found.push(unknown_designation(section, id, &designation, &rows));
+            }
+        }
+    }
+}
+
+/// The catalogues that the document names, by section.
+fn written_catalogues(
+    language: &Language,
+    files: &Files,
+    value: &Value,
+    found: &mut Vec<Diagnostic>,
+) -> BTreeMap<String, CatalogueTable> {
+    let mut own = BTreeMap::new();
     for (section, file) in value.get("catalogues").and_then(Value::as_object).into_iter().flatten() {
         let path = format!("catalogues.{section}");
         let file = file.as_str().unwrap_or_default();
@@ -139,83 +176,72 @@ pub(super) fn fill(
             }
         }
     }
-    let components = language.registry().sections().map(|(_, s)| (s.name, "bore"));
-    // A designation may be just a name, if the required keys are written.
-    let sections: Vec<(&str, &str)> = components.chain([(LUBRICANTS, "viscosity")]).collect();
-    for (section, needed) in sections {
-        let shipped = language.catalogue(section);
-        for (id, entry) in entries_mut(value, section) {
-            let Some(designation) = entry.get("designation").and_then(Value::as_str).map(str::to_owned) else {
-                continue;
-            };
-            let row = own
-                .get(section)
-                .and_then(|t| t.0.get(&designation))
-                .or_else(|| shipped.and_then(|t| t.0.get(&designation)));
-            let Some(row) = row else {
-                if absent(entry, needed) {
-                    let names: Vec<&str> = shipped
-                        .into_iter()
-                        .chain(own.get(section))
-                        .flat_map(|t| t.0.keys())
-                        .map(String::as_str)
-                        .collect();
-                    let path = format!("{section}.{id}.designation");
-                    let error = Diagnostic::error(path, format!("no catalogue has `{designation}`"))
-                        .code(codes::UNKNOWN_DESIGNATION)
-                        .note(format!(
-                            "{} designations are known: `gearloss catalogue {}` lists them",
-                            names.len(),
-                            if section == LUBRICANTS { "oils" } else { section }
-                        ));
-                    if let Some((base, suffix)) = without_suffix(&designation, names.iter().copied()) {
-                        found.push(error.help(format!(
-                            "write `{base}`, which has the same dimensions and ratings; no row states what `{suffix}` changes, such as seals, \
-                             clearance or cage: state it in keys and in the model of this entry"
-                        )));
-                        continue;
-                    }
-                    let here = if section == LUBRICANTS {
-                        "state viscosity, kind and density here"
-                    } else {
-                        "state bore, outside, kind and ratings here"
-                    };
-                    let rows = shipped.into_iter().chain(own.get(section)).flat_map(|t| &t.0);
-                    let rows: Vec<(&str, &CatalogueRow)> = rows.map(|(name, row)| (name.as_str(), row)).collect();
-                    found.push(suggest(error, &designation, &rows, here));
+    own
+}
+
+/// The error for a designation without a row, among all rows of its section.
+fn unknown_designation(section: &str, id: &str, designation: &str, rows: &[(&str, &CatalogueRow)]) -> Diagnostic {
+    let path = format!("{section}.{id}.designation");
+    let error = Diagnostic::error(path, format!("no catalogue has `{designation}`"))
+        .code(codes::UNKNOWN_DESIGNATION)
+        .note(format!(
+            "{} designations are known: `gearloss catalogue {}` lists them",
+            rows.len(),
+            if section == LUBRICANTS { "oils" } else { section }
+        ));
+    if let Some((base, suffix)) = without_suffix(designation, rows.iter().map(|(name, _)| *name)) {
+        return error.help(format!(
+            "write `{base}`, which has the same dimensions and ratings; no row states what `{suffix}` changes, such as seals, \
+             clearance or cage: state it in keys and in the model of this entry"
+        ));
+    }
+    let here = if section == LUBRICANTS {
+        "state viscosity, kind and density here"
+    } else {
+        "state bore, outside, kind and ratings here"
+    };
+    suggest(error, designation, rows, here)
+}
+
+/// Fills the omitted keys of one component from its row.
+fn fill_entry(
+    language: &Language,
+    path: &str,
+    entry: &mut Map<String, Value>,
+    designation: &str,
+    row: &CatalogueRow,
+    sources: &mut BTreeMap<String, ValueSource>,
+    found: &mut Vec<Diagnostic>,
+) {
+    // A nested entry that is written, such as a viscosity, is not completed: a law with two parameters takes no third value.
+    let written: Vec<String> = entry.keys().filter(|key| !absent(entry, key)).cloned().collect();
+    for (key, filled) in &row.values {
+        let (head, rest) = key.split_once('.').unwrap_or((key, ""));
+        if written.iter().any(|w| w == head) {
+            continue;
+        }
+        let path = format!("{path}.{key}");
+        match language.checked(filled, &path) {
+            Ok(value) if rest.is_empty() => {
+                entry.insert(key.clone(), value);
+            }
+            Ok(value) => {
+                let nested = entry.entry(head).or_insert_with(|| Value::Object(Map::new()));
+                if !nested.is_object() {
+                    *nested = Value::Object(Map::new());
                 }
+                nested[rest] = value;
+            }
+            Err(list) => {
+                let row = format!("in the catalogue row `{designation}`");
+                found.extend(list.into_iter().map(|d| d.note(row.clone())));
                 continue;
-            };
-            // A nested entry that is written, such as a viscosity, is not completed: a law with two parameters takes no third value.
-            let written: Vec<String> = entry.keys().filter(|key| !absent(entry, key)).cloned().collect();
-            for (key, filled) in &row.values {
-                let (head, rest) = key.split_once('.').unwrap_or((key, ""));
-                if !written.iter().any(|w| w == head) {
-                    let path = format!("{section}.{id}.{key}");
-                    match language.checked(filled, &path) {
-                        Ok(value) if rest.is_empty() => {
-                            entry.insert(key.clone(), value);
-                        }
-                        Ok(value) => {
-                            let nested = entry.entry(head).or_insert_with(|| Value::Object(Map::new()));
-                            if !nested.is_object() {
-                                *nested = Value::Object(Map::new());
-                            }
-                            nested[rest] = value;
-                        }
-                        Err(list) => {
-                            let row = format!("in the catalogue row `{designation}`");
-                            found.extend(list.into_iter().map(|d| d.note(row.clone())));
-                            continue;
-                        }
-                    }
-                    let from = ValueSource::Catalogue {
-                        designation: designation.clone(),
-                        confidence: row.confidence.clone(),
-                    };
-                    sources.insert(format!("{section}.{id}.{key}"), from);
-                }
             }
         }
+        let from = ValueSource::Catalogue {
+            designation: designation.to_owned(),
+            confidence: row.confidence.clone(),
+        };
+        sources.insert(path, from);
     }
 }

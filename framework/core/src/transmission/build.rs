@@ -3,16 +3,17 @@
 use std::sync::Arc;
 
 use super::drag_models::Drags;
+use super::drags::Covered;
 use super::gearing::gearing;
 use super::members::Members;
 use super::nodes::{HeatPath, NodeNames, unmet};
 use super::oils::OilNumbers;
-use super::planets;
+use super::planets::{self, Held};
 use super::plausible;
 use super::seats::{GearSeat, MeshSeat};
 use super::states::{GearState, states};
 use super::statics::{Imported, imported, load_factors, shaft_loads};
-use super::{Component, MeshModel, PartInfo, PartKind, Port, RatedSupport, Sharing, Transmission, WHEELS};
+use super::{Component, DragModel, MeshModel, PartInfo, PartKind, Port, RatedSupport, Sharing, Transmission, WHEELS};
 use crate::attach::{Common, Level, Names, Places, SeatedClearance, SeatedSupport, dangling};
 use crate::codes;
 use crate::description::{GearboxEntry, NetworkChoice, ThermalMode};
@@ -33,134 +34,89 @@ impl Transmission {
     /// # Errors
     /// All faults, by path.
     pub fn new(language: &Language, files: &Files, resolved: &Resolved) -> Result<Self, Vec<Diagnostic>> {
-        let entry: GearboxEntry = serde_json::from_value(resolved.value.clone())
-            .map_err(|e| vec![Diagnostic::error("", format!("the description cannot be read: {e}"))])?;
         let mut found = Vec::new();
         let mut warnings = Vec::new();
-        let members = Members::new(&entry, &mut found);
-        let ports = ports(&entry, &members, &mut found);
-        let (ports, wheels) = joined(&entry, &members, ports, &mut found);
-        classify(&mut found, codes::SHAFTS);
-        let (gears, meshes) = gearing(language.registry(), &entry, &members, &mut found, &mut warnings);
-        let sharing = planets::sharing(&entry, &members, &mut found);
-        classify(&mut found, codes::GEARING);
-        let nodes = NodeNames::new(&entry, &mut found);
-        classify(&mut found, codes::NETWORK);
-        let mut oils = OilNumbers::new(&entry, &members, &meshes, &nodes);
+        let frame = Frame::new(language, resolved, &mut found, &mut warnings)?;
+        let (entry, members, ports) = (&frame.entry, &frame.members, &frame.ports);
+        let mut oils = OilNumbers::new(entry, members, &frame.meshes, &frame.nodes);
         let mut build = Build::new(language.registry(), files);
-
-        let Placing {
-            mut components,
-            mut parts,
-            supports,
-            clearances,
-        } = place(
-            language, resolved, &members, &sharing, &mut oils, &mut build, &mut found,
+        let models = Models::new(
+            language,
+            resolved,
+            &frame,
+            &mut oils,
+            &mut build,
+            &mut found,
+            &mut warnings,
         );
-        classify(&mut found, codes::COMPONENT);
-        let mut mesh_models = mesh_models(&entry, &meshes, &sharing, &mut oils, &mut build, &mut parts, &mut found);
-        give_bodies(&mut mesh_models, &gears, &nodes, &mut warnings);
-        let held = planets::models(&entry, &members, &gears, &meshes, &mut oils, &mut build, &mut found);
-        let mut covered = Vec::new();
-        for model in held {
-            parts.push(part_of_set(&model, components.len()));
-            components.push(Component::new(model.placed, model.loss_factor, None));
-            covered.push(model.covered);
-        }
-        classify(&mut found, codes::MODEL);
-        let levels = levels(&entry, &gears, &oils);
-        warnings.extend(plausible::oil_level(&entry, &gears, &levels, &oils));
-        let drags = Drags {
-            registry: language.registry(),
-            entry: &entry,
-            gears: &gears,
-            meshes: &meshes,
-            levels: &levels,
-            covered,
-            oils: &mut oils,
-            build: &mut build,
-            parts: &mut parts,
-            models: Vec::new(),
-            found: &mut found,
-        };
-        let drags = drags.built();
-        classify(&mut found, codes::DRAG);
-        planets::assembly(&entry, &members, &gears, &meshes, &mut warnings);
-        let housing = Housing::new(&entry, &mut build, &mut found);
+        let supports = &models.supports;
+        let housing = Housing::new(entry, &mut build, &mut found);
         classify(&mut found, codes::THERMAL);
         let around = Around {
-            names: &nodes,
+            names: &frame.nodes,
             members: &members.names,
-            gears: &gears,
+            gears: &frame.gears,
             lubricants: &oils.lubricants(),
             housing: housing.outside(),
-            ports: &ports,
+            ports,
             files,
         };
-        let mut network = Network::new(&entry, &around, &mut build, &mut found);
+        let mut network = Network::new(entry, &around, &mut build, &mut found);
         let laid_out = *resolved.source_of("thermal.network") == ValueSource::Network;
-        check_network(&entry, laid_out, &parts, &mut found, &mut warnings);
+        check_network(entry, laid_out, &models.parts, &mut found, &mut warnings);
         classify(&mut found, codes::NETWORK);
-        let states = if found.is_empty() {
-            states(&entry, &members, &meshes, &clearances, (&ports, &wheels), &mut found)
-        } else {
-            Vec::new()
-        };
+        let ends = (&ports[..], &frame.wheels[..]);
+        let states = states(entry, members, &frame.meshes, &models.clearances, ends, &mut found);
         classify(&mut found, codes::POWER_FLOW);
-        let loads = shaft_loads(&entry, &members, &meshes, &supports, &mut found, &mut warnings);
-        let load_factors = load_factors(&supports, &ports, &mut found);
-        let imported = imported_loads(&entry, files, &ports, &states, &supports, &mut found);
+        let loads = shaft_loads(entry, members, &frame.meshes, supports, &mut found, &mut warnings);
+        let load_factors = load_factors(supports, ports, &mut found);
+        let imported = imported_loads(entry, files, ports, &states, supports, &mut found);
         classify(&mut found, codes::SUPPORT);
         let (oils, mut more) = oils.finish();
         classify(&mut more, codes::LUBRICANT);
         // Errors of an oil cause many of the later ones.
         found.splice(0..0, more);
-        if let (true, Some(loads)) = (found.is_empty(), loads) {
-            let (instances, cells) = build.finish();
-            let rated: Vec<RatedSupport> = components.iter().filter_map(rated).collect();
-            parts.sort_by_key(|p| document_order(resolved, &p.path));
-            if let Some(network) = &mut network {
-                warnings.extend(network.warnings());
-                let heat = |part: &PartInfo| match part.kind {
-                    PartKind::Mesh(i) => mesh_models[i].bodies.map(HeatPath::Gears),
-                    _ => None,
-                };
-                let heat = |part: &PartInfo| heat(part).unwrap_or_else(|| nodes.heat(&part.path));
-                network.set_heat(parts.iter().map(heat).collect());
-            }
-            let built = Self {
-                title: entry.title.clone().unwrap_or_default(),
-                members: members.names,
-                ports,
-                wheels,
-                states,
-                gears,
-                meshes: mesh_models,
-                drags,
-                components,
-                parts,
-                instances,
-                cells: cells + rated.len(),
-                rated,
-                oils,
-                loads,
-                load_factors,
-                imported,
-                supports: supports.iter().map(|s| s.path.clone()).collect(),
-                uneven: sharing.iter().any(Option::is_some),
-                locked_below: entry.locked_below,
-                warnings,
-                oil_temperature: entry.thermal.oil,
-                thermal_mode: entry.thermal.mode,
-                rating: entry.rating,
-                housing,
-                network,
-            };
-            built.check_states()?;
-            Ok(built)
-        } else {
-            Err(found)
+        let Some(loads) = loads.filter(|_| found.is_empty()) else {
+            return Err(found);
+        };
+        let (instances, cells) = build.finish();
+        let rated: Vec<RatedSupport> = models.components.iter().filter_map(rated).collect();
+        let mut parts = models.parts;
+        parts.sort_by_key(|p| document_order(resolved, &p.path));
+        if let Some(network) = &mut network {
+            warnings.extend(network.warnings());
+            network.set_heat(heat_of(&parts, &models.meshes, &frame.nodes));
         }
+        let built = Self {
+            title: entry.title.clone().unwrap_or_default(),
+            supports: supports.iter().map(|s| s.path.clone()).collect(),
+            locked_below: entry.locked_below,
+            oil_temperature: entry.thermal.oil,
+            thermal_mode: entry.thermal.mode,
+            rating: entry.rating,
+            members: frame.members.names,
+            ports: frame.ports,
+            wheels: frame.wheels,
+            states,
+            gears: frame.gears,
+            meshes: models.meshes,
+            drags: models.drags,
+            components: models.components,
+            parts,
+            instances,
+            cells: cells + rated.len(),
+            rated,
+            oils,
+            loads,
+            load_factors,
+            imported,
+            uneven: frame.sharing.iter().any(Option::is_some),
+            warnings,
+            housing,
+            network,
+        };
+        built.check_states()?;
+        Ok(built)
     }
 }
 
@@ -178,16 +134,126 @@ impl Transmission {
     }
 }
 
-/// The part of the drag of a planetary set, by the number of its component.
-fn part_of_set(held: &planets::Held, component: usize) -> PartInfo {
-    PartInfo {
-        path: held.path.clone(),
-        mechanism: PlanetaryDrag::KEY,
-        kind: PartKind::Component(component),
-        count: 1.0,
-        loss_factor: held.loss_factor,
-        notes: held.placed.notes(),
+/// The description as read, and what carries its models: shafts, ports, gears and meshes.
+struct Frame {
+    entry: GearboxEntry,
+    members: Members,
+    ports: Vec<Port>,
+    wheels: Vec<Port>,
+    gears: Vec<GearSeat>,
+    meshes: Vec<MeshSeat>,
+    /// Unequal load sharing of each planet body.
+    sharing: Vec<Option<Sharing>>,
+    nodes: NodeNames,
+}
+
+impl Frame {
+    fn new(
+        language: &Language,
+        resolved: &Resolved,
+        found: &mut Vec<Diagnostic>,
+        warnings: &mut Vec<Diagnostic>,
+    ) -> Result<Self, Vec<Diagnostic>> {
+        let entry: GearboxEntry = serde_json::from_value(resolved.value.clone())
+            .map_err(|e| vec![Diagnostic::error("", format!("the description cannot be read: {e}"))])?;
+        let members = Members::new(&entry, found);
+        let ports = ports(&entry, &members, found);
+        let (ports, wheels) = joined(&entry, &members, ports, found);
+        classify(found, codes::SHAFTS);
+        let (gears, meshes) = gearing(language.registry(), &entry, &members, found, warnings);
+        let sharing = planets::sharing(&entry, &members, found);
+        classify(found, codes::GEARING);
+        let nodes = NodeNames::new(&entry, found);
+        classify(found, codes::NETWORK);
+        Ok(Self {
+            entry,
+            members,
+            ports,
+            wheels,
+            gears,
+            meshes,
+            sharing,
+            nodes,
+        })
     }
+}
+
+/// The models on a frame, and the parts of the loss that they compute.
+struct Models {
+    components: Vec<Component>,
+    meshes: Vec<MeshModel>,
+    drags: Vec<DragModel>,
+    parts: Vec<PartInfo>,
+    supports: Vec<SeatedSupport>,
+    clearances: Vec<SeatedClearance>,
+}
+
+impl Models {
+    fn new(
+        language: &Language,
+        resolved: &Resolved,
+        frame: &Frame,
+        oils: &mut OilNumbers<'_>,
+        build: &mut Build<'_>,
+        found: &mut Vec<Diagnostic>,
+        warnings: &mut Vec<Diagnostic>,
+    ) -> Self {
+        let (entry, gears, meshes) = (&frame.entry, &frame.gears[..], &frame.meshes[..]);
+        let mut models = place(language, resolved, frame, oils, build, found);
+        classify(found, codes::COMPONENT);
+        models.meshes = mesh_models(frame, oils, build, &mut models.parts, found);
+        give_bodies(&mut models.meshes, gears, &frame.nodes, warnings);
+        let held = planets::models(entry, &frame.members, gears, meshes, oils, build, found);
+        let covered = place_sets(held, &mut models.components, &mut models.parts);
+        classify(found, codes::MODEL);
+        let levels = levels(entry, gears, oils);
+        warnings.extend(plausible::oil_level(entry, gears, &levels, oils));
+        let drags = Drags {
+            registry: language.registry(),
+            entry,
+            gears,
+            meshes,
+            levels: &levels,
+            covered,
+            oils,
+            build,
+            parts: &mut models.parts,
+            models: Vec::new(),
+            found,
+        };
+        models.drags = drags.built();
+        classify(found, codes::DRAG);
+        planets::assembly(entry, &frame.members, gears, meshes, warnings);
+        models
+    }
+}
+
+/// Adds the drags of planetary sets to the components; returns what they cover.
+fn place_sets(held: Vec<Held>, components: &mut Vec<Component>, parts: &mut Vec<PartInfo>) -> Vec<Covered> {
+    let mut covered = Vec::new();
+    for model in held {
+        parts.push(PartInfo {
+            path: model.path,
+            mechanism: PlanetaryDrag::KEY,
+            kind: PartKind::Component(components.len()),
+            count: 1.0,
+            loss_factor: model.loss_factor,
+            notes: model.placed.notes(),
+        });
+        components.push(Component::new(model.placed, model.loss_factor, None));
+        covered.push(model.covered);
+    }
+    covered
+}
+
+/// Where the heat of each part enters the network.
+fn heat_of(parts: &[PartInfo], meshes: &[MeshModel], nodes: &NodeNames) -> Vec<HeatPath> {
+    let of_gears = |part: &PartInfo| match part.kind {
+        PartKind::Mesh(i) => meshes[i].bodies.map(HeatPath::Gears),
+        _ => None,
+    };
+    let heat = |part: &PartInfo| of_gears(part).unwrap_or_else(|| nodes.heat(&part.path));
+    parts.iter().map(heat).collect()
 }
 
 /// Gives meshes the thermal nodes of their gears; warns where only one gear of a mesh has one.
@@ -377,22 +443,16 @@ fn joined(
     (ports, wheels)
 }
 
-struct Placing {
-    components: Vec<Component>,
-    parts: Vec<PartInfo>,
-    supports: Vec<SeatedSupport>,
-    clearances: Vec<SeatedClearance>,
-}
-
+/// Places the components of all sections.
 fn place(
     language: &Language,
     resolved: &Resolved,
-    members: &Members,
-    sharing: &[Option<Sharing>],
+    frame: &Frame,
     oils: &mut OilNumbers<'_>,
     build: &mut Build<'_>,
     found: &mut Vec<Diagnostic>,
-) -> Placing {
+) -> Models {
+    let members = &frame.members;
     let by_name: Vec<(String, Option<u16>)> = members
         .names
         .iter()
@@ -422,7 +482,11 @@ fn place(
                         loss_factor,
                         notes: placed.notes(),
                     });
-                    let sharing = placed.between().into_iter().flatten().find_map(|m| sharing[m as usize]);
+                    let sharing = placed
+                        .between()
+                        .into_iter()
+                        .flatten()
+                        .find_map(|m| frame.sharing[m as usize]);
                     components.push(Component::new(placed, count * loss_factor, sharing));
                 }
                 Ok(None) => {}
@@ -432,8 +496,10 @@ fn place(
     }
     let (supports, clearances, more) = names.finish();
     found.extend(more);
-    Placing {
+    Models {
         components,
+        meshes: Vec::new(),
+        drags: Vec::new(),
         parts,
         supports,
         clearances,
@@ -441,17 +507,16 @@ fn place(
 }
 
 fn mesh_models(
-    entry: &GearboxEntry,
-    meshes: &[MeshSeat],
-    sharing: &[Option<Sharing>],
+    frame: &Frame,
     oils: &mut OilNumbers<'_>,
     build: &mut Build<'_>,
     parts: &mut Vec<PartInfo>,
     found: &mut Vec<Diagnostic>,
 ) -> Vec<MeshModel> {
     let mut models = Vec::new();
-    for (i, seat) in meshes.iter().enumerate() {
-        let Some(written) = seat.path.strip_prefix("meshes.").and_then(|id| entry.meshes.get(id)) else {
+    for (i, seat) in frame.meshes.iter().enumerate() {
+        let id = seat.path.strip_prefix("meshes.");
+        let Some(written) = id.and_then(|id| frame.entry.meshes.get(id)) else {
             continue;
         };
         let none = ModelRef::<GearMesh>::new("none".into());
@@ -478,7 +543,7 @@ fn mesh_models(
                 models.push(MeshModel {
                     bodies: None,
                     loss_factor: written.loss_factor,
-                    sharing: seat.members.iter().find_map(|m| sharing[*m]),
+                    sharing: seat.members.iter().find_map(|m| frame.sharing[*m]),
                     force_per_multiplier: f64::from(seat.pair.z[0]) / (seat.count * seat.pair.working_radius[0]),
                     seat: seat.clone(),
                     part,

@@ -1,7 +1,7 @@
 //! Common settings of a series of points: gear state, ports with given speed, ports with given torque.
 
 use super::Transmission;
-use super::states::{all_ports, explain, prescribed};
+use super::states::{GearState, all_ports, explain, prescribed};
 use crate::codes;
 use crate::document::{Diagnostic, classify};
 use crate::flow::{Flow, FlowFault};
@@ -54,50 +54,12 @@ impl Transmission {
             numbers(speeds)
         };
         let torque_ports = numbers(torques);
-        for (ports, what) in [(&speed_ports, "speed"), (&torque_ports, "torque")] {
-            for (i, port) in ports.iter().enumerate() {
-                if ports[..i].contains(port) {
-                    let name = &self.ports[*port].name;
-                    found.push(
-                        Diagnostic::error(path.clone(), format!("the {what} at `{name}` is stated twice"))
-                            .help("state it once"),
-                    );
-                }
-            }
-        }
-        for port in &speed_ports {
-            let member = self.ports[*port].member;
-            if state.standing.contains(&member) {
-                let name = &self.ports[*port].name;
-                found.push(
-                    Diagnostic::error(path.clone(), format!("`{name}` is stationary in `{gear}`"))
-                        .help("state no speed there, or remove it from `standstill`"),
-                );
-            }
-        }
+        self.check_given(state, &speed_ports, &torque_ports, &path, &mut found);
         if !found.is_empty() {
             classify(&mut found, codes::GIVEN);
             return Err(found);
         }
-        let columns = all_ports(state, &self.ports);
-        let fixed = prescribed(state, &self.ports, &speed_ports);
-        // If a point prescribes both sides of a differential, the rule of equal speeds is dropped.
-        let (motion, equal) = match Motion::new(&state.train, &columns, &fixed) {
-            Ok(motion) => (motion, state.equal.clone()),
-            Err(faults) => {
-                let bare: Vec<usize> = fixed.iter().copied().filter(|c| !state.equal.contains(c)).collect();
-                let without: Vec<usize> = columns.iter().copied().filter(|c| !state.equal.contains(c)).collect();
-                match Motion::new(&state.train, &without, &bare) {
-                    Ok(motion) if !state.equal.is_empty() => (motion, Vec::new()),
-                    _ => {
-                        return Err(faults
-                            .iter()
-                            .map(|f| explain(f, state, &self.members, &self.ports, &path))
-                            .collect());
-                    }
-                }
-            }
-        };
+        let (motion, equal) = self.motion(state, &speed_ports, &path)?;
         let mut given: Vec<usize> = torque_ports.iter().map(|p| self.ports[*p].member).collect();
         given.extend(equal.iter().copied());
         let mut unknown: Vec<usize> = self
@@ -136,6 +98,64 @@ impl Transmission {
             speed_ports,
             torque_ports,
         })
+    }
+
+    /// Checks that each speed and torque is given once, and no speed at a port that stands.
+    fn check_given(
+        &self,
+        state: &GearState,
+        speed_ports: &[usize],
+        torque_ports: &[usize],
+        path: &str,
+        found: &mut Vec<Diagnostic>,
+    ) {
+        for (ports, what) in [(speed_ports, "speed"), (torque_ports, "torque")] {
+            for (i, port) in ports.iter().enumerate() {
+                if ports[..i].contains(port) {
+                    let name = &self.ports[*port].name;
+                    found.push(
+                        Diagnostic::error(path, format!("the {what} at `{name}` is stated twice"))
+                            .help("state it once"),
+                    );
+                }
+            }
+        }
+        for port in speed_ports {
+            let port = &self.ports[*port];
+            if state.standing.contains(&port.member) {
+                found.push(
+                    Diagnostic::error(path, format!("`{}` is stationary in `{}`", port.name, state.name))
+                        .help("state no speed there, or remove it from `standstill`"),
+                );
+            }
+        }
+    }
+
+    /// The motion with prescribed speeds, and the rules of equal speed that it keeps: a point that prescribes both sides of a
+    /// differential drops them.
+    fn motion(
+        &self,
+        state: &GearState,
+        speed_ports: &[usize],
+        path: &str,
+    ) -> Result<(Motion, Vec<usize>), Vec<Diagnostic>> {
+        let columns = all_ports(state, &self.ports);
+        let fixed = prescribed(state, &self.ports, speed_ports);
+        let faults = match Motion::new(&state.train, &columns, &fixed) {
+            Ok(motion) => return Ok((motion, state.equal.clone())),
+            Err(faults) => faults,
+        };
+        let unruled = |columns: &[usize]| -> Vec<usize> {
+            let columns = columns.iter().copied();
+            columns.filter(|c| !state.equal.contains(c)).collect()
+        };
+        match Motion::new(&state.train, &unruled(&columns), &unruled(&fixed)) {
+            Ok(motion) if !state.equal.is_empty() => Ok((motion, Vec::new())),
+            _ => Err(faults
+                .iter()
+                .map(|f| explain(f, state, &self.members, &self.ports, path))
+                .collect()),
+        }
     }
 
     /// Speeds of all members for the speeds at the case's speed ports. \[rad/s\]
@@ -189,7 +209,7 @@ impl Transmission {
         self.ports.len().saturating_sub(state.freedom + state.equal.len())
     }
 
-    fn flow_fault(&self, fault: &FlowFault, state: &super::GearState, ruled: usize, path: &str) -> Diagnostic {
+    fn flow_fault(&self, fault: &FlowFault, state: &GearState, ruled: usize, path: &str) -> Diagnostic {
         let names: Vec<&str> = self.ports.iter().map(|p| p.name.as_str()).collect();
         match fault {
             FlowFault::Count { needed, given } => {

@@ -42,7 +42,7 @@ pub struct GearState {
     pub freedom: usize,
 }
 
-/// Builds and checks every gear state.
+/// Builds and checks every gear state of a description without faults so far.
 pub fn states(
     entry: &GearboxEntry,
     members: &Members,
@@ -51,6 +51,9 @@ pub fn states(
     (ports, wheels): (&[super::Port], &[super::Port]),
     found: &mut Vec<Diagnostic>,
 ) -> Vec<GearState> {
+    if !found.is_empty() {
+        return Vec::new();
+    }
     let base = all_open(entry, members, meshes, wheels, found);
     let written: Vec<(String, Vec<String>, Vec<String>)> = if entry.gear_states.is_empty() {
         vec![("only".to_owned(), Vec::new(), Vec::new())]

@@ -202,6 +202,7 @@ fn b1_b1b_b4_loss_factors() {
 
 /// The table of the two-speed example: one column for each mesh.
 #[test]
+#[allow(clippy::too_many_lines)]
 fn two_speed_geometry_table() {
     struct Column {
         z: [u32; 2],
