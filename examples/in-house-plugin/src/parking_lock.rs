@@ -1,7 +1,5 @@
 //! Drag of parking locks: a mechanism with its own section `parking_locks`.
 
-use std::sync::Arc;
-
 use gearloss_framework::prelude::*;
 
 /// Marker of the mechanism; never constructed.
@@ -37,24 +35,12 @@ impl Mechanism for ParkingLock {
     const MEANING: &'static str = "Drag of an open parking lock.";
     const ANSWER: &'static str = "Drag moment. [Nm]";
     const EXAMPLE: &'static str = "{ wheel: 90 mm }";
-    const QUANTITIES: &'static [Quantity<Self>] = ParkingLockAt::QUANTITIES;
     type Part = ParkingLockPart;
     type At<'a> = ParkingLockAt<'a>;
     type Answer = Loss;
     type Model = dyn ParkingLockModel;
 
-    fn usual<'a>(part: &'a ParkingLockPart, notes: Notes<'a>) -> ParkingLockAt<'a> {
-        ParkingLockAt::usual(part, notes)
-    }
-    fn answer(model: &Self::Model, at: &ParkingLockAt<'_>) -> Result<Loss, Undefined> {
-        model.loss(at)
-    }
-    fn speed(at: &ParkingLockAt<'_>) -> f64 {
-        at.speed
-    }
-    fn scalar(law: Scalar<Self>) -> Arc<Self::Model> {
-        Arc::new(law)
-    }
+    answered_by!(loss);
 }
 
 impl Component for ParkingLock {

@@ -44,17 +44,17 @@ pub trait Mechanism: Sized + 'static {
     const ANSWER: &'static str;
     /// An example part for the conformance suite and `eval`, in YAML.
     const EXAMPLE: &'static str;
-    /// The quantities of the context, as listed by [`context!`](crate::context).
-    const QUANTITIES: &'static [Quantity<Self>];
-    /// The laws between them, as listed by [`context!`](crate::context).
-    const LAWS: &'static [Law<Self>] = &[];
+    /// The quantities of the context.
+    const QUANTITIES: &'static [Quantity<Self>] = <Self::At<'static> as Inputs<'static, Self>>::QUANTITIES;
+    /// The laws between them.
+    const LAWS: &'static [Law<Self>] = <Self::At<'static> as Inputs<'static, Self>>::LAWS;
     /// The term set by `constant`, `formula` and `table`.
     const TOTAL: Term = Term::no_load("total");
     /// The component: the typed fields of its entry. [`NoPart`] if there is none. Derived values are computed during
     /// deserialisation (`serde(try_from)`), so that an existing part is complete.
     type Part: DeserializeOwned + JsonSchema + Send + Sync;
     /// All inputs of a model; defined by [`context!`](crate::context).
-    type At<'a>: Copy + Noted<'a>;
+    type At<'a>: Inputs<'a, Self>;
     /// A [`Loss`], or an `f64` for a coefficient.
     type Answer: Answer;
     /// The plain trait that a model implements, as `dyn`.
@@ -70,24 +70,47 @@ pub trait Mechanism: Sized + 'static {
         None
     }
     /// A context at its usual point, the base point of `eval` and the conformance grid.
-    fn usual<'a>(part: &'a Self::Part, notes: Notes<'a>) -> Self::At<'a>;
-    /// Calls the model.
+    fn usual<'a>(part: &'a Self::Part, notes: Notes<'a>) -> Self::At<'a> {
+        Self::At::usual(part, notes)
+    }
+    /// Calls the model; written by [`answered_by!`](crate::answered_by).
     fn answer(model: &Self::Model, at: &Self::At<'_>) -> Result<Self::Answer, Undefined>;
-    /// The relative speed opposed by the moments of the result. \[rad/s\] One for a coefficient.
-    fn speed(_at: &Self::At<'_>) -> f64 {
-        1.0
+    /// The relative speed opposed by the moments of the result: the quantity `speed`; one if there is none. \[rad/s\]
+    fn speed(at: &Self::At<'_>) -> f64 {
+        let speed = Self::QUANTITIES.iter().find(|q| q.name == "speed");
+        speed.map_or(1.0, |q| (q.get)(at))
     }
     /// Compares the batched results of models with those at single points around a context; for mechanisms whose models may
     /// implement batched evaluation. Returns the faults.
     fn compare_batched(_model: &Self::Model, _at: &Self::At<'_>, _notes: NoteBase) -> Option<&'static str> {
         None
     }
-    /// The adapter through which `none`, `constant`, `formula` and `table` serve this mechanism.
+    /// The adapter through which `none`, `constant`, `formula` and `table` serve this mechanism; written by
+    /// [`answered_by!`](crate::answered_by).
     fn scalar(law: Scalar<Self>) -> Arc<Self::Model>;
 }
 
-/// A context with notes; [`context!`](crate::context) implements it.
-pub trait Noted<'a> {
+/// Writes how a [`Mechanism`] calls its models, by the method of their trait: `answered_by!(loss);` in its `impl`.
+#[macro_export]
+macro_rules! answered_by {
+    ($method:ident) => {
+        fn answer(model: &Self::Model, at: &Self::At<'_>) -> Result<Self::Answer, $crate::loss::Undefined> {
+            model.$method(at)
+        }
+        fn scalar(law: $crate::mechanism::Scalar<Self>) -> ::std::sync::Arc<Self::Model> {
+            ::std::sync::Arc::new(law)
+        }
+    };
+}
+
+/// All inputs of the models of a mechanism; [`context!`](crate::context) implements it.
+pub trait Inputs<'a, M: Mechanism>: Copy {
+    /// The list of the quantities.
+    const QUANTITIES: &'static [Quantity<M>];
+    /// The laws between them.
+    const LAWS: &'static [Law<M>];
+    /// The context at its usual point.
+    fn usual(part: &'a M::Part, notes: Notes<'a>) -> Self;
     /// Target of limits, observed quantities and steps.
     fn notes(&self) -> Notes<'a>;
 }
@@ -268,35 +291,38 @@ macro_rules! context {
             pub notes: $crate::loss::Notes<'a>,
         }
 
-        impl<'a> $crate::mechanism::Noted<'a> for $At<'a> {
+        impl<'a> $crate::mechanism::Inputs<'a, $M> for $At<'a> {
+            const QUANTITIES: &'static [$crate::mechanism::Quantity<$M>] = &[$($crate::mechanism::Quantity {
+                name: stringify!($name), doc: concat!($($doc),+), usual: $usual, least: $least, greatest: $greatest, from: $from,
+                get: |at| at.$name, set: |at, si| at.$name = si,
+            }),+];
+
+            const LAWS: &'static [$crate::mechanism::Law<$M>] = &[$($($crate::mechanism::Law {
+                text: $law, quantities: &[$((stringify!($of), $follows)),+], always: <[&str]>::is_empty(&[$(stringify!($usually))?]),
+            }),+)?];
+
+            fn usual(part: &'a <$M as $crate::mechanism::Mechanism>::Part, notes: $crate::loss::Notes<'a>) -> Self {
+                // Models evaluate others at their own contexts at every point, so units are looked up once.
+                const COUNT: usize = <$M as $crate::mechanism::Mechanism>::QUANTITIES.len();
+                static USUAL: ::std::sync::OnceLock<[f64; COUNT]> = ::std::sync::OnceLock::new();
+                let [$($name),+] = *USUAL.get_or_init(|| {
+                    ::std::array::from_fn(|i| {
+                        let q = &<$M as $crate::mechanism::Mechanism>::QUANTITIES[i];
+                        q.unit().to_si(q.usual)
+                    })
+                });
+                Self { part, $($name,)+ notes }
+            }
+
             fn notes(&self) -> $crate::loss::Notes<'a> {
                 self.notes
             }
         }
 
         impl<'a> $At<'a> {
-            /// The list of the quantities.
-            pub const QUANTITIES: &'static [$crate::mechanism::Quantity<$M>] = &[$($crate::mechanism::Quantity {
-                name: stringify!($name), doc: concat!($($doc),+), usual: $usual, least: $least, greatest: $greatest, from: $from,
-                get: |at| at.$name, set: |at, si| at.$name = si,
-            }),+];
-
-            /// The laws between them.
-            pub const LAWS: &'static [$crate::mechanism::Law<$M>] = &[$($($crate::mechanism::Law {
-                text: $law, quantities: &[$((stringify!($of), $follows)),+], always: <[&str]>::is_empty(&[$(stringify!($usually))?]),
-            }),+)?];
-
             /// The context at its usual point.
             pub fn usual(part: &'a <$M as $crate::mechanism::Mechanism>::Part, notes: $crate::loss::Notes<'a>) -> Self {
-                // Models evaluate others at their own contexts at every point, so units are looked up once.
-                static USUAL: ::std::sync::OnceLock<[f64; <$At<'static>>::QUANTITIES.len()]> = ::std::sync::OnceLock::new();
-                let [$($name),+] = *USUAL.get_or_init(|| {
-                    ::std::array::from_fn(|i| {
-                        let q = &Self::QUANTITIES[i];
-                        q.unit().to_si(q.usual)
-                    })
-                });
-                Self { part, $($name,)+ notes }
+                <Self as $crate::mechanism::Inputs<'a, $M>>::usual(part, notes)
             }
 
             /// The same with some quantities changed.

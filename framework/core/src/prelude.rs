@@ -30,5 +30,6 @@ pub use crate::mechanism::{
 pub use crate::registry::{Build, Catalogue, Evidence, ShippedCycle, ShippedSet, default_of, formula, inventory};
 pub use crate::table::{Interpolation, Outside, Reading};
 pub use crate::{
-    coefficients, context, limits, observed, origin, register, register_component, register_mechanism, terms,
+    answered_by, coefficients, context, limits, observed, origin, register, register_component, register_mechanism,
+    terms,
 };

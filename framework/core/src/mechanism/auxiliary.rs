@@ -1,12 +1,9 @@
 //! Auxiliaries: pumps and other components driven by a shaft.
 
-use std::sync::Arc;
-
 use crate::attach::{MemberSite, OnMember};
-use crate::context;
 use crate::loss::{Loss, Notes, Undefined};
-use crate::mechanism::Scalar;
-use crate::mechanism::{Component, Law, Mechanism, NoPart, Quantity};
+use crate::mechanism::{Component, Mechanism, NoPart, Scalar};
+use crate::{answered_by, context};
 
 /// Marker of the mechanism; never constructed.
 #[derive(Debug)]
@@ -43,25 +40,12 @@ impl Mechanism for Auxiliary {
     const MEANING: &'static str = "Torque that a pump or another auxiliary takes from a shaft.";
     const ANSWER: &'static str = "Torque taken from the shaft. [Nm]";
     const EXAMPLE: &'static str = "{}";
-    const QUANTITIES: &'static [Quantity<Self>] = AuxiliaryAt::QUANTITIES;
-    const LAWS: &'static [Law<Self>] = AuxiliaryAt::LAWS;
     type Part = NoPart;
     type At<'a> = AuxiliaryAt<'a>;
     type Answer = Loss;
     type Model = dyn AuxiliaryModel;
 
-    fn usual<'a>(part: &'a NoPart, notes: Notes<'a>) -> AuxiliaryAt<'a> {
-        AuxiliaryAt::usual(part, notes)
-    }
-    fn answer(model: &Self::Model, at: &AuxiliaryAt<'_>) -> Result<Loss, Undefined> {
-        model.loss(at)
-    }
-    fn speed(at: &AuxiliaryAt<'_>) -> f64 {
-        at.speed
-    }
-    fn scalar(law: Scalar<Self>) -> Arc<Self::Model> {
-        Arc::new(law)
-    }
+    answered_by!(loss);
 }
 
 impl Component for Auxiliary {

@@ -1,17 +1,14 @@
 //! Friction of rolling bearings.
 
-use std::sync::Arc;
-
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::attach::{Support, SupportSite};
-use crate::context;
 use crate::lanes::{LANES, Lane, LaneNotes, LossLanes, REMEMBERED, each, same_notes};
 use crate::loads::{LoadLanes, StaticFactors, StaticRating};
 use crate::loss::{Loss, NoteBase, Notes, Term, Undefined};
-use crate::mechanism::Scalar;
-use crate::mechanism::{Component, Mechanism, Quantity};
+use crate::mechanism::{Component, Mechanism, Scalar};
+use crate::{answered_by, context};
 
 /// Marker of the mechanism; never constructed.
 #[derive(Debug)]
@@ -343,22 +340,14 @@ impl Mechanism for Bearing {
     const MEANING: &'static str = "Friction of a rolling bearing.";
     const ANSWER: &'static str = "Friction moment. [Nm]";
     const EXAMPLE: &'static str = "{ kind: deep_groove_ball, series: \"63\", bore: 40 mm, outside: 90 mm, width: 23 mm, c0: 24000 N, c: 42300 N }";
-    const QUANTITIES: &'static [Quantity<Self>] = BearingAt::QUANTITIES;
     const TOTAL: Term = Term::load("total");
     type Part = BearingPart;
     type At<'a> = BearingAt<'a>;
     type Answer = Loss;
     type Model = dyn BearingModel;
 
-    fn usual<'a>(part: &'a BearingPart, notes: Notes<'a>) -> BearingAt<'a> {
-        BearingAt::usual(part, notes)
-    }
-    fn answer(model: &Self::Model, at: &BearingAt<'_>) -> Result<Loss, Undefined> {
-        model.loss(at)
-    }
-    fn speed(at: &BearingAt<'_>) -> f64 {
-        at.speed
-    }
+    answered_by!(loss);
+
     fn compare_batched(model: &Self::Model, at: &BearingAt<'_>, notes: NoteBase) -> Option<&'static str> {
         let factor = |i: usize| 0.3 + 1.5 * i as f64 / LANES as f64;
         let loads = LoadLanes {
@@ -410,9 +399,6 @@ impl Mechanism for Bearing {
             return Some("a note depends on the load");
         }
         (!same).then_some("`note` writes other notes than `loss`")
-    }
-    fn scalar(law: Scalar<Self>) -> Arc<Self::Model> {
-        Arc::new(law)
     }
 }
 

@@ -1,15 +1,12 @@
 //! Drag of open wet clutches and brakes.
 
-use std::sync::Arc;
-
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::attach::{Clearance, ClearanceSite};
-use crate::context;
 use crate::loss::{Loss, Notes, Undefined};
-use crate::mechanism::Scalar;
-use crate::mechanism::{Component, Mechanism, Quantity};
+use crate::mechanism::{Component, Mechanism, Scalar};
+use crate::{answered_by, context};
 
 /// Marker of the mechanism; never constructed.
 #[derive(Debug)]
@@ -66,24 +63,12 @@ impl Mechanism for Clutch {
     const MEANING: &'static str = "Drag of an open wet clutch or brake.";
     const ANSWER: &'static str = "Drag moment. [Nm]";
     const EXAMPLE: &'static str = "{ inner_diameter: 110 mm, outer_diameter: 140 mm, faces: 12, gap: 0.15 mm }";
-    const QUANTITIES: &'static [Quantity<Self>] = ClutchAt::QUANTITIES;
     type Part = ClutchPart;
     type At<'a> = ClutchAt<'a>;
     type Answer = Loss;
     type Model = dyn ClutchModel;
 
-    fn usual<'a>(part: &'a ClutchPart, notes: Notes<'a>) -> ClutchAt<'a> {
-        ClutchAt::usual(part, notes)
-    }
-    fn answer(model: &Self::Model, at: &ClutchAt<'_>) -> Result<Loss, Undefined> {
-        model.loss(at)
-    }
-    fn speed(at: &ClutchAt<'_>) -> f64 {
-        at.speed
-    }
-    fn scalar(law: Scalar<Self>) -> Arc<Self::Model> {
-        Arc::new(law)
-    }
+    answered_by!(loss);
 }
 
 impl Component for Clutch {

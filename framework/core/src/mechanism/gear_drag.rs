@@ -1,16 +1,13 @@
 //! Drag of gears in oil and air: churning, squeezing, windage.
 
-use std::sync::Arc;
-
 use schemars::JsonSchema;
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize};
 
-use crate::context;
 use crate::immersion;
-use crate::loss::{Loss, Notes, Undefined};
-use crate::mechanism::Scalar;
-use crate::mechanism::{Law, Mechanism, Quantity, ROUNDED};
+use crate::loss::{Loss, Undefined};
+use crate::mechanism::{Mechanism, ROUNDED, Scalar};
+use crate::{answered_by, context};
 
 /// Marker of the mechanism; never constructed.
 #[derive(Debug)]
@@ -237,25 +234,12 @@ section_perimeter: 85 cm
 radial_clearance: 8 mm
 axial_clearance: 12 mm
 ";
-    const QUANTITIES: &'static [Quantity<Self>] = GearDragAt::QUANTITIES;
-    const LAWS: &'static [Law<Self>] = GearDragAt::LAWS;
     type Part = DragPart;
     type At<'a> = GearDragAt<'a>;
     type Answer = Loss;
     type Model = dyn GearDragModel;
 
-    fn usual<'a>(part: &'a DragPart, notes: Notes<'a>) -> GearDragAt<'a> {
-        GearDragAt::usual(part, notes)
-    }
-    fn answer(model: &Self::Model, at: &GearDragAt<'_>) -> Result<Loss, Undefined> {
-        model.loss(at)
-    }
-    fn speed(at: &GearDragAt<'_>) -> f64 {
-        at.speed
-    }
-    fn scalar(law: Scalar<Self>) -> Arc<Self::Model> {
-        Arc::new(law)
-    }
+    answered_by!(loss);
 }
 
 impl GearDragModel for Scalar<GearDrag> {

@@ -5,14 +5,14 @@ use std::sync::Arc;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::context;
 use crate::description::gears::ShiftSign;
 use crate::geometry::{Pair, PairFault, PairSpec};
 use crate::lanes::{LANES, Lane, LaneNotes, LossLanes, REMEMBERED, each, same_notes};
 use crate::loss::{Loss, NoteBase, Notes, Term, Undefined};
 use crate::lubricant::Lubricant;
+use crate::mechanism::Mechanism;
 use crate::mechanism::Scalar;
-use crate::mechanism::{Law, Mechanism, Quantity};
+use crate::{answered_by, context};
 
 /// Marker of the mechanism; never constructed.
 #[derive(Debug)]
@@ -299,23 +299,14 @@ impl Mechanism for GearMesh {
     const ANSWER: &'static str = "Power lost in the mesh. [W]";
     const EXAMPLE: &'static str = "{ z: [16, 24], normal_module: 4.5 mm, pressure_angle: 20 deg, centre_distance: 91.5 mm, \
 facewidth: 14 mm, tip_diameter: [82.636 mm, 118.544 mm], ra: [0.4 um, 0.4 um], rq: [0.5 um, 0.5 um] }";
-    const QUANTITIES: &'static [Quantity<Self>] = GearMeshAt::QUANTITIES;
-    const LAWS: &'static [Law<Self>] = GearMeshAt::LAWS;
     const TOTAL: Term = Term::load("total");
     type Part = MeshPart;
     type At<'a> = GearMeshAt<'a>;
     type Answer = Loss;
     type Model = dyn GearMeshModel;
 
-    fn usual<'a>(part: &'a MeshPart, notes: Notes<'a>) -> GearMeshAt<'a> {
-        GearMeshAt::usual(part, notes)
-    }
-    fn answer(model: &Self::Model, at: &GearMeshAt<'_>) -> Result<Loss, Undefined> {
-        model.loss(at)
-    }
-    fn speed(at: &GearMeshAt<'_>) -> f64 {
-        at.speed
-    }
+    answered_by!(loss);
+
     fn compare_batched(model: &Self::Model, at: &GearMeshAt<'_>, notes: NoteBase) -> Option<&'static str> {
         let torques = each(|i| at.torque * (0.3 + 1.5 * i as f64 / LANES as f64));
         let of = |lane: usize, notes: Notes<'_>| {
@@ -352,9 +343,6 @@ facewidth: 14 mm, tip_diameter: [82.636 mm, 118.544 mm], ra: [0.4 um, 0.4 um], r
             model.note(&without.with(|to| to.notes = notes.all()), &torques, &losses, notes);
         };
         (!same_notes(notes, single, together)).then_some("`note` writes other notes than `loss`")
-    }
-    fn scalar(law: Scalar<Self>) -> Arc<Self::Model> {
-        Arc::new(law)
     }
 }
 

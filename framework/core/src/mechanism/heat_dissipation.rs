@@ -1,14 +1,12 @@
 //! Heat dissipation of the gearbox: from the housing to the air, through the flange, through a cooler.
 
-use std::sync::Arc;
-
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::context;
-use crate::loss::{Notes, Undefined};
+use crate::loss::Undefined;
+use crate::mechanism::Mechanism;
 use crate::mechanism::Scalar;
-use crate::mechanism::{Mechanism, Quantity};
+use crate::{answered_by, context};
 
 /// Marker of the mechanism; never constructed.
 #[derive(Debug)]
@@ -99,22 +97,13 @@ wall_conductivity: 150 W/(m K)
 emissivity: 0.9
 air_speed: 0 m/s
 ";
-    const QUANTITIES: &'static [Quantity<Self>] = HeatDissipationAt::QUANTITIES;
     const OWN: &'static [&'static str] = &["constant"];
     type Part = HousingPart;
     type At<'a> = HeatDissipationAt<'a>;
     type Answer = f64;
     type Model = dyn HeatDissipationModel;
 
-    fn usual<'a>(part: &'a HousingPart, notes: Notes<'a>) -> HeatDissipationAt<'a> {
-        HeatDissipationAt::usual(part, notes)
-    }
-    fn answer(model: &Self::Model, at: &HeatDissipationAt<'_>) -> Result<f64, Undefined> {
-        model.conductance(at)
-    }
-    fn scalar(law: Scalar<Self>) -> Arc<Self::Model> {
-        Arc::new(law)
-    }
+    answered_by!(conductance);
 }
 
 impl HeatDissipationModel for Scalar<HeatDissipation> {

@@ -1,16 +1,14 @@
 //! Links between the nodes of a thermal network, by conduction, convection or radiation.
 
-use std::sync::Arc;
-
 use schemars::JsonSchema;
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize};
 
-use crate::context;
-use crate::loss::{Notes, Undefined};
+use crate::loss::Undefined;
+use crate::mechanism::Mechanism;
 use crate::mechanism::Scalar;
 use crate::mechanism::heat_dissipation::HousingPart;
-use crate::mechanism::{Law, Mechanism, Quantity};
+use crate::{answered_by, context};
 
 /// Marker of the mechanism; never constructed.
 #[derive(Debug)]
@@ -118,22 +116,12 @@ gear:
   tooth_height: 3.8 mm
   facewidth: 30 mm
 ";
-    const QUANTITIES: &'static [Quantity<Self>] = HeatLinkAt::QUANTITIES;
-    const LAWS: &'static [Law<Self>] = HeatLinkAt::LAWS;
     type Part = HeatLinkPart;
     type At<'a> = HeatLinkAt<'a>;
     type Answer = f64;
     type Model = dyn HeatLinkModel;
 
-    fn usual<'a>(part: &'a HeatLinkPart, notes: Notes<'a>) -> HeatLinkAt<'a> {
-        HeatLinkAt::usual(part, notes)
-    }
-    fn answer(model: &Self::Model, at: &HeatLinkAt<'_>) -> Result<f64, Undefined> {
-        model.conductance(at)
-    }
-    fn scalar(law: Scalar<Self>) -> Arc<Self::Model> {
-        Arc::new(law)
-    }
+    answered_by!(conductance);
 }
 
 impl HeatLinkModel for Scalar<HeatLink> {

@@ -1,12 +1,10 @@
 //! One coefficient of friction for a whole mesh.
 
-use std::sync::Arc;
-
-use crate::context;
 use crate::loss::{Notes, Undefined};
+use crate::mechanism::Mechanism;
 use crate::mechanism::Scalar;
 use crate::mechanism::gear_mesh::{GearMeshAt, MeshPart};
-use crate::mechanism::{Law, Mechanism, Quantity};
+use crate::{answered_by, context};
 
 /// Marker of the mechanism; never constructed.
 #[derive(Debug)]
@@ -139,22 +137,12 @@ impl Mechanism for MeanFriction {
     const MEANING: &'static str = "Mean coefficient of friction of a mesh.";
     const ANSWER: &'static str = "Coefficient of friction. [-]";
     const EXAMPLE: &'static str = crate::mechanism::gear_mesh::GearMesh::EXAMPLE;
-    const QUANTITIES: &'static [Quantity<Self>] = MeanFrictionAt::QUANTITIES;
-    const LAWS: &'static [Law<Self>] = MeanFrictionAt::LAWS;
     type Part = MeshPart;
     type At<'a> = MeanFrictionAt<'a>;
     type Answer = f64;
     type Model = dyn MeanFrictionModel;
 
-    fn usual<'a>(part: &'a MeshPart, notes: Notes<'a>) -> MeanFrictionAt<'a> {
-        MeanFrictionAt::usual(part, notes)
-    }
-    fn answer(model: &Self::Model, at: &MeanFrictionAt<'_>) -> Result<f64, Undefined> {
-        model.mu(at)
-    }
-    fn scalar(law: Scalar<Self>) -> Arc<Self::Model> {
-        Arc::new(law)
-    }
+    answered_by!(mu);
 }
 
 impl MeanFrictionModel for Scalar<MeanFriction> {

@@ -1,15 +1,12 @@
 //! Oil drag of a planetary set: the carrier and its orbiting planets, from tables, power laws or estimates.
 
-use std::sync::Arc;
-
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::context;
-use crate::loss::{Loss, Notes, Undefined};
-use crate::mechanism::Scalar;
+use crate::loss::{Loss, Undefined};
 use crate::mechanism::gear_drag::{Covers, DragPart};
-use crate::mechanism::{Law, Mechanism, Quantity, ShopUnits};
+use crate::mechanism::{Mechanism, Scalar, ShopUnits};
+use crate::{answered_by, context};
 
 /// Marker of the mechanism; never constructed.
 #[derive(Debug)]
@@ -109,14 +106,14 @@ ratio: 10
 oil_volume: 0.09 l
 has_level: true
 ";
-    const QUANTITIES: &'static [Quantity<Self>] = PlanetaryDragAt::QUANTITIES;
-    const LAWS: &'static [Law<Self>] = PlanetaryDragAt::LAWS;
     /// Losses in oil are nearly power laws of speed and viscosity.
     const LOGARITHMIC: &'static [&'static str] = &["speed", "carrier_speed", "nu", "eta", "answer"];
     type Part = PlanetaryPart;
     type At<'a> = PlanetaryDragAt<'a>;
     type Answer = Loss;
     type Model = dyn PlanetaryDragModel;
+
+    answered_by!(loss);
 
     fn needs(part: &PlanetaryPart, quantity: &str) -> Option<&'static str> {
         match quantity {
@@ -126,18 +123,6 @@ has_level: true
             "ratio" if part.ratio.is_none() => Some("`ratio` of the planetary set"),
             _ => None,
         }
-    }
-    fn usual<'a>(part: &'a PlanetaryPart, notes: Notes<'a>) -> PlanetaryDragAt<'a> {
-        PlanetaryDragAt::usual(part, notes)
-    }
-    fn answer(model: &Self::Model, at: &PlanetaryDragAt<'_>) -> Result<Loss, Undefined> {
-        model.loss(at)
-    }
-    fn speed(at: &PlanetaryDragAt<'_>) -> f64 {
-        at.speed
-    }
-    fn scalar(law: Scalar<Self>) -> Arc<Self::Model> {
-        Arc::new(law)
     }
 }
 

@@ -6,7 +6,7 @@ use crate::document::Unit;
 use crate::formula::Formula;
 use crate::limits;
 use crate::loss::{Loss, Undefined};
-use crate::mechanism::{Mechanism, Noted, Quantity};
+use crate::mechanism::{Inputs, Mechanism, Quantity};
 use crate::table::Table;
 
 /// Maximum number of quantities of a context, for the inputs of a formula.

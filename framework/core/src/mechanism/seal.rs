@@ -1,15 +1,12 @@
 //! Friction of shaft seals.
 
-use std::sync::Arc;
-
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::attach::{MemberSite, OnMember};
-use crate::context;
 use crate::loss::{Loss, Notes, Undefined};
-use crate::mechanism::Scalar;
-use crate::mechanism::{Component, Mechanism, Quantity};
+use crate::mechanism::{Component, Mechanism, Scalar};
+use crate::{answered_by, context};
 
 /// Marker of the mechanism; never constructed.
 #[derive(Debug)]
@@ -66,24 +63,12 @@ impl Mechanism for Seal {
     const MEANING: &'static str = "Friction of a shaft seal.";
     const ANSWER: &'static str = "Friction moment. [Nm]";
     const EXAMPLE: &'static str = "{ diameter: 40 mm, kind: radial_lip }";
-    const QUANTITIES: &'static [Quantity<Self>] = SealAt::QUANTITIES;
     type Part = SealPart;
     type At<'a> = SealAt<'a>;
     type Answer = Loss;
     type Model = dyn SealModel;
 
-    fn usual<'a>(part: &'a SealPart, notes: Notes<'a>) -> SealAt<'a> {
-        SealAt::usual(part, notes)
-    }
-    fn answer(model: &Self::Model, at: &SealAt<'_>) -> Result<Loss, Undefined> {
-        model.loss(at)
-    }
-    fn speed(at: &SealAt<'_>) -> f64 {
-        at.speed
-    }
-    fn scalar(law: Scalar<Self>) -> Arc<Self::Model> {
-        Arc::new(law)
-    }
+    answered_by!(loss);
 }
 
 impl Component for Seal {

@@ -1,15 +1,12 @@
 //! Drag of synchronizers, dog couplings and rings with a gap.
 
-use std::sync::Arc;
-
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::attach::{Clearance, ClearanceSite};
-use crate::context;
 use crate::loss::{Loss, Notes, Undefined};
-use crate::mechanism::Scalar;
-use crate::mechanism::{Component, Mechanism, Quantity};
+use crate::mechanism::{Component, Mechanism, Scalar};
+use crate::{answered_by, context};
 
 /// Marker of the mechanism; never constructed.
 #[derive(Debug)]
@@ -94,24 +91,12 @@ impl Mechanism for Synchronizer {
     const ANSWER: &'static str = "Drag moment. [Nm]";
     const EXAMPLE: &'static str =
         "{ kind: synchronizer, cones: 1, cone_diameter: 62 mm, cone_width: 8 mm, cone_angle: 6.5 deg, gap: 0.15 mm }";
-    const QUANTITIES: &'static [Quantity<Self>] = SynchronizerAt::QUANTITIES;
     type Part = CouplingPart;
     type At<'a> = SynchronizerAt<'a>;
     type Answer = Loss;
     type Model = dyn SynchronizerModel;
 
-    fn usual<'a>(part: &'a CouplingPart, notes: Notes<'a>) -> SynchronizerAt<'a> {
-        SynchronizerAt::usual(part, notes)
-    }
-    fn answer(model: &Self::Model, at: &SynchronizerAt<'_>) -> Result<Loss, Undefined> {
-        model.loss(at)
-    }
-    fn speed(at: &SynchronizerAt<'_>) -> f64 {
-        at.speed
-    }
-    fn scalar(law: Scalar<Self>) -> Arc<Self::Model> {
-        Arc::new(law)
-    }
+    answered_by!(loss);
 }
 
 impl Component for Synchronizer {

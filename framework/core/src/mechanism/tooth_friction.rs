@@ -2,15 +2,13 @@
 
 mod suite;
 
-use std::sync::Arc;
-
-use crate::context;
 use crate::lanes::{Lane, LaneNotes, Powers};
 use crate::loss::{NoteBase, Notes, Undefined};
 use crate::mechanism::Scalar;
 use crate::mechanism::Slot;
 use crate::mechanism::mean_friction::{MeanFrictionAt, hertz, load_at, modulus_at, radius_at};
-use crate::mechanism::{Law, Mechanism, NoPart, Quantity};
+use crate::mechanism::{Mechanism, NoPart};
+use crate::{answered_by, context};
 
 /// Marker of the mechanism; never constructed.
 #[derive(Debug)]
@@ -372,24 +370,15 @@ impl Mechanism for ToothFriction {
     const MEANING: &'static str = "Coefficient of friction between flanks along the path of contact.";
     const ANSWER: &'static str = "Coefficient of friction. [-]";
     const EXAMPLE: &'static str = "{}";
-    const QUANTITIES: &'static [Quantity<Self>] = ContactAt::QUANTITIES;
-    const LAWS: &'static [Law<Self>] = ContactAt::LAWS;
     type Part = NoPart;
     type At<'a> = ContactAt<'a>;
     type Answer = f64;
     type Model = dyn ToothFrictionModel;
 
-    fn usual<'a>(part: &'a NoPart, notes: Notes<'a>) -> ContactAt<'a> {
-        ContactAt::usual(part, notes)
-    }
-    fn answer(model: &Self::Model, at: &ContactAt<'_>) -> Result<f64, Undefined> {
-        model.mu(at)
-    }
+    answered_by!(mu);
+
     fn compare_batched(model: &Self::Model, at: &ContactAt<'_>, notes: NoteBase) -> Option<&'static str> {
         suite::fault(model, at, notes)
-    }
-    fn scalar(law: Scalar<Self>) -> Arc<Self::Model> {
-        Arc::new(law)
     }
 }
 
