@@ -8,4 +8,6 @@ mod rows;
 pub mod schaeffler;
 pub mod skf;
 pub mod skf_seal;
+#[cfg(test)]
+mod testing;
 pub mod timken;

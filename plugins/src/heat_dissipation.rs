@@ -26,3 +26,31 @@ fn needed(value: Option<f64>, model: &str, what: &str, example: &str, cx: &Build
             .help(format!("add `housing: {{ outside: {{ {example} }} }}` with your value"))
     })
 }
+
+#[cfg(test)]
+mod cases {
+    #![allow(clippy::unwrap_used)]
+    use gearloss_framework::loss::Notes;
+    use gearloss_framework::mechanism::heat_dissipation::{HeatDissipationAt, HeatDissipationModel};
+
+    use super::*;
+
+    /// A housing of aluminium.
+    pub fn part() -> HousingPart {
+        HousingPart {
+            wall_thickness: 0.008,
+            wall_conductivity: 150.0,
+            emissivity: 0.9,
+            ..HousingPart::default()
+        }
+    }
+
+    /// Compares the conductance in W/K with oil of 80 degC, air of 20 degC, 830 kg/m3 and 2100 J/(kg K).
+    #[track_caller]
+    pub fn assert_conductance(way: &impl HeatDissipationModel, by_hand: f64) {
+        let part = part();
+        let at = HeatDissipationAt::usual(&part, Notes::MUTED).with(|to| to.surface_temperature = 80.0);
+        let conductance = way.conductance(&at).unwrap();
+        assert!((conductance / by_hand - 1.0).abs() < 1e-5, "{conductance}");
+    }
+}

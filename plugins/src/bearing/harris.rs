@@ -12,7 +12,7 @@ use gearloss_framework::registry::{Build, Evidence, default_of, formula};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::palmgren::{AXIAL_RATIO, Constants, F0, LOAD, NO_LOAD, P1, Palmgren, RADIAL_RATIO};
+use super::palmgren::{self, AXIAL_RATIO, Constants, F0, LOAD, NO_LOAD, P1, Palmgren, RADIAL_RATIO};
 use super::rows::{self, Lack, LoadLaw, Rule};
 
 /// Rolling bearings according to Harris, in Palmgren's form.
@@ -80,10 +80,7 @@ impl Params {
 }
 
 fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Palmgren, Diagnostic> {
-    let part = cx.part::<Bearing>().ok_or_else(|| cx.error("bug: no part"))?;
-    params
-        .model(part)
-        .map_err(|(message, help)| cx.error(message).help(help))
+    palmgren::of_part(cx, |part| params.model(part))
 }
 
 register!(Bearing, "harris", Params,
@@ -101,32 +98,7 @@ register!(Bearing, "harris", Params,
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
-    use gearloss_framework::loss::Notes;
-    use gearloss_framework::mechanism::bearing::{BearingAt, BearingEntry, BearingModel};
-
-    fn part(kind: BearingKind, series: &str, d: f64, big_d: f64, c0: Option<f64>) -> BearingPart {
-        let entry = BearingEntry {
-            kind: Some(kind),
-            series: Some(series.to_owned()),
-            bore: Some(d * 1e-3),
-            outside: Some(big_d * 1e-3),
-            c0,
-            ..BearingEntry::default()
-        };
-        BearingPart::try_from(entry).unwrap()
-    }
-
-    fn moments(model: &Palmgren, part: &BearingPart, height: f64) -> [f64; 2] {
-        let at = BearingAt::usual(part, Notes::MUTED).with(|to| {
-            to.speed = 3000.0 * std::f64::consts::PI / 30.0;
-            to.nu = 15e-6;
-            to.radial = 3000.0;
-            to.axial = 1000.0;
-            to.oil_height = height;
-        });
-        let loss = model.loss(&at).unwrap();
-        [loss.value(0) * 1e3, loss.value(1) * 1e3]
-    }
+    use crate::bearing::testing::{RIG, moments, part};
 
     const PLAIN: Params = Params {
         coefficients: Constants::PUBLISHED,
@@ -138,7 +110,7 @@ mod tests {
     #[test]
     fn deep_groove_balls_take_two_thirds_of_the_load_moment_of_skf_1994() {
         let part = part(BearingKind::DeepGrooveBall, "63", 40.0, 90.0, Some(24000.0));
-        let [load, no_load] = moments(&PLAIN.model(&part).unwrap(), &part, 0.0);
+        let [load, no_load] = moments(&PLAIN.model(&part).unwrap(), &part, RIG, 0.0);
         assert!((load / (55.9213 / 1.5) - 1.0).abs() < 1e-5, "{load}");
         assert!((no_load / 69.4883 - 1.0).abs() < 1e-5);
     }
@@ -151,7 +123,7 @@ mod tests {
                 contact_angle: Some(angle.to_radians()),
                 ..PLAIN
             };
-            moments(&params.model(&part).unwrap(), &part, 0.0)[0]
+            moments(&params.model(&part).unwrap(), &part, RIG, 0.0)[0]
         };
         // By hand: Fr 3000 N, Fa 1000 N, d_m 60 mm, C0 26000 N; Fs = 3000 N, hence f1 = 0.001 (3000/26000)^0.33 = 4.9035297e-4. F_b
         // at 12 deg is 0.9 1000 cot 12 deg - 0.1 3000 = 3934.1671 N; at 40 deg it is 772.6 N, hence Fr applies.

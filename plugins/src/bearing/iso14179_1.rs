@@ -12,7 +12,7 @@ use gearloss_framework::registry::{Build, Evidence, default_of, formula};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::palmgren::{AXIAL_RATIO, Constants, F0, LOAD, NO_LOAD, P1, Palmgren, RADIAL_RATIO};
+use super::palmgren::{self, AXIAL_RATIO, Constants, F0, LOAD, NO_LOAD, P1, Palmgren, RADIAL_RATIO};
 use super::rows::{self, Lack};
 
 /// Palmgren's form with a load-independent factor that depends on the oil level, as in ISO/TR 14179-1.
@@ -47,10 +47,7 @@ impl Params {
 }
 
 fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Palmgren, Diagnostic> {
-    let part = cx.part::<Bearing>().ok_or_else(|| cx.error("bug: no part"))?;
-    params
-        .model(part)
-        .map_err(|(message, help)| cx.error(message).help(help))
+    palmgren::of_part(cx, |part| params.model(part))
 }
 
 register!(Bearing, "iso14179_1", Params,
@@ -67,32 +64,8 @@ register!(Bearing, "iso14179_1", Params,
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
-    use gearloss_framework::loss::Notes;
-    use gearloss_framework::mechanism::bearing::{BearingAt, BearingEntry, BearingKind, BearingModel};
-
-    fn part(kind: BearingKind, series: &str, d: f64, big_d: f64, c0: Option<f64>) -> BearingPart {
-        let entry = BearingEntry {
-            kind: Some(kind),
-            series: Some(series.to_owned()),
-            bore: Some(d * 1e-3),
-            outside: Some(big_d * 1e-3),
-            c0,
-            ..BearingEntry::default()
-        };
-        BearingPart::try_from(entry).unwrap()
-    }
-
-    fn moments(model: &Palmgren, part: &BearingPart, height: f64) -> [f64; 2] {
-        let at = BearingAt::usual(part, Notes::MUTED).with(|to| {
-            to.speed = 3000.0 * std::f64::consts::PI / 30.0;
-            to.nu = 15e-6;
-            to.radial = 3000.0;
-            to.axial = 1000.0;
-            to.oil_height = height;
-        });
-        let loss = model.loss(&at).unwrap();
-        [loss.value(0) * 1e3, loss.value(1) * 1e3]
-    }
+    use crate::bearing::testing::{RIG, moments, part};
+    use gearloss_framework::mechanism::bearing::BearingKind;
 
     #[test]
     fn f0_rises_with_the_oil_from_mist_to_jet() {
@@ -104,7 +77,7 @@ mod tests {
         }
         .model(&part)
         .unwrap();
-        let no_load = |height| moments(&model, &part, height)[1];
+        let no_load = |height| moments(&model, &part, RIG, height)[1];
         // 69.4883 N mm is the moment for f0 = 2.
         assert!((no_load(0.0) / (69.4883 / 2.0) - 1.0).abs() < 1e-5);
         assert!((no_load(1.0) / (69.4883 * 2.0) - 1.0).abs() < 1e-5);

@@ -3,11 +3,13 @@
 //! M0 = 1e-7 f0 (nu n)^(2/3) dm^3 from nu n = 2000, 160e-7 f0 dm^3 below (the published step of 0.8 % is retained); M1 = f1 P1^a
 //! dm^b with f1 = z (P0/C0)^y; M2 = f2 Fa dm for axially loaded cylindrical roller bearings.
 
+use gearloss_framework::document::Diagnostic;
 use gearloss_framework::lanes::{Lane, LaneNotes, LossLanes, cube_root, each, exp, ln, over, wide};
 use gearloss_framework::loads::LoadLanes;
 use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
-use gearloss_framework::mechanism::bearing::{BearingAt, BearingKind, BearingModel, BearingPart};
+use gearloss_framework::mechanism::bearing::{Bearing, BearingAt, BearingKind, BearingModel, BearingPart};
+use gearloss_framework::registry::Build;
 use gearloss_framework::{coefficients, limits, observed, terms};
 
 use super::rows::{Lack, LoadLaw};
@@ -99,6 +101,14 @@ impl Palmgren {
             spherical_thrust: part.kind == BearingKind::SphericalRollerThrust,
         })
     }
+}
+
+/// Prepares a model of the bearing that it belongs to.
+pub fn of_part(
+    cx: &Build<'_>,
+    model: impl FnOnce(&BearingPart) -> Result<Palmgren, Lack>,
+) -> Result<Palmgren, Diagnostic> {
+    model(cx.own_part::<Bearing>()?).map_err(|(message, help)| cx.error(message).help(help))
 }
 
 /// True for rollers that carry axial load on flanges.

@@ -12,7 +12,7 @@ use gearloss_framework::registry::{Build, Evidence, default_of, formula};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::palmgren::{AXIAL_RATIO, Constants, F0, LOAD, NO_LOAD, P1, Palmgren, RADIAL_RATIO};
+use super::palmgren::{self, AXIAL_RATIO, Constants, F0, LOAD, NO_LOAD, P1, Palmgren, RADIAL_RATIO};
 use super::rows::{self, Lack, LoadLaw, Rule};
 
 /// Rolling bearings after the catalogue of Schaeffler, in Palmgren's form.
@@ -123,10 +123,7 @@ impl Params {
 }
 
 fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Palmgren, Diagnostic> {
-    let part = cx.part::<Bearing>().ok_or_else(|| cx.error("bug: no part"))?;
-    params
-        .model(part)
-        .map_err(|(message, help)| cx.error(message).help(help))
+    palmgren::of_part(cx, |part| params.model(part))
 }
 
 register!(Bearing, "schaeffler", Params,
@@ -143,32 +140,8 @@ register!(Bearing, "schaeffler", Params,
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
-    use gearloss_framework::loss::Notes;
-    use gearloss_framework::mechanism::bearing::{BearingAt, BearingEntry, BearingModel};
-
-    fn part(kind: BearingKind, series: &str, d: f64, big_d: f64, c0: Option<f64>) -> BearingPart {
-        let entry = BearingEntry {
-            kind: Some(kind),
-            series: Some(series.to_owned()),
-            bore: Some(d * 1e-3),
-            outside: Some(big_d * 1e-3),
-            c0,
-            ..BearingEntry::default()
-        };
-        BearingPart::try_from(entry).unwrap()
-    }
-
-    fn moments(model: &Palmgren, part: &BearingPart, height: f64) -> [f64; 2] {
-        let at = BearingAt::usual(part, Notes::MUTED).with(|to| {
-            to.speed = 3000.0 * std::f64::consts::PI / 30.0;
-            to.nu = 15e-6;
-            to.radial = 3000.0;
-            to.axial = 1000.0;
-            to.oil_height = height;
-        });
-        let loss = model.loss(&at).unwrap();
-        [loss.value(0) * 1e3, loss.value(1) * 1e3]
-    }
+    use crate::bearing::testing::{RIG, moments, part};
+    use gearloss_framework::mechanism::bearing::BearingEntry;
 
     #[test]
     fn a7_deep_groove_6308() {
@@ -180,7 +153,7 @@ mod tests {
         }
         .model(&part)
         .unwrap();
-        let [load, no_load] = moments(&model, &part, 0.0);
+        let [load, no_load] = moments(&model, &part, RIG, 0.0);
         assert!((no_load / 79.9116 - 1.0).abs() < 1e-5, "{no_load}");
         assert!((load / 62.0486 - 1.0).abs() < 1e-5, "{load}");
         let watts = 1.0471976e-4 * (load + no_load) * 3000.0;

@@ -341,7 +341,7 @@ impl Model {
 }
 
 fn prepare(params: Skf, cx: &mut Build<'_>) -> Result<Model, Diagnostic> {
-    let part = cx.part::<Bearing>().ok_or_else(|| cx.error("bug: no part"))?;
+    let part = cx.own_part::<Bearing>()?;
     Model::new(&params, part).map_err(|(message, help)| cx.error(message).help(help))
 }
 

@@ -61,7 +61,7 @@ struct Timken {
 }
 
 fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Timken, Diagnostic> {
-    let part = cx.part::<Bearing>().ok_or_else(|| cx.error("bug: no part"))?;
+    let part = cx.own_part::<Bearing>()?;
     if part.kind != BearingKind::TaperedRoller {
         return Err(cx
             .error("timken applies to tapered roller bearings only")

@@ -81,7 +81,7 @@ struct Discs {
 }
 
 fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Discs, Diagnostic> {
-    let part = cx.part::<Clutch>().ok_or_else(|| cx.error("bug: no part"))?;
+    let part = cx.own_part::<Clutch>()?;
     let (Some(inner), Some(outer), Some(gap)) = (part.inner_diameter, part.outer_diameter, part.gap) else {
         return Err(cx
             .error("disc_gap requires `inner_diameter`, `outer_diameter` and `gap` of the clutch")

@@ -70,7 +70,7 @@ struct Changenet {
 }
 
 fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Changenet, Diagnostic> {
-    let part = cx.part::<GearDrag>().ok_or_else(|| cx.error("bug: no part"))?;
+    let part = cx.own_part::<GearDrag>()?;
     let Some(volume) = part.oil_volume else {
         return Err(cx
             .error("changenet_2007 requires the oil volume")

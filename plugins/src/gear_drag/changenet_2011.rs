@@ -90,7 +90,7 @@ struct Churning {
 }
 
 fn prepare(params: Changenet, cx: &mut Build<'_>) -> Result<Churning, Diagnostic> {
-    let part = cx.part::<GearDrag>().ok_or_else(|| cx.error("bug: no part"))?;
+    let part = cx.own_part::<GearDrag>()?;
     let Some(volume) = part.oil_volume else {
         return Err(cx
             .error("changenet_2011 requires the oil volume")

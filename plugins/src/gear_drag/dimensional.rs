@@ -35,7 +35,7 @@ struct Dimensional {
 const NAMES: [&str; 5] = ["re", "fr", "h", "b", "v"];
 
 fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Dimensional, Diagnostic> {
-    let part = cx.part::<GearDrag>().ok_or_else(|| cx.error("bug: no part"))?;
+    let part = cx.own_part::<GearDrag>()?;
     let volume = part.oil_volume;
     // Without an oil volume the formula must not use it.
     let names = &NAMES[..if volume.is_some() { 5 } else { 4 }];

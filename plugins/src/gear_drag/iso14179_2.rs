@@ -72,7 +72,7 @@ struct Splash {
 }
 
 fn prepare(params: Iso14179, cx: &mut Build<'_>) -> Result<Splash, Diagnostic> {
-    let part = cx.part::<GearDrag>().ok_or_else(|| cx.error("bug: no part"))?;
+    let part = cx.own_part::<GearDrag>()?;
     let Some(mate) = &part.mate else {
         return Err(cx
             .error("iso14179_2 requires a gear pair")

@@ -79,7 +79,7 @@ struct Shore {
 }
 
 fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Shore, Diagnostic> {
-    let part = cx.part::<GearDrag>().ok_or_else(|| cx.error("bug: no part"))?;
+    let part = cx.own_part::<GearDrag>()?;
     let (Some(radial), Some(axial)) = (part.radial_clearance, part.axial_clearance) else {
         return Err(cx
             .error("shore requires the gaps between gear and wall")

@@ -127,7 +127,7 @@ impl OnePoint {
 }
 
 fn prepare(params: Params, cx: &mut Build<'_>) -> Result<OnePoint, Diagnostic> {
-    let part = cx.part::<GearMesh>().ok_or_else(|| cx.error("bug: no pair"))?;
+    let part = cx.own_part::<GearMesh>()?;
     if part.pair.internal {
         return Err(cx
             .error("anderson_loewenthal applies to external gear pairs only")

@@ -26,7 +26,7 @@ struct EvenShare(Factor);
 
 fn prepare(params: Params, cx: &mut Build<'_>) -> Result<EvenShare, Diagnostic> {
     let friction = cx.slot("mean_friction", &params.mean_friction)?;
-    let part = cx.part::<GearMesh>().ok_or_else(|| cx.error("bug: no pair"))?;
+    let part = cx.own_part::<GearMesh>()?;
     Ok(EvenShare(Factor {
         value: part.pair.loss_factor_uniform(),
         friction,

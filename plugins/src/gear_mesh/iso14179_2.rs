@@ -105,7 +105,7 @@ impl Mean {
 }
 
 fn prepare(params: Iso14179, cx: &mut Build<'_>) -> Result<Mean, Diagnostic> {
-    let part = cx.part::<GearMesh>().ok_or_else(|| cx.error("bug: no pair"))?;
+    let part = cx.own_part::<GearMesh>()?;
     Ok(Mean::new(&params, &part.pair))
 }
 

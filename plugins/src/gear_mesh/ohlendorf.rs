@@ -32,7 +32,7 @@ struct Ohlendorf(Factor);
 
 fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Ohlendorf, Diagnostic> {
     let friction = cx.slot("mean_friction", &params.mean_friction)?;
-    let part = cx.part::<GearMesh>().ok_or_else(|| cx.error("bug: no pair"))?;
+    let part = cx.own_part::<GearMesh>()?;
     Ok(Ohlendorf(Factor {
         value: part.pair.loss_factor_ohlendorf(),
         friction,

@@ -122,7 +122,7 @@ struct Integral {
 
 fn prepare(params: PathIntegral, cx: &mut Build<'_>) -> Result<Integral, Diagnostic> {
     let friction = cx.slot("tooth_friction", &params.tooth_friction)?;
-    let part = cx.part::<GearMesh>().ok_or_else(|| cx.error("bug: no pair"))?;
+    let part = cx.own_part::<GearMesh>()?;
     let pair = &part.pair;
     let path = Path::new(pair, params.load_sharing, friction.order()).map_err(|fault| cx.error(fault))?;
     let [start, .., end] = pair.points;

@@ -117,7 +117,7 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Tabulated, Diagnostic> 
             .help(format!("write `type: {quick}` instead of `tabulated`")));
     }
     let of = cx.slot("of", &params.of)?;
-    let part = cx.part::<GearMesh>().ok_or_else(|| cx.error("bug: no pair"))?;
+    let part = cx.own_part::<GearMesh>()?;
     let extents = Extents {
         speeds: params.speeds,
         torques: params.torques.unwrap_or_else(|| torques(part)),

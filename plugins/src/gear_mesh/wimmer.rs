@@ -30,7 +30,7 @@ struct Wimmer(Factor);
 
 fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Wimmer, Diagnostic> {
     let friction = cx.slot("mean_friction", &params.mean_friction)?;
-    let part = cx.part::<GearMesh>().ok_or_else(|| cx.error("bug: no pair"))?;
+    let part = cx.own_part::<GearMesh>()?;
     Ok(Wimmer(Factor {
         value: part.pair.loss_factor_local(params.load_sharing),
         friction,

@@ -101,21 +101,11 @@ register!(HeatDissipation, "fins", Params,
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
-    use gearloss_framework::loss::Notes;
-
     use super::*;
+    use crate::heat_dissipation::cases::{assert_conductance, part};
 
-    /// Oil of 80 degC, air of 20 degC, 830 kg/m3 and 2100 J/(kg K), by hand.
     #[test]
     fn the_conductance_is_put_together_in_si() {
-        let part = HousingPart {
-            wall_thickness: 0.008,
-            wall_conductivity: 150.0,
-            emissivity: 0.9,
-            ..HousingPart::default()
-        };
-        let at = HeatDissipationAt::usual(&part, Notes::MUTED).with(|to| to.surface_temperature = 80.0);
         let way = Ready {
             params: Params {
                 base_area: 0.01,
@@ -124,12 +114,11 @@ mod tests {
                 fin_thickness: 0.003,
                 alpha: Some(20.0),
             },
-            part,
+            part: part(),
             height: 1.0,
             length: 1.0,
         };
-        let conductance = way.conductance(&at).unwrap();
-        assert!((conductance / 1.77844 - 1.0).abs() < 1e-5, "{conductance}");
+        assert_conductance(&way, 1.77844);
     }
 
     #[test]

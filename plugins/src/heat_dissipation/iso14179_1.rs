@@ -107,30 +107,19 @@ register!(HeatDissipation, "iso14179_1", Params,
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
-    use gearloss_framework::loss::Notes;
-    use gearloss_framework::mechanism::heat_dissipation::HousingPart;
     use gearloss_framework::testing::eval;
 
     use super::*;
+    use crate::heat_dissipation::cases::assert_conductance;
 
-    /// Oil of 80 degC, air of 20 degC, 830 kg/m3 and 2100 J/(kg K), by hand.
     #[test]
     fn the_conductance_is_put_together_in_si() {
-        let part = HousingPart {
-            wall_thickness: 0.008,
-            wall_conductivity: 150.0,
-            emissivity: 0.9,
-            ..HousingPart::default()
-        };
-        let at = HeatDissipationAt::usual(&part, Notes::MUTED).with(|to| to.surface_temperature = 80.0);
         let way = Ready {
             k: 18.0,
             air: None,
             area: 0.4,
         };
-        let conductance = way.conductance(&at).unwrap();
-        assert!((conductance / 7.2 - 1.0).abs() < 1e-5, "{conductance}");
+        assert_conductance(&way, 7.2);
     }
 
     #[test]

@@ -171,34 +171,23 @@ register!(HeatDissipation, "iso14179_2", Params,
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
-    use gearloss_framework::loss::Notes;
-
     use super::*;
+    use crate::heat_dissipation::cases::{assert_conductance, part};
 
-    /// Oil of 80 degC, air of 20 degC, 830 kg/m3 and 2100 J/(kg K), by hand.
     #[test]
     fn the_conductance_is_put_together_in_si() {
-        let part = HousingPart {
-            wall_thickness: 0.008,
-            wall_conductivity: 150.0,
-            emissivity: 0.9,
-            ..HousingPart::default()
-        };
-        let at = HeatDissipationAt::usual(&part, Notes::MUTED).with(|to| to.surface_temperature = 80.0);
         let way = Ready {
             params: Params {
                 coefficients: Constants::PUBLISHED,
                 alpha_oil: 200.0,
                 factor: 1.0,
             },
-            part,
+            part: part(),
             area: 0.40,
             oil_area: 0.35,
             size: 0.3,
         };
-        let conductance = way.conductance(&at).unwrap();
-        assert!((conductance / 6.85657 - 1.0).abs() < 1e-5, "{conductance}");
+        assert_conductance(&way, 6.85657);
     }
 
     #[test]

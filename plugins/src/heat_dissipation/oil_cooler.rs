@@ -84,22 +84,11 @@ register!(HeatDissipation, "oil_cooler", OilCooler,
 
 #[cfg(test)]
 mod tests {
-    #![allow(clippy::unwrap_used)]
-    use gearloss_framework::loss::Notes;
-    use gearloss_framework::mechanism::heat_dissipation::HousingPart;
-
     use super::*;
+    use crate::heat_dissipation::cases::assert_conductance;
 
-    /// Oil of 80 degC, air of 20 degC, 830 kg/m3 and 2100 J/(kg K), by hand.
     #[test]
     fn the_conductance_is_put_together_in_si() {
-        let part = HousingPart {
-            wall_thickness: 0.008,
-            wall_conductivity: 150.0,
-            emissivity: 0.9,
-            ..HousingPart::default()
-        };
-        let at = HeatDissipationAt::usual(&part, Notes::MUTED).with(|to| to.surface_temperature = 80.0);
         let way = OilCooler {
             ua: 120.0,
             oil_flow: 8e-3 / 60.0,
@@ -109,7 +98,6 @@ mod tests {
             coolant_heat_capacity: 3600.0,
             arrangement: Arrangement::Counterflow,
         };
-        let conductance = way.conductance(&at).unwrap();
-        assert!((conductance / 88.0369 - 1.0).abs() < 1e-5, "{conductance}");
+        assert_conductance(&way, 88.0369);
     }
 }

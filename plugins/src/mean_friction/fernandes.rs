@@ -57,7 +57,7 @@ struct Fernandes {
 }
 
 fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Fernandes, Diagnostic> {
-    let part = cx.part::<MeanFriction>().ok_or_else(|| cx.error("bug: no pair"))?;
+    let part = cx.own_part::<MeanFriction>()?;
     Ok(Fernandes {
         x_l: params.x_l,
         length: params

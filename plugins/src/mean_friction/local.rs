@@ -69,7 +69,7 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Local, Diagnostic> {
             ))
             .help("write `at: path`, or choose a law of mixed friction"));
     }
-    let part = cx.part::<MeanFriction>().ok_or_else(|| cx.error("bug: no pair"))?;
+    let part = cx.own_part::<MeanFriction>()?;
     let path = Path::new(&part.pair, params.load_sharing, friction.order()).map_err(|fault| cx.error(fault))?;
     Ok(Local {
         at: params.at,

@@ -57,10 +57,7 @@ struct Estimate {
 }
 
 fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Estimate, Diagnostic> {
-    let part = cx
-        .part::<PlanetaryDrag>()
-        .ok_or_else(|| cx.error("bug: no part"))?
-        .clone();
+    let part = cx.own_part::<PlanetaryDrag>()?.clone();
     if !part.has_level {
         return Err(cx
             .error("estimate requires the oil level")

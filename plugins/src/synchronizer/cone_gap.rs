@@ -6,33 +6,20 @@
 //! the stated Reynolds and Taylor numbers the drag is underpredicted.
 
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::loss::{Loss, Undefined};
-use gearloss_framework::mechanism::synchronizer::{CouplingKind, Synchronizer, SynchronizerAt, SynchronizerModel};
+use gearloss_framework::mechanism::synchronizer::{CouplingKind, Synchronizer};
+use gearloss_framework::register;
 use gearloss_framework::registry::{Build, Evidence, formula};
-use gearloss_framework::{limits, register, terms};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-terms! { SHEAR = no_load("shear"); }
-limits! {
-    REYNOLDS = ("Re", "-", 0.0, 1000.0, "laminar gap flow");
-    TAYLOR = ("Ta", "-", 0.0, 41.3, "onset of Taylor vortices");
-}
+use super::{Film, REYNOLDS, SHEAR, TAYLOR};
 
 /// Oil shear in the gap between the cones of an open synchronizer.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct ConeGap {}
 
-/// The oil in the gap of one synchronizer, prepared.
-struct Film {
-    /// Torque per viscosity and speed. \[m3\]
-    factor: f64,
-    radius: f64,
-    gap: f64,
-}
-
 fn prepare(_params: ConeGap, cx: &mut Build<'_>) -> Result<Film, Diagnostic> {
-    let part = cx.part::<Synchronizer>().ok_or_else(|| cx.error("bug: no part"))?;
+    let part = cx.own_part::<Synchronizer>()?;
     if part.kind != CouplingKind::Synchronizer {
         return Err(cx
             .error("cone_gap applies to synchronizers only")
@@ -53,6 +40,7 @@ fn prepare(_params: ConeGap, cx: &mut Build<'_>) -> Result<Film, Diagnostic> {
             .help("correct `cone_diameter` (mean), `cone_width` (along the axis) or `cone_angle` (half angle)"));
     }
     Ok(Film {
+        symbol: "T_cone",
         factor: part.oil_fill * f64::from(part.cones) * cone(r1, r2, angle, gap),
         radius: 0.5 * diameter,
         gap,
@@ -62,17 +50,6 @@ fn prepare(_params: ConeGap, cx: &mut Build<'_>) -> Result<Film, Diagnostic> {
 /// Torque per viscosity and speed of one flooded cone between two radii. \[m3\]
 fn cone(r1: f64, r2: f64, angle: f64, gap: f64) -> f64 {
     std::f64::consts::PI * (r2.powi(4) - r1.powi(4)) / (2.0 * gap * angle.sin())
-}
-
-impl SynchronizerModel for Film {
-    fn loss(&self, at: &SynchronizerAt<'_>) -> Result<Loss, Undefined> {
-        let reynolds = at.rho * at.speed.abs() * self.radius * self.gap / at.eta;
-        at.check(&REYNOLDS, reynolds);
-        at.check(&TAYLOR, reynolds * (self.gap / self.radius).sqrt());
-        at.show("eta", "Pa s", at.eta);
-        let moment = self.factor * at.eta * at.speed.abs();
-        Ok(Loss::MOMENTS.with(&SHEAR, at.show("T_cone", "Nm", moment)))
-    }
 }
 
 register!(Synchronizer, "cone_gap", ConeGap,
@@ -86,22 +63,9 @@ mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
     use gearloss_framework::loss::Notes;
-    use gearloss_framework::mechanism::synchronizer::CouplingPart;
-    use gearloss_framework::registry::{Files, Registry, Slot};
-    use std::sync::Arc;
+    use gearloss_framework::mechanism::synchronizer::SynchronizerAt;
 
-    fn part(json: &str) -> Arc<CouplingPart> {
-        Arc::new(serde_json::from_str(json).unwrap())
-    }
-
-    fn build(part: &Arc<CouplingPart>) -> Result<Slot<Synchronizer>, String> {
-        let registry = Registry::linked().unwrap_or_else(|found| panic!("{found:?}"));
-        let files = Files::default();
-        let value = serde_json::json!({ "type": "cone_gap" });
-        Build::new(&registry, &files)
-            .slot_at("couplings.S1.model", part, &value)
-            .map_err(|fault| fault.to_string())
-    }
+    use crate::synchronizer::cases::{build, part};
 
     #[test]
     fn c1_cone_gap() {
@@ -123,7 +87,7 @@ mod tests {
                 r#"{{"kind":"synchronizer","cones":{cones},"cone_diameter":0.062,"cone_width":0.008,"cone_angle":0.113,"gap":1.5e-4}}"#
             );
             let part = part(&json);
-            let model = build(&part).unwrap();
+            let model = build("cone_gap", &part).unwrap();
             let at = |speed| SynchronizerAt::usual(&part, Notes::MUTED).with(|to| to.speed = speed);
             assert_eq!(model.loss(&at(0.0)).unwrap().sum(), 0.0);
             assert_eq!(model.loss(&at(-100.0)).unwrap(), model.loss(&at(100.0)).unwrap());
@@ -135,18 +99,26 @@ mod tests {
     #[test]
     fn what_is_missing_or_of_another_kind_is_said() {
         assert!(
-            build(&part(r#"{"cone_diameter":0.062,"cone_width":0.008,"gap":1.5e-4}"#))
-                .err()
-                .unwrap()
-                .contains("cone_angle")
+            build(
+                "cone_gap",
+                &part(r#"{"cone_diameter":0.062,"cone_width":0.008,"gap":1.5e-4}"#)
+            )
+            .err()
+            .unwrap()
+            .contains("cone_angle")
         );
         assert!(
-            build(&part(r#"{"kind":"dog"}"#))
+            build("cone_gap", &part(r#"{"kind":"dog"}"#))
                 .err()
                 .unwrap()
                 .contains("to synchronizers")
         );
         let wide = r#"{"cone_diameter":0.01,"cone_width":0.1,"cone_angle":0.5,"gap":1.5e-4}"#;
-        assert!(build(&part(wide)).err().unwrap().contains("negative radius"));
+        assert!(
+            build("cone_gap", &part(wide))
+                .err()
+                .unwrap()
+                .contains("negative radius")
+        );
     }
 }

@@ -6,33 +6,20 @@
 //! Not for turbulent gaps.
 
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::loss::{Loss, Undefined};
-use gearloss_framework::mechanism::synchronizer::{Synchronizer, SynchronizerAt, SynchronizerModel};
+use gearloss_framework::mechanism::synchronizer::Synchronizer;
+use gearloss_framework::register;
 use gearloss_framework::registry::{Build, Evidence, formula};
-use gearloss_framework::{limits, register, terms};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-terms! { SHEAR = no_load("shear"); }
-limits! {
-    REYNOLDS = ("Re", "-", 0.0, 1000.0, "laminar gap flow");
-    TAYLOR = ("Ta", "-", 0.0, 41.3, "onset of Taylor vortices");
-}
+use super::{Film, REYNOLDS, SHEAR, TAYLOR};
 
 /// Oil shear in a cylindrical gap.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct RingGap {}
 
-/// The oil in the gap, prepared.
-struct Film {
-    /// Torque per viscosity and speed. \[m3\]
-    factor: f64,
-    radius: f64,
-    gap: f64,
-}
-
 fn prepare(_params: RingGap, cx: &mut Build<'_>) -> Result<Film, Diagnostic> {
-    let part = cx.part::<Synchronizer>().ok_or_else(|| cx.error("bug: no part"))?;
+    let part = cx.own_part::<Synchronizer>()?;
     let (Some(diameter), Some(length), Some(gap)) = (part.cone_diameter, part.cone_width, part.gap) else {
         return Err(cx
             .error("ring_gap requires `cone_diameter` (of the gap), `cone_width` (its length) and `gap`")
@@ -41,6 +28,7 @@ fn prepare(_params: RingGap, cx: &mut Build<'_>) -> Result<Film, Diagnostic> {
     let slant = length / part.cone_angle.unwrap_or(0.0).cos();
     let factor = part.oil_fill * f64::from(part.cones) * ring(0.5 * diameter, slant, gap);
     Ok(Film {
+        symbol: "T_ring",
         factor,
         radius: 0.5 * diameter,
         gap,
@@ -50,17 +38,6 @@ fn prepare(_params: RingGap, cx: &mut Build<'_>) -> Result<Film, Diagnostic> {
 /// Torque per viscosity and speed of a flooded ring. \[m3\]
 fn ring(radius: f64, length: f64, gap: f64) -> f64 {
     2.0 * std::f64::consts::PI * radius.powi(3) * length / gap
-}
-
-impl SynchronizerModel for Film {
-    fn loss(&self, at: &SynchronizerAt<'_>) -> Result<Loss, Undefined> {
-        let reynolds = at.rho * at.speed.abs() * self.radius * self.gap / at.eta;
-        at.check(&REYNOLDS, reynolds);
-        at.check(&TAYLOR, reynolds * (self.gap / self.radius).sqrt());
-        at.show("eta", "Pa s", at.eta);
-        let moment = self.factor * at.eta * at.speed.abs();
-        Ok(Loss::MOMENTS.with(&SHEAR, at.show("T_ring", "Nm", moment)))
-    }
 }
 
 register!(Synchronizer, "ring_gap", RingGap,
@@ -74,22 +51,9 @@ mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
     use gearloss_framework::loss::Notes;
-    use gearloss_framework::mechanism::synchronizer::CouplingPart;
-    use gearloss_framework::registry::{Files, Registry, Slot};
-    use std::sync::Arc;
+    use gearloss_framework::mechanism::synchronizer::SynchronizerAt;
 
-    fn part(json: &str) -> Arc<CouplingPart> {
-        Arc::new(serde_json::from_str(json).unwrap())
-    }
-
-    fn build(part: &Arc<CouplingPart>) -> Result<Slot<Synchronizer>, String> {
-        let registry = Registry::linked().unwrap_or_else(|found| panic!("{found:?}"));
-        let files = Files::default();
-        let value = serde_json::json!({ "type": "ring_gap" });
-        Build::new(&registry, &files)
-            .slot_at("couplings.S1.model", part, &value)
-            .map_err(|fault| fault.to_string())
-    }
+    use crate::synchronizer::cases::{build, part};
 
     #[test]
     fn c1_ring_gap() {
@@ -104,7 +68,7 @@ mod tests {
                 format!(r#"{{"kind":"ring","cone_diameter":0.06,"cone_width":0.04,"gap":5e-4,"oil_fill":{fill}}}"#);
             let part = part(&json);
             let at = SynchronizerAt::usual(&part, Notes::MUTED).with(|to| to.speed = speed);
-            build(&part).unwrap().loss(&at).unwrap().sum()
+            build("ring_gap", &part).unwrap().loss(&at).unwrap().sum()
         };
         assert_eq!((loss(1.0, 0.0), loss(0.0, 100.0)), (0.0, 0.0));
         assert!((loss(0.5, 200.0) / loss(1.0, 100.0) - 1.0).abs() < 1e-12);
@@ -124,12 +88,17 @@ mod tests {
             to.eta = 0.012;
         });
         // Two half-filled cones equal one flooded cone.
-        let moment = build(&part).unwrap().loss(&at).unwrap().sum();
+        let moment = build("ring_gap", &part).unwrap().loss(&at).unwrap().sum();
         assert!((moment / 0.0554096 - 1.0).abs() < 1e-5, "{moment}");
     }
 
     #[test]
     fn a_gap_is_asked_for() {
-        assert!(build(&part(r#"{"kind":"dog"}"#)).err().unwrap().contains("gap"));
+        assert!(
+            build("ring_gap", &part(r#"{"kind":"dog"}"#))
+                .err()
+                .unwrap()
+                .contains("gap")
+        );
     }
 }

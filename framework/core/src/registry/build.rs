@@ -143,9 +143,17 @@ impl<'a> Build<'a> {
         &self.path
     }
 
-    /// The part that the model belongs to, if the framework has one of this mechanism.
+    /// The part that the model belongs to, if it is one of this mechanism.
     pub fn part<M: Mechanism>(&self) -> Option<&M::Part> {
         self.part.as_ref().and_then(|part| part.downcast_ref())
+    }
+
+    /// The part that a model of this mechanism belongs to.
+    ///
+    /// # Errors
+    /// If the framework builds the model without its part, which is a bug.
+    pub fn own_part<M: Mechanism>(&self) -> Result<&M::Part, Diagnostic> {
+        self.part::<M>().ok_or_else(|| self.error("bug: no part"))
     }
 
     /// True for the name of a drag model that is evaluated once per mesh.
