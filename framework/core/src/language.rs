@@ -207,23 +207,18 @@ impl Language {
 
     /// Unit, minimum and maximum of the number that a resolved document has at a path; `None` if it is not a number.
     pub fn number_at(&self, document: &Value, path: &str) -> Option<(&'static Unit, f64, f64)> {
-        match self.shape_at(document, path)? {
-            Shape::Number {
+        let number = |shape| match shape {
+            &Shape::Number {
                 unit,
                 least,
                 greatest,
                 whole: false,
-            } => Some((*unit, *least, *greatest)),
-            Shape::Either(shapes) => shapes.iter().find_map(|shape| match shape {
-                Shape::Number {
-                    unit,
-                    least,
-                    greatest,
-                    whole: false,
-                } => Some((*unit, *least, *greatest)),
-                _ => None,
-            }),
+            } => Some((unit, least, greatest)),
             _ => None,
+        };
+        match self.shape_at(document, path)? {
+            Shape::Either(shapes) => shapes.iter().find_map(number),
+            shape => number(shape),
         }
     }
 

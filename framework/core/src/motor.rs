@@ -196,11 +196,6 @@ impl MotorMap {
         })
     }
 
-    /// True if the motoring losses depend on temperature.
-    pub fn has_temperature(&self) -> bool {
-        self.motoring.temperatures.is_some()
-    }
-
     /// The loss at a speed \[rad/s\], a torque \[Nm\] and a temperature \[degC\], which a map without temperatures ignores. Torque
     /// against the speed is generating. In a map with temperatures each quadrant uses those of its own rows.
     pub fn loss(&self, speed: f64, torque: f64, temperature: f64) -> MotorLoss {

@@ -50,7 +50,8 @@ impl MemberTorques {
 }
 
 impl Solution<'_> {
-    fn state(&self) -> State<'_> {
+    /// What the models read at this point.
+    pub(super) fn state(&self) -> State<'_> {
         let s = &*self.scratch;
         State {
             speeds: &s.speeds,

@@ -248,14 +248,7 @@ impl Solution<'_> {
     /// The context of the model of a mesh, one copy, with muted notes.
     pub fn mesh_at(&self, mesh: usize) -> GearMeshAt<'_> {
         let s = &*self.scratch;
-        let state = crate::attach::State {
-            speeds: &s.speeds,
-            oils: &s.oils,
-            temperatures: &s.temperatures,
-            surface: s.surface,
-            loads: &s.loads,
-            calls: &s.calls,
-        };
+        let state = self.state();
         self.transmission
             .mesh_at(mesh, s.tangential[mesh], s.work.drives[mesh], &state, &Notebook::CLOSED)
     }
@@ -298,14 +291,7 @@ impl Solution<'_> {
         let t = self.transmission;
         let s = &*self.scratch;
         let trace = Trace::default();
-        let state = crate::attach::State {
-            speeds: &s.speeds,
-            oils: &s.oils,
-            temperatures: &s.temperatures,
-            surface: s.surface,
-            loads: &s.loads,
-            calls: &s.calls,
-        };
+        let state = self.state();
         let info = &t.parts[part];
         let book = Notebook {
             trace: Some(&trace),

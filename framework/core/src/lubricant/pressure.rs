@@ -47,11 +47,6 @@ fn so_klaus(nu: f64, slope: f64, rho: f64) -> f64 {
     (1.216 + viscous + thermal - dense) * 1e-8
 }
 
-/// Viscosity under pressure according to Barus: eta0 exp(alpha p). Too high above about 0.5 GPa. \[Pa s\]
-pub fn barus(eta0: f64, alpha: f64, pressure: f64) -> f64 {
-    eta0 * (alpha * pressure).exp()
-}
-
 /// Viscosity under pressure and at another temperature according to Roelands 1966. \[Pa s\] `eta0` in Pa s at `base` degC and zero
 /// pressure, `alpha` its coefficient in 1/Pa, `s0` the slope index over temperature.
 pub fn roelands(eta0: f64, alpha: f64, pressure: f64, base: f64, temperature: f64, s0: f64) -> f64 {
@@ -67,10 +62,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn d5_so_klaus_barus_roelands() {
+    fn d5_so_klaus_roelands() {
         for (value, printed) in [
             (so_klaus(100.0, 3.5847, 880.0), 2.75857e-8),
-            (barus(0.01, 2e-8, 5e8), 220.265),
             (roelands(0.01, 2e-8, 5e8, 40.0, 40.0, 1.1), 46.4348),
         ] {
             assert!((value / printed - 1.0).abs() < 1e-5, "{value} against {printed}");

@@ -46,7 +46,6 @@ fn a_corner_that_the_motor_does_not_reach_holds_the_last_loss_and_is_told() {
     assert!(!at(1500.0, 15.0).outside && at(1500.0, 15.1).outside);
     // Without generating rows the motoring losses are used.
     assert_eq!(at(1000.0, -20.0), at(1000.0, 20.0));
-    assert!(!map.has_temperature());
 }
 
 #[test]
@@ -56,13 +55,12 @@ fn losses_are_linear_over_the_temperature() {
                 1000,10,120,140\n1000,20,120,280\n2000,10,120,190\n2000,20,120,330\n";
     let map = MotorMap::read(text.as_bytes()).unwrap();
     let at = |temperature: f64| map.loss(1000.0 * PI / 30.0, 20.0, temperature);
-    assert!(map.has_temperature());
     assert!((at(70.0).loss - 240.0).abs() < 1e-9 && !at(70.0).outside);
     assert!((at(0.0).loss - 200.0).abs() < 1e-9 && at(0.0).outside && at(130.0).outside);
     // A single temperature applies to all.
     let single: String = text.lines().take(5).fold(String::new(), |all, line| all + line + "\n");
     let map = MotorMap::read(single.as_bytes()).unwrap();
-    assert!(!map.has_temperature() && !map.loss(1000.0 * PI / 30.0, 20.0, 90.0).outside);
+    assert!(!map.loss(1000.0 * PI / 30.0, 20.0, 90.0).outside);
 }
 
 #[test]

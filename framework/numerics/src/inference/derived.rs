@@ -34,11 +34,6 @@ impl Derived {
         let half = deviations * deviation / (value * (1.0 - value));
         Some([middle - half, middle + half].map(|x| 1.0 / (1.0 + (-x).exp())))
     }
-
-    /// Standard deviation of a new measurement of the quantity with an instrument of the given standard uncertainty.
-    pub fn measured_again(&self, sigma: f64) -> Option<f64> {
-        Some(self.deviation?.hypot(sigma))
-    }
 }
 
 /// The smallest band that contains two bands. For a parameter at its bound the second band is evaluated at its one-sided end.
@@ -117,7 +112,6 @@ mod tests {
         assert_eq!(share(0.5, 0.1).share_band(1.0), Some([0.4, 0.6]));
         // A share outside has no logit.
         assert_eq!(share(-0.25, 0.25).share_band(1.0), Some([-0.5, 0.0]));
-        assert_eq!(share(3.0, 4.0).measured_again(3.0), Some(5.0));
         let unknown = Derived {
             value: 0.5,
             deviation: None,

@@ -36,21 +36,14 @@ impl Factors {
         let unit = DMatrix::from_fn(jacobian.nrows(), columns.len(), |i, k| {
             jacobian[(i, columns[k])] / norms[k]
         });
-        if columns.is_empty() {
-            let (triangle, directions) = (DMatrix::zeros(0, 0), DMatrix::zeros(0, 0));
-            let (singular, resolved) = (Vec::new(), 0);
-            return Some(Self {
-                columns,
-                norms,
-                triangle,
-                singular,
-                directions,
-                resolved,
-            });
-        }
-        // With fewer rows than columns the triangle is padded with zeros, so that every column has directions.
-        let triangle = unit.qr().r().resize_vertically(columns.len(), 0.0);
-        let (singular, directions) = decompose(triangle.clone())?;
+        let (triangle, singular, directions) = if columns.is_empty() {
+            (DMatrix::zeros(0, 0), Vec::new(), DMatrix::zeros(0, 0))
+        } else {
+            // With fewer rows than columns the triangle is padded with zeros, so that every column has directions.
+            let triangle = unit.qr().r().resize_vertically(columns.len(), 0.0);
+            let (singular, directions) = decompose(triangle.clone())?;
+            (triangle, singular, directions)
+        };
         let greatest = singular.first().copied().unwrap_or(0.0);
         let resolved = singular.iter().take_while(|s| **s > RESOLVED * greatest).count();
         Some(Self {

@@ -123,6 +123,17 @@ pub fn deviations(fit: &Fit) -> Vec<f64> {
         .collect()
 }
 
+/// The optimum with `h` at an upper bound of 0.7.
+pub const AT_BOUND: [f64; 8] = [
+    1.20107149,
+    1.15803709,
+    0.253107616,
+    1.0245616,
+    0.978194253,
+    0.7,
+    0.0134678539,
+    0.0301566212,
+];
 pub const OPTIMUM: [f64; 8] = [
     1.184552524,
     1.149303954,

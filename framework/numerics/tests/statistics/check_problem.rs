@@ -4,6 +4,8 @@ use gearloss_numerics::inference::{Accuracy, Fit, Parameter, Scale, Standing};
 use gearloss_numerics::sensitivity::gradients;
 use nalgebra::{DMatrix, DVector};
 
+pub use crate::loss_map::{AT_BOUND, DEVIATIONS, OPTIMUM};
+
 /// Names of the losses and of the offset, in the order of [`terms`].
 pub const TERMS: usize = 6;
 
@@ -71,17 +73,6 @@ pub fn points() -> Vec<Point> {
 
 pub const TRUTH: [f64; 8] = [1.25, 1.10, 0.20, 1.40, 0.80, 0.75, 0.020, 0.025];
 pub const START: [f64; 8] = [1.0, 1.0, 0.1, 1.0, 1.0, 1.0, 0.01, 0.0];
-/// The refined optimum for the first noise.
-pub const OPTIMUM: [f64; 8] = [
-    1.184552524,
-    1.149303954,
-    0.2536491049,
-    1.048765314,
-    0.9765250472,
-    0.7250596825,
-    0.01986663924,
-    0.02439891357,
-];
 pub const NAMES: [&str; 8] = ["f_nu", "f_mu", "a", "f_L", "f_0", "h", "M_s", "dT"];
 pub const BOUNDS: [[f64; 2]; 8] = [
     [0.4, 2.5],

@@ -6,7 +6,7 @@
 use gearloss_numerics::inference::{Fit, Parameter, Scale, Side, Verdict};
 use gearloss_numerics::sensitivity::gradients;
 
-use super::check_problem::{BOUNDS, NAMES, OPTIMUM, Point, TERMS, TRUTH, fit, model, parameters, terms};
+use super::check_problem::{BOUNDS, DEVIATIONS, NAMES, OPTIMUM, Point, TERMS, TRUTH, fit, model, parameters, terms};
 
 const F_NU: usize = 0;
 const F_MU: usize = 1;
@@ -42,17 +42,7 @@ fn check_7_2_lack_of_fit() {
 #[test]
 fn check_7_2_covariance() {
     let fit = optimum();
-    let deviations = [
-        0.230144893,
-        0.0560232651,
-        0.0301162903,
-        0.1731647,
-        0.212723511,
-        0.0600076819,
-        0.0171930824,
-        0.0156225551,
-    ];
-    for (k, expected) in deviations.into_iter().enumerate() {
+    for (k, expected) in DEVIATIONS.into_iter().enumerate() {
         let of = &fit.parameters()[k];
         let unit = if of.scale == Scale::Log { of.theta() } else { 1.0 };
         near(fit.deviation(k).unwrap() * unit, expected, 1e-7);

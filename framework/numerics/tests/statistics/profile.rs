@@ -2,7 +2,7 @@
 
 use gearloss_numerics::inference::{Accuracy, Fit, Parameter, Reach, Refit, Side, Standing};
 
-use super::check_problem::{OPTIMUM, fit, linearised, measured, minimise, parameters};
+use super::check_problem::{AT_BOUND, OPTIMUM, fit, linearised, measured, minimise, parameters};
 
 /// The best of the others when one parameter is held, among parameters with their bounds.
 fn refit(list: &[Parameter], parameter: usize, value: f64, start: &[f64]) -> Refit {
@@ -56,17 +56,7 @@ fn check_7_2_profiles() {
 
 #[test]
 fn check_7_5_one_sided_profile_of_an_active_bound() {
-    let theta = [
-        1.20107149,
-        1.15803709,
-        0.253107616,
-        1.0245616,
-        0.978194253,
-        0.7,
-        0.0134678539,
-        0.0301566212,
-    ];
-    let mut list = parameters(&theta);
+    let mut list = parameters(&AT_BOUND);
     list[5].bounds[1] = 0.7;
     list[5].standing = Standing::Active(Side::Upper);
     let all: Vec<usize> = (0..440).collect();

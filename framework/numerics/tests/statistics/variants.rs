@@ -4,7 +4,7 @@ use gearloss_numerics::inference::{Accuracy, Fit, Parameter, Scale, Side, Standi
 use gearloss_numerics::sensitivity::gradients;
 use nalgebra::DMatrix;
 
-use super::check_problem::{BOUNDS, NAMES, OPTIMUM, linearised, measured, model, parameters, points, scale};
+use super::check_problem::{AT_BOUND, BOUNDS, NAMES, OPTIMUM, linearised, measured, model, parameters, points, scale};
 
 fn near(x: f64, y: f64, tolerance: f64) {
     assert!((x - y).abs() <= tolerance * y.abs(), "{x} instead of {y}");
@@ -22,17 +22,7 @@ fn all() -> Vec<usize> {
 
 #[test]
 fn check_7_5_active_bound() {
-    let theta = [
-        1.20107149,
-        1.15803709,
-        0.253107616,
-        1.0245616,
-        0.978194253,
-        0.7,
-        0.0134678539,
-        0.0301566212,
-    ];
-    let mut list = parameters(&theta);
+    let mut list = parameters(&AT_BOUND);
     list[5].bounds[1] = 0.7;
     let (r, jacobian) = linearised(&list, &all(), &measured());
     let gradient: f64 = jacobian.column(5).iter().zip(&r).map(|(j, r)| j * r).sum();

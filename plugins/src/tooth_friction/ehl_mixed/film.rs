@@ -49,35 +49,6 @@ fn powers(u: f64, g: f64, w: f64, exponents: [f64; 3]) -> f64 {
     (exponents[0] * u.ln() + exponents[1] * g.ln() + exponents[2] * w.ln()).exp()
 }
 
-/// Radii along and across the entrainment direction, at an angle in rad to the first of two principal radii. \[m\]
-pub fn turned(radii: [f64; 2], angle: f64) -> [f64; 2] {
-    let [x, y] = radii;
-    let (sin, cos) = (angle.sin().powi(2), angle.cos().powi(2));
-    [1.0 / (cos / x + sin / y), 1.0 / (sin / x + cos / y)]
-}
-
-/// Central and minimum film over the radius along the entrainment according to Chittenden et al., from U, G and W = F/(E' R^2) with that
-/// radius, and the ratio of the radius across to the radius along, from about one half.
-pub fn chittenden(u: f64, g: f64, w: f64, across: f64) -> [f64; 2] {
-    let flooded = |factor: f64| 1.0 - (-factor * across.powf(2.0 / 3.0)).exp();
-    let common = powers(u, g, w, [0.68, 0.49, -0.073]);
-    [4.31 * common * flooded(1.23), 3.68 * common * flooded(0.67)]
-}
-
-/// Central and minimum film over the radius along the entrainment according to Hamrock and Dowson, from U, G, W = F/(E' R^2) and the ratio
-/// of the axes of the ellipse.
-pub fn hamrock_dowson(u: f64, g: f64, w: f64, ellipse: f64) -> [f64; 2] {
-    [
-        2.69 * powers(u, g, w, [0.67, 0.53, -0.067]) * (1.0 - 0.61 * (-0.73 * ellipse).exp()),
-        3.63 * powers(u, g, w, [0.68, 0.49, -0.073]) * (1.0 - (-0.68 * ellipse).exp()),
-    ]
-}
-
-/// Ratio of the axes of a contact ellipse from the ratio of the radii, across over along.
-pub fn ellipse(radii: f64) -> f64 {
-    1.0339 * radii.powf(0.636)
-}
-
 /// Film thinning by inlet heating.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
@@ -145,34 +116,6 @@ mod tests {
 
     fn u(radius: f64) -> f64 {
         0.010 * 5.0 / (MODULUS * radius)
-    }
-
-    fn point(radius: f64) -> f64 {
-        100.0 / (MODULUS * radius * radius)
-    }
-
-    #[test]
-    fn u2a_u2b_chittenden_in_any_direction() {
-        for (radii, angle, [along, across], printed) in [
-            ([0.010, 0.010], 0.0_f64, [0.010, 0.010], [2.287709e-7, 1.347711e-7]),
-            ([0.010, 0.050], 30.0, [0.0125, 0.025], [3.077766e-7, 2.005255e-7]),
-        ] {
-            let [e, s] = turned(radii, angle.to_radians());
-            close(e, along);
-            close(s, across);
-            let film = chittenden(u(e), G, point(e), s / e);
-            close(film[0] * e, printed[0]);
-            close(film[1] * e, printed[1]);
-        }
-    }
-
-    #[test]
-    fn u2c_hamrock_dowson() {
-        let k = ellipse(5.0);
-        close(k, 2.877554);
-        let film = hamrock_dowson(u(0.010), G, point(0.010), k);
-        close(film[0] * 0.010, 3.067560e-7);
-        close(film[1] * 0.010, 2.337805e-7);
     }
 
     #[test]
