@@ -527,13 +527,13 @@ fn a_set_that_locks_itself_has_no_torques_and_says_which_way() {
     }
     assert!(value["sums_w"].is_null() && value["power"]["largest_internal_power_w"].is_null());
 
-    // Pushed from there it turns only because the input pushes too; the status alone says `dragged`.
+    // Driven from there it turns only because the input drives as well; the status alone says `dragged`.
     let (code, text) = at("output=100 Nm", &[]);
     assert_eq!(code, Some(0));
     assert!(
         text.contains("status dragged")
             && text.contains("self-locking: torque at `output` alone does not turn it")
-            && text.contains("only maintained because `input` (0.0548"),
+            && text.contains("maintained only because `input` (0.0548"),
         "{text}"
     );
     // Driven from the input, and with rings that lose less, nothing locks.
