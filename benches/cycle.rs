@@ -1,5 +1,5 @@
-//! A WLTC of 1800 seconds through the electric drive unit: friction of both meshes settled at every second, and looked up in tables;
-//! seventeen temperatures, losses and temperatures in agreement at the end of every second. One thread.
+//! A WLTC of 1800 seconds through the electric drive unit: friction of both meshes solved at every second, and interpolated in
+//! tables; seventeen temperatures, losses and temperatures consistent at the end of every second. One thread.
 #![allow(clippy::unwrap_used, missing_docs)]
 
 mod common;
@@ -76,10 +76,10 @@ fn cycle(c: &mut Criterion) {
     group
         .sample_size(10)
         .throughput(Throughput::Elements(intervals.len() as u64));
-    group.bench_function("WLTC, friction settled", |b| {
+    group.bench_function("WLTC, friction solved", |b| {
         b.iter(|| run(&full, Scheme::Implicit));
     });
-    group.bench_function("WLTC, friction settled, lagged", |b| {
+    group.bench_function("WLTC, friction solved, lagged", |b| {
         b.iter(|| run(&full, Scheme::Lagged));
     });
     group.bench_function("WLTC, friction from tables", |b| {

@@ -1,4 +1,4 @@
-//! Friction of contacts that warm themselves: one mesh at one point, on the points of the mesh model and on 200, and a drive cycle
+//! Thermal elastohydrodynamic friction: one mesh at one point, on the points of the mesh model and on 200, and a drive cycle
 //! of 1800 points over both meshes of the two-speed example; both once more by tables, the cycle with building them.
 #![allow(clippy::unwrap_used, missing_docs)]
 
@@ -81,7 +81,7 @@ fn one_mesh(c: &mut Criterion, language: &Language, gearbox: &Gearbox) {
     let fine = path::Path::even(&part.pair, LoadSharing::Ramp, 200);
     let mut mu = vec![0.0; 200];
     group.throughput(Throughput::Elements(200));
-    group.bench_function("one mesh, 200 places", |b| {
+    group.bench_function("one mesh, 200 points of its path", |b| {
         b.iter(|| {
             law.along(black_box(&fine.at_operating_point(&mean, Notes::MUTED)), &mut mu)
                 .unwrap()

@@ -1,5 +1,5 @@
-//! Exponentials and logarithms, which set the least that a point can cost: those of the framework side by side, and the standard
-//! library's one by one.
+//! Exponentials and logarithms, which determine the minimum time of a point: those of the framework in lanes, and those of the
+//! standard library one by one.
 #![allow(missing_docs)]
 
 use std::hint::black_box;
@@ -43,10 +43,10 @@ fn functions(c: &mut Criterion) {
     let mut answers = numbers.clone();
     let mut group = c.benchmark_group("elementary");
     group.throughput(Throughput::Elements((MANY * LANES) as u64));
-    group.bench_function("exponentials side by side", |b| {
+    group.bench_function("exponentials in lanes", |b| {
         b.iter(|| side_by_side(&numbers, black_box(&mut answers), exp));
     });
-    group.bench_function("logarithms side by side", |b| {
+    group.bench_function("logarithms in lanes", |b| {
         b.iter(|| side_by_side(&numbers, black_box(&mut answers), ln));
     });
     group.bench_function("exponentials of the standard library", |b| {

@@ -1,4 +1,4 @@
-//! A thermal network of 64 nodes around the two-speed example: at rest, and a step of one second.
+//! A thermal network of 64 nodes around the two-speed example: its steady state, and a time step of one second.
 #![allow(clippy::unwrap_used, missing_docs)]
 
 mod common;
@@ -22,7 +22,7 @@ fn network(c: &mut Criterion) {
         around: &Surroundings::default(),
     };
     let mut group = c.benchmark_group("network");
-    group.bench_function("64 nodes at rest", |b| {
+    group.bench_function("64 nodes, steady state", |b| {
         b.iter(|| {
             let steady = t.steady(&moment, &mut scratch).unwrap();
             assert_eq!(steady.outcome, Outcome::Converged);

@@ -1,5 +1,5 @@
 //! One point: the two-speed example under each set of models, the planetary one at a given temperature, and its equilibrium; and
-//! many points of neighbouring speeds side by side.
+//! many points of neighbouring speeds in batches.
 #![allow(clippy::unwrap_used, missing_docs)]
 
 mod common;
@@ -23,7 +23,7 @@ fn two_speed(t: &Transmission) -> impl FnMut() -> Option<f64> {
     }
 }
 
-/// Speeds of the points side by side.
+/// Speeds of the points in batches.
 const SPEEDS: u32 = 32;
 
 /// The sum of the losses at as many torques as lanes and some speeds of the two-speed example in first gear, as a map has them.
@@ -68,10 +68,10 @@ fn points(c: &mut Criterion) {
         b.iter(|| t.equilibrium(&case, &point(), &mut scratch).oil());
     });
     group.throughput(Throughput::Elements(u64::from(SPEEDS) * LANES as u64));
-    group.bench_function("two-speed example, set iso, side by side", |b| {
+    group.bench_function("two-speed example, set iso, batched", |b| {
         b.iter(side_by_side(&iso));
     });
-    group.bench_function("two-speed example, set joint, side by side", |b| {
+    group.bench_function("two-speed example, set joint, batched", |b| {
         b.iter(side_by_side(&joint));
     });
     group.finish();

@@ -20,7 +20,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     // The sections, models, catalogues and model sets of all linked crates.
     let language = Language::linked()?;
     let gearbox = Gearbox::read(&language, Path::new(GEARBOX))?;
-    // Errors of file or set are returned here, with line, reason and help.
+    // Errors in the file or the model set are returned here, with line, reason and help.
     let transmission = gearbox.transmission(&language, &Choice::of_set("joint"))?;
     for warning in &transmission.warnings {
         println!("{}", gearbox.sources.render(warning));

@@ -1,5 +1,5 @@
-//! A whole study, run by a program: outcomes as typed values, and their tables as columns. The files come from memory here, as
-//! they would from an archive or a database; `Disk::shared()` in place of `files` reads them from the disk.
+//! A whole study, run by a program: outcomes as typed values, and their tables as columns. The files are in memory here, as if
+//! they came from an archive or a database; `Disk::shared()` in place of `files` reads them from the disk.
 //!
 //! `cargo run --release --example run_study`
 #![allow(clippy::print_stdout, reason = "an example shows its numbers")]
@@ -15,7 +15,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         ("ev/gearbox.yaml", include_str!("two-speed-ev/gearbox.yaml")),
     ]);
     let language = Language::linked()?;
-    // A wrong document ends here, with line, reason and help.
+    // Errors in the documents are returned here, with line, reason and help.
     let study = read_study(&language, &files.shared(), "ev/town.yaml")?;
 
     for (name, outcome) in StudyRun::new(&language, &study).outcomes() {
@@ -41,7 +41,7 @@ fn main() -> Result<(), Box<dyn Error>> {
                 );
             }
         }
-        // Every outcome has its numbers as columns, too, with the names of the files that the program writes.
+        // Every outcome also provides its numbers as columns, with the names of the files that the program writes.
         let table = outcome
             .table(name)
             .ok_or("the first table has the name of the analysis")?;

@@ -48,8 +48,8 @@
 //! Documents and their data are read from a [`SharedSource`]: the [`Disk`], or [`InMemory`], or your own [`FileSource`].
 //!
 //! # Errors
-//! Wrong documents give [`Findings`]: a list of [`Diagnostic`]s with code, path, place in the text and help, and the texts. An
-//! analysis without an outcome gives [`Stopped`], which holds findings or says who broke it off.
+//! Errors in documents are returned as [`Findings`]: a list of [`Diagnostic`]s with code, path, position in the text and help, and the
+//! texts. An analysis without an outcome returns [`Stopped`], which contains findings or states who aborted it.
 
 use std::path::Path;
 
@@ -101,7 +101,7 @@ pub fn codes() -> Vec<Code> {
 /// Reads a study of a source with its gearboxes, and checks every name that its analyses use.
 ///
 /// # Errors
-/// Everything that reading, the walk and the check find.
+/// All findings of reading, the walk and the check.
 pub fn read_study(language: &Language, files: &SharedSource, file: impl AsRef<Path>) -> Result<Study, Findings> {
     let study = Study::read_from(language, files, file.as_ref())?;
     study.check(language)?;
@@ -111,7 +111,7 @@ pub fn read_study(language: &Language, files: &SharedSource, file: impl AsRef<Pa
 /// Solves one point of a gear state: torque and speed at the reference port, temperatures as the gearbox states them.
 ///
 /// # Errors
-/// That there is no such gear state, or that it needs other ports: use [`solve_points`] there.
+/// If there is no such gear state, or if it requires other ports: use [`solve_points`] then.
 pub fn solve_point(
     gearbox: &Gearbox,
     transmission: &Transmission,
@@ -127,7 +127,7 @@ pub fn solve_point(
 /// Solves points on all cores. They have the same bits on any number of cores.
 ///
 /// # Errors
-/// That the gear state is unknown, or that the ports do not fit.
+/// If the gear state is unknown, or if the ports do not match it.
 pub fn solve_points(gearbox: &Gearbox, transmission: &Transmission, points: &Points) -> Result<GridResult, Findings> {
     let solved = gearloss_studies::analysis::run_grid(transmission, points, &|_| true);
     // The progress above breaks nothing off.

@@ -69,7 +69,7 @@ pub enum FitLaw {
     },
     /// Fits the coefficient of boundary friction to a Stribeck curve.
     Stribeck {
-        /// CSV file with the columns `lambda`, or `film [nm]` with `--rq`; measured `mu`; and `mu_film`, the friction of the film alone.
+        /// CSV file with the columns `lambda`, or `film [nm]` with `--rq`; measured `mu`; and `mu_film`, the friction of the film only.
         curve: PathBuf,
         /// Combined rms roughness of both flanks, such as `"0.28 um"`; required with `film` instead of `lambda`.
         #[arg(long, value_name = "ROUGHNESS")]
@@ -203,11 +203,11 @@ pub enum ImportFrom {
 /// An axis of coordinates.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum AxisArg {
-    /// The first.
+    /// First axis.
     X,
-    /// The second.
+    /// Second axis.
     Y,
-    /// The third.
+    /// Third axis.
     Z,
 }
 
@@ -316,7 +316,7 @@ pub struct RunArgs {
     /// Study file.
     pub study: PathBuf,
     /// Computes only part K of N, for `merge`; skips pieces that are already complete. Results are written to -o [default: `shards/K-of-N`
-    /// beside the study].
+    /// next to the study].
     #[arg(long, value_name = "K/N", conflicts_with_all = ["template", "force", "deny"])]
     pub shard: Option<Shard>,
     #[command(flatten)]
@@ -328,7 +328,7 @@ pub struct RunArgs {
 pub struct MergeArgs {
     /// Study file.
     pub study: PathBuf,
-    /// Folders of all shards [default: the folders in `shards` beside the study].
+    /// Folders of all shards [default: the folders in `shards` next to the study].
     pub parts: Vec<PathBuf>,
     #[command(flatten)]
     pub results: ResultArgs,
@@ -337,7 +337,7 @@ pub struct MergeArgs {
 /// Output and exit code of a study.
 #[derive(Debug, ClapArgs)]
 pub struct ResultArgs {
-    /// Folder for the results [default: `results` beside the study].
+    /// Folder for the results [default: `results` next to the study].
     #[arg(short, long, value_name = "DIR")]
     pub output: Option<PathBuf>,
     /// Template of the report [default: built-in].
@@ -369,7 +369,7 @@ pub struct ModelsArgs {
 /// Arguments of `catalogue`.
 #[derive(Debug, ClapArgs)]
 pub struct CatalogueArgs {
-    /// Which catalogue.
+    /// Catalogue to list.
     #[arg(value_enum)]
     pub of: CatalogueArg,
     /// Part of the designations to list, such as `6208` or `"VG 150"` [default: all].

@@ -29,7 +29,7 @@ use crate::output::{Failure, Out};
 fn language() -> Result<&'static Language, Failure> {
     static LINKED: OnceLock<Language> = OnceLock::new();
     if LINKED.get().is_none() {
-        // If two threads arrive at once, the result of the first is kept.
+        // If two threads arrive simultaneously, the result of the first is kept.
         let _ = LINKED.set(Language::linked()?);
     }
     let bug = || Failure::input("bug: the language was assembled but is missing", "report this");

@@ -1,4 +1,4 @@
-//! Ctrl-C: finished analyses are kept. The first press stops the current analysis, the second ends the program at once.
+//! Ctrl-C: finished analyses are kept. The first press stops the current analysis, the second ends the program immediately.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 

@@ -1,7 +1,7 @@
 //! Power losses, efficiency and operating temperature of transmissions: the program, as a library.
 //!
-//! - **Programs** use [`api`]: read from the disk or from memory, override by path, solve points, run studies, get typed outcomes.
-//! - **Models and mechanisms** of your own use [`framework::prelude`], **analyses** [`studies::prelude`].
+//! - **Programs** use [`api`]: read from disk or memory, override values by path, solve points, run studies, get typed outcomes.
+//! - **Your own models and mechanisms** use [`framework::prelude`], **your own analyses** [`studies::prelude`].
 //! - **The program with your models** is three lines:
 //!
 //! ```no_run
@@ -25,8 +25,8 @@
 //! # Ok(())
 //! # }
 //! ```
-//! A gearbox, and a study of it, are described in YAML; `README.md` shows one, and the folder `examples` has more. Errors list all
-//! findings with code, place and help; `docs/errors.md` explains the codes.
+//! Gearboxes and studies are described in YAML; `README.md` shows one of each, and the folder `examples` has more. Errors list all
+//! findings with code, position and help; `docs/errors.md` explains the codes.
 
 pub mod api;
 mod args;

@@ -12,8 +12,8 @@ use gearloss_studies::identify::Settings;
 use rayon::prelude::*;
 use std::ops::RangeInclusive;
 
-/// What one measurement tells.
-struct Told {
+/// Coverage of one simulated measurement.
+struct Coverage {
     /// Whether the 95 % interval of each parameter holds what is hidden.
     hits: Vec<bool>,
     /// Whether a bound is active, or a parameter within one standard error of one.
@@ -23,7 +23,7 @@ struct Told {
     evaluations: usize,
 }
 
-fn told(seed: u64) -> Told {
+fn fit_seed(seed: u64) -> Coverage {
     let language = language();
     let (gearbox, study) = (gearbox(&language), study(&language));
     let text = csv(&Rig::new(&language, "complete"), seed);
@@ -47,7 +47,7 @@ fn told(seed: u64) -> Told {
     }
     let hidden: Vec<f64> = TRUTH.iter().map(|(_, truth)| *truth).collect();
     let squares: f64 = identification.residuals(&hidden).unwrap().iter().map(|r| r * r).sum();
-    Told {
+    Coverage {
         hits,
         at_bound,
         rise: squares - inference.objective(),
@@ -94,11 +94,11 @@ impl Limits {
 fn intervals_hold_what_is_hidden_as_often_as_they_say() {
     let limits = Limits::of_the_run();
     let seeds = limits.seeds;
-    let all: Vec<Told> = (1..=seeds).into_par_iter().map(told).collect();
-    let free: Vec<&Told> = all.iter().filter(|t| !t.at_bound).collect();
-    let share = |list: &[&Told], k: usize| list.iter().filter(|t| t.hits[k]).count() as f64 / list.len() as f64;
-    let whole: Vec<&Told> = all.iter().collect();
-    let pooled = |list: &[&Told]| (0..TRUTH.len()).map(|k| share(list, k)).sum::<f64>() / TRUTH.len() as f64;
+    let all: Vec<Coverage> = (1..=seeds).into_par_iter().map(fit_seed).collect();
+    let free: Vec<&Coverage> = all.iter().filter(|t| !t.at_bound).collect();
+    let share = |list: &[&Coverage], k: usize| list.iter().filter(|t| t.hits[k]).count() as f64 / list.len() as f64;
+    let whole: Vec<&Coverage> = all.iter().collect();
+    let pooled = |list: &[&Coverage]| (0..TRUTH.len()).map(|k| share(list, k)).sum::<f64>() / TRUTH.len() as f64;
     let inside = |confidence: f64| {
         let limit = chi_square_quantile(confidence, TRUTH.len() as f64).unwrap();
         all.iter().filter(|t| t.rise <= limit).count()

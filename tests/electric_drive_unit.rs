@@ -186,7 +186,7 @@ impl Shares {
         Self::new(t, &even(100.0, 17000.0), &even(3.0, 350.0))
     }
 
-    fn at(&self, torque: f64, rpm: f64) -> f64 {
+    fn interpolate(&self, torque: f64, rpm: f64) -> f64 {
         let place = |axis: &[f64], x: f64| {
             let last = axis.len() - 1;
             let x = x.clamp(axis[0], axis[last]);
@@ -201,7 +201,7 @@ impl Shares {
     /// Mean loss over a cycle. \[W\]
     fn mean(&self, driven: &Driven) -> f64 {
         let moving = driven.stretches.iter().filter(|s| s.speed * s.torque != 0.0);
-        let power = moving.map(|s| self.at(s.torque, s.speed / RPM) * (s.speed * s.torque).abs());
+        let power = moving.map(|s| self.interpolate(s.torque, s.speed / RPM) * (s.speed * s.torque).abs());
         power.sum::<f64>() / driven.total.duration
     }
 }
@@ -398,7 +398,11 @@ fn u11b_losses_at_30_kw_and_40_degc() {
         // The column of meshes comes from a table, which lies up to 3.6 % above the losses between its nodes.
         let over = printed / asked.mesh();
         assert!((0.9995..1.037).contains(&over), "{over} at {rpm}");
-        within(30e3 * Shares::coarse(&t).at(torque(30.0, rpm), rpm), printed, 0.01);
+        within(
+            30e3 * Shares::coarse(&t).interpolate(torque(30.0, rpm), rpm),
+            printed,
+            0.01,
+        );
         assert!((asked.churning - churning).abs() < 0.051, "{} at {rpm}", asked.churning);
     }
     for (rpm, printed) in [

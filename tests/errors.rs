@@ -1,13 +1,13 @@
-//! The list of codes: docs/errors.md shows it, and every finding has one.
+//! The list of codes: docs/errors.md contains it, and every finding has a code.
 
 use crate::common::file;
 use gearloss::api::{Code, codes};
 
 /// docs/errors.md.
 fn page() -> String {
-    let mut text = "# Errors and warnings\n\nGenerated from the lists of codes in the sources; `UPDATE=1 cargo test --test all errors::` writes it. \
-                    Every finding has a code,\nwhich stays where the message is put better: `error[E0101]` on the terminal, `code` in \
-                    `check --format json`. A code that is no longer\nused is not given to another kind of finding.\n"
+    let mut text = "# Errors and warnings\n\nGenerated from the lists of codes in the sources by `UPDATE=1 cargo test --test all errors::`. Every \
+                    finding has a code, which\ndoes not change if the message is reworded: `error[E0101]` on the terminal, `code` in \
+                    `check --format json`. A code that is no longer used\nis not reused for another kind of finding.\n"
         .to_owned();
     for code in codes() {
         text.push_str(&format!(
@@ -48,7 +48,7 @@ fn codes_are_unique_and_ordered_within_errors_and_warnings() {
     }
 }
 
-/// What users get to see: the texts of all golden cases.
+/// The texts that users see: those of all golden cases.
 #[test]
 fn every_finding_of_the_golden_cases_has_a_code_of_its_own() {
     let known: Vec<&str> = codes().into_iter().map(Code::id).filter(|id| *id != "E0000").collect();

@@ -240,7 +240,7 @@ fn random_gearboxes_keep_power_symmetry_order_and_limit() {
     let count = given("INVARIANTS", 200);
     let mut in_the_limit = 0;
     for number in 0..count {
-        let plan = Plan::random(&mut Random::of(seed, number));
+        let plan = Plan::random(&mut Random::from_seed(seed, number));
         let yaml = plan.yaml(Written::Plainly);
         let [speed, torque] = plan.point;
         let seen = solve(&language, &yaml, None, plan.point, PowerFlow::Real);

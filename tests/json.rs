@@ -13,8 +13,8 @@ fn gearloss(args: &[&str]) -> Output {
         .unwrap()
 }
 
-/// What a command prints as JSON, held to its schema, with its exit code.
-fn told(kind: &str, args: &[&str]) -> (Value, i32) {
+/// JSON output of a command, checked against its schema, with its exit code.
+fn run_json(kind: &str, args: &[&str]) -> (Value, i32) {
     let output = gearloss(args);
     let text = String::from_utf8(output.stdout).unwrap();
     let value: Value = serde_json::from_str(&text).unwrap_or_else(|e| panic!("{args:?}: {e}\n{text}"));
@@ -32,7 +32,7 @@ fn told(kind: &str, args: &[&str]) -> (Value, i32) {
 fn check(args: &[&str]) -> (Value, i32) {
     let mut all = vec!["check", "--format", "json"];
     all.extend(args);
-    told("check", &all)
+    run_json("check", &all)
 }
 
 #[test]
@@ -161,7 +161,7 @@ fn a_missing_file_is_told_beside_the_others() {
 
 #[test]
 fn models_lists_everything() {
-    let (all, code) = told("models", &["models", "--format", "json"]);
+    let (all, code) = run_json("models", &["models", "--format", "json"]);
     assert_eq!(code, 0);
     let mechanisms = all["mechanisms"].as_array().unwrap();
     let language = common::language();
@@ -174,7 +174,7 @@ fn models_lists_everything() {
             own.key
         );
     }
-    let (one, _) = told("models", &["models", "bearing", "skf", "--format", "json"]);
+    let (one, _) = run_json("models", &["models", "bearing", "skf", "--format", "json"]);
     let bearing = &one["mechanisms"][0];
     assert_eq!(one["mechanisms"].as_array().unwrap().len(), 1);
     assert_eq!(bearing["models"].as_array().unwrap().len(), 1);
@@ -191,7 +191,7 @@ fn models_lists_everything() {
         (&speed["name"], &speed["unit"], &speed["usual"]),
         (&"speed".into(), &"rpm".into(), &3000.0.into())
     );
-    let (gears, _) = told("models", &["models", "gear_mesh", "--format", "json"]);
+    let (gears, _) = run_json("models", &["models", "gear_mesh", "--format", "json"]);
     assert_eq!(gears["mechanisms"][0]["laws"], serde_json::json!(["eta = nu rho"]));
     assert_eq!(
         gearloss(&["models", "bearing", "nothing", "--format", "json"])

@@ -51,7 +51,7 @@ fn solve(t: &Transmission, gear: &str, speeds: &[(&str, f64)], torques: &[(&str,
     }
 }
 
-fn one(t: &Transmission, speed: f64, torque: f64) -> Seen {
+fn solve_point(t: &Transmission, speed: f64, torque: f64) -> Seen {
     solve(t, "first", &[("input", speed)], &[("input", torque)], PowerFlow::Real)
 }
 
@@ -59,7 +59,7 @@ fn one(t: &Transmission, speed: f64, torque: f64) -> Seen {
 fn at_rest_nothing_is_lost_and_nothing_is_undefined() {
     let language = language();
     for set in [None, Some("joint")] {
-        let seen = one(&two_speed_with(&language, set, &[]), 0.0, 10.0);
+        let seen = solve_point(&two_speed_with(&language, set, &[]), 0.0, 10.0);
         assert_eq!(
             (seen.status, seen.loss, seen.efficiency),
             (Status::Standstill, Some(0.0), None)
@@ -71,11 +71,11 @@ fn at_rest_nothing_is_lost_and_nothing_is_undefined() {
 #[test]
 fn zero_torque_is_dragged_and_preload_still_loads_the_bearings() {
     let language = language();
-    let free = one(&two_speed_with(&language, None, &[]), 8000.0, 0.0);
+    let free = solve_point(&two_speed_with(&language, None, &[]), 8000.0, 0.0);
     assert_eq!((free.status, free.efficiency), (Status::Dragged, None));
     assert!(free.loss.unwrap() > 0.0);
     let preload = [("bearings.B1.spring_preload", json!(200.0))];
-    let preloaded = one(&two_speed_with(&language, None, &preload), 8000.0, 0.0);
+    let preloaded = solve_point(&two_speed_with(&language, None, &preload), 8000.0, 0.0);
     assert!(
         preloaded.axial[0] == 200.0 && preloaded.axial[1] > 100.0,
         "{:?}",
@@ -100,7 +100,7 @@ fn a_dry_housing_has_no_churning() {
     let language = language();
     for set in [None, Some("joint")] {
         let dry = two_speed_with(&language, set, &[("housing.oil.running_level", json!("-2000 mm"))]);
-        let seen = one(&dry, 8000.0, 10.0);
+        let seen = solve_point(&dry, 8000.0, 10.0);
         let churning: f64 = seen
             .parts
             .iter()
@@ -116,11 +116,11 @@ fn a_dry_housing_has_no_churning() {
 fn reversing_speed_and_torque_loses_the_same_and_coasting_does_not() {
     let language = language();
     let t = two_speed_with(&language, None, &[]);
-    let (forward, back) = (one(&t, 8000.0, 10.0), one(&t, -8000.0, -10.0));
+    let (forward, back) = (solve_point(&t, 8000.0, 10.0), solve_point(&t, -8000.0, -10.0));
     // Crossed planes load the bearings differently when torque reverses, so only the meshes mirror exactly with them.
     assert_eq!(back.status, Status::Drive);
     assert!((forward.loss.unwrap() / back.loss.unwrap() - 1.0).abs() < 0.05);
-    let coast = one(&t, 8000.0, -10.0);
+    let coast = solve_point(&t, 8000.0, -10.0);
     assert_eq!(coast.status, Status::Coast);
     assert!(coast.efficiency.unwrap() < 1.0 && coast.efficiency.unwrap() > 0.9);
 }
@@ -193,9 +193,9 @@ fn trends_follow_speed_torque_and_temperature() {
     let language = language();
     for set in [None, Some("joint")] {
         let t = two_speed_with(&language, set, &[]);
-        let loss = |speed: f64, torque: f64| one(&t, speed, torque).loss.unwrap();
+        let loss = |speed: f64, torque: f64| solve_point(&t, speed, torque).loss.unwrap();
         assert!(loss(4000.0, 10.0) < loss(8000.0, 10.0) && loss(8000.0, 5.0) < loss(8000.0, 10.0));
         let cold = two_speed_with(&language, set, &[("thermal.oil", json!("20 degC"))]);
-        assert!(one(&cold, 8000.0, 1.0).loss.unwrap() > loss(8000.0, 1.0));
+        assert!(solve_point(&cold, 8000.0, 1.0).loss.unwrap() > loss(8000.0, 1.0));
     }
 }

@@ -1,4 +1,4 @@
-//! Measured data in studies: columns that are changed, torque and speed at the other port, several files, filters, steady stretches.
+//! Measured data in studies: columns that are changed, torque and speed at the other port, several files, filters, steady intervals.
 
 use crate::common;
 use std::path::{Path, PathBuf};
@@ -217,7 +217,7 @@ analyses:
     let folder = folder("steady", study, &[("recording.csv", &text)]);
     let printed = run(&folder);
     assert!(
-        printed.contains("fit: recording.csv: 2 steady stretches, 8"),
+        printed.contains("fit: recording.csv: 2 steady intervals, 8"),
         "{printed}"
     );
     assert!(

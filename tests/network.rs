@@ -53,7 +53,7 @@ struct Rest {
 }
 
 impl Rest {
-    fn of(&self, node: &str) -> f64 {
+    fn temperature(&self, node: &str) -> f64 {
         let names = self.transmission.network().unwrap().names();
         self.steady.temperatures[names.iter().position(|n| n == node).unwrap()]
     }
@@ -149,9 +149,9 @@ fn loaded_gears_are_warmer_than_their_oil_and_oil_is_warmer_than_the_casing() {
     ] {
         let rest = drive.rest(&language);
         for body in bodies {
-            assert!(rest.of(body) > rest.of("sump"), "{body}");
+            assert!(rest.temperature(body) > rest.temperature("sump"), "{body}");
         }
-        assert!(rest.of("sump") > rest.of("casing"));
+        assert!(rest.temperature("sump") > rest.temperature("casing"));
     }
 }
 
@@ -161,7 +161,7 @@ fn loaded_gears_are_warmer_than_their_oil_and_oil_is_warmer_than_the_casing() {
 fn the_oil_is_about_as_warm_as_in_one_balance_of_the_housing() {
     let language = common::language();
     for drive in [two_speed(), planetary()] {
-        let network = drive.rest(&language).of("sump") - 20.0;
+        let network = drive.rest(&language).temperature("sump") - 20.0;
         let lumped = drive
             .with("thermal.mode", json!("balance"))
             .with("thermal.heat_dissipation", json!({ "casing": { "type": "textbook" } }));
@@ -216,21 +216,21 @@ fn numbers_that_were_laid_out_can_be_changed_by_path() {
     let free = two_speed().rest(&language);
     let bound = two_speed().with(path, json!("0.1 W/K")).rest(&language);
     assert!(
-        bound.of("B1") > free.of("B1") + 2.0,
+        bound.temperature("B1") > free.temperature("B1") + 2.0,
         "{} {}",
-        bound.of("B1"),
-        free.of("B1")
+        bound.temperature("B1"),
+        free.temperature("B1")
     );
     // A pattern meets many, a capacity changes nothing at rest, and what the recipe reads may be changed as well.
     let both = two_speed()
         .with("thermal.network.links.*.model.flanks", json!(2))
         .rest(&language);
-    let over = |rest: &Rest| rest.of("input") - rest.of("sump");
+    let over = |rest: &Rest| rest.temperature("input") - rest.temperature("sump");
     assert!(over(&both) < 0.9 * over(&free), "{} {}", over(&both), over(&free));
     let heavy = two_speed()
         .with("thermal.network.nodes.sump.heat_capacity", json!("1e5 J/K"))
         .rest(&language);
-    assert!((heavy.of("sump") - free.of("sump")).abs() < 1e-6);
+    assert!((heavy.temperature("sump") - free.temperature("sump")).abs() < 1e-6);
     let more = two_speed().with("housing.oil.volume", json!("2.4 l"));
     let resolved = gearbox.resolve(&language, &more.choice()).unwrap();
     let capacity = lookup(&resolved.value, "thermal.network.nodes.sump.heat_capacity").unwrap();

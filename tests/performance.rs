@@ -1,5 +1,5 @@
-//! The page of times: that it names the benches that exist, and how it is written from a run of them. No bench runs here: with
-//! `BENCHED=2026-01-31`, the date of the run, the figures of the last `cargo bench` go into the page.
+//! The page of times: it names the existing benches, and is written from a run of them. No bench runs here: with
+//! `BENCHED=2026-01-31`, the date of the run, the times of the last `cargo bench` are written into the page.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -15,7 +15,7 @@ const PAGE: &str = "docs/performance.md";
 const BEGIN: &str = "<!-- figures: BENCHED=DATE cargo test --test all performance:: -->\n";
 const END: &str = "<!-- end of figures -->\n";
 
-/// The benches of each file, in the order in which they stand there: their group has the name of the file.
+/// The benches of each file, in their order in the file: their group has the name of the file.
 fn benches() -> Vec<(String, Vec<String>)> {
     let mut files: Vec<_> = std::fs::read_dir(file("benches"))
         .unwrap()
@@ -32,7 +32,7 @@ fn benches() -> Vec<(String, Vec<String>)> {
         );
         let named = text.split("bench_function(").skip(1).map(|rest| {
             let name = rest.trim_start().strip_prefix('"').and_then(|r| r.split_once('"'));
-            name.unwrap_or_else(|| panic!("{group}: a bench without its name in quotes where it is made"))
+            name.unwrap_or_else(|| panic!("{group}: a bench without its name in quotes where it is created"))
                 .0
                 .to_owned()
         });
@@ -43,7 +43,7 @@ fn benches() -> Vec<(String, Vec<String>)> {
     files.iter().map(|path| names(path)).collect()
 }
 
-/// A time of nanoseconds with three digits, in the unit that suits it.
+/// A time of nanoseconds with three digits, in a suitable unit.
 fn time(ns: f64) -> String {
     let (value, unit) = match ns {
         ns if ns < 1e3 => (ns, "ns"),
@@ -55,7 +55,7 @@ fn time(ns: f64) -> String {
     format!("{value:.*} {unit}", digits as usize)
 }
 
-/// What Criterion has kept of the last run of every bench, by group and name: the estimates, and how many elements one run has.
+/// Criterion's estimates of the last run of every bench, by group and name, and the number of elements of one run.
 fn measured(folder: &Path, found: &mut BTreeMap<String, (Value, Option<u64>)>) {
     let Ok(entries) = std::fs::read_dir(folder) else { return };
     for entry in entries.map(|e| e.unwrap().path()).filter(|p| p.is_dir()) {
@@ -73,22 +73,22 @@ fn measured(folder: &Path, found: &mut BTreeMap<String, (Value, Option<u64>)>) {
     }
 }
 
-/// A line of a file of the system, or that it is not told.
-fn told(line: Option<&str>) -> String {
-    line.map_or_else(|| "not told".to_owned(), |line| line.trim().to_owned())
+/// A line of a system file, or `unknown`.
+fn line_or_unknown(line: Option<&str>) -> String {
+    line.map_or_else(|| "unknown".to_owned(), |line| line.trim().to_owned())
 }
 
 /// Exponentials and logarithms of one point of the two-speed example in first gear under the set `joint`, counted from the formulas,
-/// for each pass: 3 bearings under radial load with 2 and 1, 3 under both loads with 2 and 2, 3 meshes with 1 and 1. What hangs on
-/// speed alone is shared by all torques.
+/// for each pass: 3 bearings under radial load with 2 and 1, 3 under both loads with 2 and 2, 3 meshes with 1 and 1. What depends
+/// on speed only is shared by all torques.
 const PASS: [f64; 2] = [15.0, 12.0];
-/// The logarithms of the meshes for what they note, once for a point.
+/// The logarithms of the meshes for their notes, once for a point.
 const NOTES: f64 = 3.0;
-/// Exponentials, logarithms and powers of the least of three passes that one point alone takes: the meshes at 12 places in one of
-/// them, for the notes, and once for speed and oil 6 bearings, a cage, two wheels that dip and the oil.
+/// Minimum number of exponentials, logarithms and powers in the three iterations of a single point: the meshes at 12 points of their
+/// paths in one of them, for the notes, and once for speed and oil 6 bearings, a cage, two immersed wheels and the oil.
 const ALONE: [f64; 3] = [156.0, 81.0, 15.0];
 
-/// Passes of a point on the mean over what `benches/point.rs` solves side by side.
+/// Iterations of a point on average over what `benches/point.rs` solves in batches.
 fn passes() -> f64 {
     let t = two_speed_with(&language(), Some("joint"), &[]);
     let case = t.case("first", &[], &["input"]).unwrap();
@@ -108,8 +108,8 @@ fn passes() -> f64 {
     passes as f64 / (32 * LANES) as f64
 }
 
-/// How close points come to the cost of their transcendental functions.
-fn least(found: &BTreeMap<String, (Value, Option<u64>)>) -> String {
+/// Time of a point compared with that of its transcendental functions.
+fn lower_bound(found: &BTreeMap<String, (Value, Option<u64>)>) -> String {
     let of = |name: &str| {
         let (estimates, elements) = &found[name];
         estimates["median"]["point_estimate"].as_f64().unwrap() / elements.unwrap_or(1) as f64
@@ -124,18 +124,18 @@ fn least(found: &BTreeMap<String, (Value, Option<u64>)>) -> String {
     let passes = passes();
     let together = [PASS[0] * passes, PASS[1] * passes + NOTES, 0.0];
     let mut out = format!(
-        "\nThe least by these costs, for a point of the two-speed example under the set `joint`; side by side it takes {passes:.2} \
-         passes:\n\n| | exponentials | logarithms | powers | their time | measured | over it |\n|---|---|---|---|---|---|---|\n"
+        "\nLower bound by these times, for a point of the two-speed example with the model set `joint`; a batched point takes \
+         {passes:.2} iterations:\n\n| | exponentials | logarithms | powers | their time | measured | ratio |\n|---|---|---|---|---|---|---|\n"
     );
     for (name, counts, costs, bench) in [
         (
-            "side by side",
+            "batched",
             together,
-            costs("side by side"),
-            "point/two-speed example, set joint, side by side",
+            costs("in lanes"),
+            "point/two-speed example, set joint, batched",
         ),
         (
-            "alone",
+            "single",
             ALONE,
             costs("of the standard library"),
             "point/two-speed example, set joint",
@@ -171,12 +171,12 @@ fn figures(date: &str) -> String {
     let load: Vec<&str> = load.split(' ').take(3).collect();
     let mut out = format!(
         "Figures of {date}: gearloss {}, {}, bench profile. Processor {}, {cores} cores; load average {}\nover the last 1, 5 and 15 \
-         minutes, read right after the benches; load above the number of threads of a bench was other work.\n\n\
-         | bench | median | 95 % interval | for one of |\n|---|---|---|---|\n",
+         minutes, read after the benches; load above the number of threads of a bench was other work.\n\n\
+         | bench | median | 95 % interval | per element |\n|---|---|---|---|\n",
         env!("CARGO_PKG_VERSION"),
-        told(rustc.as_deref()),
-        told(model.map(|m| m.1)),
-        told(Some(load.join(", ").as_str()).filter(|l| !l.is_empty())),
+        line_or_unknown(rustc.as_deref()),
+        line_or_unknown(model.map(|m| m.1)),
+        line_or_unknown(Some(load.join(", ").as_str()).filter(|l| !l.is_empty())),
     );
     for (group, names) in benches() {
         for name in names {
@@ -200,7 +200,7 @@ fn figures(date: &str) -> String {
             );
         }
     }
-    out + &least(&found)
+    out + &lower_bound(&found)
 }
 
 #[test]
@@ -228,7 +228,7 @@ fn the_page_names_the_benches_that_exist() {
         rows, exist,
         "{PAGE} is stale: run the benches, then `BENCHED=DATE cargo test --test all performance::`"
     );
-    // Cargo runs what it is told of.
+    // Cargo runs only the listed benches.
     let manifest = std::fs::read_to_string(file("Cargo.toml")).unwrap();
     for (group, _) in benches() {
         assert!(

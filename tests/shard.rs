@@ -91,18 +91,18 @@ fn same_as_single(folder: &Path, study: &str, shards: usize, end: &[&str]) -> Ou
     for (name, bytes) in &single_files {
         let merged = &merged_files[name];
         if name == "report.html" {
-            same(&text(bytes), &text(merged));
+            assert_same_text(&text(bytes), &text(merged));
         }
         assert!(*bytes == *merged || name == "report.html", "{name} differs");
     }
-    same(&text(&single.stdout), &text(&merged.stdout));
-    same(&text(&single.stderr), &text(&merged.stderr));
+    assert_same_text(&text(&single.stdout), &text(&merged.stdout));
+    assert_same_text(&text(&single.stderr), &text(&merged.stderr));
     assert_eq!(single.status.code(), merged.status.code());
     single
 }
 
 /// Compares line by line, but for the columns of times that a tournament measures: they differ between any two runs.
-fn same(one: &str, other: &str) {
+fn assert_same_text(one: &str, other: &str) {
     assert_eq!(one.lines().count(), other.lines().count());
     // First and last character of the column in the present table.
     let mut times: Option<(usize, usize)> = None;

@@ -60,7 +60,7 @@ fn points(value: &Value) -> &[Value] {
     value["points"].as_array().unwrap()
 }
 
-fn same(a: f64, b: f64, tolerance: f64) {
+fn assert_close(a: f64, b: f64, tolerance: f64) {
     assert!((a - b).abs() <= tolerance * b.abs().max(1e-12), "{a} {b}");
 }
 
@@ -99,11 +99,11 @@ fn stacks_add_up_to_the_loss_of_the_map() {
             .sum()
     };
     for name in ["mechanism", "component", "stage", "term", "sum"] {
-        same(stack(name, 0), loss, 1e-12);
+        assert_close(stack(name, 0), loss, 1e-12);
     }
-    same(stack("percent", 0), 100.0, 1e-12);
-    same(stack("over_torque", 1), loss, 1e-12);
-    same(stack("warm", 1), loss, 1e-12);
+    assert_close(stack("percent", 0), 100.0, 1e-12);
+    assert_close(stack("over_torque", 1), loss, 1e-12);
+    assert_close(stack("warm", 1), loss, 1e-12);
     assert!(stack("warm", 0) > loss, "cold oil is thicker");
     let stages = json(&folder, "stage")["breakdowns"][0]["shares"].clone();
     for share in ["meshes.M1", "meshes.M2", "shafts.input", "shafts.output"] {
@@ -125,14 +125,14 @@ fn one_power_at_every_speed_and_a_measured_total_beside_the_bars() {
 ";
     let (folder, text) = run("power", study, &[("rig.csv", rig)]);
     for point in points(&json(&folder, "power")["breakdowns"][0]) {
-        same(
+        assert_close(
             number(&point["torque_nm"]) * number(&point["speed_rpm"]) * common::RPM,
             8000.0,
             1e-9,
         );
     }
     let seen = json(&folder, "seen")["breakdowns"][0].clone();
-    same(number(&points(&seen)[0]["measured_loss_w"]), 155.0, 1e-12);
+    assert_close(number(&points(&seen)[0]["measured_loss_w"]), 155.0, 1e-12);
     assert!(points(&seen)[1]["measured_loss_w"].is_null());
     assert!(text.contains("a power at standstill is not possible"), "{text}");
     assert!(text.contains("a breakdown needs either `torque` or `power`"), "{text}");
@@ -215,10 +215,10 @@ analyses:
         "one map for each gear state"
     );
     assert_eq!(points(&inside["maps"][0]).len(), 7);
-    same(loss(&inside["maps"][0], 4), loss(&plain["maps"][0], 4), 1e-12);
+    assert_close(loss(&inside["maps"][0], 4), loss(&plain["maps"][0], 4), 1e-12);
     let shares = json(&folder, "shares");
     for i in 0..9 {
-        same(loss(&shares["maps"][0], i), loss(&plain["maps"][0], i), 1e-9);
+        assert_close(loss(&shares["maps"][0], i), loss(&plain["maps"][0], i), 1e-9);
     }
     let picture = std::fs::read_to_string(folder.join("shares-rated-joint-loss.svg")).unwrap();
     assert!(picture.contains("speed / rated speed"));
@@ -229,7 +229,7 @@ analyses:
     let listed = json(&folder, "listed");
     let maps = listed["maps"].as_array().unwrap();
     assert_eq!(maps.len(), 2);
-    same(loss(&maps[0], 0), loss(&plain["maps"][0], 4), 1e-12);
+    assert_close(loss(&maps[0], 0), loss(&plain["maps"][0], 4), 1e-12);
     assert!(
         loss(&maps[0], 1) > loss(&maps[0], 0),
         "the temperature of a row holds for its point"
@@ -359,7 +359,7 @@ analyses:
     };
     assert_eq!(list("Trq_bpts").len(), 21);
     assert!(!script.contains("Temp_bpts"), "only one temperature was computed");
-    same(list("omega_bpts")[0], 1000.0 * common::RPM, 1e-12);
+    assert_close(list("omega_bpts")[0], 1000.0 * common::RPM, 1e-12);
     let slab = |name: &str| -> Vec<Vec<f64>> {
         let (_, slab) = script.split_once(&format!("{name} = [\n")).unwrap();
         let row = |line: &str| {
@@ -370,8 +370,8 @@ analyses:
     };
     let (eta, loss) = (slab("eta_tbl"), slab("loss_tbl"));
     for (i, point) in points(&wide["maps"][0]).iter().enumerate() {
-        same(eta[i / 21][i % 21], point["efficiency"].as_f64().unwrap_or(0.0), 1e-12);
-        same(loss[i / 21][i % 21], number(&point["loss_torque_nm"]), 1e-12);
+        assert_close(eta[i / 21][i % 21], point["efficiency"].as_f64().unwrap_or(0.0), 1e-12);
+        assert_close(loss[i / 21][i % 21], number(&point["loss_torque_nm"]), 1e-12);
     }
     let study = "grids:
   warm: { gear: first, torque: [5 Nm, 10 Nm], speed: [2000 rpm, 4000 rpm], bind: { thermal.oil: [40 degC, 90 degC] } }
@@ -418,11 +418,11 @@ analyses:
         let ends: Vec<f64> = point["loss_w"]["band"].as_array().unwrap().iter().map(number).collect();
         // Needle cages keep models of their own, so some 0.4 % of the loss do not change.
         for (end, share) in ends.iter().zip([0.905, 1.0, 1.095]) {
-            same(*end, share * nominal, 1e-3);
+            assert_close(*end, share * nominal, 1e-3);
         }
     }
     let inputs = band["inputs"].as_array().unwrap();
-    same(number(&inputs[0]["correlation_with_mean_loss"]), 1.0, 1e-5);
+    assert_close(number(&inputs[0]["correlation_with_mean_loss"]), 1.0, 1e-5);
     assert!(number(&inputs[1]["correlation_with_mean_loss"]).abs() < 0.05);
     for words in [
         "valeu",
@@ -500,7 +500,7 @@ analyses:
         .iter()
         .filter_map(|r| r["weight"].as_f64())
         .sum();
-    same(weights, 1.0, 1e-9);
+    assert_close(weights, 1.0, 1e-9);
     assert!(best["weight"].as_f64().is_some());
     for point in points(&fitted) {
         let [least, mean, greatest] = ["least_loss_w", "mean_loss_w", "greatest_loss_w"].map(|k| number(&point[k]));
@@ -527,7 +527,7 @@ analyses:
         .iter()
         .map(|s| number(&s["share"]))
         .sum();
-    same(shares, 1.0, 1e-12);
+    assert_close(shares, 1.0, 1e-12);
     for words in ["`bearings` is not a mechanism", "`bearing` is listed twice"] {
         assert!(text.contains(words), "{words}: {text}");
     }
@@ -618,16 +618,16 @@ analyses:
                 assert_eq!(place, winner, "{quantity} of {other}");
                 for ((a, x), (b, y)) in first.iter().zip(&found) {
                     assert_eq!(a, b, "{quantity} of {other}");
-                    same(*x, *y, 1e-6);
+                    assert_close(*x, *y, 1e-6);
                 }
             }
         }
     }
     let stated = json(&folder, "stated")["tournament"].clone();
-    same(number(&stated["correlation"]), 0.5, 1e-12);
+    assert_close(number(&stated["correlation"]), 0.5, 1e-12);
     for point in points(&stated) {
         let accuracy = (0.03 * number(&point["measured_loss_w"])).hypot(2.0);
-        same(number(&point["loss_accuracy_w"]), accuracy, 1e-9);
+        assert_close(number(&point["loss_accuracy_w"]), accuracy, 1e-9);
         assert_eq!(point["accuracy"].is_null(), number(&point["torque_nm"]) == 0.0);
     }
     for words in [
@@ -825,14 +825,14 @@ analyses:
     let (results, text) = solved(&folder.join("study.yaml"));
     let found = &json(&results, "found")["identifications"][0];
     let fitted = number(&found["parameters"][0]["value"]);
-    same(fitted, 1.3, 1e-4);
+    assert_close(fitted, 1.3, 1e-4);
     // The misfit is zero there, so the accuracies alone make the posterior: the linearised interval but for its curvature.
     let posterior = &found["posterior"]["parameters"][0];
     let interval = [0, 1].map(|end| number(&posterior["interval"][end]));
     assert!(interval[0] < 1.3 && 1.3 < interval[1], "{posterior}");
     let linear = [0, 1].map(|end| number(&found["parameters"][0]["interval"][end]));
     let [drawn, linear] = [interval, linear].map(|ends| ends[1] - ends[0]);
-    same(drawn, linear, 0.2);
+    assert_close(drawn, linear, 0.2);
     let gap = json(&results, "gap");
     let rms = |set: usize| number(&gap["comparisons"][set]["difference"]["rms"]);
     assert!(rms(1) < 1e-3 * rms(0), "{text}");

@@ -84,7 +84,7 @@ fn the_least_lies_at_the_values_that_made_the_points() {
     assert!(least["x_end"].is_null() && least["y_end"].is_null() && found["accuracy"].is_null());
     assert_eq!(found["pairs"].as_array().unwrap().len(), 12);
     assert!(
-        text.contains("mm, inside the surface; within 5 % of the minimum: ") && text.contains(" alone"),
+        text.contains("mm, inside the surface; within 5 % of the minimum: ") && text.contains(" only"),
         "{text}"
     );
     let least = json(&folder, "short")["surfaces"][0]["least"].clone();

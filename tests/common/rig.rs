@@ -172,7 +172,7 @@ impl Rig {
     }
 
     /// A point at torque in Nm, speed in rad/s and temperature of the oil in degC.
-    pub fn at(&self, gear: &str, torque: f64, speed: f64, oil: f64) -> True {
+    pub fn true_point(&self, gear: &str, torque: f64, speed: f64, oil: f64) -> True {
         let t = &self.transmission;
         let case = t.case(gear, &["input"], &["input"]).unwrap();
         let mut scratch = t.scratch(&case);
@@ -222,7 +222,7 @@ pub fn csv(rig: &Rig, seed: u64) -> String {
                 for step in 1..=SPEEDS {
                     let speed = f64::from(step) * 2000.0;
                     let oil = set_point + NOISE[2] * noise.next();
-                    let at = rig.at(gear, torque, speed * RPM, oil);
+                    let at = rig.true_point(gear, torque, speed * RPM, oil);
                     let support = SUPPORT[0] * (speed / 1000.0).powf(SUPPORT[1]);
                     let shown_in = torque + support + OFFSETS[0] + NOISE[0] * noise.next();
                     let shown_out = at.torque_out + OFFSETS[1] + NOISE[1] * noise.next();

@@ -104,7 +104,7 @@ impl Sound {
             "{ catalogues: { bearings: bearings.csv, lubricants: lubricants.csv }, extends: fine.yaml, imported_loads: { file: points.csv } }",
         ));
         Self {
-            words: Words::of(&documents),
+            words: Words::from_documents(&documents),
             gearboxes,
             study,
             inputs,
@@ -114,7 +114,7 @@ impl Sound {
 
     /// The case of a number.
     pub fn case(&self, seed: u64, number: u64) -> Case {
-        let mut random = Random::of(seed, number);
+        let mut random = Random::from_seed(seed, number);
         let random = &mut random;
         let mut files: BTreeMap<String, String> = self
             .tables

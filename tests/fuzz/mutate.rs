@@ -88,7 +88,7 @@ const UNITS: [&str; 24] = [
 ];
 
 impl Words {
-    pub fn of(documents: &[Tree]) -> Self {
+    pub fn from_documents(documents: &[Tree]) -> Self {
         let mut words = Self {
             values: BTreeMap::new(),
             keys: Vec::new(),
@@ -159,7 +159,7 @@ pub fn document(tree: &mut Tree, words: &Words, random: &mut Random) {
         12 => {
             // Two parts change places.
             let other = random.one(&ways).clone();
-            if let (Some(a), Some(b)) = (tree.at(&way).cloned(), tree.at(&other).cloned()) {
+            if let (Some(a), Some(b)) = (tree.subtree(&way).cloned(), tree.subtree(&other).cloned()) {
                 replace(tree, &way, b);
                 replace(tree, &other, a);
             }
@@ -167,7 +167,7 @@ pub fn document(tree: &mut Tree, words: &Words, random: &mut Random) {
         13 => {
             // A part stands in a second place.
             let other = random.one(&ways).clone();
-            if let Some(part) = tree.at(&way).filter(|part| part.ways().len() < 200).cloned() {
+            if let Some(part) = tree.subtree(&way).filter(|part| part.ways().len() < 200).cloned() {
                 replace(tree, &other, part);
             }
         }
@@ -192,11 +192,11 @@ fn replace(tree: &mut Tree, way: &[usize], value: Tree) {
 
 /// Changes a scalar at the way, or somewhere below.
 fn scalars(tree: &mut Tree, way: &[usize], words: &Words, random: &mut Random) {
-    let Some(part) = tree.at(way) else { return };
+    let Some(part) = tree.subtree(way) else { return };
     let below: Vec<Way> = part
         .ways()
         .into_iter()
-        .filter(|way| matches!(part.at(way), Some(Tree::Scalar(_))))
+        .filter(|way| matches!(part.subtree(way), Some(Tree::Scalar(_))))
         .collect();
     if below.is_empty() {
         return;

@@ -6,7 +6,7 @@ pub struct Random(u64);
 
 impl Random {
     /// Numbers of one case.
-    pub fn of(seed: u64, case: u64) -> Self {
+    pub fn from_seed(seed: u64, case: u64) -> Self {
         let mut random = Self(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ case);
         random.bits();
         random

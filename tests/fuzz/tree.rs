@@ -21,20 +21,20 @@ impl Tree {
     pub fn read(text: &str) -> Self {
         let read = read_yaml(0, text);
         assert!(read.findings.is_empty(), "{:?}\n{text}", read.findings);
-        Self::of(&read.node)
+        Self::from_node(&read.node)
     }
 
-    fn of(node: &Node) -> Self {
+    fn from_node(node: &Node) -> Self {
         match &node.content {
             Content::Null => Self::Scalar(String::new()),
             Content::Bool(is) => Self::Scalar(is.to_string()),
             Content::Number(x) => Self::Scalar(x.to_string()),
             Content::Text { text, .. } if text.parse::<f64>().is_ok() => Self::Scalar(format!("\"{text}\"")),
             Content::Text { text, .. } => Self::Scalar(text.clone()),
-            Content::List(list) => Self::List(list.iter().map(Self::of).collect()),
+            Content::List(list) => Self::List(list.iter().map(Self::from_node).collect()),
             Content::Map(map) => Self::Map(
                 map.iter()
-                    .map(|(key, node)| (key.name.clone(), Self::of(node)))
+                    .map(|(key, node)| (key.name.clone(), Self::from_node(node)))
                     .collect(),
             ),
         }
@@ -78,7 +78,7 @@ impl Tree {
         }
     }
 
-    pub fn at(&self, way: &[usize]) -> Option<&Self> {
+    pub fn subtree(&self, way: &[usize]) -> Option<&Self> {
         way.iter().try_fold(self, |tree, place| tree.child(*place))
     }
 
@@ -91,7 +91,7 @@ impl Tree {
         let Some((last, above)) = way.split_last() else {
             return "";
         };
-        match self.at(above) {
+        match self.subtree(above) {
             Some(Self::Map(map)) => map.get(*last).map_or("", |(key, _)| key),
             _ => "",
         }

@@ -38,7 +38,7 @@ pub fn run(cases: &Cases, folder: &Path) {
         .append(true)
         .open(folder.join("log"))
         .unwrap();
-    let mut printed = ["out", "err"].map(|name| Printed::of(folder.join(name)));
+    let mut printed = ["out", "err"].map(|name| Printed::from_path(folder.join(name)));
     let began = Arc::new(Mutex::new((Instant::now(), Duration::ZERO)));
     watch(Arc::clone(&began));
     for number in (cases.first..cases.end).step_by(cases.stride as usize) {
@@ -129,7 +129,7 @@ fn words(text: &str) -> impl Iterator<Item = &str> {
 struct Printed(Option<File>);
 
 impl Printed {
-    fn of(path: PathBuf) -> Self {
+    fn from_path(path: PathBuf) -> Self {
         Self(File::open(path).ok().map(|mut file| {
             let _ = file.seek(SeekFrom::End(0));
             file

@@ -1,5 +1,5 @@
-//! An analysis of our own: the torque that turns the unloaded gearbox over the temperature of its oil, and how much more a cold one
-//! needs than a warm one.
+//! An analysis of our own crate: the torque that turns the unloaded gearbox over the temperature of its oil, and the ratio of the torques
+//! with cold and with warm oil.
 
 use gearloss::pictures::page::Page;
 use gearloss::pictures::register_view;
@@ -8,11 +8,11 @@ use gearloss::studies::prelude::*;
 /// Torque that turns the unloaded gearbox, over the temperature of the oil.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct DragTorqueEntry {
-    /// Gearbox; absent, the first.
+    /// Gearbox; default: the first.
     pub gearbox: Option<String>,
-    /// Gear state; absent, the first.
+    /// Gear; default: the first.
     pub gear: Option<String>,
-    /// Model sets; absent, the models of the gearbox.
+    /// Model sets; default: the models of the gearbox.
     #[serde(default)]
     pub model_sets: Vec<String>,
     /// Speed at the port that the conditions name. [rpm]
@@ -20,7 +20,7 @@ pub struct DragTorqueEntry {
     pub speed: f64,
     /// Temperatures of the oil.
     pub oil_temperature: TemperatureAxis,
-    /// Formats to write; absent, CSV and JSON.
+    /// Formats to write; default: CSV and JSON.
     #[serde(default = "Write::data")]
     pub write: Vec<Write>,
 }
@@ -39,7 +39,7 @@ register_analysis!(DragTorqueEntry);
 /// Drag torques of each model set.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct DragTorqueOutcome {
-    /// Where it comes from.
+    /// Analysis, gearboxes and files of the result.
     #[serde(flatten)]
     pub head: Head,
     /// One for each model set.
@@ -55,7 +55,7 @@ pub struct DragTorqueOfSet {
     pub cold_over_warm: Option<f64>,
     /// One for each temperature.
     pub torques: Vec<DragTorque>,
-    /// What the models noted.
+    /// Notes of the models.
     pub notes: Vec<Note>,
 }
 
@@ -64,7 +64,7 @@ pub struct DragTorqueOfSet {
 pub struct DragTorque {
     /// Temperature of the oil. [degC]
     pub oil_temperature_degc: f64,
-    /// Torque; absent where a loss has no value. [Nm]
+    /// Torque; absent if a loss has no value. [Nm]
     pub torque_nm: Option<f64>,
 }
 
@@ -83,7 +83,7 @@ impl Analysis for DragTorqueEntry {
             }
             sets.push(of_set(b, &temperatures, &cx.solve(b, &points)?));
         }
-        // Everything that can be wrong was found above: `check` ends here.
+        // All errors were found above: `check` ends here.
         cx.begin()?;
         let head = cx.head(&built.iter().collect::<Vec<_>>());
         Ok(DragTorqueOutcome { head, sets })
@@ -177,7 +177,7 @@ mod tests {
 
     use super::*;
 
-    /// What `solve` prints for the output without torque, at 80 degC, is the torque of the analysis there.
+    /// Cold oil causes a higher drag torque, and the ratio is that of the first and the last torque.
     #[test]
     fn the_torque_is_the_loss_over_the_speed() {
         let language = Language::linked().expect("all that is linked fits");

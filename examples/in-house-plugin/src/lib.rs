@@ -1,7 +1,7 @@
-//! The models of a maker of gearboxes: a bearing law from its rig, a baffle around a dipping gear, and a mechanism of its own,
-//! the drag of parking locks; and an analysis of its own. All figures are invented.
+//! The models of a gearbox manufacturer: a bearing model from its rig, a baffle around an immersed gear, a separate mechanism (the
+//! drag of parking locks), and an analysis. All figures are invented.
 //!
-//! Nothing else names this crate: linking it (`use in_house_plugin as _;`) puts its models, its section and its analysis into
+//! No other code refers to this crate: linking it (`use in_house_plugin as _;`) adds its models, its section and its analysis to
 //! schema, `models`, `check`, `solve`, `explain`, `run`, the report and the conformance suite.
 
 // The built-in models, for other slots and for comparisons in tests.

@@ -57,7 +57,7 @@ impl Component for ParkingLock {
     }
 }
 
-// Gives `constant`, `formula`, `table` and `none`.
+// Provides `constant`, `formula`, `table` and `none`.
 impl ParkingLockModel for Scalar<ParkingLock> {
     fn loss(&self, at: &ParkingLockAt<'_>) -> Result<Loss, Undefined> {
         self.moment(at)

@@ -9,21 +9,21 @@ terms! {
 limits! { SPEED = ("n", "1/min", 200.0, 9000.0, "speeds on the rig"); }
 
 coefficients! {
-    /// Constants of the line through the points of the rig.
+    /// Constants of the curve fitted to the points of the rig.
     struct Constants {
         /// Exponent of viscosity in mm2/s times speed in 1/min; 0.6 to 0.75 on single bearings of the rig.
         speed_exponent = 2.0 / 3.0, in 0.6..=0.75;
     }
 }
 
-/// Friction of ball bearings as measured on the rig: a part from oil and speed, and a part from load.
+/// Friction of ball bearings as measured on the rig: a viscous term and a load-dependent term.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct RigLine {
-    /// Coefficient of the part from oil and speed. [-]
+    /// Coefficient of the viscous term. [-]
     #[serde(default = "viscous")]
     #[schemars(range(min = 0.0, max = 20.0))]
     pub viscous: f64,
-    /// Coefficient of the part from load. [-]
+    /// Coefficient of the load-dependent term. [-]
     #[schemars(range(min = 0.0, max = 0.01))]
     pub loaded: f64,
     #[serde(default)]

@@ -1,11 +1,11 @@
-//! The mechanism and the models of this crate are full citizens of the program.
+//! The mechanism and the models of this crate have all features of built-in ones.
 #![allow(clippy::unwrap_used)]
 
 mod common;
 
 use common::{Run, program};
 
-/// Everything that is linked, the models of this crate among it.
+/// Everything that is linked, including the models of this crate.
 #[test]
 fn all_models_conform() {
     use in_house_plugin as _;
@@ -43,7 +43,7 @@ fn models_lists_them_with_their_crate() {
     );
 }
 
-/// Ids, descriptions, units, ranges and defaults: what an editor offers and checks.
+/// Ids, descriptions, units, ranges and defaults, which an editor offers and checks.
 #[test]
 fn the_schema_has_the_section_and_the_models() {
     let schema = program(&["schema", "gearbox"]).json();
@@ -89,7 +89,7 @@ fn check_solve_and_explain_know_them() {
     assert!((part("parking_locks.lock")["loss_w"].as_f64().unwrap() - expected).abs() < 1e-9);
     assert_eq!(part("bearings.P1")["model"], "rig_line");
     assert_eq!(part("gears.wheel.drag.churning")["model"], "baffled");
-    // Where a result comes from: every crate that took part, with its version.
+    // Origin of a result: every linked crate with its version.
     let crates = solved["packages"].as_array().unwrap();
     assert!(
         crates
@@ -103,7 +103,7 @@ fn check_solve_and_explain_know_them() {
     );
 }
 
-/// `formula` serves the mechanism of this crate without a line of it.
+/// `formula` works for the mechanism of this crate without further code.
 #[test]
 fn a_formula_takes_the_place_of_a_model() {
     let formula = "parking_locks.lock.model={ type: formula, formula: \"1e-5 * abs(speed)\" }";
@@ -131,7 +131,7 @@ fn a_fault_in_the_section_is_found_like_any_other() {
     assert!(told.contains("write `rig_line`"), "{told}");
 }
 
-/// What is asked for a pair of gears has no place inside of what is asked for one.
+/// A model for a gear pair cannot be nested in a model for a single gear.
 #[test]
 fn a_law_of_a_mesh_is_no_law_of_a_gear() {
     let nested = "gears.wheel.drag.churning.free={ type: mauz_injection, flow: 1 l/min }";
@@ -139,7 +139,7 @@ fn a_law_of_a_mesh_is_no_law_of_a_gear() {
     assert!(told.contains("is a law for meshes"), "{told}");
 }
 
-/// A parameter of this crate is found from measured points, by its path; 4.2e-4 was hidden in them.
+/// A parameter of this crate is identified from measured points by its path; the true value is 4.2e-4.
 #[test]
 fn the_study_runs_and_identifies_a_parameter() {
     let folder = common::folder("study");
@@ -170,7 +170,7 @@ impl Run {
     }
 }
 
-/// Schema, `check`, `run`, its files and the report have the analysis of this crate.
+/// Schema, `check`, `run`, its files and the report include the analysis of this crate.
 #[test]
 fn an_analysis_of_this_crate_runs_like_any_other() {
     let schema = program(&["schema", "study"]).json().to_string();

@@ -1,6 +1,6 @@
-//! The guide says what is true: its files are those of this crate, its commands print what it shows.
+//! The guide is correct: its files are those of this crate, and its commands print the output that it shows.
 //!
-//! `UPDATE=1 cargo test --test guide` writes the guide's files and outputs anew.
+//! `UPDATE=1 cargo test --test guide` updates the guide's files and outputs.
 #![allow(clippy::unwrap_used)]
 
 mod common;
@@ -9,10 +9,10 @@ use std::path::{Path, PathBuf};
 
 const GUIDE: &str = "../../docs/plugin-guide.md";
 
-/// The most lines of an output that the guide shows.
+/// Maximum number of lines of an output that the guide shows.
 const SHOWN: usize = 24;
 
-/// What a fenced block should hold, by its head; absent where it stands for itself.
+/// Expected content of a fenced block, by its header; absent if it is not checked.
 fn expected(head: &str, body: &str) -> Option<String> {
     if let Some(file) = head.split_whitespace().find_map(|word| word.strip_prefix("file=")) {
         let text = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(file)).unwrap();
@@ -43,7 +43,7 @@ fn expected(head: &str, body: &str) -> Option<String> {
         .fine()
         .replace(folder.to_str().unwrap(), "RESULTS");
     let mut lines: Vec<String> = printed.lines().map(|l| l.trim_end().to_owned()).collect();
-    // Where a crate lies differs from machine to machine.
+    // The folder of a crate differs between machines.
     lines.retain(|line| !line.starts_with("registered at"));
     if lines.len() > SHOWN {
         lines.truncate(SHOWN);
@@ -52,7 +52,7 @@ fn expected(head: &str, body: &str) -> Option<String> {
     Some(format!("$ cargo run -- {command}\n{}", lines.join("\n").trim_end()))
 }
 
-/// The words of a command line with double quotes, in which `\"` stands for a quote.
+/// The words of a command line with double quotes, in which `\"` represents a quote.
 fn words(line: &str) -> Vec<String> {
     let (mut words, mut word, mut quoted, mut escaped) = (Vec::new(), String::new(), false, false);
     for c in line.chars() {

@@ -1,4 +1,4 @@
-//! Two versions of the framework in one program: each would know half of the models, so Cargo refuses them.
+//! Two versions of the framework in one program: each would contain only part of the models, so Cargo rejects them.
 #![allow(clippy::unwrap_used)]
 
 mod common;

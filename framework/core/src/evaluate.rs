@@ -23,7 +23,7 @@ use crate::mechanism::gear_mesh::GearMeshAt;
 use crate::thermal::Unbalanced;
 use crate::transmission::{Case, Component, Sharing, Transmission};
 
-/// Iterations without notes. The torques of the first are a guess, those of the second are seldom the last; if they are, the models
+/// Iterations without notes. The torques of the first are a guess, those of the second are rarely the last; if they are, the models
 /// are evaluated once more.
 const SILENT: usize = 2;
 

@@ -1,6 +1,6 @@
-//! The framework of gearloss: description, registry, kinematics, loads, evaluation. It names no concrete loss model.
+//! The framework of gearloss: description, registry, kinematics, loads, evaluation. It does not refer to any concrete loss model.
 //!
-//! # A model of your own
+//! # Your own model
 //! A model is a struct with its parameters, an `impl` of the trait of its mechanism, and a registration. [`prelude`] has all names
 //! that it needs. The doc comments become the schema, the tooltips of editors and the reference; a doc comment of a quantity ends
 //! with its unit.
@@ -36,10 +36,10 @@
 //! assert_close(loss.total, 0.5 * 0.04 * 1000.0 * std::f64::consts::PI / 30.0, 1e-12);
 //! ```
 //!
-//! The guide to models of your own (`docs/plugin-guide.md`) continues with ranges, files, nested models and mechanisms.
+//! The guide to your own models (`docs/plugin-guide.md`) continues with ranges, files, nested models and mechanisms.
 //!
 //! # From a file to a point
-//! [`Language`](language::Language) holds what may be written. [`Gearbox`](gearbox::Gearbox) is a document as read and checked,
+//! [`Language`](language::Language) defines the valid documents. [`Gearbox`](gearbox::Gearbox) is a document as read and checked,
 //! [`Resolved`](resolve::Resolved) the same with catalogue values and a model for every component under a
 //! [`Choice`](resolve::Choice), [`Transmission`](transmission::Transmission) the result with indices and built models. It evaluates
 //! points without allocating. Programs find these names in `gearloss::api`.
@@ -48,7 +48,7 @@
 pub mod prelude;
 pub mod testing;
 
-// What a document says: sections, schemas, models, choices.
+// Contents of a document: sections, schemas, models, choices.
 pub mod codes;
 pub mod coefficients;
 pub mod description;

@@ -1,6 +1,6 @@
 //! Registration of mechanisms: the code that the framework provides for each, for its entry in the registry.
 //!
-//! It is above the registry, which knows of this code only as function pointers.
+//! It is above the registry, which refers to this code only by function pointers.
 
 use crate::conformance;
 use crate::eval;

@@ -69,7 +69,7 @@ impl Node {
             Content::Null => "nothing",
             Content::Bool(_) => "true or false",
             Content::Number(_) => "a number",
-            Content::Text { .. } => "a text",
+            Content::Text { .. } => "text",
             Content::List(_) => "a list",
             Content::Map(_) => "a map",
         }

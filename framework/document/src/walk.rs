@@ -302,18 +302,18 @@ impl<'a> Walker<'a> {
                 text
             }
             Content::Bool(_) => {
-                self.report(node, "is true or false, not a text", "choose another word");
+                self.report(node, "is true or false, not text", "choose another value");
                 return None;
             }
             Content::Number(x) if words.is_empty() => {
                 self.report(
                     node,
-                    "is a number, not a text",
+                    "is a number, not text",
                     format!("write it in quotes: \"{}\"", tidy(*x)),
                 );
                 return None;
             }
-            _ => return self.wrong(node, "a text"),
+            _ => return self.wrong(node, "text"),
         };
         if !words.is_empty() && !words.contains(text) {
             let close = did_you_mean(text, words.iter().map(String::as_str)).map(str::to_owned);
@@ -334,7 +334,7 @@ impl<'a> Walker<'a> {
                 let good = ["y", "yes", "on", "true"].contains(&text.to_ascii_lowercase().as_str());
                 self.report(
                     node,
-                    format!("`{text}` is a text, which is not allowed here"),
+                    format!("`{text}` is text, which is not allowed here"),
                     format!("write {good}"),
                 );
                 None
@@ -487,7 +487,7 @@ impl<'a> Walker<'a> {
                 if names().any(|name| name == text) {
                     self.report(
                         node,
-                        format!("`{text}` is a text, which is not allowed here"),
+                        format!("`{text}` is text, which is not allowed here"),
                         format!("write {{ type: {text} }}"),
                     );
                 } else {
@@ -569,7 +569,7 @@ impl<'a> Walker<'a> {
                     Shape::Number { .. } => "a quantity".to_owned(),
                     Shape::List { .. } => "a list".to_owned(),
                     Shape::Bool => "true or false".to_owned(),
-                    Shape::Text(words) if words.is_empty() => "a text".to_owned(),
+                    Shape::Text(words) if words.is_empty() => "text".to_owned(),
                     Shape::Text(words) => format!("`{}`", words.join("` or `")),
                     _ => "a map".to_owned(),
                 })

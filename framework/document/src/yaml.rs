@@ -223,7 +223,7 @@ impl<'a> Reader<'a> {
                 }
                 event => {
                     self.node(event, key_span, depth + 1)?;
-                    self.report(key_span, "a key that is not a text", "write a plain key");
+                    self.report(key_span, "a key that is not text", "write a plain key");
                     None
                 }
             };
@@ -304,7 +304,7 @@ mod tests {
             ("a: 1\n---\nb: 2", "second document"),
             ("", "empty"),
             ("a: [1, 2", "not valid YAML"),
-            ("? [a, b]\n: 1", "key that is not a text"),
+            ("? [a, b]\n: 1", "key that is not text"),
         ] {
             let read = read_yaml(0, text);
             assert!(

@@ -40,7 +40,7 @@ fn check_2_9_fewer_rows_than_free_parameters() {
     let one: Residual = |x| vec![10.0 * (x[1] - x[0] * x[0])];
     let text = fault(&problem(one, &[-2.0, 1.0], &[-INF; 2], &[INF; 2]));
     assert!(
-        text.contains("1 rows, priors counted, for 2 free parameters; fix parameters, or give some of them a prior")
+        text.contains("1 rows, including priors, for 2 free parameters; fix parameters, or give some of them a prior")
     );
     // Either of which fixes it.
     let mut fixed = parameters(&[-2.0, 1.0], &[-INF, -INF], &[INF, INF]);

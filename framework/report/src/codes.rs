@@ -2,9 +2,9 @@
 
 gearloss_framework::document::codes! {
     EXPORT = "E0701", "map cannot be exported",
-        cause: "The other program cannot take the map: it needs other axes, or values at every point.",
-        help: "Change the grid, or take the format out of `export`.";
-    TEMPLATE = "E0702", "template of the report is wrong",
-        cause: "The template is no valid template, or it uses a value that the report does not have.",
+        cause: "The format of the other program cannot represent the map: it needs other axes, or values at every point.",
+        help: "Change the grid, or remove the format from `export`.";
+    TEMPLATE = "E0702", "invalid report template",
+        cause: "The template has a syntax error, or it uses a value that the report does not provide.",
         help: "Correct it, or omit `--template`.";
 }

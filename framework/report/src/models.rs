@@ -140,7 +140,7 @@ pub fn model_text(language: &Language, entry: &Entry) -> String {
                     if t.load_dependent {
                         "load-dependent"
                     } else {
-                        "not load-dependent"
+                        "load-independent"
                     }
                 )
             })

@@ -52,7 +52,7 @@ pub struct Bar {
     pub shares: Vec<f64>,
     /// Above the bar.
     pub above: String,
-    /// Measured height with its accuracy, beside the stack.
+    /// Measured height with its accuracy, next to the stack.
     pub measured: Option<(f64, f64)>,
     /// Above the measured bar.
     pub above_measured: String,

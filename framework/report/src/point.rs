@@ -171,10 +171,10 @@ pub fn locking_text(locking: &SelfLocking) -> String {
             .iter()
             .map(|(port, torque)| format!("`{port}` ({} Nm)", significant(*torque)))
             .collect();
-        let pushes = if torques.len() == 1 { "pushes" } else { "push" };
+        let pushes = if torques.len() == 1 { "drives" } else { "drive" };
         format!(
-            "self-locking: torque at {from} alone does not turn it; the speeds are only maintained because {} {pushes} as well, and \
-             no power comes out",
+            "self-locking: torque at {from} alone does not turn it; the speeds are maintained only because {} {pushes} as well, and \
+             there is no output power",
             torques.join(" and ")
         )
     };

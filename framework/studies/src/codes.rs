@@ -1,40 +1,40 @@
 //! The codes of what reading and running a study finds.
 
 gearloss_framework::document::codes! {
-    STUDY = "E0501", "study does not fit",
-        cause: "A part of the study contradicts another one or the gearbox.",
+    STUDY = "E0501", "contradictory study",
+        cause: "A part of the study contradicts another part or the gearbox.",
         help: "Correct the key that the message names.";
-    ANALYSIS = "E0502", "analysis does not fit",
+    ANALYSIS = "E0502", "invalid analysis",
         cause: "Keys of an analysis contradict each other, or the analysis cannot be run under the conditions or with the data of the study.",
         help: "Correct the key that the message names.";
-    AXIS = "E0503", "axis or grid does not fit",
-        cause: "The values of an axis do not rise or fall throughout, refer to a rating that is absent, or make too many points.",
+    AXIS = "E0503", "invalid axis or grid",
+        cause: "The values of an axis are not monotonic, refer to a missing rating, or result in too many points.",
         help: "Correct the axis.";
     TOO_LARGE = "E0504", "too many points",
-        cause: "An analysis would hold more points than memory allows.",
-        help: "Use fewer samples, values or points; a `map` over a grid takes more, piece by piece.";
+        cause: "An analysis would hold more points in memory than the maximum.",
+        help: "Use fewer samples, values or points. A `map` over a grid can have more, because it is solved in pieces.";
     NOT_FOUND_YET = "E0505", "model set without values",
-        cause: "An analysis uses a model set that another analysis has not found.",
-        help: "Correct the other analysis, write it above, or choose another set.";
-    DUTY = "E0506", "duty or vehicle does not fit",
+        cause: "An analysis uses a model set that another analysis should produce but did not.",
+        help: "Correct the other analysis, place it before this one, or choose another set.";
+    DUTY = "E0506", "invalid duty cycle or vehicle",
         cause: "A cycle, a spectrum or a vehicle is incomplete or contradictory, or does not fit the gearbox.",
         help: "Correct `cycles` or `vehicles`.";
-    BROKEN_OFF = "E0507", "a duty broke off",
-        cause: "At some time of a duty there is no solution.",
-        help: "The results up to there are kept; look at the point with `explain`.";
-    DATA = "E0601", "measured data do not fit",
-        cause: "A file of data lacks a column, has cells that cannot be read, or units or accuracies that contradict the study.",
+    BROKEN_OFF = "E0507", "simulation of a duty cycle stopped early",
+        cause: "There is no solution at some time of the duty cycle.",
+        help: "The results up to that time are kept; examine the point with `explain`.";
+    DATA = "E0601", "invalid measured data",
+        cause: "A data file lacks a column, has cells that cannot be read, or has units or accuracies that contradict the study.",
         help: "Correct the file, or its description under `measurements`.";
-    VARIED = "E0602", "varied quantity does not fit",
-        cause: "A parameter or input names a path that is no number or has no value, or a range that the gearbox does not allow.",
+    VARIED = "E0602", "invalid varied quantity",
+        cause: "A parameter or input names a path that is not a number or has no value, or has a range outside that of the path.",
         help: "Correct `path`, `from` and `to`.";
-    IDENTIFICATION = "E0603", "identification does not fit",
-        cause: "There are too few points for the parameters, or residuals and parameters do not fit the data.",
+    IDENTIFICATION = "E0603", "invalid identification",
+        cause: "There are too few points for the parameters, or residuals and parameters are not compatible with the data.",
         help: "Give more points, or identify fewer parameters.";
-    HOLD_OUT = "E0604", "held-out rows or folds do not fit",
+    HOLD_OUT = "E0604", "invalid selection of held-out rows or folds",
         cause: "The rule for held-out rows or folds matches no rows, all rows, or rows without the quantity.",
         help: "Correct `hold_out` or `folds`.";
-    NO_CONVERGENCE = "E0605", "a search found no solution",
-        cause: "A least squares search did not converge, or the model has no value where it starts.",
+    NO_CONVERGENCE = "E0605", "search found no solution",
+        cause: "A least squares search did not converge, or the model has no value at its start.",
         help: "Start from other values, or narrow the ranges.";
 }

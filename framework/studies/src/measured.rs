@@ -58,9 +58,9 @@ pub struct MeasuredEntry {
     #[serde(default)]
     pub faulty_rows: FaultyRows,
     /// Condition on the rows that are used: `torque > 10 Nm and speed < 3000 rpm`. Quantities, bound columns and headers; `==`, `!=`, `<`,
-    /// `<=`, `>`, `>=`, `and`, `or`, `not`, parentheses. For a time series it selects among the steady stretches.
+    /// `<=`, `>`, `>=`, `and`, `or`, `not`, parentheses. For a time series it selects among the steady intervals.
     pub rows: Option<String>,
-    /// Steady stretches of a time series: each becomes one point.
+    /// Steady intervals of a time series: each becomes one point.
     pub steady: Option<SteadyEntry>,
     /// Meaning of accuracies in columns, of quantities and of the instruments.
     #[serde(default)]
@@ -111,7 +111,7 @@ pub struct Row {
     pub bound: Vec<String>,
     /// All cells of the row in the order of [`Measured::columns`], numbers with a decimal point; means of averaged rows.
     pub cells: Vec<String>,
-    /// The averaged samples, if the point is a steady stretch of a time series.
+    /// The averaged samples, if the point is a steady interval of a time series.
     pub stretch: Option<Stretch>,
 }
 
@@ -219,7 +219,7 @@ impl Measured {
             .or_else(|| self.accuracies.stated(quantity, reading?))
     }
 
-    /// Standard error of the mean of a quantity, if the row is an average over a steady stretch.
+    /// Standard error of the mean of a quantity, if the row is an average over a steady interval.
     pub fn standard_error(&self, row: &Row, quantity: &str) -> Option<f64> {
         let stretch = row.stretch.as_ref()?;
         stretch.standard_errors.get(self.place(quantity)?).copied().flatten()
@@ -526,7 +526,7 @@ pub(crate) mod tests {
         );
         assert!(read.standard_error(&read.rows[0], "loss").unwrap() < 0.1);
         assert!(
-            read.notes.iter().any(|note| note.starts_with("2 steady stretches")),
+            read.notes.iter().any(|note| note.starts_with("2 steady intervals")),
             "{:?}",
             read.notes
         );

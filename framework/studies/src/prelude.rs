@@ -1,4 +1,4 @@
-//! All that a crate with an analysis of its own names: `use gearloss::studies::prelude::*;`.
+//! All items that a crate with its own analysis needs: `use gearloss::studies::prelude::*;`.
 
 pub use gearloss_framework::transmission::Transmission;
 pub use schemars::JsonSchema;

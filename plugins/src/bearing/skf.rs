@@ -122,7 +122,7 @@ coefficients! {
         mixed_exponent = 1.4, in 0.7..=2.1;
         /// Coefficient of sliding friction at standstill.
         starting_friction = 0.15, in 0.075..=0.3;
-        /// Factor of the oil resistance in the drag of a bath, beside V_M.
+        /// Factor of the oil resistance in the drag of an oil bath, in addition to V_M.
         bath_factor = 1.093e-7, in 0.5465e-7..=2.186e-7;
         /// Exponent of n d_m^2 f_t over viscosity in the oil resistance.
         bath_exponent = -1.379, in -1.9..=-0.6895;
@@ -390,7 +390,7 @@ impl BearingModel for Model {
         at.show("H", "mm", at.oil_height.mm());
         self.check_viscosity(at);
         if n > self.fastest {
-            at.branch("n d_m above 0.5e6: drag held at that speed");
+            at.branch("n d_m above 0.5e6: drag at 0.5e6 is used");
         }
         Ok(loss.with(&DRAG, at.show("M_drag", "N mm", moments.drag).nmm_in_nm()))
     }

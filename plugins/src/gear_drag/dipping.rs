@@ -17,7 +17,7 @@ pub struct Dipping {
 }
 
 impl Dipping {
-    /// The gear; `None` if it is dry or at standstill, so that nothing is lost.
+    /// The gear; `None` if it is dry or at standstill, so that there is no loss.
     pub fn of(at: &GearDragAt<'_>) -> Option<Self> {
         let gear = &at.part.gear;
         let omega = at.speed.abs();

@@ -509,7 +509,7 @@ pub(crate) mod tests {
             watts(&model)
         };
         let (crook, goksem) = (rolling("crook", "sum"), rolling("goksem_hargreaves", "sum"));
-        // Two laws of the same effect: a few watts beside 300 W of sliding loss.
+        // Two laws of the same effect: a few watts compared with 300 W of sliding loss.
         assert!((0.25..4.0).contains(&(crook / goksem)), "{crook} {goksem}");
         assert!((rolling("crook", "mean") / crook - 0.5).abs() < 1e-12);
     }

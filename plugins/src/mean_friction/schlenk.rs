@@ -159,9 +159,9 @@ impl Schlenk {
         let c = &self.coefficients;
         let line_load = if self.clamp_line_load && line_load < c.least_line_load {
             notes.branch(if c.least_line_load == Constants::PUBLISHED.least_line_load {
-                "line load below 150 N/mm: held there"
+                "line load below 150 N/mm: limited to 150 N/mm"
             } else {
-                "line load below the changed limit: held there"
+                "line load below the changed limit: limited to it"
             });
             c.least_line_load
         } else {

@@ -14,7 +14,7 @@ pub struct NetworkBuilder {
     gears: Vec<(String, String)>,
 }
 
-/// A unique name: the wanted one, else with the kind appended, else with a number.
+/// A unique name: the preferred one, else with the kind appended, else with a number.
 fn free(taken: &Map<String, Value>, wanted: &str, what: &str) -> String {
     if !taken.contains_key(wanted) && wanted != "ambient" {
         return wanted.to_owned();

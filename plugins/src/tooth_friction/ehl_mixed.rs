@@ -8,7 +8,7 @@
 //! viscosity in its flow groups), the form required by its other equations is used.
 //!
 //! It requires the rheology of the oil: Eyring stress, slope of the limiting stress, boundary friction; from traction and Stribeck
-//! curves, or written beside `type`. Body temperatures are the least certain part: a resistance of 0.01, 0.2 or 1 K/W per gear
+//! curves, or stated next to `type`. Body temperatures are the most uncertain part: a resistance of 0.01, 0.2 or 1 K/W per gear
 //! instead of 0.05 changes the loss of a small helical stage at 30 kW and 2000 rpm by -2, +10 or +80 %. The article shares the load
 //! by a ramp: `load_sharing: ramp` in the mesh model.
 //! Not for starved or grease-lubricated gears; above about 1 GPa the viscosity is overestimated, but the limiting stress bounds its

@@ -1,6 +1,6 @@
 //! A mean friction law as constant friction along the path of contact.
 //!
-//! Within a mesh model the law sees the mesh at its pitch point. Alone, as in `eval`, the single contact represents the pitch point
+//! Within a mesh model the law is evaluated at the pitch point of the mesh. Alone, as in `eval`, the single contact represents the pitch point
 //! and an FZG C pair the mesh.
 
 use std::sync::Arc;

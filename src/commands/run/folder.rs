@@ -117,7 +117,7 @@ pub fn is_regular(path: &Path) -> io::Result<bool> {
     }
 }
 
-/// A new temporary file beside its final path, with a name unique to this run.
+/// A new temporary file next to its final path, with a name unique to this run.
 pub fn temporary(path: &Path) -> io::Result<(PathBuf, File)> {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     for number in 0_u32.. {

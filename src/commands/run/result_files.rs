@@ -1,4 +1,4 @@
-//! Files of results: each is written beside its final path, under a name of its own.
+//! Files of results: each is written next to its final path, under a unique name.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -37,7 +37,7 @@ fn locked(names: &Names) -> std::sync::MutexGuard<'_, BTreeSet<String>> {
     names.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// A file that is written beside its final path and moved there when complete; its name is reserved until then.
+/// A file that is written next to its final path and moved there when complete; its name is reserved until then.
 pub struct Place {
     name: String,
     names: Names,

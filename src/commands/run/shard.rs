@@ -95,7 +95,7 @@ fn compute(run: &Run<'_>) -> Result<usize, Failure> {
     Ok(failed)
 }
 
-/// Results of all shards of a study, if none is missing; without `folders` those in `shards` beside the study.
+/// Results of all shards of a study, if none is missing; without `folders` those in `shards` next to the study.
 pub fn gather(language: &Language, study: &Study, named: &[PathBuf], file: &Path) -> Result<ShardTasks, Failure> {
     let folders = if named.is_empty() {
         beside(study)?
@@ -116,7 +116,7 @@ pub fn gather(language: &Language, study: &Study, named: &[PathBuf], file: &Path
                     folder.display(),
                     shard.of
                 ),
-                "give the folders of one splitting",
+                "give folders of shards with the same N",
             ));
         }
         if results.is_some_and(|results| ShardTasks::count(study, folder) >= results) {
@@ -142,7 +142,7 @@ pub fn gather(language: &Language, study: &Study, named: &[PathBuf], file: &Path
     ))
 }
 
-/// The folders of shards beside a study.
+/// The folders of shards next to a study.
 fn beside(study: &Study) -> Result<Vec<PathBuf>, Failure> {
     let folder = study.folder.join("shards");
     let found = folders(&folder);

@@ -51,7 +51,7 @@ impl TaskFile {
             end: 0,
             places: BTreeMap::new(),
         };
-        while let Some(bytes) = own.at(own.end)? {
+        while let Some(bytes) = own.read_at(own.end)? {
             let place = [0, 8, 16].map(|from| little(&bytes[from..from + 8]) as usize);
             own.places.insert(place, own.end);
             own.end += (HEAD + bytes.len()) as u64;
@@ -89,13 +89,13 @@ impl TaskFile {
         let place = self.places.get(&task).copied();
         let changed = || io::Error::other(format!("{} was changed while it was read", self.path.display()));
         let place = place.ok_or_else(changed)?;
-        let bytes = self.at(place)?;
+        let bytes = self.read_at(place)?;
         let changed = || io::Error::other(format!("{} was changed while it was read", self.path.display()));
         Ok(bytes.ok_or_else(changed)?.split_off(TASK))
     }
 
     /// Task and result at an offset; absent if no complete result starts there.
-    fn at(&mut self, place: u64) -> io::Result<Option<Vec<u8>>> {
+    fn read_at(&mut self, place: u64) -> io::Result<Option<Vec<u8>>> {
         let whole = self.file.metadata()?.len();
         if place + (HEAD + TASK) as u64 > whole {
             return Ok(None);

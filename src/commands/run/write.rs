@@ -26,7 +26,7 @@ pub fn outcome(runner: &Runner<'_>, outcome: &dyn AnyOutcome) -> Result<(), Fail
 /// Name of the report.
 pub const REPORT: &str = "report.html";
 
-/// Writes the page beside the results.
+/// Writes the page into the folder of the results.
 pub fn report(run: &Run<'_>, template: Option<&str>) -> Result<(), Failure> {
     let context = run.context("report");
     let mut report = run.report.borrow_mut();

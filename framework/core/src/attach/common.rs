@@ -1,9 +1,9 @@
-//! Keys of the entry of every component, beside those of its attachment and its part.
+//! Keys of the entry of every component, in addition to those of its attachment and its part.
 
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-/// Common keys of every component, whatever its mechanism.
+/// Common keys of every component, independent of its mechanism.
 #[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
 pub struct Common {
     /// Oil; default: that of the housing.

@@ -16,7 +16,7 @@ pub struct HousingEntry {
     pub section: Option<CaseSection>,
     /// Gap between the gears and the wall.
     pub clearance: Option<WallClearance>,
-    /// The outside the housing, for heat dissipation models.
+    /// The outside of the housing, for heat dissipation models.
     pub outside: Option<OutsideEntry>,
     /// Road grade: rotation of the housing about y, nose up positive. [deg]
     #[serde(default)]
@@ -94,7 +94,7 @@ pub struct WallClearance {
     pub axial: f64,
 }
 
-/// The outside the housing, where it dissipates heat to the air.
+/// The outside of the housing, where it dissipates heat to the air.
 #[derive(Debug, Clone, Copy, Default, Serialize, Deserialize, JsonSchema)]
 pub struct OutsideEntry {
     /// Length, width and height of a box around the housing; used for omitted values. [mm]

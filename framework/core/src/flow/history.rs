@@ -12,7 +12,7 @@ const SPREAD: f64 = 16.0;
 const NEAR: f64 = 2.0 * (1.0 + 1e-9);
 /// Number of guesses within which it is used unchanged.
 const MANY: f64 = 256.0;
-/// Growth at which a rate is measured again, whatever the guesses were, since they are judged by it.
+/// Growth at which a rate is measured again, independent of the quality of the guesses, which is judged by this rate.
 const MOST: f64 = 4.0;
 /// A rate that could not be measured; with it an iteration is never the last.
 pub(super) const UNKNOWN: f64 = f64::INFINITY;

@@ -240,7 +240,7 @@ fn finish(registry: &Registry, mut generator: SchemaGenerator, mut root: Value) 
     publish(schema.to_value())
 }
 
-/// A variant of a tagged enum is its tag beside a reference to its record: merges both into one record, so that it can be closed.
+/// A variant of a tagged enum consists of its tag and a reference to its record: merges both into one record, so that it can be closed.
 fn flatten_tagged(root: &mut Value) {
     let Some(definitions) = root.get("definitions").and_then(Value::as_object).cloned() else {
         return;

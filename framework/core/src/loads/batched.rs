@@ -38,7 +38,7 @@ impl LoadLanes {
         }
     }
 
-    /// True if all lanes have the same load, as beside an idling gear.
+    /// True if all lanes have the same load, as at an idling gear.
     #[inline]
     pub(crate) fn is_even(&self) -> bool {
         // Usually the last lane decides.

@@ -130,7 +130,7 @@ pub struct Layout {
 /// Why loads cannot be found. Members and supports by number.
 #[derive(Debug, Clone, PartialEq)]
 pub enum LoadFault {
-    /// Members support each other in a circle.
+    /// Members support each other in a loop.
     Cycle {
         /// The members.
         members: Vec<usize>,

@@ -303,7 +303,7 @@ fn carried(layout: &Layout, support: &SupportLayout) -> (usize, Option<usize>) {
     }
 }
 
-/// Members from the supported to the supporting, or those in a circle.
+/// Members from the supported to the supporting, or those in a loop.
 fn sort(carrier_of: &[Vec<usize>]) -> Result<Vec<usize>, Vec<usize>> {
     let n = carrier_of.len();
     let mut waiting: Vec<usize> = vec![0; n];
@@ -422,7 +422,7 @@ fn passed_on(mut order: Vec<(Axially, bool)>) -> Vec<Axially> {
         .collect();
     let left: Vec<usize> = (0..order.len()).filter(|place| passing[*place].is_none()).collect();
     let members = order.into_iter().map(|(mut member, _)| {
-        // Thrust passed to a member that also passes it through goes on to its supporting member.
+        // Thrust passed to a member that also passes it through is passed on to its supporting member.
         while let Some((carrier, copies)) = member.carrier {
             let Some((behind, further)) = passing[carrier] else {
                 break;

@@ -37,7 +37,7 @@ pub trait HeatDissipationModel: Send + Sync {
     fn conductance(&self, at: &HeatDissipationAt<'_>) -> Result<f64, Undefined>;
 }
 
-/// The outside the housing; in a gearbox the framework fills it from `housing.outside`.
+/// The outside of the housing; in a gearbox the framework fills it from `housing.outside`.
 #[derive(Debug, Clone, Copy, Default, Serialize, Deserialize, JsonSchema)]
 pub struct HousingPart {
     /// Area that dissipates heat to the air, without fins. [cm2]

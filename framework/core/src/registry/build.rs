@@ -32,7 +32,7 @@ impl Default for Files {
 }
 
 impl Files {
-    /// Files on the disk beside a document in this folder.
+    /// Files on disk, in the folder of a document.
     pub fn beside(folder: impl Into<PathBuf>) -> Self {
         Self::from_source(Disk::shared(), folder)
     }
@@ -223,7 +223,7 @@ impl<'a> Build<'a> {
         self.slot_beside(path, part, value)
     }
 
-    /// Builds a model at a path beside a part of another mechanism, as a nested model.
+    /// Builds a nested model at a path, for a part of another mechanism.
     ///
     /// # Errors
     /// If the model cannot be built.

@@ -106,7 +106,7 @@ pub fn called_own<'a>(mut names: impl Iterator<Item = &'a String>) -> Option<Dia
 /// Expands a set with everything that it extends.
 ///
 /// # Errors
-/// If a name is unknown or sets extend each other in a circle.
+/// If a name is unknown or sets extend each other in a loop.
 pub fn expand_set(sets: &BTreeMap<String, Value>, name: &str) -> Result<ModelSet, Diagnostic> {
     let mut chain: Vec<&str> = Vec::new();
     let mut next = Some(name);
@@ -129,10 +129,10 @@ pub fn expand_set(sets: &BTreeMap<String, Value>, name: &str) -> Result<ModelSet
         if chain.contains(&known.as_str()) {
             return Err(Diagnostic::error(
                 format!("model_sets.{known}.extends"),
-                "model sets extend each other in a circle",
+                "model sets extend each other in a loop",
             )
             .code(codes::EXTENDS)
-            .note(format!("the circle: {}", chain.join(", ")))
+            .note(format!("the loop: {}", chain.join(", ")))
             .help("remove one `extends`"));
         }
         chain.push(known);

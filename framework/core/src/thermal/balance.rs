@@ -67,7 +67,7 @@ pub enum Outcome {
     Several,
     /// Losses exceed the dissipated heat up to the maximum temperature of the search.
     NoneBelowMaximum,
-    /// A law is undefined where the balance would be.
+    /// A law is undefined at the balance.
     Undefined,
     /// The temperatures of a network do not converge.
     NoConvergence,

@@ -315,7 +315,7 @@ fn explain(fault: &LoadFault, members: &Members, path: &dyn Fn(&usize) -> String
     match fault {
         LoadFault::Cycle { members: circle } => {
             let names: Vec<&str> = circle.iter().map(|m| name(*m).as_str()).collect();
-            Diagnostic::error("bearings", format!("{} carry each other in a circle", names.join(", ")))
+            Diagnostic::error("bearings", format!("{} support each other in a loop", names.join(", ")))
                 .help("one of them needs a bearing in the housing; swap `shaft` and `outer` of a bearing")
         }
         LoadFault::Mechanism { member, supports } => Diagnostic::error(

@@ -14,7 +14,7 @@ pub enum Separator {
     Comma,
     /// `;`
     Semicolon,
-    /// A tabulator.
+    /// A tab character.
     Tab,
 }
 

@@ -167,13 +167,13 @@ impl Comparison {
         match self.reason {
             Reason::Folds => format!("{better} predicts left-out points better than {other}: {folds}"),
             Reason::FoldsUndecided if gap >= DIFFERENCE => format!(
-                "undecided between {first} and {second}: {folds}; Akaike's criterion is lower by {gap:.1} for {lower}, but describing \
-                 the points that were fitted is not predicting others"
+                "undecided between {first} and {second}: {folds}; Akaike's criterion is lower by {gap:.1} for {lower}, but a \
+                 better fit to the fitted points does not imply better predictions"
             ),
             Reason::FoldsUndecided => format!("undecided between {first} and {second}: {folds}"),
             Reason::TooClose => format!(
                 "undecided between {first} and {second}: {folds}, but their predictions differ by {:.1} standard deviations of the whole \
-                 set of points apart, and the set sees {:.1} and more (correlation of the errors {:.2})",
+                 set of points, less than the required {:.1} (correlation of the errors {:.2})",
                 self.separation.map_or(0.0, |s| s.square.sqrt()),
                 super::separation::VISIBLE.sqrt(),
                 self.separation.map_or(0.0, |s| s.correlation),
@@ -194,8 +194,8 @@ impl Comparison {
                 "undecided between {first} and {second}: Akaike's criterion differs by {gap:.1}, and there is no cross-validation"
             ),
             Reason::Suspect => format!(
-                "undecided between {first} and {second}: Akaike's criterion is lower by {gap:.1} for {lower}, but it does not hold \
-                 where residuals are correlated or larger than the accuracy; predict folds instead"
+                "undecided between {first} and {second}: Akaike's criterion is lower by {gap:.1} for {lower}, but it is not \
+                 valid if residuals are correlated or larger than the accuracy; use cross-validation instead"
             ),
         }
     }

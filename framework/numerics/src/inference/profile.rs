@@ -7,7 +7,7 @@ use super::Side;
 
 /// Default relative tolerance of the root of the increase at an end.
 pub(super) const FOUND: f64 = 1e-6;
-/// Relative width of a bracket at which the search ends, whatever the objective does inside.
+/// Relative width of a bracket at which the search ends, independent of the objective inside.
 const CLOSED: f64 = 1e-7;
 /// Maximum number of fits on one side; kinks where another parameter reaches its bound need many.
 const MOST: usize = 40;

@@ -12,7 +12,7 @@ const OUTLIER: f64 = 3.5;
 const WEIGHTY: f64 = 0.5;
 /// Standard deviations of the number of runs above which neighbours are considered correlated or anticorrelated.
 const RUNS: f64 = 2.58;
-/// 1 - leverage below which a point is fitted exactly whatever its value.
+/// 1 - leverage below which a point is fitted exactly independent of its value.
 const MET: f64 = 1e-12;
 
 impl Fit {

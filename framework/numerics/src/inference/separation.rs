@@ -224,7 +224,7 @@ mod tests {
         let (few, many) = (square(5, 0.9), square(1000, 0.9));
         assert!(!few.is_visible() && !many.is_visible() && many.square < 1.1 * few.square);
         assert!(square(5, 0.0).is_visible());
-        // The same size with changing signs is seen.
+        // The same size with changing signs is detected.
         let shape: Vec<f64> = (0..10).map(|i| if i % 2 == 0 { 2.0 } else { -2.0 }).collect();
         let errors = ErrorModel::new(1.0, 0.9, &[vec![1.0; 10]]);
         assert!(Separation::new([&[0.0; 10], &shape], &errors).is_visible());

@@ -65,7 +65,7 @@ impl<'p> Evaluator<'p> {
             })?;
         let (rows, free) = (residual.len(), space.len());
         if rows < free {
-            let message = format!("{rows} rows, priors counted, for {free} free parameters");
+            let message = format!("{rows} rows, including priors, for {free} free parameters");
             let help = "fix parameters, or give some of them a prior";
             return Err(Finding::new("residuals", message, help).into());
         }

@@ -110,7 +110,7 @@ impl How {
         match self {
             Self::Shortcut => "gauss-newton",
             Self::Cone => "cone program",
-            Self::Fallback => "dogleg, since the cone program had no answer",
+            Self::Fallback => "dogleg, because the cone program had no solution",
             Self::Dogleg => "dogleg",
         }
     }

@@ -66,7 +66,7 @@ pub struct Minima {
     pub kinship: Option<Kinship>,
     /// Calls of the residual function, all starts together.
     pub evaluations: usize,
-    /// What the user should know.
+    /// Notes for the user.
     pub notes: Vec<String>,
 }
 

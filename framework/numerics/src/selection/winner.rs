@@ -119,7 +119,7 @@ mod tests {
         );
         assert_eq!(found.standings[0].decision, Decision::NotDecided);
         assert_eq!(found.standings[2].decision, Decision::Better);
-        // The near one is not told from the best, so the mark decides; the far one is.
+        // The near one is not distinguishable from the best, so the mark decides; the far one is.
         assert_eq!(chosen(&[0]).place, 1);
         let found = chosen(&[0, 1]);
         assert_eq!((found.place, found.unmarked), (0, Some(2)));

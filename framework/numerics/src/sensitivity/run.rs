@@ -5,7 +5,7 @@ use rayon::prelude::*;
 /// Makes the point of a number.
 pub type PointOf<'a> = dyn Fn(usize) -> Vec<f64> + Sync + 'a;
 
-/// Outputs over points: a function of one point, which is evaluated on all threads, or whatever else evaluates many points.
+/// Outputs over points: a function of one point, which is evaluated on all threads, or another evaluator of many points.
 pub trait Evaluate {
     /// The outputs at so many points, in the order of their numbers.
     fn outputs(&self, count: usize, point: &PointOf<'_>) -> Vec<Result<Vec<f64>, String>>;

@@ -1,4 +1,4 @@
-//! A gearbox in the report: geometry, kinematics, and what its results rest on.
+//! A gearbox in the report: geometry, kinematics, and the evidence of its results.
 
 use gearloss_framework::coefficients::changed_from_source;
 use gearloss_framework::description::AssumedEntry;
@@ -97,7 +97,7 @@ fn gears(t: &Transmission) -> PageTable {
             vec![
                 g.id.clone(),
                 if t.members()[g.member] == g.id {
-                    "loose".to_owned()
+                    "idler".to_owned()
                 } else {
                     t.members()[g.member].clone()
                 },

@@ -56,7 +56,7 @@ pub fn explain_part(
         }
         Err(undefined) => out.line(format!("  {undefined}")),
     }
-    out.line("  sees:");
+    out.line("  operating state:");
     for reading in solution.readings(part) {
         let unit = if reading.unit.symbol == "-" {
             ""

@@ -150,7 +150,7 @@ fn reach(things: &Things, axes: &Axes, from: usize, to: usize) -> Option<Reach> 
     most.map(Reach::Either)
 }
 
-/// Places each axis beside one that it meshes with, beginning with the axis of the reference port.
+/// Places each axis next to one that it meshes with, beginning with the axis of the reference port.
 fn unfold(things: &Things, along: &Along, scale: f64, axes: &mut Axes) {
     let rows = rows(things, along, scale, axes);
     let first = things
@@ -204,7 +204,7 @@ fn covered(rows: &[Row], placed: &[(usize, f64)], axes: &Axes, line: usize, at: 
     (hard, soft)
 }
 
-/// Height beside an axis, below or above it, that covers the fewest things; farther away if gears would be covered.
+/// Height next to an axis, below or above it, that covers the fewest things; farther away if gears would be covered.
 fn beside(rows: &[Row], placed: &[(usize, f64)], axes: &Axes, line: usize, at: f64, sum: f64, way: f64) -> (f64, f64) {
     let cost = |side: f64| {
         let (hard, soft) = covered(rows, placed, axes, line, at + side * sum);

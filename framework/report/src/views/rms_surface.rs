@@ -114,7 +114,7 @@ fn verdict(surface: &SurfaceOfSet, unit: &str) -> String {
     if on.is_empty() {
         said.push_str(", inside the surface");
     } else {
-        said.push_str(&format!(", on {}", on.join(", and on ")));
+        said.push_str(&format!(", at {}", on.join(", and at ")));
     }
     for path in &nothing {
         said.push_str(&format!("; {path} has no effect"));
@@ -140,7 +140,7 @@ fn range(axis: &AxisOfSurface, [low, high]: [usize; 2]) -> String {
     let path = &axis.path;
     match (whole, low == high) {
         (true, _) => format!("any {path}"),
-        (_, true) => format!("{path} {} alone", axis.words[low]),
+        (_, true) => format!("{path} {} only", axis.words[low]),
         _ => format!("{path} {} to {}", axis.words[low], axis.words[high]),
     }
 }

@@ -167,13 +167,13 @@ fn shares(name: &str, set: &SensitivityOfSet, loss: &OutputSensitivity, page: &m
     let at_points = relative(set).and_then(|output| output.sobol.as_ref());
     let mut table = TextTable::new(&[
         "parameter",
-        "alone",
+        "first order",
         "95 % from",
         "to",
         "total",
         "95 % from",
         "to",
-        "at points, first order",
+        "at points: first order",
         "total",
     ]);
     for (k, parameter) in set.parameters.iter().enumerate() {

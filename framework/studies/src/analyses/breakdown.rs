@@ -42,7 +42,7 @@ pub struct BreakdownEntry {
     pub power: Option<PowerAxis>,
     /// Speeds.
     pub speed: SpeedAxis,
-    /// Measured points. The mean of those within 2 % of torque and speed and 5 K of oil temperature of a bar is drawn beside it.
+    /// Measured points. The mean of those within 2 % of torque and speed and 5 K of oil temperature of a bar is drawn next to it.
     pub measured: Option<Data>,
     /// Formats to write; default: CSV and JSON.
     #[serde(default = "Write::data")]

@@ -283,12 +283,12 @@ impl<'a> Context<'a> {
         Running::new(self.progress, label, count)
     }
 
-    /// False where the caller wants to break off, or where the analysis has ended.
+    /// False if the caller aborts, or if the analysis has ended.
     pub fn goes_on(&self) -> bool {
         self.progress.goes_on() && !self.has_ended.load(Ordering::Relaxed)
     }
 
-    /// Ends the analysis from within a function that has errors of its own: [`Context::goes_on`] turns false, and
+    /// Ends the analysis from within a function that has its own error type: [`Context::goes_on`] becomes false, and
     /// [`Context::why_ended`] returns the reason.
     pub fn end(&self, why: Stopped) {
         *self.ended.lock().unwrap_or_else(PoisonError::into_inner) = Some(why);

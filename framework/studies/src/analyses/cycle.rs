@@ -222,7 +222,7 @@ impl CycleOutcome {
     fn columns(&self, nodes: &[&str]) -> Vec<Column> {
         let mut columns = vec![
             Column::text("model_set", "Model set"),
-            Column::text("cycle", "Duty"),
+            Column::text("cycle", "Duty cycle"),
             Column::number("time_s", "s", "Time at the start of the interval"),
             Column::number("duration_s", "s", "Length of the interval"),
             Column::number("torque_nm", "Nm", "Torque of the reference port"),

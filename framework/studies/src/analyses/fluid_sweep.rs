@@ -311,7 +311,7 @@ impl Outcome for FluidSweepOutcome {
         let first = self.fluid_sweep.first();
         let mut columns = vec![
             Column::text("model_set", "Model set"),
-            Column::text("cycle", "Duty"),
+            Column::text("cycle", "Duty cycle"),
             Column::number(
                 "value",
                 first.map_or("-", |set| set.unit),

@@ -151,7 +151,7 @@ fn identify(
         let fits = cx.each(&format!("{} starts", b.name), count, search);
         fits.unwrap_or_else(|stopped| {
             cx.end(stopped);
-            vec![Err(Fault::single("the search", "it was broken off", "run it again"))]
+            vec![Err(Fault::single("the search", "it was aborted", "run it again"))]
         })
     };
     let settings = Settings {

@@ -150,7 +150,7 @@ pub fn evidence(transmission: &Transmission, resolved: &Resolved, written: &dyn 
             let path = format!("{}.{}", instance.path, graded.key);
             let value = lookup(&resolved.value, &path);
             let own = written(&path) || *resolved.source_of(&path) == ValueSource::Override;
-            // A parameter with a default that nobody wrote, or one that the model fills itself.
+            // A parameter whose default is used, or one that the model sets itself.
             if !own || value.is_none_or(Value::is_null) {
                 add(
                     format!("{model}.{}", graded.key),

@@ -117,7 +117,7 @@ pub(super) struct BoundColumn {
 pub(super) struct Columns {
     pub quantities: Vec<Column>,
     pub bound: Vec<BoundColumn>,
-    /// Time, if steady stretches are requested.
+    /// Time, if steady intervals are requested.
     pub time: Option<Column>,
     /// Notes on changed columns.
     pub notes: Vec<String>,
@@ -260,7 +260,7 @@ impl<'a> Finder<'a> {
             Some((format!("a sign of {sign}"), "write 1 or -1"))
         } else if scale * sign != 1.0 && known.unit.is_empty() {
             Some((
-                format!("the {} is a text, which has no scale and no sign", known.name),
+                format!("the {} is text, which has no scale and no sign", known.name),
                 "delete them",
             ))
         } else {

@@ -252,7 +252,7 @@ impl Comparison {
         match known_unit(&self.subject) {
             Some("") if self.operator.compares_sizes() => Err(fault(
                 self.columns[0],
-                format!("{} is a text, which has no order", self.subject),
+                format!("{} is text, which has no order", self.subject),
                 "compare it by `==` or `!=`",
             )),
             Some("") | None => Ok(()),

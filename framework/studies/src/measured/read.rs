@@ -131,7 +131,7 @@ impl MeasuredEntry {
         }
         if measured.rows.is_empty() {
             let message = match &self.steady {
-                Some(_) => format!("{}: no steady stretch found", self.file),
+                Some(_) => format!("{}: no steady interval found", self.file),
                 None => format!("{}: no points below the header", self.file),
             };
             let help = match &self.steady {

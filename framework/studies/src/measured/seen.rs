@@ -80,7 +80,7 @@ impl Seen {
             }
         });
         let loss_torque = left(of_torque).or(loss).map(|loss| loss / reference);
-        // The stated accuracy, and the standard error of the mean of a steady stretch.
+        // The stated accuracy, and the standard error of the mean of a steady interval.
         let accuracy = |quantity: &str, reading: Option<f64>| {
             let stated = measured.stated_accuracy(row, quantity, reading)? / measured.divisor;
             Some(stated.hypot(measured.standard_error(row, quantity).unwrap_or(0.0)))

@@ -1,8 +1,8 @@
-//! Steady stretches of a time series: detected by their drift, and averaged to one point each.
+//! Steady intervals of a time series: detected by their drift, and averaged to one point each.
 //!
-//! A stretch starts when every limited quantity is within its limits over one window, or up to half a window later if that contains less of
-//! a preceding ramp, and grows sample by sample while the limits hold over its last window and over the whole stretch. The drift is the
-//! slope of a least-squares line times the duration, the scatter is the standard deviation about that line. The ends of a stretch may
+//! An interval starts when every limited quantity is within its limits over one window, or up to half a window later if that contains less of
+//! a preceding ramp, and grows sample by sample while the limits hold over its last window and over the whole interval. The drift is the
+//! slope of a least-squares line times the duration, the scatter is the standard deviation about that line. The ends of an interval may
 //! contain the first samples of a ramp; they change the mean by at most about a sixth of the drift limit, because a sum S of deviations at
 //! one end of n samples gives a drift of 6 S / n.
 
@@ -16,7 +16,7 @@ use gearloss_framework::document::Unit;
 /// Minimum number of samples in a window. An assumption.
 const FEWEST: usize = 5;
 
-/// Gaps between samples longer than this share of the window end a stretch. An assumption.
+/// Gaps between samples longer than this share of the window end an interval. An assumption.
 const GAP: f64 = 0.5;
 
 /// Share of the drift limit below which a later start is not searched. An assumption.
@@ -26,16 +26,16 @@ const SETTLED: f64 = 0.25;
 const MOST_LAGS: usize = 1000;
 const MOST_PRODUCTS: usize = 20_000_000;
 
-/// Detection of steady stretches of a time series; each becomes one point.
+/// Detection of steady intervals of a time series; each becomes one point.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct SteadyEntry {
     /// Column of the time; its unit is in the header, in the row of units or in `units: { time: s }`.
     #[serde(default = "time")]
     pub time: String,
-    /// Minimum duration of a stretch. [s]
+    /// Minimum duration of an interval. [s]
     #[schemars(range(min = 1e-3, max = 1e6))]
     pub window: f64,
-    /// Maximum drift within a window and over the whole stretch: slope times duration.
+    /// Maximum drift within a window and over the whole interval: slope times duration.
     pub drift: SteadyLimitsEntry,
     /// Maximum standard deviation about the drift.
     #[serde(default)]
@@ -104,7 +104,7 @@ impl SteadyEntry {
         self.drift.stated().is_empty().then(|| {
             MeasuredFault::new(
                 "steady.drift",
-                "no drift limit is given, so every stretch would be steady",
+                "no drift limit is given, so every interval would be steady",
                 "write limits such as `drift: { torque: 0.5 Nm, speed: 5 rpm }`",
             )
         })
@@ -129,7 +129,7 @@ struct Limited {
     scatter: Option<f64>,
 }
 
-/// The steady stretches of a time series, each as one row, and a note on them.
+/// The steady intervals of a time series, each as one row, and a note on them.
 pub(super) fn stretches(
     entry: &SteadyEntry,
     quantities: &[&'static str],
@@ -191,7 +191,7 @@ struct Series<'a> {
 }
 
 impl Series<'_> {
-    /// Steady stretches from the first to the last, without overlap.
+    /// Steady intervals from the first to the last, without overlap.
     fn stretches(&self) -> Result<Vec<Span>, MeasuredFault> {
         let (mut found, mut windows, mut sparse) = (Vec::new(), 0, 0);
         let mut sliding = Sliding::new(self);
@@ -285,7 +285,7 @@ impl Series<'_> {
         best
     }
 
-    /// Last sample of the stretch that starts with a steady window.
+    /// Last sample of the interval that starts with a steady window.
     fn grown(&self, sliding: &mut Sliding<'_>, [start, end]: Span, last: usize) -> usize {
         let mut lines: Vec<Line> = self.limits.iter().map(|l| self.line(l, [start, end])).collect();
         for next in end + 1..=last {
@@ -303,7 +303,7 @@ impl Series<'_> {
         last
     }
 
-    /// The mean of a stretch.
+    /// The mean of an interval.
     fn mean(&self, quantities: &[&str], [start, end]: Span) -> Row {
         let rows = &self.rows[start..=end];
         let first = &self.rows[start];
@@ -333,13 +333,13 @@ impl Series<'_> {
         }
     }
 
-    /// Number of stretches, their share of the time, and the standard errors of their means.
+    /// Number of intervals, their share of the time, and the standard errors of their means.
     fn note(&self, quantities: &[&str], points: &[Row]) -> String {
         let stretches: Vec<&Stretch> = points.iter().filter_map(|row| row.stretch.as_ref()).collect();
         let whole = self.times.last().unwrap_or(&0.0) - self.times.first().unwrap_or(&0.0);
         let held: f64 = stretches.iter().map(|s| s.duration).sum();
         let percent = if whole > 0.0 { 100.0 * held / whole } else { 0.0 };
-        let noun = if points.len() == 1 { "stretch" } else { "stretches" };
+        let noun = if points.len() == 1 { "interval" } else { "intervals" };
         let mut words = format!("{} steady {noun}, {percent:.0} % of {whole:.0} s", points.len());
         let samples = stretches.iter().map(|s| s.samples);
         if let (Some(fewest), Some(most)) = (samples.clone().min(), samples.max()) {
@@ -621,7 +621,7 @@ mod tests {
         );
         assert_eq!(points[0].line, 2);
         assert!(
-            note.starts_with("2 steady stretches, 6") || note.starts_with("2 steady stretches, 7"),
+            note.starts_with("2 steady intervals, 6") || note.starts_with("2 steady intervals, 7"),
             "{note}"
         );
         assert!(note.contains("largest standard errors of the means: torque "), "{note}");
@@ -647,7 +647,7 @@ mod tests {
         assert!(points.len() >= 4);
         // Ten times faster nothing is steady.
         let (points, note) = stretches(&entry(None), &QUANTITIES, rows(|t| 100.0 + 0.2 * t, 100.0, 0.0)).unwrap();
-        assert!(points.is_empty() && note.starts_with("0 steady stretches"), "{note}");
+        assert!(points.is_empty() && note.starts_with("0 steady intervals"), "{note}");
     }
 
     #[test]

@@ -417,7 +417,7 @@ impl Variables {
         matches!(self, Self::DeepGroove { .. })
     }
 
-    /// True if the centrifugal force of the balls acts beside the load.
+    /// True if the centrifugal force of the balls acts in addition to the load.
     pub fn feel_centrifugal_force(&self) -> bool {
         matches!(self, Self::Ball { .. })
     }

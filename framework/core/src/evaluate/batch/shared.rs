@@ -2,7 +2,7 @@
 
 use crate::loss::{Loss, Undefined};
 
-/// Result of one part in a block whose lanes have equal loads, as beside an idling gear: usually the same in all blocks of a batch.
+/// Result of one part in a block whose lanes have equal loads, as at an idling gear: usually the same in all blocks of a batch.
 #[derive(Debug, Clone)]
 pub(super) struct Shared<K> {
     /// The loads.

@@ -25,7 +25,7 @@ pub(crate) struct Around<'a> {
     pub gears: &'a [GearSeat],
     /// Oils by name; empty if one has a fault that was reported.
     pub lubricants: &'a [(String, Arc<Lubricant>)],
-    /// The outside the housing.
+    /// The outside of the housing.
     pub housing: &'a HousingPart,
     /// Ports.
     pub ports: &'a [Port],

@@ -192,7 +192,7 @@ impl Stepping {
         let mut leaving = circuit.leaving(&after, &self.warm.heat);
         for e in &exchangers {
             // The heat that the oil has lost in the exchanger is among the gains of the other flows. The coolant takes the heat
-            // that links bring to the outlet, whose temperature is prescribed over the step.
+            // that links transfer to the outlet, whose temperature is prescribed over the step.
             let lost = e.oil * (after[e.from] - after[e.to]);
             leaving.flows -= lost;
             leaving.exchangers.push(lost + std::mem::take(&mut leaving.held[e.to]));

@@ -92,7 +92,7 @@ impl Work<'_> {
         self.free(a, end, side, wide)
     }
 
-    /// The nearest free position beside an idler gear or a planet, preferably towards another idler gear.
+    /// The nearest free position next to an idler gear or a planet, preferably towards another idler gear.
     fn beside(&self, member: usize, wide: f64) -> f64 {
         let face = self
             .things

@@ -26,7 +26,7 @@ impl Work<'_> {
         part.between[0].is_some_and(|m| self.things.is_planet(m))
     }
 
-    /// True if a coupling without a stated position connects a carrier to another shaft: it is drawn beside the sun.
+    /// True if a coupling without a stated position connects a carrier to another shaft: it is drawn next to the sun.
     fn locks(&self, carrier: usize) -> bool {
         let joins = |p: &Part| {
             matches!(p.symbol, Symbol::Sleeve | Symbol::Clutch)

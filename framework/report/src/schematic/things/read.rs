@@ -87,7 +87,7 @@ fn lines(members: &mut [Member], resolved: &Value) -> usize {
 /// The member with a fixed axis that finally carries another member.
 fn carrying(members: &[Member], member: usize) -> usize {
     let mut at = member;
-    // Carriers can be planets of other carriers, but not in a circle.
+    // Carriers can be planets of other carriers, but not in a loop.
     for _ in 0..members.len() {
         match members[at].kind {
             Kind::Shaft => break,

@@ -254,7 +254,7 @@ fn joint(name: &str, o: &IdentificationOfSet) -> Vec<(String, Figure)> {
             x: named(&one.name, units[0]),
             y: named(&other.name, units[1]),
             lines: vec![
-                line("95 % together", (0..=BORDER).map(border).collect(), Stroke::Line),
+                line("joint 95 % region", (0..=BORDER).map(border).collect(), Stroke::Line),
                 line("found", vec![Some((one.theta(), other.theta()))], Stroke::Dots),
             ],
         })

@@ -146,7 +146,7 @@ impl From<Verdict> for VerdictOfParameter {
 /// A verdict in two or three words.
 pub fn verdict_words(verdict: Verdict) -> String {
     match verdict {
-        Verdict::Held => "held".to_owned(),
+        Verdict::Held => "fixed".to_owned(),
         Verdict::OnBound(side) => format!("at its {} bound", side.name()),
         Verdict::NotSeen => "not identifiable".to_owned(),
         Verdict::WellDetermined => "well determined".to_owned(),

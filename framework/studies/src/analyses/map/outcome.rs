@@ -1,4 +1,4 @@
-//! Results of maps: records, tables as columns, and what pictures and texts need beside them.
+//! Results of maps: records, tables as columns, and additional data for figures and texts.
 
 use schemars::JsonSchema;
 use serde::Serialize;

@@ -87,7 +87,7 @@ impl<'a> Field<'a> {
         if field.count() > MOST {
             let message = format!("{} combinations are more than {MOST}", field.count());
             let help = "list the candidates: `mechanisms: [{ mechanism: bearing, models: { skf: { type: skf } } }]`; without a list every \
-                        model takes part with every model that it takes";
+                        model is combined with every nested model that it accepts";
             return Err(cx.wrong(&cx.path(), message, help));
         }
         Ok(field)

@@ -1,10 +1,10 @@
-//! Table of the model sets side by side.
+//! Comparison table of the model sets.
 
 use super::super::compare::ComparisonOfSets;
 use crate::cells;
 use crate::table::{Column, Table};
 
-/// The sets side by side.
+/// The comparison of the sets.
 pub(in crate::analyses::identify) fn table(name: &str, compared: &ComparisonOfSets) -> Table {
     let mut table = Table::new(
         format!("{name}-sets"),
