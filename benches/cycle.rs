@@ -2,10 +2,8 @@
 //! tables; seventeen temperatures, losses and temperatures consistent at the end of every second. One thread.
 #![allow(clippy::unwrap_used, missing_docs)]
 
-mod common;
-
-use common::{build, gearbox, language, with};
-use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
+use crate::common::{build, gearbox, language, with};
+use criterion::{BatchSize, Criterion, Throughput, criterion_group};
 use gearloss_framework::evaluate::PowerFlow;
 use gearloss_framework::resolve::{Choice, lookup};
 use gearloss_framework::thermal::network::{Scheme, StepSize};
@@ -99,4 +97,3 @@ fn cycle(c: &mut Criterion) {
 }
 
 criterion_group!(benches, cycle);
-criterion_main!(benches);

@@ -2,13 +2,11 @@
 //! of 1800 points over both meshes of the two-speed example; both once more by tables, the cycle with building them.
 #![allow(clippy::unwrap_used, missing_docs)]
 
-mod common;
-
 use std::hint::black_box;
 use std::sync::Arc;
 
-use common::{RPM, build, language, point, set, with};
-use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
+use crate::common::{RPM, build, language, point, set, with};
+use criterion::{BatchSize, Criterion, Throughput, criterion_group};
 use gearloss_framework::contact::path;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::geometry::LoadSharing;
@@ -153,4 +151,3 @@ fn all(c: &mut Criterion) {
 }
 
 criterion_group!(benches, all);
-criterion_main!(benches);

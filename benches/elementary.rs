@@ -4,7 +4,7 @@
 
 use std::hint::black_box;
 
-use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use criterion::{Criterion, Throughput, criterion_group};
 use gearloss_framework::lanes::{LANES, Lane, each, exp, ln, over, wide};
 
 /// Lanes in one call; they stay in the cache.
@@ -62,4 +62,3 @@ fn functions(c: &mut Criterion) {
 }
 
 criterion_group!(benches, functions);
-criterion_main!(benches);

@@ -1,18 +1,15 @@
 //! Eight parameters of the two-speed example on its 440 points, under the set `joint`: all residuals, a fit, a fit from 32 starts.
 #![allow(clippy::unwrap_used, missing_docs)]
 
-#[path = "common/identification.rs"]
-mod identification;
-
 use std::fmt::Arguments;
 use std::hint::black_box;
 use std::io::Write as _;
 use std::path::Path;
 use std::time::Instant;
 
-use criterion::{Criterion, SamplingMode, criterion_group, criterion_main};
+use crate::identification::Prepared;
+use criterion::{Criterion, SamplingMode, criterion_group};
 use gearloss_studies::identify::{Fitted, Settings};
-use identification::Prepared;
 
 /// Starts of the longest fit.
 const STARTS: usize = 32;
@@ -70,4 +67,3 @@ fn identify(c: &mut Criterion) {
 }
 
 criterion_group!(benches, identify);
-criterion_main!(benches);

@@ -1,13 +1,11 @@
 //! A map of 100 x 100 points under both sets of the two-speed example, report included: the program as a whole, and its memory.
 #![allow(clippy::unwrap_used, missing_docs)]
 
-mod common;
-
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use common::example;
-use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use crate::common::example;
+use criterion::{Criterion, Throughput, criterion_group};
 
 /// The study of the example with a fine grid and a map of the sets `iso` and `joint` in place of its analyses.
 fn study(folder: &Path) -> PathBuf {
@@ -64,4 +62,3 @@ fn map(c: &mut Criterion) {
 }
 
 criterion_group!(benches, map);
-criterion_main!(benches);

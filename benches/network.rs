@@ -1,10 +1,8 @@
 //! A thermal network of 64 nodes around the two-speed example: its steady state, and a time step of one second.
 #![allow(clippy::unwrap_used, missing_docs)]
 
-mod common;
-
-use common::{RPM, build, gearbox, language, plate, point, with};
-use criterion::{Criterion, criterion_group, criterion_main};
+use crate::common::{RPM, build, gearbox, language, plate, point, with};
+use criterion::{Criterion, criterion_group};
 use gearloss_framework::thermal::Outcome;
 use gearloss_framework::thermal::network::{March, Moment, Scheme, StepSize, Surroundings};
 
@@ -40,4 +38,3 @@ fn network(c: &mut Criterion) {
 }
 
 criterion_group!(benches, network);
-criterion_main!(benches);

@@ -2,12 +2,10 @@
 //! many points of neighbouring speeds in batches.
 #![allow(clippy::unwrap_used, missing_docs)]
 
-mod common;
-
 use std::hint::black_box;
 
-use common::{RPM, build, gearbox, language, point, set};
-use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use crate::common::{RPM, build, gearbox, language, point, set};
+use criterion::{Criterion, Throughput, criterion_group};
 use gearloss_framework::lanes::LANES;
 use gearloss_framework::resolve::Choice;
 use gearloss_framework::transmission::Transmission;
@@ -78,4 +76,3 @@ fn points(c: &mut Criterion) {
 }
 
 criterion_group!(benches, points);
-criterion_main!(benches);

@@ -1,12 +1,10 @@
 //! From text to a transmission: the two-speed example, and a document of 10,000 lines.
 #![allow(clippy::unwrap_used, missing_docs)]
 
-mod common;
-
 use std::hint::black_box;
 
-use common::{build, example, language, long};
-use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use crate::common::{build, example, language, long};
+use criterion::{Criterion, Throughput, criterion_group};
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::resolve::Choice;
 
@@ -47,4 +45,3 @@ fn reading(c: &mut Criterion) {
 }
 
 criterion_group!(benches, reading);
-criterion_main!(benches);

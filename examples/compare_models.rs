@@ -1,7 +1,7 @@
 //! Efficiency over speed of one transmission with several model sets, and with less oil. Points run in parallel, with one scratch for each
 //! thread; evaluating a point allocates nothing.
 //!
-//! `cargo run --release --example compare_models`
+//! `cargo run --example compare_models`
 #![allow(clippy::print_stdout, reason = "an example shows its numbers")]
 
 use std::error::Error;

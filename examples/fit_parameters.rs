@@ -2,7 +2,7 @@
 //!
 //! The points are synthetic: the head of `rig.csv` lists the true values.
 //!
-//! `cargo run --release --example fit_parameters`
+//! `cargo run --example fit_parameters`
 #![allow(clippy::print_stdout, reason = "an example shows its numbers")]
 
 use std::error::Error;

@@ -1,7 +1,7 @@
 //! A whole study, run by a program: outcomes as typed values, and their tables as columns. The files are in memory here, as if
 //! they came from an archive or a database; `Disk::shared()` in place of `files` reads them from the disk.
 //!
-//! `cargo run --release --example run_study`
+//! `cargo run --example run_study`
 #![allow(clippy::print_stdout, reason = "an example shows its numbers")]
 
 use std::error::Error;

@@ -56,6 +56,12 @@ use output::{End, Failure, Out};
 ///
 /// Exit codes: 0 success, 1 a finding, 2 an input error, 3 a bug, 130 interrupted.
 pub fn main() -> ExitCode {
+    let report = std::panic::take_hook();
+    std::panic::set_hook(Box::new(move |bug| {
+        report(bug);
+        let _ = Out::error().text("This is a bug in gearloss. Please report the input and the lines above.\n");
+        std::process::exit(3);
+    }));
     ExitCode::from(call(std::env::args_os()))
 }
 
@@ -71,17 +77,13 @@ pub fn call(args: impl IntoIterator<Item = OsString>) -> u8 {
             return if wrong { 2 } else { 0 };
         }
     };
-    match std::panic::catch_unwind(|| run(args)) {
-        Ok(Ok(End::Fine)) => 0,
-        Ok(Ok(End::Finding)) => 1,
-        Ok(Err(failure)) => {
+    match run(args) {
+        Ok(End::Fine) => 0,
+        Ok(End::Finding) => 1,
+        Err(failure) => {
             let text = failure.text();
             let _ = Out::error().text(text.as_deref().unwrap_or("interrupted\n"));
             if text.is_some() { 2 } else { 130 }
-        }
-        Err(_) => {
-            let _ = Out::error().text("This is a bug in gearloss. Please report the input and the lines above.\n");
-            3
         }
     }
 }

@@ -20,7 +20,7 @@ fn benches() -> Vec<(String, Vec<String>)> {
     let mut files: Vec<_> = std::fs::read_dir(file("benches"))
         .unwrap()
         .map(|e| e.unwrap().path())
-        .filter(|p| p.extension().is_some_and(|e| e == "rs"))
+        .filter(|p| p.extension().is_some_and(|e| e == "rs") && !p.ends_with("main.rs"))
         .collect();
     files.sort();
     let names = |path: &Path| {
@@ -182,7 +182,7 @@ fn figures(date: &str) -> String {
         for name in names {
             let (estimates, elements) = found
                 .get(&format!("{group}/{name}"))
-                .unwrap_or_else(|| panic!("`{name}` was not run: cargo bench --bench {group}"));
+                .unwrap_or_else(|| panic!("`{name}` was not run: cargo bench -- {group}/"));
             let median = &estimates["median"];
             let [value, low, high] = [
                 &median["point_estimate"],
