@@ -144,7 +144,7 @@ fn cycle(c: &mut Criterion, language: &Language, gearbox: &Gearbox) {
 
 fn all(c: &mut Criterion) {
     let language = language();
-    let gearbox = common::gearbox(&language, "two-speed-ev");
+    let gearbox = crate::common::gearbox(&language, "two-speed-ev");
     one_mesh(c, &language, &gearbox);
     one_point(c, &language, &gearbox);
     cycle(c, &language, &gearbox);
