@@ -24,7 +24,7 @@ pub use shown::{LossGrid, SHOWN, ShownGrid, ShownMap, ShownPoint};
 
 use self::export::ExportData;
 use self::plan::{Planned, on_grid};
-use self::points::{RowsOf, Taken, Taker, UndefinedLoss, columns};
+use self::points::{RowsOf, Taken, Taker, UndefinedLoss};
 use self::shown::Selection;
 use super::{Analysis, Built, Context, Stopped};
 use crate::analysis::{Field, Note, Numbered, OilTemperature, Piece, PointResult, SUMS, evidence, merge, notes};
@@ -73,17 +73,14 @@ impl MapEntry {
             let mut map = Map::new(&plan.built, &plan.bound, &plan.points.gear, plan.points.oil, &rows);
             map.shown = ShownMap::new(Some(&plan.axes), whole);
             let taker = Taker {
+                built: &plan.built,
                 field: &plan.points.field,
                 rows: RowsOf::new(&plan.built, &plan.points.gear, &plan.bound, &rows.parts),
                 selection: &Selection::new(Some(&plan.axes), whole),
                 wanted: rows.wanted,
             };
             let take = |points: &mut Numbered<'_>| taker.take(points);
-            let solve = || {
-                cx.solve_pieces(&plan.built, &plan.points, &take, &mut |piece| {
-                    map.add(piece, &taker.rows, &mut rows)
-                })
-            };
+            let solve = || cx.solve_pieces(&plan.built, &plan.points, &take, &mut |piece| map.add(piece, &mut rows));
             if cx.part(number, solve)?.is_none() {
                 continue;
             }
@@ -166,13 +163,14 @@ impl MapEntry {
                 let oil = common(&points).map_or(OilTemperature::Balance, OilTemperature::Fixed);
                 let mut map = Map::new(&built[place], &bound, &gear, oil, &rows);
                 let taker = Taker {
+                    built: &built[place],
                     field: &Field::List(Vec::new()),
                     rows: RowsOf::new(&built[place], &gear, &bound, &rows.parts),
                     selection: &Selection::new(None, false),
                     wanted: rows.wanted,
                 };
                 let piece = Piece::new(0, points, Vec::new()).made(0, &|points| taker.take(points));
-                map.add(piece, &taker.rows, &mut rows)?;
+                map.add(piece, &mut rows)?;
                 map.notes.clone_from(&solved.notes);
                 maps.push(map);
             }
@@ -245,7 +243,7 @@ impl<'c> Rows<'c> {
             }
         }
         Self {
-            table: Table::new(cx.name, columns(bound, &parts)),
+            table: RowsOf::none(bound, &parts).table(cx.name, []),
             holds: cx.sink.is_none() || entry.write.contains(&Write::Json),
             wanted: cx.sink.is_none() || entry.write.iter().any(|format| *format != Write::Svg),
             constant: 2 + bound.len(),
@@ -296,13 +294,13 @@ impl<'a> Map<'a> {
     }
 
     /// Adds the data of the next piece.
-    fn add(&mut self, piece: Piece<Taken>, of_map: &RowsOf<'_>, rows: &mut Rows<'_>) -> Result<(), Stopped> {
+    fn add(&mut self, piece: Piece<Taken>, rows: &mut Rows<'_>) -> Result<(), Stopped> {
         merge(&mut self.seen, &piece.seen);
         let order: Vec<(usize, Range<usize>)> = piece.runs().collect();
-        let (mut values, mut picked, mut undefined) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut tables, mut picked, mut undefined) = (Vec::new(), Vec::new(), Vec::new());
         drop(piece.map(|taken| {
             self.passes += taken.passes;
-            values.push(of_map.with_constants(taken.values));
+            tables.push(taken.rows);
             picked.push(taken.picked);
             undefined.extend(taken.undefined);
         }));
@@ -313,11 +311,11 @@ impl<'a> Map<'a> {
         if rows.holds {
             undefined.sort_by_key(|loss: &UndefinedLoss| loss.number);
             self.undefined.extend(undefined);
-            rows.table.extend(&values, &order);
+            rows.table.extend(&tables, &order);
             self.rows.end = rows.table.len();
         } else if let Some(sink) = rows.cx.sink {
             let mut own = rows.table.header();
-            own.extend(&values, &order);
+            own.extend(&tables, &order);
             sink.take(&own)?;
         }
         Ok(())
