@@ -25,15 +25,6 @@ pub struct DragTorqueEntry {
     pub write: Vec<Write>,
 }
 
-impl Entry for DragTorqueEntry {
-    const TYPE: &'static str = "drag_torque";
-    const MEANING: &'static str = "Torque that turns the unloaded gearbox, over the temperature of the oil.";
-
-    fn uses(&self) -> Uses<'_> {
-        Uses::new(self.gearbox.as_ref(), &self.model_sets).at(&self.gear)
-    }
-}
-
 register_analysis!(DragTorqueEntry);
 
 /// Drag torques of each model set.
@@ -69,7 +60,13 @@ pub struct DragTorque {
 }
 
 impl Analysis for DragTorqueEntry {
+    const TYPE: &'static str = "drag_torque";
+    const MEANING: &'static str = "Torque that turns the unloaded gearbox, over the temperature of the oil.";
     type Outcome = DragTorqueOutcome;
+
+    fn uses(&self) -> Uses<'_> {
+        Uses::new(self.gearbox.as_ref(), &self.model_sets).at(&self.gear)
+    }
 
     fn run(&self, cx: &Context<'_>) -> Result<DragTorqueOutcome, Stopped> {
         let built = cx.built(cx.gearbox(self.gearbox.as_ref())?, &self.model_sets)?;

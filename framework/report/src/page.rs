@@ -7,8 +7,8 @@ use std::any::{Any, TypeId};
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::registry::inventory;
+use gearloss_studies::analyses::Outcome;
 use gearloss_studies::analyses::ranges::PublishedCoefficient;
-use gearloss_studies::analyses::{AnyOutcome, Outcome};
 use gearloss_studies::analysis::Note;
 use gearloss_studies::table::Table;
 
@@ -81,7 +81,7 @@ impl Page {
 
     /// Adds quantities (path, name) that are outside their stated ranges in some samples. The terminal shows them once, at the end of a
     /// run.
-    pub fn outside_at_samples(&mut self, left: &[(&str, &str)]) {
+    pub fn outside_at_samples(&mut self, left: &[&(String, String)]) {
         for (path, name) in left {
             let text = format!("outside: {path}: {name} is outside its validity range in some samples\n");
             self.text.push(Text::InReport(text));
@@ -116,10 +116,10 @@ impl Page {
     }
 
     /// The page of an outcome.
-    pub fn from_outcome(outcome: &dyn AnyOutcome) -> Self {
+    pub fn from_outcome(outcome: &dyn Outcome) -> Self {
         let mut page = Self::default();
         page.verdicts.extend(outcome.head().about_data.iter().cloned());
-        let own: &dyn Any = outcome.as_any();
+        let own: &dyn Any = outcome;
         let view = inventory::iter::<View>().find(|view| (view.outcome)() == own.type_id());
         match view {
             Some(view) => (view.show)(own, &mut page),

@@ -1,6 +1,6 @@
 //! Quantities outside their stated ranges in all analyses of a run, for the end of its output.
 
-use gearloss_studies::analyses::AnyOutcome;
+use gearloss_studies::analyses::Outcome;
 use gearloss_studies::analysis::Note;
 
 use crate::text::{beyond, significant};
@@ -60,7 +60,7 @@ pub struct StatedRanges(Vec<Left>);
 
 impl StatedRanges {
     /// Adds what an analysis found.
-    pub fn add_outcome(&mut self, analysis: &str, outcome: &dyn AnyOutcome) {
+    pub fn add_outcome(&mut self, analysis: &str, outcome: &dyn Outcome) {
         for note in outcome.notes().iter().filter(|note| note.outside > 0) {
             self.add(Left {
                 path: note.path.clone(),
@@ -71,8 +71,8 @@ impl StatedRanges {
         }
         for (path, name) in outcome.left_at_samples() {
             self.add(Left {
-                path: path.to_owned(),
-                name: name.to_owned(),
+                path: path.clone(),
+                name: name.clone(),
                 values: None,
                 analyses: vec![analysis.to_owned()],
             });

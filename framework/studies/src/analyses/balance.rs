@@ -10,7 +10,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use super::{Analysis, Built, Context, Entry, Head, Outcome, Stopped, gear_of};
+use super::{Analysis, Built, Context, Head, Outcome, Stopped, gear_of};
 use crate::analysis::{Note, notes};
 use crate::register_analysis;
 use crate::study::{Uses, Write};
@@ -38,16 +38,6 @@ pub struct BalanceEntry {
     /// Formats to write; default: CSV, JSON and SVG.
     #[serde(default = "Write::every_format")]
     pub write: Vec<Write>,
-}
-
-impl Entry for BalanceEntry {
-    const TYPE: &'static str = "balance";
-    const MEANING: &'static str =
-        "Heat balance of one point: losses and heat over temperature, and every step of the search.";
-
-    fn uses(&self) -> Uses<'_> {
-        Uses::new(self.gearbox.as_ref(), &self.model_sets).at(&self.gear)
-    }
 }
 
 register_analysis!(BalanceEntry);
@@ -227,7 +217,14 @@ pub fn reason(transmission: &Transmission, why: &Unbalanced) -> String {
 }
 
 impl Analysis for BalanceEntry {
+    const TYPE: &'static str = "balance";
+    const MEANING: &'static str =
+        "Heat balance of one point: losses and heat over temperature, and every step of the search.";
     type Outcome = BalanceOutcome;
+
+    fn uses(&self) -> Uses<'_> {
+        Uses::new(self.gearbox.as_ref(), &self.model_sets).at(&self.gear)
+    }
 
     fn run(&self, cx: &Context<'_>) -> Result<BalanceOutcome, Stopped> {
         let path = cx.path();

@@ -15,7 +15,7 @@ use serde_json::Value;
 use super::axes::{speeds, torques};
 use super::measurable::is_measurable;
 use super::numbers::{RPM, tidy};
-use super::{Analysis, Built, Context, Entry, Head, Outcome, Stopped, gear_of};
+use super::{Analysis, Built, Context, Head, Outcome, Stopped, gear_of};
 use crate::analysis::{Note, Points, notes};
 use crate::register_analysis;
 use crate::study::{Data, SpeedAxis, TorqueAxis, Uses, Write};
@@ -47,17 +47,6 @@ pub struct ComponentCompareEntry {
     /// Formats to write; default: CSV and JSON.
     #[serde(default = "Write::data")]
     pub write: Vec<Write>,
-}
-
-impl Entry for ComponentCompareEntry {
-    const TYPE: &'static str = "component_compare";
-    const MEANING: &'static str = "Several models of one component over speed.";
-
-    fn uses(&self) -> Uses<'_> {
-        Uses::new(self.gearbox.as_ref(), &self.model_set)
-            .at(&self.gear)
-            .with("measured", self.measured.as_ref())
-    }
 }
 
 register_analysis!(ComponentCompareEntry);
@@ -178,7 +167,15 @@ struct Evaluated<'a> {
 }
 
 impl Analysis for ComponentCompareEntry {
+    const TYPE: &'static str = "component_compare";
+    const MEANING: &'static str = "Several models of one component over speed.";
     type Outcome = ComponentCompareOutcome;
+
+    fn uses(&self) -> Uses<'_> {
+        Uses::new(self.gearbox.as_ref(), &self.model_set)
+            .at(&self.gear)
+            .with("measured", self.measured.as_ref())
+    }
 
     fn run(&self, cx: &Context<'_>) -> Result<ComponentCompareOutcome, Stopped> {
         let path = cx.path();

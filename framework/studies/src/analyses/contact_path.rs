@@ -21,7 +21,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::numbers::{RPM, tidy};
-use super::{Analysis, Built, Context, Entry, Head, Outcome, Stopped, gear_of};
+use super::{Analysis, Built, Context, Head, Outcome, Stopped, gear_of};
 use crate::analysis::Note;
 use crate::register_analysis;
 use crate::study::{Uses, Write};
@@ -56,16 +56,6 @@ pub struct ContactPathEntry {
 
 fn places() -> u32 {
     101
-}
-
-impl Entry for ContactPathEntry {
-    const TYPE: &'static str = "contact_path";
-    const MEANING: &'static str =
-        "Velocities, load, pressure, friction, film thickness and loss along the path of contact of one mesh.";
-
-    fn uses(&self) -> Uses<'_> {
-        Uses::new(self.gearbox.as_ref(), &self.model_sets).at(&self.gear)
-    }
 }
 
 register_analysis!(ContactPathEntry);
@@ -171,7 +161,14 @@ impl Friction {
 }
 
 impl Analysis for ContactPathEntry {
+    const TYPE: &'static str = "contact_path";
+    const MEANING: &'static str =
+        "Velocities, load, pressure, friction, film thickness and loss along the path of contact of one mesh.";
     type Outcome = ContactPathOutcome;
+
+    fn uses(&self) -> Uses<'_> {
+        Uses::new(self.gearbox.as_ref(), &self.model_sets).at(&self.gear)
+    }
 
     fn run(&self, cx: &Context<'_>) -> Result<ContactPathOutcome, Stopped> {
         let built = cx.built(cx.gearbox(self.gearbox.as_ref())?, &self.model_sets)?;

@@ -7,6 +7,7 @@ mod results;
 use gearloss_framework::attach::dangling;
 use gearloss_framework::description::Ordered;
 use gearloss_framework::document::Diagnostic;
+use gearloss_framework::gearbox::Findings;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -14,7 +15,7 @@ use super::duties::{Duties, sums_energies};
 use super::inputs::Input;
 use super::numbers::tidy;
 use super::shares::{Shares, together};
-use super::{Analysis, Context, Entry, Head, Outcome, Stopped};
+use super::{Analysis, Context, Head, Outcome, Stopped};
 use crate::analysis::Note;
 use crate::codes;
 use crate::register_analysis;
@@ -64,19 +65,16 @@ pub struct ReferenceLoss {
     pub source: Option<String>,
 }
 
-impl Entry for CycleAnalysisEntry {
+register_analysis!(CycleAnalysisEntry);
+
+impl Analysis for CycleAnalysisEntry {
     const TYPE: &'static str = "cycle";
     const MEANING: &'static str = "Cycle losses, energy and temperatures, for driving cycles or load spectra.";
+    type Outcome = CycleOutcome;
 
     fn uses(&self) -> Uses<'_> {
         Uses::driving(&self.drive)
     }
-}
-
-register_analysis!(CycleAnalysisEntry);
-
-impl Analysis for CycleAnalysisEntry {
-    type Outcome = CycleOutcome;
 
     fn run(&self, cx: &Context<'_>) -> Result<CycleOutcome, Stopped> {
         let path = cx.path();
@@ -119,6 +117,10 @@ impl Analysis for CycleAnalysisEntry {
         }
         Ok(CycleOutcome {
             head: cx.head(&built.iter().collect::<Vec<_>>()),
+            failures: broken_off(&path, &cycles)
+                .map(|error| cx.study.findings(vec![error]))
+                .into_iter()
+                .collect(),
             cycles,
             left: all_left,
         })
@@ -139,6 +141,18 @@ impl CycleAnalysisEntry {
         let path = format!("{path}.reference");
         Err(cx.found(vec![dangling(&path, "cycle of this analysis", unknown, &names)]))
     }
+}
+
+/// Why the first cycle that did not reach its end stopped.
+fn broken_off(path: &str, cycles: &[DutyOfSet]) -> Option<Diagnostic> {
+    let mut broken = cycles.iter().filter_map(|duty| Some((duty, duty.broken.as_ref()?)));
+    let (duty, broken) = broken.next()?;
+    let message = format!(
+        "`{}` could not be simulated beyond {} s: {}",
+        duty.cycle, broken.time_s, broken.reason
+    );
+    let help = "the results up to there are kept; examine the point with `explain`";
+    Some(Diagnostic::error(path, message).help(help).code(codes::BROKEN_OFF))
 }
 
 impl Outcome for CycleOutcome {
@@ -199,28 +213,12 @@ impl Outcome for CycleOutcome {
         self.cycles.iter().flat_map(|duty| &duty.notes).collect()
     }
 
-    fn left_at_samples(&self) -> Vec<(&str, &str)> {
-        self.left
-            .iter()
-            .map(|(path, name)| (path.as_str(), name.as_str()))
-            .collect()
+    fn left_at_samples(&self) -> Vec<&(String, String)> {
+        self.left.iter().collect()
     }
 
-    fn fault(&self) -> Option<Diagnostic> {
-        let (duty, broken) = self
-            .cycles
-            .iter()
-            .find_map(|duty| Some((duty, duty.broken.as_ref()?)))?;
-        let message = format!(
-            "`{}` could not be simulated beyond {} s: {}",
-            duty.cycle, broken.time_s, broken.reason
-        );
-        let error = Diagnostic::error(format!("analyses.{}", self.head.analysis), message);
-        Some(
-            error
-                .help("the results up to there are kept; examine the point with `explain`")
-                .code(codes::BROKEN_OFF),
-        )
+    fn failures(&self) -> &[Findings] {
+        &self.failures
     }
 }
 

@@ -11,7 +11,7 @@ use self::swept::Swept;
 use super::duties::{Duties, MeanLoss, Unfinished, sums_energies};
 use super::shares::together;
 use super::trial::{Left, Trial};
-use super::{Analysis, Built, Context, Entry, Head, Outcome, Stopped};
+use super::{Analysis, Built, Context, Head, Outcome, Stopped};
 use crate::analysis::Note;
 use crate::register_analysis;
 use crate::study::{By, DriveEntry, Uses, Write};
@@ -53,15 +53,6 @@ pub struct FluidSweepEntry {
 
 fn yes() -> bool {
     true
-}
-
-impl Entry for FluidSweepEntry {
-    const TYPE: &'static str = "fluid_sweep";
-    const MEANING: &'static str = "Mean cycle losses over one property of an oil, and their minimum.";
-
-    fn uses(&self) -> Uses<'_> {
-        Uses::driving(&self.drive)
-    }
 }
 
 register_analysis!(FluidSweepEntry);
@@ -147,7 +138,13 @@ struct Search<'a> {
 }
 
 impl Analysis for FluidSweepEntry {
+    const TYPE: &'static str = "fluid_sweep";
+    const MEANING: &'static str = "Mean cycle losses over one property of an oil, and their minimum.";
     type Outcome = FluidSweepOutcome;
+
+    fn uses(&self) -> Uses<'_> {
+        Uses::driving(&self.drive)
+    }
 
     fn run(&self, cx: &Context<'_>) -> Result<FluidSweepOutcome, Stopped> {
         let path = cx.path();
@@ -347,10 +344,7 @@ impl Outcome for FluidSweepOutcome {
         Vec::new()
     }
 
-    fn left_at_samples(&self) -> Vec<(&str, &str)> {
-        self.left
-            .iter()
-            .map(|(path, name)| (path.as_str(), name.as_str()))
-            .collect()
+    fn left_at_samples(&self) -> Vec<&(String, String)> {
+        self.left.iter().collect()
     }
 }

@@ -30,13 +30,26 @@ use super::{Analysis, Built, Context, Stopped};
 use crate::analysis::{Field, Note, Numbered, OilTemperature, Piece, PointResult, SUMS, evidence, merge, notes};
 use crate::measured::Measured;
 use crate::register_analysis;
-use crate::study::{Data, Write};
+use crate::study::{Data, Uses, Write};
 use crate::table::Table;
 
 register_analysis!(MapEntry);
 
 impl Analysis for MapEntry {
+    const TYPE: &'static str = "map";
+    const MEANING: &'static str = "Losses and efficiency over a grid.";
     type Outcome = MapOutcome;
+
+    fn uses(&self) -> Uses<'_> {
+        Uses {
+            grid: self.grid.as_ref(),
+            ..Uses::new(self.gearbox.as_ref(), &self.model_sets)
+                .at(&self.gear)
+                .bind(&self.bind)
+                .with("points", self.points.as_ref())
+                .with("measured", self.measured.as_ref())
+        }
+    }
 
     fn run(&self, cx: &Context<'_>) -> Result<MapOutcome, Stopped> {
         match &self.points {

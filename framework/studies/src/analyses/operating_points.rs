@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use super::numbers::{RPM, tidy};
 use super::rows::Solved;
 use super::shares::{Shares, together};
-use super::{Analysis, Built, Context, Entry, Head, Outcome, Stopped};
+use super::{Analysis, Built, Context, Head, Outcome, Stopped};
 use crate::analysis::{Note, PointResult};
 use crate::measured::{Measured, Row};
 use crate::register_analysis;
@@ -39,19 +39,6 @@ pub struct OperatingPointsEntry {
     /// Formats to write; default: CSV, JSON and SVG.
     #[serde(default = "Write::every_format")]
     pub write: Vec<Write>,
-}
-
-impl Entry for OperatingPointsEntry {
-    const TYPE: &'static str = "operating_points";
-    const MEANING: &'static str =
-        "Losses of a list of operating points from a file, as stacked bars with measured values.";
-
-    fn uses(&self) -> Uses<'_> {
-        Uses::new(self.gearbox.as_ref(), &self.model_sets)
-            .at(&self.gear)
-            .bind(&self.bind)
-            .with("data", Some(&self.data))
-    }
 }
 
 register_analysis!(OperatingPointsEntry);
@@ -163,7 +150,17 @@ impl MeasuredAtPoint {
 }
 
 impl Analysis for OperatingPointsEntry {
+    const TYPE: &'static str = "operating_points";
+    const MEANING: &'static str =
+        "Losses of a list of operating points from a file, as stacked bars with measured values.";
     type Outcome = OperatingPointsOutcome;
+
+    fn uses(&self) -> Uses<'_> {
+        Uses::new(self.gearbox.as_ref(), &self.model_sets)
+            .at(&self.gear)
+            .bind(&self.bind)
+            .with("data", Some(&self.data))
+    }
 
     fn run(&self, cx: &Context<'_>) -> Result<OperatingPointsOutcome, Stopped> {
         let path = cx.path();

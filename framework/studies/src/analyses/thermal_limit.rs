@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use super::axes::{speeds, torques};
 use super::balance::needs_balance;
 use super::numbers::{RPM, tidy};
-use super::{Analysis, Built, Context, Entry, Head, Outcome, Stopped, gear_of};
+use super::{Analysis, Built, Context, Head, Outcome, Stopped, gear_of};
 use crate::analysis::{Note, Points, notes};
 use crate::register_analysis;
 use crate::study::{SpeedAxis, TorqueAxis, Uses, Write};
@@ -50,15 +50,6 @@ pub enum Find {
     Torque,
     /// The speed at each torque.
     Speed,
-}
-
-impl Entry for ThermalLimitEntry {
-    const TYPE: &'static str = "thermal_limit";
-    const MEANING: &'static str = "The torque, or the speed, at which the heat balance reaches a given temperature.";
-
-    fn uses(&self) -> Uses<'_> {
-        Uses::new(self.gearbox.as_ref(), &self.model_sets).at(&self.gear)
-    }
 }
 
 register_analysis!(ThermalLimitEntry);
@@ -116,7 +107,13 @@ pub struct ThermalLimit {
 }
 
 impl Analysis for ThermalLimitEntry {
+    const TYPE: &'static str = "thermal_limit";
+    const MEANING: &'static str = "The torque, or the speed, at which the heat balance reaches a given temperature.";
     type Outcome = ThermalLimitOutcome;
+
+    fn uses(&self) -> Uses<'_> {
+        Uses::new(self.gearbox.as_ref(), &self.model_sets).at(&self.gear)
+    }
 
     fn run(&self, cx: &Context<'_>) -> Result<ThermalLimitOutcome, Stopped> {
         let path = cx.path();

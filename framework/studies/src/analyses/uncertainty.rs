@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::ranges::{PublishedCoefficient, published};
 use super::trial::Left;
-use super::{Analysis, Context, Entry, Head, Outcome, Stopped};
+use super::{Analysis, Context, Head, Outcome, Stopped};
 use crate::analyses::axes::grid_axes;
 use crate::analyses::inputs::Input;
 use crate::analysis::Note;
@@ -39,18 +39,6 @@ pub struct UncertaintyEntry {
 
 fn samples() -> u32 {
     256
-}
-
-impl Entry for UncertaintyEntry {
-    const TYPE: &'static str = "uncertainty";
-    const MEANING: &'static str = "Uncertainty bands of efficiency, loss and temperature from uncertain inputs.";
-
-    fn uses(&self) -> Uses<'_> {
-        Uses {
-            grid: Some(&self.grid),
-            ..Uses::new(self.gearbox.as_ref(), &self.model_sets)
-        }
-    }
 }
 
 register_analysis!(UncertaintyEntry);
@@ -163,7 +151,16 @@ impl QuantityBand {
 }
 
 impl Analysis for UncertaintyEntry {
+    const TYPE: &'static str = "uncertainty";
+    const MEANING: &'static str = "Uncertainty bands of efficiency, loss and temperature from uncertain inputs.";
     type Outcome = UncertaintyOutcome;
+
+    fn uses(&self) -> Uses<'_> {
+        Uses {
+            grid: Some(&self.grid),
+            ..Uses::new(self.gearbox.as_ref(), &self.model_sets)
+        }
+    }
 
     fn run(&self, cx: &Context<'_>) -> Result<UncertaintyOutcome, Stopped> {
         let path = cx.path();
@@ -275,10 +272,7 @@ impl Outcome for UncertaintyOutcome {
         Vec::new()
     }
 
-    fn left_at_samples(&self) -> Vec<(&str, &str)> {
-        self.left
-            .iter()
-            .map(|(path, name)| (path.as_str(), name.as_str()))
-            .collect()
+    fn left_at_samples(&self) -> Vec<&(String, String)> {
+        self.left.iter().collect()
     }
 }

@@ -189,8 +189,7 @@ impl Outcome for RmsSurfaceOutcome {
         Vec::new()
     }
 
-    fn left_at_samples(&self) -> Vec<(&str, &str)> {
-        let left = self.left_at_pairs.iter();
-        left.map(|(path, name)| (path.as_str(), name.as_str())).collect()
+    fn left_at_samples(&self) -> Vec<&(String, String)> {
+        self.left_at_pairs.iter().collect()
     }
 }

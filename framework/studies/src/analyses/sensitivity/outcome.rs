@@ -298,9 +298,11 @@ impl Outcome for SensitivityOutcome {
         Vec::new()
     }
 
-    fn left_at_samples(&self) -> Vec<(&str, &str)> {
-        let all = self.sensitivities.iter().flat_map(|of_set| &of_set.left_at_samples);
-        all.map(|(path, name)| (path.as_str(), name.as_str())).collect()
+    fn left_at_samples(&self) -> Vec<&(String, String)> {
+        self.sensitivities
+            .iter()
+            .flat_map(|of_set| &of_set.left_at_samples)
+            .collect()
     }
 
     fn unlisted(&self) -> usize {
