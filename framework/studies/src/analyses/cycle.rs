@@ -18,6 +18,7 @@ use super::shares::{Shares, together};
 use super::{Analysis, Context, Head, Outcome, Stopped};
 use crate::analysis::Note;
 use crate::codes;
+use crate::distinct::distinct;
 use crate::register_analysis;
 use crate::study::{By, DriveEntry, ToleranceEntry, Uses, Write};
 use crate::table::Table;
@@ -225,12 +226,7 @@ impl Outcome for CycleOutcome {
 impl CycleOutcome {
     /// Nodes of all cycles, in the order of the first.
     fn nodes(&self) -> Vec<&str> {
-        let mut all: Vec<&str> = Vec::new();
-        for node in self.cycles.iter().flat_map(|duty| &duty.nodes) {
-            if !all.contains(&node.node.as_str()) {
-                all.push(&node.node);
-            }
-        }
-        all
+        let all = self.cycles.iter().flat_map(|duty| &duty.nodes);
+        distinct(all.map(|node| node.node.as_str()))
     }
 }

@@ -28,6 +28,7 @@ use self::points::{RowsOf, Taken, Taker, UndefinedLoss};
 use self::shown::Selection;
 use super::{Analysis, Built, Context, Stopped};
 use crate::analysis::{Field, Note, Numbered, OilTemperature, Piece, PointResult, SUMS, evidence, merge, notes};
+use crate::distinct::distinct;
 use crate::measured::Measured;
 use crate::register_analysis;
 use crate::study::{Data, Uses, Write};
@@ -155,30 +156,25 @@ impl MapEntry {
         let mut rows = Rows::new(cx, self, &paths, &all);
         let mut maps = Vec::new();
         for solved in solved {
-            let mut keys: Vec<(usize, String)> = Vec::new();
-            for (place, gear, _) in &solved.rows {
-                if !keys.iter().any(|key| (key.0, &key.1) == (*place, gear)) {
-                    keys.push((*place, gear.clone()));
-                }
-            }
+            let keys = distinct(solved.rows.iter().map(|(place, gear, _)| (*place, gear)));
             let built: Vec<Arc<Built<'_>>> = solved.built.into_iter().map(Arc::new).collect();
             for (place, gear) in keys {
                 let own = solved
                     .rows
                     .iter()
                     .zip(&listed.rows)
-                    .filter(|(row, _)| row.0 == place && row.1 == gear);
+                    .filter(|(row, _)| row.0 == place && row.1 == *gear);
                 let bound: Vec<(String, Value)> = own.clone().next().map_or_else(Vec::new, |(_, row)| {
                     let values = row.bound.iter().map(|v| Value::from(v.as_str()));
                     paths.iter().cloned().zip(values).collect()
                 });
                 let points: Vec<PointResult> = own.map(|((_, _, point), _)| point.clone()).collect();
                 let oil = common(&points).map_or(OilTemperature::Balance, OilTemperature::Fixed);
-                let mut map = Map::new(&built[place], &bound, &gear, oil, &rows);
+                let mut map = Map::new(&built[place], &bound, gear, oil, &rows);
                 let taker = Taker {
                     built: &built[place],
                     field: &Field::List(Vec::new()),
-                    rows: RowsOf::new(&built[place], &gear, &bound, &rows.parts),
+                    rows: RowsOf::new(&built[place], gear, &bound, &rows.parts),
                     selection: &Selection::new(None, false),
                     wanted: rows.wanted,
                 };
@@ -249,12 +245,8 @@ struct Rows<'c> {
 
 impl<'c> Rows<'c> {
     fn new(cx: &'c Context<'c>, entry: &MapEntry, bound: &[String], all: &[&Built<'_>]) -> Self {
-        let mut parts: Vec<String> = Vec::new();
-        for part in all.iter().flat_map(|built| built.transmission.parts()) {
-            if !parts.contains(&part.path) {
-                parts.push(part.path.clone());
-            }
-        }
+        let parts = all.iter().flat_map(|built| built.transmission.parts());
+        let parts: Vec<String> = distinct(parts.map(|part| &part.path)).into_iter().cloned().collect();
         Self {
             table: RowsOf::none(bound, &parts).table(cx.name, []),
             holds: cx.sink.is_none() || entry.write.contains(&Write::Json),
@@ -371,12 +363,7 @@ fn notes_of_sets(maps: &[Map<'_>]) -> Option<Vec<NotesOfSet>> {
     if !maps.iter().all(fits) {
         return None;
     }
-    let mut names: Vec<&str> = Vec::new();
-    for map in maps {
-        if !names.contains(&map.built.name.as_str()) {
-            names.push(&map.built.name);
-        }
-    }
+    let names = distinct(maps.iter().map(|map| map.built.name.as_str()));
     let of_set = |name: &str| {
         let mut all = Vec::new();
         let own = || maps.iter().filter(|map| map.built.name == name);
