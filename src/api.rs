@@ -61,13 +61,13 @@ pub use gearloss_framework::language::Language;
 pub use gearloss_framework::resolve::{Choice, Resolved};
 pub use gearloss_framework::transmission::{Case, Transmission};
 pub use gearloss_studies::analyses::progress::{Progress, Silent, Steps};
-pub use gearloss_studies::analyses::{AnyOutcome, Context, Outcome, Stopped};
+pub use gearloss_studies::analyses::{Context, Outcome, Stopped};
 pub use gearloss_studies::analysis::{Field, Given, GridResult, OilTemperature, PointResult, Points};
 pub use gearloss_studies::run::StudyRun;
 pub use gearloss_studies::study::Study;
 pub use gearloss_studies::table::{Column, Table, Texts, Values};
 
-/// The outcome of each analysis, for [`AnyOutcome::get`].
+/// The outcome of each analysis, for [`Outcome::get`].
 pub mod outcomes {
     pub use gearloss_studies::analyses::balance::BalanceOutcome;
     pub use gearloss_studies::analyses::breakdown::BreakdownOutcome;

@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use gearloss::api::outcomes::{CycleOutcome, OperatingPointsOutcome};
 use gearloss::api::{
-    AnyOutcome, Choice, Disk, Field, FileSource as _, Findings, Gearbox, Given, InMemory, Points, SharedSource,
-    StudyRun, read_study, solve_point, solve_points,
+    Choice, Disk, Field, FileSource as _, Findings, Gearbox, Given, InMemory, Outcome, Points, SharedSource, StudyRun,
+    read_study, solve_point, solve_points,
 };
 
 use crate::common::{file, language, two_speed, two_speed_with};
@@ -30,14 +30,14 @@ fn nowhere() -> PathBuf {
 }
 
 /// The outcome of an analysis as JSON.
-fn json(outcome: &dyn AnyOutcome) -> String {
+fn json(outcome: &dyn Outcome) -> String {
     let mut text = Vec::new();
     outcome.write_json(&mut text).unwrap();
     String::from_utf8(text).unwrap()
 }
 
 /// The outcome of an analysis of a study in memory, which is that of the same study on the disk.
-fn same_from_memory(study: &str, folders: &[&str], analysis: &str) -> Box<dyn AnyOutcome> {
+fn same_from_memory(study: &str, folders: &[&str], analysis: &str) -> Box<dyn Outcome> {
     let language = language();
     let memory = read_study(&language, &in_memory(folders), nowhere().join(study)).unwrap();
     let disk = read_study(&language, &Disk::shared(), file(study)).unwrap();

@@ -5,6 +5,7 @@ use gearloss_framework::resolve::without_suffix;
 
 use crate::args::{CatalogueArg, CatalogueArgs};
 use crate::output::{End, Failure, Out, Table};
+use gearloss_studies::distinct::distinct;
 
 pub fn run(args: &CatalogueArgs, out: &mut Out) -> Result<End, Failure> {
     let language = super::language()?;
@@ -27,12 +28,8 @@ pub fn run(args: &CatalogueArgs, out: &mut Out) -> Result<End, Failure> {
         };
         return Err(Failure::input(format!("no designation contains `{text}`"), help));
     }
-    let mut keys: Vec<&str> = Vec::new();
-    for (key, _) in found.iter().flat_map(|(_, row)| &row.values) {
-        if !keys.contains(&key.as_str()) {
-            keys.push(key);
-        }
-    }
+    let keys = found.iter().flat_map(|(_, row)| &row.values);
+    let keys: Vec<&str> = distinct(keys.map(|(key, _)| key.as_str()));
     let mut head = vec!["designation"];
     head.extend(&keys);
     head.push("confidence");

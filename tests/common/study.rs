@@ -6,7 +6,7 @@ use std::io;
 use std::path::Path;
 use std::sync::Arc;
 
-use gearloss::api::{AnyOutcome, Disk, FileSource, Findings, InMemory, SharedSource, Stopped, StudyRun, read_study};
+use gearloss::api::{Disk, FileSource, Findings, InMemory, Outcome, SharedSource, Stopped, StudyRun, read_study};
 use gearloss::pictures::csv::CsvTable;
 use gearloss::pictures::page::{Page, Text};
 use serde_json::Value;
@@ -30,7 +30,7 @@ pub struct Ran {
     pub text: String,
     /// Whether all analyses have an outcome without a fault.
     pub succeeded: bool,
-    outcomes: BTreeMap<String, Box<dyn AnyOutcome>>,
+    outcomes: BTreeMap<String, Box<dyn Outcome>>,
 }
 
 impl Ran {
@@ -69,7 +69,7 @@ impl Ran {
         pages.any(|page| page.figures.iter().any(|figure| figure.name == name))
     }
 
-    fn outcome(&self, name: &str) -> &dyn AnyOutcome {
+    fn outcome(&self, name: &str) -> &dyn Outcome {
         let outcome = self.outcomes.get(name);
         outcome
             .unwrap_or_else(|| panic!("no outcome of {name}: {}", self.text))
@@ -106,9 +106,8 @@ pub fn run_texts(study: &str, files: &[(&str, &str)]) -> Ran {
                     let (Text::Everywhere(text) | Text::InReport(text)) = text;
                     ran.text.push_str(text);
                 }
-                let faults: Vec<_> = page.faults.into_iter().chain(outcome.fault()).collect();
-                if !faults.is_empty() {
-                    ran.fail(&study.findings(faults));
+                if !page.faults.is_empty() {
+                    ran.fail(&study.findings(page.faults));
                 }
                 outcome.failures().iter().for_each(|findings| ran.fail(findings));
                 ran.outcomes.insert(name.to_owned(), outcome);

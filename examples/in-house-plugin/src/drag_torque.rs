@@ -25,15 +25,6 @@ pub struct DragTorqueEntry {
     pub write: Vec<Write>,
 }
 
-impl Entry for DragTorqueEntry {
-    const TYPE: &'static str = "drag_torque";
-    const MEANING: &'static str = "Torque that turns the unloaded gearbox, over the temperature of the oil.";
-
-    fn uses(&self) -> Uses<'_> {
-        Uses::new(self.gearbox.as_ref(), &self.model_sets).at(&self.gear)
-    }
-}
-
 register_analysis!(DragTorqueEntry);
 
 /// Drag torques of each model set.
@@ -69,7 +60,13 @@ pub struct DragTorque {
 }
 
 impl Analysis for DragTorqueEntry {
+    const TYPE: &'static str = "drag_torque";
+    const MEANING: &'static str = "Torque that turns the unloaded gearbox, over the temperature of the oil.";
     type Outcome = DragTorqueOutcome;
+
+    fn uses(&self) -> Uses<'_> {
+        Uses::new(self.gearbox.as_ref(), &self.model_sets).at(&self.gear)
+    }
 
     fn run(&self, cx: &Context<'_>) -> Result<DragTorqueOutcome, Stopped> {
         let built = cx.built(cx.gearbox(self.gearbox.as_ref())?, &self.model_sets)?;
@@ -133,20 +130,18 @@ impl Outcome for DragTorqueOutcome {
     }
 
     fn tables(&self) -> Vec<Table> {
-        let mut table = Table::new(
-            &self.head.analysis,
-            [
-                Column::text("model_set", "Model set"),
-                Column::number("oil_temperature_degc", "degC", "Temperature of the oil"),
-                Column::number("torque_nm", "Nm", "Torque that turns the unloaded gearbox"),
-            ],
-        );
-        for set in &self.sets {
-            for at in &set.torques {
-                table.push(cells![&set.model_set, at.oil_temperature_degc, at.torque_nm]);
-            }
-        }
-        vec![table]
+        let table = Table::of_each(&self.head.analysis, &self.sets, |set| &set.torques)
+            .text("model_set", "Model set", |(set, _)| &set.model_set)
+            .number("oil_temperature_degc", "degC", "Temperature of the oil", |(_, at)| {
+                at.oil_temperature_degc
+            })
+            .number(
+                "torque_nm",
+                "Nm",
+                "Torque that turns the unloaded gearbox",
+                |(_, at)| at.torque_nm,
+            );
+        vec![table.finish()]
     }
 
     fn notes(&self) -> Vec<&Note> {

@@ -83,8 +83,6 @@ fn inert(text: &str) -> Cow<'_, str> {
 
 #[cfg(test)]
 mod tests {
-    use gearloss_studies::cells;
-    use gearloss_studies::table::Column;
 
     use super::*;
 
@@ -110,11 +108,10 @@ mod tests {
 
     #[test]
     fn rows_are_lines_in_their_order_however_many_threads_make_them() {
-        let columns = [Column::text("gear", "Gear"), Column::number("loss_w", "W", "Loss")];
-        let mut table = Table::new("t", columns);
-        for i in 0..3 * ROWS {
-            table.push(cells!["first", (i != 1).then_some(i as f64 + 0.1)]);
-        }
+        let table = Table::of("t", 0..3 * ROWS)
+            .text("gear", "Gear", |_| "first")
+            .number("loss_w", "W", "Loss", |i| (*i != 1).then_some(*i as f64 + 0.1))
+            .finish();
         let mut bytes = Vec::new();
         let mut csv = CsvTable::new(&mut bytes, &table).expect("writing to a vector cannot fail");
         csv.rows(&table).expect("writing to a vector cannot fail");

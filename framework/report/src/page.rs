@@ -7,13 +7,14 @@ use std::any::{Any, TypeId};
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::registry::inventory;
+use gearloss_studies::analyses::Outcome;
 use gearloss_studies::analyses::ranges::PublishedCoefficient;
-use gearloss_studies::analyses::{AnyOutcome, Outcome};
 use gearloss_studies::analysis::Note;
 use gearloss_studies::table::Table;
 
 use crate::Figure;
-use crate::text::{TextTable, beyond, significant};
+use crate::stated_ranges::StatedRanges;
+use crate::text::{TextTable, significant};
 
 /// The presentation of an outcome, in reading order.
 #[derive(Debug, Default)]
@@ -81,7 +82,7 @@ impl Page {
 
     /// Adds quantities (path, name) that are outside their stated ranges in some samples. The terminal shows them once, at the end of a
     /// run.
-    pub fn outside_at_samples(&mut self, left: &[(&str, &str)]) {
+    pub fn outside_at_samples(&mut self, left: &[&(String, String)]) {
         for (path, name) in left {
             let text = format!("outside: {path}: {name} is outside its validity range in some samples\n");
             self.text.push(Text::InReport(text));
@@ -116,10 +117,10 @@ impl Page {
     }
 
     /// The page of an outcome.
-    pub fn from_outcome(outcome: &dyn AnyOutcome) -> Self {
+    pub fn from_outcome(outcome: &dyn Outcome) -> Self {
         let mut page = Self::default();
         page.verdicts.extend(outcome.head().about_data.iter().cloned());
-        let own: &dyn Any = outcome.as_any();
+        let own: &dyn Any = outcome;
         let view = inventory::iter::<View>().find(|view| (view.outcome)() == own.type_id());
         match view {
             Some(view) => (view.show)(own, &mut page),
@@ -188,37 +189,6 @@ macro_rules! register_view {
 
 /// Quantities outside their stated ranges, one line for all components with the same range.
 pub fn outside(notes: &[Note]) -> String {
-    let mut groups: Vec<(&Note, Vec<&Note>)> = Vec::new();
-    for note in notes.iter().filter(|n| n.outside > 0) {
-        let same = |(first, _): &&mut (&Note, Vec<&Note>)| first.name == note.name && first.range == note.range;
-        match groups.iter_mut().find(same) {
-            Some((_, group)) => group.push(note),
-            None => groups.push((note, vec![note])),
-        }
-    }
-    let mut text = String::new();
-    for (note, group) in groups {
-        let Some(stated) = note.range else {
-            continue;
-        };
-        let unit = if note.unit == "-" {
-            String::new()
-        } else {
-            format!(" {}", note.unit)
-        };
-        let seen = |f: fn(f64, f64) -> f64, of: fn(&Note) -> f64| group.iter().map(|n| of(n)).reduce(f).unwrap_or(0.0);
-        let paths: Vec<&str> = group.iter().map(|n| n.path.as_str()).collect();
-        let outside: u32 = group.iter().map(|n| n.outside).sum();
-        let points: u32 = group.iter().map(|n| n.points).sum();
-        let range = beyond(stated.least, stated.greatest);
-        text.push_str(&format!(
-            "outside: {}: {} {} to {}{unit} is {range} at {outside} of {points} points ({})\n",
-            paths.join(", "),
-            note.name,
-            significant(seen(f64::min, |n| n.least)),
-            significant(seen(f64::max, |n| n.greatest)),
-            stated.origin,
-        ));
-    }
-    text
+    let lines = StatedRanges::from_notes(notes).lines();
+    lines.into_iter().map(|line| line + "\n").collect()
 }

@@ -61,8 +61,7 @@ impl<W: Write + Send> ParquetTable<W> {
     /// # Errors
     /// Errors of the writer.
     pub fn rows(&mut self, rows: &Table) -> Result<(), ParquetError> {
-        let values = rows.columns.iter().map(|column| column.values.clone()).collect();
-        self.rows.extend(&[values], &[(0, 0..rows.len())]);
+        self.rows.extend(std::slice::from_ref(rows), &[(0, 0..rows.len())]);
         if self.rows.len() < GROUP {
             return Ok(());
         }
@@ -71,8 +70,8 @@ impl<W: Write + Send> ParquetTable<W> {
 
     /// Writes the collected rows as a row group; columns are compressed in parallel.
     fn group(&mut self) -> Result<(), ParquetError> {
-        let rows = std::mem::replace(&mut self.rows, Table::new("", []));
-        self.rows = rows.header();
+        let header = self.rows.header();
+        let rows = std::mem::replace(&mut self.rows, header);
         if rows.is_empty() {
             return Ok(());
         }
@@ -141,7 +140,6 @@ fn packed(
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
-    use gearloss_studies::cells;
     use parquet::file::reader::{FileReader, SerializedFileReader};
     use parquet::record::RowAccessor;
 
@@ -149,15 +147,12 @@ mod tests {
 
     #[test]
     fn every_cell_comes_back_with_all_its_digits() {
-        let columns = [
-            Column::text("name", "Name"),
-            Column::number("torque_nm", "Nm", "Torque"),
-            Column::number("loss_w", "W", "Loss"),
-        ];
-        let mut table = Table::new("t", columns);
-        table.push(cells!["1", 3.6, 0.1]);
-        table.push(cells!["2", None::<f64>, 1e-300]);
-        table.push(cells!["", 7.0, 0.1 + 0.2]);
+        let rows = [("1", Some(3.6), 0.1), ("2", None, 1e-300), ("", Some(7.0), 0.1 + 0.2)];
+        let table = Table::of("t", rows)
+            .text("name", "Name", |row| row.0)
+            .number("torque_nm", "Nm", "Torque", |row| row.1)
+            .number("loss_w", "W", "Loss", |row| row.2)
+            .finish();
         let mut bytes = Vec::new();
         let mut file = ParquetTable::new(&mut bytes, &table).unwrap();
         file.rows(&table).unwrap();
@@ -179,7 +174,9 @@ mod tests {
 
     #[test]
     fn a_table_without_rows_is_a_file() {
-        let table = Table::new("t", [Column::number("torque_nm", "Nm", "Torque")]);
+        let table = Table::of("t", [])
+            .number("torque_nm", "Nm", "Torque", |x: &f64| *x)
+            .finish();
         let mut bytes = Vec::new();
         ParquetTable::new(&mut bytes, &table).unwrap().finish().unwrap();
         let reader = SerializedFileReader::new(Bytes::from(bytes)).unwrap();

@@ -1,7 +1,8 @@
 //! Quantities outside their stated ranges in all analyses of a run, for the end of its output.
 
-use gearloss_studies::analyses::AnyOutcome;
+use gearloss_studies::analyses::Outcome;
 use gearloss_studies::analysis::Note;
+use gearloss_studies::distinct::distinct;
 
 use crate::text::{beyond, significant};
 
@@ -54,25 +55,37 @@ struct Left {
     analyses: Vec<String>,
 }
 
+impl Left {
+    fn from_note(note: &Note, analyses: Vec<String>) -> Self {
+        Self {
+            path: note.path.clone(),
+            name: note.name.to_owned(),
+            values: Values::from_note(note),
+            analyses,
+        }
+    }
+}
+
 /// All quantities outside their ranges, in order of first occurrence.
 #[derive(Debug, Clone, Default)]
 pub struct StatedRanges(Vec<Left>);
 
 impl StatedRanges {
+    /// Of notes of models, without analyses.
+    pub fn from_notes(notes: &[Note]) -> Self {
+        let left = notes.iter().filter(|note| note.outside > 0 && note.range.is_some());
+        Self(left.map(|note| Left::from_note(note, Vec::new())).collect())
+    }
+
     /// Adds what an analysis found.
-    pub fn add_outcome(&mut self, analysis: &str, outcome: &dyn AnyOutcome) {
+    pub fn add_outcome(&mut self, analysis: &str, outcome: &dyn Outcome) {
         for note in outcome.notes().iter().filter(|note| note.outside > 0) {
-            self.add(Left {
-                path: note.path.clone(),
-                name: note.name.to_owned(),
-                values: Values::from_note(note),
-                analyses: vec![analysis.to_owned()],
-            });
+            self.add(Left::from_note(note, vec![analysis.to_owned()]));
         }
         for (path, name) in outcome.left_at_samples() {
             self.add(Left {
-                path: path.to_owned(),
-                name: name.to_owned(),
+                path: path.clone(),
+                name: name.clone(),
                 values: None,
                 analyses: vec![analysis.to_owned()],
             });
@@ -115,16 +128,15 @@ impl StatedRanges {
 /// One line for the models outside the same range.
 fn line(group: &[&Left]) -> String {
     let paths: Vec<&str> = group.iter().map(|left| left.path.as_str()).collect();
-    let mut analyses: Vec<&str> = Vec::new();
-    for analysis in group.iter().flat_map(|left| &left.analyses) {
-        if !analyses.contains(&analysis.as_str()) {
-            analyses.push(analysis);
-        }
-    }
-    let (paths, analyses, name) = (paths.join(", "), analyses.join(", "), &group[0].name);
+    let analyses = distinct(group.iter().flat_map(|left| &left.analyses).map(String::as_str));
+    let analyses = match &analyses[..] {
+        [] => String::new(),
+        list => format!("; in {}", list.join(", ")),
+    };
+    let (paths, name) = (paths.join(", "), &group[0].name);
     let mut values = group.iter().filter_map(|left| left.values.clone());
     let Some(first) = values.next() else {
-        return format!("{OUTSIDE}{paths}: {name} is outside its validity range in some samples; in {analyses}");
+        return format!("{OUTSIDE}{paths}: {name} is outside its validity range in some samples{analyses}");
     };
     let all = values.fold(first, |mut all, values| {
         all.add(&values);
@@ -137,7 +149,7 @@ fn line(group: &[&Left]) -> String {
     };
     let (range, origin) = &all.range;
     format!(
-        "{OUTSIDE}{paths}: {name} {} to {}{unit} is {range} at {} of {} points ({origin}); in {analyses}",
+        "{OUTSIDE}{paths}: {name} {} to {}{unit} is {range} at {} of {} points ({origin}){analyses}",
         significant(all.least),
         significant(all.greatest),
         all.outside,

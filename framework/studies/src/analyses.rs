@@ -39,7 +39,7 @@ use std::fmt;
 use std::io;
 use std::sync::Arc;
 
-use gearloss_framework::document::{Diagnostic, did_you_mean};
+use gearloss_framework::document::did_you_mean;
 use gearloss_framework::gearbox::Findings;
 use gearloss_framework::registry::{Origin, inventory};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
@@ -54,12 +54,16 @@ use crate::analysis::Note;
 use crate::study::{Then, Uses, Write};
 use crate::table::Table;
 
-/// The entry of an analysis in a study.
-pub trait Entry: DeserializeOwned + JsonSchema + fmt::Debug + Send + Sync + 'static {
+/// An analysis: its entry in a study and the computation of its outcome.
+///
+/// It prints nothing, writes no files and has no state between runs.
+pub trait Analysis: DeserializeOwned + JsonSchema + Send + Sync + 'static {
     /// Value of the key `type`.
     const TYPE: &'static str;
     /// Description of the analysis as a sentence.
     const MEANING: &'static str;
+    /// Outcome.
+    type Outcome: Outcome + JsonSchema;
 
     /// The names that it uses, which are checked before anything is solved.
     fn uses(&self) -> Uses<'_>;
@@ -68,14 +72,6 @@ pub trait Entry: DeserializeOwned + JsonSchema + fmt::Debug + Send + Sync + 'sta
     fn then(&self) -> Option<Then<'_>> {
         None
     }
-}
-
-/// An analysis: its entry and the computation of its outcome.
-///
-/// It prints nothing, writes no files and has no state between runs.
-pub trait Analysis: Entry {
-    /// Outcome.
-    type Outcome: Outcome;
 
     /// Computes the outcome.
     ///
@@ -89,7 +85,7 @@ pub trait Analysis: Entry {
 }
 
 /// The outcome of an analysis.
-pub trait Outcome: Serialize + JsonSchema + fmt::Debug + Send + Sync + 'static {
+pub trait Outcome: AsJson + Any + fmt::Debug + Send + Sync {
     /// Provenance.
     fn head(&self) -> &Head;
 
@@ -100,7 +96,7 @@ pub trait Outcome: Serialize + JsonSchema + fmt::Debug + Send + Sync + 'static {
     fn notes(&self) -> Vec<&Note>;
 
     /// Quantities outside their stated ranges in samples, without details: path and quantity.
-    fn left_at_samples(&self) -> Vec<(&str, &str)> {
+    fn left_at_samples(&self) -> Vec<&(String, String)> {
         Vec::new()
     }
 
@@ -109,17 +105,12 @@ pub trait Outcome: Serialize + JsonSchema + fmt::Debug + Send + Sync + 'static {
         0
     }
 
-    /// Values of the model set for later analyses ([`Entry::then`]): resolved path to value.
+    /// Values of the model set for later analyses ([`Analysis::then`]): resolved path to value.
     fn found(&self) -> Vec<(String, Value)> {
         Vec::new()
     }
 
-    /// Why it is incomplete, although the existing part is valid; it is shown and written first.
-    fn fault(&self) -> Option<Diagnostic> {
-        None
-    }
-
-    /// Why parts of the outcome are missing. The remainder is shown and written, but the analysis has failed.
+    /// Why parts of the outcome are missing. The remainder is valid, shown and written, but the analysis has failed.
     fn failures(&self) -> &[Findings] {
         &[]
     }
@@ -139,28 +130,8 @@ pub struct TextFile {
     pub text: String,
 }
 
-/// An [`Outcome`] of any type.
-pub trait AnyOutcome: fmt::Debug + Send + Sync {
-    /// Provenance.
-    fn head(&self) -> &Head;
-    /// Its numbers as columns.
-    fn tables(&self) -> Vec<Table>;
-    /// Notes of models.
-    fn notes(&self) -> Vec<&Note>;
-    /// Quantities outside their stated ranges in samples.
-    fn left_at_samples(&self) -> Vec<(&str, &str)>;
-    /// Number of quantities outside their stated ranges that no note lists.
-    fn unlisted(&self) -> usize;
-    /// Values of its model set for later analyses.
-    fn found(&self) -> Vec<(String, Value)>;
-    /// Why it is incomplete.
-    fn fault(&self) -> Option<Diagnostic>;
-    /// Why parts of it are missing.
-    fn failures(&self) -> &[Findings];
-    /// Further files of text.
-    fn files(&self) -> Vec<TextFile>;
-    /// For a downcast to its type.
-    fn as_any(&self) -> &dyn Any;
+/// What is written as JSON: every type that serialises.
+pub trait AsJson {
     /// Writes it as JSON.
     ///
     /// # Errors
@@ -168,10 +139,17 @@ pub trait AnyOutcome: fmt::Debug + Send + Sync {
     fn write_json(&self, to: &mut dyn io::Write) -> serde_json::Result<()>;
 }
 
-impl dyn AnyOutcome {
+impl<T: Serialize> AsJson for T {
+    fn write_json(&self, to: &mut dyn io::Write) -> serde_json::Result<()> {
+        serde_json::to_writer_pretty(to, self)
+    }
+}
+
+impl dyn Outcome {
     /// The outcome as its type; absent where it is that of another analysis.
     pub fn get<O: Outcome>(&self) -> Option<&O> {
-        self.as_any().downcast_ref()
+        let own: &dyn Any = self;
+        own.downcast_ref()
     }
 
     /// A table by its name; the first one has the name of the analysis.
@@ -180,57 +158,8 @@ impl dyn AnyOutcome {
     }
 }
 
-impl<O: Outcome> AnyOutcome for O {
-    fn head(&self) -> &Head {
-        Outcome::head(self)
-    }
-    fn tables(&self) -> Vec<Table> {
-        Outcome::tables(self)
-    }
-    fn notes(&self) -> Vec<&Note> {
-        Outcome::notes(self)
-    }
-    fn left_at_samples(&self) -> Vec<(&str, &str)> {
-        Outcome::left_at_samples(self)
-    }
-    fn unlisted(&self) -> usize {
-        Outcome::unlisted(self)
-    }
-    fn found(&self) -> Vec<(String, Value)> {
-        Outcome::found(self)
-    }
-    fn fault(&self) -> Option<Diagnostic> {
-        Outcome::fault(self)
-    }
-    fn failures(&self) -> &[Findings] {
-        Outcome::failures(self)
-    }
-    fn files(&self) -> Vec<TextFile> {
-        Outcome::files(self)
-    }
-    fn as_any(&self) -> &dyn Any {
-        self
-    }
-    fn write_json(&self, to: &mut dyn io::Write) -> serde_json::Result<()> {
-        serde_json::to_writer_pretty(to, self)
-    }
-}
-
-/// An [`Entry`] of any type.
-trait Written: Any + fmt::Debug + Send + Sync {
-    fn uses(&self) -> Uses<'_>;
-    fn then(&self) -> Option<Then<'_>>;
-}
-
-impl<E: Entry> Written for E {
-    fn uses(&self) -> Uses<'_> {
-        Entry::uses(self)
-    }
-
-    fn then(&self) -> Option<Then<'_>> {
-        Entry::then(self)
-    }
-}
+/// An entry of any analysis.
+type Written = dyn Any + Send + Sync;
 
 /// An analysis that is linked into the program.
 pub struct AnalysisKind {
@@ -241,9 +170,11 @@ pub struct AnalysisKind {
     /// Where it is registered.
     pub origin: Origin,
     schema: fn(&mut SchemaGenerator) -> Schema,
-    read: fn(Value) -> Result<Arc<dyn Written>, serde_json::Error>,
-    run: fn(&dyn Any, &Context<'_>) -> Result<Box<dyn AnyOutcome>, Stopped>,
-    formats: fn(&dyn Any) -> &[Write],
+    read: fn(Value) -> Result<Arc<Written>, serde_json::Error>,
+    uses: fn(&Written) -> Uses<'_>,
+    then: fn(&Written) -> Option<Then<'_>>,
+    run: fn(&Written, &Context<'_>) -> Result<Box<dyn Outcome>, Stopped>,
+    formats: fn(&Written) -> &[Write],
     outcome: fn(&mut SchemaGenerator) -> Schema,
 }
 
@@ -258,6 +189,8 @@ impl AnalysisKind {
             origin,
             schema: SchemaGenerator::subschema_for::<A>,
             read: |value| Ok(Arc::new(serde_json::from_value::<A>(value)?)),
+            uses: |entry| own::<A>(entry).uses(),
+            then: |entry| own::<A>(entry).then(),
             run: |entry, cx| Ok(Box::new(own::<A>(entry).run(cx)?)),
             formats: |entry| own::<A>(entry).formats(),
             outcome: SchemaGenerator::subschema_for::<A::Outcome>,
@@ -290,7 +223,7 @@ impl AnalysisKind {
 }
 
 /// The entry of this kind.
-fn own<A: Analysis>(entry: &dyn Any) -> &A {
+fn own<A: Analysis>(entry: &Written) -> &A {
     entry.downcast_ref().expect("a kind runs the entries that it has read")
 }
 
@@ -305,15 +238,15 @@ macro_rules! register_analysis {
 }
 
 /// An analysis as an entry of a study.
-#[derive(Debug, Clone)]
+#[derive(Clone)]
 pub struct AnalysisEntry {
     kind: &'static AnalysisKind,
-    written: Arc<dyn Written>,
+    written: Arc<Written>,
 }
 
-impl fmt::Debug for AnalysisKind {
+impl fmt::Debug for AnalysisEntry {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name)
+        f.write_str(self.kind.name)
     }
 }
 
@@ -324,16 +257,15 @@ impl AnalysisEntry {
     }
 
     /// The entry if it has this type.
-    pub fn entry<E: Entry>(&self) -> Option<&E> {
-        let written: &dyn Any = self.written.as_ref();
-        written.downcast_ref()
+    pub fn entry<A: Analysis>(&self) -> Option<&A> {
+        self.written.downcast_ref()
     }
 
     /// Computes the outcome.
     ///
     /// # Errors
     /// As [`Analysis::run`].
-    pub fn run(&self, cx: &Context<'_>) -> Result<Box<dyn AnyOutcome>, Stopped> {
+    pub fn run(&self, cx: &Context<'_>) -> Result<Box<dyn Outcome>, Stopped> {
         (self.kind.run)(self.written.as_ref(), cx)
     }
 
@@ -344,12 +276,12 @@ impl AnalysisEntry {
 
     /// The names that it uses.
     pub fn uses(&self) -> Uses<'_> {
-        self.written.uses()
+        (self.kind.uses)(self.written.as_ref())
     }
 
     /// The model set that it provides for later analyses.
     pub fn then(&self) -> Option<Then<'_>> {
-        self.written.then()
+        (self.kind.then)(self.written.as_ref())
     }
 }
 

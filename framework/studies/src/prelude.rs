@@ -6,8 +6,8 @@ pub use serde::{Deserialize, Serialize};
 
 pub use crate::analyses::axes::{axis, speeds, torques};
 pub use crate::analyses::numbers::{RPM, tidy};
-pub use crate::analyses::{Analysis, Built, Context, Entry, Head, Outcome, Stopped, gear_of};
+pub use crate::analyses::{Analysis, Built, Context, Head, Outcome, Stopped, gear_of};
 pub use crate::analysis::{Given, GridResult, Note, PointResult, Points, notes};
+pub use crate::register_analysis;
 pub use crate::study::{By, SpeedAxis, TemperatureAxis, TorqueAxis, Uses, Write};
-pub use crate::table::{Column, Table};
-pub use crate::{cells, register_analysis};
+pub use crate::table::Table;

@@ -7,7 +7,7 @@ use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::Language;
 
 use crate::analyses::progress::Silent;
-use crate::analyses::{AnyOutcome, Context, Stopped};
+use crate::analyses::{Context, Outcome, Stopped};
 use crate::codes;
 use crate::study::Study;
 
@@ -34,13 +34,13 @@ impl<'a> StudyRun<'a> {
     ///
     /// # Errors
     /// That no analysis has the name; everything that is wrong with its input.
-    pub fn analysis(&self, name: &'a str) -> Result<Box<dyn AnyOutcome>, Stopped> {
+    pub fn analysis(&self, name: &'a str) -> Result<Box<dyn Outcome>, Stopped> {
         self.run(&Context::new(self.language, self.study, name, &Silent))
     }
 
     /// Every analysis with its name and its outcome, in the order of the study; each runs when the iterator reaches it. An error
     /// of one does not stop those after it.
-    pub fn outcomes(&self) -> impl Iterator<Item = (&'a str, Result<Box<dyn AnyOutcome>, Stopped>)> + '_ {
+    pub fn outcomes(&self) -> impl Iterator<Item = (&'a str, Result<Box<dyn Outcome>, Stopped>)> + '_ {
         let names = self.study.entry.analyses.ids();
         names.map(|name| (name, self.analysis(name)))
     }
@@ -51,7 +51,7 @@ impl<'a> StudyRun<'a> {
     ///
     /// # Errors
     /// As [`StudyRun::analysis`], and [`Stopped::Checked`] of a context that only checks.
-    pub fn run(&self, cx: &Context<'_>) -> Result<Box<dyn AnyOutcome>, Stopped> {
+    pub fn run(&self, cx: &Context<'_>) -> Result<Box<dyn Outcome>, Stopped> {
         let Some(analysis) = self.study.entry.analyses.get(cx.name) else {
             let names: Vec<&str> = self.study.entry.analyses.ids().collect();
             return Err(cx.found(vec![dangling("analyses", "analysis", cx.name, &names)]));

@@ -20,6 +20,13 @@ pub struct Table {
     pub columns: Vec<Column>,
 }
 
+/// A table during construction: its rows, and the columns that are complete.
+#[must_use]
+pub struct TableOf<R> {
+    rows: Vec<R>,
+    table: Table,
+}
+
 /// A column of a table.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Column {
@@ -49,40 +56,7 @@ pub struct Texts {
     codes: Vec<Option<u32>>,
 }
 
-/// One cell.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Cell<'a> {
-    /// A number, or a gap.
-    Number(Option<f64>),
-    /// A text; an empty one is a gap.
-    Text(Cow<'a, str>),
-}
-
 impl Column {
-    /// A column of numbers.
-    pub fn number(
-        name: impl Into<String>,
-        unit: impl Into<Cow<'static, str>>,
-        meaning: impl Into<Cow<'static, str>>,
-    ) -> Self {
-        Self {
-            name: name.into(),
-            unit: unit.into(),
-            meaning: meaning.into(),
-            values: Values::Numbers(Arc::default()),
-        }
-    }
-
-    /// A column of texts.
-    pub fn text(name: impl Into<String>, meaning: impl Into<Cow<'static, str>>) -> Self {
-        Self {
-            name: name.into(),
-            unit: Cow::Borrowed(""),
-            meaning: meaning.into(),
-            values: Values::Texts(Arc::default()),
-        }
-    }
-
     /// Number of cells.
     pub fn len(&self) -> usize {
         self.values.len()
@@ -127,15 +101,6 @@ impl Texts {
         &self.codes
     }
 
-    /// The same text, repeated.
-    pub fn repeated(text: &str, count: usize) -> Self {
-        let code = (!text.is_empty()).then_some(0);
-        Self {
-            kinds: code.map(|_| text.to_owned()).into_iter().collect(),
-            codes: vec![code; count],
-        }
-    }
-
     /// Codes of other texts in this dictionary.
     fn codes_of(&mut self, other: &Self) -> Vec<u32> {
         let code = |kind: &String| {
@@ -162,14 +127,6 @@ impl Texts {
     }
 }
 
-impl<'t> FromIterator<&'t str> for Texts {
-    fn from_iter<I: IntoIterator<Item = &'t str>>(all: I) -> Self {
-        let mut texts = Self::default();
-        all.into_iter().for_each(|text| texts.push(text));
-        texts
-    }
-}
-
 impl Values {
     /// Number of cells.
     pub fn len(&self) -> usize {
@@ -182,16 +139,6 @@ impl Values {
     /// True without cells.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
-    }
-
-    /// Numbers with gaps.
-    pub fn from_numbers(numbers: impl Iterator<Item = Option<f64>>) -> Self {
-        Self::Numbers(Arc::new(numbers.map(|x| x.unwrap_or(f64::NAN)).collect()))
-    }
-
-    /// Texts, of which the empty ones are gaps.
-    pub fn from_texts<'t>(texts: impl Iterator<Item = &'t str>) -> Self {
-        Self::Texts(Arc::new(texts.collect()))
     }
 
     /// Appends cells of others in order: index of one of them, and range of its cells.
@@ -228,12 +175,25 @@ impl Values {
 }
 
 impl Table {
-    /// An empty table.
-    pub fn new(name: impl Into<String>, columns: impl IntoIterator<Item = Column>) -> Self {
-        Self {
-            name: name.into(),
-            columns: columns.into_iter().collect(),
+    /// A table with these rows, whose columns follow: `Table::of(name, rows).number("loss_w", "W", "Loss", |row| row.loss_w).finish()`.
+    pub fn of<R>(name: impl Into<String>, rows: impl IntoIterator<Item = R>) -> TableOf<R> {
+        TableOf {
+            rows: rows.into_iter().collect(),
+            table: Self {
+                name: name.into(),
+                columns: Vec::new(),
+            },
         }
+    }
+
+    /// A table with one row for each part of each whole, such as the points of each model set; a row is the pair of both.
+    pub fn of_each<'t, W, P: IntoIterator>(
+        name: impl Into<String>,
+        wholes: &'t [W],
+        parts: impl Fn(&'t W) -> P,
+    ) -> TableOf<(&'t W, P::Item)> {
+        let pairs = |whole| parts(whole).into_iter().map(move |part| (whole, part));
+        Self::of(name, wholes.iter().flat_map(pairs))
     }
 
     /// Number of rows.
@@ -251,13 +211,13 @@ impl Table {
         self.columns.iter().find(|column| column.name == name)
     }
 
-    /// Appends rows of parts with values for every column, in order: index of a part, and range of its rows.
+    /// Appends rows of parts in order: index of a part, and range of its rows.
     ///
     /// # Panics
     /// If a part has other columns: a bug of the caller.
-    pub fn extend(&mut self, parts: &[Vec<Values>], order: &[(usize, Range<usize>)]) {
+    pub fn extend(&mut self, parts: &[Self], order: &[(usize, Range<usize>)]) {
         self.columns.par_iter_mut().enumerate().for_each(|(place, column)| {
-            let others: Vec<&Values> = parts.iter().map(|part| &part[place]).collect();
+            let others: Vec<&Values> = parts.iter().map(|part| &part.columns[place].values).collect();
             column.values.extend(&others, order);
         });
     }
@@ -271,29 +231,73 @@ impl Table {
             },
             ..column.clone()
         };
-        Self::new(&self.name, self.columns.iter().map(column))
+        Self {
+            name: self.name.clone(),
+            columns: self.columns.iter().map(column).collect(),
+        }
+    }
+}
+
+impl<R> TableOf<R> {
+    /// Adds a column of texts; empty ones are gaps.
+    pub fn text<'t, T: Into<Cow<'t, str>>>(
+        self,
+        name: impl Into<String>,
+        meaning: impl Into<Cow<'static, str>>,
+        cell: impl Fn(&R) -> T,
+    ) -> Self {
+        let mut texts = Texts::default();
+        for row in &self.rows {
+            texts.push(&cell(row).into());
+        }
+        let values = Values::Texts(Arc::new(texts));
+        self.column(name.into(), "".into(), meaning.into(), values)
     }
 
-    /// Adds a row.
-    ///
-    /// # Panics
-    /// If the number of cells differs from the number of columns, or a kind differs: a bug of the caller.
-    pub fn push<'c>(&mut self, cells: impl IntoIterator<Item = Cell<'c>>) {
-        let mut columns = self.columns.iter_mut();
-        for cell in cells {
-            let column = columns
-                .next()
-                .expect("a row has no more cells than the table has columns");
-            match (&mut column.values, cell) {
-                (Values::Numbers(numbers), Cell::Number(x)) => {
-                    Arc::make_mut(numbers).push(x.filter(|x| x.is_finite()).unwrap_or(f64::NAN));
-                }
-                (Values::Texts(texts), Cell::Text(text)) => Arc::make_mut(texts).push(&text),
-                (Values::Numbers(_), Cell::Text(text)) => panic!("`{}` takes numbers, not `{text}`", column.name),
-                (Values::Texts(_), Cell::Number(x)) => panic!("`{}` takes texts, not {x:?}", column.name),
-            }
-        }
-        assert!(columns.next().is_none(), "a row has a cell for every column");
+    /// Adds a column of numbers; absent ones and those that are not finite are gaps.
+    pub fn number<N: Into<Option<f64>>>(
+        self,
+        name: impl Into<String>,
+        unit: impl Into<Cow<'static, str>>,
+        meaning: impl Into<Cow<'static, str>>,
+        cell: impl Fn(&R) -> N,
+    ) -> Self {
+        let number = |row: &R| cell(row).into().filter(|x| x.is_finite()).unwrap_or(f64::NAN);
+        let values = Values::Numbers(Arc::new(self.rows.iter().map(number).collect()));
+        self.column(name.into(), unit.into(), meaning.into(), values)
+    }
+
+    /// Adds two columns of numbers: the lower and the upper end of an interval, such as `the 95 % band of the loss`.
+    pub fn ends<N: Into<Option<[f64; 2]>>>(
+        self,
+        names: [&str; 2],
+        unit: &'static str,
+        interval: &str,
+        cell: impl Fn(&R) -> N,
+    ) -> Self {
+        let end = |row: &R, i: usize| cell(row).into().map(|ends| ends[i]);
+        self.number(names[0], unit, format!("Lower end of {interval}"), |row| end(row, 0))
+            .number(names[1], unit, format!("Upper end of {interval}"), |row| end(row, 1))
+    }
+
+    fn column(mut self, name: String, unit: Cow<'static, str>, meaning: Cow<'static, str>, values: Values) -> Self {
+        self.table.columns.push(Column {
+            name,
+            unit,
+            meaning,
+            values,
+        });
+        self
+    }
+
+    /// Adds the columns of each of several items, such as one column per share of the loss.
+    pub fn each<I>(self, items: impl IntoIterator<Item = I>, columns: impl FnMut(Self, I) -> Self) -> Self {
+        items.into_iter().fold(self, columns)
+    }
+
+    /// The table of all columns.
+    pub fn finish(self) -> Table {
+        self.table
     }
 }
 
@@ -306,61 +310,17 @@ pub trait RowSink: Sync {
     fn take(&self, rows: &Table) -> Result<(), Stopped>;
 }
 
-impl From<f64> for Cell<'_> {
-    fn from(x: f64) -> Self {
-        Self::Number(Some(x))
-    }
-}
-
-impl From<Option<f64>> for Cell<'_> {
-    fn from(x: Option<f64>) -> Self {
-        Self::Number(x)
-    }
-}
-
-impl From<usize> for Cell<'_> {
-    fn from(count: usize) -> Self {
-        Self::Number(Some(count as f64))
-    }
-}
-
-impl<'c> From<&'c str> for Cell<'c> {
-    fn from(text: &'c str) -> Self {
-        Self::Text(Cow::Borrowed(text))
-    }
-}
-
-impl<'c> From<&'c String> for Cell<'c> {
-    fn from(text: &'c String) -> Self {
-        Self::Text(Cow::Borrowed(text))
-    }
-}
-
-impl From<String> for Cell<'_> {
-    fn from(text: String) -> Self {
-        Self::Text(Cow::Owned(text))
-    }
-}
-
-/// Cells of a row, from numbers and texts.
-#[macro_export]
-macro_rules! cells {
-    ($($cell:expr),* $(,)?) => { [$($crate::table::Cell::from($cell)),*] };
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn rows_become_columns_with_gaps() {
-        let mut table = Table::new(
-            "points",
-            [Column::text("gear", "Gear"), Column::number("loss_w", "W", "Loss")],
-        );
-        table.push(cells!["first", 2.5]);
-        table.push(cells!["", None::<f64>]);
-        table.push(cells!["first", f64::INFINITY]);
+        let rows = [("first", Some(2.5)), ("", None), ("first", Some(f64::INFINITY))];
+        let table = Table::of("points", rows)
+            .text("gear", "Gear", |row| row.0)
+            .number("loss_w", "W", "Loss", |row| row.1)
+            .finish();
         let column = |name: &str| -> Vec<String> {
             let column = table.column(name).expect("it is there");
             (0..table.len()).map(|row| column.cell(row).into_owned()).collect()

@@ -9,7 +9,7 @@ use gearloss_report::html::{Report, Section};
 use gearloss_report::page::{Page, Text};
 use gearloss_report::stated_ranges::StatedRanges;
 use gearloss_studies::analyses::progress::{Progress, Steps};
-use gearloss_studies::analyses::{AnalysisEntry, AnyOutcome, Context, Stopped};
+use gearloss_studies::analyses::{AnalysisEntry, Context, Outcome, Stopped};
 use gearloss_studies::run::StudyRun;
 use gearloss_studies::study::{Study, Write};
 use gearloss_studies::tasks::TaskResults;
@@ -168,7 +168,7 @@ impl<'a> Run<'a> {
 
 impl Runner<'_> {
     /// Prints an outcome, writes its files and adds it to the report.
-    fn present(&self, analysis: &AnalysisEntry, outcome: &dyn AnyOutcome, out: &mut Out) -> Result<(), Failure> {
+    fn present(&self, analysis: &AnalysisEntry, outcome: &dyn Outcome, out: &mut Out) -> Result<(), Failure> {
         let outside = outcome.notes().iter().filter(|note| note.outside > 0).count();
         let left = outside + outcome.left_at_samples().len() + outcome.unlisted();
         self.run.left.set(self.run.left.get() + left);
@@ -193,9 +193,8 @@ impl Runner<'_> {
         for named in page.figures {
             write::picture(self, &named.name, named.figure, formats)?;
         }
-        let faults: Vec<_> = page.faults.into_iter().chain(outcome.fault()).collect();
-        if !faults.is_empty() {
-            return Err(self.found(faults).into());
+        if !page.faults.is_empty() {
+            return Err(self.found(page.faults).into());
         }
         match outcome.failures() {
             [] => Ok(()),

@@ -7,7 +7,7 @@ use std::path::Path;
 use gearloss_framework::files::open_regular;
 use gearloss_report::Figure;
 use gearloss_report::html::{Frame, gearbox_page};
-use gearloss_studies::analyses::AnyOutcome;
+use gearloss_studies::analyses::Outcome;
 use gearloss_studies::analyses::head::{FNV_BASIS, fnv1a_from, hexadecimal};
 use gearloss_studies::study::Write;
 
@@ -16,7 +16,7 @@ use super::runner::{Run, Runner};
 use crate::output::Failure;
 
 /// Writes an outcome as JSON.
-pub fn outcome(runner: &Runner<'_>, outcome: &dyn AnyOutcome) -> Result<(), Failure> {
+pub fn outcome(runner: &Runner<'_>, outcome: &dyn Outcome) -> Result<(), Failure> {
     let (place, mut file) = Place::new(&runner.run.files, &format!("{}.json", runner.name))?;
     let written = outcome.write_json(&mut file).map_err(std::io::Error::from);
     let written = written.and_then(|()| file.write_all(b"\n")).and_then(|()| file.flush());

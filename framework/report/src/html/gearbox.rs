@@ -6,6 +6,7 @@ use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::transmission::Transmission;
 use gearloss_studies::analyses::numbers::RPM;
 use gearloss_studies::analyses::{Built, Context, Stopped};
+use gearloss_studies::distinct::distinct;
 use serde_json::Value;
 
 use super::{GearboxPage, PageTable, point};
@@ -69,13 +70,11 @@ fn changed<'a>(built: impl Iterator<Item = &'a Built<'a>>) -> Option<PageTable> 
                 changed.published.to_string(),
                 changed.source.to_owned(),
             ];
-            if !rows.contains(&row) {
-                rows.push(row);
-            }
+            rows.push(row);
         }
     }
     let head = ["models", "path", "model", "coefficient", "value", "published", "source"];
-    (!rows.is_empty()).then(|| table("Coefficients that differ from their source", &head, rows))
+    (!rows.is_empty()).then(|| table("Coefficients that differ from their source", &head, distinct(rows)))
 }
 
 pub(super) fn table(title: &str, head: &[&str], rows: Vec<Vec<String>>) -> PageTable {

@@ -2,6 +2,7 @@
 
 use gearloss_framework::thermal::Limit;
 use gearloss_studies::analyses::thermal_limit::{Find, ThermalLimit, ThermalLimitOutcome, ThermalLimitsOfSet};
+use gearloss_studies::distinct::distinct;
 
 use crate::Figure;
 use crate::page::Page;
@@ -106,11 +107,5 @@ fn figures(outcome: &ThermalLimitOutcome, page: &mut Page) {
 
 /// The distinct temperatures of the limits.
 fn temperatures(of_set: &ThermalLimitsOfSet) -> Vec<f64> {
-    let mut all: Vec<f64> = Vec::new();
-    for limit in &of_set.limits {
-        if !all.contains(&limit.limit_degc) {
-            all.push(limit.limit_degc);
-        }
-    }
-    all
+    distinct(of_set.limits.iter().map(|limit| limit.limit_degc))
 }

@@ -10,12 +10,11 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use super::{Analysis, Built, Context, Entry, Head, Outcome, Stopped, gear_of};
+use super::{Analysis, Built, Context, Head, Outcome, Stopped, gear_of};
 use crate::analysis::{Note, notes};
-use crate::cells;
 use crate::register_analysis;
 use crate::study::{Uses, Write};
-use crate::table::{Column, Table};
+use crate::table::Table;
 
 /// Heat balance of one point.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -39,16 +38,6 @@ pub struct BalanceEntry {
     /// Formats to write; default: CSV, JSON and SVG.
     #[serde(default = "Write::every_format")]
     pub write: Vec<Write>,
-}
-
-impl Entry for BalanceEntry {
-    const TYPE: &'static str = "balance";
-    const MEANING: &'static str =
-        "Heat balance of one point: losses and heat over temperature, and every step of the search.";
-
-    fn uses(&self) -> Uses<'_> {
-        Uses::new(self.gearbox.as_ref(), &self.model_sets).at(&self.gear)
-    }
 }
 
 register_analysis!(BalanceEntry);
@@ -228,7 +217,14 @@ pub fn reason(transmission: &Transmission, why: &Unbalanced) -> String {
 }
 
 impl Analysis for BalanceEntry {
+    const TYPE: &'static str = "balance";
+    const MEANING: &'static str =
+        "Heat balance of one point: losses and heat over temperature, and every step of the search.";
     type Outcome = BalanceOutcome;
+
+    fn uses(&self) -> Uses<'_> {
+        Uses::new(self.gearbox.as_ref(), &self.model_sets).at(&self.gear)
+    }
 
     fn run(&self, cx: &Context<'_>) -> Result<BalanceOutcome, Stopped> {
         let path = cx.path();
@@ -300,33 +296,23 @@ impl Outcome for BalanceOutcome {
     }
 
     fn tables(&self) -> Vec<Table> {
-        let mut table = Table::new(
-            &self.head.analysis,
-            [
-                Column::text("model_set", "Model set"),
-                Column::number("step", "-", "Number of the step"),
-                Column::text("of", "Part of the search: scan or solution"),
-                Column::number("oil_temperature_degc", "degC", "Oil temperature"),
-                Column::number("loss_w", "W", "Losses and other heat sources"),
-                Column::number("heat_w", "W", "Transferred heat"),
-                Column::number("residual_w", "W", "Losses minus heat"),
-            ],
-        );
-        for of_set in &self.balances {
-            for (i, step) in of_set.balance.history.iter().enumerate() {
-                let of = if i < of_set.balance.scan { "scan" } else { "solution" };
-                table.push(cells![
-                    &of_set.model_set,
-                    i + 1,
-                    of,
-                    step.oil_temperature_degc,
-                    step.loss_w,
-                    step.heat_w,
-                    step.residual_w,
-                ]);
-            }
-        }
-        vec![table]
+        let table = Table::of_each(&self.head.analysis, &self.balances, |of_set| {
+            of_set.balance.history.iter().enumerate()
+        })
+        .text("model_set", "Model set", |(of_set, _)| &of_set.model_set)
+        .number("step", "-", "Number of the step", |(_, (i, _))| (i + 1) as f64)
+        .text("of", "Part of the search: scan or solution", |(of_set, (i, _))| {
+            if *i < of_set.balance.scan { "scan" } else { "solution" }
+        })
+        .number("oil_temperature_degc", "degC", "Oil temperature", |(_, (_, step))| {
+            step.oil_temperature_degc
+        })
+        .number("loss_w", "W", "Losses and other heat sources", |(_, (_, step))| {
+            step.loss_w
+        })
+        .number("heat_w", "W", "Transferred heat", |(_, (_, step))| step.heat_w)
+        .number("residual_w", "W", "Losses minus heat", |(_, (_, step))| step.residual_w);
+        vec![table.finish()]
     }
 
     fn notes(&self) -> Vec<&Note> {

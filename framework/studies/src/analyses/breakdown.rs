@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::axes::{axis, speeds, torques};
 use super::numbers::{RPM, tidy};
-use super::{Analysis, Built, Context, Entry, Stopped, gear_of};
+use super::{Analysis, Built, Context, Stopped, gear_of};
 use crate::analysis::{Given, PointResult};
 use crate::measured::{Measured, Seen};
 use crate::register_analysis;
@@ -60,21 +60,18 @@ pub enum Over {
     Torque,
 }
 
-impl Entry for BreakdownEntry {
+register_analysis!(BreakdownEntry);
+
+impl Analysis for BreakdownEntry {
     const TYPE: &'static str = "breakdown";
     const MEANING: &'static str = "Loss breakdown over speed or torque.";
+    type Outcome = BreakdownOutcome;
 
     fn uses(&self) -> Uses<'_> {
         Uses::new(self.gearbox.as_ref(), &self.model_sets)
             .at(&self.gear)
             .with("measured", self.measured.as_ref())
     }
-}
-
-register_analysis!(BreakdownEntry);
-
-impl Analysis for BreakdownEntry {
-    type Outcome = BreakdownOutcome;
 
     fn run(&self, cx: &Context<'_>) -> Result<BreakdownOutcome, Stopped> {
         let path = cx.path();

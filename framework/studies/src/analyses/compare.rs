@@ -11,7 +11,7 @@ pub use on_grid::{DifferenceAt, GridComparison, GridDifference};
 pub use with_data::{Band, ComparedPoint, DataComparison, DataOfComparison, Ranking, ranking};
 
 use super::measurable::countable;
-use super::{Analysis, Context, Entry, Head, Outcome, Stopped};
+use super::{Analysis, Context, Head, Outcome, Stopped};
 use crate::analysis::Note;
 use crate::register_analysis;
 use crate::study::{Data, Difference, Quantity, Uses, Write};
@@ -50,21 +50,6 @@ pub struct CompareEntry {
     pub write: Vec<Write>,
 }
 
-impl Entry for CompareEntry {
-    const TYPE: &'static str = "compare";
-    const MEANING: &'static str = "Difference between model sets over a grid.";
-
-    fn uses(&self) -> Uses<'_> {
-        Uses {
-            grid: self.grid.as_ref(),
-            ..Uses::new(self.gearbox.as_ref(), self.base.iter().chain(&self.against))
-                .at(&self.gear)
-                .bind(&self.bind)
-                .with("data", self.data.as_ref())
-        }
-    }
-}
-
 register_analysis!(CompareEntry);
 
 /// Differences of model sets from a base over a grid, or from a measurement.
@@ -100,7 +85,19 @@ pub enum Comparisons {
 }
 
 impl Analysis for CompareEntry {
+    const TYPE: &'static str = "compare";
+    const MEANING: &'static str = "Difference between model sets over a grid.";
     type Outcome = CompareOutcome;
+
+    fn uses(&self) -> Uses<'_> {
+        Uses {
+            grid: self.grid.as_ref(),
+            ..Uses::new(self.gearbox.as_ref(), self.base.iter().chain(&self.against))
+                .at(&self.gear)
+                .bind(&self.bind)
+                .with("data", self.data.as_ref())
+        }
+    }
 
     fn run(&self, cx: &Context<'_>) -> Result<CompareOutcome, Stopped> {
         let path = cx.path();

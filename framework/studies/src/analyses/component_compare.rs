@@ -15,12 +15,11 @@ use serde_json::Value;
 use super::axes::{speeds, torques};
 use super::measurable::is_measurable;
 use super::numbers::{RPM, tidy};
-use super::{Analysis, Built, Context, Entry, Head, Outcome, Stopped, gear_of};
+use super::{Analysis, Built, Context, Head, Outcome, Stopped, gear_of};
 use crate::analysis::{Note, Points, notes};
-use crate::cells;
 use crate::register_analysis;
 use crate::study::{Data, SpeedAxis, TorqueAxis, Uses, Write};
-use crate::table::{Column, Table};
+use crate::table::Table;
 
 /// Several models of one component over speed.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -48,17 +47,6 @@ pub struct ComponentCompareEntry {
     /// Formats to write; default: CSV and JSON.
     #[serde(default = "Write::data")]
     pub write: Vec<Write>,
-}
-
-impl Entry for ComponentCompareEntry {
-    const TYPE: &'static str = "component_compare";
-    const MEANING: &'static str = "Several models of one component over speed.";
-
-    fn uses(&self) -> Uses<'_> {
-        Uses::new(self.gearbox.as_ref(), &self.model_set)
-            .at(&self.gear)
-            .with("measured", self.measured.as_ref())
-    }
 }
 
 register_analysis!(ComponentCompareEntry);
@@ -179,7 +167,15 @@ struct Evaluated<'a> {
 }
 
 impl Analysis for ComponentCompareEntry {
+    const TYPE: &'static str = "component_compare";
+    const MEANING: &'static str = "Several models of one component over speed.";
     type Outcome = ComponentCompareOutcome;
+
+    fn uses(&self) -> Uses<'_> {
+        Uses::new(self.gearbox.as_ref(), &self.model_set)
+            .at(&self.gear)
+            .with("measured", self.measured.as_ref())
+    }
 
     fn run(&self, cx: &Context<'_>) -> Result<ComponentCompareOutcome, Stopped> {
         let path = cx.path();
@@ -415,48 +411,63 @@ fn measured(cx: &Context<'_>, path: &str, data: &Data) -> Result<Vec<MeasuredLos
     Ok(points)
 }
 
+/// A row of the table: a loss of one model, or the measured one, at one point.
+struct Row<'o> {
+    model: &'o str,
+    torque: f64,
+    speed: f64,
+    term: &'o str,
+    loss: Option<f64>,
+    moment: Option<f64>,
+    undefined: &'o str,
+}
+
 impl Outcome for ComponentCompareOutcome {
     fn head(&self) -> &Head {
         &self.head
     }
 
     fn tables(&self) -> Vec<Table> {
-        let mut table = Table::new(
-            &self.head.analysis,
-            [
-                Column::text("model", "Model, or `measured`"),
-                Column::number("torque_nm", "Nm", "Given torque"),
-                Column::number("speed_rpm", "rpm", "Given speed"),
-                Column::text("term", "Term of the model, or `total`"),
-                Column::number("loss_w", "W", "Loss of all copies"),
-                Column::number("moment_of_one_nm", "Nm", "Moment of one copy about its relative speed"),
-                Column::text("undefined", "Why the model has no value"),
-            ],
-        );
         let comparison = &self.component_comparison;
+        let mut rows = Vec::new();
         for model in &comparison.models {
             for point in model.points.iter().chain(&model.at_measured) {
-                let (name, torque, speed) = (&model.model, point.torque_nm, point.speed_rpm);
-                let why = point.undefined.as_deref().unwrap_or_default();
-                table.push(cells![
-                    name,
-                    torque,
-                    speed,
-                    "total",
-                    point.loss_w,
-                    point.moment_of_one_nm,
-                    why
-                ]);
-                for (term, watts) in point.terms_w.iter() {
-                    table.push(cells![name, torque, speed, term, *watts, None::<f64>, why]);
-                }
+                let row = |term, loss, moment| Row {
+                    model: &model.model,
+                    torque: point.torque_nm,
+                    speed: point.speed_rpm,
+                    term,
+                    loss,
+                    moment,
+                    undefined: point.undefined.as_deref().unwrap_or_default(),
+                };
+                rows.push(row("total", point.loss_w, point.moment_of_one_nm));
+                rows.extend(point.terms_w.iter().map(|(term, watts)| row(term, *watts, None)));
             }
         }
-        for m in &comparison.measured {
-            let (torque, speed) = (m.torque_nm, m.speed_rpm);
-            table.push(cells!["measured", torque, speed, "total", m.loss_w, None::<f64>, ""]);
-        }
-        vec![table]
+        rows.extend(comparison.measured.iter().map(|m| Row {
+            model: "measured",
+            torque: m.torque_nm,
+            speed: m.speed_rpm,
+            term: "total",
+            loss: Some(m.loss_w),
+            moment: None,
+            undefined: "",
+        }));
+        let table = Table::of(&self.head.analysis, rows)
+            .text("model", "Model, or `measured`", |row| row.model)
+            .number("torque_nm", "Nm", "Given torque", |row| row.torque)
+            .number("speed_rpm", "rpm", "Given speed", |row| row.speed)
+            .text("term", "Term of the model, or `total`", |row| row.term)
+            .number("loss_w", "W", "Loss of all copies", |row| row.loss)
+            .number(
+                "moment_of_one_nm",
+                "Nm",
+                "Moment of one copy about its relative speed",
+                |row| row.moment,
+            )
+            .text("undefined", "Why the model has no value", |row| row.undefined);
+        vec![table.finish()]
     }
 
     /// None: notes are listed with the losses of each model. The compared models are not those of the study.

@@ -21,12 +21,11 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::numbers::{RPM, tidy};
-use super::{Analysis, Built, Context, Entry, Head, Outcome, Stopped, gear_of};
+use super::{Analysis, Built, Context, Head, Outcome, Stopped, gear_of};
 use crate::analysis::Note;
-use crate::cells;
 use crate::register_analysis;
 use crate::study::{Uses, Write};
-use crate::table::{Column, Table};
+use crate::table::Table;
 
 /// Velocities, load, pressure, friction, film thickness and loss along the path of contact of one mesh.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -57,16 +56,6 @@ pub struct ContactPathEntry {
 
 fn places() -> u32 {
     101
-}
-
-impl Entry for ContactPathEntry {
-    const TYPE: &'static str = "contact_path";
-    const MEANING: &'static str =
-        "Velocities, load, pressure, friction, film thickness and loss along the path of contact of one mesh.";
-
-    fn uses(&self) -> Uses<'_> {
-        Uses::new(self.gearbox.as_ref(), &self.model_sets).at(&self.gear)
-    }
 }
 
 register_analysis!(ContactPathEntry);
@@ -172,7 +161,14 @@ impl Friction {
 }
 
 impl Analysis for ContactPathEntry {
+    const TYPE: &'static str = "contact_path";
+    const MEANING: &'static str =
+        "Velocities, load, pressure, friction, film thickness and loss along the path of contact of one mesh.";
     type Outcome = ContactPathOutcome;
+
+    fn uses(&self) -> Uses<'_> {
+        Uses::new(self.gearbox.as_ref(), &self.model_sets).at(&self.gear)
+    }
 
     fn run(&self, cx: &Context<'_>) -> Result<ContactPathOutcome, Stopped> {
         let built = cx.built(cx.gearbox(self.gearbox.as_ref())?, &self.model_sets)?;
@@ -313,40 +309,36 @@ impl Outcome for ContactPathOutcome {
     }
 
     fn tables(&self) -> Vec<Table> {
-        let mut table = Table::new(
-            &self.head.analysis,
-            [
-                Column::text("model_set", "Model set"),
-                Column::text("mesh", "Mesh"),
-                Column::number("from_pitch_point_mm", "mm", "Distance from the pitch point"),
-                Column::number("load_share", "-", "Share of the normal force on one pair"),
-                Column::number("sliding_speed_m_s", "m/s", "Sliding velocity"),
-                Column::number("sum_speed_m_s", "m/s", "Sum of the surface velocities"),
-                Column::number("radius_mm", "mm", "Radius of relative curvature"),
-                Column::number("hertz_pressure_gpa", "GPa", "Hertzian pressure"),
-                Column::number("film_um", "um", "Minimum film thickness"),
-                Column::number("mu", "-", "Coefficient of friction"),
-                Column::number("sliding_loss_w", "W", "Sliding power loss of one pair"),
-            ],
-        );
-        for path in &self.paths {
-            for place in &path.places {
-                table.push(cells![
-                    &path.model_set,
-                    &path.mesh,
-                    place.from_pitch_point_mm,
-                    place.load_share,
-                    place.sliding_speed_m_s,
-                    place.sum_speed_m_s,
-                    place.radius_mm,
-                    place.hertz_pressure_gpa,
-                    place.film_um,
-                    place.mu,
-                    place.sliding_loss_w,
-                ]);
-            }
-        }
-        vec![table]
+        let table = Table::of_each(&self.head.analysis, &self.paths, |path| &path.places)
+            .text("model_set", "Model set", |(path, _)| &path.model_set)
+            .text("mesh", "Mesh", |(path, _)| &path.mesh)
+            .number(
+                "from_pitch_point_mm",
+                "mm",
+                "Distance from the pitch point",
+                |(_, at)| at.from_pitch_point_mm,
+            )
+            .number("load_share", "-", "Share of the normal force on one pair", |(_, at)| {
+                at.load_share
+            })
+            .number("sliding_speed_m_s", "m/s", "Sliding velocity", |(_, at)| {
+                at.sliding_speed_m_s
+            })
+            .number("sum_speed_m_s", "m/s", "Sum of the surface velocities", |(_, at)| {
+                at.sum_speed_m_s
+            })
+            .number("radius_mm", "mm", "Radius of relative curvature", |(_, at)| {
+                at.radius_mm
+            })
+            .number("hertz_pressure_gpa", "GPa", "Hertzian pressure", |(_, at)| {
+                at.hertz_pressure_gpa
+            })
+            .number("film_um", "um", "Minimum film thickness", |(_, at)| at.film_um)
+            .number("mu", "-", "Coefficient of friction", |(_, at)| at.mu)
+            .number("sliding_loss_w", "W", "Sliding power loss of one pair", |(_, at)| {
+                at.sliding_loss_w
+            });
+        vec![table.finish()]
     }
 
     fn notes(&self) -> Vec<&Note> {

@@ -7,6 +7,7 @@ mod results;
 use gearloss_framework::attach::dangling;
 use gearloss_framework::description::Ordered;
 use gearloss_framework::document::Diagnostic;
+use gearloss_framework::gearbox::Findings;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -14,12 +15,13 @@ use super::duties::{Duties, sums_energies};
 use super::inputs::Input;
 use super::numbers::tidy;
 use super::shares::{Shares, together};
-use super::{Analysis, Context, Entry, Head, Outcome, Stopped};
+use super::{Analysis, Context, Head, Outcome, Stopped};
 use crate::analysis::Note;
 use crate::codes;
+use crate::distinct::distinct;
 use crate::register_analysis;
 use crate::study::{By, DriveEntry, ToleranceEntry, Uses, Write};
-use crate::table::{Cell, Column, Table};
+use crate::table::Table;
 
 pub use outcome::{
     BandOfDuty, BrokenOff, CycleOutcome, DutyOfSet, EnergyOfDuty, HeatOfDuty, HeatOfExchanger, HeatOfMotor, HeatOfNode,
@@ -64,19 +66,16 @@ pub struct ReferenceLoss {
     pub source: Option<String>,
 }
 
-impl Entry for CycleAnalysisEntry {
+register_analysis!(CycleAnalysisEntry);
+
+impl Analysis for CycleAnalysisEntry {
     const TYPE: &'static str = "cycle";
     const MEANING: &'static str = "Cycle losses, energy and temperatures, for driving cycles or load spectra.";
+    type Outcome = CycleOutcome;
 
     fn uses(&self) -> Uses<'_> {
         Uses::driving(&self.drive)
     }
-}
-
-register_analysis!(CycleAnalysisEntry);
-
-impl Analysis for CycleAnalysisEntry {
-    type Outcome = CycleOutcome;
 
     fn run(&self, cx: &Context<'_>) -> Result<CycleOutcome, Stopped> {
         let path = cx.path();
@@ -119,6 +118,10 @@ impl Analysis for CycleAnalysisEntry {
         }
         Ok(CycleOutcome {
             head: cx.head(&built.iter().collect::<Vec<_>>()),
+            failures: broken_off(&path, &cycles)
+                .map(|error| cx.study.findings(vec![error]))
+                .into_iter()
+                .collect(),
             cycles,
             left: all_left,
         })
@@ -141,6 +144,18 @@ impl CycleAnalysisEntry {
     }
 }
 
+/// Why the first cycle that did not reach its end stopped.
+fn broken_off(path: &str, cycles: &[DutyOfSet]) -> Option<Diagnostic> {
+    let mut broken = cycles.iter().filter_map(|duty| Some((duty, duty.broken.as_ref()?)));
+    let (duty, broken) = broken.next()?;
+    let message = format!(
+        "`{}` could not be simulated beyond {} s: {}",
+        duty.cycle, broken.time_s, broken.reason
+    );
+    let help = "the results up to there are kept; examine the point with `explain`";
+    Some(Diagnostic::error(path, message).help(help).code(codes::BROKEN_OFF))
+}
+
 impl Outcome for CycleOutcome {
     fn head(&self) -> &Head {
         &self.head
@@ -148,108 +163,70 @@ impl Outcome for CycleOutcome {
 
     fn tables(&self) -> Vec<Table> {
         let nodes = self.nodes();
-        let mut table = Table::new(&self.head.analysis, self.columns(&nodes));
-        for duty in &self.cycles {
-            // Columns of nodes that a set does not have are empty.
-            let place = |name: &&str| duty.nodes.iter().position(|own| own.node == **name);
-            let places: Vec<Option<usize>> = nodes.iter().map(place).collect();
-            for interval in &duty.series {
-                let mut row: Vec<Cell<'_>> = vec![(&duty.model_set).into(), (&duty.cycle).into()];
-                row.extend([
-                    interval.time_s.into(),
-                    interval.duration_s.into(),
-                    interval.torque_nm.into(),
-                    tidy(interval.speed_rpm).into(),
-                    interval.vehicle_speed_m_s.into(),
-                    interval.status.name().into(),
-                    interval.input_w.into(),
-                    interval.output_w.into(),
-                    interval.loss_w.into(),
-                ]);
-                row.extend(interval.losses_w.iter().map(|watts| Cell::from(*watts)));
-                row.extend([interval.motors_w.into(), interval.brakes_w.into()]);
-                let calculated = |place: &Option<usize>| place.map(|node| interval.temperatures_degc[node]);
-                row.extend(places.iter().map(|place| Cell::from(calculated(place))));
-                let measured = |place: &Option<usize>| place.and_then(|node| interval.measured_degc[node]);
-                row.extend(places.iter().map(|place| Cell::from(measured(place))));
-                table.push(row);
-            }
-        }
-        vec![table]
+        // Columns of nodes that a set does not have are empty.
+        let place = |duty: &DutyOfSet, name: &str| duty.nodes.iter().position(|own| own.node == name);
+        let shares = self.cycles.first().map_or(&[][..], |duty| &duty.shares);
+        let table = Table::of_each(&self.head.analysis, &self.cycles, |duty| &duty.series)
+            .text("model_set", "Model set", |(duty, _)| &duty.model_set)
+            .text("cycle", "Duty cycle", |(duty, _)| &duty.cycle)
+            .number("time_s", "s", "Time at the start of the interval", |(_, at)| at.time_s)
+            .number("duration_s", "s", "Length of the interval", |(_, at)| at.duration_s)
+            .number("torque_nm", "Nm", "Torque of the reference port", |(_, at)| {
+                at.torque_nm
+            })
+            .number("speed_rpm", "rpm", "Speed of the reference port", |(_, at)| {
+                tidy(at.speed_rpm)
+            })
+            .number("vehicle_speed_m_s", "m/s", "Speed of the vehicle", |(_, at)| {
+                at.vehicle_speed_m_s
+            })
+            .text("status", "State of the transmission", |(_, at)| at.status.name())
+            .number("input_w", "W", "Input power", |(_, at)| at.input_w)
+            .number("output_w", "W", "Output power", |(_, at)| at.output_w)
+            .number("loss_w", "W", "Loss of the transmission", |(_, at)| at.loss_w)
+            .each(shares.iter().enumerate(), |table, (i, share)| {
+                let meaning = format!("Loss of the share {share}");
+                table.number(format!("{share}_w"), "W", meaning, |(_, at)| at.losses_w[i])
+            })
+            .number("motors_w", "W", "Loss of all motors", |(_, at)| at.motors_w)
+            .number(
+                "brakes_w",
+                "W",
+                "Power dissipated in the brakes of the vehicle",
+                |(_, at)| at.brakes_w,
+            )
+            .each(&nodes, |table, node| {
+                let meaning = format!("Temperature of the node {node} at the end of the interval, calculated");
+                table.number(format!("{node}_end_degc"), "degC", meaning, |(duty, at)| {
+                    place(duty, node).map(|i| at.temperatures_degc[i])
+                })
+            })
+            .each(&nodes, |table, node| {
+                let meaning = format!("Temperature of the node {node} at the end of the interval, measured");
+                table.number(format!("{node}_measured_degc"), "degC", meaning, |(duty, at)| {
+                    place(duty, node).and_then(|i| at.measured_degc[i])
+                })
+            });
+        vec![table.finish()]
     }
 
     fn notes(&self) -> Vec<&Note> {
         self.cycles.iter().flat_map(|duty| &duty.notes).collect()
     }
 
-    fn left_at_samples(&self) -> Vec<(&str, &str)> {
-        self.left
-            .iter()
-            .map(|(path, name)| (path.as_str(), name.as_str()))
-            .collect()
+    fn left_at_samples(&self) -> Vec<&(String, String)> {
+        self.left.iter().collect()
     }
 
-    fn fault(&self) -> Option<Diagnostic> {
-        let (duty, broken) = self
-            .cycles
-            .iter()
-            .find_map(|duty| Some((duty, duty.broken.as_ref()?)))?;
-        let message = format!(
-            "`{}` could not be simulated beyond {} s: {}",
-            duty.cycle, broken.time_s, broken.reason
-        );
-        let error = Diagnostic::error(format!("analyses.{}", self.head.analysis), message);
-        Some(
-            error
-                .help("the results up to there are kept; examine the point with `explain`")
-                .code(codes::BROKEN_OFF),
-        )
+    fn failures(&self) -> &[Findings] {
+        &self.failures
     }
 }
 
 impl CycleOutcome {
     /// Nodes of all cycles, in the order of the first.
     fn nodes(&self) -> Vec<&str> {
-        let mut all: Vec<&str> = Vec::new();
-        for node in self.cycles.iter().flat_map(|duty| &duty.nodes) {
-            if !all.contains(&node.node.as_str()) {
-                all.push(&node.node);
-            }
-        }
-        all
-    }
-
-    fn columns(&self, nodes: &[&str]) -> Vec<Column> {
-        let mut columns = vec![
-            Column::text("model_set", "Model set"),
-            Column::text("cycle", "Duty cycle"),
-            Column::number("time_s", "s", "Time at the start of the interval"),
-            Column::number("duration_s", "s", "Length of the interval"),
-            Column::number("torque_nm", "Nm", "Torque of the reference port"),
-            Column::number("speed_rpm", "rpm", "Speed of the reference port"),
-            Column::number("vehicle_speed_m_s", "m/s", "Speed of the vehicle"),
-            Column::text("status", "State of the transmission"),
-            Column::number("input_w", "W", "Input power"),
-            Column::number("output_w", "W", "Output power"),
-            Column::number("loss_w", "W", "Loss of the transmission"),
-        ];
-        let shares = self.cycles.first().map_or(&[][..], |duty| &duty.shares);
-        columns.extend(shares.iter().map(|share| {
-            let meaning = format!("Loss of the share {share}");
-            Column::number(format!("{share}_w"), "W", meaning)
-        }));
-        columns.extend([
-            Column::number("motors_w", "W", "Loss of all motors"),
-            Column::number("brakes_w", "W", "Power dissipated in the brakes of the vehicle"),
-        ]);
-        let temperatures = |ending: &'static str, which: &'static str| {
-            nodes.iter().map(move |node| {
-                let meaning = format!("Temperature of the node {node} at the end of the interval, {which}");
-                Column::number(format!("{node}_{ending}_degc"), "degC", meaning)
-            })
-        };
-        columns.extend(temperatures("end", "calculated"));
-        columns.extend(temperatures("measured", "measured"));
-        columns
+        let all = self.cycles.iter().flat_map(|duty| &duty.nodes);
+        distinct(all.map(|node| node.node.as_str()))
     }
 }

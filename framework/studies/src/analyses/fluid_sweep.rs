@@ -11,11 +11,11 @@ use self::swept::Swept;
 use super::duties::{Duties, MeanLoss, Unfinished, sums_energies};
 use super::shares::together;
 use super::trial::{Left, Trial};
-use super::{Analysis, Built, Context, Entry, Head, Outcome, Stopped};
+use super::{Analysis, Built, Context, Head, Outcome, Stopped};
 use crate::analysis::Note;
 use crate::register_analysis;
 use crate::study::{By, DriveEntry, Uses, Write};
-use crate::table::{Cell, Column, Table};
+use crate::table::Table;
 
 pub use least::LeastLoss;
 
@@ -53,15 +53,6 @@ pub struct FluidSweepEntry {
 
 fn yes() -> bool {
     true
-}
-
-impl Entry for FluidSweepEntry {
-    const TYPE: &'static str = "fluid_sweep";
-    const MEANING: &'static str = "Mean cycle losses over one property of an oil, and their minimum.";
-
-    fn uses(&self) -> Uses<'_> {
-        Uses::driving(&self.drive)
-    }
 }
 
 register_analysis!(FluidSweepEntry);
@@ -147,7 +138,13 @@ struct Search<'a> {
 }
 
 impl Analysis for FluidSweepEntry {
+    const TYPE: &'static str = "fluid_sweep";
+    const MEANING: &'static str = "Mean cycle losses over one property of an oil, and their minimum.";
     type Outcome = FluidSweepOutcome;
+
+    fn uses(&self) -> Uses<'_> {
+        Uses::driving(&self.drive)
+    }
 
     fn run(&self, cx: &Context<'_>) -> Result<FluidSweepOutcome, Stopped> {
         let path = cx.path();
@@ -309,50 +306,45 @@ impl Outcome for FluidSweepOutcome {
 
     fn tables(&self) -> Vec<Table> {
         let first = self.fluid_sweep.first();
-        let mut columns = vec![
-            Column::text("model_set", "Model set"),
-            Column::text("cycle", "Duty cycle"),
-            Column::number(
-                "value",
-                first.map_or("-", |set| set.unit),
-                "Value of the property of the oil",
-            ),
-            Column::text("beyond_definition", "true if the property is not defined"),
-            Column::text(
-                "refined",
-                "true if the value was added by the search for the minimum loss",
-            ),
-            Column::number("mean_loss_w", "W", "Mean loss of the transmission"),
-        ];
+        let unit = first.map_or("-", |set| set.unit);
         let shares = first.map_or(&[][..], |set| &set.shares);
-        columns.extend(shares.iter().map(|share| {
-            let meaning = format!("Mean loss of the share {share}");
-            Column::number(format!("{share}_w"), "W", meaning)
-        }));
-        let mut table = Table::new(&self.head.analysis, columns);
+        let mut rows = Vec::new();
         for set in &self.fluid_sweep {
             for duty in &set.cycles {
-                for fluid in &duty.fluids {
-                    let mut row: Vec<Cell<'_>> = vec![(&set.model_set).into(), (&duty.cycle).into()];
-                    row.push(fluid.value.into());
-                    row.extend([fluid.beyond_definition, fluid.refined].map(|flag| Cell::from(flag.to_string())));
-                    row.push(fluid.mean_loss_w.into());
-                    row.extend(fluid.mean_losses_w.iter().map(|watts| Cell::from(*watts)));
-                    table.push(row);
-                }
+                rows.extend(duty.fluids.iter().map(|fluid| (set, duty, fluid)));
             }
         }
-        vec![table]
+        let table = Table::of(&self.head.analysis, rows)
+            .text("model_set", "Model set", |(set, ..)| &set.model_set)
+            .text("cycle", "Duty cycle", |(_, duty, _)| &duty.cycle)
+            .number("value", unit, "Value of the property of the oil", |(.., fluid)| {
+                fluid.value
+            })
+            .text(
+                "beyond_definition",
+                "true if the property is not defined",
+                |(.., fluid)| fluid.beyond_definition.to_string(),
+            )
+            .text(
+                "refined",
+                "true if the value was added by the search for the minimum loss",
+                |(.., fluid)| fluid.refined.to_string(),
+            )
+            .number("mean_loss_w", "W", "Mean loss of the transmission", |(.., fluid)| {
+                fluid.mean_loss_w
+            })
+            .each(shares.iter().enumerate(), |table, (i, share)| {
+                let meaning = format!("Mean loss of the share {share}");
+                table.number(format!("{share}_w"), "W", meaning, |(.., fluid)| fluid.mean_losses_w[i])
+            });
+        vec![table.finish()]
     }
 
     fn notes(&self) -> Vec<&Note> {
         Vec::new()
     }
 
-    fn left_at_samples(&self) -> Vec<(&str, &str)> {
-        self.left
-            .iter()
-            .map(|(path, name)| (path.as_str(), name.as_str()))
-            .collect()
+    fn left_at_samples(&self) -> Vec<&(String, String)> {
+        self.left.iter().collect()
     }
 }

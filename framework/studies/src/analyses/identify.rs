@@ -32,7 +32,7 @@ use crate::codes;
 use crate::identify::{Faults, HoldOut, Identification, Settings, group_words};
 use crate::measured::Measured;
 use crate::register_analysis;
-use crate::study::{FoldsEntry, IdentifiedEntry, Write};
+use crate::study::{FoldsEntry, IdentifiedEntry, Then, Uses, Write};
 use found::{Found, Prepared};
 use next::Candidates;
 use outcome::{DataOfFit, HeldOutRows, Requested};
@@ -40,7 +40,28 @@ use outcome::{DataOfFit, HeldOutRows, Requested};
 register_analysis!(IdentifyEntry);
 
 impl Analysis for IdentifyEntry {
+    const TYPE: &'static str = "identify";
+    const MEANING: &'static str = "Identification of uncertain parameters from measured points.";
     type Outcome = IdentifyOutcome;
+
+    fn uses(&self) -> Uses<'_> {
+        Uses {
+            grid: self.next.as_ref().map(|next| &next.grid),
+            grid_key: "next.grid",
+            ..Uses::new(self.gearbox.as_ref(), &self.model_sets)
+                .at(&self.gear)
+                .bind(&self.bind)
+                .with("data", Some(&self.data))
+        }
+    }
+
+    fn then(&self) -> Option<Then<'_>> {
+        let set = self.then.as_deref()?;
+        Some(Then {
+            set,
+            model_sets: &self.model_sets,
+        })
+    }
 
     fn run(&self, cx: &Context<'_>) -> Result<IdentifyOutcome, Stopped> {
         let path = cx.path();

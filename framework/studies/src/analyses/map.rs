@@ -24,19 +24,33 @@ pub use shown::{LossGrid, SHOWN, ShownGrid, ShownMap, ShownPoint};
 
 use self::export::ExportData;
 use self::plan::{Planned, on_grid};
-use self::points::{RowsOf, Taken, Taker, UndefinedLoss, columns};
+use self::points::{RowsOf, Taken, Taker, UndefinedLoss};
 use self::shown::Selection;
 use super::{Analysis, Built, Context, Stopped};
 use crate::analysis::{Field, Note, Numbered, OilTemperature, Piece, PointResult, SUMS, evidence, merge, notes};
+use crate::distinct::distinct;
 use crate::measured::Measured;
 use crate::register_analysis;
-use crate::study::{Data, Write};
+use crate::study::{Data, Uses, Write};
 use crate::table::Table;
 
 register_analysis!(MapEntry);
 
 impl Analysis for MapEntry {
+    const TYPE: &'static str = "map";
+    const MEANING: &'static str = "Losses and efficiency over a grid.";
     type Outcome = MapOutcome;
+
+    fn uses(&self) -> Uses<'_> {
+        Uses {
+            grid: self.grid.as_ref(),
+            ..Uses::new(self.gearbox.as_ref(), &self.model_sets)
+                .at(&self.gear)
+                .bind(&self.bind)
+                .with("points", self.points.as_ref())
+                .with("measured", self.measured.as_ref())
+        }
+    }
 
     fn run(&self, cx: &Context<'_>) -> Result<MapOutcome, Stopped> {
         match &self.points {
@@ -73,17 +87,14 @@ impl MapEntry {
             let mut map = Map::new(&plan.built, &plan.bound, &plan.points.gear, plan.points.oil, &rows);
             map.shown = ShownMap::new(Some(&plan.axes), whole);
             let taker = Taker {
+                built: &plan.built,
                 field: &plan.points.field,
                 rows: RowsOf::new(&plan.built, &plan.points.gear, &plan.bound, &rows.parts),
                 selection: &Selection::new(Some(&plan.axes), whole),
                 wanted: rows.wanted,
             };
             let take = |points: &mut Numbered<'_>| taker.take(points);
-            let solve = || {
-                cx.solve_pieces(&plan.built, &plan.points, &take, &mut |piece| {
-                    map.add(piece, &taker.rows, &mut rows)
-                })
-            };
+            let solve = || cx.solve_pieces(&plan.built, &plan.points, &take, &mut |piece| map.add(piece, &mut rows));
             if cx.part(number, solve)?.is_none() {
                 continue;
             }
@@ -145,34 +156,30 @@ impl MapEntry {
         let mut rows = Rows::new(cx, self, &paths, &all);
         let mut maps = Vec::new();
         for solved in solved {
-            let mut keys: Vec<(usize, String)> = Vec::new();
-            for (place, gear, _) in &solved.rows {
-                if !keys.iter().any(|key| (key.0, &key.1) == (*place, gear)) {
-                    keys.push((*place, gear.clone()));
-                }
-            }
+            let keys = distinct(solved.rows.iter().map(|(place, gear, _)| (*place, gear)));
             let built: Vec<Arc<Built<'_>>> = solved.built.into_iter().map(Arc::new).collect();
             for (place, gear) in keys {
                 let own = solved
                     .rows
                     .iter()
                     .zip(&listed.rows)
-                    .filter(|(row, _)| row.0 == place && row.1 == gear);
+                    .filter(|(row, _)| row.0 == place && row.1 == *gear);
                 let bound: Vec<(String, Value)> = own.clone().next().map_or_else(Vec::new, |(_, row)| {
                     let values = row.bound.iter().map(|v| Value::from(v.as_str()));
                     paths.iter().cloned().zip(values).collect()
                 });
                 let points: Vec<PointResult> = own.map(|((_, _, point), _)| point.clone()).collect();
                 let oil = common(&points).map_or(OilTemperature::Balance, OilTemperature::Fixed);
-                let mut map = Map::new(&built[place], &bound, &gear, oil, &rows);
+                let mut map = Map::new(&built[place], &bound, gear, oil, &rows);
                 let taker = Taker {
+                    built: &built[place],
                     field: &Field::List(Vec::new()),
-                    rows: RowsOf::new(&built[place], &gear, &bound, &rows.parts),
+                    rows: RowsOf::new(&built[place], gear, &bound, &rows.parts),
                     selection: &Selection::new(None, false),
                     wanted: rows.wanted,
                 };
                 let piece = Piece::new(0, points, Vec::new()).made(0, &|points| taker.take(points));
-                map.add(piece, &taker.rows, &mut rows)?;
+                map.add(piece, &mut rows)?;
                 map.notes.clone_from(&solved.notes);
                 maps.push(map);
             }
@@ -238,14 +245,10 @@ struct Rows<'c> {
 
 impl<'c> Rows<'c> {
     fn new(cx: &'c Context<'c>, entry: &MapEntry, bound: &[String], all: &[&Built<'_>]) -> Self {
-        let mut parts: Vec<String> = Vec::new();
-        for part in all.iter().flat_map(|built| built.transmission.parts()) {
-            if !parts.contains(&part.path) {
-                parts.push(part.path.clone());
-            }
-        }
+        let parts = all.iter().flat_map(|built| built.transmission.parts());
+        let parts: Vec<String> = distinct(parts.map(|part| &part.path)).into_iter().cloned().collect();
         Self {
-            table: Table::new(cx.name, columns(bound, &parts)),
+            table: RowsOf::none(bound, &parts).table(cx.name, []),
             holds: cx.sink.is_none() || entry.write.contains(&Write::Json),
             wanted: cx.sink.is_none() || entry.write.iter().any(|format| *format != Write::Svg),
             constant: 2 + bound.len(),
@@ -296,13 +299,13 @@ impl<'a> Map<'a> {
     }
 
     /// Adds the data of the next piece.
-    fn add(&mut self, piece: Piece<Taken>, of_map: &RowsOf<'_>, rows: &mut Rows<'_>) -> Result<(), Stopped> {
+    fn add(&mut self, piece: Piece<Taken>, rows: &mut Rows<'_>) -> Result<(), Stopped> {
         merge(&mut self.seen, &piece.seen);
         let order: Vec<(usize, Range<usize>)> = piece.runs().collect();
-        let (mut values, mut picked, mut undefined) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut tables, mut picked, mut undefined) = (Vec::new(), Vec::new(), Vec::new());
         drop(piece.map(|taken| {
             self.passes += taken.passes;
-            values.push(of_map.with_constants(taken.values));
+            tables.push(taken.rows);
             picked.push(taken.picked);
             undefined.extend(taken.undefined);
         }));
@@ -313,11 +316,11 @@ impl<'a> Map<'a> {
         if rows.holds {
             undefined.sort_by_key(|loss: &UndefinedLoss| loss.number);
             self.undefined.extend(undefined);
-            rows.table.extend(&values, &order);
+            rows.table.extend(&tables, &order);
             self.rows.end = rows.table.len();
         } else if let Some(sink) = rows.cx.sink {
             let mut own = rows.table.header();
-            own.extend(&values, &order);
+            own.extend(&tables, &order);
             sink.take(&own)?;
         }
         Ok(())
@@ -360,12 +363,7 @@ fn notes_of_sets(maps: &[Map<'_>]) -> Option<Vec<NotesOfSet>> {
     if !maps.iter().all(fits) {
         return None;
     }
-    let mut names: Vec<&str> = Vec::new();
-    for map in maps {
-        if !names.contains(&map.built.name.as_str()) {
-            names.push(&map.built.name);
-        }
-    }
+    let names = distinct(maps.iter().map(|map| map.built.name.as_str()));
     let of_set = |name: &str| {
         let mut all = Vec::new();
         let own = || maps.iter().filter(|map| map.built.name == name);

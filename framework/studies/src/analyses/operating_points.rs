@@ -9,13 +9,12 @@ use serde::{Deserialize, Serialize};
 use super::numbers::{RPM, tidy};
 use super::rows::Solved;
 use super::shares::{Shares, together};
-use super::{Analysis, Built, Context, Entry, Head, Outcome, Stopped};
+use super::{Analysis, Built, Context, Head, Outcome, Stopped};
 use crate::analysis::{Note, PointResult};
-use crate::cells;
 use crate::measured::{Measured, Row};
 use crate::register_analysis;
 use crate::study::{By, Data, Uses, Write};
-use crate::table::{Cell, Column, Table};
+use crate::table::Table;
 
 /// Losses of a list of operating points from a file.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -40,19 +39,6 @@ pub struct OperatingPointsEntry {
     /// Formats to write; default: CSV, JSON and SVG.
     #[serde(default = "Write::every_format")]
     pub write: Vec<Write>,
-}
-
-impl Entry for OperatingPointsEntry {
-    const TYPE: &'static str = "operating_points";
-    const MEANING: &'static str =
-        "Losses of a list of operating points from a file, as stacked bars with measured values.";
-
-    fn uses(&self) -> Uses<'_> {
-        Uses::new(self.gearbox.as_ref(), &self.model_sets)
-            .at(&self.gear)
-            .bind(&self.bind)
-            .with("data", Some(&self.data))
-    }
 }
 
 register_analysis!(OperatingPointsEntry);
@@ -124,7 +110,7 @@ pub struct OperatingPoint {
 }
 
 /// Measured values at a point with stated accuracies.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, JsonSchema)]
 pub struct MeasuredAtPoint {
     /// Loss. [W]
     pub loss_w: Option<f64>,
@@ -159,24 +145,22 @@ impl MeasuredAtPoint {
 
     /// True without measured values.
     pub fn is_empty(&self) -> bool {
-        self.all().iter().all(Option::is_none)
-    }
-
-    /// All values, in the order of the fields.
-    fn all(&self) -> [Option<f64>; 6] {
-        [
-            self.loss_w,
-            self.loss_accuracy_w,
-            self.oil_temperature_degc,
-            self.oil_temperature_accuracy_k,
-            self.surface_temperature_degc,
-            self.surface_temperature_accuracy_k,
-        ]
+        *self == Self::default()
     }
 }
 
 impl Analysis for OperatingPointsEntry {
+    const TYPE: &'static str = "operating_points";
+    const MEANING: &'static str =
+        "Losses of a list of operating points from a file, as stacked bars with measured values.";
     type Outcome = OperatingPointsOutcome;
+
+    fn uses(&self) -> Uses<'_> {
+        Uses::new(self.gearbox.as_ref(), &self.model_sets)
+            .at(&self.gear)
+            .bind(&self.bind)
+            .with("data", Some(&self.data))
+    }
 
     fn run(&self, cx: &Context<'_>) -> Result<OperatingPointsOutcome, Stopped> {
         let path = cx.path();
@@ -243,79 +227,78 @@ impl Outcome for OperatingPointsOutcome {
     }
 
     fn tables(&self) -> Vec<Table> {
-        let mut table = Table::new(&self.head.analysis, self.columns());
-        for of_set in &self.operating_points {
-            for point in &of_set.points {
-                let mut row: Vec<Cell<'_>> = cells![&of_set.model_set, &point.gear, &point.name].into();
-                row.extend(point.bound.iter().map(|(_, value)| Cell::from(value)));
-                row.extend(cells![
-                    point.torque_nm,
-                    point.speed_rpm,
-                    point.oil_temperature_degc,
-                    point.surface_temperature_degc,
-                    point.balance.map_or("", thermal::Outcome::name),
-                    point.status.name(),
-                    point.efficiency,
-                    point.loss_w,
-                ]);
-                row.extend(point.measured.all().map(Cell::from));
-                let share = |i: usize| point.losses_w.as_ref().map(|watts| watts[i]);
-                row.extend((0..of_set.shares.len()).map(|i| Cell::from(share(i))));
-                table.push(row);
-            }
-        }
-        vec![table]
+        let shares = self.operating_points.first().map_or(&[][..], |of_set| &of_set.shares);
+        let table = Table::of_each(&self.head.analysis, &self.operating_points, |of_set| &of_set.points)
+            .text("model_set", "Model set", |(of_set, _)| &of_set.model_set)
+            .text("gear", "Gear", |(_, point)| &point.gear)
+            .text("name", "Name of the point", |(_, point)| &point.name)
+            .each(self.bound.iter().enumerate(), |table, (i, column)| {
+                table.text(column, "Value that changes the gearbox", |(_, point)| {
+                    point.bound.iter().nth(i).map_or("", |(_, value)| value.as_str())
+                })
+            })
+            .number("torque_nm", "Nm", "Torque", |(_, point)| point.torque_nm)
+            .number("speed_rpm", "rpm", "Speed", |(_, point)| point.speed_rpm)
+            .number("oil_temperature_degc", "degC", "Oil temperature", |(_, point)| {
+                point.oil_temperature_degc
+            })
+            .number(
+                "surface_temperature_degc",
+                "degC",
+                "Surface temperature",
+                |(_, point)| point.surface_temperature_degc,
+            )
+            .text("balance", "Status of the heat balance", |(_, point)| {
+                point.balance.map_or("", thermal::Outcome::name)
+            })
+            .text("status", "State of the transmission", |(_, point)| point.status.name())
+            .number("efficiency", "-", "Output power over input power", |(_, point)| {
+                point.efficiency
+            })
+            .number("loss_w", "W", "Sum of all losses", |(_, point)| point.loss_w)
+            .number("measured_loss_w", "W", "Measured loss", |(_, point)| {
+                point.measured.loss_w
+            })
+            .number(
+                "measured_loss_accuracy_w",
+                "W",
+                "Accuracy of the measured loss",
+                |(_, point)| point.measured.loss_accuracy_w,
+            )
+            .number(
+                "measured_oil_temperature_degc",
+                "degC",
+                "Measured oil temperature",
+                |(_, point)| point.measured.oil_temperature_degc,
+            )
+            .number(
+                "measured_oil_temperature_accuracy_k",
+                "K",
+                "Accuracy of that temperature",
+                |(_, point)| point.measured.oil_temperature_accuracy_k,
+            )
+            .number(
+                "measured_surface_temperature_degc",
+                "degC",
+                "Measured surface temperature",
+                |(_, point)| point.measured.surface_temperature_degc,
+            )
+            .number(
+                "measured_surface_temperature_accuracy_k",
+                "K",
+                "Accuracy of that temperature",
+                |(_, point)| point.measured.surface_temperature_accuracy_k,
+            )
+            // The shares are the same for every set.
+            .each(shares.iter().enumerate(), |table, (i, share)| {
+                table.number(format!("{share}_w"), "W", format!("Loss: {share}"), |(_, point)| {
+                    point.losses_w.as_ref().map(|watts| watts[i])
+                })
+            });
+        vec![table.finish()]
     }
 
     fn notes(&self) -> Vec<&Note> {
         self.operating_points.iter().flat_map(|of_set| &of_set.notes).collect()
-    }
-}
-
-impl OperatingPointsOutcome {
-    fn columns(&self) -> Vec<Column> {
-        let mut columns = vec![
-            Column::text("model_set", "Model set"),
-            Column::text("gear", "Gear"),
-            Column::text("name", "Name of the point"),
-        ];
-        let bound = self.bound.iter();
-        columns.extend(bound.map(|column| Column::text(column, "Value that changes the gearbox")));
-        columns.extend([
-            Column::number("torque_nm", "Nm", "Torque"),
-            Column::number("speed_rpm", "rpm", "Speed"),
-            Column::number("oil_temperature_degc", "degC", "Oil temperature"),
-            Column::number("surface_temperature_degc", "degC", "Surface temperature"),
-            Column::text("balance", "Status of the heat balance"),
-            Column::text("status", "State of the transmission"),
-            Column::number("efficiency", "-", "Output power over input power"),
-            Column::number("loss_w", "W", "Sum of all losses"),
-            Column::number("measured_loss_w", "W", "Measured loss"),
-            Column::number("measured_loss_accuracy_w", "W", "Accuracy of the measured loss"),
-            Column::number("measured_oil_temperature_degc", "degC", "Measured oil temperature"),
-            Column::number(
-                "measured_oil_temperature_accuracy_k",
-                "K",
-                "Accuracy of that temperature",
-            ),
-            Column::number(
-                "measured_surface_temperature_degc",
-                "degC",
-                "Measured surface temperature",
-            ),
-            Column::number(
-                "measured_surface_temperature_accuracy_k",
-                "K",
-                "Accuracy of that temperature",
-            ),
-        ]);
-        // The same for every set.
-        let shares = self
-            .operating_points
-            .first()
-            .into_iter()
-            .flat_map(|of_set| &of_set.shares);
-        columns.extend(shares.map(|share| Column::number(format!("{share}_w"), "W", format!("Loss: {share}"))));
-        columns
     }
 }

@@ -14,7 +14,7 @@ use self::solve::{Counted, Pair, counted_points, pairs};
 use super::measurable::countable;
 use super::ranges::varied;
 use super::trial::Left;
-use super::{Analysis, Built, Context, Entry, Stopped};
+use super::{Analysis, Built, Context, Stopped};
 use crate::measured::Measured;
 use crate::register_analysis;
 use crate::study::{Data, Difference, Quantity, Uses, Write};
@@ -71,9 +71,12 @@ pub struct SurfaceAxisEntry {
     pub values: Vec<Value>,
 }
 
-impl Entry for RmsSurfaceEntry {
+register_analysis!(RmsSurfaceEntry);
+
+impl Analysis for RmsSurfaceEntry {
     const TYPE: &'static str = "rms_surface";
     const MEANING: &'static str = "Misfit between models and a measurement over two quantities of the gearbox.";
+    type Outcome = RmsSurfaceOutcome;
 
     fn uses(&self) -> Uses<'_> {
         Uses::new(self.gearbox.as_ref(), &self.against)
@@ -81,12 +84,6 @@ impl Entry for RmsSurfaceEntry {
             .bind(&self.bind)
             .with("data", Some(&self.data))
     }
-}
-
-register_analysis!(RmsSurfaceEntry);
-
-impl Analysis for RmsSurfaceEntry {
-    type Outcome = RmsSurfaceOutcome;
 
     fn run(&self, cx: &Context<'_>) -> Result<RmsSurfaceOutcome, Stopped> {
         let path = cx.path();

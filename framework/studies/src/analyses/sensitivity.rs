@@ -22,7 +22,7 @@ use self::outputs::Outputs;
 use super::axes::grid_axes;
 use super::ranges::{Range, once};
 use super::trial::{Left, Trial, left};
-use super::{Analysis, Built, Context, Entry, Stopped};
+use super::{Analysis, Built, Context, Stopped};
 use crate::analysis::{Points, notes};
 use crate::register_analysis;
 use crate::study::{Grid, NameOr, RangeEntry, Uses, Write};
@@ -90,9 +90,12 @@ impl Method {
     }
 }
 
-impl Entry for SensitivityEntry {
+register_analysis!(SensitivityEntry);
+
+impl Analysis for SensitivityEntry {
     const TYPE: &'static str = "sensitivity";
     const MEANING: &'static str = "Sensitivity of the losses: slopes, screening, shares of the variance.";
+    type Outcome = SensitivityOutcome;
 
     fn uses(&self) -> Uses<'_> {
         Uses {
@@ -100,12 +103,6 @@ impl Entry for SensitivityEntry {
             ..Uses::new(self.gearbox.as_ref(), &self.model_sets)
         }
     }
-}
-
-register_analysis!(SensitivityEntry);
-
-impl Analysis for SensitivityEntry {
-    type Outcome = SensitivityOutcome;
 
     fn run(&self, cx: &Context<'_>) -> Result<SensitivityOutcome, Stopped> {
         let gearbox = cx.gearbox(self.gearbox.as_ref())?;

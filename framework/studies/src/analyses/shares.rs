@@ -1,6 +1,7 @@
 //! Losses of a point summed by mechanism, component, stage, term or the usual sums.
 
 use crate::analysis::{PointResult, SUMS};
+use crate::distinct::distinct;
 use crate::study::By;
 use gearloss_framework::transmission::{PartInfo, PartKind, Transmission};
 
@@ -93,12 +94,7 @@ impl Shares {
 
 /// Combined names of several transmissions, in the order of the first, without shares that have no loss under any model.
 pub fn together<'a>(all: impl Iterator<Item = &'a Transmission> + Clone, by: By) -> Vec<String> {
-    let mut names: Vec<String> = Vec::new();
-    for name in all.clone().flat_map(|t| Shares::of(t, by).names) {
-        if !names.contains(&name) {
-            names.push(name);
-        }
-    }
+    let mut names: Vec<String> = distinct(all.clone().flat_map(|t| Shares::of(t, by).names));
     // Shares with `none` everywhere are omitted.
     if by != By::Sum {
         names.retain(|name| {

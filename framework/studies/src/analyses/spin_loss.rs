@@ -8,7 +8,7 @@ use serde::Deserialize;
 use super::axes::speeds;
 use super::breakdown::{Along, As, BreakdownOfSet, BreakdownOutcome, Common, RowOfBars, Stacks};
 use super::numbers::RPM;
-use super::{Analysis, Built, Context, Entry, Stopped};
+use super::{Analysis, Built, Context, Stopped};
 use crate::register_analysis;
 use crate::study::{By, SpeedAxis, Uses, Write};
 
@@ -35,19 +35,16 @@ pub struct SpinLossEntry {
     pub write: Vec<Write>,
 }
 
-impl Entry for SpinLossEntry {
+register_analysis!(SpinLossEntry);
+
+impl Analysis for SpinLossEntry {
     const TYPE: &'static str = "spin_loss";
     const MEANING: &'static str = "No-load losses in every gear, including neutral and towing.";
+    type Outcome = BreakdownOutcome;
 
     fn uses(&self) -> Uses<'_> {
         Uses::new(self.gearbox.as_ref(), &self.model_sets).at(&self.gears)
     }
-}
-
-register_analysis!(SpinLossEntry);
-
-impl Analysis for SpinLossEntry {
-    type Outcome = BreakdownOutcome;
 
     fn run(&self, cx: &Context<'_>) -> Result<BreakdownOutcome, Stopped> {
         let path = cx.path();

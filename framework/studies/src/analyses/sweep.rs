@@ -11,7 +11,7 @@ use super::axes::{speeds, torques};
 use super::numbers::{RPM, tidy};
 use super::ranges::published;
 use super::shares::{Shares, together};
-use super::{Analysis, Built, Context, Entry, Stopped, gear_of};
+use super::{Analysis, Built, Context, Stopped, gear_of};
 use crate::analysis::{GridResult, notes};
 use crate::register_analysis;
 use crate::study::{By, SpeedAxis, TorqueAxis, Uses, Write};
@@ -58,19 +58,16 @@ pub struct SecondEntry {
     pub values: Vec<Value>,
 }
 
-impl Entry for SweepEntry {
+register_analysis!(SweepEntry);
+
+impl Analysis for SweepEntry {
     const TYPE: &'static str = "sweep";
     const MEANING: &'static str = "Losses and efficiency over the values of one path, or of two.";
+    type Outcome = SweepOutcome;
 
     fn uses(&self) -> Uses<'_> {
         Uses::new(self.gearbox.as_ref(), &self.model_sets).at(&self.gear)
     }
-}
-
-register_analysis!(SweepEntry);
-
-impl Analysis for SweepEntry {
-    type Outcome = SweepOutcome;
 
     fn run(&self, cx: &Context<'_>) -> Result<SweepOutcome, Stopped> {
         self.oil_is_free(cx)?;

@@ -6,7 +6,7 @@ use serde::Deserialize;
 use super::axes::{axis, speeds, torques};
 use super::breakdown::{Along, As, BreakdownOutcome, Common, RowOfBars, Stacks};
 use super::numbers::{RPM, tidy};
-use super::{Analysis, Context, Entry, Stopped, gear_of};
+use super::{Analysis, Context, Stopped, gear_of};
 use crate::analysis::Given;
 use crate::register_analysis;
 use crate::study::{By, SpeedAxis, TemperatureAxis, TorqueAxis, Uses, Write};
@@ -38,19 +38,16 @@ pub struct TemperatureSweepEntry {
     pub write: Vec<Write>,
 }
 
-impl Entry for TemperatureSweepEntry {
+register_analysis!(TemperatureSweepEntry);
+
+impl Analysis for TemperatureSweepEntry {
     const TYPE: &'static str = "temperature_sweep";
     const MEANING: &'static str = "Loss breakdown over oil temperature.";
+    type Outcome = BreakdownOutcome;
 
     fn uses(&self) -> Uses<'_> {
         Uses::new(self.gearbox.as_ref(), &self.model_sets).at(&self.gear)
     }
-}
-
-register_analysis!(TemperatureSweepEntry);
-
-impl Analysis for TemperatureSweepEntry {
-    type Outcome = BreakdownOutcome;
 
     fn run(&self, cx: &Context<'_>) -> Result<BreakdownOutcome, Stopped> {
         let path = cx.path();

@@ -10,12 +10,11 @@ use serde::{Deserialize, Serialize};
 use super::axes::{speeds, torques};
 use super::balance::needs_balance;
 use super::numbers::{RPM, tidy};
-use super::{Analysis, Built, Context, Entry, Head, Outcome, Stopped, gear_of};
+use super::{Analysis, Built, Context, Head, Outcome, Stopped, gear_of};
 use crate::analysis::{Note, Points, notes};
-use crate::cells;
 use crate::register_analysis;
 use crate::study::{SpeedAxis, TorqueAxis, Uses, Write};
-use crate::table::{Column, Table};
+use crate::table::Table;
 
 /// The torque, or the speed, at which the heat balance reaches a given temperature.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -51,15 +50,6 @@ pub enum Find {
     Torque,
     /// The speed at each torque.
     Speed,
-}
-
-impl Entry for ThermalLimitEntry {
-    const TYPE: &'static str = "thermal_limit";
-    const MEANING: &'static str = "The torque, or the speed, at which the heat balance reaches a given temperature.";
-
-    fn uses(&self) -> Uses<'_> {
-        Uses::new(self.gearbox.as_ref(), &self.model_sets).at(&self.gear)
-    }
 }
 
 register_analysis!(ThermalLimitEntry);
@@ -117,7 +107,13 @@ pub struct ThermalLimit {
 }
 
 impl Analysis for ThermalLimitEntry {
+    const TYPE: &'static str = "thermal_limit";
+    const MEANING: &'static str = "The torque, or the speed, at which the heat balance reaches a given temperature.";
     type Outcome = ThermalLimitOutcome;
+
+    fn uses(&self) -> Uses<'_> {
+        Uses::new(self.gearbox.as_ref(), &self.model_sets).at(&self.gear)
+    }
 
     fn run(&self, cx: &Context<'_>) -> Result<ThermalLimitOutcome, Stopped> {
         let path = cx.path();
@@ -277,40 +273,28 @@ impl Outcome for ThermalLimitOutcome {
     }
 
     fn tables(&self) -> Vec<Table> {
-        let mut table = Table::new(
-            &self.head.analysis,
-            [
-                Column::text("model_set", "Model set"),
-                Column::text("gear", "Gear"),
-                Column::number("limit_degc", "degC", "Limit of the oil temperature"),
-                Column::number("torque_nm", "Nm", "Torque"),
-                Column::number("speed_rpm", "rpm", "Speed"),
-                Column::text("outcome", "Result of the search"),
-                Column::number("loss_w", "W", "Loss"),
-                Column::number("input_w", "W", "Input power"),
-                Column::number("output_w", "W", "Output power"),
-                Column::number("efficiency", "-", "Output power over input power"),
-                Column::number("lowest_balance_degc", "degC", "Lowest stable oil temperature"),
-            ],
-        );
-        for of_set in &self.thermal_limits {
-            for limit in &of_set.limits {
-                table.push(cells![
-                    &of_set.model_set,
-                    &of_set.gear,
-                    limit.limit_degc,
-                    limit.torque_nm,
-                    limit.speed_rpm,
-                    limit.outcome,
-                    limit.loss_w,
-                    limit.input_w,
-                    limit.output_w,
-                    limit.efficiency,
-                    limit.lowest_balance_degc,
-                ]);
-            }
-        }
-        vec![table]
+        let table = Table::of_each(&self.head.analysis, &self.thermal_limits, |of_set| &of_set.limits)
+            .text("model_set", "Model set", |(of_set, _)| &of_set.model_set)
+            .text("gear", "Gear", |(of_set, _)| &of_set.gear)
+            .number("limit_degc", "degC", "Limit of the oil temperature", |(_, limit)| {
+                limit.limit_degc
+            })
+            .number("torque_nm", "Nm", "Torque", |(_, limit)| limit.torque_nm)
+            .number("speed_rpm", "rpm", "Speed", |(_, limit)| limit.speed_rpm)
+            .text("outcome", "Result of the search", |(_, limit)| limit.outcome)
+            .number("loss_w", "W", "Loss", |(_, limit)| limit.loss_w)
+            .number("input_w", "W", "Input power", |(_, limit)| limit.input_w)
+            .number("output_w", "W", "Output power", |(_, limit)| limit.output_w)
+            .number("efficiency", "-", "Output power over input power", |(_, limit)| {
+                limit.efficiency
+            })
+            .number(
+                "lowest_balance_degc",
+                "degC",
+                "Lowest stable oil temperature",
+                |(_, limit)| limit.lowest_balance_degc,
+            );
+        vec![table.finish()]
     }
 
     fn notes(&self) -> Vec<&Note> {

@@ -20,7 +20,7 @@ pub use outcome::{
     Ranking, ShareOfSpread, Spread, SpreadPoint, Tournament, TournamentOutcome,
 };
 
-use super::{Analysis, Context, Entry, Stopped};
+use super::{Analysis, Context, Stopped};
 use crate::register_analysis;
 use crate::study::{Data, Difference, Quantity, Uses, Write};
 
@@ -115,9 +115,12 @@ pub struct FactorsEntry {
     pub greatest: f64,
 }
 
-impl Entry for TournamentEntry {
+register_analysis!(TournamentEntry);
+
+impl Analysis for TournamentEntry {
     const TYPE: &'static str = "tournament";
     const MEANING: &'static str = "Every combination of models, ranked by a measurement.";
+    type Outcome = TournamentOutcome;
 
     fn uses(&self) -> Uses<'_> {
         Uses {
@@ -127,12 +130,6 @@ impl Entry for TournamentEntry {
                 .with("data", self.data.as_ref())
         }
     }
-}
-
-register_analysis!(TournamentEntry);
-
-impl Analysis for TournamentEntry {
-    type Outcome = TournamentOutcome;
 
     fn run(&self, cx: &Context<'_>) -> Result<TournamentOutcome, Stopped> {
         let gearbox = cx.gearbox(self.gearbox.as_ref())?;

@@ -7,13 +7,13 @@ use serde::{Deserialize, Serialize};
 
 use super::ranges::{PublishedCoefficient, published};
 use super::trial::Left;
-use super::{Analysis, Context, Entry, Head, Outcome, Stopped};
+use super::{Analysis, Context, Head, Outcome, Stopped};
 use crate::analyses::axes::grid_axes;
 use crate::analyses::inputs::Input;
 use crate::analysis::Note;
 use crate::register_analysis;
 use crate::study::{NameOr, ToleranceEntry, Uses, Write};
-use crate::table::{Cell, Column, Table};
+use crate::table::Table;
 
 /// Effect of uncertain inputs on efficiency, loss and temperature over a grid: every input is drawn from its distribution.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -39,18 +39,6 @@ pub struct UncertaintyEntry {
 
 fn samples() -> u32 {
     256
-}
-
-impl Entry for UncertaintyEntry {
-    const TYPE: &'static str = "uncertainty";
-    const MEANING: &'static str = "Uncertainty bands of efficiency, loss and temperature from uncertain inputs.";
-
-    fn uses(&self) -> Uses<'_> {
-        Uses {
-            grid: Some(&self.grid),
-            ..Uses::new(self.gearbox.as_ref(), &self.model_sets)
-        }
-    }
 }
 
 register_analysis!(UncertaintyEntry);
@@ -163,7 +151,16 @@ impl QuantityBand {
 }
 
 impl Analysis for UncertaintyEntry {
+    const TYPE: &'static str = "uncertainty";
+    const MEANING: &'static str = "Uncertainty bands of efficiency, loss and temperature from uncertain inputs.";
     type Outcome = UncertaintyOutcome;
+
+    fn uses(&self) -> Uses<'_> {
+        Uses {
+            grid: Some(&self.grid),
+            ..Uses::new(self.gearbox.as_ref(), &self.model_sets)
+        }
+    }
 
     fn run(&self, cx: &Context<'_>) -> Result<UncertaintyOutcome, Stopped> {
         let path = cx.path();
@@ -247,50 +244,35 @@ impl Outcome for UncertaintyOutcome {
     }
 
     fn tables(&self) -> Vec<Table> {
-        let mut columns = vec![
-            Column::text("model_set", "Model set"),
-            Column::text("gear", "Gear"),
-            Column::number("torque_nm", "Nm", "Given torque"),
-            Column::number("speed_rpm", "rpm", "Given speed"),
-        ];
-        for (name, unit, meaning, _) in QUANTITIES {
-            columns.push(Column::number(name, unit, format!("{meaning}, nominal")));
-            for (end, which) in [
-                ("low", "lower end of the 95 % band"),
-                ("median", "median of the samples"),
-                ("high", "upper end of the 95 % band"),
-            ] {
-                columns.push(Column::number(
-                    format!("{name}_{end}"),
-                    unit,
-                    format!("{meaning}, {which}"),
-                ));
-            }
-        }
-        let mut table = Table::new(&self.head.analysis, columns);
-        for set in &self.bands {
-            for point in &set.points {
-                let mut row: Vec<Cell<'_>> = vec![(&set.model_set).into(), (&set.gear).into()];
-                row.extend([point.torque_nm.into(), point.speed_rpm.into()]);
-                for (.., quantity) in QUANTITIES {
-                    let QuantityBand { nominal, band } = *quantity(point);
-                    row.push(nominal.into());
-                    row.extend((0..3).map(|k| Cell::from(band.map(|band| band[k]))));
-                }
-                table.push(row);
-            }
-        }
-        vec![table]
+        let table = Table::of_each(&self.head.analysis, &self.bands, |set| &set.points)
+            .text("model_set", "Model set", |(set, _)| &set.model_set)
+            .text("gear", "Gear", |(set, _)| &set.gear)
+            .number("torque_nm", "Nm", "Given torque", |(_, point)| point.torque_nm)
+            .number("speed_rpm", "rpm", "Given speed", |(_, point)| point.speed_rpm)
+            .each(QUANTITIES, |table, (name, unit, meaning, quantity)| {
+                let ends = [
+                    ("low", "lower end of the 95 % band"),
+                    ("median", "median of the samples"),
+                    ("high", "upper end of the 95 % band"),
+                ];
+                let nominal = format!("{meaning}, nominal");
+                table
+                    .number(name, unit, nominal, |(_, point)| quantity(point).nominal)
+                    .each(ends.into_iter().enumerate(), |table, (k, (end, which))| {
+                        let meaning = format!("{meaning}, {which}");
+                        table.number(format!("{name}_{end}"), unit, meaning, |(_, point)| {
+                            quantity(point).band.map(|band| band[k])
+                        })
+                    })
+            });
+        vec![table.finish()]
     }
 
     fn notes(&self) -> Vec<&Note> {
         Vec::new()
     }
 
-    fn left_at_samples(&self) -> Vec<(&str, &str)> {
-        self.left
-            .iter()
-            .map(|(path, name)| (path.as_str(), name.as_str()))
-            .collect()
+    fn left_at_samples(&self) -> Vec<&(String, String)> {
+        self.left.iter().collect()
     }
 }

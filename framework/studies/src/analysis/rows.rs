@@ -3,6 +3,7 @@
 use serde_json::Value;
 
 use super::{Field, Given, OilTemperature, PointResult, Points, merge, run_grid};
+use crate::distinct::distinct;
 use crate::measured::{Measured, PortSpeeds, Rig, Row, sense};
 use gearloss_framework::description::ThermalMode;
 use gearloss_framework::document::Diagnostic;
@@ -78,13 +79,7 @@ impl Rows<'_> {
     }
 
     fn combinations(&self) -> Vec<&Vec<String>> {
-        let mut combinations: Vec<&Vec<String>> = Vec::new();
-        for row in &self.measured.rows {
-            if !combinations.contains(&&row.bound) {
-                combinations.push(&row.bound);
-            }
-        }
-        combinations
+        distinct(self.measured.rows.iter().map(|row| &row.bound))
     }
 
     /// The points of each gear of each transmission, with the index of the latter; without torques and speeds.

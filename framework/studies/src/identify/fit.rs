@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use super::{Identification, ModelKink};
+use crate::distinct::distinct;
 use crate::study::Quantity;
 use gearloss_numerics::inference::{self, Fold, ProfileFault, ProfileInterval, Refit, RobustRows, Validation};
 use gearloss_numerics::least_squares::{
@@ -167,12 +168,7 @@ impl Identification<'_> {
 
     /// Estimates factors of the accuracies from the scatter of each quantity, corrected for fitted parameters.
     fn settle(&mut self, fitted: &mut Fitted, options: &Options<'_>) -> Result<(), Fault> {
-        let mut quantities: Vec<Quantity> = Vec::new();
-        for observation in &self.observations {
-            if !quantities.contains(&observation.quantity) {
-                quantities.push(observation.quantity);
-            }
-        }
+        let quantities = distinct(self.observations.iter().map(|observation| observation.quantity));
         let mut factors: Vec<(Quantity, f64)> = quantities.into_iter().map(|q| (q, 1.0)).collect();
         for _ in 0..ROUNDS {
             let mut settled = true;

@@ -1,6 +1,7 @@
 //! Models with kinks at a minimum, and their regimes.
 
 use super::Identification;
+use crate::distinct::distinct;
 use gearloss_numerics::least_squares::{Fit, Kink};
 
 /// Relative change of a component's loss below which it is due to rounding and the iterated power flow. \[-\]
@@ -153,13 +154,8 @@ impl Identification<'_> {
 /// The branches that differ between both sides as text; absent if none differ or a side has none.
 fn changed([below, above]: &[Vec<(String, &'static str)>; 2]) -> Option<[String; 2]> {
     let only = |own: &[(String, &'static str)], other: &[(String, &'static str)]| {
-        let mut words: Vec<&str> = Vec::new();
-        for branch in own.iter().filter(|branch| !other.contains(branch)) {
-            if !words.contains(&branch.1) {
-                words.push(branch.1);
-            }
-        }
-        words.join(", ")
+        let branches = own.iter().filter(|branch| !other.contains(branch));
+        distinct(branches.map(|(_, words)| *words)).join(", ")
     };
     let sides = [only(below, above), only(above, below)];
     sides.iter().all(|words| !words.is_empty()).then_some(sides)

@@ -4,7 +4,7 @@ use crate::codes;
 use serde_json::{Value, json};
 
 use crate::measured::Rig;
-use crate::study::{IdentifiedEntry, PriorEntry, ScaleEntry};
+use crate::study::{IdentifiedEntry, OverEntry, PriorEntry, ScaleEntry};
 use crate::varied::{Varied, words};
 use gearloss_framework::document::{Diagnostic, Dimension, Unit, parse_quantity};
 use gearloss_framework::language::Language;
@@ -112,9 +112,183 @@ fn usual_size(unit: &Unit, range: [f64; 2]) -> Option<f64> {
     }
 }
 
-/// An error at a path of the study below the analysis.
-fn fault(place: &str, message: impl Into<String>, help: impl Into<String>) -> Diagnostic {
-    Diagnostic::error(place, message).help(help).code(codes::VARIED)
+/// An error at a key of a parameter.
+fn fault(name: &str, key: &str, message: impl Into<String>, help: impl Into<String>) -> Diagnostic {
+    Diagnostic::error(format!("parameters.{name}.{key}"), message)
+        .help(help)
+        .code(codes::VARIED)
+}
+
+/// An entry of the study.
+#[derive(Clone, Copy)]
+struct Written<'e> {
+    name: &'e str,
+    entry: &'e IdentifiedEntry,
+}
+
+/// What a path refers to.
+struct Identifiable {
+    target: Target,
+    unit: &'static Unit,
+    /// Value of the gearbox or the rig. [unit]
+    stated: Option<f64>,
+    /// Range of the schema. [unit]
+    range: [f64; 2],
+}
+
+impl Written<'_> {
+    /// An error at a key of the entry.
+    fn fault(self, key: &str, message: impl Into<String>, help: impl Into<String>) -> Diagnostic {
+        fault(self.name, key, message, help)
+    }
+
+    fn what(self, rig: &Rig, (language, resolved): (&Language, &Resolved)) -> Result<Identifiable, Diagnostic> {
+        let path = &self.entry.path;
+        if !path.starts_with("rig.") {
+            let varied = Varied::new(language, resolved, path, self.entry.tie).map_err(|error| Diagnostic {
+                message: format!("`{path}`: {}", error.message),
+                path: format!("parameters.{}.path", self.name),
+                ..error
+            })?;
+            return Ok(Identifiable {
+                unit: varied.unit,
+                stated: varied.start(),
+                range: varied.range,
+                target: Target::Path(varied),
+            });
+        }
+        let Some((_, quantity)) = RIG.iter().find(|(known, _)| known == path) else {
+            let names = RIG.map(|(path, _)| path).join(", ");
+            let message = format!("`{path}` is not an identifiable quantity of a rig");
+            return Err(self.fault("path", message, format!("write one of {names}")));
+        };
+        let least = match quantity {
+            RigQuantity::OffsetIn | RigQuantity::OffsetOut => f64::NEG_INFINITY,
+            RigQuantity::SupportIn | RigQuantity::SupportOut => 0.0,
+        };
+        Ok(Identifiable {
+            target: Target::Rig(*quantity),
+            unit: Unit::of_symbol("Nm").unwrap_or(Unit::ONE),
+            stated: Some(*quantity.place(&mut rig.clone())),
+            range: [least, f64::INFINITY],
+        })
+    }
+
+    /// The value at a key. [unit]
+    fn quantity(self, what: &Identifiable, key: &str, value: &Value) -> Result<f64, Diagnostic> {
+        read(&what.target, what.unit, value)
+            .map_err(|reason| self.fault(key, reason, "write a quantity of the path, such as `0.3 um`"))
+    }
+
+    /// A bound: written, or from the schema.
+    fn bound(
+        self,
+        what: &Identifiable,
+        key: &str,
+        value: Option<&Value>,
+        (schema, name): (f64, &str),
+    ) -> Result<f64, Diagnostic> {
+        match value {
+            Some(value) => self.quantity(what, key, value),
+            None if schema.is_finite() => Ok(schema),
+            None => {
+                let message = format!("the {name} of `{}` is unknown", self.entry.path);
+                Err(self.fault("path", message, format!("add `{key}: ...`")))
+            }
+        }
+    }
+
+    fn bounds(self, what: &Identifiable) -> Result<[f64; 2], Diagnostic> {
+        let (entry, range) = (self.entry, what.range);
+        let bounds = [
+            self.bound(what, "from", entry.from.as_ref(), (range[0], "lower bound"))?,
+            self.bound(what, "to", entry.to.as_ref(), (range[1], "upper bound"))?,
+        ];
+        let [from, to] = bounds.map(|x| words(what.unit, x));
+        if bounds[0] > bounds[1] {
+            let message = format!("the bounds are reversed: from {from} to {to}");
+            return Err(self.fault("to", message, "exchange `from` and `to`"));
+        }
+        if bounds[0] < range[0] || bounds[1] > range[1] {
+            let key = if bounds[0] < range[0] { "from" } else { "to" };
+            let [least, greatest] = range.map(|x| words(what.unit, x));
+            let message = format!("{from} to {to} is outside the range of the path, {least} to {greatest}");
+            return Err(self.fault(key, message, "narrow the bounds"));
+        }
+        if entry.scale == ScaleEntry::Log && bounds[0] <= 0.0 {
+            let message = format!("a logarithmic scale needs a positive lower bound, not {from}");
+            let help = "write `from:` with a positive value, or `scale: linear`";
+            return Err(self.fault("scale", message, help));
+        }
+        Ok(bounds)
+    }
+
+    /// The start value: written, or stated by the gearbox or the rig.
+    fn start(self, what: &Identifiable, bounds: [f64; 2], stated: Option<f64>) -> Result<f64, Diagnostic> {
+        let Some(value) = &self.entry.start else {
+            let missing = || self.fault("path", "the gearbox states no start value", "add `start: ...`");
+            return stated.ok_or_else(missing);
+        };
+        let start = self.quantity(what, "start", value)?;
+        if start < bounds[0] || start > bounds[1] {
+            let [start, from, to] = [start, bounds[0], bounds[1]].map(|x| words(what.unit, x));
+            let message = format!("{start} is outside {from} to {to}");
+            return Err(self.fault("start", message, "choose a start within the bounds"));
+        }
+        Ok(start)
+    }
+
+    fn prior(self, what: &Identifiable, bounds: [f64; 2], start: f64) -> Result<Option<Prior>, Diagnostic> {
+        let Some(prior) = &self.entry.prior else {
+            return Ok(None);
+        };
+        let prior = prior_of(prior, &what.target, what.unit, self.entry.scale, start).map_err(|(key, reason)| {
+            let help = "write a positive quantity of the path; for `scale: log` a number, relative to the mean";
+            self.fault(&format!("prior.{key}"), reason, help)
+        })?;
+        if prior.mean < bounds[0] || prior.mean > bounds[1] {
+            let [mean, from, to] = [prior.mean, bounds[0], bounds[1]].map(|x| words(what.unit, x));
+            let message = format!("its mean, {mean}, is outside {from} to {to}");
+            return Err(self.fault("prior", message, "widen the bounds, or correct the mean"));
+        }
+        Ok(Some(prior))
+    }
+
+    /// The parameters of a curve: one factor for each torque, each at its value of the curve that the gearbox states.
+    fn over_torques(
+        self,
+        over: &OverEntry,
+        one: Identified,
+        curve: Option<&[f64]>,
+    ) -> Result<Vec<Identified>, Diagnostic> {
+        let Target::Path(varied) = &one.target else {
+            return Err(self.fault("over", "a quantity of the rig is one number", "delete `over`"));
+        };
+        let path = &self.entry.path;
+        if !path.ends_with(".radial_factor") && !path.ends_with(".axial_factor") {
+            let message = format!("`{path}` is not a load factor");
+            let help = "delete `over`, or write `bearings.*.radial_factor` or `axial_factor`";
+            return Err(self.fault("over", message, help));
+        }
+        if over.torques.windows(2).any(|w| w[0] >= w[1]) {
+            let help = "sort them and remove duplicates";
+            return Err(self.fault("over.torques", "the torques are not ascending", help));
+        }
+        let own = |place: usize| curve.and_then(|list| list.get(place).copied());
+        let at = |(place, torque): (usize, &f64)| Identified {
+            name: format!("{} at {torque} Nm", self.name),
+            stated: own(place).or(one.stated),
+            start: own(place).filter(|_| self.entry.start.is_none()).unwrap_or(one.start),
+            target: Target::Over {
+                varied: varied.clone(),
+                port: over.port.clone(),
+                torques: over.torques.clone(),
+                place,
+            },
+            ..one.clone()
+        };
+        Ok(over.torques.iter().enumerate().map(at).collect())
+    }
 }
 
 impl Identified {
@@ -128,189 +302,32 @@ impl Identified {
         rig: &Rig,
         (language, resolved): (&Language, &Resolved),
     ) -> Result<Vec<Self>, Diagnostic> {
-        let place = |key: &str| format!("parameters.{name}.{key}");
-        let (target, unit, stated, range): (_, &'static Unit, _, _) = if entry.path.starts_with("rig.") {
-            let known = RIG.iter().find(|(path, _)| *path == entry.path);
-            let Some((_, quantity)) = known else {
-                let names = RIG.map(|(path, _)| path).join(", ");
-                return Err(fault(
-                    &place("path"),
-                    format!("`{}` is not an identifiable quantity of a rig", entry.path),
-                    format!("write one of {names}"),
-                ));
-            };
-            let unit = Unit::of_symbol("Nm").unwrap_or(Unit::ONE);
-            let least = match quantity {
-                RigQuantity::OffsetIn | RigQuantity::OffsetOut => f64::NEG_INFINITY,
-                RigQuantity::SupportIn | RigQuantity::SupportOut => 0.0,
-            };
-            let stated = *quantity.place(&mut rig.clone());
-            (Target::Rig(*quantity), unit, Some(stated), [least, f64::INFINITY])
-        } else {
-            let varied = Varied::new(language, resolved, &entry.path, entry.tie).map_err(|error| Diagnostic {
-                message: format!("`{}`: {}", entry.path, error.message),
-                path: place("path"),
-                ..error
-            })?;
-            let (unit, stated, range) = (varied.unit, varied.start(), varied.range);
-            (Target::Path(varied), unit, stated, range)
-        };
-        let quantity = |key: &str, value: &Value| {
-            read(&target, unit, value)
-                .map_err(|reason| fault(&place(key), reason, "write a quantity of the path, such as `0.3 um`"))
-        };
-        let end = |key: &str, value: Option<&Value>, schema: f64| -> Result<f64, Diagnostic> {
-            match value {
-                Some(value) => quantity(key, value),
-                None if schema.is_finite() => Ok(schema),
-                None => Err(fault(
-                    &place("path"),
-                    format!(
-                        "the {} of `{}` is unknown",
-                        if key == "from" { "lower bound" } else { "upper bound" },
-                        entry.path
-                    ),
-                    format!("add `{key}: ...`"),
-                )),
-            }
-        };
-        let bounds = [
-            end("from", entry.from.as_ref(), range[0])?,
-            end("to", entry.to.as_ref(), range[1])?,
-        ];
-        let said = |x: f64| words(unit, x);
-        if bounds[0] > bounds[1] {
-            return Err(fault(
-                &place("to"),
-                format!(
-                    "the bounds are reversed: from {} to {}",
-                    said(bounds[0]),
-                    said(bounds[1])
-                ),
-                "exchange `from` and `to`",
-            ));
-        }
-        if bounds[0] < range[0] || bounds[1] > range[1] {
-            return Err(fault(
-                &place(if bounds[0] < range[0] { "from" } else { "to" }),
-                format!(
-                    "{} to {} is outside the range of the path, {} to {}",
-                    said(bounds[0]),
-                    said(bounds[1]),
-                    said(range[0]),
-                    said(range[1])
-                ),
-                "narrow the bounds",
-            ));
-        }
-        if entry.scale == ScaleEntry::Log && bounds[0] <= 0.0 {
-            return Err(fault(
-                &place("scale"),
-                format!(
-                    "a logarithmic scale needs a positive lower bound, not {}",
-                    said(bounds[0])
-                ),
-                "write `from:` with a positive value, or `scale: linear`",
-            ));
-        }
+        let written = Written { name, entry };
+        let what = written.what(rig, (language, resolved))?;
+        let bounds = written.bounds(&what)?;
         // A curve of factors may be stated already.
         let curve = entry
             .over
             .as_ref()
-            .and_then(|over| curve_at(resolved, &target, &over.torques));
-        let stated = stated.or_else(|| curve.as_ref().and_then(|list| list.first().copied()));
-        let start = match &entry.start {
-            Some(value) => {
-                let start = quantity("start", value)?;
-                if start < bounds[0] || start > bounds[1] {
-                    return Err(fault(
-                        &place("start"),
-                        format!("{} is outside {} to {}", said(start), said(bounds[0]), said(bounds[1])),
-                        "choose a start within the bounds",
-                    ));
-                }
-                start
-            }
-            None => {
-                stated.ok_or_else(|| fault(&place("path"), "the gearbox states no start value", "add `start: ...`"))?
-            }
-        };
-        let prior = entry
-            .prior
-            .as_ref()
-            .map(|prior| prior_of(prior, &target, unit, entry.scale, start));
-        let prior = prior.transpose().map_err(|(key, reason)| {
-            fault(
-                &place(&format!("prior.{key}")),
-                reason,
-                "write a positive quantity of the path; for `scale: log` a number, relative to the mean",
-            )
-        })?;
-        if let Some(prior) = prior.filter(|p| p.mean < bounds[0] || p.mean > bounds[1]) {
-            return Err(fault(
-                &place("prior"),
-                format!(
-                    "its mean, {}, is outside {} to {}",
-                    said(prior.mean),
-                    said(bounds[0]),
-                    said(bounds[1])
-                ),
-                "widen the bounds, or correct the mean",
-            ));
-        }
+            .and_then(|over| curve_at(resolved, &what.target, &over.torques));
+        let stated = what.stated.or_else(|| curve.as_ref()?.first().copied());
+        let start = written.start(&what, bounds, stated)?;
         let one = Self {
             name: name.to_owned(),
             path: entry.path.clone(),
-            target,
-            unit,
             stated,
             start,
             bounds,
             scale: entry.scale,
-            prior,
-            size: usual_size(unit, range),
+            prior: written.prior(&what, bounds, start)?,
+            size: usual_size(what.unit, what.range),
+            unit: what.unit,
+            target: what.target,
         };
-        let Some(over) = &entry.over else {
-            return Ok(vec![one]);
-        };
-        let Target::Path(varied) = &one.target else {
-            return Err(fault(
-                &place("over"),
-                "a quantity of the rig is one number",
-                "delete `over`",
-            ));
-        };
-        if ![".radial_factor", ".axial_factor"]
-            .iter()
-            .any(|end| entry.path.ends_with(end))
-        {
-            return Err(fault(
-                &place("over"),
-                format!("`{}` is not a load factor", entry.path),
-                "delete `over`, or write `bearings.*.radial_factor` or `axial_factor`",
-            ));
+        match &entry.over {
+            Some(over) => written.over_torques(over, one, curve.as_deref()),
+            None => Ok(vec![one]),
         }
-        if over.torques.windows(2).any(|w| w[0] >= w[1]) {
-            return Err(fault(
-                &place("over.torques"),
-                "the torques are not ascending",
-                "sort them and remove duplicates",
-            ));
-        }
-        let own = |place: usize| curve.as_ref().and_then(|list| list.get(place).copied());
-        let at = |(place, torque): (usize, &f64)| Self {
-            name: format!("{name} at {torque} Nm"),
-            stated: own(place).or(one.stated),
-            start: own(place).filter(|_| entry.start.is_none()).unwrap_or(one.start),
-            target: Target::Over {
-                varied: varied.clone(),
-                port: over.port.clone(),
-                torques: over.torques.clone(),
-                place,
-            },
-            ..one.clone()
-        };
-        Ok(over.torques.iter().enumerate().map(at).collect())
     }
 
     /// Paths that it changes; empty for a quantity of the rig.
@@ -411,7 +428,8 @@ impl Identified {
                 if same_rig || (common.is_some() && !same_curve) {
                     let what = common.map_or(one.path.as_str(), String::as_str);
                     return Some(fault(
-                        &format!("parameters.{}.path", one.base_name()),
+                        one.base_name(),
+                        "path",
                         format!("`{}` also changes `{what}`", other.base_name()),
                         "list every value once",
                     ));

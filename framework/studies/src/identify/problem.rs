@@ -3,7 +3,7 @@
 use crate::analysis::{OnRig, PointResult, Rows, SolvedRows};
 use crate::codes;
 use crate::measured::{Measured, PortSpeeds, Rig, Seen};
-use crate::study::{IdentifiedEntry, Quantity};
+use crate::study::{Difference, IdentifiedEntry, Quantity};
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::gearbox::{Findings, Gearbox};
 use gearloss_framework::language::Language;
@@ -365,75 +365,90 @@ impl<'a> Identification<'a> {
 
     /// Selects the observations with their standard deviations at the start.
     fn observe(&mut self, residuals: &[Quantity]) -> Result<(), Vec<Diagnostic>> {
-        let data = |message: String, help: &str| vec![identification_error("data", message).help(help)];
         self.counted_once(residuals)?;
         let start = self.calculate(&self.start());
-        let start = start.map_err(|reason| data(reason, "use other start values"))?;
-        let measured = self.rows.measured;
-        let mut found: Vec<(Observation, Option<f64>)> = Vec::new();
+        let start = start.map_err(|reason| data_error(reason, "use other start values"))?;
+        let mut found = Vec::new();
         for quantity in residuals {
-            let before = found.len();
-            let mut drowned = 0;
-            for (i, row) in measured.rows.iter().enumerate() {
-                let Some((observation, accuracy)) = self.observable(i, *quantity, &start) else {
-                    continue;
-                };
-                drowned += usize::from(observation.quantity != *quantity);
-                if observation.is_counted_by(*quantity, residuals) {
-                    continue;
-                }
-                if accuracy == Some(0.0) {
-                    let message = format!("{}: an accuracy of zero", measured.origin(row));
-                    return Err(data(
-                        message,
-                        "state the accuracy of the instruments, or omit all accuracies",
-                    ));
-                }
-                found.push((observation, accuracy));
-            }
-            let what = quantity.words(crate::study::Difference::Points).0;
-            if measured
-                .rows
-                .iter()
-                .all(|row| measured.value(row, "weight") == Some(0.0))
-            {
-                return Err(data(
-                    "all points have zero weight".to_owned(),
-                    "give some of them a positive weight",
-                ));
-            }
-            if found.len() == before {
-                let help = "add a column of it, or columns of torque and speed at both ports";
-                return Err(data(format!("there is no measured {what}"), help));
-            }
-            if *quantity == Quantity::Temperature && start.solved.rows.iter().all(|(_, _, p)| p.balance.is_none()) {
-                return Err(vec![
-                    identification_error("residuals", "the oil temperature is given, not calculated")
-                        .help("write `thermal: { mode: balance, ... }` in the gearbox, and no oil_temperature in the conditions"),
-                ]);
-            }
-            let below = |(o, _): &&(Observation, Option<f64>)| {
-                let row = &measured.rows[o.row];
-                let loss = Seen::with_rig(&start.rig, measured, row, start.point(o.row)).loss;
-                loss.is_some_and(|loss| loss < 0.0)
-            };
-            let below = found[before..].iter().filter(below).count();
-            if below > 0 && *quantity != Quantity::Temperature {
-                self.notes.push(format!("{below} measured losses are negative"));
-            }
-            if drowned > 0 {
-                self.notes.push(format!(
-                    "{drowned} points with less torque than three times its accuracy are fitted by their loss torque"
-                ));
-            }
+            found.extend(self.observations_of(*quantity, residuals, &start)?);
         }
         // Points without a value at the start are reported by line, before the search and before their accuracy.
         if let Some(reason) = found.iter().find_map(|(o, _)| self.pair(o, &start).err()) {
-            return Err(data(
+            return Err(data_error(
                 format!("{reason}, at the start of the search"),
                 "use other start values, or give the line zero weight",
             ));
         }
+        self.accuracy = self.accuracy_of(&found, residuals)?;
+        self.size_offsets(&start);
+        self.observations = found.into_iter().map(|(observation, _)| observation).collect();
+        self.are_enough()
+    }
+
+    /// The observations of one quantity with their stated accuracies; notes on them.
+    fn observations_of(
+        &mut self,
+        quantity: Quantity,
+        residuals: &[Quantity],
+        start: &Calculated,
+    ) -> Result<Vec<StatedObservation>, Vec<Diagnostic>> {
+        let measured = self.rows.measured;
+        let mut found: Vec<StatedObservation> = Vec::new();
+        let mut drowned = 0;
+        for (i, row) in measured.rows.iter().enumerate() {
+            let Some((observation, accuracy)) = self.observable(i, quantity, start) else {
+                continue;
+            };
+            drowned += usize::from(observation.quantity != quantity);
+            if observation.is_counted_by(quantity, residuals) {
+                continue;
+            }
+            if accuracy == Some(0.0) {
+                let message = format!("{}: an accuracy of zero", measured.origin(row));
+                let help = "state the accuracy of the instruments, or omit all accuracies";
+                return Err(data_error(message, help));
+            }
+            found.push((observation, accuracy));
+        }
+        let mut weights = measured.rows.iter().map(|row| measured.value(row, "weight"));
+        if weights.all(|weight| weight == Some(0.0)) {
+            return Err(data_error(
+                "all points have zero weight",
+                "give some of them a positive weight",
+            ));
+        }
+        if found.is_empty() {
+            let what = quantity.words(Difference::Points).0;
+            let help = "add a column of it, or columns of torque and speed at both ports";
+            return Err(data_error(format!("there is no measured {what}"), help));
+        }
+        if quantity == Quantity::Temperature && start.solved.rows.iter().all(|(_, _, p)| p.balance.is_none()) {
+            return Err(vec![
+                identification_error("residuals", "the oil temperature is given, not calculated").help(
+                    "write `thermal: { mode: balance, ... }` in the gearbox, and no oil_temperature in the conditions",
+                ),
+            ]);
+        }
+        let is_below = |(o, _): &&StatedObservation| {
+            let row = &measured.rows[o.row];
+            let loss = Seen::with_rig(&start.rig, measured, row, start.point(o.row)).loss;
+            loss.is_some_and(|loss| loss < 0.0)
+        };
+        let below = found.iter().filter(is_below).count();
+        if below > 0 && quantity != Quantity::Temperature {
+            self.notes.push(format!("{below} measured losses are negative"));
+        }
+        if drowned > 0 {
+            self.notes.push(format!(
+                "{drowned} points with less torque than three times its accuracy are fitted by their loss torque"
+            ));
+        }
+        Ok(found)
+    }
+
+    /// Whether accuracies are given: for all observations or for none, and for all if there are several quantities.
+    fn accuracy_of(&self, found: &[StatedObservation], residuals: &[Quantity]) -> Result<Accuracy, Vec<Diagnostic>> {
+        let measured = self.rows.measured;
         let with = found.iter().filter(|(_, accuracy)| accuracy.is_some()).count();
         if with > 0 && with < found.len() {
             let bare = found.iter().find(|(_, accuracy)| accuracy.is_none());
@@ -443,48 +458,50 @@ impl<'a> Identification<'a> {
                 found.len() - with,
                 found.len()
             );
-            return Err(data(message, "state the accuracies of all, or of none"));
+            return Err(data_error(message, "state the accuracies of all, or of none"));
         }
         if with == 0 && residuals.len() > 1 {
-            let message = "a fit of several quantities needs their accuracies, and none is stated".to_owned();
-            return Err(data(
-                message,
-                "state the instruments under `rig`, or columns such as `loss_accuracy`",
-            ));
+            let message = "a fit of several quantities needs their accuracies, and none is stated";
+            let help = "state the instruments under `rig`, or columns such as `loss_accuracy`";
+            return Err(data_error(message, help));
         }
-        self.size_offsets(&start);
-        self.accuracy = if with > 0 { Accuracy::Given } else { Accuracy::Estimated };
-        self.observations = found.into_iter().map(|(observation, _)| observation).collect();
-        let free = self.parameters.iter().filter(|p| p.bounds[0] < p.bounds[1]);
-        let prior = free.clone().find(|p| p.prior.is_some());
-        let priors = free.clone().filter(|p| p.prior.is_some()).count();
-        let free = free.count();
-        if let Some(parameter) = prior.filter(|_| with == 0) {
+        Ok(if with > 0 { Accuracy::Given } else { Accuracy::Estimated })
+    }
+
+    /// Checks that observations and priors determine the free parameters.
+    fn are_enough(&self) -> Result<(), Vec<Diagnostic>> {
+        let (count, estimated) = (self.observations.len(), self.accuracy == Accuracy::Estimated);
+        let free: Vec<&Identified> = (self.parameters.iter()).filter(|p| p.bounds[0] < p.bounds[1]).collect();
+        let with_prior: Vec<&&Identified> = free.iter().filter(|p| p.prior.is_some()).collect();
+        let (free, priors) = (free.len(), with_prior.len());
+        if let Some(parameter) = with_prior.first().filter(|_| estimated) {
             let place = format!("parameters.{}.prior", parameter.base_name());
             let message = "a prior needs accuracies of the points, and none is stated";
             let help = "state the instruments under `rig`, or columns such as `loss_accuracy`, or delete the prior";
             return Err(vec![identification_error(place, message).help(help)]);
         }
-        if with == 0 && self.observations.len() <= free {
-            return Err(data(
-                format!(
-                    "{} measured values without accuracies for {free} parameters",
-                    self.observations.len()
-                ),
+        if estimated && count <= free {
+            return Err(data_error(
+                format!("{count} measured values without accuracies for {free} parameters"),
                 "identify fewer parameters, or state the accuracies",
             ));
         }
-        if self.observations.len() + priors < free {
-            return Err(data(
-                format!(
-                    "{} measured values and {priors} priors for {free} parameters",
-                    self.observations.len()
-                ),
+        if count + priors < free {
+            return Err(data_error(
+                format!("{count} measured values and {priors} priors for {free} parameters"),
                 "identify fewer parameters, or give some of them a `prior`",
             ));
         }
         Ok(())
     }
+}
+
+/// An observation with its stated accuracy; absent if none is stated.
+type StatedObservation = (Observation, Option<f64>);
+
+/// An error of the data.
+fn data_error(message: impl Into<String>, help: &str) -> Vec<Diagnostic> {
+    vec![identification_error("data", message).help(help)]
 }
 
 fn is_out(parameter: &Identified) -> bool {

@@ -2,7 +2,8 @@
 
 use super::fit::JUMPS;
 use super::{Fitted, Identification};
-use gearloss_framework::transmission::Transmission;
+use crate::distinct::distinct;
+use gearloss_framework::transmission::{PartInfo, Transmission};
 use gearloss_numerics::inference::{Breakdown, Derived, ProfileInterval, Reach, Standing, hull};
 use gearloss_numerics::sensitivity::gradients;
 
@@ -38,15 +39,11 @@ impl Identification<'_> {
         profiles: &[Option<Result<ProfileInterval, String>>],
     ) -> Result<ShareBands, String> {
         let at_optimum = self.calculate(fitted.theta())?;
-        let mut mechanisms: Vec<&'static str> = Vec::new();
-        for (_, t) in &at_optimum.solved.transmissions {
-            for part in t.parts() {
-                let lossless = t.instances()[part.notes.instance()].entry.name == "none";
-                if !lossless && !mechanisms.contains(&part.mechanism) {
-                    mechanisms.push(part.mechanism);
-                }
-            }
-        }
+        let with_loss = at_optimum.solved.transmissions.iter().flat_map(|(_, t)| {
+            let has_loss = |part: &&PartInfo| t.instances()[part.notes.instance()].entry.name != "none";
+            t.parts().iter().filter(has_loss).map(|part| part.mechanism)
+        });
+        let mechanisms: Vec<&'static str> = distinct(with_loss);
         let width = mechanisms.len();
         let losses = |calculated: &super::Calculated| -> Vec<f64> {
             let mut all = Vec::with_capacity(rows.len() * width);

@@ -3,6 +3,7 @@
 use gearloss_numerics::inference::VISIBLE;
 use gearloss_studies::analyses::tournament::{RankedCombination, RankedPoint, Ranking};
 use gearloss_studies::analysis::Statistics;
+use gearloss_studies::distinct::distinct;
 
 use super::verdict::{short_marks, verdict};
 use crate::page::Page;
@@ -53,17 +54,11 @@ fn table(name: &str, ranking: &Ranking, page: &mut Page) {
     if !shown.contains(&ranking.winner) {
         shown.push(ranking.winner);
     }
-    let mut marks: Vec<&String> = Vec::new();
-    for i in shown {
-        table.row(row(ranking, i));
-        for line in &ranking.ranking[i].marks {
-            if !marks.contains(&line) {
-                marks.push(line);
-            }
-        }
+    for i in &shown {
+        table.row(row(ranking, *i));
     }
     page.lines(table.render());
-    for line in marks {
+    for line in distinct(shown.iter().flat_map(|i| &ranking.ranking[*i].marks)) {
         page.line(format!("mark: {line}"));
     }
 }

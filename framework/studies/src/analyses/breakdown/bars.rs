@@ -7,9 +7,8 @@ use crate::analyses::numbers::{RPM, tidy};
 use crate::analyses::shares::{Shares, together};
 use crate::analyses::{Built, Context, Head, Outcome, Stopped};
 use crate::analysis::{Given, GridResult, Note, PointResult, Points, notes};
-use crate::cells;
 use crate::study::By;
-use crate::table::{Column, Table};
+use crate::table::Table;
 
 /// Unit of a breakdown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
@@ -311,41 +310,40 @@ impl Outcome for BreakdownOutcome {
             As::Watts => "Loss of the share",
             As::Percent => "Loss of the share in percent of the total loss",
         };
-        let mut table = Table::new(
-            &self.head.analysis,
-            [
-                Column::text("model_set", "Model set"),
-                Column::text("gear", "Gear"),
-                Column::number("torque_nm", "Nm", "Torque"),
-                Column::number("speed_rpm", "rpm", "Speed"),
-                Column::number("oil_temperature_degc", "degC", "Oil temperature"),
-                Column::text("share", "Share of the loss; `measured` is the measured loss"),
-                Column::number(format!("loss_{}", self.unit.name()), self.unit.symbol(), loss),
-            ],
-        );
+        let mut rows = Vec::new();
         for of_set in &self.breakdowns {
             for point in &of_set.points {
-                let mut push = |share: &str, loss: Option<f64>| {
-                    table.push(cells![
-                        &of_set.model_set,
-                        &of_set.gear,
-                        point.torque_nm,
-                        point.speed_rpm,
-                        point.oil_temperature_degc,
-                        share,
-                        loss,
-                    ]);
-                };
                 let losses = point.losses.shares();
-                for (i, share) in of_set.shares.iter().enumerate() {
-                    push(share, losses.map(|losses| losses[i]));
-                }
-                if let Some(loss) = point.losses.measured() {
-                    push("measured", Some(loss));
-                }
+                let of_share = |(i, share)| (of_set, point, share, losses.map(|losses| losses[i]));
+                rows.extend(of_set.shares.iter().map(String::as_str).enumerate().map(of_share));
+                rows.extend(
+                    point
+                        .losses
+                        .measured()
+                        .map(|loss| (of_set, point, "measured", Some(loss))),
+                );
             }
         }
-        vec![table]
+        let table = Table::of(&self.head.analysis, rows)
+            .text("model_set", "Model set", |(of_set, ..)| &of_set.model_set)
+            .text("gear", "Gear", |(of_set, ..)| &of_set.gear)
+            .number("torque_nm", "Nm", "Torque", |(_, point, ..)| point.torque_nm)
+            .number("speed_rpm", "rpm", "Speed", |(_, point, ..)| point.speed_rpm)
+            .number("oil_temperature_degc", "degC", "Oil temperature", |(_, point, ..)| {
+                point.oil_temperature_degc
+            })
+            .text(
+                "share",
+                "Share of the loss; `measured` is the measured loss",
+                |(_, _, share, _)| *share,
+            )
+            .number(
+                format!("loss_{}", self.unit.name()),
+                self.unit.symbol(),
+                loss,
+                |(_, _, _, loss)| *loss,
+            );
+        vec![table.finish()]
     }
 
     fn notes(&self) -> Vec<&Note> {

@@ -8,9 +8,8 @@ use crate::analyses::axes::grid_axes;
 use crate::analyses::numbers::{RPM, tidy};
 use crate::analyses::{Built, Context, Head, Stopped};
 use crate::analysis::{GridResult, Note, PointResult, Statistics, notes};
-use crate::cells;
 use crate::study::{Difference, Grid, Quantity};
-use crate::table::{Column, Table};
+use crate::table::Table;
 
 /// Differences of one model set from the base over a grid.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
@@ -220,32 +219,24 @@ fn extreme(points: &[GridDifference], before: fn(f64, f64) -> bool) -> Option<(u
 pub(super) fn table(name: &str, (quantity, difference): (Quantity, Difference), all: &[GridComparison]) -> Table {
     let what = quantity.name();
     let difference_name = format!("difference_{}", quantity.unit(difference));
-    let mut table = Table::new(
-        name,
-        [
-            Column::text("model_set", "Model set"),
-            Column::text("base", "Base of the comparison"),
-            Column::text("gear", "Gear"),
-            Column::number("torque_nm", "Nm", "Torque"),
-            Column::number("speed_rpm", "rpm", "Speed"),
-            Column::number(what, unit(quantity), "Quantity with the set"),
-            Column::number(format!("base_{what}"), unit(quantity), "Quantity with the base"),
-            Column::number(difference_name, quantity.words(difference).1, "The set minus the base"),
-        ],
-    );
-    for comparison in all {
-        for point in &comparison.points {
-            table.push(cells![
-                &comparison.model_set,
-                &comparison.base,
-                &comparison.gear,
-                point.torque_nm,
-                point.speed_rpm,
-                point.model,
-                point.base_model,
-                point.difference,
-            ]);
-        }
-    }
-    table
+    Table::of_each(name, all, |comparison| &comparison.points)
+        .text("model_set", "Model set", |(of_set, _)| &of_set.model_set)
+        .text("base", "Base of the comparison", |(of_set, _)| &of_set.base)
+        .text("gear", "Gear", |(of_set, _)| &of_set.gear)
+        .number("torque_nm", "Nm", "Torque", |(_, point)| point.torque_nm)
+        .number("speed_rpm", "rpm", "Speed", |(_, point)| point.speed_rpm)
+        .number(what, unit(quantity), "Quantity with the set", |(_, point)| point.model)
+        .number(
+            format!("base_{what}"),
+            unit(quantity),
+            "Quantity with the base",
+            |(_, point)| point.base_model,
+        )
+        .number(
+            difference_name,
+            quantity.words(difference).1,
+            "The set minus the base",
+            |(_, point)| point.difference,
+        )
+        .finish()
 }

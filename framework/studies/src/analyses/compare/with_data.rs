@@ -9,10 +9,9 @@ use crate::analyses::numbers::{RPM, tidy};
 use crate::analyses::rows::Solved;
 use crate::analyses::{Built, Context, Head, Stopped};
 use crate::analysis::{Note, PointResult, Statistics, bands};
-use crate::cells;
 use crate::measured::{Measured, Row, Seen, counted};
 use crate::study::{Data, Difference, Quantity};
-use crate::table::{Column, Table};
+use crate::table::Table;
 
 /// The measurement of a comparison.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
@@ -246,59 +245,51 @@ pub(super) fn table(name: &str, (quantity, difference): (Quantity, Difference), 
     let difference_name = format!("difference_{}", quantity.unit(difference));
     let mut points = all.iter().flat_map(|c| &c.points);
     let several = points.any(|p| p.file.is_some());
-    let mut table = Table::new(
-        name,
-        [
-            Column::text("model_set", "Model set"),
-            if several {
-                Column::text("line", "File and line")
-            } else {
-                Column::number("line", "-", "Line in the file")
-            },
-            Column::text("name", "Name of the point"),
-            Column::text("gear", "Gear"),
-            Column::number("torque_nm", "Nm", "Torque"),
-            Column::number("speed_rpm", "rpm", "Speed"),
-            Column::number("oil_temperature_degc", "degC", "Oil temperature"),
-            Column::number(format!("measured_{what}"), unit(quantity), "Measured quantity"),
-            Column::number(what, unit(quantity), "Quantity with the set"),
-            Column::number(difference_name, quantity.words(difference).1, "Model minus measurement"),
-            Column::number(
-                "loss_difference_percent_of_loss",
-                "%",
-                "Loss of the model minus measured loss",
-            ),
-            Column::number(
-                format!("accuracy_{what}"),
-                unit(quantity),
-                "Accuracy of the measured quantity",
-            ),
-        ],
-    );
-    for comparison in all {
-        for point in &comparison.points {
-            let line = match &point.file {
-                Some(file) => format!("{file}:{}", point.line).into(),
-                None if several => point.line.to_string().into(),
-                None => (point.line as f64).into(),
-            };
-            let [set, name, gear] = cells![
-                &comparison.model_set,
-                point.name.as_deref().unwrap_or_default(),
-                &point.gear
-            ];
-            let numbers = cells![
-                point.torque_nm,
-                point.speed_rpm,
-                point.oil_temperature_degc,
-                point.measured,
-                point.model,
-                point.difference,
-                point.loss_difference_percent_of_loss,
-                point.accuracy,
-            ];
-            table.push([set, line, name, gear].into_iter().chain(numbers));
-        }
-    }
+    let table =
+        Table::of_each(name, all, |comparison| &comparison.points)
+            .text("model_set", "Model set", |(of_set, _)| &of_set.model_set);
+    let table = if several {
+        table.text("line", "File and line", |(_, point)| match &point.file {
+            Some(file) => format!("{file}:{}", point.line),
+            None => point.line.to_string(),
+        })
+    } else {
+        table.number("line", "-", "Line in the file", |(_, point)| point.line as f64)
+    };
     table
+        .text("name", "Name of the point", |(_, point)| {
+            point.name.as_deref().unwrap_or_default()
+        })
+        .text("gear", "Gear", |(_, point)| &point.gear)
+        .number("torque_nm", "Nm", "Torque", |(_, point)| point.torque_nm)
+        .number("speed_rpm", "rpm", "Speed", |(_, point)| point.speed_rpm)
+        .number("oil_temperature_degc", "degC", "Oil temperature", |(_, point)| {
+            point.oil_temperature_degc
+        })
+        .number(
+            format!("measured_{what}"),
+            unit(quantity),
+            "Measured quantity",
+            |(_, point)| point.measured,
+        )
+        .number(what, unit(quantity), "Quantity with the set", |(_, point)| point.model)
+        .number(
+            difference_name,
+            quantity.words(difference).1,
+            "Model minus measurement",
+            |(_, point)| point.difference,
+        )
+        .number(
+            "loss_difference_percent_of_loss",
+            "%",
+            "Loss of the model minus measured loss",
+            |(_, point)| point.loss_difference_percent_of_loss,
+        )
+        .number(
+            format!("accuracy_{what}"),
+            unit(quantity),
+            "Accuracy of the measured quantity",
+            |(_, point)| point.accuracy,
+        )
+        .finish()
 }

@@ -1,6 +1,7 @@
 //! The outcome of simulated cycles.
 
 use gearloss_framework::flow::Status;
+use gearloss_framework::gearbox::Findings;
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -8,7 +9,7 @@ use crate::analyses::Head;
 use crate::analysis::Note;
 
 /// Cycles simulated with each model set.
-#[derive(Debug, Clone, Serialize, JsonSchema)]
+#[derive(Debug, Serialize, JsonSchema)]
 pub struct CycleOutcome {
     /// Provenance.
     #[serde(flatten)]
@@ -18,6 +19,9 @@ pub struct CycleOutcome {
     /// Quantities outside their stated ranges in samples, by set.
     #[serde(skip)]
     pub left: Vec<(String, String)>,
+    /// Why a cycle could not be simulated to its end.
+    #[serde(skip)]
+    pub failures: Vec<Findings>,
 }
 
 /// One cycle with one model set; the time series is in the table.

@@ -4,8 +4,7 @@ use gearloss_framework::description::Ordered;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::analyses::Entry;
-use crate::study::{Data, FoldsEntry, HoldOutEntry, IdentifiedEntry, NamesOrParameters, Quantity, Then, Uses, Write};
+use crate::study::{Data, FoldsEntry, HoldOutEntry, IdentifiedEntry, NamesOrParameters, Quantity, Write};
 
 /// Identification of uncertain parameters of gearbox and rig from measured points by bounded least squares, with intervals and verdicts.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -59,30 +58,6 @@ pub struct IdentifyEntry {
     /// Formats to write; default: CSV, JSON and SVG.
     #[serde(default = "Write::every_format")]
     pub write: Vec<Write>,
-}
-
-impl Entry for IdentifyEntry {
-    const TYPE: &'static str = "identify";
-    const MEANING: &'static str = "Identification of uncertain parameters from measured points.";
-
-    fn uses(&self) -> Uses<'_> {
-        Uses {
-            grid: self.next.as_ref().map(|next| &next.grid),
-            grid_key: "next.grid",
-            ..Uses::new(self.gearbox.as_ref(), &self.model_sets)
-                .at(&self.gear)
-                .bind(&self.bind)
-                .with("data", Some(&self.data))
-        }
-    }
-
-    fn then(&self) -> Option<Then<'_>> {
-        let set = self.then.as_deref()?;
-        Some(Then {
-            set,
-            model_sets: &self.model_sets,
-        })
-    }
 }
 
 fn residuals() -> Vec<Quantity> {

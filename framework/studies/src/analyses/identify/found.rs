@@ -11,6 +11,7 @@ use super::posterior::{self, PosteriorOfSet};
 use crate::analyses::{Context, Stopped};
 use crate::analysis::{Note, merge, notes};
 use crate::codes;
+use crate::distinct::distinct;
 use crate::identify::{
     Calculated, Fitted, HoldOut, Identification, Identified, Observation, Pair, Profiled, Settings, ShareBands,
 };
@@ -203,13 +204,7 @@ impl Found {
 
     /// The fitted quantities without repetition.
     pub fn quantities(&self) -> Vec<Quantity> {
-        let mut list = Vec::new();
-        for observation in &self.observations {
-            if !list.contains(&observation.quantity) {
-                list.push(observation.quantity);
-            }
-        }
-        list
+        distinct(self.observations.iter().map(|observation| observation.quantity))
     }
 
     /// Factors by which intervals and bands are too small if the model does not reproduce the points or neighbouring errors are correlated.

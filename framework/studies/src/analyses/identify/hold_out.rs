@@ -10,6 +10,7 @@ use serde::Serialize;
 pub use errors::ErrorsOfQuantity;
 
 use crate::analyses::numbers::{RPM, tidy};
+use crate::distinct::distinct;
 use crate::identify::{
     CONFIDENCE, Calculated, Fitted, HoldOut, Identification, Pair, PredictedNumber, Predictions, Profiled,
 };
@@ -184,12 +185,7 @@ pub(super) fn predict(
             None => "no held-out row has a measured value of a fitted quantity".to_owned(),
         });
     }
-    let mut quantities: Vec<Quantity> = Vec::new();
-    for number in &predictions.numbers {
-        if !quantities.contains(&number.observation.quantity) {
-            quantities.push(number.observation.quantity);
-        }
-    }
+    let quantities = distinct(predictions.numbers.iter().map(|number| number.observation.quantity));
     let accuracy = fitted.inference.accuracy();
     let summed = |quantity: Quantity| {
         let mut errors = identification.placed_errors(calculated, pairs, quantity);

@@ -1,6 +1,7 @@
 //! Lines of measured points: one gear state, torque and temperature, over speed.
 
 use crate::analysis::levels;
+use crate::distinct::distinct;
 use crate::identify::Identification;
 use crate::measured::Measured;
 use crate::study::Quantity;
@@ -33,12 +34,7 @@ pub(super) fn sheets(measured: &Measured, gear: &str) -> Vec<Sheet> {
         let row = &measured.rows[i];
         (row.gear.as_deref().unwrap_or(gear), &row.bound, level[i])
     };
-    let mut keys = Vec::new();
-    for i in 0..measured.rows.len() {
-        if !keys.contains(&key(i)) {
-            keys.push(key(i));
-        }
-    }
+    let keys = distinct((0..measured.rows.len()).map(key));
     let several = |differ: bool, words: String| differ.then_some(words);
     let sheet = |k: &(&str, &Vec<String>, usize)| {
         let rows: Vec<usize> = (0..measured.rows.len()).filter(|i| key(*i) == *k).collect();

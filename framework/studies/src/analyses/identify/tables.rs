@@ -7,12 +7,11 @@ pub(super) mod posterior;
 
 use gearloss_numerics::inference::Reach;
 
+use super::found::RowOfSet;
 use super::outcome::IdentificationOfSet;
 use super::parameter::verdict_words;
 use crate::analyses::numbers::{RPM, tidy};
-use crate::cells;
-use crate::identify::Pair;
-use crate::table::{Cell, Column, Table};
+use crate::table::{Table, TableOf};
 
 /// Unit of columns whose unit is in another column of the row.
 const UNIT: &str = "mixed";
@@ -23,196 +22,197 @@ fn has_files(all: &[IdentificationOfSet]) -> bool {
     measured.any(|measured| measured.rows.iter().any(|row| measured.file(row).is_some()))
 }
 
-/// The column of lines.
-fn line_column(all: &[IdentificationOfSet]) -> Column {
+/// Adds the column of lines of measured rows.
+fn line_column<R>(
+    table: TableOf<R>,
+    all: &[IdentificationOfSet],
+    row: impl Fn(&R) -> (&IdentificationOfSet, usize),
+) -> TableOf<R> {
     if has_files(all) {
-        Column::text("line", "File and line")
+        table.text("line", "File and line", |at| {
+            let (o, row) = row(at);
+            o.found.measured.line(&o.found.measured.rows[row])
+        })
     } else {
-        Column::number("line", "-", "Line in the file")
-    }
-}
-
-/// The line of a row.
-fn line(o: &IdentificationOfSet, row: usize, has_files: bool) -> Cell<'static> {
-    let measured = &o.found.measured;
-    let row = &measured.rows[row];
-    if has_files {
-        measured.line(row).into()
-    } else {
-        (row.line as usize).into()
+        table.number("line", "-", "Line in the file", |at| {
+            let (o, row) = row(at);
+            o.found.measured.rows[row].line as f64
+        })
     }
 }
 
 /// One row for each measured value.
 pub(super) fn points(name: &str, all: &[IdentificationOfSet]) -> Table {
-    let columns = [
-        Column::text("model_set", "Model set"),
-        line_column(all),
-        Column::text("name", "Name of the row"),
-        Column::text("gear", "Gear"),
-        Column::number("torque_nm", "Nm", "Torque"),
-        Column::number("speed_rpm", "rpm", "Speed"),
-        Column::number("oil_temperature_degc", "degC", "Oil temperature"),
-        Column::text(
+    let mut rows = Vec::new();
+    for o in all {
+        let of_points = o.found.observations.iter().zip(&o.points).zip(&o.found.pairs[0]);
+        rows.extend(of_points.map(|((observation, point), before)| (o, observation, before, point)));
+    }
+    let table = Table::of(name, rows).text("model_set", "Model set", |(o, ..)| &o.model_set);
+    line_column(table, all, |(o, observation, ..)| (o, observation.row))
+        .text("name", "Name of the row", |(.., point)| {
+            point.name.as_deref().unwrap_or_default()
+        })
+        .text("gear", "Gear", |(.., point)| &point.gear)
+        .number("torque_nm", "Nm", "Torque", |(.., point)| point.torque_nm)
+        .number("speed_rpm", "rpm", "Speed", |(.., point)| point.speed_rpm)
+        .number("oil_temperature_degc", "degC", "Oil temperature", |(.., point)| {
+            point.oil_temperature_degc
+        })
+        .text(
             "quantity",
             "Quantity of this row with its unit; efficiencies as fractions",
-        ),
-        Column::number(
+            |(.., point)| point.quantity,
+        )
+        .number(
             "measured_before",
             UNIT,
             "Measured, without the contribution of the rig at the start",
-        ),
-        Column::number("model_before", UNIT, "Calculated at the start"),
-        Column::number(
+            |(.., point)| point.measured_before,
+        )
+        .number("model_before", UNIT, "Calculated at the start", |(.., point)| {
+            point.model_before
+        })
+        .number(
             "measured",
             UNIT,
             "Measured, without the contribution of the identified rig",
-        ),
-        Column::number("model", UNIT, "Calculated"),
-        Column::number(
+            |(.., point)| point.measured,
+        )
+        .number("model", UNIT, "Calculated", |(.., point)| point.model)
+        .number(
             "accuracy",
             UNIT,
             "Standard deviation of the measurement, including its weight",
-        ),
-        Column::number(
+            |(.., point)| point.accuracy,
+        )
+        .number(
             "residual_before",
             "-",
             "Calculated minus measured, relative to the accuracy, at the start",
-        ),
-        Column::number("residual", "-", "Calculated minus measured, relative to the accuracy"),
-        Column::number("standardised_residual", "-", "Residual over its own standard deviation"),
-        Column::number("leverage", "-", "Leverage of the point"),
-    ];
-    let (mut table, files) = (Table::new(name, columns), has_files(all));
-    for o in all {
-        let found = &o.found;
-        for (i, (observation, point)) in found.observations.iter().zip(&o.points).enumerate() {
-            let before: Pair = found.pairs[0][i];
-            table.push([
-                Cell::from(&o.model_set),
-                line(o, observation.row, files),
-                point.name.as_deref().unwrap_or_default().into(),
-                (&point.gear).into(),
-                point.torque_nm.into(),
-                point.speed_rpm.into(),
-                point.oil_temperature_degc.into(),
-                point.quantity.into(),
-                point.measured_before.into(),
-                point.model_before.into(),
-                point.measured.into(),
-                point.model.into(),
-                point.accuracy.into(),
-                ((before.model - before.measured) / observation.deviation).into(),
-                point.residual.into(),
-                point.standardised_residual.into(),
-                point.leverage.into(),
-            ]);
-        }
-    }
-    table
+            |(_, observation, before, _)| (before.model - before.measured) / observation.deviation,
+        )
+        .number(
+            "residual",
+            "-",
+            "Calculated minus measured, relative to the accuracy",
+            |(.., point)| point.residual,
+        )
+        .number(
+            "standardised_residual",
+            "-",
+            "Residual over its own standard deviation",
+            |(.., point)| point.standardised_residual,
+        )
+        .number("leverage", "-", "Leverage of the point", |(.., point)| point.leverage)
+        .finish()
+}
+
+/// Loss of a mechanism at a measured row, with its bands.
+struct MechanismLoss<'o> {
+    of_set: &'o IdentificationOfSet,
+    /// Index of the measured row.
+    row: usize,
+    /// The point of the row with the fit.
+    there: &'o RowOfSet,
+    mechanism: &'static str,
+    before: f64,
+    loss: f64,
+    band: Option<[f64; 2]>,
+    share: Option<f64>,
+    share_band: Option<[f64; 2]>,
 }
 
 /// Losses by mechanism at every measured row, with their bands.
 pub(super) fn shares(name: &str, all: &[IdentificationOfSet]) -> Table {
-    let columns = [
-        Column::text("model_set", "Model set"),
-        line_column(all),
-        Column::text("gear", "Gear"),
-        Column::number("torque_nm", "Nm", "Torque"),
-        Column::number("speed_rpm", "rpm", "Speed"),
-        Column::number("oil_temperature_degc", "degC", "Oil temperature"),
-        Column::text("mechanism", "Mechanism, or all mechanisms"),
-        Column::number("loss_before_w", "W", "Loss at the start"),
-        Column::number("loss_w", "W", "Loss"),
-        Column::number("loss_low_w", "W", "Lower end of the 95 % band of the loss"),
-        Column::number("loss_high_w", "W", "Upper end of the 95 % band of the loss"),
-        Column::number("share", "-", "Share of the total loss"),
-        Column::number("share_low", "-", "Lower end of the 95 % band of the share"),
-        Column::number("share_high", "-", "Upper end of the 95 % band of the share"),
-    ];
-    let (mut table, files) = (Table::new(format!("{name}-shares"), columns), has_files(all));
+    let mut list = Vec::new();
     for o in all {
         let Ok(shares) = &o.found.shares else { continue };
         for (i, breakdown) in shares.rows.iter().enumerate() {
-            let [before, there] = [0, 1].map(|which| &o.found.rows[which][i]);
-            let sum: f64 = before.losses.iter().sum();
+            let before = &o.found.rows[0][i].losses;
+            let sum: f64 = before.iter().sum();
             let names = shares.mechanisms.iter().copied().chain(["all"]);
             let losses = breakdown.parts.iter().chain([&breakdown.total]);
-            let before = before.losses.iter().chain([&sum]);
+            let before = before.iter().chain([&sum]);
             for (k, ((mechanism, loss), before)) in names.zip(losses).zip(before).enumerate() {
-                let band = shares.bands[i][k];
                 let share = shares.share(i, k);
-                let ends = share.and_then(|(_, ends)| ends);
-                table.push([
-                    Cell::from(&o.model_set),
-                    line(o, i, files),
-                    (&there.gear).into(),
-                    there.torque.into(),
-                    tidy(there.speed * RPM).into(),
-                    there.oil.into(),
-                    mechanism.into(),
-                    (*before).into(),
-                    loss.value.into(),
-                    band.map(|band| band[0]).into(),
-                    band.map(|band| band[1]).into(),
-                    share.map(|(share, _)| share.value).into(),
-                    ends.map(|ends| ends[0]).into(),
-                    ends.map(|ends| ends[1]).into(),
-                ]);
+                list.push(MechanismLoss {
+                    of_set: o,
+                    row: i,
+                    there: &o.found.rows[1][i],
+                    mechanism,
+                    before: *before,
+                    loss: loss.value,
+                    band: shares.bands[i][k],
+                    share: share.map(|(share, _)| share.value),
+                    share_band: share.and_then(|(_, ends)| ends),
+                });
             }
         }
     }
-    table
+    let table = Table::of(format!("{name}-shares"), list).text("model_set", "Model set", |at| &at.of_set.model_set);
+    line_column(table, all, |at| (at.of_set, at.row))
+        .text("gear", "Gear", |at| &at.there.gear)
+        .number("torque_nm", "Nm", "Torque", |at| at.there.torque)
+        .number("speed_rpm", "rpm", "Speed", |at| tidy(at.there.speed * RPM))
+        .number("oil_temperature_degc", "degC", "Oil temperature", |at| at.there.oil)
+        .text("mechanism", "Mechanism, or all mechanisms", |at| at.mechanism)
+        .number("loss_before_w", "W", "Loss at the start", |at| at.before)
+        .number("loss_w", "W", "Loss", |at| at.loss)
+        .ends(["loss_low_w", "loss_high_w"], "W", "the 95 % band of the loss", |at| {
+            at.band
+        })
+        .number("share", "-", "Share of the total loss", |at| at.share)
+        .ends(["share_low", "share_high"], "-", "the 95 % band of the share", |at| {
+            at.share_band
+        })
+        .finish()
 }
 
 /// One row for each parameter.
 pub(super) fn parameters(name: &str, all: &[IdentificationOfSet]) -> Table {
-    let columns = [
-        Column::text("model_set", "Model set"),
-        Column::text("parameter", "Name of the parameter"),
-        Column::text("path", "Its path as written"),
-        Column::text("unit", "Unit of the values of this row"),
-        Column::number("stated", UNIT, "Value of the gearbox or the rig before the fit"),
-        Column::number(
-            "published",
-            UNIT,
-            "Published value, if it changes coefficients of formulas",
-        ),
-        Column::number("start", UNIT, "Start value"),
-        Column::number("least", UNIT, "Lower bound"),
-        Column::number("greatest", UNIT, "Upper bound"),
-        Column::number("fitted", UNIT, "Identified value"),
-        Column::number("low", UNIT, "Lower end of the 95 % interval of the linearised fit"),
-        Column::number("high", UNIT, "Upper end of the 95 % interval of the linearised fit"),
-        Column::number("profile_low", UNIT, "Lower end of the 95 % profile interval"),
-        Column::number("profile_high", UNIT, "Upper end of the 95 % profile interval"),
-        Column::text("verdict", "Verdict"),
-        Column::text("sentence", "The same as a sentence"),
-    ];
-    let mut table = Table::new(format!("{name}-parameters"), columns);
+    let mut rows = Vec::new();
     for o in all {
         for (parameter, profile) in o.parameters.iter().zip(&o.found.profiles) {
             let profile = profile.as_ref().and_then(|p| p.as_ref().ok());
             let profile = profile.filter(|p| p.ends.iter().all(|end| end.reach != Reach::Unresolved));
-            table.push(cells![
-                &o.model_set,
-                &parameter.name,
-                &parameter.path,
-                parameter.unit,
-                parameter.stated,
-                parameter.published,
-                parameter.start,
-                parameter.least,
-                parameter.greatest,
-                parameter.value,
-                parameter.interval.map(|ends| ends[0]),
-                parameter.interval.map(|ends| ends[1]),
-                profile.map(|p| p.theta[0]),
-                profile.map(|p| p.theta[1]),
-                verdict_words(parameter.judgement),
-                &parameter.sentence,
-            ]);
+            rows.push((o, profile, parameter));
         }
     }
-    table
+    Table::of(format!("{name}-parameters"), rows)
+        .text("model_set", "Model set", |(o, ..)| &o.model_set)
+        .text("parameter", "Name of the parameter", |(.., own)| &own.name)
+        .text("path", "Its path as written", |(.., own)| &own.path)
+        .text("unit", "Unit of the values of this row", |(.., own)| own.unit)
+        .number(
+            "stated",
+            UNIT,
+            "Value of the gearbox or the rig before the fit",
+            |(.., own)| own.stated,
+        )
+        .number(
+            "published",
+            UNIT,
+            "Published value, if it changes coefficients of formulas",
+            |(.., own)| own.published,
+        )
+        .number("start", UNIT, "Start value", |(.., own)| own.start)
+        .number("least", UNIT, "Lower bound", |(.., own)| own.least)
+        .number("greatest", UNIT, "Upper bound", |(.., own)| own.greatest)
+        .number("fitted", UNIT, "Identified value", |(.., own)| own.value)
+        .ends(
+            ["low", "high"],
+            UNIT,
+            "the 95 % interval of the linearised fit",
+            |(.., own)| own.interval,
+        )
+        .ends(
+            ["profile_low", "profile_high"],
+            UNIT,
+            "the 95 % profile interval",
+            |(_, profile, _)| profile.map(|p| p.theta),
+        )
+        .text("verdict", "Verdict", |(.., own)| verdict_words(own.judgement))
+        .text("sentence", "The same as a sentence", |(.., own)| &own.sentence)
+        .finish()
 }

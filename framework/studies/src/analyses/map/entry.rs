@@ -4,9 +4,8 @@ use gearloss_framework::description::Ordered;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::super::Entry;
 use super::export::ExportName;
-use crate::study::{Data, Uses, Write};
+use crate::study::{Data, Write};
 
 /// Losses and efficiency over a grid.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -44,20 +43,4 @@ pub struct MapEntry {
 /// About the difference between model sets.
 fn quarter() -> f64 {
     0.25
-}
-
-impl Entry for MapEntry {
-    const TYPE: &'static str = "map";
-    const MEANING: &'static str = "Losses and efficiency over a grid.";
-
-    fn uses(&self) -> Uses<'_> {
-        Uses {
-            grid: self.grid.as_ref(),
-            ..Uses::new(self.gearbox.as_ref(), &self.model_sets)
-                .at(&self.gear)
-                .bind(&self.bind)
-                .with("points", self.points.as_ref())
-                .with("measured", self.measured.as_ref())
-        }
-    }
 }

@@ -10,6 +10,7 @@ use super::export::{ExportData, ExportName};
 use super::points::MapPoints;
 use super::shown::ShownMap;
 use crate::analysis::{Note, OilTemperature, WeakPoint};
+use crate::distinct::distinct;
 use crate::table::Table;
 
 /// The maps of an analysis.
@@ -132,13 +133,7 @@ impl MapOfSet {
 impl MapOutcome {
     /// Names of the sets in the order of the maps.
     pub fn set_names(&self) -> Vec<&str> {
-        let mut sets: Vec<&str> = Vec::new();
-        for map in &self.maps {
-            if !sets.contains(&map.model_set.as_str()) {
-                sets.push(&map.model_set);
-            }
-        }
-        sets
+        distinct(self.maps.iter().map(|map| map.model_set.as_str()))
     }
 }
 

@@ -13,93 +13,78 @@ use super::super::Built;
 use super::super::numbers::{RPM, tidy, word};
 use super::shown::{Picked, Selection};
 use crate::analysis::{Field, Numbered, PointResult, SUMS};
-use crate::table::{Column, Table, Texts, Values};
+use crate::table::{Table, Values};
 
 /// Columns of a point from its torque to the first sum.
 const FIXED: usize = 11;
 
-/// The columns of the table.
-pub fn columns(bound: &[String], parts: &[String]) -> Vec<Column> {
-    let mut columns = vec![Column::text("model_set", "Model set"), Column::text("gear", "Gear")];
-    columns.extend(bound.iter().map(|path| Column::text(path, "Bound value")));
-    columns.extend([
-        Column::number("torque_nm", "Nm", "Torque"),
-        Column::number("speed_rpm", "rpm", "Speed"),
-        Column::number("oil_temperature_degc", "degC", "Oil temperature"),
-        Column::number("surface_temperature_degc", "degC", "Surface temperature"),
-        Column::text("balance", "Status of the heat balance"),
-        Column::text("status", "State of the transmission"),
-        Column::number("efficiency", "-", "Output power over input power"),
-        Column::number("loss_w", "W", "Sum of all losses"),
-        Column::number("loss_torque_nm", "Nm", "Loss over the speed of the reference port"),
-        Column::number("input_w", "W", "Input power"),
-        Column::number("output_w", "W", "Output power"),
-    ]);
-    columns.extend(
-        SUMS.iter()
-            .map(|(sum, meaning)| Column::number(format!("{sum}_w"), "W", *meaning)),
-    );
-    columns.extend(
-        parts
-            .iter()
-            .map(|part| Column::number(format!("{part}_w"), "W", "Loss of the component")),
-    );
-    columns
-}
-
 /// Common data of all rows of one map.
-pub struct RowsOf<'a> {
-    constants: Vec<String>,
-    /// For each column of components the index of the component in this map; absent if it has none.
-    columns: Vec<Option<usize>>,
-    built: &'a Built<'a>,
+pub struct RowsOf {
+    model_set: String,
+    gear: String,
+    /// Bound paths and their values.
+    bound: Vec<(String, String)>,
+    /// The components with a column, and the index of each in this map; absent if it has none.
+    parts: Vec<(String, Option<usize>)>,
 }
 
-impl<'a> RowsOf<'a> {
-    pub fn new(built: &'a Built<'_>, gear: &str, bound: &[(String, Value)], parts: &[String]) -> Self {
-        let own = built.transmission.parts();
-        let constants = [built.name.clone(), gear.to_owned()];
+impl RowsOf {
+    /// Of no map: for the columns of a table without rows.
+    pub fn none(bound: &[String], parts: &[String]) -> Self {
         Self {
-            constants: constants
-                .into_iter()
-                .chain(bound.iter().map(|(_, value)| word(value)))
-                .collect(),
-            columns: parts.iter().map(|p| own.iter().position(|o| o.path == *p)).collect(),
-            built,
+            model_set: String::new(),
+            gear: String::new(),
+            bound: bound.iter().map(|path| (path.clone(), String::new())).collect(),
+            parts: parts.iter().map(|part| (part.clone(), None)).collect(),
         }
     }
 
-    /// The values of all columns, from the points.
-    pub fn with_constants(&self, values: Vec<Values>) -> Vec<Values> {
-        let count = values.first().map_or(0, Values::len);
-        let constant = |text: &String| Values::Texts(Texts::repeated(text, count).into());
-        self.constants.iter().map(constant).chain(values).collect()
+    pub fn new(built: &Built<'_>, gear: &str, bound: &[(String, Value)], parts: &[String]) -> Self {
+        let own = built.transmission.parts();
+        let place = |part: &String| own.iter().position(|o| o.path == *part);
+        Self {
+            model_set: built.name.clone(),
+            gear: gear.to_owned(),
+            bound: bound.iter().map(|(path, value)| (path.clone(), word(value))).collect(),
+            parts: parts.iter().map(|part| (part.clone(), place(part))).collect(),
+        }
     }
 
-    /// The values of some points.
-    fn values(&self, points: &Numbered<'_>) -> Vec<Values> {
-        let numbers = |f: &dyn Fn(&PointResult) -> Option<f64>| Values::from_numbers(points.iter().map(|(_, p)| f(p)));
-        let texts = |f: fn(&PointResult) -> &'static str| Values::from_texts(points.iter().map(|(_, p)| f(p)));
-        let mut all = vec![
-            numbers(&|p| Some(p.torque)),
-            numbers(&|p| Some(tidy(p.speed * RPM))),
-            numbers(&|p| p.oil),
-            numbers(&|p| p.surface),
-            texts(|p| p.balance.map_or("", thermal::Outcome::name)),
-            texts(|p| p.status.name()),
-            numbers(&|p| p.efficiency),
-            numbers(&|p| p.loss),
-            numbers(&|p| p.loss_torque),
-            numbers(&|p| p.input),
-            numbers(&|p| p.output),
-        ];
-        all.extend((0..SUMS.len()).map(|sum| numbers(&|p| sums(p).map(|sums| sums[sum]))));
-        let part = |part: &Option<usize>| match part {
-            Some(part) => numbers(&|p| loss_of(p, *part)),
-            None => numbers(&|_| None),
-        };
-        all.extend(self.columns.iter().map(part));
-        all
+    /// The rows of some points.
+    pub fn table<'p>(&self, name: &str, points: impl IntoIterator<Item = &'p PointResult>) -> Table {
+        Table::of(name, points)
+            .text("model_set", "Model set", |_| &self.model_set)
+            .text("gear", "Gear", |_| &self.gear)
+            .each(&self.bound, |table, (path, value)| {
+                table.text(path, "Bound value", |_| value)
+            })
+            .number("torque_nm", "Nm", "Torque", |p| p.torque)
+            .number("speed_rpm", "rpm", "Speed", |p| tidy(p.speed * RPM))
+            .number("oil_temperature_degc", "degC", "Oil temperature", |p| p.oil)
+            .number("surface_temperature_degc", "degC", "Surface temperature", |p| p.surface)
+            .text("balance", "Status of the heat balance", |p| {
+                p.balance.map_or("", thermal::Outcome::name)
+            })
+            .text("status", "State of the transmission", |p| p.status.name())
+            .number("efficiency", "-", "Output power over input power", |p| p.efficiency)
+            .number("loss_w", "W", "Sum of all losses", |p| p.loss)
+            .number(
+                "loss_torque_nm",
+                "Nm",
+                "Loss over the speed of the reference port",
+                |p| p.loss_torque,
+            )
+            .number("input_w", "W", "Input power", |p| p.input)
+            .number("output_w", "W", "Output power", |p| p.output)
+            .each(SUMS.iter().enumerate(), |table, (i, (sum, meaning))| {
+                table.number(format!("{sum}_w"), "W", *meaning, |p| sums(p).map(|sums| sums[i]))
+            })
+            .each(&self.parts, |table, (part, place)| {
+                table.number(format!("{part}_w"), "W", "Loss of the component", |p| {
+                    place.and_then(|place| loss_of(p, place))
+                })
+            })
+            .finish()
     }
 }
 
@@ -118,8 +103,9 @@ fn loss_of(point: &PointResult, part: usize) -> Option<f64> {
 
 /// Extraction of data from solved points, on all threads.
 pub struct Taker<'a> {
+    pub built: &'a Built<'a>,
     pub field: &'a Field,
-    pub rows: RowsOf<'a>,
+    pub rows: RowsOf,
     pub selection: &'a Selection,
     /// Whether rows are requested.
     pub wanted: bool,
@@ -127,7 +113,8 @@ pub struct Taker<'a> {
 
 /// Data of the points of a task.
 pub struct Taken {
-    pub values: Vec<Values>,
+    /// Rows; none unless they are requested.
+    pub rows: Table,
     pub picked: Picked,
     pub passes: usize,
     pub undefined: Vec<UndefinedLoss>,
@@ -135,7 +122,8 @@ pub struct Taken {
 
 impl Taker<'_> {
     pub fn take(&self, points: &mut Numbered<'_>) -> Taken {
-        let parts = self.rows.built.transmission.parts();
+        let parts = self.built.transmission.parts();
+        let rows = points.iter().filter(|_| self.wanted).map(|(_, point)| &**point);
         let undefined = |(number, point): &(usize, &mut PointResult)| {
             let (part, reason) = point.undefined?;
             Some(UndefinedLoss {
@@ -145,11 +133,7 @@ impl Taker<'_> {
             })
         };
         Taken {
-            values: if self.wanted {
-                self.rows.values(points)
-            } else {
-                Vec::new()
-            },
+            rows: self.rows.table("", rows),
             picked: self.selection.pick(self.field, points),
             passes: points.iter().map(|(_, point)| point.passes).sum(),
             undefined: points.iter().filter_map(undefined).collect(),

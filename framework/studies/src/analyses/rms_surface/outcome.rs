@@ -8,9 +8,8 @@ use super::least::{Flat, Least};
 use crate::analyses::trial::Left;
 use crate::analyses::{Head, Outcome};
 use crate::analysis::Note;
-use crate::cells;
 use crate::study::{Difference, Quantity};
-use crate::table::{Column, Table};
+use crate::table::Table;
 
 /// Surfaces of the difference from measured points.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
@@ -169,39 +168,28 @@ impl Outcome for RmsSurfaceOutcome {
             return Vec::new();
         };
         let (_, symbol) = first.quantity.words(self.difference);
-        let axis = |axis: &AxisOfSurface| {
-            let unit = if axis.unit.is_empty() { "-" } else { axis.unit };
-            Column::number(&axis.path, unit, "Value of the path")
-        };
-        let mut table = Table::new(
-            &self.head.analysis,
-            [
-                Column::text("model_set", "Model set"),
-                axis(&first.x),
-                axis(&first.y),
-                Column::number("points", "-", "Number of points used"),
-                Column::number(
-                    format!("rms_{}", first.unit),
-                    symbol,
-                    "Root mean square of the differences",
-                ),
-            ],
-        );
-        for surface in &self.surfaces {
-            for pair in &surface.pairs {
-                let points = if pair.rms.is_some() { surface.points } else { 0 };
-                table.push(cells![&surface.model_set, pair.x, pair.y, points, pair.rms]);
-            }
-        }
-        vec![table]
+        let unit = |axis: &AxisOfSurface| if axis.unit.is_empty() { "-" } else { axis.unit };
+        let table = Table::of_each(&self.head.analysis, &self.surfaces, |surface| &surface.pairs)
+            .text("model_set", "Model set", |(surface, _)| &surface.model_set)
+            .number(&first.x.path, unit(&first.x), "Value of the path", |(_, pair)| pair.x)
+            .number(&first.y.path, unit(&first.y), "Value of the path", |(_, pair)| pair.y)
+            .number("points", "-", "Number of points used", |(surface, pair)| {
+                if pair.rms.is_some() { surface.points as f64 } else { 0.0 }
+            })
+            .number(
+                format!("rms_{}", first.unit),
+                symbol,
+                "Root mean square of the differences",
+                |(_, pair)| pair.rms,
+            );
+        vec![table.finish()]
     }
 
     fn notes(&self) -> Vec<&Note> {
         Vec::new()
     }
 
-    fn left_at_samples(&self) -> Vec<(&str, &str)> {
-        let left = self.left_at_pairs.iter();
-        left.map(|(path, name)| (path.as_str(), name.as_str())).collect()
+    fn left_at_samples(&self) -> Vec<&(String, String)> {
+        self.left_at_pairs.iter().collect()
     }
 }

@@ -10,8 +10,7 @@ use super::super::{Head, Outcome};
 use super::Found;
 use super::outputs::{Output, OutputKind};
 use crate::analysis::Note;
-use crate::cells;
-use crate::table::{Cell, Column, Table};
+use crate::table::Table;
 use crate::varied::Varied;
 
 /// Sensitivity of the losses over a grid with each model set.
@@ -207,80 +206,15 @@ fn effects(output: usize, found: &Found) -> Option<Vec<EffectOfParameter>> {
     Some(effects.collect())
 }
 
-/// Columns of the table.
-fn columns() -> [Column; 20] {
-    let of_output = "unit of the output";
-    [
-        Column::text("model_set", "Model set"),
-        Column::text("gear", "Gear"),
-        Column::text("output", "Output"),
-        Column::text("kind", "Kind of the output"),
-        Column::text("unit", "Unit of the output"),
-        Column::text("parameter", "Path of the parameter"),
-        Column::text("parameter_unit", "Unit of the parameter"),
-        Column::number(
-            "local_slope",
-            "unit of the output over unit of the parameter",
-            "Slope at the values of the gearbox",
-        ),
-        Column::number("local_scaled", "-", "Slope times the range over the output"),
-        Column::number("local_elasticity", "-", "Relative change over relative change"),
-        Column::number("morris_mu", of_output, "Mean change over the whole range"),
-        Column::number(
-            "morris_mu_star",
-            of_output,
-            "Mean magnitude of the change over the whole range",
-        ),
-        Column::number("morris_sigma", of_output, "Standard deviation of the change"),
-        Column::text("morris_influence", "Influence of the parameter on the output"),
-        Column::number("sobol_first", "-", "First-order share of the variance"),
-        Column::number("sobol_first_low", "-", "Lower end of its 95 % interval"),
-        Column::number("sobol_first_high", "-", "Upper end of its 95 % interval"),
-        Column::number("sobol_total", "-", "Total share of the variance"),
-        Column::number("sobol_total_low", "-", "Lower end of its 95 % interval"),
-        Column::number("sobol_total_high", "-", "Upper end of its 95 % interval"),
-    ]
-}
-
-/// Cells of a share and its interval.
-fn share_cells(share: Option<Estimate>) -> [Cell<'static>; 3] {
-    cells![
-        share.map(|share| share.value),
-        share.map(|share| share.interval[0]),
-        share.map(|share| share.interval[1]),
-    ]
-}
-
-impl SensitivityOfSet {
-    /// A row for each output and parameter.
-    fn rows(&self, table: &mut Table) {
-        for output in &self.outputs {
-            for (k, parameter) in self.parameters.iter().enumerate() {
-                let local = output.local.as_ref().and_then(|slopes| slopes.get(k));
-                let effect = output.morris.as_ref().map(|effects| effects[k]);
-                let shares = output.sobol.as_ref();
-                let own = cells![
-                    &self.model_set,
-                    &self.gear,
-                    &output.output,
-                    output.kind.name(),
-                    output.unit,
-                    &parameter.path,
-                    parameter.unit,
-                    local.map(|slope| slope.slope),
-                    local.and_then(|slope| slope.scaled),
-                    local.and_then(|slope| slope.elasticity),
-                    effect.map(|effect| effect.mu),
-                    effect.map(|effect| effect.mu_star),
-                    effect.map(|effect| effect.sigma),
-                    effect.map_or("", |effect| effect.influence.name()),
-                ];
-                let first = share_cells(shares.map(|shares| shares.first[k]));
-                let total = share_cells(shares.map(|shares| shares.total[k]));
-                table.push(own.into_iter().chain(first).chain(total));
-            }
-        }
-    }
+/// A row of the table: one output over one parameter, with the results of the requested methods.
+struct Row<'o> {
+    of_set: &'o SensitivityOfSet,
+    output: &'o OutputSensitivity,
+    parameter: &'o VariedParameter,
+    local: Option<&'o SlopeOfOutput>,
+    effect: Option<&'o EffectOfParameter>,
+    first: Option<&'o Estimate>,
+    total: Option<&'o Estimate>,
 }
 
 impl Outcome for SensitivityOutcome {
@@ -289,20 +223,86 @@ impl Outcome for SensitivityOutcome {
     }
 
     fn tables(&self) -> Vec<Table> {
-        let mut table = Table::new(&self.head.analysis, columns());
+        let of_output = "unit of the output";
+        let mut rows = Vec::new();
         for of_set in &self.sensitivities {
-            of_set.rows(&mut table);
+            for output in &of_set.outputs {
+                rows.extend(of_set.parameters.iter().enumerate().map(|(k, parameter)| Row {
+                    of_set,
+                    output,
+                    parameter,
+                    local: output.local.as_ref().and_then(|slopes| slopes.get(k)),
+                    effect: output.morris.as_ref().map(|effects| &effects[k]),
+                    first: output.sobol.as_ref().map(|shares| &shares.first[k]),
+                    total: output.sobol.as_ref().map(|shares| &shares.total[k]),
+                }));
+            }
         }
-        vec![table]
+        let table = Table::of(&self.head.analysis, rows)
+            .text("model_set", "Model set", |row| &row.of_set.model_set)
+            .text("gear", "Gear", |row| &row.of_set.gear)
+            .text("output", "Output", |row| &row.output.output)
+            .text("kind", "Kind of the output", |row| row.output.kind.name())
+            .text("unit", "Unit of the output", |row| row.output.unit)
+            .text("parameter", "Path of the parameter", |row| &row.parameter.path)
+            .text("parameter_unit", "Unit of the parameter", |row| row.parameter.unit)
+            .number(
+                "local_slope",
+                "unit of the output over unit of the parameter",
+                "Slope at the values of the gearbox",
+                |row| row.local.map(|own| own.slope),
+            )
+            .number("local_scaled", "-", "Slope times the range over the output", |row| {
+                row.local.and_then(|own| own.scaled)
+            })
+            .number("local_elasticity", "-", "Relative change over relative change", |row| {
+                row.local.and_then(|own| own.elasticity)
+            })
+            .number("morris_mu", of_output, "Mean change over the whole range", |row| {
+                row.effect.map(|own| own.mu)
+            })
+            .number(
+                "morris_mu_star",
+                of_output,
+                "Mean magnitude of the change over the whole range",
+                |row| row.effect.map(|own| own.mu_star),
+            )
+            .number("morris_sigma", of_output, "Standard deviation of the change", |row| {
+                row.effect.map(|own| own.sigma)
+            })
+            .text("morris_influence", "Influence of the parameter on the output", |row| {
+                row.effect.map_or("", |own| own.influence.name())
+            })
+            .number("sobol_first", "-", "First-order share of the variance", |row| {
+                row.first.map(|own| own.value)
+            })
+            .ends(
+                ["sobol_first_low", "sobol_first_high"],
+                "-",
+                "its 95 % interval",
+                |row| row.first.map(|own| own.interval),
+            )
+            .number("sobol_total", "-", "Total share of the variance", |row| {
+                row.total.map(|own| own.value)
+            })
+            .ends(
+                ["sobol_total_low", "sobol_total_high"],
+                "-",
+                "its 95 % interval",
+                |row| row.total.map(|own| own.interval),
+            );
+        vec![table.finish()]
     }
 
     fn notes(&self) -> Vec<&Note> {
         Vec::new()
     }
 
-    fn left_at_samples(&self) -> Vec<(&str, &str)> {
-        let all = self.sensitivities.iter().flat_map(|of_set| &of_set.left_at_samples);
-        all.map(|(path, name)| (path.as_str(), name.as_str())).collect()
+    fn left_at_samples(&self) -> Vec<&(String, String)> {
+        self.sensitivities
+            .iter()
+            .flat_map(|of_set| &of_set.left_at_samples)
+            .collect()
     }
 
     fn unlisted(&self) -> usize {

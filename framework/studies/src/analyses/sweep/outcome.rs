@@ -10,8 +10,7 @@ use crate::analyses::numbers::word;
 use crate::analyses::ranges::PublishedCoefficient;
 use crate::analyses::{Head, Outcome};
 use crate::analysis::Note;
-use crate::cells;
-use crate::table::{Cell, Column, Table};
+use crate::table::Table;
 
 /// Losses and efficiency at every value with each model set.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
@@ -144,42 +143,41 @@ impl Outcome for SweepOutcome {
         let first = self.sweep.first();
         let second = first.and_then(|value| value.second.as_ref());
         let shares = first.map_or(&[][..], |value| &value.shares);
-        let mut columns = vec![Column::text("model_set", "Model set"), Column::text("gear", "Gear")];
-        let paths = first.map(|value| &value.path).into_iter();
-        let paths = paths.chain(second.map(|second| &second.path));
-        columns.extend(paths.map(|path| Column::text(path, "Value of the path as in the study")));
-        columns.extend([
-            Column::number("torque_nm", "Nm", "Torque"),
-            Column::number("speed_rpm", "rpm", "Speed"),
-            Column::number("oil_temperature_degc", "degC", "Oil temperature"),
-            Column::text("balance", "Status of the heat balance"),
-            Column::text("status", "State of the transmission"),
-            Column::number("efficiency", "-", "Output power over input power"),
-            Column::number("loss_w", "W", "Loss"),
-        ]);
-        let share = |share: &String| Column::number(format!("{share}_w"), "W", format!("Loss of {share}"));
-        columns.extend(shares.iter().map(share));
-        let mut table = Table::new(&self.head.analysis, columns);
-        for value in &self.sweep {
-            let second = value.second.as_ref().map(|second| word(&second.value));
-            for point in &value.points {
-                let mut row = cells![&value.model_set, &value.gear, word(&value.value)].to_vec();
-                row.extend(second.as_ref().map(Cell::from));
-                row.extend(cells![
-                    point.torque_nm,
-                    point.speed_rpm,
-                    point.oil_temperature_degc,
-                    point.balance.map_or("", thermal::Outcome::name),
-                    point.status.name(),
-                    point.efficiency,
-                    point.loss_w,
-                ]);
-                let losses = point.losses_w.as_ref();
-                row.extend((0..value.shares.len()).map(|i| Cell::from(losses.map(|losses| losses[i]))));
-                table.push(row);
-            }
-        }
-        vec![table]
+        let with_path = "Value of the path as in the study";
+        let table = Table::of_each(&self.head.analysis, &self.sweep, |value| &value.points)
+            .text("model_set", "Model set", |(value, _)| &value.model_set)
+            .text("gear", "Gear", |(value, _)| &value.gear)
+            .each(first.map(|value| &value.path), |table, path| {
+                table.text(path, with_path, |(value, _)| word(&value.value))
+            })
+            .each(second.map(|second| &second.path), |table, path| {
+                table.text(path, with_path, |(value, _)| {
+                    value
+                        .second
+                        .as_ref()
+                        .map(|second| word(&second.value))
+                        .unwrap_or_default()
+                })
+            })
+            .number("torque_nm", "Nm", "Torque", |(_, point)| point.torque_nm)
+            .number("speed_rpm", "rpm", "Speed", |(_, point)| point.speed_rpm)
+            .number("oil_temperature_degc", "degC", "Oil temperature", |(_, point)| {
+                point.oil_temperature_degc
+            })
+            .text("balance", "Status of the heat balance", |(_, point)| {
+                point.balance.map_or("", thermal::Outcome::name)
+            })
+            .text("status", "State of the transmission", |(_, point)| point.status.name())
+            .number("efficiency", "-", "Output power over input power", |(_, point)| {
+                point.efficiency
+            })
+            .number("loss_w", "W", "Loss", |(_, point)| point.loss_w)
+            .each(shares.iter().enumerate(), |table, (i, share)| {
+                table.number(format!("{share}_w"), "W", format!("Loss of {share}"), |(_, point)| {
+                    point.losses_w.as_ref().map(|losses| losses[i])
+                })
+            });
+        vec![table.finish()]
     }
 
     fn notes(&self) -> Vec<&Note> {

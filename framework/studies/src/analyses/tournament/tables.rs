@@ -1,10 +1,9 @@
 //! A tournament as columns.
 
 use super::super::{Head, Outcome};
-use super::{RankedCombination, Ranking, Spread, Tournament, TournamentOutcome};
+use super::{Ranking, Spread, Tournament, TournamentOutcome};
 use crate::analysis::Note;
-use crate::cells;
-use crate::table::{Cell, Column, Table};
+use crate::table::Table;
 
 impl Outcome for TournamentOutcome {
     fn head(&self) -> &Head {
@@ -33,151 +32,152 @@ impl Outcome for TournamentOutcome {
 
 /// One row for each combination.
 fn combinations(name: &str, ranking: &Ranking) -> Table {
-    let mechanisms = || ranking.mechanisms.iter().map(|m| m.mechanism.as_str());
+    let mechanisms = || ranking.mechanisms.iter().map(|m| &m.mechanism).enumerate();
     let unit = ranking.unit_in_words;
-    let mut columns = vec![Column::number("rank", "-", "Position in the ranking")];
-    columns.extend(mechanisms().map(|name| Column::text(name, format!("Model of {name}"))));
-    columns.extend([
-        Column::number(
+    Table::of(name, ranking.ranking.iter().enumerate())
+        .number("rank", "-", "Position in the ranking", |(i, _)| (i + 1) as f64)
+        .each(mechanisms(), |table, (k, mechanism)| {
+            table.text(mechanism, format!("Model of {mechanism}"), |(_, c)| &c.models[k])
+        })
+        .number(
             "predicted_over_accuracy",
             "-",
             "Root mean square of the predicted errors relative to the accuracy of the points",
-        ),
-        Column::number("predicted_rms", unit, "Root mean square of the predicted errors"),
-        Column::number(
+            |(_, c)| c.predicted_over_accuracy,
+        )
+        .number(
+            "predicted_rms",
+            unit,
+            "Root mean square of the predicted errors",
+            |(_, c)| c.predicted_rms,
+        )
+        .number(
             "worst_group_rms",
             unit,
             "Root mean square of the predicted errors of the worst group",
-        ),
-        Column::number("fitted_rms", unit, "Root mean square of the errors with fitted factors"),
-        Column::number("mean", unit, "Mean of the errors with fitted factors"),
-    ]);
-    columns.extend(
-        mechanisms().map(|name| Column::number(format!("factor_{name}"), "-", format!("Factor on the loss of {name}"))),
-    );
-    columns.extend([
-        Column::text("on_bound", "Mechanisms whose factor is at a bound"),
-        Column::text("winner", "Whether it is the winner"),
-        Column::text("indistinguishable", "Whether it is not distinguishable from the winner"),
-        Column::number(
+            |(_, c)| c.worst_group_rms,
+        )
+        .number(
+            "fitted_rms",
+            unit,
+            "Root mean square of the errors with fitted factors",
+            |(_, c)| c.fitted_rms,
+        )
+        .number("mean", unit, "Mean of the errors with fitted factors", |(_, c)| c.mean)
+        .each(mechanisms(), |table, (k, mechanism)| {
+            let meaning = format!("Factor on the loss of {mechanism}");
+            table.number(format!("factor_{mechanism}"), "-", meaning, |(_, c)| c.factors[k])
+        })
+        .text("on_bound", "Mechanisms whose factor is at a bound", |(_, c)| {
+            c.on_bound.join(" ")
+        })
+        .text("winner", "Whether it is the winner", |(i, _)| {
+            (*i == ranking.winner).to_string()
+        })
+        .text(
+            "indistinguishable",
+            "Whether it is not distinguishable from the winner",
+            |(i, _)| ranking.is_alike(*i).to_string(),
+        )
+        .number(
             "ratio_of_winner",
             "-",
             "Ratio of the errors of the winner to its errors, by group",
-        ),
-        Column::number("ratio_low", "-", "Lower end of the 95 % interval of the ratio"),
-        Column::number("ratio_high", "-", "Upper end of the 95 % interval of the ratio"),
-        Column::number(
+            |(_, c)| c.against.folds.map(|groups| groups.ratio),
+        )
+        .ends(
+            ["ratio_low", "ratio_high"],
+            "-",
+            "the 95 % interval of the ratio",
+            |(_, c)| c.against.folds.map(|groups| groups.interval),
+        )
+        .number(
             "groups_won_by_winner",
             "-",
             "Number of groups in which the winner predicts better",
-        ),
-        Column::number(
+            |(_, c)| c.against.folds.map(|groups| groups.won as f64),
+        )
+        .number(
             "separation",
             "-",
             "Separation of its predictions from those of the winner in standard deviations of the set of points",
-        ),
-        Column::number("evidence", "-", "Its misfit minus that of the winner"),
-        Column::number("weight", "-", "Weight on the shortlist"),
-        Column::text("marks", "Marks: quantities outside stated ranges, factors at a bound"),
-    ]);
-    let mut table = Table::new(name, columns);
-    for (i, combination) in ranking.ranking.iter().enumerate() {
-        table.push(row(ranking, i, combination));
-    }
-    table
-}
-
-fn row<'c>(ranking: &Ranking, i: usize, c: &'c RankedCombination) -> Vec<Cell<'c>> {
-    let mut row = vec![Cell::from(i + 1)];
-    row.extend(c.models.iter().map(Cell::from));
-    row.extend(cells![
-        c.predicted_over_accuracy,
-        c.predicted_rms,
-        c.worst_group_rms,
-        c.fitted_rms,
-        c.mean,
-    ]);
-    row.extend(c.factors.iter().map(|factor| Cell::from(*factor)));
-    let groups = c.against.folds;
-    row.extend(cells![
-        c.on_bound.join(" "),
-        (i == ranking.winner).to_string(),
-        ranking.is_alike(i).to_string(),
-        groups.map(|groups| groups.ratio),
-        groups.map(|groups| groups.interval[0]),
-        groups.map(|groups| groups.interval[1]),
-        groups.map(|groups| groups.won as f64),
-        c.against.separation,
-        c.against.evidence,
-        c.weight,
-        c.marks.join("; "),
-    ]);
-    row
+            |(_, c)| c.against.separation,
+        )
+        .number("evidence", "-", "Its misfit minus that of the winner", |(_, c)| {
+            c.against.evidence
+        })
+        .number("weight", "-", "Weight on the shortlist", |(_, c)| c.weight)
+        .text(
+            "marks",
+            "Marks: quantities outside stated ranges, factors at a bound",
+            |(_, c)| c.marks.join("; "),
+        )
+        .finish()
 }
 
 /// One row for each measured point: predictions of the shortlist and their spread.
 fn shortlist(name: &str, ranking: &Ranking) -> Table {
-    let mut table = Table::new(
-        format!("{name}-shortlist"),
-        [
-            Column::text("gear", "Gear"),
-            Column::number("torque_nm", "Nm", "Torque"),
-            Column::number("speed_rpm", "rpm", "Speed"),
-            Column::number("measured_loss_w", "W", "Measured loss"),
-            Column::number("loss_accuracy_w", "W", "Standard deviation of the measured loss"),
-            Column::number("winner_loss_w", "W", "Loss predicted by the winner"),
-            Column::number(
-                "mean_loss_w",
-                "W",
-                "Weighted mean of the losses predicted by the shortlist",
-            ),
-            Column::number("deviation_w", "W", "Weighted standard deviation of these losses"),
-            Column::number("least_loss_w", "W", "The smallest of these losses"),
-            Column::number("greatest_loss_w", "W", "The largest of these losses"),
-        ],
-    );
     let winner = ranking.losses(&ranking.ranking[ranking.winner]);
-    for (point, winner) in ranking.points.iter().zip(winner) {
-        table.push(cells![
-            &ranking.gear,
-            point.torque_nm,
-            point.speed_rpm,
-            point.measured_loss_w,
-            point.loss_accuracy_w,
-            winner,
-            point.mean_loss_w,
-            point.deviation_w,
-            point.least_loss_w,
-            point.greatest_loss_w,
-        ]);
-    }
-    table
+    Table::of(format!("{name}-shortlist"), ranking.points.iter().zip(winner))
+        .text("gear", "Gear", |_| &ranking.gear)
+        .number("torque_nm", "Nm", "Torque", |(point, _)| point.torque_nm)
+        .number("speed_rpm", "rpm", "Speed", |(point, _)| point.speed_rpm)
+        .number("measured_loss_w", "W", "Measured loss", |(point, _)| {
+            point.measured_loss_w
+        })
+        .number(
+            "loss_accuracy_w",
+            "W",
+            "Standard deviation of the measured loss",
+            |(point, _)| point.loss_accuracy_w,
+        )
+        .number("winner_loss_w", "W", "Loss predicted by the winner", |(_, winner)| {
+            *winner
+        })
+        .number(
+            "mean_loss_w",
+            "W",
+            "Weighted mean of the losses predicted by the shortlist",
+            |(point, _)| point.mean_loss_w,
+        )
+        .number(
+            "deviation_w",
+            "W",
+            "Weighted standard deviation of these losses",
+            |(point, _)| point.deviation_w,
+        )
+        .number("least_loss_w", "W", "The smallest of these losses", |(point, _)| {
+            point.least_loss_w
+        })
+        .number("greatest_loss_w", "W", "The largest of these losses", |(point, _)| {
+            point.greatest_loss_w
+        })
+        .finish()
 }
 
 /// One row for each point of the grid.
 fn points(name: &str, spread: &Spread) -> Table {
-    let mut table = Table::new(
-        name,
-        [
-            Column::text("gear", "Gear"),
-            Column::number("torque_nm", "Nm", "Torque"),
-            Column::number("speed_rpm", "rpm", "Speed"),
-            Column::number("least_loss_w", "W", "The smallest loss of all combinations"),
-            Column::number("mean_loss_w", "W", "Mean loss of all combinations"),
-            Column::number("greatest_loss_w", "W", "The largest loss of all combinations"),
-            Column::number("deviation_w", "W", "Standard deviation over the combinations"),
-        ],
-    );
-    for point in &spread.points {
-        table.push(cells![
-            &spread.gear,
-            point.torque_nm,
-            point.speed_rpm,
-            point.least_loss_w,
-            point.mean_loss_w,
-            point.greatest_loss_w,
-            point.deviation_w,
-        ]);
-    }
-    table
+    Table::of(name, &spread.points)
+        .text("gear", "Gear", |_| &spread.gear)
+        .number("torque_nm", "Nm", "Torque", |point| point.torque_nm)
+        .number("speed_rpm", "rpm", "Speed", |point| point.speed_rpm)
+        .number("least_loss_w", "W", "The smallest loss of all combinations", |point| {
+            point.least_loss_w
+        })
+        .number("mean_loss_w", "W", "Mean loss of all combinations", |point| {
+            point.mean_loss_w
+        })
+        .number(
+            "greatest_loss_w",
+            "W",
+            "The largest loss of all combinations",
+            |point| point.greatest_loss_w,
+        )
+        .number(
+            "deviation_w",
+            "W",
+            "Standard deviation over the combinations",
+            |point| point.deviation_w,
+        )
+        .finish()
 }

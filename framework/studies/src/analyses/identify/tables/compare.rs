@@ -1,78 +1,83 @@
 //! Comparison table of the model sets.
 
 use super::super::compare::ComparisonOfSets;
-use crate::cells;
-use crate::table::{Column, Table};
+use crate::table::Table;
 
 /// The comparison of the sets.
 pub(in crate::analyses::identify) fn table(name: &str, compared: &ComparisonOfSets) -> Table {
-    let mut table = Table::new(
-        format!("{name}-sets"),
-        [
-            Column::text("model_set", "Model set, the best first"),
-            Column::number("parameters", "-", "Number of parameters"),
-            Column::number(
-                "criterion_difference",
-                "-",
-                "Akaike's criterion minus that of the first set",
-            ),
-            Column::text(
-                "fold_rms",
-                "Root mean square of the cross-validation errors, relative to the accuracy",
-            ),
-            Column::number("folds", "-", "Number of groups"),
-            Column::number(
-                "folds_won_by_first",
-                "-",
-                "Number of groups that the first set predicts better",
-            ),
-            Column::number("ratio_of_first", "-", "Error of the first set over that of this one"),
-            Column::number("ratio_low", "-", "Lower end of the 95 % interval of the ratio"),
-            Column::number("ratio_high", "-", "Upper end of the 95 % interval of the ratio"),
-            Column::number(
-                "separation",
-                "-",
-                "Distance of the predictions in units of the errors of the set of points",
-            ),
-            Column::number(
-                "evidence",
-                "-",
-                "Misfit of this set minus that of the first, allowing for common errors",
-            ),
-            Column::number("correlation", "-", "Correlation of the errors used for the distance"),
-            Column::number(
-                "lack_of_fit_probability",
-                "-",
-                "Probability of a misfit at least this large",
-            ),
-            Column::text("decision", "Whether the first set is better"),
-            Column::text("reason", "Why"),
-        ],
-    );
-    for set in &compared.sets {
+    let rows = compared.sets.iter().map(|set| {
         let against = set.first_against_it.as_ref();
-        let folds = against.and_then(|against| against.folds.as_ref());
-        let errors = set.fold_rms.as_deref().unwrap_or_default();
-        let texts: Vec<String> = errors.iter().map(|x| finite(*x)).collect();
-        table.push(cells![
-            &set.model_set,
-            set.parameters,
-            set.criterion_difference,
-            texts.join(" "),
-            errors.len(),
-            folds.map(|p| p.won as f64),
-            folds.map(|p| p.ratio),
-            folds.map(|p| p.interval[0]),
-            folds.map(|p| p.interval[1]),
-            against.and_then(|c| c.separation),
-            against.and_then(|c| c.evidence),
-            against.and_then(|c| c.correlation),
-            set.lack_of_fit_probability,
-            against.map_or("", |c| c.decision),
-            against.map_or("", |c| c.reason),
-        ]);
-    }
-    table
+        (set, against, against.and_then(|against| against.folds.as_ref()))
+    });
+    Table::of(format!("{name}-sets"), rows)
+        .text("model_set", "Model set, the best first", |(set, ..)| &set.model_set)
+        .number("parameters", "-", "Number of parameters", |(set, ..)| {
+            set.parameters as f64
+        })
+        .number(
+            "criterion_difference",
+            "-",
+            "Akaike's criterion minus that of the first set",
+            |(set, ..)| set.criterion_difference,
+        )
+        .text(
+            "fold_rms",
+            "Root mean square of the cross-validation errors, relative to the accuracy",
+            |(set, ..)| {
+                let errors = set.fold_rms.iter().flatten();
+                errors.map(|x| finite(*x)).collect::<Vec<_>>().join(" ")
+            },
+        )
+        .number("folds", "-", "Number of groups", |(set, ..)| {
+            set.fold_rms.as_ref().map_or(0, Vec::len) as f64
+        })
+        .number(
+            "folds_won_by_first",
+            "-",
+            "Number of groups that the first set predicts better",
+            |(.., folds)| folds.map(|own| own.won as f64),
+        )
+        .number(
+            "ratio_of_first",
+            "-",
+            "Error of the first set over that of this one",
+            |(.., folds)| folds.map(|own| own.ratio),
+        )
+        .ends(
+            ["ratio_low", "ratio_high"],
+            "-",
+            "the 95 % interval of the ratio",
+            |(.., folds)| folds.map(|own| own.interval),
+        )
+        .number(
+            "separation",
+            "-",
+            "Distance of the predictions in units of the errors of the set of points",
+            |(_, against, _)| against.and_then(|own| own.separation),
+        )
+        .number(
+            "evidence",
+            "-",
+            "Misfit of this set minus that of the first, allowing for common errors",
+            |(_, against, _)| against.and_then(|own| own.evidence),
+        )
+        .number(
+            "correlation",
+            "-",
+            "Correlation of the errors used for the distance",
+            |(_, against, _)| against.and_then(|own| own.correlation),
+        )
+        .number(
+            "lack_of_fit_probability",
+            "-",
+            "Probability of a misfit at least this large",
+            |(set, ..)| set.lack_of_fit_probability,
+        )
+        .text("decision", "Whether the first set is better", |(_, against, _)| {
+            against.map_or("", |own| own.decision)
+        })
+        .text("reason", "Why", |(_, against, _)| against.map_or("", |own| own.reason))
+        .finish()
 }
 
 /// A number with all its digits; empty if not finite.
