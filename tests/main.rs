@@ -1,6 +1,7 @@
 //! The tests of the program and of the models that it ships, as one program: each that links them on its own costs seconds and a
 //! hundred megabytes. A module is a file or a folder beside this one; `cargo test --test all MODULE::` runs the tests of one.
-#![allow(clippy::unwrap_used)]
+// A test of many messages is a table of its cases.
+#![allow(clippy::unwrap_used, clippy::too_many_lines)]
 
 mod analyses;
 mod api;

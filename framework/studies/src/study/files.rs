@@ -408,36 +408,16 @@ impl Study {
                 }
             }
         }
-        let grids: Vec<&str> = self.entry.grids.ids().collect();
         for (name, analysis) in self.entry.analyses.iter() {
             let path = format!("analyses.{name}");
             let Uses {
                 gearbox,
                 grid,
-                grid_key,
                 sets,
                 gears,
-                data,
-                bind: _,
-                cycles,
-                vehicle,
+                ..
             } = analysis.uses();
-            for (key, name) in data.iter().filter_map(|(key, data)| Some((key, data.name()?))) {
-                if let Err(error) = self.named(&format!("{path}.{key}"), name) {
-                    found.push(error);
-                }
-            }
-            let known: Vec<&str> = self.entry.cycles.ids().collect();
-            for cycle in cycles.iter().filter(|c| !known.contains(&c.as_str())) {
-                found.push(dangling(&format!("{path}.cycles"), "duty", cycle, &known));
-            }
-            let known: Vec<&str> = self.entry.vehicles.ids().collect();
-            if let Some(vehicle) = vehicle.filter(|v| !known.contains(&v.as_str())) {
-                found.push(dangling(&format!("{path}.vehicle"), "vehicle", vehicle, &known));
-            }
-            if let Some(grid) = grid.filter(|g| !grids.contains(&g.as_str())) {
-                found.push(dangling(&format!("{path}.{grid_key}"), "grid", grid, &grids));
-            }
+            found.extend(self.check_names(&path, &analysis.uses()));
             let (_, gearbox) = self.gearbox(&path, gearbox)?;
             let mut built = Vec::new();
             for set in &sets {
@@ -499,6 +479,33 @@ impl Study {
         } else {
             Err(self.findings(found))
         }
+    }
+
+    /// Names of measurements, duty cycles, vehicles and grids that an analysis uses and that the study does not have.
+    fn check_names(&self, path: &str, uses: &Uses<'_>) -> Vec<Diagnostic> {
+        let named = uses.data.iter().filter_map(|(key, data)| {
+            let name = data.name()?;
+            self.named(&format!("{path}.{key}"), name).err()
+        });
+        let mut found: Vec<Diagnostic> = named.collect();
+        let mut known = |names: &[&str], key: &str, kind: &str, name: &str| {
+            if !names.contains(&name) {
+                found.push(dangling(&format!("{path}.{key}"), kind, name, names));
+            }
+        };
+        let cycles: Vec<&str> = self.entry.cycles.ids().collect();
+        for cycle in uses.cycles {
+            known(&cycles, "cycles", "duty", cycle);
+        }
+        if let Some(vehicle) = uses.vehicle {
+            let vehicles: Vec<&str> = self.entry.vehicles.ids().collect();
+            known(&vehicles, "vehicle", "vehicle", vehicle);
+        }
+        if let Some(grid) = uses.grid {
+            let grids: Vec<&str> = self.entry.grids.ids().collect();
+            known(&grids, uses.grid_key, "grid", grid);
+        }
+        found
     }
 
     /// The data entry: from the measurements of the study, or from the analysis.
