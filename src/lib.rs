@@ -54,7 +54,8 @@ use output::{End, Failure, Out};
 
 /// Runs the program with the arguments of the process.
 ///
-/// Exit codes: 0 success, 1 a finding, 2 an input error, 3 a bug, 130 interrupted.
+/// Exit codes: 0 success, 1 a finding, 2 an input error, 3 a bug, 130 interrupted. A panic in any thread, also of a model of another
+/// crate, is a bug: the hook that this function installs reports it and ends the process.
 pub fn main() -> ExitCode {
     let report = std::panic::take_hook();
     std::panic::set_hook(Box::new(move |bug| {
@@ -65,7 +66,8 @@ pub fn main() -> ExitCode {
     ExitCode::from(call(std::env::args_os()))
 }
 
-/// Runs one command with its arguments, the first of which is the program name; returns the exit code of [`main`].
+/// Runs one command with its arguments, the first of which is the program name; returns the exit code of [`main`]. A panic reaches the
+/// caller.
 pub fn call(args: impl IntoIterator<Item = OsString>) -> u8 {
     let args = match Args::try_parse_from(args) {
         Ok(args) => args,

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use crate::common::{RPM, language, two_speed_with};
 use gearloss_framework::evaluate::{Point, PowerFlow};
 use gearloss_framework::flow::Tolerance;
-use gearloss_studies::analysis::{Bits, Field, MOST_HELD, OilTemperature, Points, held, run_grid, solve_pieces};
+use gearloss_studies::analysis::{Bits, Field, MOST_IN_FLIGHT, OilTemperature, Points, held, run_grid, solve_pieces};
 use serde_json::json;
 
 #[test]
@@ -90,7 +90,7 @@ fn few_points_of_a_large_field_are_held_at_once() {
     let torques: Vec<f64> = (0..300).map(|i| 0.06 * f64::from(i)).collect();
     let speeds: Vec<f64> = (0..3200).map(|i| f64::from(i) * 7.0 * RPM).collect();
     let count = torques.len() * speeds.len();
-    assert!(count > 2 * MOST_HELD);
+    assert!(count > 2 * MOST_IN_FLIGHT);
     let points = Points {
         gear: "first".to_owned(),
         torque_at: vec!["input".to_owned()],
@@ -123,8 +123,8 @@ fn few_points_of_a_large_field_are_held_at_once() {
         assert_eq!((taken, next), (count, numbers.len()));
         let most = most.into_inner();
         assert!(
-            (MOST_HELD / 2..=MOST_HELD).contains(&most),
-            "{most} of {MOST_HELD} held"
+            (MOST_IN_FLIGHT / 2..=MOST_IN_FLIGHT).contains(&most),
+            "{most} of {MOST_IN_FLIGHT} held"
         );
     }
 }

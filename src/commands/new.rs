@@ -61,7 +61,7 @@ fn write(file: &Path, text: &str, out: &mut Out) -> Result<(), Failure> {
 }
 
 /// Writes the schema that the first line of a file names, for editors. An existing schema is kept, because other files may use it.
-fn schema_beside(file: &Path, language: &Language, kind: Kind, name: &str, out: &mut Out) -> Result<(), Failure> {
+fn write_schema(file: &Path, language: &Language, kind: Kind, name: &str, out: &mut Out) -> Result<(), Failure> {
     let schema = folder(file).join(name);
     let schema = schema.strip_prefix(".").unwrap_or(&schema);
     let text = published(language, kind)?;

@@ -188,7 +188,8 @@ pub(super) fn all(
     let template = args.template.as_deref();
     let template = template.map(|file| read_file(file, LONGEST_TEXT, "give a template with --template"));
     let template = template.transpose()?;
-    let held = taken(&folder, args.force, out)?;
+    let names: Vec<&str> = study.entry.analyses.ids().collect();
+    let held = claim(&folder, &names, args.force, out)?;
     let runner = Run::new(language, study, folder, tasks);
     if let Some(title) = &study.entry.title {
         out.line(title)?;
@@ -295,29 +296,37 @@ fn overridden(study: &Study, out: &mut Out) -> Result<(), Failure> {
 }
 
 /// Claims the result folder before computation. A folder with other files than earlier results needs `--force`; earlier results are
-/// replaced with a note.
-fn taken(folder: &Path, force: bool, out: &mut Out) -> Result<Held, Failure> {
+/// replaced with a note. Results are files of the formats of this program, and files of any format with the name of an analysis
+/// before a dot or a hyphen: those of exports in other crates.
+fn claim(folder: &Path, analyses: &[&str], force: bool, out: &mut Out) -> Result<Held, Failure> {
     let files: Vec<PathBuf> = std::fs::read_dir(folder)
         .into_iter()
         .flatten()
         .flatten()
         .map(|entry| entry.path())
         .collect();
+    let formats = [
+        "csv",
+        "json",
+        "svg",
+        "html",
+        "parquet",
+        "vtlm",
+        "m",
+        "mo",
+        "yaml",
+        folder::PART,
+    ];
     let written = |file: &PathBuf| {
-        let kind = file.extension().and_then(|kind| kind.to_str());
-        let kinds = [
-            "csv",
-            "json",
-            "svg",
-            "html",
-            "parquet",
-            "vtlm",
-            "m",
-            "mo",
-            "yaml",
-            folder::PART,
-        ];
-        kind.is_some_and(|kind| kinds.contains(&kind)) || file.ends_with(folder::MARK)
+        let format = file.extension().and_then(|format| format.to_str());
+        let name = file.file_name().and_then(|name| name.to_str()).unwrap_or_default();
+        let is_named = |analysis: &&str| {
+            name.strip_prefix(analysis)
+                .is_some_and(|rest| rest.starts_with(['.', '-']))
+        };
+        format.is_some_and(|format| formats.contains(&format))
+            || analyses.iter().any(is_named)
+            || file.ends_with(folder::MARK)
     };
     // Every run leaves a report, or the lock file of an unfinished run; a folder without them belongs to the user.
     let is_one = |file: &PathBuf| file.ends_with(write::REPORT) || file.ends_with(folder::MARK);

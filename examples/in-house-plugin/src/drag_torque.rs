@@ -72,16 +72,16 @@ impl Analysis for DragTorqueEntry {
         let built = cx.built(cx.gearbox(self.gearbox.as_ref())?, &self.model_sets)?;
         let path = format!("{}.oil_temperature", cx.path());
         let temperatures = axis(cx, &path, self.oil_temperature.values())?;
-        let mut sets = Vec::new();
+        let mut all = Vec::new();
         for b in &built {
             let points = self.points(cx, &b.transmission, &temperatures);
-            if cx.checked(b, &points)? {
-                continue;
-            }
-            sets.push(of_set(b, &temperatures, &cx.solve(b, &points)?));
+            cx.checked(b, &points)?;
+            all.push((b, points));
         }
         // All errors were found above: `check` ends here.
         cx.begin()?;
+        let solve = |(b, points): (&Built<'_>, Points)| Ok(of_set(b, &temperatures, &cx.solve(b, &points)?));
+        let sets = all.into_iter().map(solve).collect::<Result<_, Stopped>>()?;
         let head = cx.head(&built.iter().collect::<Vec<_>>());
         Ok(DragTorqueOutcome { head, sets })
     }

@@ -133,7 +133,7 @@ pub trait Component: Mechanism<Answer = Loss> {
         false
     }
     /// False if no note of a model depends on the load.
-    fn notes_hang_on_load(_model: &Self::Model) -> bool {
+    fn notes_depend_on_load(_model: &Self::Model) -> bool {
         true
     }
     /// Static load rating of a part that carries load, if known.

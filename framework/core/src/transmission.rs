@@ -115,7 +115,7 @@ pub(crate) struct Component {
     /// True if its loss may depend on torque or load.
     pub loaded: bool,
     /// False if the notes of its model are the same at all loads.
-    pub notes_hang_on_load: bool,
+    pub notes_depend_on_load: bool,
     /// True if its model is `none`.
     pub off: bool,
     /// Number of its support, if it carries load.
@@ -134,7 +134,7 @@ impl Component {
         Self {
             between: placed.between(),
             loaded: placed.loaded(),
-            notes_hang_on_load: placed.notes_hang_on_load(),
+            notes_depend_on_load: placed.notes_depend_on_load(),
             off: placed.off(),
             support: placed.support(),
             sharing: sharing.filter(|_| placed.loaded()),

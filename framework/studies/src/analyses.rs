@@ -51,7 +51,7 @@ pub use context::{Built, Context, Stopped, gear_of};
 pub use head::Head;
 
 use crate::analysis::Note;
-use crate::study::{Then, Uses, Write};
+use crate::study::{ParameterKey, Then, Uses, Write};
 use crate::table::Table;
 
 /// An analysis: its entry in a study and the computation of its outcome.
@@ -62,6 +62,8 @@ pub trait Analysis: DeserializeOwned + JsonSchema + Send + Sync + 'static {
     const TYPE: &'static str;
     /// Description of the analysis as a sentence.
     const MEANING: &'static str;
+    /// The key whose entries may be names of parameters of the study.
+    const PARAMETERS: Option<ParameterKey> = None;
     /// Outcome.
     type Outcome: Outcome + JsonSchema;
 
@@ -167,6 +169,8 @@ pub struct AnalysisKind {
     pub name: &'static str,
     /// Description as a sentence.
     pub meaning: &'static str,
+    /// The key whose entries may be names of parameters of the study.
+    pub parameters: Option<ParameterKey>,
     /// Where it is registered.
     pub origin: Origin,
     schema: fn(&mut SchemaGenerator) -> Schema,
@@ -186,6 +190,7 @@ impl AnalysisKind {
         Self {
             name: A::TYPE,
             meaning: A::MEANING,
+            parameters: A::PARAMETERS,
             origin,
             schema: SchemaGenerator::subschema_for::<A>,
             read: |value| Ok(Arc::new(serde_json::from_value::<A>(value)?)),

@@ -9,5 +9,7 @@ pub use crate::analyses::numbers::{RPM, tidy};
 pub use crate::analyses::{Analysis, Built, Context, Head, Outcome, Stopped, gear_of};
 pub use crate::analysis::{Given, GridResult, Note, PointResult, Points, notes};
 pub use crate::register_analysis;
-pub use crate::study::{By, SpeedAxis, TemperatureAxis, TorqueAxis, Uses, Write};
+pub use crate::study::{
+    By, NameOr, NamesOrParameters, ParameterKey, RangeEntry, SpeedAxis, TemperatureAxis, TorqueAxis, Uses, Write,
+};
 pub use crate::table::Table;

@@ -28,7 +28,7 @@ pub use identify::{
     FoldsBy, FoldsEntry, HoldOutEntry, HoldOutRows, IdentifiedEntry, OverEntry, PriorEntry, ScaleEntry,
 };
 pub use names::is_device;
-pub(crate) use parameters::{NameOr, NamesOrParameters};
+pub use parameters::{NameOr, NamesOrParameters, ParameterKey};
 pub use range::RangeEntry;
 pub use then::Then;
 pub use tolerance::{Shape, ToleranceEntry};

@@ -425,7 +425,7 @@ impl BearingModel for Model {
         );
     }
 
-    fn notes_hang_on_load(&self) -> bool {
+    fn notes_depend_on_load(&self) -> bool {
         false
     }
 

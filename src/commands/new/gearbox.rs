@@ -5,7 +5,7 @@ use std::path::Path;
 use clap::ValueEnum;
 use gearloss_framework::language::Kind;
 
-use super::{print_next, schema_beside, word, write};
+use super::{print_next, word, write, write_schema};
 use crate::args::{Layout, NewGearboxArgs};
 use crate::output::{End, Failure, Out};
 
@@ -50,7 +50,7 @@ pub fn run(args: &NewGearboxArgs, out: &mut Out) -> Result<End, Failure> {
     let start = Start::for_layout(layout);
     let file = args.output.as_path();
     write(file, start.text, out)?;
-    schema_beside(
+    write_schema(
         file,
         super::super::language()?,
         Kind::Gearbox,

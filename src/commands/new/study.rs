@@ -8,7 +8,7 @@ use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::resolve::Choice;
 use gearloss_framework::transmission::Transmission;
 
-use super::{folder, print_next, schema_beside, word, write};
+use super::{folder, print_next, word, write, write_schema};
 use crate::args::NewStudyArgs;
 use crate::output::{End, Failure, Out, figures};
 
@@ -40,7 +40,7 @@ pub fn run(args: &NewStudyArgs, out: &mut Out) -> Result<End, Failure> {
     let file = args.output.as_path();
     let path = seen_from(folder(file), &args.gearbox);
     write(file, &start.study(&path), out)?;
-    schema_beside(file, language, Kind::Study, "study.schema.json", out)?;
+    write_schema(file, language, Kind::Study, "study.schema.json", out)?;
     out.line(format!(
         "gear `{}`, the first that transmits torque; torque and speed at `{}`",
         start.gear, start.port

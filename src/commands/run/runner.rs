@@ -65,7 +65,7 @@ impl Progress for Bars {
         Box::new(Bar(self.bar(count as u64, label)))
     }
 
-    fn goes_on(&self) -> bool {
+    fn should_continue(&self) -> bool {
         !interrupt::pressed()
     }
 }

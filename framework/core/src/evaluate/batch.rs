@@ -156,7 +156,7 @@ impl Transmission {
     }
 
     /// False for parts whose loss is computed once per batch.
-    fn hangs_on_torque(&self, part: &PartInfo) -> bool {
+    fn depends_on_torque(&self, part: &PartInfo) -> bool {
         match part.kind {
             PartKind::Component(i) => self.components[i].loaded && !self.components[i].off,
             PartKind::Mesh(_) => true,
@@ -177,7 +177,7 @@ impl Transmission {
             calls: &s.calls,
         };
         for component in &self.components {
-            if !component.loaded || component.off || component.notes_hang_on_load {
+            if !component.loaded || component.off || component.notes_depend_on_load {
                 continue;
             }
             let common = Notes::fresh(cells, component.notes).keeping(kept);
@@ -241,7 +241,7 @@ impl Transmission {
             self.note_row(s);
             scratch.row_outside = s.cells.iter().any(|seen| seen.outside > 0);
             for (part, watts) in self.parts.iter().zip(&mut scratch.watts) {
-                if !self.hangs_on_torque(part) {
+                if !self.depends_on_torque(part) {
                     *watts = Lane::all(self.part_watts(part, s).unwrap_or(0.0));
                 }
             }
@@ -562,7 +562,7 @@ impl Batch<'_> {
             for (i, component) in t.components.iter().enumerate() {
                 let Some(support) = component
                     .support
-                    .filter(|_| component.loaded && !component.off && component.notes_hang_on_load)
+                    .filter(|_| component.loaded && !component.off && component.notes_depend_on_load)
                 else {
                     continue;
                 };
@@ -633,7 +633,7 @@ impl Batch<'_> {
                     .parts
                     .iter()
                     .zip(&mut *watts)
-                    .filter(|(part, _)| t.hangs_on_torque(part));
+                    .filter(|(part, _)| t.depends_on_torque(part));
                 for (part, watts) in torqued {
                     *watts = match part.kind {
                         PartKind::Component(i) if settled.relative[i] == 0.0 => Lane::ZERO,

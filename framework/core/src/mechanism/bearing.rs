@@ -31,13 +31,13 @@ pub trait BearingModel: Send + Sync {
 
     /// False if no limit or observed quantity depends on the load. [`note`](Self::note) is then called once for many points,
     /// without load and without active lanes: it must use only [`LaneNotes::all`] or the notes of the context.
-    fn notes_hang_on_load(&self) -> bool {
+    fn notes_depend_on_load(&self) -> bool {
         true
     }
 
     /// Writes the notes of [`loss`](Self::loss) at these loads.
     fn note(&self, at: &BearingAt<'_>, loads: &LoadLanes, notes: LaneNotes<'_>) {
-        if !self.notes_hang_on_load() {
+        if !self.notes_depend_on_load() {
             let _ = self.loss(&at.under(loads, 0, notes.all()));
             return;
         }
@@ -395,7 +395,7 @@ impl Mechanism for Bearing {
             let notes = notes.for_a_row();
             model.note(&without.with(|to| to.notes = notes.all()), &LoadLanes::NONE, notes);
         };
-        if !model.notes_hang_on_load() && !same_notes(notes, single, once) {
+        if !model.notes_depend_on_load() && !same_notes(notes, single, once) {
             return Some("a note depends on the load");
         }
         (!same).then_some("`note` writes other notes than `loss`")
@@ -431,8 +431,8 @@ impl Component for Bearing {
         true
     }
 
-    fn notes_hang_on_load(model: &Self::Model) -> bool {
-        model.notes_hang_on_load()
+    fn notes_depend_on_load(model: &Self::Model) -> bool {
+        model.notes_depend_on_load()
     }
 
     fn static_rating(part: &BearingPart) -> Option<StaticRating> {

@@ -34,7 +34,7 @@ pub trait Placed: sealed::Sealed + Send + Sync {
         false
     }
     /// False if [`Placed::note`] writes the same notes at all loads.
-    fn notes_hang_on_load(&self) -> bool {
+    fn notes_depend_on_load(&self) -> bool {
         true
     }
     /// The context of the model at a state, one copy.
@@ -78,8 +78,8 @@ impl<C: Component> Placed for PlacedAs<C> {
         let site = C::Attachment::site(self.seat, &self.spot, state);
         C::note(&self.model, &C::context(&self.part, site, notes.all()), loads, notes)
     }
-    fn notes_hang_on_load(&self) -> bool {
-        C::notes_hang_on_load(&self.model)
+    fn notes_depend_on_load(&self) -> bool {
+        C::notes_depend_on_load(&self.model)
     }
     fn readings(&self, state: &State<'_>) -> Vec<Reading> {
         let site = C::Attachment::site(self.seat, &self.spot, state);

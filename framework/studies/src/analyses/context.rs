@@ -76,7 +76,7 @@ impl Built<'_> {
 }
 
 /// Maximum number of points in memory, samples included; with derived data they need a few gigabytes. Maps over grids store none.
-const MOST_HELD: usize = 2_000_000;
+const MOST_POINTS: usize = 2_000_000;
 
 /// Files read by an analysis, and the notes of their entries.
 #[derive(Debug, Default)]
@@ -284,18 +284,18 @@ impl<'a> Context<'a> {
     }
 
     /// False if the caller aborts, or if the analysis has ended.
-    pub fn goes_on(&self) -> bool {
-        self.progress.goes_on() && !self.has_ended.load(Ordering::Relaxed)
+    pub fn should_continue(&self) -> bool {
+        self.progress.should_continue() && !self.has_ended.load(Ordering::Relaxed)
     }
 
-    /// Ends the analysis from within a function that has its own error type: [`Context::goes_on`] becomes false, and
+    /// Ends the analysis from within a function that has its own error type: [`Context::should_continue`] becomes false, and
     /// [`Context::why_ended`] returns the reason.
     pub fn end(&self, why: Stopped) {
         *self.ended.lock().unwrap_or_else(PoisonError::into_inner) = Some(why);
         self.has_ended.store(true, Ordering::Relaxed);
     }
 
-    /// Why [`Context::goes_on`] is false.
+    /// Why [`Context::should_continue`] is false.
     pub fn why_ended(&self) -> Stopped {
         let why = self.ended.lock().unwrap_or_else(PoisonError::into_inner).take();
         self.has_ended.store(false, Ordering::Relaxed);
@@ -368,7 +368,7 @@ impl<'a> Context<'a> {
     }
 
     /// Computes a stage of so many tasks on all threads, and gives their results in their order. Results are stored to the bit. A
-    /// result that was computed while [`Context::goes_on`] turned false is dropped.
+    /// result that was computed while [`Context::should_continue`] turned false is dropped.
     ///
     /// # Errors
     /// An interruption, and results that other runs compute.
@@ -388,7 +388,7 @@ impl<'a> Context<'a> {
         };
         let running = self.running(missing.own.len(), label);
         let compute = |number: usize| {
-            if !self.goes_on() {
+            if !self.should_continue() {
                 return Err(Stopped::Interrupted);
             }
             let result = compute(number);
@@ -483,7 +483,7 @@ impl<'a> Context<'a> {
         let missing = (0..count).filter(|number| !kept.is_kept(self.task(stage, *number)));
         let (own, others): (Vec<usize>, Vec<usize>) =
             missing.partition(|number| kept.is_own(self.task(stage, *number)));
-        if self.goes_on() {
+        if self.should_continue() {
             Ok(Missing {
                 own,
                 others: others.len(),
@@ -557,7 +557,7 @@ impl<'a> Context<'a> {
     /// # Errors
     /// There.
     pub fn holds(&self, path: &str, points: usize, times: usize) -> Result<(), Stopped> {
-        if points.saturating_mul(times) <= MOST_HELD {
+        if points.saturating_mul(times) <= MOST_POINTS {
             return Ok(());
         }
         let of = if times > 1 {
@@ -565,7 +565,7 @@ impl<'a> Context<'a> {
         } else {
             format!(", {points},")
         };
-        let message = format!("more points{of} than the maximum of {MOST_HELD} in memory");
+        let message = format!("more points{of} than the maximum of {MOST_POINTS} in memory");
         Err(self.wrong_as(
             codes::TOO_LARGE,
             path,

@@ -307,7 +307,7 @@ impl Duties<'_> {
         let mut seen = Left::new();
         for read in &self.list {
             let driven = self
-                .drive(t, read, &|_| cx.goes_on())
+                .drive(t, read, &|_| cx.should_continue())
                 .map_err(|list| list.first().map_or_else(String::new, |d| d.message.clone()))?
                 .ok_or_else(|| "interrupted".to_owned())?;
             if let Some((time, why)) = &driven.broken {

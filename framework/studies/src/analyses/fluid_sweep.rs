@@ -265,7 +265,7 @@ impl Search<'_> {
     }
 
     fn failed(&self, value: f64, reason: &str) -> Stopped {
-        if !self.cx.goes_on() {
+        if !self.cx.should_continue() {
             return self.cx.why_ended();
         }
         let help = "delete the value, or narrow the range";

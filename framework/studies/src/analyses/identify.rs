@@ -32,7 +32,7 @@ use crate::codes;
 use crate::identify::{Faults, HoldOut, Identification, Settings, group_words};
 use crate::measured::Measured;
 use crate::register_analysis;
-use crate::study::{FoldsEntry, IdentifiedEntry, Then, Uses, Write};
+use crate::study::{FoldsEntry, IdentifiedEntry, ParameterKey, Then, Uses, Write};
 use found::{Found, Prepared};
 use next::Candidates;
 use outcome::{DataOfFit, HeldOutRows, Requested};
@@ -42,6 +42,7 @@ register_analysis!(IdentifyEntry);
 impl Analysis for IdentifyEntry {
     const TYPE: &'static str = "identify";
     const MEANING: &'static str = "Identification of uncertain parameters from measured points.";
+    const PARAMETERS: Option<ParameterKey> = Some(ParameterKey::Whole("parameters"));
     type Outcome = IdentifyOutcome;
 
     fn uses(&self) -> Uses<'_> {
@@ -167,7 +168,7 @@ fn identify(
     if cx.only_checks {
         return Ok(None);
     }
-    let pressed = || !cx.goes_on();
+    let pressed = || !cx.should_continue();
     let searches = |count: usize, search: &OneSearch<'_>| {
         let fits = cx.each(&format!("{} starts", b.name), count, search);
         fits.unwrap_or_else(|stopped| {

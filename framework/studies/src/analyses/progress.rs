@@ -6,7 +6,7 @@ pub trait Progress: Sync {
     fn begin(&self, label: &str, count: usize) -> Box<dyn Steps + '_>;
 
     /// False if the analysis must stop.
-    fn goes_on(&self) -> bool;
+    fn should_continue(&self) -> bool;
 }
 
 /// Steps of work; the work ends when this is dropped.
@@ -24,7 +24,7 @@ impl Progress for Silent {
         Box::new(Self)
     }
 
-    fn goes_on(&self) -> bool {
+    fn should_continue(&self) -> bool {
         true
     }
 }
@@ -50,11 +50,11 @@ impl<'a> Running<'a> {
     /// Further steps are done; false if the work must stop.
     pub fn advance(&self, count: usize) -> bool {
         self.steps.advance(count);
-        self.progress.goes_on()
+        self.progress.should_continue()
     }
 
     /// False if the work must stop.
-    pub fn goes_on(&self) -> bool {
-        self.progress.goes_on()
+    pub fn should_continue(&self) -> bool {
+        self.progress.should_continue()
     }
 }

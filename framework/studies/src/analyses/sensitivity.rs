@@ -25,7 +25,7 @@ use super::trial::{Left, Trial, left};
 use super::{Analysis, Built, Context, Stopped};
 use crate::analysis::{Points, notes};
 use crate::register_analysis;
-use crate::study::{Grid, NameOr, RangeEntry, Uses, Write};
+use crate::study::{Grid, NameOr, ParameterKey, RangeEntry, Uses, Write};
 
 /// Relative noise of a mean loss. A point is solved until the remaining change is below 1e-9 of its power.
 const NOISE: f64 = 1e-9;
@@ -95,6 +95,7 @@ register_analysis!(SensitivityEntry);
 impl Analysis for SensitivityEntry {
     const TYPE: &'static str = "sensitivity";
     const MEANING: &'static str = "Sensitivity of the losses: slopes, screening, shares of the variance.";
+    const PARAMETERS: Option<ParameterKey> = Some(ParameterKey::Range("parameters"));
     type Outcome = SensitivityOutcome;
 
     fn uses(&self) -> Uses<'_> {
@@ -285,7 +286,7 @@ impl SensitivityEntry {
             left: Mutex::default(),
         };
         let found = self.found(&starts, &evaluations);
-        if !cx.goes_on() {
+        if !cx.should_continue() {
             return Err(cx.why_ended());
         }
         let found = found.map_err(no_value)?;

@@ -55,7 +55,7 @@ impl<'a> Trial<'a> {
             oil: OilTemperature::of(transmission, self.study.entry.conditions.oil_temperature),
             ..points.clone()
         };
-        let solved = run_grid(transmission, &points, &|_| self.cx.goes_on());
+        let solved = run_grid(transmission, &points, &|_| self.cx.should_continue());
         let solved = solved.map_err(|list| list.first().map_or_else(String::new, |d| d.message.clone()))?;
         solved.ok_or_else(|| "interrupted".to_owned())
     }
@@ -72,7 +72,7 @@ impl<'a> Trial<'a> {
         let built = rows
             .build(self.language, self.gearbox, &choice)
             .map_err(|findings| findings.first())?;
-        let solved = rows.solve(built, on, &|_| self.cx.goes_on());
+        let solved = rows.solve(built, on, &|_| self.cx.should_continue());
         let solved = solved.map_err(|list| list.first().map_or_else(String::new, |d| d.message.clone()))?;
         solved.ok_or_else(|| "interrupted".to_owned())
     }

@@ -12,7 +12,7 @@ use crate::analyses::axes::grid_axes;
 use crate::analyses::inputs::Input;
 use crate::analysis::Note;
 use crate::register_analysis;
-use crate::study::{NameOr, ToleranceEntry, Uses, Write};
+use crate::study::{NameOr, ParameterKey, ToleranceEntry, Uses, Write};
 use crate::table::Table;
 
 /// Effect of uncertain inputs on efficiency, loss and temperature over a grid: every input is drawn from its distribution.
@@ -153,6 +153,7 @@ impl QuantityBand {
 impl Analysis for UncertaintyEntry {
     const TYPE: &'static str = "uncertainty";
     const MEANING: &'static str = "Uncertainty bands of efficiency, loss and temperature from uncertain inputs.";
+    const PARAMETERS: Option<ParameterKey> = Some(ParameterKey::Range("inputs"));
     type Outcome = UncertaintyOutcome;
 
     fn uses(&self) -> Uses<'_> {

@@ -24,7 +24,7 @@ const LARGEST: usize = LANES * 3200;
 const TOGETHER: usize = LANES * 2048;
 
 /// Maximum number of points with data in memory while a field is solved piece by piece.
-pub const MOST_HELD: usize = 2 * LARGEST;
+pub const MOST_IN_FLIGHT: usize = 2 * LARGEST;
 
 /// Maximum number of points of a task. Each task starts without results of previous speeds.
 const TASK: usize = 4096;
@@ -180,7 +180,7 @@ struct Task<T> {
 }
 
 /// Solves the pieces with the given indices and passes them on in this order. `make` extracts the requested data of the points on all
-/// threads, while they are in the caches; points are not stored unless `make` returns them ([`held`]). Data of at most [`MOST_HELD`] points
+/// threads, while they are in the caches; points are not stored unless `make` returns them ([`held`]). Data of at most [`MOST_IN_FLIGHT`] points
 /// are in memory: while some are taken, the next are solved. `progress` is called with the number of newly solved points; if it or `take`
 /// returns false, the work stops and this returns false.
 ///

@@ -4,17 +4,15 @@ use schemars::JsonSchema;
 use serde_json::{Map, Value};
 
 use super::IdentifiedEntry;
+use crate::analyses::AnalysisKind;
 use gearloss_framework::description::Ordered;
 use gearloss_framework::document::{Diagnostic, did_you_mean};
 
 /// Parameters as in `identify`.
+// Only its schema is used: names are replaced before the study is read into types.
 #[derive(JsonSchema)]
 #[serde(untagged)]
-#[expect(
-    dead_code,
-    reason = "its schema alone counts: names are replaced before the study is read into types"
-)]
-pub(crate) enum NamesOrParameters {
+pub enum NamesOrParameters {
     /// Names of parameters from `parameters` of the study.
     Names(#[schemars(length(min = 1))] Vec<String>),
     /// The parameters by name.
@@ -22,13 +20,10 @@ pub(crate) enum NamesOrParameters {
 }
 
 /// One quantity with its range, as in other analyses.
+// Only its schema is used, as above.
 #[derive(JsonSchema)]
 #[serde(untagged)]
-#[expect(
-    dead_code,
-    reason = "its schema alone counts: names are replaced before the study is read into types"
-)]
-pub(crate) enum NameOr<T> {
+pub enum NameOr<T> {
     /// Name of a parameter from `parameters` of the study; its range is `from` and `to`.
     Name(String),
     /// The quantity and its range.
@@ -37,6 +32,15 @@ pub(crate) enum NameOr<T> {
 
 /// Keys of a parameter that define a range.
 const OF_RANGE: [&str; 4] = ["path", "tie", "from", "to"];
+
+/// The key of an analysis whose entries may be names of parameters of the study, and what an entry then receives.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ParameterKey {
+    /// The whole parameter, by its name; see [`NamesOrParameters`].
+    Whole(&'static str),
+    /// The path and range of the parameter, in a list; see [`NameOr`].
+    Range(&'static str),
+}
 
 /// References to parameters: the path in the analysis, and the path under `parameters`.
 pub(super) type TakenOver = Vec<(String, String)>;
@@ -56,15 +60,16 @@ pub(super) fn written_at(taken_over: &TakenOver, path: &str) -> Option<String> {
 pub(super) fn replace_names(study: &mut Value) -> Result<TakenOver, Vec<Diagnostic>> {
     let stated = study.get("parameters").and_then(Value::as_object).cloned();
     let stated = stated.unwrap_or_default();
+    let kinds = AnalysisKind::linked();
     let (mut found, mut taken_over) = (Vec::new(), Vec::new());
     let analyses = study.get_mut("analyses").and_then(Value::as_object_mut);
     for (name, analysis) in analyses.into_iter().flatten() {
-        let kind = analysis.get("type").and_then(Value::as_str).unwrap_or_default();
-        let (key, identifies) = match kind {
-            "identify" => ("parameters", true),
-            "sensitivity" => ("parameters", false),
-            "uncertainty" => ("inputs", false),
-            _ => continue,
+        let kind = analysis.get("type").and_then(Value::as_str);
+        let kind = kinds.iter().find(|own| Some(own.name) == kind);
+        let (key, identifies) = match kind.and_then(|kind| kind.parameters) {
+            Some(ParameterKey::Whole(key)) => (key, true),
+            Some(ParameterKey::Range(key)) => (key, false),
+            None => continue,
         };
         let place = format!("analyses.{name}.{key}");
         let Some(written) = analysis.get_mut(key) else { continue };

@@ -50,7 +50,7 @@ impl Block<'_> {
         let (t, s) = (self.transmission, self.s);
         let info = &t.parts[part];
         match info.kind {
-            PartKind::Component(i) if t.hangs_on_torque(info) => {
+            PartKind::Component(i) if t.depends_on_torque(info) => {
                 let (speed, count) = (s.state.relative[i], t.copies(i, &s.state.speeds));
                 if speed == 0.0 {
                     return Lane::all(0.0);

@@ -123,7 +123,7 @@ impl Found {
             let validation = identification.validate(&fitted, &groups, settings)?;
             Ok((groups, validation))
         });
-        if !cx.goes_on() {
+        if !cx.should_continue() {
             return Err(cx.why_ended());
         }
         let all: Vec<usize> = (0..identification.measured().rows.len()).collect();

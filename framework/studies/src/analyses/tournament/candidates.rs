@@ -211,7 +211,7 @@ impl<'a> Gathering<'a> {
                 marks: Vec::new(),
             });
         }
-        let solved = run_grid(&transmission, self.points, &|_| cx.goes_on()).map_err(|list| because(&list))?;
+        let solved = run_grid(&transmission, self.points, &|_| cx.should_continue()).map_err(|list| because(&list))?;
         let solved = solved.ok_or(Refused::Interrupted)?;
         self.unlisted += left(&transmission, &solved);
         if let Some(p) = solved.points.iter().find(|p| p.loss.is_none()) {
@@ -302,7 +302,7 @@ fn timed(cx: &Context<'_>, transmission: &Transmission, points: &Points) -> Opti
     let mut least = f64::INFINITY;
     for _ in 0..5 {
         let begun = Instant::now();
-        if !matches!(run_grid(transmission, &few, &|_| cx.goes_on()), Ok(Some(_))) {
+        if !matches!(run_grid(transmission, &few, &|_| cx.should_continue()), Ok(Some(_))) {
             return None;
         }
         least = least.min(begun.elapsed().as_secs_f64());

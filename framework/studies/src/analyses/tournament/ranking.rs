@@ -102,7 +102,7 @@ impl TournamentEntry {
         let running = cx.running(field.count(), cx.name);
         let ranked = rank(&losses, measured, bounds, &|| running.advance(1));
         drop(running);
-        if !cx.goes_on() {
+        if !cx.should_continue() {
             return Err(cx.why_ended());
         }
         let is_marked = |c: &Combination| !field.marks(c).is_empty();
@@ -174,7 +174,7 @@ fn gap_of_sum(cx: &Context<'_>, field: &Field<'_>, c: &Combination) -> Result<f6
     }
     let transmission = base.gearbox.build(cx.language, &resolved)?;
     let points = cx.listed(&transmission, &field.gear, given(&field.points));
-    let solved = run_grid(&transmission, &points, &|_| cx.goes_on());
+    let solved = run_grid(&transmission, &points, &|_| cx.should_continue());
     let solved = solved.map_err(|list| Stopped::from(base.gearbox.findings(list)))?;
     let solved = solved.ok_or(Stopped::Interrupted)?;
     let added = field.losses().of_combination(&c.places, &vec![1.0; c.places.len()]);
