@@ -137,6 +137,11 @@ pub fn number(value: &Value) -> f64 {
     value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
 }
 
+/// Runs a study of the repository.
+pub fn run_file(study: &str) -> Ran {
+    run(&Disk::shared(), &super::file(study))
+}
+
 /// Runs a study with files beside it.
 pub fn run_texts(study: &str, files: &[(&str, &str)]) -> Ran {
     let texts = files.iter().copied().chain([("study.yaml", study)]);
