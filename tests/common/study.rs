@@ -72,6 +72,11 @@ impl Ran {
         file.unwrap_or_else(|| panic!("no file {name}: {}", self.text))
     }
 
+    /// Whether an analysis wants a file of text to be written.
+    pub fn has_file(&self, name: &str) -> bool {
+        self.files.contains_key(name)
+    }
+
     /// A picture that an analysis wants to be written, as SVG.
     pub fn picture(&self, name: &str) -> &str {
         let picture = self.pictures.get(name);
