@@ -1,18 +1,11 @@
 //! The analyses of one component and of one path of contact agree with the whole transmission.
 
-use crate::common;
-use crate::common::study::{Ran, run_texts};
+use crate::common::study::{Ran, of_gearbox, run_texts};
 
 /// Runs a study on the two-speed example; its results and what it prints.
 fn run(analyses: &str, files: &[(&str, &str)]) -> (Ran, String) {
-    let gearbox = common::file("examples/two-speed-ev/gearbox.yaml");
-    let study = format!(
-        "gearloss: study/1\ngearboxes: {{ ours: {} }}\nanalyses:\n{analyses}",
-        gearbox.display()
-    );
-    let ran = run_texts(&study, files);
-    let text = ran.text.clone();
-    (ran, text)
+    let study = of_gearbox("examples/two-speed-ev/gearbox.yaml", &format!("analyses:\n{analyses}"));
+    run_texts(&study, files).with_text()
 }
 
 const POINT: &str = "torque: 10 Nm, speed: 10000 rpm";

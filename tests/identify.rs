@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use crate::common::rig::{SEED, TRUTH};
-use crate::common::study::{Ran, run_texts};
+use crate::common::study::{Ran, of_gearbox, run_texts};
 use crate::common::{self, RPM, language};
 use gearloss_framework::evaluate::{Point, PowerFlow};
 use gearloss_framework::flow::Tolerance;
@@ -16,18 +16,13 @@ use serde_json::{Value, json};
 
 /// Runs a study with files beside it; its results and what it prints.
 fn run(study: &str, files: &[(&str, &str)]) -> (Ran, String) {
-    let ran = run_texts(study, files);
-    let text = ran.text.clone();
-    (ran, text)
+    run_texts(study, files).with_text()
 }
 
 /// A study of the two-speed example under its own models at 80 degC.
 fn study(analyses: &str) -> String {
-    let gearbox = common::file("examples/two-speed-ev/gearbox.yaml");
-    format!(
-        "gearloss: study/1\ngearboxes: {{ ours: {} }}\nconditions: {{ oil_temperature: 80 degC }}\n{analyses}",
-        gearbox.display()
-    )
+    let rest = format!("conditions: {{ oil_temperature: 80 degC }}\n{analyses}");
+    of_gearbox("examples/two-speed-ev/gearbox.yaml", &rest)
 }
 
 fn first(results: &Ran, name: &str) -> Value {

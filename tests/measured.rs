@@ -1,8 +1,11 @@
 //! Measured data in studies: columns that are changed, torque and speed at the other port, several files, filters, steady intervals.
 
-use crate::common;
+use crate::common::study::{Ran, of_gearbox, run_texts};
+use crate::common::{self, RPM, language};
 use std::path::{Path, PathBuf};
 
+use gearloss::api::{Choice, Gearbox, OilTemperature, PowerFlow};
+use gearloss_studies::analysis::PreparedPoint;
 use serde_json::Value;
 
 /// One stage from 3000 to 1500 rpm, which turns the sense of rotation.
@@ -17,24 +20,28 @@ fn gearloss(args: &[&str]) -> (Option<i32>, String) {
     (output.status.code(), String::from_utf8(text).unwrap())
 }
 
-/// A folder with a study and files beside it.
-fn folder(name: &str, study: &str, files: &[(&str, &str)]) -> PathBuf {
+/// A study of the gearbox.
+fn study(rest: &str) -> String {
+    of_gearbox(GEARBOX, rest)
+}
+
+/// Runs a study with files beside it; its results and what was printed.
+fn run(rest: &str, files: &[(&str, &str)]) -> (Ran, String) {
+    let ran = run_texts(&study(rest), files);
+    assert!(ran.succeeded, "{}", ran.text);
+    ran.with_text()
+}
+
+/// A folder with a study and files beside it, for the program.
+fn folder(name: &str, rest: &str, files: &[(&str, &str)]) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("measured-{name}"));
     let _ = std::fs::remove_dir_all(&folder);
     std::fs::create_dir_all(&folder).unwrap();
-    let gearbox = common::file(GEARBOX);
-    let head = format!("gearloss: study/1\ngearboxes: {{ unit: {} }}\n", gearbox.display());
-    std::fs::write(folder.join("study.yaml"), head + study).unwrap();
+    std::fs::write(folder.join("study.yaml"), study(rest)).unwrap();
     for (file, text) in files {
         std::fs::write(folder.join(file), text).unwrap();
     }
     folder
-}
-
-fn run(folder: &Path) -> String {
-    let (code, text) = gearloss(&["run", folder.join("study.yaml").to_str().unwrap()]);
-    assert_eq!(code, Some(0), "{text}");
-    text
 }
 
 fn check(folder: &Path) -> String {
@@ -43,35 +50,32 @@ fn check(folder: &Path) -> String {
     text
 }
 
-fn json(folder: &Path, name: &str) -> Value {
-    let text = std::fs::read_to_string(folder.join(format!("results/{name}.json"))).unwrap();
-    serde_json::from_str(&text).unwrap()
-}
-
 /// Torque at the output, which leaves positive, and loss where the input has a torque at 3000 rpm.
-fn solved(torque: &str) -> (f64, f64) {
-    let gearbox = common::file(GEARBOX);
-    let args = [
-        "solve",
-        gearbox.to_str().unwrap(),
-        "--torque",
-        torque,
-        "--speed",
-        "3000 rpm",
-        "--format",
-        "json",
-    ];
-    let (_, text) = gearloss(&args);
-    let value: Value = serde_json::from_str(&text).unwrap();
-    let output = &value["ports"][1];
-    assert!(output["speed_rpm"].as_f64().unwrap() < 0.0);
+fn solved(torque: f64) -> (f64, f64) {
+    let language = language();
+    let gearbox = Gearbox::read(&language, &common::file(GEARBOX)).unwrap();
+    let t = gearbox.transmission(&language, &Choice::default()).unwrap();
+    let gear = &t.states()[0].name;
+    let case = t.case(gear, &["input"], &["input"]).unwrap();
+    let point = PreparedPoint {
+        case,
+        gear: gear.clone(),
+        speeds: vec![3000.0 * RPM],
+        torques: vec![torque],
+        oil: OilTemperature::of(&t, None),
+        flow: PowerFlow::Real,
+    };
+    let mut scratch = t.scratch(&point.case);
+    let solution = point.solve(&t, &mut scratch).solution;
+    let out = t.port("output").unwrap();
+    assert!(solution.speed(t.ports()[out].member) < 0.0);
     // What is applied has the sense of the output, which turns backward.
-    (output["torque_nm"].as_f64().unwrap(), value["loss_w"].as_f64().unwrap())
+    (solution.torque(out), solution.loss().unwrap())
 }
 
 #[test]
 fn torque_and_speed_at_the_output_alone_find_the_same_points() {
-    let ((drive, drive_loss), (coast, coast_loss)) = (solved("10 Nm"), solved("-10 Nm"));
+    let ((drive, drive_loss), (coast, coast_loss)) = (solved(10.0), solved(-10.0));
     let rows = format!("{drive},1500,{drive_loss}\n{coast},1500,{coast_loss}\n");
     let rig = format!("torque_out [Nm],speed_out [rpm],loss [W]\n{rows}");
     // The same with the input speed, and with the input torque.
@@ -87,38 +91,33 @@ analyses:
   half:  { type: compare, data: half, against: [own], quantity: loss, difference: percent, write: [json] }
   other: { type: compare, data: other, against: [own], quantity: loss, difference: percent, write: [json] }
 ";
-    let folder = folder(
-        "out",
-        study,
-        &[("rig.csv", &rig), ("half.csv", &half), ("other.csv", &other)],
-    );
-    let text = run(&folder);
+    let files = [("rig.csv", rig.as_str()), ("half.csv", &half), ("other.csv", &other)];
+    let (results, text) = run(study, &files);
     assert!(
         text.contains("there is no column for `torque`: `torque_out` gives it at the other port"),
         "{text}"
     );
     for name in ["rig", "half", "other"] {
-        let value = json(&folder, name);
+        let value = results.json(name);
         for point in value["comparisons"][0]["points"].as_array().unwrap() {
             // The tolerance of a point, 1e-9 of 3 kW, in percent of 50 W.
             assert!(point["difference"].as_f64().unwrap().abs() < 1e-5, "{name} {point}");
         }
         assert_eq!(value["comparisons"][0]["model_set"], "own");
     }
-    let point = &json(&folder, "rig")["comparisons"][0]["points"][0];
+    let point = &results.json("rig")["comparisons"][0]["points"][0];
     assert!((point["speed_rpm"].as_f64().unwrap() + 1500.0).abs() < 1e-9, "{point}");
 }
 
 #[test]
 fn a_torque_at_the_output_gives_the_loss_by_the_ratio_alone() {
-    let (output, loss) = solved("10 Nm");
+    let (output, loss) = solved(10.0);
     let rig = format!("torque [Nm],speed [rpm],torque_out [Nm]\n10,3000,{output}\n");
     let study = "
 analyses: { rig: { type: compare, data: { file: rig.csv }, against: [own], quantity: loss, difference: points, write: [json] } }
 ";
-    let folder = folder("ratio", study, &[("rig.csv", &rig)]);
-    run(&folder);
-    let measured = json(&folder, "rig")["comparisons"][0]["points"][0]["measured"]
+    let (results, _) = run(study, &[("rig.csv", &rig)]);
+    let measured = results.json("rig")["comparisons"][0]["points"][0]["measured"]
         .as_f64()
         .unwrap();
     assert!((measured - loss).abs() < 1e-6 * loss, "{measured} {loss}");
@@ -155,8 +154,7 @@ analyses:
 "#;
     let first = "torque [Nm],speed [rpm],loss\n10,3000,50\n1,3000,40\n";
     let second = "T_brake,speed [rpm],loss\n-20000,3000,60\n";
-    let folder = folder("files", study, &[("first.csv", first), ("second.csv", second)]);
-    let text = run(&folder);
+    let (results, text) = run(study, &[("first.csv", first), ("second.csv", second)]);
     assert!(
         text.contains("warm: column `T_brake` is read multiplied by 0.001, with the opposite sign as torque"),
         "{text}"
@@ -165,7 +163,7 @@ analyses:
         text.contains("1 of 3 rows are omitted by `rows: torque > 5 Nm`"),
         "{text}"
     );
-    let value = json(&folder, "fit");
+    let value = results.json("fit");
     let points = value["comparisons"][0]["points"].as_array().unwrap();
     assert_eq!(
         (points.len(), &points[1]["file"], &points[1]["line"]),
@@ -182,7 +180,7 @@ analyses:
         inputs.contains("first.csv") && inputs.contains("second.csv"),
         "{inputs}"
     );
-    let csv = std::fs::read_to_string(folder.join("results/fit.csv")).unwrap();
+    let csv = results.csv("fit");
     assert!(csv.contains("own,first.csv:2,") && csv.contains("own,warm:2,"), "{csv}");
     let schema: Value =
         serde_json::from_str(&std::fs::read_to_string(common::file("schemas/result.schema.json")).unwrap()).unwrap();
@@ -214,8 +212,7 @@ analyses:
             50.0 + f64::from(k % 3)
         ));
     }
-    let folder = folder("steady", study, &[("recording.csv", &text)]);
-    let printed = run(&folder);
+    let (results, printed) = run(study, &[("recording.csv", &text)]);
     assert!(
         printed.contains("fit: recording.csv: 2 steady intervals, 8"),
         "{printed}"
@@ -224,7 +221,7 @@ analyses:
         printed.contains("largest standard errors of the means: torque"),
         "{printed}"
     );
-    let value = json(&folder, "fit");
+    let value = results.json("fit");
     let torques: Vec<f64> = value["comparisons"][0]["points"]
         .as_array()
         .unwrap()

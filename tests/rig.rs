@@ -1,5 +1,6 @@
 //! The synthetic measurement of the two-speed example: made here, and compared as a user compares his own.
 
+use crate::common::study::{Ran, run_file, run_texts};
 use crate::common::{self, language};
 use serde_json::Value;
 
@@ -18,20 +19,9 @@ fn the_synthetic_measurement_is_what_the_hidden_parameters_make() {
 /// The map of examples/foreign-map is what the gearbox that it hides loses, as a design tool would write it. `UPDATE=1` writes it.
 #[test]
 fn the_foreign_map_is_what_its_hidden_gearbox_loses() {
-    let results = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("foreign-map");
-    let study = common::file("tests/foreign_map/study.yaml");
-    let study = study.display().to_string();
-    let arguments = [
-        "gearloss",
-        "run",
-        &study,
-        "--force",
-        "-o",
-        &results.display().to_string(),
-    ]
-    .map(Into::into);
-    assert_eq!(gearloss::call(arguments), 0);
-    let map: Value = serde_json::from_str(&std::fs::read_to_string(results.join("map.json")).unwrap()).unwrap();
+    let ran = run_file("tests/foreign_map/study.yaml");
+    assert!(ran.succeeded, "{}", ran.text);
+    let map = ran.json("map");
     let mut csv = "T_wheel_Nm,n_wheel_rpm,T_oil_C,P_loss_W\n".to_owned();
     for temperature in map["maps"].as_array().unwrap() {
         for point in temperature["points"].as_array().unwrap() {
@@ -48,30 +38,14 @@ fn the_foreign_map_is_what_its_hidden_gearbox_loses() {
     assert_eq!(std::fs::read_to_string(&file).unwrap(), csv, "UPDATE=1 writes it");
 }
 
-/// Runs a study on the example with the synthetic file beside it.
-fn run(name: &str, study: &str, rig: &str) -> (std::path::PathBuf, String) {
-    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("rig-{name}"));
-    let _ = std::fs::remove_dir_all(&folder);
-    std::fs::create_dir_all(&folder).unwrap();
+/// Runs a study on the example, under two names, with the synthetic file beside it; its results and what was printed.
+fn run(study: &str, rig: &str) -> (Ran, String) {
     let gearbox = common::file("examples/two-speed-ev/gearbox.yaml");
     let head = format!(
         "gearloss: study/1\ngearboxes: {{ ours: {0}, theirs: {0} }}\n",
         gearbox.display()
     );
-    std::fs::write(folder.join("study.yaml"), head + study).unwrap();
-    std::fs::write(folder.join("rig.csv"), rig).unwrap();
-    let output = std::process::Command::new(env!("CARGO_BIN_EXE_gearloss"))
-        .arg("run")
-        .arg(folder.join("study.yaml"))
-        .output()
-        .unwrap();
-    let text = String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr);
-    (folder, text)
-}
-
-fn json_of(folder: &std::path::Path, name: &str) -> Value {
-    let path = folder.join(format!("results/{name}.json"));
-    serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
+    run_texts(&(head + study), &[("rig.csv", rig)]).with_text()
 }
 
 const DATA: &str = "data: { file: rig.csv, columns: { torque: T_in, speed: n_in, efficiency: eta, oil_temperature: T_oil }, stated_as: standard, rig: { torque_in: { full_scale: 20 Nm, percent_of_full_scale: 0.05 }, torque_out: { full_scale: 500 Nm, percent_of_full_scale: 0.05 } } }";
@@ -83,8 +57,8 @@ fn models_are_compared_with_the_file_in_points_and_in_percent_of_loss() {
         "analyses:\n  fit: {{ type: compare, gear: first, against: [own, theirs/own], write: [csv, json, svg], {DATA} }}\n"
     );
     let study = study.replace("[own, theirs/own]", "[ours/own, theirs/own]");
-    let (folder, text) = run("compare", &study, &rig);
-    let comparisons = json_of(&folder, "fit")["comparisons"].clone();
+    let (results, text) = run(&study, &rig);
+    let comparisons = results.json("fit")["comparisons"].clone();
     let first = &comparisons[0];
     let points = first["points"].as_array().expect(&text);
     assert_eq!(points.len(), 440);
@@ -105,8 +79,8 @@ fn models_are_compared_with_the_file_in_points_and_in_percent_of_loss() {
         text.contains("indistinguishable") && text.contains("decimal comma") && text.contains("units in line"),
         "{text}"
     );
-    for picture in ["fit-parity.svg", "fit-histogram.svg"] {
-        assert!(folder.join("results").join(picture).is_file());
+    for picture in ["fit-parity", "fit-histogram"] {
+        assert!(results.draws(picture));
     }
 }
 
@@ -117,9 +91,9 @@ fn without_an_efficiency_the_torques_at_both_ports_give_it() {
     let study = format!(
         "analyses:\n  eta: {{ type: compare, gear: first, against: [ours/own], {DATA} }}\n  both: {{ type: compare, gear: first, against: [ours/own], {both} }}\n  loss: {{ type: compare, gear: first, against: [ours/own], quantity: loss_torque, {both} }}\n"
     );
-    let (folder, text) = run("both", &study, &rig);
+    let (results, text) = run(&study, &rig);
     let mean = |name: &str| {
-        json_of(&folder, name)["comparisons"][0]["difference"]["mean"]
+        results.json(name)["comparisons"][0]["difference"]["mean"]
             .as_f64()
             .unwrap_or_else(|| panic!("{text}"))
     };
@@ -163,7 +137,7 @@ fn what_a_comparison_lacks_is_told() {
         let study = format!(
             "grids: {{ g: {{ gear: first, torque: 10 Nm, speed: 1000 rpm }} }}\nanalyses:\n  fit: {{ type: compare, {analysis} }}\n"
         );
-        let (_, text) = run("lacks", &study, "T_in;n_in\nNm;1/min\n10;1000\n");
+        let (_, text) = run(&study, "T_in;n_in\nNm;1/min\n10;1000\n");
         assert!(text.contains(said) && text.contains("help:"), "{said}\n{text}");
     }
 }
@@ -177,18 +151,15 @@ analyses:
   map: { type: map, grid: g }
   none: { type: sweep, path: lubricants.sump.viscosity.kv900, values: [1], torque: 10 Nm, speed: 8000 rpm }
 ";
-    let (folder, text) = run("sweep", study, "");
-    let sweep = json_of(&folder, "oil")["sweep"].clone();
-    let map = json_of(&folder, "map")["maps"].clone();
+    let (results, text) = run(study, "");
+    let sweep = results.json("oil")["sweep"].clone();
+    let map = results.json("map")["maps"].clone();
     for i in 0..2 {
         assert_eq!(sweep[i]["points"][1]["loss_w"], map[i]["points"][0]["loss_w"], "{text}");
     }
     let loss = |value: &Value| value["points"][0]["loss_w"].as_f64().unwrap();
     assert!(loss(&sweep[0]) < loss(&sweep[1]), "thick oil loses more without load");
-    let hot = json_of(&folder, "hot")["sweep"].clone();
+    let hot = results.json("hot")["sweep"].clone();
     assert!(loss(&hot[0]) > loss(&hot[1]) && hot[0]["points"][0]["oil_temperature_degc"] == 60.0);
-    assert!(
-        folder.join("results/oil-loss.svg").is_file() && text.contains("kv900"),
-        "{text}"
-    );
+    assert!(results.draws("oil-loss") && text.contains("kv900"), "{text}");
 }

@@ -1,8 +1,7 @@
 //! What losses depend on: of laws whose slopes and shares are known, and what is refused.
 
 use crate::common;
-use std::path::{Path, PathBuf};
-use std::process::Command;
+use crate::common::study::{Ran, number, of_gearbox, run_texts};
 
 use serde_json::Value;
 
@@ -23,37 +22,15 @@ grids:
   bound: { gear: first, torque: 5 Nm, speed: 2000 rpm, bind: { surface.ra: [0.3 um, 0.4 um] } }
 ";
 
-/// Runs analyses of the two-speed example; the folder of the results and what was printed.
-fn run(name: &str, analyses: &str) -> (PathBuf, String) {
-    run_under(name, "oil_temperature: 100 degC", analyses)
+/// Runs analyses of the two-speed example; their results and what was printed.
+fn run(analyses: &str) -> (Ran, String) {
+    run_under("oil_temperature: 100 degC", analyses)
 }
 
-fn run_under(name: &str, conditions: &str, analyses: &str) -> (PathBuf, String) {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("sensitivity-{name}"));
-    let _ = std::fs::remove_dir_all(&folder);
-    std::fs::create_dir_all(&folder).unwrap();
-    let gearbox = common::file("examples/two-speed-ev/gearbox.yaml");
-    let study = format!(
-        "gearloss: study/1\ngearboxes: {{ ours: {} }}\nconditions: {{ {conditions} }}\n{SETS}analyses:\n{analyses}",
-        gearbox.display()
-    );
-    std::fs::write(folder.join("study.yaml"), study).unwrap();
-    let output = Command::new(env!("CARGO_BIN_EXE_gearloss"))
-        .arg("run")
-        .arg(folder.join("study.yaml"))
-        .output()
-        .unwrap();
-    let text = String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr);
-    (folder.join("results"), text)
-}
-
-fn json(folder: &Path, name: &str) -> Value {
-    let text = std::fs::read_to_string(folder.join(format!("{name}.json")));
-    serde_json::from_str(&text.unwrap()).unwrap()
-}
-
-fn number(value: &Value) -> f64 {
-    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
+/// The same under other conditions.
+fn run_under(conditions: &str, analyses: &str) -> (Ran, String) {
+    let study = format!("conditions: {{ {conditions} }}\n{SETS}analyses:\n{analyses}");
+    run_texts(&of_gearbox("examples/two-speed-ev/gearbox.yaml", &study), &[]).with_text()
 }
 
 /// An output by its name.
@@ -66,9 +43,7 @@ fn output<'v>(result: &'v Value, name: &str) -> &'v Value {
 /// shares of the variance are the squares of slope times range.
 #[test]
 fn a_sum_has_the_slopes_and_shares_of_its_terms() {
-    let (folder, text) = run(
-        "sum",
-        "  what:
+    let (results, text) = run("  what:
     type: sensitivity
     grid: few
     model_sets: [seals]
@@ -76,9 +51,8 @@ fn a_sum_has_the_slopes_and_shares_of_its_terms() {
       - { path: seals.D1.model.value, percent: 10 }
       - { path: seals.D2.model.value, from: 0 Nm, to: 0.6 Nm }
       - { path: lubricants.sump.viscosity.kv100, percent: 20 }
-",
-    );
-    let result = json(&folder, "what")["sensitivities"][0].clone();
+");
+    let result = results.json("what")["sensitivities"][0].clone();
     assert_eq!(
         result["runs"],
         serde_json::json!({ "local": 7, "morris": 80, "sobol": 5120 }),
@@ -131,14 +105,14 @@ fn a_sum_has_the_slopes_and_shares_of_its_terms() {
     assert!(number(&output(&result, "loss")["mean"]) >= number(&seal["mean"]));
     assert!(number(&output(&result, "efficiency")["local"][1]["slope"]) < 0.0);
     for picture in ["effects", "morris", "shares"] {
-        assert!(folder.join(format!("what-seals-{picture}.svg")).is_file());
+        assert!(results.draws(&format!("what-seals-{picture}")));
     }
     assert!(
         text.contains("depends most on seals.D2.model.value") && text.contains("not influential on the mean loss: "),
         "{text}"
     );
     assert!(text.contains("parameters do not interact"), "{text}");
-    let csv = std::fs::read_to_string(folder.join("what.csv")).unwrap();
+    let csv = results.csv("what");
     assert!(csv.lines().count() == 1 + 3 * result["outputs"].as_array().unwrap().len());
 }
 
@@ -207,10 +181,7 @@ fn what_cannot_be_asked_is_told_with_its_place_and_how_to_mend_it() {
         } else {
             "model_sets: [seals], "
         };
-        let (_, text) = run(
-            "wrong",
-            &format!("  what: {{ type: sensitivity, {grid}{sets}{analysis} }}\n"),
-        );
+        let (_, text) = run(&format!("  what: {{ type: sensitivity, {grid}{sets}{analysis} }}\n"));
         for said in said {
             assert!(text.contains(said), "{analysis}: {said}\n{text}");
         }
@@ -222,16 +193,13 @@ fn what_cannot_be_asked_is_told_with_its_place_and_how_to_mend_it() {
 #[test]
 fn threads_change_nothing() {
     let study = "  what: { type: sensitivity, grid: few, samples: 16, trajectories: 3, parameters: [{ path: lubricants.sump.viscosity.kv100, percent: 20 }, { path: \"gears.*.surface.rq\", percent: 20 }] }\n";
-    let (folder, text) = run("threads", study);
-    let first = std::fs::read_to_string(folder.join("what.csv")).expect(&text);
-    let output = Command::new(env!("CARGO_BIN_EXE_gearloss"))
-        .arg("run")
-        .arg(folder.join("../study.yaml"))
-        .env("RAYON_NUM_THREADS", "1")
-        .output()
-        .unwrap();
-    assert!(output.status.success());
-    assert_eq!(first, std::fs::read_to_string(folder.join("what.csv")).unwrap());
+    let all = [1, 2].map(|threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let (results, text) = pool.install(|| run(study));
+        assert!(results.succeeded, "{text}");
+        results.csv("what")
+    });
+    assert_eq!(all[0], all[1]);
 }
 
 /// A temperature that the gearbox states is a quantity like others: thicker oil loses more.
@@ -240,10 +208,10 @@ fn the_temperature_of_the_oil_counts_where_the_gearbox_states_it() {
     let study = "  what: { type: sensitivity, grid: few, methods: [local], parameters: [{ path: thermal.oil, plus_minus: 20 K }] }
   band: { type: uncertainty, grid: few, samples: 8, inputs: [{ path: thermal.oil, plus_minus: 20 K }] }
 ";
-    let (folder, text) = run_under("oil", "", study);
-    let result = json(&folder, "what")["sensitivities"][0].clone();
+    let (results, text) = run_under("", study);
+    let result = results.json("what")["sensitivities"][0].clone();
     assert!(number(&output(&result, "loss")["local"][0]["slope"]) < 0.0, "{text}");
-    let loss = json(&folder, "band")["bands"][0]["points"][0]["loss_w"]["band"].clone();
+    let loss = results.json("band")["bands"][0]["points"][0]["loss_w"]["band"].clone();
     assert!(number(&loss[2]) > 1.02 * number(&loss[0]), "{loss}");
 }
 
@@ -251,10 +219,8 @@ fn the_temperature_of_the_oil_counts_where_the_gearbox_states_it() {
 #[test]
 fn what_moves_loss_between_regions_is_seen_at_single_points() {
     let kv = "lubricants.sump.viscosity.kv100";
-    let (folder, text) = run(
-        "regions",
-        &format!(
-            "  what:
+    let (results, text) = run(&format!(
+        "  what:
     type: sensitivity
     grid: few
     model_sets: [turning]
@@ -262,9 +228,8 @@ fn what_moves_loss_between_regions_is_seen_at_single_points() {
     samples: 64
     parameters: [{{ path: {kv}, percent: 20 }}, {{ path: seals.D1.loss_factor, percent: 20 }}]
 "
-        ),
-    );
-    let result = json(&folder, "what")["sensitivities"][0].clone();
+    ));
+    let result = results.json("what")["sensitivities"][0].clone();
     let [loss, points] = ["loss", "relative_loss"].map(|name| output(&result, name));
     assert!(
         loss["morris"][0]["influence"] == "none" && points["morris"][0]["influence"] != "none",

@@ -1,7 +1,8 @@
 //! Studies of the two-speed example: maps, stacks, exports, bands, tournaments; what they show agrees with what was solved.
 
 use crate::common;
-use std::path::{Path, PathBuf};
+use crate::common::study::{Ran, number, of_gearbox, run_texts};
+use std::path::PathBuf;
 use std::process::Command;
 
 use serde_json::Value;
@@ -15,45 +16,27 @@ const SETS: &str = "model_sets:
     synchronizer: { type: cone_gap }
 ";
 
+/// A study of the two-speed example.
+fn study_of(sets: &str, rest: &str) -> String {
+    let study = format!("conditions: {{ oil_temperature: 100 degC }}\n{sets}{rest}");
+    of_gearbox("examples/two-speed-ev/gearbox.yaml", &study)
+}
+
+/// Runs a study with files beside it; its results and what was printed.
+fn run(study: &str, files: &[(&str, &str)]) -> (Ran, String) {
+    run_texts(&study_of(SETS, study), files).with_text()
+}
+
+/// A folder with a study and files beside it, for the program.
 fn written(name: &str, study: &str, files: &[(&str, &str)]) -> PathBuf {
     let folder = std::env::temp_dir().join(format!("gearloss-studies-{}-{name}", std::process::id()));
     let _ = std::fs::remove_dir_all(&folder);
     std::fs::create_dir_all(&folder).unwrap();
-    let gearbox = common::file("examples/two-speed-ev/gearbox.yaml");
-    let head = format!(
-        "gearloss: study/1\ngearboxes: {{ ours: {} }}\nconditions: {{ oil_temperature: 100 degC }}\n{SETS}",
-        gearbox.display()
-    );
-    std::fs::write(folder.join("study.yaml"), head + study).unwrap();
+    std::fs::write(folder.join("study.yaml"), study_of(SETS, study)).unwrap();
     for (file, text) in files {
         std::fs::write(folder.join(file), text).unwrap();
     }
     folder
-}
-
-/// Runs a study; the folder of its results and what was printed.
-fn run(name: &str, study: &str, files: &[(&str, &str)]) -> (PathBuf, String) {
-    solved(&written(name, study, files).join("study.yaml"))
-}
-
-/// The same of a study that is written.
-fn solved(study: &Path) -> (PathBuf, String) {
-    let output = Command::new(env!("CARGO_BIN_EXE_gearloss"))
-        .arg("run")
-        .arg(study)
-        .output()
-        .unwrap();
-    let text = String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr);
-    (study.with_file_name("results"), text)
-}
-
-fn json(folder: &Path, name: &str) -> Value {
-    let text = std::fs::read_to_string(folder.join(format!("{name}.json")));
-    serde_json::from_str(&text.unwrap()).unwrap()
-}
-
-fn number(value: &Value) -> f64 {
-    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
 }
 
 fn points(value: &Value) -> &[Value] {
@@ -84,11 +67,11 @@ fn stacks_add_up_to_the_loss_of_the_map() {
   warm: {{ type: temperature_sweep, model_sets: [joint], oil_temperature: [40 degC, 100 degC], torque: 10 Nm, speed: 8000 rpm }}
 "
     );
-    let (folder, text) = run("stacks", &study, &[]);
-    let map = json(&folder, "map");
+    let (results, text) = run(&study, &[]);
+    let map = results.json("map");
     let loss = number(&points(&map["maps"][0])[4]["loss_w"]);
     let stack = |name: &str, point: usize| -> f64 {
-        let result = json(&folder, name);
+        let result = results.json(name);
         let unit = result["breakdowns"][0]["unit"].as_str().unwrap();
         let list = points(&result["breakdowns"][0])[point][format!("losses_{unit}")]
             .as_array()
@@ -105,7 +88,7 @@ fn stacks_add_up_to_the_loss_of_the_map() {
     assert_close(stack("over_torque", 1), loss, 1e-12);
     assert_close(stack("warm", 1), loss, 1e-12);
     assert!(stack("warm", 0) > loss, "cold oil is thicker");
-    let stages = json(&folder, "stage")["breakdowns"][0]["shares"].clone();
+    let stages = results.json("stage")["breakdowns"][0]["shares"].clone();
     for share in ["meshes.M1", "meshes.M2", "shafts.input", "shafts.output"] {
         assert!(
             stages.as_array().unwrap().contains(&Value::from(share)),
@@ -123,15 +106,15 @@ fn one_power_at_every_speed_and_a_measured_total_beside_the_bars() {
   standstill: { type: breakdown, model_sets: [joint], power: 8 kW, speed: [0 rpm, 8000 rpm] }
   both: { type: breakdown, model_sets: [joint], power: 8 kW, torque: 3 Nm, speed: 8000 rpm }
 ";
-    let (folder, text) = run("power", study, &[("rig.csv", rig)]);
-    for point in points(&json(&folder, "power")["breakdowns"][0]) {
+    let (results, text) = run(study, &[("rig.csv", rig)]);
+    for point in points(&results.json("power")["breakdowns"][0]) {
         assert_close(
             number(&point["torque_nm"]) * number(&point["speed_rpm"]) * common::RPM,
             8000.0,
             1e-9,
         );
     }
-    let seen = json(&folder, "seen")["breakdowns"][0].clone();
+    let seen = results.json("seen")["breakdowns"][0].clone();
     assert_close(number(&points(&seen)[0]["measured_loss_w"]), 155.0, 1e-12);
     assert!(points(&seen)[1]["measured_loss_w"].is_null());
     assert!(text.contains("a power at standstill is not possible"), "{text}");
@@ -146,8 +129,8 @@ fn losses_without_load_in_every_gear_state_and_towed() {
   towed: { type: spin_loss, model_sets: [joint], turned_at: output, gears: [first], speed: [200 rpm] }
   wrong: { type: spin_loss, model_sets: [joint], turned_at: outptu, speed: [200 rpm] }
 ";
-    let (folder, text) = run("spin", study, &[]);
-    let spin = json(&folder, "spin");
+    let (results, text) = run(study, &[]);
+    let spin = results.json("spin");
     let states = spin["breakdowns"].as_array().unwrap();
     assert_eq!(states.len(), 3);
     let loss = |state: &Value| -> f64 {
@@ -160,19 +143,23 @@ fn losses_without_load_in_every_gear_state_and_towed() {
     };
     assert!(loss(&states[2]) < loss(&states[0]), "in neutral the loaded stage rests");
     assert!(text.contains("output stationary"), "{text}");
-    let towed = json(&folder, "towed")["breakdowns"][0].clone();
+    let towed = results.json("towed")["breakdowns"][0].clone();
     assert!(loss(&towed) > 0.0);
     assert!(text.contains("write `output`"), "{text}");
 }
 
 #[test]
 fn envelopes_ratings_and_listed_points_agree_with_the_plain_grid() {
-    let rated = "gearloss: gearbox/1\nextends: GEARBOX\nrating: { torque: 20 Nm, speed: 20000 rpm }\n".replace(
-        "GEARBOX",
-        common::file("examples/two-speed-ev/gearbox.yaml").to_str().unwrap(),
+    let gearbox = common::file("examples/two-speed-ev/gearbox.yaml");
+    let rated = format!(
+        "gearloss: gearbox/1\nextends: {}\nrating: {{ torque: 20 Nm, speed: 20000 rpm }}\n",
+        gearbox.display()
     );
-    let study = "  rated: rated.yaml
-grids:
+    let head = format!(
+        "gearloss: study/1\ngearboxes: {{ ours: {}, rated: rated.yaml }}\nconditions: {{ oil_temperature: 100 degC }}\n{SETS}",
+        gearbox.display()
+    );
+    let study = "grids:
   few: { gear: first, torque: [5 Nm, 10 Nm, 20 Nm], speed: [2000 rpm, 8000 rpm, 20000 rpm] }
   inside: { gear: [first, second], torque: [5 Nm, 10 Nm, 20 Nm], speed: [2000 rpm, 8000 rpm, 20000 rpm], envelope: { speed: [0 rpm, 8000 rpm, 20000 rpm], torque: [20 Nm, 20 Nm, 8 Nm] } }
   shares: { gear: first, torque: { of_rating: [0.25, 0.5, 1] }, speed: { of_rating: [0.1, 0.4, 1] } }
@@ -183,32 +170,13 @@ analyses:
   unrated: { type: map, grid: shares, model_sets: [ours/joint] }
   listed: { type: map, points: { file: points.csv }, model_sets: [ours/joint], write: [csv, json, svg] }
 ";
-    let folder = written("grids", "", &[("rated.yaml", &rated)]);
-    std::fs::write(folder.join("points.csv"), "torque [Nm],speed [rpm],oil_temperature [degC],gear\n10,8000,100,first\n10,8000,60,first\n10,8000,100,second\n").unwrap();
-    let head = std::fs::read_to_string(folder.join("study.yaml")).unwrap();
-    let (_, conditions) = head.split_once("conditions").unwrap();
-    let gearbox = common::file("examples/two-speed-ev/gearbox.yaml");
-    let whole = format!(
-        "gearloss: study/1\ngearboxes:\n  ours: {}\n{}conditions{conditions}{}",
-        gearbox.display(),
-        study.split_once("grids:").unwrap().0,
-        study
-            .split_once("grids:")
-            .map(|(_, rest)| format!("grids:{rest}"))
-            .unwrap()
-    );
-    std::fs::write(folder.join("study.yaml"), whole).unwrap();
-    let output = Command::new(env!("CARGO_BIN_EXE_gearloss"))
-        .arg("run")
-        .arg(folder.join("study.yaml"))
-        .output()
-        .unwrap();
-    let text = String::from_utf8_lossy(&output.stderr).into_owned();
-    let folder = folder.join("results");
-    let plain = json(&folder, "plain");
+    let listed = "torque [Nm],speed [rpm],oil_temperature [degC],gear\n10,8000,100,first\n10,8000,60,first\n10,8000,100,second\n";
+    let files = [("rated.yaml", rated.as_str()), ("points.csv", listed)];
+    let (results, text) = run_texts(&(head + study), &files).with_text();
+    let plain = results.json("plain");
     let loss = |result: &Value, i: usize| number(&points(result)[i]["loss_w"]);
     // 20 Nm and 10 Nm at 20000 rpm lie beyond the envelope.
-    let inside = json(&folder, "inside");
+    let inside = results.json("inside");
     assert_eq!(
         inside["maps"].as_array().unwrap().len(),
         2,
@@ -216,17 +184,17 @@ analyses:
     );
     assert_eq!(points(&inside["maps"][0]).len(), 7);
     assert_close(loss(&inside["maps"][0], 4), loss(&plain["maps"][0], 4), 1e-12);
-    let shares = json(&folder, "shares");
+    let shares = results.json("shares");
     for i in 0..9 {
         assert_close(loss(&shares["maps"][0], i), loss(&plain["maps"][0], i), 1e-9);
     }
-    let picture = std::fs::read_to_string(folder.join("shares-rated-joint-loss.svg")).unwrap();
+    let picture = results.picture("shares-rated-joint-loss");
     assert!(picture.contains("speed / rated speed"));
     assert!(
         text.contains("add `rating: { torque: 20 Nm, speed: 22000 rpm }` to the gearbox"),
         "{text}"
     );
-    let listed = json(&folder, "listed");
+    let listed = results.json("listed");
     let maps = listed["maps"].as_array().unwrap();
     assert_eq!(maps.len(), 2);
     assert_close(loss(&maps[0], 0), loss(&plain["maps"][0], 4), 1e-12);
@@ -262,8 +230,8 @@ analyses:
   refused: { type: map, grid: drive, model_sets: [joint], export: [vecto] }
   strict: { type: map, grid: wide, model_sets: [joint], lossy_gear_limit: 0.1, export: [lossy_gear] }
 ";
-    let (folder, text) = run("exports", study, &[]);
-    let vecto = std::fs::read_to_string(folder.join("wide-joint-first.vtlm")).unwrap();
+    let (results, text) = run(study, &[]);
+    let vecto = results.file("wide-joint-first.vtlm");
     let (header, rows) = vecto.split_once('\n').unwrap();
     assert_eq!(header, "Input Speed [rpm],Input Torque [Nm],Torque Loss [Nm]");
     let rows = numbers(rows.trim_end());
@@ -275,13 +243,13 @@ analyses:
             .find(|r| (r[0] - speed).abs() < 1e-6 && (r[1] - torque).abs() < 1e-6);
         row.unwrap()[2]
     };
-    let wide = json(&folder, "wide");
+    let wide = results.json("wide");
     for point in points(&wide["maps"][0]) {
         let (torque, speed) = (number(&point["torque_nm"]), number(&point["speed_rpm"]));
         // Written to six decimals.
         assert!((at(speed, torque) - number(&point["loss_torque_nm"])).abs() < 6e-7);
     }
-    let half = json(&folder, "half");
+    let half = results.json("half");
     let mut worst = [0.0_f64; 2];
     for point in points(&half["maps"][0]) {
         let (torque, speed) = (number(&point["torque_nm"]), number(&point["speed_rpm"]));
@@ -299,7 +267,7 @@ analyses:
     );
 
     // The equations of the Modelica Standard Library: (1 - eta1) T + f1 where a drives, (1 - 1 / eta2) T + f2 where b does.
-    let modelica = std::fs::read_to_string(folder.join("losses_wide_joint_first.mo")).unwrap();
+    let modelica = results.file("losses_wide_joint_first.mo");
     let said = |before: &str| -> f64 {
         let rest = modelica.split(before).nth(1);
         rest.and_then(|rest| rest.split(' ').next()).unwrap().parse().unwrap()
@@ -344,10 +312,10 @@ analyses:
             && text.contains("`lossy_gear_limit: 0."),
         "{text}"
     );
-    assert!(!folder.join("losses_strict_joint_first.mo").exists());
+    assert!(!results.has_file("losses_strict_joint_first.mo"));
 
     // Simulink: rows are torques, columns speeds.
-    let script = std::fs::read_to_string(folder.join("wide-joint-first.m")).unwrap();
+    let script = results.file("wide-joint-first.m");
     let list = |name: &str| -> Vec<f64> {
         let (_, rest) = script.split_once(&format!("{name} = [")).unwrap();
         rest.split(']')
@@ -378,11 +346,9 @@ analyses:
 analyses:
   warm: { type: map, grid: warm, model_sets: [joint], export: [matlab] }
 ";
-    let folder = written("warm", study, &[]).join("study.yaml");
-    let text = std::fs::read_to_string(&folder).unwrap();
-    std::fs::write(&folder, text.replace("{ oil_temperature: 100 degC }", "{}")).unwrap();
-    let folder = solved(&folder).0;
-    let warm = std::fs::read_to_string(folder.join("warm-joint-first.m")).unwrap();
+    let study = study_of(SETS, study).replace("{ oil_temperature: 100 degC }", "{}");
+    let results = run_texts(&study, &[]);
+    let warm = results.file("warm-joint-first.m");
     assert!(warm.contains("Temp_bpts = [313.15 363.15]; % K\n"), "{warm}");
     assert!(warm.contains("eta_tbl(:,:,2) = [\n") && warm.contains("loss_tbl(:,:,2) = [\n"));
 }
@@ -411,8 +377,8 @@ analyses:
   unstated: { type: uncertainty, grid: few, model_sets: [seals], inputs: [{ path: seals.*.model.value }] }
   nothing: { type: uncertainty, grid: few, model_sets: [seals], inputs: [{ path: seals.*.model.value, from: 0.1 Nm, to: 0.1 Nm }] }
 ";
-    let (folder, text) = run("band", study, &[]);
-    let band = json(&folder, "band")["bands"][0].clone();
+    let (results, text) = run(study, &[]);
+    let band = results.json("band")["bands"][0].clone();
     for point in points(&band) {
         let nominal = number(&point["loss_w"]["nominal"]);
         let ends: Vec<f64> = point["loss_w"]["band"].as_array().unwrap().iter().map(number).collect();
@@ -445,8 +411,8 @@ grids:
 analyses:
   truth: { type: map, grid: rig, model_sets: [truth] }
 ";
-    let (folder, _) = run("truth", made, &[]);
-    let truth = json(&folder, "truth");
+    let (results, _) = run(made, &[]);
+    let truth = results.json("truth");
     let mut rig = "torque [Nm],speed [rpm],loss [W],loss_accuracy [W]\n".to_owned();
     for p in points(&truth["maps"][0]) {
         rig.push_str(&format!("{},{},{},1\n", p["torque_nm"], p["speed_rpm"], p["loss_w"]));
@@ -473,8 +439,8 @@ analyses:
   wrong: { type: tournament, model_set: joint, grid: rig, mechanisms: [{ mechanism: bearings }] }
   twice: { type: tournament, model_set: joint, grid: rig, mechanisms: [{ mechanism: bearing }, { mechanism: bearing }] }
 ";
-    let (folder, text) = run("tournament", study, &[("rig.csv", &rig)]);
-    let which = json(&folder, "which")["tournament"].clone();
+    let (results, text) = run(study, &[("rig.csv", &rig)]);
+    let which = results.json("which")["tournament"].clone();
     let best = &which["ranking"][0];
     assert_eq!(best["models"], serde_json::json!(["schaeffler", "diab"]), "{text}");
     // Losses are added at the torques of the set, so a small difference is left.
@@ -488,7 +454,7 @@ analyses:
         assert!(text.contains(words), "{words}: {text}");
     }
     // Whoever takes a law of friction takes part once with each.
-    let fitted = json(&folder, "fitted")["tournament"].clone();
+    let fitted = results.json("fitted")["tournament"].clone();
     let candidates = fitted["mechanisms"][1]["candidates"].as_array().unwrap();
     for name in ["path_integral/misharin", "ohlendorf/michaelis", "even_share/michaelis"] {
         assert!(candidates.iter().any(|c| c["name"] == name), "{name}");
@@ -506,7 +472,7 @@ analyses:
         let [least, mean, greatest] = ["least_loss_w", "mean_loss_w", "greatest_loss_w"].map(|k| number(&point[k]));
         assert!(least <= mean + 1e-9 && mean <= greatest + 1e-9);
     }
-    assert!(folder.join("fitted-shortlist.csv").exists() && folder.join("fitted-shortlist.svg").exists());
+    assert!(!results.csv("fitted-shortlist").is_empty() && results.draws("fitted-shortlist"));
     let own = fitted["ranking"]
         .as_array()
         .unwrap()
@@ -516,7 +482,7 @@ analyses:
     for factor in own["factors"].as_array().unwrap() {
         assert!((number(factor) - 1.0).abs() < 0.03, "{own}");
     }
-    let spread = json(&folder, "spread")["tournament"].clone();
+    let spread = results.json("spread")["tournament"].clone();
     for point in points(&spread) {
         let [least, mean, greatest] = ["least_loss_w", "mean_loss_w", "greatest_loss_w"].map(|k| number(&point[k]));
         assert!(least <= mean && mean <= greatest);
@@ -542,7 +508,7 @@ fn a_tournament_is_the_same_for_every_quantity() {
 analyses:
   truth: { type: map, grid: rig, model_sets: [joint] }
 ";
-    let (folder, _) = run("quantities_truth", grid, &[]);
+    let (results, _) = run(grid, &[]);
     let mut files = [
         "loss [W],loss_accuracy [W]",
         "loss_torque [Nm],loss_torque_accuracy [Nm]",
@@ -550,7 +516,7 @@ analyses:
     ]
     .map(|columns| format!("torque [Nm],speed [rpm],{columns}\n"));
     let mut bare = "torque [Nm],speed [rpm],loss [W]\n".to_owned();
-    for (i, p) in points(&json(&folder, "truth")["maps"][0]).iter().enumerate() {
+    for (i, p) in points(&results.json("truth")["maps"][0]).iter().enumerate() {
         let [torque, speed, loss] = ["torque_nm", "speed_rpm", "loss_w"].map(|k| number(&p[k]));
         // Seven percent more or less, so that no combination meets the points.
         let loss = loss * [1.07, 0.95, 1.02, 0.97][i % 4];
@@ -595,9 +561,9 @@ analyses:
         ("efficiency.csv", efficiency),
         ("bare.csv", &bare),
     ];
-    let (folder, text) = run("quantities", &study, &files);
+    let (results, text) = run(&study, &files);
     let order = |name: &str| {
-        let ranking = json(&folder, name)["tournament"].clone();
+        let ranking = results.json(name)["tournament"].clone();
         let list = ranking["ranking"]
             .as_array()
             .unwrap()
@@ -623,7 +589,7 @@ analyses:
             }
         }
     }
-    let stated = json(&folder, "stated")["tournament"].clone();
+    let stated = results.json("stated")["tournament"].clone();
     assert_close(number(&stated["correlation"]), 0.5, 1e-12);
     for point in points(&stated) {
         let accuracy = (0.03 * number(&point["measured_loss_w"])).hypot(2.0);
@@ -653,9 +619,9 @@ fn sets_of_an_identification_are_compared() {
   rig: { gear: first, torque: [4 Nm, 8 Nm, 12 Nm, 16 Nm, 20 Nm], speed: [3000 rpm, 8000 rpm, 16000 rpm] }
 ";
     let truth = format!("{sets}{grid}analyses:\n  truth: {{ type: map, grid: rig, model_sets: [joint] }}\n");
-    let (folder, _) = run("sets_truth", &truth, &[]);
+    let (results, _) = run(&truth, &[]);
     let mut rig = "torque [Nm],speed [rpm],loss [W],loss_accuracy [W]\n".to_owned();
-    for (i, p) in points(&json(&folder, "truth")["maps"][0]).iter().enumerate() {
+    for (i, p) in points(&results.json("truth")["maps"][0]).iter().enumerate() {
         let [torque, speed, loss] = ["torque_nm", "speed_rpm", "loss_w"].map(|k| number(&p[k]));
         let accuracy = 0.01 * loss;
         let noise = [0.8, -1.1, 0.3, -0.4, 1.2, -0.9, 0.5][i % 7];
@@ -672,8 +638,8 @@ fn sets_of_an_identification_are_compared() {
     parameters: {{ level: {{ path: housing.oil.level_offset, from: -5 mm, to: 5 mm }} }}
 "
     );
-    let (folder, text) = run("sets", &study, &[("rig.csv", &rig)]);
-    let result = json(&folder, "both");
+    let (results, text) = run(&study, &[("rig.csv", &rig)]);
+    let result = results.json("both");
     let compared = &result["comparison_of_sets"];
     let names: Vec<&str> = compared["sets"]
         .as_array()
@@ -698,7 +664,7 @@ fn sets_of_an_identification_are_compared() {
         text.contains("both: comparison of the model sets") && text.contains(sentence),
         "{text}"
     );
-    let csv = std::fs::read_to_string(folder.join("both-sets.csv")).unwrap();
+    let csv = results.csv("both-sets");
     assert!(csv.lines().count() == 3 && csv.contains("better"), "{csv}");
     // An accuracy in percent is another number of watts for each set; they are compared over what they have in common.
     let rows = rig
@@ -706,8 +672,8 @@ fn sets_of_an_identification_are_compared() {
         .filter_map(|line| Some(format!("{}\n", line.rsplit_once(',')?.0)));
     let in_percent = "{ file: rig.csv, accuracies: { loss: { percent_of_reading: 1 } }, stated_as: standard }";
     let study = study.replace("{ file: rig.csv }", in_percent);
-    let (folder, text) = run("sets_in_percent", &study, &[("rig.csv", &rows.collect::<String>())]);
-    let against = &json(&folder, "both")["comparison_of_sets"]["sets"][1]["first_against_it"];
+    let (results, text) = run(&study, &[("rig.csv", &rows.collect::<String>())]);
+    let against = &results.json("both")["comparison_of_sets"]["sets"][1]["first_against_it"];
     assert_eq!(against["decision"].as_str(), Some("better"), "{text}");
 }
 
@@ -723,11 +689,11 @@ fn two_paths_are_swept_as_a_map() {
     torque: 10 Nm
     speed: 8000 rpm
 ";
-    let (folder, text) = run("two", study, &[]);
-    let sweep = json(&folder, "two")["sweep"].clone();
+    let (results, text) = run(study, &[]);
+    let sweep = results.json("two")["sweep"].clone();
     assert_eq!(sweep.as_array().unwrap().len(), 6, "{text}");
     assert_eq!(sweep[3]["second"]["value"], "0 mm");
-    let csv = std::fs::read_to_string(folder.join("two.csv")).unwrap();
+    let csv = results.csv("two");
     assert!(csv.starts_with("model_set,gear,lubricants.sump.viscosity.kv100,housing.oil.level_offset,"));
 }
 
@@ -793,11 +759,8 @@ fn what_is_found_serves_later_analyses() {
   thick: { extends: joint, set: { lubricants.sump.viscosity.factor: 1.3 } }
 ";
     let made = format!("{PLAIN}analyses: {{ map: {{ type: map, grid: few, model_sets: [thick], write: [json] }} }}\n");
-    let folder = written("made", &made, &[]);
-    let study = std::fs::read_to_string(folder.join("study.yaml")).unwrap();
-    std::fs::write(folder.join("study.yaml"), study.replace(SETS, truth)).unwrap();
-    let (results, text) = solved(&folder.join("study.yaml"));
-    let rig = measured(&json(&results, "map"));
+    let (results, text) = run_texts(&study_of(truth, &made), &[]).with_text();
+    let rig = measured(&results.json("map"));
     assert!(!rig.is_empty(), "{text}");
     let study = format!(
         "parameters:
@@ -819,11 +782,8 @@ analyses:
   band: {{ type: uncertainty, grid: few, model_sets: [joint], inputs: [viscosity], samples: 8, write: [json] }}
 "
     );
-    let folder = written("found", &study, &[("rig.csv", &rig)]);
-    let text = std::fs::read_to_string(folder.join("study.yaml")).unwrap();
-    std::fs::write(folder.join("study.yaml"), text.replace(SETS, truth)).unwrap();
-    let (results, text) = solved(&folder.join("study.yaml"));
-    let found = &json(&results, "found")["identifications"][0];
+    let (results, text) = run_texts(&study_of(truth, &study), &[("rig.csv", &rig)]).with_text();
+    let found = &results.json("found")["identifications"][0];
     let fitted = number(&found["parameters"][0]["value"]);
     assert_close(fitted, 1.3, 1e-4);
     // The misfit is zero there, so the accuracies alone make the posterior: the linearised interval but for its curvature.
@@ -833,11 +793,11 @@ analyses:
     let linear = [0, 1].map(|end| number(&found["parameters"][0]["interval"][end]));
     let [drawn, linear] = [interval, linear].map(|ends| ends[1] - ends[0]);
     assert_close(drawn, linear, 0.2);
-    let gap = json(&results, "gap");
+    let gap = results.json("gap");
     let rms = |set: usize| number(&gap["comparisons"][set]["difference"]["rms"]);
     assert!(rms(1) < 1e-3 * rms(0), "{text}");
-    assert!(results.join("band.json").exists(), "{text}");
-    assert!(results.join("found-posterior.csv").exists(), "{text}");
+    assert!(results.json("band").is_object(), "{text}");
+    assert!(!results.csv("found-posterior").is_empty(), "{text}");
 }
 
 /// What finds no values leaves nothing to later analyses, and says so.
@@ -851,8 +811,7 @@ analyses:
 "
     );
     let rig = "torque [Nm],speed [rpm],loss [W]\n5,2000,10\n10,2000,20\n20,2000,30\n";
-    let folder = written("waits", &study, &[("rig.csv", rig)]);
-    let (_, text) = solved(&folder.join("study.yaml"));
+    let (_, text) = run(&study, &[("rig.csv", rig)]);
     assert!(
         text.contains("a robust loss does not define a posterior density"),
         "{text}"
@@ -861,6 +820,7 @@ analyses:
         text.contains("the model set `fitted` has no values, because the analysis `found` produced none"),
         "{text}"
     );
+    let folder = written("waits", &study, &[("rig.csv", rig)]);
     let shard = Command::new(env!("CARGO_BIN_EXE_gearloss"))
         .args(["run", "--shard", "1/2"])
         .arg(folder.join("study.yaml"))

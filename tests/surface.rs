@@ -1,9 +1,7 @@
 //! Deviation from measured points over two quantities: of points that a model made itself, and beside `compare`.
 
-use crate::common;
+use crate::common::study::{Ran, number, of_gearbox, run_texts};
 use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
-use std::process::Command;
 
 use serde_json::Value;
 
@@ -22,43 +20,20 @@ grids:
 const KV: &str = "lubricants.sump.viscosity.kv100";
 const LEVEL: &str = "housing.oil.level_offset";
 
-/// Runs analyses of the two-speed example beside a file of points.
-fn run(name: &str, conditions: &str, analyses: &str, points: &str) -> (PathBuf, String) {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("surface-{name}"));
-    let _ = std::fs::remove_dir_all(&folder);
-    std::fs::create_dir_all(&folder).unwrap();
-    let gearbox = common::file("examples/two-speed-ev/gearbox.yaml");
-    let study = format!(
-        "gearloss: study/1\ngearboxes: {{ ours: {} }}\nconditions: {{ {conditions} }}\n{SETS}analyses:\n{analyses}",
-        gearbox.display()
-    );
-    std::fs::write(folder.join("study.yaml"), study).unwrap();
-    std::fs::write(folder.join("rig.csv"), points).unwrap();
-    let output = Command::new(env!("CARGO_BIN_EXE_gearloss"))
-        .arg("run")
-        .arg(folder.join("study.yaml"))
-        .output()
-        .unwrap();
-    let text = String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr);
-    (folder.join("results"), text)
-}
-
-fn json(folder: &Path, name: &str) -> Value {
-    let text = std::fs::read_to_string(folder.join(format!("{name}.json")));
-    serde_json::from_str(&text.unwrap()).unwrap()
-}
-
-fn number(value: &Value) -> f64 {
-    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
+/// Runs analyses of the two-speed example beside a file of points; their results and what was printed.
+fn run(conditions: &str, analyses: &str, points: &str) -> (Ran, String) {
+    let study = format!("conditions: {{ {conditions} }}\n{SETS}analyses:\n{analyses}");
+    let study = of_gearbox("examples/two-speed-ev/gearbox.yaml", &study);
+    run_texts(&study, &[("rig.csv", points)]).with_text()
 }
 
 /// Points of the set `joint` with other values than the gearbox has; the last one is spoilt and has no weight.
 fn made() -> String {
     let set = format!("oil_temperature: 100 degC, set: {{ {KV}: 7 mm2/s, {LEVEL}: -5 mm }}");
     let map = "  made: { type: map, grid: few, model_sets: [joint] }\n";
-    let (folder, _) = run("made", &set, map, "");
+    let (results, _) = run(&set, map, "");
     let mut rig = "torque [Nm],speed [rpm],loss [W],weight\n".to_owned();
-    for p in json(&folder, "made")["maps"][0]["points"].as_array().unwrap() {
+    for p in results.json("made")["maps"][0]["points"].as_array().unwrap() {
         let _ = writeln!(rig, "{},{},{},2", p["torque_nm"], p["speed_rpm"], p["loss_w"]);
     }
     rig + "10,5000,999,0\n"
@@ -76,8 +51,8 @@ fn the_least_lies_at_the_values_that_made_the_points() {
     let all = surface(", against: [joint]");
     let short = all.replace(", 7 mm2/s, 9 mm2/s", "");
     let study = format!("  all: {{ {all} }}\n  short: {{ {short} }}\n");
-    let (folder, text) = run("least", "oil_temperature: 100 degC", &study, &made());
-    let found = json(&folder, "all")["surfaces"][0].clone();
+    let (results, text) = run("oil_temperature: 100 degC", &study, &made());
+    let found = results.json("all")["surfaces"][0].clone();
     let least = &found["least"];
     assert_eq!((number(&least["x"]), number(&least["y"])), (7.0, -5.0), "{text}");
     assert!(number(&least["rms"]) < 1e-6, "{least}");
@@ -87,12 +62,12 @@ fn the_least_lies_at_the_values_that_made_the_points() {
         text.contains("mm, inside the surface; within 5 % of the minimum: ") && text.contains(" only"),
         "{text}"
     );
-    let least = json(&folder, "short")["surfaces"][0]["least"].clone();
+    let least = results.json("short")["surfaces"][0]["least"].clone();
     assert_eq!((number(&least["x"]), &least["x_end"]), (6.4, &Value::from("upper")));
     assert!(text.contains("the minimum may be above 6.4 mm2/s"), "{text}");
-    let picture = std::fs::read_to_string(folder.join("all-joint.svg")).unwrap();
+    let picture = results.picture("all-joint");
     assert!(picture.contains("cross: minimum"));
-    let csv = std::fs::read_to_string(folder.join("all.csv")).unwrap();
+    let csv = results.csv("all");
     assert!(csv.starts_with(&format!("model_set,{KV},{LEVEL},points,rms_w\n")) && csv.lines().count() == 13);
 }
 
@@ -113,11 +88,11 @@ fn at_the_own_values_it_is_the_deviation_of_a_comparison() {
   shares: {{ type: rms_surface, {data}, difference: percent, x: {{ path: {KV}, values: [6, 6.4] }}, y: {{ path: {LEVEL}, values: [0 mm, 5 mm] }} }}
 "
     );
-    let (folder, text) = run("own", "", &study, points);
+    let (results, text) = run("", &study, points);
     for (compared, surface) in [("both", "points"), ("percent", "shares")] {
         for set in 0..2 {
-            let rms = number(&json(&folder, compared)["comparisons"][set]["difference"]["rms"]);
-            let own = json(&folder, surface)["surfaces"][set].clone();
+            let rms = number(&results.json(compared)["comparisons"][set]["difference"]["rms"]);
+            let own = results.json(surface)["surfaces"][set].clone();
             assert_eq!(
                 (number(&own["pairs"][1]["x"]), number(&own["pairs"][1]["y"])),
                 (6.4, 0.0)
@@ -128,7 +103,7 @@ fn at_the_own_values_it_is_the_deviation_of_a_comparison() {
         }
     }
     // Root of the mean of 0.3, 0.2 and 0.1 points squared.
-    let accuracy = number(&json(&folder, "points")["surfaces"][0]["accuracy"]);
+    let accuracy = number(&results.json("points")["surfaces"][0]["accuracy"]);
     assert!((accuracy - (0.14_f64 / 3.0).sqrt()).abs() < 1e-12);
     assert!(
         text.contains("within the accuracy of one measurement, 0.216: "),
@@ -146,9 +121,9 @@ fn all_pairs_stand_on_the_same_points() {
         "path: \"bearings.*.at\", tie: factor, values: [1, 1000000]",
     );
     let study = format!("  blind: {{ {blind} }}\n  far: {{ {far} }}\n");
-    let (folder, text) = run("points", "oil_temperature: 100 degC", &study, points);
+    let (results, text) = run("oil_temperature: 100 degC", &study, points);
     for set in 0..2 {
-        let found = json(&folder, "blind")["surfaces"][set].clone();
+        let found = results.json("blind")["surfaces"][set].clone();
         assert_eq!(
             (&found["points"], &found["left_out"][0]["line"]),
             (&Value::from(2), &Value::from(4)),
@@ -159,7 +134,7 @@ fn all_pairs_stand_on_the_same_points() {
         text.contains("1 of 3 points have no value at some pair") && text.contains("line 4: models fast, "),
         "{text}"
     );
-    let far = json(&folder, "far")["surfaces"][0].clone();
+    let far = results.json("far")["surfaces"][0].clone();
     assert_eq!(
         (&far["points"], &far["pairs"][4]["rms"]),
         (&Value::from(3), &Value::Null)
@@ -227,7 +202,7 @@ fn what_cannot_be_drawn_is_told_with_its_place_and_how_to_mend_it() {
         ),
     ] {
         let study = format!("  what: {{ {analysis} }}\n");
-        let (_, text) = run("wrong", "oil_temperature: 100 degC", &study, points);
+        let (_, text) = run("oil_temperature: 100 degC", &study, points);
         for said in said {
             assert!(text.contains(said), "{analysis}: {said}\n{text}");
         }

@@ -1,40 +1,14 @@
 //! Analyses that find temperatures, as a user runs them, and what is said where they cannot.
 
 use crate::common;
-use std::path::PathBuf;
+use crate::common::study::{Ran, number, of_gearbox, run_texts};
 
-use serde_json::Value;
+const GEARBOX: &str = "examples/planetary-reducer/gearbox.yaml";
 
-/// Runs a study on the planetary example with changes; the folder of its results and what was printed.
-fn run(name: &str, study: &str, files: &[(&str, &str)]) -> (PathBuf, String) {
-    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("temperature-{name}"));
-    let _ = std::fs::remove_dir_all(&folder);
-    std::fs::create_dir_all(&folder).unwrap();
-    let gearbox = common::file("examples/planetary-reducer/gearbox.yaml");
-    let head = format!(
-        "gearloss: study/1\ngearboxes: {{ ours: {} }}\nconditions: {{ torque_at: output }}\n",
-        gearbox.display()
-    );
-    std::fs::write(folder.join("study.yaml"), head + study).unwrap();
-    for (file, text) in files {
-        std::fs::write(folder.join(file), text).unwrap();
-    }
-    let output = std::process::Command::new(env!("CARGO_BIN_EXE_gearloss"))
-        .arg("run")
-        .arg(folder.join("study.yaml"))
-        .output()
-        .unwrap();
-    let text = String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr);
-    (folder, text)
-}
-
-fn json(folder: &std::path::Path, name: &str) -> Value {
-    let path = folder.join(format!("results/{name}.json"));
-    serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
-}
-
-fn number(value: &Value) -> f64 {
-    value.as_f64().unwrap()
+/// Runs a study on the planetary example with files beside it; its results and what was printed.
+fn run(study: &str, files: &[(&str, &str)]) -> (Ran, String) {
+    let study = format!("conditions: {{ torque_at: output }}\n{study}");
+    run_texts(&of_gearbox(GEARBOX, &study), files).with_text()
 }
 
 const POINTS: &str = "name,speed [rpm],torque [Nm],volume [ml],loss [W],oil_temperature [degC]
@@ -45,8 +19,8 @@ slow,1000,-16,60,,
 #[test]
 fn points_of_a_file_bind_their_columns_and_stand_beside_measurements() {
     let study = "analyses:\n  tests: { type: operating_points, data: { file: points.csv, faulty_rows: keep }, bind: { volume: housing.oil.volume } }\n";
-    let (folder, text) = run("points", study, &[("points.csv", POINTS)]);
-    let points = &json(&folder, "tests")["operating_points"][0];
+    let (results, text) = run(study, &[("points.csv", POINTS)]);
+    let points = &results.json("tests")["operating_points"][0];
     let fast = &points["points"][0];
     assert_eq!(fast["bound"]["volume"], "130 ml", "{text}");
     let losses: f64 = fast["losses_w"].as_array().unwrap().iter().map(number).sum();
@@ -58,7 +32,7 @@ fn points_of_a_file_bind_their_columns_and_stand_beside_measurements() {
         )),
         "{text}"
     );
-    let picture = std::fs::read_to_string(folder.join("results/tests-own.svg")).unwrap();
+    let picture = results.picture("tests-own");
     for word in ["fast", "slow", "130 ml", "47", "measured: outline", "planetary_drag"] {
         assert!(picture.contains(word), "{word}");
     }
@@ -68,8 +42,8 @@ fn points_of_a_file_bind_their_columns_and_stand_beside_measurements() {
 fn a_tiny_measured_loss_has_no_deviation_in_percent() {
     let study = "analyses:\n  tests: { type: operating_points, data: { file: points.csv, faulty_rows: keep }, bind: { volume: housing.oil.volume } }\n";
     let tiny = format!("{POINTS}tiny,1000,-16,60,1e-300,\n");
-    let (folder, text) = run("tiny", study, &[("points.csv", &tiny)]);
-    let fast = number(&json(&folder, "tests")["operating_points"][0]["points"][0]["loss_w"]);
+    let (results, text) = run(study, &[("points.csv", &tiny)]);
+    let fast = number(&results.json("tests")["operating_points"][0]["points"][0]["loss_w"]);
     let gap = 100.0 * (fast / 60.0 - 1.0);
     assert!(
         text.contains(&format!(
@@ -100,7 +74,7 @@ fn a_faulty_file_of_points_is_refused_with_line_and_column() {
         (POINTS.replace("60,,", "-3,,"), "housing.oil.volume"),
         (POINTS.replace("3000,-16", "3000,"), "line 2, column 3 `torque`: empty"),
     ] {
-        let (_, printed) = run("faulty", study, &[("points.csv", &text)]);
+        let (_, printed) = run(study, &[("points.csv", &text)]);
         assert!(printed.contains(said) && printed.contains("help:"), "{said}\n{printed}");
     }
 }
@@ -111,8 +85,8 @@ fn at_a_thermal_limit_the_balance_stands_at_it_and_the_reverse_finds_it_again() 
   torque: { type: thermal_limit, temperature: [60 degC, 90 degC], torque: [0 Nm, -300 Nm], speed: [1000 rpm, 2000 rpm, 4000 rpm] }
   speed: { type: thermal_limit, find: speed, temperature: [60 degC], torque: [-40 Nm], speed: { from: 100 rpm, to: 8000 rpm, step: 100 rpm } }
 ";
-    let (folder, text) = run("limit", study, &[]);
-    let limits = json(&folder, "torque")["thermal_limits"][0]["limits"].clone();
+    let (results, text) = run(study, &[]);
+    let limits = results.json("torque")["thermal_limits"][0]["limits"].clone();
     let mut reached = 0;
     for limit in limits.as_array().unwrap() {
         match limit["outcome"].as_str().unwrap() {
@@ -133,16 +107,16 @@ fn at_a_thermal_limit_the_balance_stands_at_it_and_the_reverse_finds_it_again() 
     // At more speed less torque is left.
     let torque = |i: usize| number(&limits[i]["torque_nm"]);
     assert!(torque(1) < torque(2));
-    let found = json(&folder, "speed")["thermal_limits"][0]["limits"][0].clone();
+    let found = results.json("speed")["thermal_limits"][0]["limits"][0].clone();
     let again = format!(
         "analyses:\n  again: {{ type: thermal_limit, temperature: [60 degC], torque: [0 Nm, -300 Nm], speed: [{} rpm] }}\n",
         number(&found["speed_rpm"])
     );
-    let (folder, _) = run("again", &again, &[]);
-    let torque = number(&json(&folder, "again")["thermal_limits"][0]["limits"][0]["torque_nm"]);
+    let (results, _) = run(&again, &[]);
+    let torque = number(&results.json("again")["thermal_limits"][0]["limits"][0]["torque_nm"]);
     assert!((torque + 40.0).abs() < 1e-4, "{torque}");
-    for picture in ["again.svg", "again-power.svg"] {
-        assert!(folder.join("results").join(picture).is_file());
+    for picture in ["again", "again-power"] {
+        assert!(results.draws(picture));
     }
 }
 
@@ -150,8 +124,8 @@ fn at_a_thermal_limit_the_balance_stands_at_it_and_the_reverse_finds_it_again() 
 fn a_balance_shows_every_step_and_what_it_ended_at() {
     let set = "set: { thermal.sources: { motor: { heat: 15 W } }, thermal.oil_to_surface: 0.05 K/W }";
     let study = format!("analyses:\n  one: {{ type: balance, torque: -16 Nm, speed: 3000 rpm, {set} }}\n");
-    let (folder, text) = run("balance", &study, &[]);
-    let balance = &json(&folder, "one")["balances"][0]["balance"];
+    let (results, text) = run(&study, &[]);
+    let balance = &results.json("one")["balances"][0]["balance"];
     assert_eq!(balance["outcome"], "converged", "{text}");
     let history = balance["history"].as_array().unwrap();
     let last = history.last().unwrap();
@@ -169,10 +143,10 @@ fn a_balance_shows_every_step_and_what_it_ended_at() {
         .sum();
     assert!((ways / (number(&last["loss_w"]) + 15.0) - 1.0).abs() < 1e-8);
     assert!(((oil - surface) / (0.05 * number(&last["loss_w"])) - 1.0).abs() < 1e-8);
-    let rows = std::fs::read_to_string(folder.join("results/one.csv")).unwrap();
+    let rows = results.csv("one");
     assert_eq!(rows.lines().count(), 1 + history.len());
-    for picture in ["one-own.svg", "one-own-steps.svg", "one-own-residual.svg"] {
-        assert!(folder.join("results").join(picture).is_file(), "{picture}");
+    for picture in ["one-own", "one-own-steps", "one-own-residual"] {
+        assert!(results.draws(picture), "{picture}");
     }
 }
 
@@ -192,8 +166,8 @@ analyses:
   empty: { type: map, grid: empty }
   percent: { type: compare, grid: line, base: none, against: [table], quantity: temperature, difference: percent }
 ";
-    let (folder, text) = run("maps", study, &[]);
-    let csv = std::fs::read_to_string(folder.join("results/field.csv")).unwrap();
+    let (results, text) = run(study, &[]);
+    let csv = results.csv("field");
     let head: Vec<&str> = csv.lines().next().unwrap().split(',').collect();
     let column = |name: &str| head.iter().position(|h| *h == name).unwrap();
     let cells: Vec<Vec<&str>> = csv.lines().skip(1).map(|l| l.split(',').collect()).collect();
@@ -202,14 +176,10 @@ analyses:
     assert_eq!(cells[2][column("housing.oil.volume")], "130 ml");
     assert!(oil(1) > oil(0) && oil(3) > oil(1), "{text}");
     assert!(cells.iter().all(|row| row[column("balance")] == "converged"));
-    for picture in [
-        "field-own-loss.svg",
-        "field-own-temperature.svg",
-        "field-own-efficiency.svg",
-    ] {
-        assert!(folder.join("results").join(picture).is_file(), "{picture}");
+    for picture in ["field-own-loss", "field-own-temperature", "field-own-efficiency"] {
+        assert!(results.draws(picture), "{picture}");
     }
-    let gap = &json(&folder, "gap")["comparisons"][0];
+    let gap = &results.json("gap")["comparisons"][0];
     assert_eq!(gap["unit"], "k");
     assert!(number(&gap["least"]["difference"]) > 0.0);
     for said in [
@@ -229,29 +199,17 @@ analyses:
   hot: { type: map, grid: line }
 ";
     // With a way of next to nothing the losses stay above the heat.
-    let gearbox = common::file("examples/planetary-reducer/gearbox.yaml");
-    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("temperature-hot");
-    let _ = std::fs::remove_dir_all(&folder);
-    std::fs::create_dir_all(&folder).unwrap();
-    let head = format!(
-        "gearloss: study/1\ngearboxes: {{ ours: {} }}\nconditions: {{ torque_at: output, set: {{ thermal.heat_dissipation.casing.alpha: 2 W/(m2 K) }} }}\n",
-        gearbox.display()
-    );
-    std::fs::write(folder.join("study.yaml"), head + study).unwrap();
-    let output = std::process::Command::new(env!("CARGO_BIN_EXE_gearloss"))
-        .arg("run")
-        .arg(folder.join("study.yaml"))
-        .output()
-        .unwrap();
-    assert!(output.status.success());
-    let points = json(&folder, "hot")["maps"][0]["points"].clone();
+    let conditions = "conditions: { torque_at: output, set: { thermal.heat_dissipation.casing.alpha: 2 W/(m2 K) } }\n";
+    let results = run_texts(&of_gearbox(GEARBOX, &format!("{conditions}{study}")), &[]);
+    assert!(results.succeeded, "{}", results.text);
+    let points = results.json("hot")["maps"][0]["points"].clone();
     assert_eq!(points[1]["balance"], "none_below_maximum");
     assert!(points[1]["oil_temperature_degc"].is_null() && points[1]["loss_w"].is_null());
     // One point alone says so, and ends with a finding.
     let output = std::process::Command::new(env!("CARGO_BIN_EXE_gearloss"))
         .args([
             "solve",
-            gearbox.to_str().unwrap(),
+            common::file(GEARBOX).to_str().unwrap(),
             "--torque",
             "output=-16 Nm",
             "--speed",

@@ -6,9 +6,12 @@ use std::io;
 use std::path::Path;
 use std::sync::Arc;
 
-use gearloss::api::{Disk, FileSource, Findings, InMemory, Outcome, SharedSource, Stopped, StudyRun, read_study};
+use gearloss::api::{
+    Disk, FileSource, Findings, InMemory, Outcome, SharedSource, Stopped, Study, StudyRun, read_study,
+};
 use gearloss::pictures::csv::CsvTable;
 use gearloss::pictures::page::{Page, Text};
+use gearloss::studies::study::Write;
 use serde_json::Value;
 
 use super::language;
@@ -31,9 +34,19 @@ pub struct Ran {
     /// Whether all analyses have an outcome without a fault.
     pub succeeded: bool,
     outcomes: BTreeMap<String, Box<dyn Outcome>>,
+    /// The pictures that are written, as SVG, by the names of their files without extension.
+    pictures: BTreeMap<String, String>,
+    /// Files for other programs, by name.
+    files: BTreeMap<String, String>,
 }
 
 impl Ran {
+    /// The run with a copy of its text, which messages of assertions show.
+    pub fn with_text(self) -> (Self, String) {
+        let text = self.text.clone();
+        (self, text)
+    }
+
     /// The result of an analysis.
     pub fn json(&self, name: &str) -> Value {
         let mut bytes = Vec::new();
@@ -54,19 +67,25 @@ impl Ran {
     }
 
     /// A file of text that an analysis wants to be written.
-    pub fn file(&self, name: &str) -> String {
-        let mut files = self.outcomes.values().flat_map(|outcome| outcome.files());
-        let file = files.find(|file| file.name == name);
-        file.unwrap_or_else(|| panic!("no file {name}: {}", self.text)).text
+    pub fn file(&self, name: &str) -> &str {
+        let file = self.files.get(name);
+        file.unwrap_or_else(|| panic!("no file {name}: {}", self.text))
     }
 
-    /// Whether an analysis draws a figure of a name.
+    /// Whether an analysis wants a file of text to be written.
+    pub fn has_file(&self, name: &str) -> bool {
+        self.files.contains_key(name)
+    }
+
+    /// A picture that an analysis wants to be written, as SVG.
+    pub fn picture(&self, name: &str) -> &str {
+        let picture = self.pictures.get(name);
+        picture.unwrap_or_else(|| panic!("no picture {name}: {}", self.text))
+    }
+
+    /// Whether an analysis wants a picture to be written.
     pub fn draws(&self, name: &str) -> bool {
-        let mut pages = self
-            .outcomes
-            .values()
-            .map(|outcome| Page::from_outcome(outcome.as_ref()));
-        pages.any(|page| page.figures.iter().any(|figure| figure.name == name))
+        self.pictures.contains_key(name)
     }
 
     fn outcome(&self, name: &str) -> &dyn Outcome {
@@ -76,42 +95,85 @@ impl Ran {
             .as_ref()
     }
 
+    /// Adds what an analysis prints and wants to be written, and its outcome.
+    fn keep(&mut self, study: &Study, name: &str, outcome: Box<dyn Outcome>) {
+        let page = Page::from_outcome(outcome.as_ref());
+        for text in &page.text {
+            let (Text::Everywhere(text) | Text::InReport(text)) = text;
+            self.text.push_str(text);
+        }
+        let texts = outcome.files().into_iter().map(|file| (file.name, file.text));
+        self.files.extend(texts);
+        for file in page.files {
+            self.files.insert(file.name, String::from_utf8(file.bytes).unwrap());
+        }
+        let formats = study.entry.analyses.get(name).unwrap().formats();
+        if formats.contains(&Write::Svg) {
+            for named in page.figures {
+                // A product precedes its set with a slash.
+                let picture = named.name.replace('/', "-");
+                self.pictures.insert(picture, named.figure.svg().unwrap());
+            }
+        }
+        if !page.faults.is_empty() {
+            self.fail(&study.findings(page.faults));
+        }
+        outcome.failures().iter().for_each(|findings| self.fail(findings));
+        self.outcomes.insert(name.to_owned(), outcome);
+    }
+
     fn fail(&mut self, findings: &Findings) {
         self.succeeded = false;
         self.text.push_str(&findings.render());
     }
 }
 
+/// A study of one gearbox of the repository, which it calls `ours`, with the rest of its text.
+pub fn of_gearbox(gearbox: &str, rest: &str) -> String {
+    let gearbox = super::file(gearbox);
+    format!(
+        "gearloss: study/1\ngearboxes: {{ ours: {} }}\n{rest}",
+        gearbox.display()
+    )
+}
+
+/// A number of a result.
+pub fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
+}
+
+/// Runs a study of the repository.
+pub fn run_file(study: &str) -> Ran {
+    run(&Disk::shared(), &super::file(study))
+}
+
 /// Runs a study with files beside it.
 pub fn run_texts(study: &str, files: &[(&str, &str)]) -> Ran {
     let texts = files.iter().copied().chain([("study.yaml", study)]);
     let source: SharedSource = Arc::new(TextsAndDisk(InMemory::new(texts)));
+    run(&source, Path::new("study.yaml"))
+}
+
+fn run(source: &SharedSource, study: &Path) -> Ran {
     let language = language();
     let mut ran = Ran {
         succeeded: true,
         ..Ran::default()
     };
-    let study = match read_study(&language, &source, "study.yaml") {
+    let study = match read_study(&language, source, study) {
         Ok(study) => study,
         Err(findings) => {
             ran.fail(&findings);
             return ran;
         }
     };
+    // Faults of a measurement that no analysis uses are reported here alone.
+    if let Some(findings) = study.data_findings() {
+        ran.fail(&findings);
+    }
     for (name, outcome) in StudyRun::new(&language, &study).outcomes() {
         match outcome {
-            Ok(outcome) => {
-                let page = Page::from_outcome(outcome.as_ref());
-                for text in &page.text {
-                    let (Text::Everywhere(text) | Text::InReport(text)) = text;
-                    ran.text.push_str(text);
-                }
-                if !page.faults.is_empty() {
-                    ran.fail(&study.findings(page.faults));
-                }
-                outcome.failures().iter().for_each(|findings| ran.fail(findings));
-                ran.outcomes.insert(name.to_owned(), outcome);
-            }
+            Ok(outcome) => ran.keep(&study, name, outcome),
             Err(Stopped::Found(findings)) => ran.fail(&findings),
             Err(stopped) => {
                 ran.succeeded = false;
