@@ -6,7 +6,8 @@
 
 use std::error::Error;
 
-use gearloss::api::outcomes::{CompareOutcome, Comparisons, CycleOutcome};
+use gearloss::api::analyses::compare::{CompareOutcome, Comparisons};
+use gearloss::api::analyses::cycle::CycleOutcome;
 use gearloss::api::{InMemory, Language, StudyRun, read_study};
 
 fn main() -> Result<(), Box<dyn Error>> {

@@ -19,11 +19,11 @@
 //! [`solve_points`] solves grids and lists on all cores. [`Transmission::evaluate`] solves a single point without allocating.
 //!
 //! # A study
-//! [`read_study`] reads and checks a study. [`StudyRun`] computes the outcomes of its analyses, which [`outcomes`] lists by type;
+//! [`read_study`] reads and checks a study. [`StudyRun`] computes the outcomes of its analyses, whose types are in [`analyses`];
 //! their tables are columns ([`Table`]). Nothing is printed and no file is written.
 //!
 //! ```
-//! use gearloss::api::{InMemory, Language, StudyRun, outcomes::MapOutcome, read_study};
+//! use gearloss::api::{InMemory, Language, StudyRun, analyses::map::MapOutcome, read_study};
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! # let gearbox = include_str!("../examples/two-speed-ev/gearbox.yaml");
 //! let study = "
@@ -60,32 +60,14 @@ pub use gearloss_framework::gearbox::{Findings, Gearbox};
 pub use gearloss_framework::language::Language;
 pub use gearloss_framework::resolve::{Choice, Resolved};
 pub use gearloss_framework::transmission::{Case, Transmission};
+/// The analyses with their outcomes, for [`Outcome::get`]: `analyses::compare::CompareOutcome`.
+pub use gearloss_studies::analyses;
 pub use gearloss_studies::analyses::progress::{Progress, Silent, Steps};
 pub use gearloss_studies::analyses::{Context, Outcome, Stopped};
 pub use gearloss_studies::analysis::{Field, Given, GridResult, OilTemperature, PointResult, Points};
 pub use gearloss_studies::run::StudyRun;
 pub use gearloss_studies::study::Study;
 pub use gearloss_studies::table::{Column, Table, Texts, Values};
-
-/// The outcome of each analysis, for [`Outcome::get`].
-pub mod outcomes {
-    pub use gearloss_studies::analyses::balance::BalanceOutcome;
-    pub use gearloss_studies::analyses::breakdown::BreakdownOutcome;
-    pub use gearloss_studies::analyses::compare::{CompareOutcome, Comparisons};
-    pub use gearloss_studies::analyses::component_compare::ComponentCompareOutcome;
-    pub use gearloss_studies::analyses::contact_path::ContactPathOutcome;
-    pub use gearloss_studies::analyses::cycle::CycleOutcome;
-    pub use gearloss_studies::analyses::fluid_sweep::FluidSweepOutcome;
-    pub use gearloss_studies::analyses::identify::IdentifyOutcome;
-    pub use gearloss_studies::analyses::map::MapOutcome;
-    pub use gearloss_studies::analyses::operating_points::OperatingPointsOutcome;
-    pub use gearloss_studies::analyses::rms_surface::RmsSurfaceOutcome;
-    pub use gearloss_studies::analyses::sensitivity::SensitivityOutcome;
-    pub use gearloss_studies::analyses::sweep::SweepOutcome;
-    pub use gearloss_studies::analyses::thermal_limit::ThermalLimitOutcome;
-    pub use gearloss_studies::analyses::tournament::TournamentOutcome;
-    pub use gearloss_studies::analyses::uncertainty::UncertaintyOutcome;
-}
 
 /// Every code of a finding, in the order of their numbers; docs/errors.md lists them with cause and help.
 pub fn codes() -> Vec<Code> {

@@ -2,7 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use gearloss::api::outcomes::{CycleOutcome, OperatingPointsOutcome};
+use gearloss::api::analyses::cycle::CycleOutcome;
+use gearloss::api::analyses::operating_points::OperatingPointsOutcome;
 use gearloss::api::{
     Choice, Disk, Field, FileSource as _, Findings, Gearbox, Given, InMemory, Outcome, Points, SharedSource, StudyRun,
     read_study, solve_point, solve_points,

@@ -303,7 +303,7 @@ impl Batch<'_> {
     }
 
     #[inline(always)]
-    #[allow(clippy::too_many_lines)]
+    #[expect(clippy::too_many_lines, reason = "one iteration borrows parts of the scratch apart")]
     fn solve_together(&mut self, torques: &[f64], following: bool) {
         let (t, case) = (self.transmission, self.case);
         let BatchScratch {

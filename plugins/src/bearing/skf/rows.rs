@@ -210,7 +210,7 @@ fn pick<const N: usize>(rows: Rows<N>, part: &BearingPart) -> Result<[f64; N], L
 ///
 /// # Errors
 /// If a series or a value required by the row is missing.
-#[allow(clippy::too_many_lines)]
+#[expect(clippy::too_many_lines, reason = "a match over all kinds of bearings")]
 pub fn row(part: &BearingPart, needle_as_full_complement: bool) -> Result<Row, Lack> {
     use BearingKind as K;
     let d_m = 1e3 * part.mean_diameter();
