@@ -5,7 +5,7 @@
 use std::hint::black_box;
 
 use criterion::{Criterion, Throughput, criterion_group};
-use gearloss_framework::lanes::{LANES, Lane, each, exp, ln, over, wide};
+use gearloss_framework::real::{LANES, Lane, Points as _, exp, ln};
 
 /// Lanes in one call; they stay in the cache.
 const MANY: usize = 32;
@@ -14,17 +14,17 @@ const MANY: usize = 32;
 fn numbers() -> Vec<Lane> {
     let count = (MANY * LANES) as f64;
     (0..MANY)
-        .map(|k| each(|i| (1.0 + 8.0 * (k * LANES + i) as f64 / count) / 3.0))
+        .map(|k| Lane::each(|i| (1.0 + 8.0 * (k * LANES + i) as f64 / count) / 3.0))
         .collect()
 }
 
 /// The function comes as a type of its own, so that it is compiled into the loop.
 fn side_by_side(numbers: &[Lane], answers: &mut [Lane], function: impl Fn(f64) -> f64) {
-    wide(
+    Lane::wide(
         #[inline(always)]
         || {
             for (answers, numbers) in answers.iter_mut().zip(black_box(numbers)) {
-                *answers = over(numbers, &function);
+                *answers = numbers.map(&function);
             }
         },
     );
@@ -32,9 +32,7 @@ fn side_by_side(numbers: &[Lane], answers: &mut [Lane], function: impl Fn(f64) -
 
 fn one_by_one(numbers: &[Lane], answers: &mut [Lane], function: fn(f64) -> f64) {
     for (answers, numbers) in answers.iter_mut().zip(black_box(numbers)) {
-        for (answer, x) in answers.iter_mut().zip(numbers.iter()) {
-            *answer = function(*x);
-        }
+        *answers = Lane::each(|i| function(numbers[i]));
     }
 }
 

@@ -6,7 +6,7 @@ use std::hint::black_box;
 
 use crate::common::{RPM, build, gearbox, language, point, set};
 use criterion::{Criterion, Throughput, criterion_group};
-use gearloss_framework::lanes::LANES;
+use gearloss_framework::real::LANES;
 use gearloss_framework::resolve::Choice;
 use gearloss_framework::transmission::Transmission;
 
@@ -30,14 +30,13 @@ fn side_by_side(t: &Transmission) -> impl FnMut() -> f64 {
     let mut scratch = t.batch_scratch(&case);
     let torques: Vec<f64> = (1..=LANES).map(|i| 20.0 * i as f64 / LANES as f64).collect();
     move || {
-        scratch.forget();
         let mut sum = 0.0;
         for speed in 0..SPEEDS {
             let speeds = [(8000.0 + 22.0 * f64::from(speed)) * RPM];
             let point = point(black_box(&speeds), &[0.0]);
             let mut row = t.batch(&case, &point, &[100.0], &mut scratch);
-            let block = row.follow(&torques);
-            assert!(!block.alone().contains(&true));
+            let block = row.solve(&torques);
+            assert!(!(0..LANES).any(|point| block.is_alone(point)));
             sum += block.losses().iter().sum::<f64>();
         }
         sum

@@ -4,7 +4,7 @@ use crate::common::{RPM, language};
 use gearloss_framework::evaluate::{Point, PowerFlow};
 use gearloss_framework::flow::Tolerance;
 use gearloss_framework::gearbox::Gearbox;
-use gearloss_framework::lanes::LANES;
+use gearloss_framework::real::LANES;
 use gearloss_framework::resolve::Choice;
 use gearloss_framework::transmission::Transmission;
 
@@ -61,7 +61,7 @@ fn split(t: &Transmission, apart: f64) -> f64 {
     let mut rows = t.batch_scratch(&case);
     let mut row = t.batch(&case, &point, &[80.0], &mut rows);
     let block = row.solve(&[400.0; LANES]);
-    if !block.alone()[0] {
+    if !block.is_alone(0) {
         let together: Vec<f64> = block.watts().iter().map(|watts| watts[0]).collect();
         assert_eq!(together, watts, "{apart}");
     }

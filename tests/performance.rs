@@ -8,7 +8,7 @@ use std::process::Command;
 
 use crate::common::{RPM, file, language, two_speed_with};
 use gearloss_framework::evaluate::Point;
-use gearloss_framework::lanes::LANES;
+use gearloss_framework::real::LANES;
 use serde_json::Value;
 
 const PAGE: &str = "docs/performance.md";
@@ -102,8 +102,8 @@ fn passes() -> f64 {
             ..Point::default()
         };
         let mut row = t.batch(&case, &point, &[100.0], &mut scratch);
-        let block = row.follow(&torques);
-        passes += block.passes().iter().sum::<usize>();
+        let block = row.solve(&torques);
+        passes += (0..LANES).map(|point| block.passes(point)).sum::<usize>();
     }
     passes as f64 / (32 * LANES) as f64
 }

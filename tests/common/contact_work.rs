@@ -39,7 +39,7 @@ pub fn work(laws: &[(EhlMixed, Path)], solution: &Solution<'_>) -> Vec<(u32, u32
         let mean = MeanFrictionAt::at_pitch_point(&at, Notes::MUTED);
         let along = path
             .at_operating_point(&mean, Notes::MUTED)
-            .with(|to| to.bodies = at.bodies());
+            .with(|to| to.bodies = at.bodies().unwrap_or(None));
         let mut mu = vec![0.0; path.len()];
         let (tally, _) = law.settle(&along, &mut mu, |_, _| {});
         (tally.runs, tally.passes, path.len())

@@ -22,6 +22,7 @@ use crate::codes;
 use crate::document::{Diagnostic, did_you_mean};
 use crate::immersion::Height;
 use crate::loads::SupportLoad;
+use crate::real::Points;
 
 mod sealed {
     pub trait Sealed {}
@@ -34,13 +35,13 @@ pub trait Attach: sealed::Sealed + 'static {
     /// Indices of the members and oils that the place names.
     type Seat: Copy + Send + Sync;
     /// The state at one operating point.
-    type Site<'a>;
+    type Site<'a, R: Points>;
     /// True if the loss may depend on torque or load.
     const LOADED: bool;
     /// Looks up the names of a place; unknown names become findings.
     fn seat(place: &Self::Place, names: &mut Names<'_>) -> Option<Self::Seat>;
     /// The site of a seat.
-    fn site<'a>(seat: Self::Seat, spot: &Spot, state: &State<'a>) -> Self::Site<'a>;
+    fn site<'a, R: Points>(seat: Self::Seat, spot: &Spot, state: &State<'a, R>) -> Self::Site<'a, R>;
     /// First and second member: moments oppose the speed of the first relative to the second, and both take the reaction. `None` is
     /// the housing.
     fn between(seat: Self::Seat) -> [Option<u16>; 2];
@@ -53,29 +54,56 @@ pub trait Attach: sealed::Sealed + 'static {
 /// The oil at one place at one point, SI; temperature in degC.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
-pub struct Oil {
+pub struct Oil<R = f64> {
     /// Temperature. \[degC\]
-    pub temperature: f64,
+    pub temperature: R,
     /// Kinematic viscosity. \[m2/s\]
-    pub nu: f64,
+    pub nu: R,
     /// Density. \[kg/m3\]
-    pub rho: f64,
+    pub rho: R,
     /// Dynamic viscosity. \[Pa s\]
-    pub eta: f64,
+    pub eta: R,
     /// Kinematic viscosity at 40 degC. \[m2/s\]
-    pub nu40: f64,
+    pub nu40: R,
     /// Pressure-viscosity coefficient. \[1/Pa\]
-    pub alpha: f64,
+    pub alpha: R,
     /// Relative decrease of the viscosity with temperature. \[1/K\]
-    pub beta: f64,
+    pub beta: R,
     /// Thermal conductivity. \[W/(m K)\]
-    pub conductivity: f64,
+    pub conductivity: R,
     /// Coefficient of boundary friction in rolling bearings; zero if none is stated.
-    pub mu_bl: f64,
+    pub mu_bl: R,
     /// Coefficient of full-film friction in rolling bearings.
-    pub mu_ehl: f64,
+    pub mu_ehl: R,
     /// Lubricant factor of mean mesh friction.
-    pub x_l: f64,
+    pub x_l: R,
+}
+
+impl<R: Points> Oil<R> {
+    /// The oil at several points from that at each.
+    pub(crate) fn of_points(oil: impl Fn(usize) -> Oil) -> Self {
+        let mut all = Self::default();
+        for point in 0..R::COUNT {
+            let own = oil(point);
+            let pairs = [
+                (&mut all.temperature, own.temperature),
+                (&mut all.nu, own.nu),
+                (&mut all.rho, own.rho),
+                (&mut all.eta, own.eta),
+                (&mut all.nu40, own.nu40),
+                (&mut all.alpha, own.alpha),
+                (&mut all.beta, own.beta),
+                (&mut all.conductivity, own.conductivity),
+                (&mut all.mu_bl, own.mu_bl),
+                (&mut all.mu_ehl, own.mu_ehl),
+                (&mut all.x_l, own.x_l),
+            ];
+            for (all, own) in pairs {
+                all.set(point, own);
+            }
+        }
+        all
+    }
 }
 
 /// Oil supply of a component and its level.
@@ -107,54 +135,59 @@ pub enum Level {
 
 /// State of the transmission at one operating point, as attachments see it.
 #[derive(Debug, Clone, Copy)]
-pub struct State<'a> {
+pub struct State<'a, R = f64> {
     /// Speeds of the members. \[rad/s\]
-    pub speeds: &'a [f64],
+    pub speeds: &'a [R],
     /// Oils, by number.
-    pub oils: &'a [Oil],
+    pub oils: &'a [Oil<R>],
     /// Temperatures of the nodes, or one for all nodes. \[degC\]
-    pub temperatures: &'a [f64],
+    pub temperatures: &'a [R],
     /// Oil height above the datum; minus infinity without a sump. \[m\]
-    pub surface: f64,
+    pub surface: R,
     /// Loads of the supports.
-    pub loads: &'a [SupportLoad],
+    pub loads: &'a [SupportLoad<R>],
     /// Number of loss model evaluations.
     pub calls: &'a Cell<usize>,
 }
 
-impl<'a> State<'a> {
+impl<'a, R: Points> State<'a, R> {
+    /// Counts one evaluation of a model for each of some points.
+    pub(crate) fn count_call(&self, points: R::Mask) {
+        self.calls.set(self.calls.get() + R::bits(points).count_ones() as usize);
+    }
+
     /// Speed of a member; zero for the housing. \[rad/s\]
-    #[inline]
-    pub fn speed(&self, member: Option<u16>) -> f64 {
-        member.map_or(0.0, |m| self.speeds[m as usize])
+    #[inline(always)]
+    pub fn speed(&self, member: Option<u16>) -> R {
+        member.map_or(R::ZERO, |m| self.speeds[m as usize])
     }
 
     /// Difference of two members' speeds; zero if it is rounding error. \[rad/s\]
-    #[inline]
-    pub fn relative(&self, a: Option<u16>, b: Option<u16>) -> f64 {
+    #[inline(always)]
+    pub fn relative(&self, a: Option<u16>, b: Option<u16>) -> R {
         let (a, b) = (self.speed(a), self.speed(b));
-        if (a - b).abs() <= 1e-12 * a.abs().max(b.abs()) {
-            0.0
-        } else {
-            a - b
-        }
+        let rounding = a.magnitude().larger(b.magnitude()) * 1e-12;
+        R::select((a - b).magnitude().is_above(rounding), a - b, R::ZERO)
     }
 
     /// The oil of a spot.
     #[inline]
-    pub fn oil(&self, spot: &Spot) -> &'a Oil {
+    pub fn oil(&self, spot: &Spot) -> &'a Oil<R> {
         &self.oils[spot.oil as usize]
     }
 
     /// Oil height above the axis at a spot.
-    #[inline]
-    pub fn level(&self, spot: &Spot) -> Height {
+    #[inline(always)]
+    pub fn level(&self, spot: &Spot) -> Height<R> {
         match spot.level {
             Level::Dry => Height {
-                level: f64::NEG_INFINITY,
+                level: R::constant(f64::NEG_INFINITY),
                 orbit: 0.0,
             },
-            Level::Own(level) => Height { level, orbit: 0.0 },
+            Level::Own(level) => Height {
+                level: R::constant(level),
+                orbit: 0.0,
+            },
             Level::Sump { height, slope, orbit } => Height {
                 level: (self.surface - height) * slope,
                 orbit,

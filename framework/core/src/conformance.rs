@@ -8,8 +8,9 @@ use std::sync::Arc;
 use serde_json::Value;
 
 use crate::language::Language;
-use crate::loss::{Extent, MOST_KEPT, NoteBase, Notes, Undefined};
-use crate::mechanism::{Answer, Mechanism, Quantity};
+use crate::loss::{Kept, NoteBase, Notebook, Notes, Seen, Undefined};
+use crate::mechanism::{Answer, Inputs as _, Mechanism, Quantity};
+use crate::real::{LANES, Lane};
 use crate::registry::{Build, Entry, Evidence, Files, Graded, Registry, from_resolved};
 
 /// Checks every linked model on its mechanism's example part. Returns one line for each fault.
@@ -94,8 +95,7 @@ pub fn conform<M: Mechanism>(
             ));
         }
     }
-    let mut extents = vec![Extent::EMPTY; cells];
-    let cells = Cell::from_mut(extents.as_mut_slice()).as_slice_of_cells();
+    let cells = &vec![Cell::new(Seen::NOTHING); cells][..];
     let usual = M::usual(&part, Notes::MUTED);
     let noted = M::usual(&part, Notes::new(cells, slot.notes));
     let mut try_at = |what: &str, changes: &[(usize, f64)]| {
@@ -110,7 +110,7 @@ pub fn conform<M: Mechanism>(
         if !same_result(&answer, &M::answer(&slot, &with_notes), speed) {
             faults.push(format!("returns a different result with notes, at {what}"));
         }
-        if let (true, Some(fault)) = (changes.len() < 2, M::compare_batched(&slot, &at, slot.notes)) {
+        if let (true, Some(fault)) = (changes.len() < 2, together::<M>(&slot, &part, &at, slot.notes)) {
             faults.push(format!("{fault} at {what}"));
         }
         match answer {
@@ -156,7 +156,7 @@ pub fn conform<M: Mechanism>(
 }
 
 /// Checks the loss at standstill and for the opposite direction of rotation: zero power, and equal power.
-fn rest_and_reversal<M: Mechanism>(model: &M::Model, usual: &M::At<'_>) -> Vec<String> {
+fn rest_and_reversal<M: Mechanism>(model: &M::Model, usual: &M::At<'_, f64>) -> Vec<String> {
     let speeds: Vec<&Quantity<M>> = M::QUANTITIES
         .iter()
         .filter(|q| q.unit().symbol == "rpm" && q.least < 0.0)
@@ -191,34 +191,103 @@ fn rest_and_reversal<M: Mechanism>(model: &M::Model, usual: &M::At<'_>) -> Vec<S
     faults
 }
 
+/// A law that is written for several points must give and note for each what it gives and notes for that point alone. The loads of
+/// the points differ, some of them are zero; then their speeds and oils as well.
+fn together<M: Mechanism>(
+    model: &M::Model,
+    part: &M::Part,
+    at: &M::At<'_, f64>,
+    base: NoteBase,
+) -> Option<&'static str> {
+    const LOADS: [&str; 4] = ["N", "Nm", "N/mm", "GPa"];
+    const STATES: [&str; 4] = ["rpm", "m/s", "mm2/s", "mPa s"];
+    let [all, single] = [(); 2].map(|()| vec![Cell::new(Seen::NOTHING); base.end()]);
+    for states in [false, true] {
+        for cell in all.iter().chain(&single) {
+            cell.set(Seen::NOTHING);
+        }
+        let several: Notebook<'_, Lane> = Notebook {
+            cells: &all,
+            points: (1 << LANES) - 1,
+            kept: &[],
+            kept_alone: &[],
+            trace: None,
+        };
+        let point = |i: usize| {
+            let book = Notebook {
+                cells: &single,
+                points: 1 << i,
+                ..Notebook::CLOSED
+            };
+            let mut own = M::usual(part, book.notes(base));
+            for (k, q) in M::QUANTITIES.iter().enumerate() {
+                let symbol = q.unit().symbol;
+                let load = LOADS.contains(&symbol);
+                let factor = match load || states && STATES.contains(&symbol) {
+                    true if load && i % 5 == 4 && k % 2 == 0 => 0.0,
+                    true => 0.3 + 1.5 * i as f64 / LANES as f64,
+                    false => 1.0,
+                };
+                (q.set)(&mut own, (q.get)(at) * factor);
+            }
+            own
+        };
+        let lanes = M::At::together(part, several.notes(base), point);
+        let Ok(answers) = M::answer_together(model, &lanes) else {
+            continue;
+        };
+        for i in 0..LANES {
+            let own = point(i);
+            let (alone, speed) = (M::answer(model, &own), M::speed(&own));
+            if !same_result(&Ok(M::Answer::at(&answers, i)), &alone, speed) {
+                return Some("gives another result at one of several points");
+            }
+        }
+        if all != single {
+            return Some("notes something else at several points");
+        }
+    }
+    None
+}
+
 /// Values that a model keeps over the iterations of a point must not depend on loads, which change between them, and must not skip
 /// notes.
 fn keeping<M: Mechanism>(
     model: &M::Model,
     part: &M::Part,
     base: NoteBase,
-    (instances, cells): (usize, &[Cell<Extent>]),
+    (instances, cells): (usize, &[Cell<Seen>]),
 ) -> Vec<String> {
-    let kept = vec![Cell::new([f64::NAN; MOST_KEPT]); instances];
-    let _ = M::answer(model, &M::usual(part, Notes::muted(base).keeping(&kept)));
+    let kept: Vec<Cell<Kept<f64>>> = vec![Cell::new(None); instances];
+    let none: &[Cell<Kept<f64>>] = &[];
+    let notes = |cells, kept| {
+        let book = Notebook {
+            cells,
+            kept,
+            ..Notebook::CLOSED
+        };
+        book.clear(base);
+        book.notes(base)
+    };
+    let _ = M::answer(model, &M::usual(part, notes(&[], &kept)));
     let evaluate = |notes, q: &Quantity<M>, value| {
         let mut at = M::usual(part, notes);
         (q.set)(&mut at, q.unit().to_si(value));
-        let noted = |cells: &[Cell<Extent>]| cells.iter().map(Cell::get).collect::<Vec<_>>();
+        let noted = |cells: &[Cell<Seen>]| cells.iter().map(Cell::get).collect::<Vec<_>>();
         (M::answer(model, &at), M::speed(&at), noted(cells))
     };
     let mut faults = Vec::new();
     for q in M::QUANTITIES.iter().filter(|q| matches!(q.unit().symbol, "N" | "Nm")) {
         for value in [q.least, q.greatest] {
-            let (anew, speed, notes) = evaluate(Notes::fresh(cells, base), q, value);
-            let (again, _, notes_again) = evaluate(Notes::fresh(cells, base).keeping(&kept), q, value);
+            let (anew, speed, noted) = evaluate(notes(cells, none), q, value);
+            let (again, _, noted_again) = evaluate(notes(cells, &kept), q, value);
             if !same_result(&anew, &again, speed) {
                 faults.push(format!(
                     "keeps a value that depends on `{}` over the iterations of a point",
                     q.name
                 ));
             }
-            if notes != notes_again {
+            if noted != noted_again {
                 faults.push("writes notes inside a value that it keeps over the iterations of a point".to_owned());
             }
         }

@@ -5,6 +5,7 @@
 //! Matsumoto, Diab, and Olver and Spikes as collected by Arana et al. 2019.
 
 use crate::mechanism::tooth_friction::ContactAt;
+use crate::real::Real;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -22,29 +23,32 @@ pub enum Film {
 }
 
 /// Minimum film over radius from U = eta v_e/(E' R), G = alpha E', W = w/(E' R).
-pub fn dowson_higginson(u: f64, g: f64, w: f64) -> f64 {
-    2.65 * u.powf(0.7) * g.powf(0.54) * w.powf(-0.13)
+#[inline(always)]
+pub fn dowson_higginson<R: Real>(u: R, g: R, w: R) -> R {
+    u.power(0.7) * 2.65 * g.power(0.54) * w.power(-0.13)
 }
 
 /// Central film over radius of a long contact from U, G and W = F/(E' R^2).
-pub fn hamrock_dowson(u: f64, g: f64, w: f64) -> f64 {
-    2.69 * u.powf(0.67) * g.powf(0.53) * w.powf(-0.067)
+#[inline(always)]
+pub fn hamrock_dowson<R: Real>(u: R, g: R, w: R) -> R {
+    u.power(0.67) * 2.69 * g.power(0.53) * w.power(-0.067)
 }
 
 /// Reduction factor of the film by inlet heating, from p_H/E', slide-to-roll ratio and L = eta beta v_e^2/k.
-pub fn thermal_factor(pressure: f64, slide_roll: f64, l: f64) -> f64 {
-    let thinned =
-        (1.0 - 13.2 * pressure * l.powf(0.42)) / (1.0 + 0.213 * (1.0 + 2.23 * slide_roll.powf(0.83)) * l.powf(0.64));
+#[inline(always)]
+pub fn thermal_factor<R: Real>(pressure: R, slide_roll: R, l: R) -> R {
+    let one = R::constant(1.0);
+    let slides = slide_roll.power(0.83) * 2.23 + one;
+    let thinned = (one - pressure * 13.2 * l.power(0.42)) / (slides * 0.213 * l.power(0.64) + one);
     // Beyond the fit the numerator is negative; the film stays positive.
-    thinned.clamp(0.05, 1.0)
+    thinned.at_least(0.05).at_most(1.0)
 }
 
 /// Film thickness in a contact, optionally with inlet heating; zero at standstill. \[m\]
-pub fn film(at: &ContactAt<'_>, film: Film, thermal: bool) -> f64 {
-    let v_e = 0.5 * at.sum_speed;
-    if v_e == 0.0 || at.line_load == 0.0 {
-        return 0.0;
-    }
+#[inline(always)]
+pub fn film<R: Real>(at: &ContactAt<'_, R>, film: Film, thermal: bool) -> R {
+    let v_e = at.sum_speed * 0.5;
+    let none = v_e.is_zero() | at.line_load.is_zero();
     let u = at.eta * v_e / (at.modulus * at.radius);
     let g = at.alpha * at.modulus;
     let w = at.line_load / (at.modulus * at.radius);
@@ -53,15 +57,13 @@ pub fn film(at: &ContactAt<'_>, film: Film, thermal: bool) -> f64 {
             Film::DowsonHigginson => dowson_higginson(u, g, w),
             Film::HamrockDowson => hamrock_dowson(u, g, w * at.length / at.radius),
         };
-    if thermal {
-        h * thermal_factor(
-            at.pressure / at.modulus,
-            at.slide_roll(),
-            at.eta * at.beta * v_e * v_e / at.conductivity,
-        )
+    let h = if thermal {
+        let heating = at.eta * at.beta * v_e * v_e / at.conductivity;
+        h * thermal_factor(at.pressure / at.modulus, at.slide_roll(), heating)
     } else {
         h
-    }
+    };
+    R::select(none, R::ZERO, h)
 }
 
 #[cfg(test)]

@@ -10,7 +10,7 @@ use crate::codes;
 use crate::document::{Diagnostic, Sources, classify, did_you_mean, read_yaml};
 use crate::gearbox::Findings;
 use crate::language::Language;
-use crate::loss::{Extent, Notes, Trace};
+use crate::loss::{Notes, Seen, Trace};
 use crate::mechanism::{Answer, Mechanism, settle};
 pub use crate::registry::Evaluated;
 use crate::registry::{Build, Entry, Files, MechanismEntry, Registry, from_resolved};
@@ -127,11 +127,10 @@ pub fn eval<M: Mechanism>(
     let mut build = Build::new(registry, files);
     let slot = build.slot_at::<M>("model", &part, model)?;
     let (instances, cells) = build.finish();
-    let mut extents = vec![Extent::EMPTY; cells];
+    let cells = vec![Cell::new(Seen::NOTHING); cells];
     let trace = Trace::default();
     let (answer, speed, followed) = {
-        let cells = Cell::from_mut(extents.as_mut_slice()).as_slice_of_cells();
-        let mut at = M::usual(&part, Notes::new(cells, slot.notes).traced(&trace));
+        let mut at = M::usual(&part, Notes::new(&cells, slot.notes).traced(&trace));
         let mut stated = Vec::new();
         for (name, value) in inputs {
             let Some(quantity) = M::QUANTITIES.iter().find(|q| q.name == name) else {
@@ -177,13 +176,13 @@ pub fn eval<M: Mechanism>(
             let (path, i) = path(i);
             evaluated
                 .limits
-                .push((path, *limit, extents[instance.notes.limits() + i]));
+                .push((path, *limit, cells[instance.notes.limits() + i].get().extent()));
         }
         for (i, observed) in instance.entry.observed.iter().enumerate() {
             let (path, i) = path(i);
             evaluated
                 .observed
-                .push((path, *observed, extents[instance.notes.observed() + i]));
+                .push((path, *observed, cells[instance.notes.observed() + i].get().extent()));
         }
     }
     Ok(evaluated)

@@ -9,17 +9,18 @@ mod solution;
 pub use batch::{Batch, BatchScratch, Block};
 pub(crate) use readings::readings;
 pub use readings::{MemberTorques, Reading};
+use scratch::Models;
 pub use scratch::Scratch;
 pub use solution::{PartLoss, Solution};
-
-use std::cell::Cell;
 
 use crate::attach::State;
 use crate::flow::{Balance, Drive, FlowState, Outcome, Status, Tolerance};
 use crate::loads::{LEAST_STATIC_SAFETY, SupportLoad};
-use crate::loss::{Extent, Loss, NoteBase, Notebook, Undefined};
-use crate::mechanism::gear_drag::GearDragAt;
-use crate::mechanism::gear_mesh::GearMeshAt;
+use crate::loss::{Loss, NoteBase, Notebook, Seen, Undefined};
+use crate::mechanism::Answers;
+use crate::mechanism::gear_drag::{GearDrag, GearDragAt};
+use crate::mechanism::gear_mesh::{GearMesh, GearMeshAt};
+use crate::real::{Mask as _, Points, Real};
 use crate::thermal::Unbalanced;
 use crate::transmission::{Case, Component, Sharing, Transmission};
 
@@ -87,7 +88,6 @@ impl Transmission {
             transmission: self,
             case,
             scratch,
-            ideal: point.flow == PowerFlow::Ideal,
         }
     }
 
@@ -119,15 +119,15 @@ impl Transmission {
         noting: Noting,
     ) -> Result<(), Unbalanced> {
         self.solve(case, point, temperatures, scratch, noting);
-        match (scratch.undefined, scratch.status) {
+        match (scratch.undefined, scratch.status()) {
             (Some((part, reason)), _) => Err(Unbalanced::Part(part, reason)),
             (None, status) if !status.has_flow() => Err(Unbalanced::Flow),
             (None, _) => Ok(()),
         }
     }
 
-    /// Computes speeds, oils and all values that are independent of torque; true if nothing rotates.
-    fn settle(&self, case: &Case, point: &Point<'_>, temperatures: &[f64], s: &mut Scratch, quiet: bool) -> bool {
+    /// Computes speeds, oils and all values that are independent of torque.
+    fn settle(&self, case: &Case, point: &Point<'_>, temperatures: &[f64], s: &mut Scratch, noting: Noting) {
         assert_eq!(
             point.speeds.len(),
             case.speed_ports.len(),
@@ -138,272 +138,229 @@ impl Transmission {
             case.torque_ports.len(),
             "one torque for each torque port of the case"
         );
-        s.prescribed[..point.speeds.len()].copy_from_slice(point.speeds);
-        s.prescribed[point.speeds.len()..].fill(0.0);
-        case.motion.speeds(&s.prescribed, &mut s.speeds);
-        s.given[..point.torques.len()].copy_from_slice(point.torques);
-        s.given[point.torques.len()..].fill(0.0);
         assert!(
             temperatures.len() == 1 || temperatures.len() == self.nodes(),
             "one temperature for all, or one for each node"
         );
-        s.temperatures.clear();
-        s.temperatures.extend_from_slice(temperatures);
-        self.oils.write_states(temperatures, &mut s.oils);
-        s.surface = self.oils.surface(&s.speeds);
-        s.cells.fill(Extent::EMPTY);
-        s.idle_drags.fill(0.0);
-        for kept in &mut s.kept {
-            kept[0] = f64::NAN;
-        }
-        s.passes = 0;
-        s.called += s.calls.replace(0);
-        s.loads.fill(SupportLoad::default());
-        let standing = s.speeds.iter().all(|w| *w == 0.0);
-
-        // Models that are independent of torque are evaluated once.
-        {
-            let cells = Cell::from_mut(s.cells.as_mut_slice()).as_slice_of_cells();
-            let state = State {
-                speeds: &s.speeds,
-                oils: &s.oils,
-                temperatures: &s.temperatures,
-                surface: s.surface,
-                loads: &s.loads,
-                calls: &s.calls,
-            };
-            let book = Notebook {
-                cells: if quiet { &[] } else { cells },
-                ..Notebook::CLOSED
-            };
-            let losses = s.component_losses.iter_mut().zip(&mut s.relative);
-            s.braking.clear();
-            for (i, (component, (loss, relative))) in self.components.iter().zip(losses).enumerate() {
-                let speed = state.relative(component.between[0], component.between[1]);
-                *relative = speed;
-                if component.off {
-                    continue;
-                }
-                if component.loaded {
-                    // Stationary components have no drag; they are evaluated once, at the end.
-                    if speed != 0.0 {
-                        s.braking.push(i);
-                    }
-                } else {
-                    let answer = component_loss(component, &state, &book);
-                    let moment = moment(&answer, speed) * self.copies(i, &s.speeds);
-                    brake(component.between, speed, moment, &mut s.idle_drags);
-                    *loss = answer;
-                }
-            }
-            for (i, loss) in s.drag_losses.iter_mut().enumerate() {
-                let model = &self.drags[i].model;
-                if model.off {
-                    continue;
-                }
-                *loss = self.drag(i, &state, &book);
-                self.brake_gears(i, loss, &s.speeds, &mut s.idle_drags);
-            }
-        }
-        standing
+        s.prescribed[..point.speeds.len()].copy_from_slice(point.speeds);
+        s.prescribed[point.speeds.len()..].fill(0.0);
+        s.work.given[..point.torques.len()].copy_from_slice(point.torques);
+        s.work.given[point.torques.len()..].fill(0.0);
+        s.models.conditions.temperatures.clear();
+        s.models.conditions.temperatures.extend_from_slice(temperatures);
+        s.models.conditions.common = true;
+        self.settle_prescribed(case, s, noting);
     }
 
-    fn solve(&self, case: &Case, point: &Point<'_>, temperatures: &[f64], s: &mut Scratch, noting_as: Noting) {
-        let quiet = noting_as == Noting::Muted;
-        let standing = self.settle(case, point, temperatures, s, quiet);
-        let Scratch {
-            speeds,
-            given,
-            temperatures,
-            oils,
-            surface,
-            loads,
-            uneven_loads,
-            uneven_forces,
-            passed,
-            tangential,
-            cells,
-            kept,
-            component_losses,
-            mesh_losses,
-            idle_drags,
-            relative,
-            braking,
-            calls,
-            work,
-            ..
-        } = s;
-        let calls = &*calls;
-        let (speeds, given, oils, surface) = (&*speeds, &*given, &*oils, *surface);
-        let temperatures = &temperatures[..];
-        let (idle_drags, relative) = (&*idle_drags, &*relative);
-        let cells = Cell::from_mut(cells.as_mut_slice()).as_slice_of_cells();
-        let kept = Cell::from_mut(kept.as_mut_slice()).as_slice_of_cells();
-        let iterates = point.flow == PowerFlow::Real && !standing;
+    /// Computes speeds, oils and all values that are independent of torque, from what is prescribed.
+    fn settle_prescribed<R: Answers>(&self, case: &Case, s: &mut Scratch<R>, noting: Noting) {
+        let m = &mut s.models;
+        let c = &mut m.conditions;
+        c.live = R::mask(|_| true);
+        case.motion.speeds(&s.prescribed, &mut c.speeds);
+        self.oils.write_states(&c.temperatures, &mut c.oils);
+        c.surface = self.oils.surface(&c.speeds);
+        c.forget();
+        s.called += c.calls.replace(0);
+        c.loads.fill(SupportLoad::default());
+        let standing = c.speeds.iter().fold(R::mask(|_| true), |all, w| all & w.is_zero());
+        s.standing = c.decide(standing);
+        m.braking.clear();
+        for (i, component) in self.components.iter().enumerate() {
+            let (state, _) = c.open(false);
+            m.relative[i] = state.relative(component.between[0], component.between[1]);
+            // Stationary components have no drag; they are evaluated once, at the end.
+            let rests = c.decide(m.relative[i].is_zero());
+            if component.loaded && !component.off && !rests {
+                m.braking.push(i);
+            }
+        }
+
+        // Models that are independent of torque are evaluated once.
+        let drags = &mut s.work.steady;
+        drags.fill(R::ZERO);
+        let mut live = c.live;
+        let (state, book) = c.open(noting != Noting::Muted);
+        for (i, component) in self.components.iter().enumerate() {
+            if !component.loaded && !component.off {
+                let answer = component_loss(component, &state, &book, &mut live);
+                let moment = moment(&answer, m.relative[i]) * self.copies(i, state.speeds);
+                brake(component.between, m.relative[i], moment, drags);
+                m.component_losses[i] = answer;
+            }
+        }
+        for (i, loss) in m.drag_losses.iter_mut().enumerate() {
+            if !self.drags[i].model.off {
+                *loss = self.drag(i, &state, &book, &mut live);
+                self.brake_gears(i, loss, state.speeds, drags);
+            }
+        }
+        c.live = live;
+        s.work.speeds.copy_from_slice(&c.speeds);
+    }
+
+    fn solve(&self, case: &Case, point: &Point<'_>, temperatures: &[f64], s: &mut Scratch, noting: Noting) {
+        self.settle(case, point, temperatures, s, noting);
+        self.solve_settled(case, point, s, noting);
+    }
+
+    /// Solves the given torques at the settled speeds and oils.
+    fn solve_settled<R: Answers>(&self, case: &Case, point: &Point<'_>, s: &mut Scratch<R>, noting: Noting) {
+        let quiet = noting == Noting::Muted;
+        let iterates = point.flow == PowerFlow::Real && !s.standing;
+        s.ideal = point.flow == PowerFlow::Ideal;
         let silent = if iterates { SILENT } else { 0 };
         let mut pass = 0;
-        let losses = |flow: &mut FlowState<'_>| {
-            let book = Notebook {
-                cells: if quiet || pass < silent { &[] } else { cells },
-                kept,
-                ..Notebook::CLOSED
-            };
+        let (work, models) = (&mut s.work, &mut s.models);
+        let settled = models.conditions.live;
+        let losses = |flow: &mut FlowState<'_, R>| {
+            let notes = !quiet && pass >= silent;
             pass += 1;
-            // Meshes are the first rows, in the same order.
-            for ((mesh, tangential), multiplier) in self.meshes.iter().zip(tangential.iter_mut()).zip(flow.multipliers)
-            {
-                *tangential = multiplier * mesh.force_per_multiplier;
-            }
-            let mut support = |forces: &[f64], loads: &mut [SupportLoad]| {
-                self.loads.evaluate(forces, speeds, passed, loads);
-                self.correct_loads(case, flow.ports, loads);
-            };
-            support(tangential, loads);
-            if self.uneven {
-                for (which, loads) in uneven_loads.iter_mut().enumerate() {
-                    for ((force, mean), mesh) in uneven_forces.iter_mut().zip(&*tangential).zip(&self.meshes) {
-                        *force = mean * mesh.sharing.map_or(1.0, |s| s.factors()[which]);
-                    }
-                    support(uneven_forces, loads);
-                }
-            }
-            let state = State {
-                speeds,
-                oils,
-                temperatures,
-                surface,
-                loads,
-                calls,
-            };
-            flow.drags[..idle_drags.len()].copy_from_slice(idle_drags);
-            for &i in &*braking {
-                let (component, speed) = (&self.components[i], relative[i]);
-                // Kept when all of it has been read: a copy waits for values that were just written.
-                let loss = loaded_loss(component, &state, uneven_loads, &book);
-                let moment = moment(&loss, speed) * self.copies(i, speeds);
-                brake(component.between, speed, moment, flow.drags);
-                component_losses[i] = loss;
-            }
-            self.lose_in_meshes(flow, tangential, mesh_losses, &state, &book);
+            *flow.live = *flow.live & settled;
+            self.lose(case, flow, models, notes);
         };
         let outcome = if iterates {
-            case.flow.real(speeds, given, idle_drags, point.tolerance, work, losses)
+            case.flow.real(point.tolerance, work, losses)
         } else {
-            case.flow.ideal(speeds, given, work);
-            work.once(speeds, losses);
+            case.flow.ideal(work);
+            work.once(losses);
             Outcome::Converged { passes: 1 }
         };
+        models.conditions.live = work.live & settled;
+        let converged = matches!(outcome, Outcome::Converged { .. });
         if !quiet && matches!(outcome, Outcome::Converged { passes } if passes <= silent) {
-            self.note(s);
+            self.note(&s.work.drives, &mut s.models);
         }
-        self.rest(s, quiet);
-        if !quiet && matches!(outcome, Outcome::Converged { .. }) {
-            self.note_static_safety(s);
+        self.rest(&mut s.models, quiet);
+        if !quiet && converged {
+            self.note_static_safety(&mut s.models);
         }
-        self.finish(standing, point.flow, outcome, s);
-        if noting_as == Noting::Counted && matches!(outcome, Outcome::Converged { .. }) {
+        self.finish(outcome, s);
+        if noting == Noting::Counted && converged {
             s.count_seen();
         }
     }
 
-    /// Losses of all meshes at their tangential forces, and the power that each takes from the flow.
-    #[inline]
-    fn lose_in_meshes(
-        &self,
-        flow: &mut FlowState<'_>,
-        tangential: &[f64],
-        losses: &mut [Result<Loss, Undefined>],
-        state: &State<'_>,
-        book: &Notebook<'_>,
-    ) {
-        for (i, loss) in losses.iter_mut().enumerate() {
+    /// Losses of all models at the torques of one iteration.
+    fn lose<R: Answers>(&self, case: &Case, flow: &mut FlowState<'_, R>, m: &mut Models<R>, notes: bool) {
+        let c = &mut m.conditions;
+        R::wide(
+            #[inline(always)]
+            || {
+                // Meshes are the first rows, in the same order.
+                let forces = self.meshes.iter().zip(&mut m.tangential).zip(flow.multipliers);
+                for ((mesh, tangential), multiplier) in forces {
+                    *tangential = *multiplier * mesh.force_per_multiplier;
+                }
+                self.loads
+                    .evaluate(&m.tangential, &c.speeds, &mut m.passed, &mut c.loads);
+            },
+        );
+        self.correct_loads(case, flow.ports, &mut c.loads);
+        if self.uneven {
+            for (which, loads) in m.uneven_loads.iter_mut().enumerate() {
+                for ((force, mean), mesh) in m.uneven_forces.iter_mut().zip(&m.tangential).zip(&self.meshes) {
+                    *force = *mean * mesh.sharing.map_or(1.0, |s| s.factors()[which]);
+                }
+                self.loads.evaluate(&m.uneven_forces, &c.speeds, &mut m.passed, loads);
+                self.correct_loads(case, flow.ports, loads);
+            }
+        }
+        c.live = *flow.live;
+        let (state, book) = c.open(notes);
+        flow.drags.copy_from_slice(flow.steady);
+        for &i in &m.braking {
+            let (component, speed) = (&self.components[i], m.relative[i]);
+            // Kept when all of it has been read: a copy waits for values that were just written.
+            let loss = loaded_loss(component, &state, &m.uneven_loads, &book, flow.live);
+            R::wide(
+                #[inline(always)]
+                || {
+                    let moment = moment(&loss, speed) * self.copies(i, state.speeds);
+                    brake(component.between, speed, moment, flow.drags);
+                },
+            );
+            m.component_losses[i] = loss;
+        }
+        for (i, loss) in m.mesh_losses.iter_mut().enumerate() {
             let mesh = &self.meshes[i];
             if mesh.model.off {
                 continue;
             }
-            let drives = flow.drives[i];
-            let answer = self.mesh(i, tangential[i], drives, state, book);
-            let speed = self.mesh_speed(i, state.speeds);
-            flow.mesh_loss[i] = match &answer {
-                Ok(loss) if speed != 0.0 => {
-                    loss.total_watts(speed) * mesh.seat.count * mesh.loss_factor * self.mesh_grip(i, state.speeds)
-                }
-                _ => 0.0,
-            };
+            let answer = self.mesh(i, m.tangential[i], flow.drives[i], &state, &book, flow.live);
+            R::wide(
+                #[inline(always)]
+                || {
+                    let speed = self.mesh_speed(i, state.speeds);
+                    flow.mesh_loss[i] = answer.as_ref().map_or(R::ZERO, |loss| {
+                        let watts = loss.total_watts(speed) * mesh.seat.count * mesh.loss_factor;
+                        R::select(speed.is_zero(), R::ZERO, watts * self.mesh_grip(i, state.speeds))
+                    });
+                },
+            );
             *loss = answer;
         }
     }
 
     /// Notes the contexts of the models at the torques of their last results.
-    fn note(&self, s: &mut Scratch) {
-        let cells = Cell::from_mut(s.cells.as_mut_slice()).as_slice_of_cells();
-        let kept = Cell::from_mut(s.kept.as_mut_slice()).as_slice_of_cells();
-        let book = Notebook {
-            cells,
-            kept,
-            ..Notebook::CLOSED
-        };
-        let state = State {
-            speeds: &s.speeds,
-            oils: &s.oils,
-            temperatures: &s.temperatures,
-            surface: s.surface,
-            loads: &s.loads,
-            calls: &s.calls,
-        };
-        for &i in &s.braking {
-            let _ = loaded_loss(&self.components[i], &state, &s.uneven_loads, &book);
+    fn note<R: Answers>(&self, drives: &[Drive], m: &mut Models<R>) {
+        let mut live = m.conditions.live;
+        let (state, book) = m.conditions.open(true);
+        for &i in &m.braking {
+            let _ = loaded_loss(&self.components[i], &state, &m.uneven_loads, &book, &mut live);
         }
         for i in (0..self.meshes.len()).filter(|i| !self.meshes[*i].model.off) {
-            let _ = self.mesh(i, s.tangential[i], s.work.drives[i], &state, &book);
+            let _ = self.mesh(i, m.tangential[i], drives[i], &state, &book, &mut live);
         }
     }
 
     /// Notes the static safety of bearings; on a planet that of the most loaded one.
-    fn note_static_safety(&self, s: &mut Scratch) {
-        let first = self.rated_cells();
-        for (rated, cell) in self.rated.iter().zip(&mut s.cells[first..]) {
-            let load = if rated.uneven {
-                s.uneven_loads[0][rated.support]
-            } else {
-                s.loads[rated.support]
-            };
-            if let Some(safety) = rated.rating.safety(load.radial, load.axial) {
-                *cell = Extent::point(safety, safety, safety < LEAST_STATIC_SAFETY);
-            }
+    fn note_static_safety<R: Points>(&self, m: &mut Models<R>) {
+        let c = &m.conditions;
+        for (rated, cell) in self.rated.iter().zip(&c.cells[self.rated_cells()..]) {
+            let loads = if rated.uneven { &m.uneven_loads[0] } else { &c.loads };
+            let load = &loads[rated.support];
+            let safety = rated.rating.safety(load.radial, load.axial);
+            // Infinite without load.
+            let loaded = R::bits(c.live & safety.is_below(R::constant(f64::INFINITY)));
+            let outside = loaded & safety.is_below(R::constant(LEAST_STATIC_SAFETY)).bits();
+            cell.set(Seen::of(safety.extremes(loaded), loaded, outside));
         }
     }
 
     /// Moments of stationary components that carry load.
-    fn rest(&self, s: &mut Scratch, quiet: bool) {
-        let cells = Cell::from_mut(s.cells.as_mut_slice()).as_slice_of_cells();
-        let state = State {
-            speeds: &s.speeds,
-            oils: &s.oils,
-            temperatures: &s.temperatures,
-            surface: s.surface,
-            loads: &s.loads,
-            calls: &s.calls,
-        };
-        let book = Notebook {
-            cells: if quiet { &[] } else { cells },
-            ..Notebook::CLOSED
-        };
-        for ((component, loss), speed) in self.components.iter().zip(&mut s.component_losses).zip(&s.relative) {
-            if component.loaded && !component.off && *speed == 0.0 {
-                *loss = loaded_loss(component, &state, &s.uneven_loads, &book);
+    fn rest<R: Answers>(&self, m: &mut Models<R>, quiet: bool) {
+        let mut live = m.conditions.live;
+        let (state, book) = m.conditions.open(!quiet);
+        let losses = m.component_losses.iter_mut().zip(&m.relative);
+        for (component, (loss, speed)) in self.components.iter().zip(losses) {
+            if component.loaded && !component.off && (speed.is_zero() & live).any() {
+                *loss = loaded_loss(component, &state, &m.uneven_loads, &book, &mut live);
             }
         }
+        m.conditions.live = live;
     }
 
     /// Loss of one drag model.
-    fn drag(&self, index: usize, state: &State<'_>, book: &Notebook<'_>) -> Result<Loss, Undefined> {
-        state.calls.set(state.calls.get() + 1);
-        sound(self.drags[index].model.loss(&self.drag_at(index, state, book)))
+    fn drag<R: Answers>(
+        &self,
+        index: usize,
+        state: &State<'_, R>,
+        book: &Notebook<'_, R>,
+        live: &mut R::Mask,
+    ) -> Result<Loss<R>, Undefined> {
+        state.count_call(*live);
+        let answer = R::answer::<GearDrag>(&*self.drags[index].model, &self.drag_at(index, state, book));
+        accepted(answer, R::ZERO, live)
     }
 
     /// The context of a drag model, one copy.
-    fn drag_at<'a>(&'a self, index: usize, state: &State<'_>, book: &Notebook<'a>) -> GearDragAt<'a> {
+    fn drag_at<'a, R: Points>(
+        &'a self,
+        index: usize,
+        state: &State<'_, R>,
+        book: &Notebook<'a, R>,
+    ) -> GearDragAt<'a, R> {
         let drag = &self.drags[index];
         let seat = &drag.seat;
         let oil = &state.oils[drag.oil as usize];
@@ -411,17 +368,24 @@ impl Transmission {
         let level = seat
             .levels
             .map(|level| state.level(&crate::attach::Spot { oil: drag.oil, level }));
-        let towards = |i: usize| f64::from(u8::from(seat.mates[i].iter().any(|y| speed[i] * y > 0.0)));
+        let towards = |i: usize| {
+            let turns = |point: usize| {
+                let own = speed[i].at(point);
+                seat.mates[i].iter().any(|y| own * y > 0.0)
+            };
+            R::each(|point| f64::from(u8::from(turns(point))))
+        };
+        let second = |x: R| if seat.pair { x } else { R::ZERO };
         GearDragAt {
             part: &drag.part,
             speed: speed[0],
             speed_2: speed[1],
             tip_dip: level[0].dip(seat.radii[0][0]),
             dip: level[0].dip(seat.radii[0][1]),
-            tip_dip_2: if seat.pair { level[1].dip(seat.radii[1][0]) } else { 0.0 },
-            dip_2: if seat.pair { level[1].dip(seat.radii[1][1]) } else { 0.0 },
+            tip_dip_2: second(level[1].dip(seat.radii[1][0])),
+            dip_2: second(level[1].dip(seat.radii[1][1])),
             towards_mesh: towards(0),
-            towards_mesh_2: if seat.pair { towards(1) } else { 0.0 },
+            towards_mesh_2: second(towards(1)),
             temperature: oil.temperature,
             nu: oil.nu,
             eta: oil.eta,
@@ -431,20 +395,21 @@ impl Transmission {
     }
 
     /// Loss of one mesh, one copy; the mean over the copies if their loads differ.
-    fn mesh(
+    fn mesh<R: Answers>(
         &self,
         index: usize,
-        tangential: f64,
+        tangential: R,
         drives: Drive,
-        state: &State<'_>,
-        book: &Notebook<'_>,
-    ) -> Result<Loss, Undefined> {
+        state: &State<'_, R>,
+        book: &Notebook<'_, R>,
+        live: &mut R::Mask,
+    ) -> Result<Loss<R>, Undefined> {
         let mesh = &self.meshes[index];
         book.clear(mesh.model.notes);
-        let one = |factor: f64| {
-            state.calls.set(state.calls.get() + 1);
-            let at = self.mesh_at(index, factor * tangential, drives, state, book);
-            sound(mesh.model.loss(&at))
+        let mut one = |factor: f64| {
+            state.count_call(*live);
+            let at = self.mesh_at(index, tangential * factor, drives, state, book);
+            accepted(R::answer::<GearMesh>(&*mesh.model, &at), R::ZERO, live)
         };
         match mesh.sharing {
             None => one(1.0),
@@ -453,24 +418,26 @@ impl Transmission {
     }
 
     /// The context of a mesh model, one copy.
-    fn mesh_at<'a>(
+    #[inline(always)]
+    fn mesh_at<'a, R: Points>(
         &'a self,
         index: usize,
-        tangential: f64,
+        tangential: R,
         drives: Drive,
-        state: &State<'_>,
-        book: &Notebook<'a>,
-    ) -> GearMeshAt<'a> {
+        state: &State<'_, R>,
+        book: &Notebook<'a, R>,
+    ) -> GearMeshAt<'a, R> {
         let mesh = &self.meshes[index];
         let oil = &state.oils[mesh.oil as usize];
         // With one temperature for all nodes, the gear bodies have none of their own.
         let known = mesh.bodies.filter(|_| state.temperatures.len() > 1);
         let bodies = known.map(|nodes| nodes.map(|node| state.temperatures[node]));
+        let flag = |holds: bool| R::constant(f64::from(u8::from(holds)));
         GearMeshAt {
             part: &mesh.part,
-            torque: (tangential * mesh.seat.pair.working_radius[0]).abs(),
+            torque: (tangential * mesh.seat.pair.working_radius[0]).magnitude(),
             speed: self.mesh_speed(index, state.speeds),
-            first_drives: f64::from(u8::from(drives != Drive::Second)),
+            first_drives: flag(drives != Drive::Second),
             temperature: oil.temperature,
             nu: oil.nu,
             eta: oil.eta,
@@ -479,7 +446,7 @@ impl Transmission {
             beta: oil.beta,
             conductivity: oil.conductivity,
             x_l: oil.x_l,
-            bodies_known: f64::from(u8::from(bodies.is_some())),
+            bodies_known: flag(bodies.is_some()),
             temperature_1: bodies.map_or(oil.temperature, |b| b[0]),
             temperature_2: bodies.map_or(oil.temperature, |b| b[1]),
             notes: book.notes(mesh.model.notes),
@@ -487,139 +454,130 @@ impl Transmission {
     }
 
     /// Speed of a mesh's first gear in its carrier's frame; zero if it is rounding error. \[rad/s\]
-    fn mesh_speed(&self, index: usize, speeds: &[f64]) -> f64 {
+    #[inline(always)]
+    fn mesh_speed<R: Real>(&self, index: usize, speeds: &[R]) -> R {
         let seat = &self.meshes[index].seat;
-        let (own, carrier) = (speeds[seat.members[0]], seat.carrier.map_or(0.0, |c| speeds[c]));
-        if (own - carrier).abs() <= 1e-12 * own.abs().max(carrier.abs()) {
-            0.0
-        } else {
-            own - carrier
-        }
+        let (own, carrier) = (speeds[seat.members[0]], seat.carrier.map_or(R::ZERO, |c| speeds[c]));
+        let rounding = own.magnitude().larger(carrier.magnitude()) * 1e-12;
+        R::select((own - carrier).magnitude().is_above(rounding), own - carrier, R::ZERO)
     }
 
     /// Applies the loss of a drag model to its gears.
-    fn brake_gears(&self, index: usize, loss: &Result<Loss, Undefined>, speeds: &[f64], drags: &mut [f64]) {
+    fn brake_gears<R: Points>(&self, index: usize, loss: &Result<Loss<R>, Undefined>, speeds: &[R], drags: &mut [R]) {
         let Ok(loss) = loss else { return };
         let seat = &self.drags[index].seat;
         let [first, second] = seat.members;
         let watts = loss.total_watts(speeds[first]) * seat.count * self.drags[index].loss_factor;
-        if !seat.pair {
-            if speeds[first] != 0.0 {
-                drags[first] -= watts / speeds[first];
-            }
-            return;
-        }
-        let share = match (speeds[first] != 0.0, speeds[second] != 0.0) {
-            (true, true) => loss.first_share(),
-            (true, false) => 1.0,
-            (false, true) => 0.0,
-            (false, false) => return,
+        let [one, none] = [R::constant(1.0), R::ZERO];
+        let [rests, second_rests] = [first, second].map(|member| speeds[member].is_zero());
+        let share = if seat.pair {
+            R::select(second_rests, one, R::select(rests, none, loss.first_share()))
+        } else {
+            one
         };
-        if share > 0.0 {
-            drags[first] -= share * watts / speeds[first];
-        }
-        if share < 1.0 {
-            drags[second] -= (1.0 - share) * watts / speeds[second];
+        drags[first] -= R::select(rests | share.is_zero(), none, share * watts / speeds[first]);
+        if seat.pair {
+            let rest = one - share;
+            drags[second] -= R::select(second_rests | rest.is_zero(), none, rest * watts / speeds[second]);
         }
     }
 
-    fn correct_loads(&self, case: &Case, ports: &[f64], loads: &mut [SupportLoad]) {
-        let torque = |port: usize| ports[self.ports[port].member];
+    fn correct_loads<R: Points>(&self, case: &Case, ports: &[R], loads: &mut [SupportLoad<R>]) {
+        let torque = |port: usize, point: usize| ports[self.ports[port].member].at(point);
         if let Some(imported) = &self.imported {
             for (i, load) in loads.iter_mut().enumerate() {
-                if let Some(own) = imported.load(case.state, i, torque(imported.port)) {
-                    *load = own;
+                for point in 0..R::COUNT {
+                    if let Some(own) = imported.load(case.state, i, torque(imported.port, point)) {
+                        load.set(point, own);
+                    }
                 }
             }
         }
         for (load, factors) in loads.iter_mut().zip(&self.load_factors) {
-            load.radial *= factors.radial.value_at(torque);
-            load.axial *= factors.axial.value_at(torque);
+            load.radial = load.radial * R::each(|point| factors.radial.value_at(|port| torque(port, point)));
+            load.axial = load.axial * R::each(|point| factors.axial.value_at(|port| torque(port, point)));
         }
     }
 
-    fn finish(&self, standing: bool, flow: PowerFlow, outcome: Outcome, s: &mut Scratch) {
+    fn finish<R: Points>(&self, outcome: Outcome, s: &mut Scratch<R>) {
         let mut undefined = None;
-        let mut sum = 0.0;
+        let mut sum = R::ZERO;
         for (place, part) in self.parts.iter().enumerate() {
-            match self.part_watts(part, s) {
-                Ok(watts) => {
-                    s.watts[place] = watts;
-                    sum += watts;
-                }
-                Err(error) => {
-                    s.watts[place] = 0.0;
-                    undefined.get_or_insert((place, error));
-                }
-            }
+            s.watts[place] = self.part_watts(part, s).unwrap_or_else(|reason| {
+                undefined.get_or_insert((place, reason));
+                R::ZERO
+            });
+            sum += s.watts[place];
         }
         s.sum = sum;
         // Without a power flow no load is defined, and no loss has its own reason.
         s.undefined = undefined.filter(|_| matches!(outcome, Outcome::Converged { .. }));
-        let powers = self.ports.iter().map(|p| s.work.ports[p.member] * s.speeds[p.member]);
-        s.balance = Balance::from_powers(powers.clone());
-        s.status = match outcome {
-            Outcome::SelfLocking => Status::SelfLocking,
-            Outcome::NoConvergence => Status::NoConvergence,
-            Outcome::Converged { passes } => {
-                s.passes = passes;
-                if undefined.is_some() {
-                    Status::Undefined
-                } else if standing {
-                    Status::Standstill
-                } else if flow == PowerFlow::Ideal && s.balance.input > 0.0 && sum > s.balance.input {
-                    Status::LossAboveInput
-                } else {
-                    Status::from_powers(powers, self.reference_port())
-                }
-            }
+        s.passes = match outcome {
+            Outcome::Converged { .. } => s.work.passes,
+            _ => R::ZERO,
         };
+        for point in 0..R::COUNT {
+            let ports = self.ports.iter();
+            let powers =
+                ports.map(|p| s.work.ports[p.member].at(point) * s.models.conditions.speeds[p.member].at(point));
+            let balance = Balance::from_powers(powers.clone());
+            s.balance[point] = balance;
+            s.status[point] = match outcome {
+                Outcome::SelfLocking => Status::SelfLocking,
+                Outcome::NoConvergence => Status::NoConvergence,
+                Outcome::Converged { .. } if undefined.is_some() => Status::Undefined,
+                Outcome::Converged { .. } if s.standing => Status::Standstill,
+                Outcome::Converged { .. } if s.ideal && balance.input > 0.0 && sum.at(point) > balance.input => {
+                    Status::LossAboveInput
+                }
+                Outcome::Converged { .. } => Status::from_powers(powers, self.reference_port()),
+            };
+        }
     }
 }
 
 /// Loss of one copy of a component. If no bearing of the shaft takes its thrust, the load of its bearings is unknown and so is
 /// their loss, unless it was switched off.
 #[inline]
-pub(crate) fn component_loss(component: &Component, state: &State<'_>, book: &Notebook<'_>) -> Result<Loss, Undefined> {
-    state.calls.set(state.calls.get() + 1);
-    let answer = component.placed.loss(state, book);
-    let untaken = component.support.map_or(0.0, |n| state.loads[n as usize].untaken);
-    match &answer {
-        Ok(loss) if !loss.is_sound() => Err(unsound(loss)),
-        Ok(loss) if untaken != 0.0 && loss.sum() > 0.0 => Err(Undefined {
-            what: "thrust that no bearing of the shaft takes [N]",
-            value: untaken,
-        }),
-        _ => answer,
-    }
+fn component_loss<R: Answers>(
+    component: &Component,
+    state: &State<'_, R>,
+    book: &Notebook<'_, R>,
+    live: &mut R::Mask,
+) -> Result<Loss<R>, Undefined> {
+    state.count_call(*live);
+    let answer = R::placed(&*component.placed, state, book);
+    let untaken = component.support.map_or(R::ZERO, |n| state.loads[n as usize].untaken);
+    accepted(answer, untaken, live)
 }
 
 /// Loss of one copy of a component that carries load; the mean over the copies if their loads differ.
 #[inline(always)]
-fn loaded_loss(
+fn loaded_loss<R: Answers>(
     component: &Component,
-    state: &State<'_>,
-    uneven: &[Vec<SupportLoad>; 2],
-    book: &Notebook<'_>,
-) -> Result<Loss, Undefined> {
+    state: &State<'_, R>,
+    uneven: &[Vec<SupportLoad<R>>; 2],
+    book: &Notebook<'_, R>,
+    live: &mut R::Mask,
+) -> Result<Loss<R>, Undefined> {
     book.clear(component.notes);
     match component.sharing {
-        None => component_loss(component, state, book),
+        None => component_loss(component, state, book, live),
         Some(sharing) => over_planets(sharing, book, component.notes, |which| {
             let loads = &uneven[which];
-            component_loss(component, &State { loads, ..*state }, book)
+            component_loss(component, &State { loads, ..*state }, book, live)
         }),
     }
 }
 
 /// The mean over the planets of a set: the most loaded one and the others, each evaluated once. The notes of the others are added
 /// to those of the first.
-fn over_planets(
+fn over_planets<R: Points>(
     sharing: Sharing,
-    book: &Notebook<'_>,
+    book: &Notebook<'_, R>,
     base: NoteBase,
-    evaluate: impl Fn(usize) -> Result<Loss, Undefined>,
-) -> Result<Loss, Undefined> {
+    mut evaluate: impl FnMut(usize) -> Result<Loss<R>, Undefined>,
+) -> Result<Loss<R>, Undefined> {
     let notes = book.notes(base);
     notes.branch("the most loaded planet");
     let most = evaluate(0)?;
@@ -627,36 +585,52 @@ fn over_planets(
     Ok(most.mean(sharing.weight, evaluate(1)?))
 }
 
-/// A model's result is accepted only if it is finite and not negative.
-fn sound(answer: Result<Loss, Undefined>) -> Result<Loss, Undefined> {
-    match &answer {
-        Ok(loss) if !loss.is_sound() => Err(unsound(loss)),
-        _ => answer,
+/// A model's result is accepted only if it is finite and not negative, and if it is zero where thrust is untaken. Among several
+/// points, those where it is not leave.
+#[inline(always)]
+fn accepted<R: Points>(
+    answer: Result<Loss<R>, Undefined>,
+    untaken: R,
+    live: &mut R::Mask,
+) -> Result<Loss<R>, Undefined> {
+    let loss = answer?;
+    let (sound, taken) = R::wide(
+        #[inline(always)]
+        || (loss.is_sound(), untaken.is_zero() | !loss.sum().is_above(R::ZERO)),
+    );
+    if (sound & taken).all() {
+        return Ok(loss);
     }
-}
-
-#[cold]
-fn unsound(loss: &Loss) -> Undefined {
-    Undefined {
-        what: "result of the model, which is negative or not finite",
-        value: loss.sum(),
+    if R::COUNT > 1 {
+        *live = *live & sound & taken;
+        return Ok(loss.only_where(sound));
     }
+    Err(if sound.all() {
+        Undefined {
+            what: "thrust that no bearing of the shaft takes [N]",
+            value: untaken.at(0),
+        }
+    } else {
+        Undefined {
+            what: "result of the model, which is negative or not finite",
+            value: loss.sum().at(0),
+        }
+    })
 }
 
 /// Moment of a loss about its relative speed; zero at standstill, where statics does not determine friction.
-fn moment(loss: &Result<Loss, Undefined>, speed: f64) -> f64 {
+#[inline(always)]
+fn moment<R: Real>(loss: &Result<Loss<R>, Undefined>, speed: R) -> R {
     match loss {
-        Ok(loss) if speed != 0.0 => loss.total_moment(speed),
-        _ => 0.0,
+        Ok(loss) => R::select(speed.is_zero(), R::ZERO, loss.total_moment(speed)),
+        _ => R::ZERO,
     }
 }
 
 /// Applies a moment between two members, against their relative speed.
-fn brake(between: [Option<u16>; 2], speed: f64, moment: f64, drags: &mut [f64]) {
-    if speed == 0.0 {
-        return;
-    }
-    let signed = moment * speed.signum();
+#[inline(always)]
+fn brake<R: Points>(between: [Option<u16>; 2], speed: R, moment: R, drags: &mut [R]) {
+    let signed = R::select(speed.is_below(R::ZERO), -moment, moment);
     if let Some(a) = between[0] {
         drags[a as usize] -= signed;
     }

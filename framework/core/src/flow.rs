@@ -4,16 +4,13 @@
 //! driven gear in the carrier's frame, and the carrier takes the reaction. The power balance therefore holds to rounding for any
 //! multipliers that solve the linear system.
 
-mod batched;
 mod equilibrium;
-mod history;
 mod linear;
 mod solve;
+mod sparse;
 mod system;
 mod work;
 
-pub use batched::{FlowLanes, TaskLanes, WorkLanes};
-pub use history::TorqueHistory;
 pub use system::{Flow, FlowFault, MeshRow, Share};
 pub use work::{Drive, FlowState, Outcome, Tolerance, Work};
 

@@ -2,34 +2,40 @@
 
 use std::f64::consts::PI;
 
+use crate::real::Points;
+
 /// Oil height above a stationary or orbiting axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Height {
+pub struct Height<R = f64> {
     /// Above the axis, or above the centre of its orbit; minus infinity if it is dry. \[m\]
-    pub level: f64,
+    pub level: R,
     /// Radius of the orbit; zero for a stationary axis. \[m\]
     pub orbit: f64,
 }
 
-impl Height {
+impl<R: Points> Height<R> {
     /// Immersion depth of a circle's lowest point, averaged over the orbit. \[m\]
     #[inline]
-    pub fn dip(self, radius: f64) -> f64 {
-        if self.orbit > 0.0 {
-            orbiting_dip(self.level, radius, self.orbit)
-        } else {
-            dip(self.level, radius)
-        }
+    pub fn dip(self, radius: f64) -> R {
+        self.level.map(|level| {
+            if self.orbit > 0.0 {
+                orbiting_dip(level, radius, self.orbit)
+            } else {
+                dip(level, radius)
+            }
+        })
     }
 
     /// Oil height over the lowest point of a circle, zero if it is above the oil, averaged over the orbit. \[m\]
     #[inline]
-    pub fn over_bottom(self, radius: f64) -> f64 {
-        if self.orbit > 0.0 {
-            mean_height(self.level + radius, self.orbit)
-        } else {
-            (self.level + radius).max(0.0)
-        }
+    pub fn over_bottom(self, radius: f64) -> R {
+        self.level.map(|level| {
+            if self.orbit > 0.0 {
+                mean_height(level + radius, self.orbit)
+            } else {
+                (level + radius).max(0.0)
+            }
+        })
     }
 }
 

@@ -7,6 +7,8 @@ mod eliminate;
 pub use eliminate::Fault;
 use eliminate::Reduced;
 
+use crate::real::Real;
+
 /// One constraint: the sum of coefficient times speed over columns is zero. Columns may repeat; their coefficients add.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {
@@ -63,7 +65,6 @@ pub struct Train {
 #[derive(Debug, Clone)]
 pub struct Motion {
     columns: usize,
-    ports: usize,
     /// Column by column of the map, `columns` numbers for each prescribed port.
     map: Vec<f64>,
     /// Rows of each redundant loop.
@@ -90,7 +91,6 @@ impl Motion {
         }
         Ok(Self {
             columns: train.columns,
-            ports: prescribed.len(),
             map,
             loops: reduced.loops(),
         })
@@ -102,21 +102,18 @@ impl Motion {
     }
 
     /// Speeds of all columns from those of the prescribed ports.
-    pub fn speeds(&self, prescribed: &[f64], speeds: &mut [f64]) {
-        speeds[..self.columns].fill(0.0);
-        for k in 0..self.ports {
-            for (speed, factor) in speeds
-                .iter_mut()
-                .zip(&self.map[k * self.columns..(k + 1) * self.columns])
-            {
-                *speed += factor * prescribed[k];
+    pub fn speeds<R: Real>(&self, prescribed: &[R], speeds: &mut [R]) {
+        let speeds = &mut speeds[..self.columns];
+        speeds.fill(R::ZERO);
+        for (column, prescribed) in self.map.chunks_exact(self.columns.max(1)).zip(prescribed) {
+            for (speed, factor) in speeds.iter_mut().zip(column) {
+                *speed += *prescribed * *factor;
             }
         }
-        let fastest = speeds[..self.columns].iter().fold(0.0_f64, |most, w| most.max(w.abs()));
-        for speed in &mut speeds[..self.columns] {
-            if speed.abs() <= 1e-12 * fastest {
-                *speed = 0.0;
-            }
+        let fastest = speeds.iter().fold(R::ZERO, |most, w| most.larger(w.magnitude()));
+        for speed in speeds {
+            let moves = speed.magnitude().is_above(fastest * 1e-12);
+            *speed = R::select(moves, *speed, R::ZERO);
         }
     }
 }

@@ -68,18 +68,18 @@ pub mod loss;
 pub mod mechanism;
 mod registration;
 
-// What models and the solver calculate with: teeth, contacts, oils, motors.
+// What models and the solver calculate with: numbers, teeth, contacts, oils, motors.
 pub mod contact;
 pub mod geometry;
 pub mod immersion;
 pub mod lubricant;
 pub mod motor;
+pub mod real;
 
 // The solver: speeds, torques, bearing loads, points, temperatures.
 pub mod evaluate;
 pub mod flow;
 mod kinematics;
-pub mod lanes;
 pub mod loads;
 pub mod thermal;
 pub mod transmission;

@@ -3,7 +3,6 @@
 //! Radial reactions are linear in the tangential force of each mesh and in its magnitude, so unit cases are solved once; a point
 //! costs a few multiplications. The bearings that take thrust depend on its direction, so thrust is distributed at every point.
 
-mod batched;
 mod beam;
 mod layout;
 mod shaft_loads;
@@ -11,24 +10,45 @@ mod static_rating;
 mod statics;
 mod thrust;
 
-pub use batched::LoadLanes;
 pub use beam::{Beam, BeamFault, BeamLoad, BeamSupport};
 pub use layout::{Layout, LoadFault, MemberLayout, MeshLayout, PlanetBody, Section, SupportLayout};
 pub use shaft_loads::ShaftLoads;
 pub use static_rating::{LEAST_STATIC_SAFETY, StaticFactors, StaticRating};
 pub use thrust::Taking;
 
-/// Load of one support at one point.
+use crate::real::Points;
+
+/// Load of one support, at one point or at several.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct SupportLoad {
+pub struct SupportLoad<R = f64> {
     /// Radial load. \[N\]
-    pub radial: f64,
+    pub radial: R,
     /// Axial load. \[N\]
-    pub axial: f64,
+    pub axial: R,
     /// Tilting moment. \[Nm\]
-    pub tilting: f64,
+    pub tilting: R,
     /// Thrust that nothing on the member takes, signed towards +x; zero if there is none. \[N\]
-    pub untaken: f64,
+    pub untaken: R,
+}
+
+impl<R: Points> SupportLoad<R> {
+    /// The load at one of the points.
+    pub fn at(&self, point: usize) -> SupportLoad {
+        SupportLoad {
+            radial: self.radial.at(point),
+            axial: self.axial.at(point),
+            tilting: self.tilting.at(point),
+            untaken: self.untaken.at(point),
+        }
+    }
+
+    /// Replaces the load at one of the points.
+    pub(crate) fn set(&mut self, point: usize, load: SupportLoad) {
+        self.radial.set(point, load.radial);
+        self.axial.set(point, load.axial);
+        self.tilting.set(point, load.tilting);
+        self.untaken.set(point, load.untaken);
+    }
 }
 
 #[cfg(test)]

@@ -4,9 +4,11 @@
 
 mod notebook;
 
-pub use notebook::Notebook;
+pub use notebook::{Kept, Notebook};
 
 use std::cell::{Cell, RefCell};
+
+use crate::real::{Mask as _, Points, Real};
 
 /// Maximum number of terms of one model.
 pub const MOST_TERMS: usize = 5;
@@ -128,22 +130,22 @@ pub enum Measure {
     Power,
 }
 
-/// The loss of one part at one point: a value for each term.
+/// The loss of one part: a value for each term, at one point or at each of several.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Loss {
+pub struct Loss<R = f64> {
     measure: Measure,
-    values: [f64; MOST_TERMS],
-    first_share: f64,
-    first_heat: f64,
+    values: [R; MOST_TERMS],
+    first_share: R,
+    first_heat: R,
 }
 
-impl Loss {
+impl<R: Real> Loss<R> {
     /// A result in moments, N m, about the relative speed of the attachment; every term is zero.
     pub const MOMENTS: Self = Self {
         measure: Measure::Moment,
-        values: [0.0; MOST_TERMS],
-        first_share: 0.5,
-        first_heat: 0.5,
+        values: [R::ZERO; MOST_TERMS],
+        first_share: R::HALF,
+        first_heat: R::HALF,
     };
     /// A result in powers, W; every term is zero.
     pub const POWERS: Self = Self {
@@ -152,46 +154,46 @@ impl Loss {
     };
 
     /// Adds to a term: N m for moments, W for powers.
-    #[inline]
-    pub fn with(mut self, term: &Term, value: f64) -> Self {
+    #[inline(always)]
+    pub fn with(mut self, term: &Term, value: R) -> Self {
         self.values[term.index] += value;
         self
     }
 
     /// Sets the share of a loss between two gears that reduces the torque of the first gear; default: half. From 0 to 1.
     #[inline]
-    pub fn felt_by_first(mut self, share: f64) -> Self {
+    pub fn felt_by_first(mut self, share: R) -> Self {
         self.first_share = share;
         self
     }
 
     /// The share of the power that reduces the torque of the first gear of a pair. \[-\]
     #[inline]
-    pub fn first_share(&self) -> f64 {
+    pub fn first_share(&self) -> R {
         self.first_share
     }
 
     /// Sets the share of the heat of a loss between two gears that enters the body of the first; default: half. If the body
     /// temperatures differ, heat also flows from one to the other, so that the share may be outside zero to one.
-    #[inline]
-    pub fn heats_first(mut self, share: f64) -> Self {
+    #[inline(always)]
+    pub fn heats_first(mut self, share: R) -> Self {
         self.first_heat = share;
         self
     }
 
     /// The share of the heat that enters the body of the first gear of a pair. \[-\]
     #[inline]
-    pub fn first_heat(&self) -> f64 {
+    pub fn first_heat(&self) -> R {
         self.first_heat
     }
 
     /// The mean of two results of one model, with the weight of this one; the other has the remaining weight.
-    #[inline]
+    #[inline(always)]
     pub fn mean(self, weight: f64, other: Self) -> Self {
         let mut mean = self;
-        mean.first_heat = weight * self.first_heat + (1.0 - weight) * other.first_heat;
+        mean.first_heat = self.first_heat * weight + other.first_heat * (1.0 - weight);
         for (value, other) in mean.values.iter_mut().zip(other.values) {
-            *value = weight * *value + (1.0 - weight) * other;
+            *value = *value * weight + other * (1.0 - weight);
         }
         mean
     }
@@ -202,51 +204,111 @@ impl Loss {
     }
 
     /// Value of one term as returned: N m or W.
-    #[inline]
-    pub fn value(&self, index: usize) -> f64 {
+    #[inline(always)]
+    pub fn value(&self, index: usize) -> R {
         self.values[index]
     }
 
     /// Power of one term at a relative speed in rad/s. \[W\]
-    #[inline]
-    pub fn watts(&self, index: usize, speed: f64) -> f64 {
+    #[inline(always)]
+    pub fn watts(&self, index: usize, speed: R) -> R {
         match self.measure {
-            Measure::Moment => self.values[index] * speed.abs(),
+            Measure::Moment => self.values[index] * speed.magnitude(),
             Measure::Power => self.values[index],
         }
     }
 
     /// Sum of all terms as returned: N m or W. Terms are added in their order.
-    #[inline]
-    pub fn sum(&self) -> f64 {
-        self.values.iter().fold(0.0, |sum, v| sum + v)
+    #[inline(always)]
+    pub fn sum(&self) -> R {
+        self.values.iter().fold(R::ZERO, |sum, v| sum + *v)
     }
 
     /// Power of all terms at a relative speed in rad/s: the sum of [`Loss::watts`], to the last bit. \[W\]
-    #[inline]
-    pub fn total_watts(&self, speed: f64) -> f64 {
+    #[inline(always)]
+    pub fn total_watts(&self, speed: R) -> R {
         match self.measure {
-            Measure::Moment => self.values.iter().fold(0.0, |sum, v| sum + v * speed.abs()),
+            Measure::Moment => {
+                let speed = speed.magnitude();
+                self.values.iter().fold(R::ZERO, |sum, v| sum + *v * speed)
+            }
             Measure::Power => self.sum(),
         }
     }
 
     /// Moment of all terms about the relative speed in rad/s; zero where a power acts at standstill. \[Nm\]
-    #[inline]
-    pub fn total_moment(&self, speed: f64) -> f64 {
+    #[inline(always)]
+    pub fn total_moment(&self, speed: R) -> R {
         match self.measure {
             Measure::Moment => self.sum(),
-            Measure::Power if speed == 0.0 => 0.0,
-            Measure::Power => self.sum() / speed.abs(),
+            Measure::Power => R::select(speed.is_zero(), R::ZERO, self.sum() / speed.magnitude()),
         }
     }
 
-    /// True if every term is finite and not negative.
-    #[inline]
-    pub fn is_sound(&self) -> bool {
+    /// Where every term is finite and not negative.
+    #[inline(always)]
+    pub fn is_sound(&self) -> R::Mask {
         // Negative values and NaN fail the first comparison, infinity the second.
-        let [a, b, c, d, e] = self.values;
-        a >= 0.0 && b >= 0.0 && c >= 0.0 && d >= 0.0 && e >= 0.0 && self.sum() < f64::INFINITY
+        let [a, b, c, d, e] = self
+            .values
+            .map(|value| !(value.is_below(R::ZERO) | !value.is_equal(value)));
+        a & b & c & d & e & self.sum().is_below(R::constant(f64::INFINITY))
+    }
+
+    /// The result without loss where a condition does not hold.
+    #[inline(always)]
+    pub(crate) fn only_where(mut self, mask: R::Mask) -> Self {
+        for value in &mut self.values {
+            *value = R::select(mask, *value, R::ZERO);
+        }
+        self
+    }
+}
+
+impl<R: Points> Loss<R> {
+    /// The result of one point.
+    #[inline]
+    pub fn at(&self, point: usize) -> Loss {
+        Loss {
+            measure: self.measure,
+            values: self.values.map(|value| value.at(point)),
+            first_share: self.first_share.at(point),
+            first_heat: self.first_heat.at(point),
+        }
+    }
+
+    /// The result of several points from that of each, which are all in the same measure.
+    pub(crate) fn of_points(loss: impl Fn(usize) -> Loss) -> Self {
+        Self {
+            measure: loss(0).measure,
+            values: std::array::from_fn(|term| R::each(|point| loss(point).values[term])),
+            first_share: R::each(|point| loss(point).first_share),
+            first_heat: R::each(|point| loss(point).first_heat),
+        }
+    }
+
+    /// The results of the points of some bits, evaluated one by one; NaN where there is none, or none in the same measure as that of
+    /// the first point.
+    pub fn one_by_one(points: u32, mut evaluate: impl FnMut(usize) -> Result<Loss, Undefined>) -> Self {
+        let mut all: Option<Self> = None;
+        for point in (0..R::COUNT).filter(|point| points >> point & 1 == 1) {
+            let own = evaluate(point);
+            let all = all.get_or_insert(Self {
+                measure: own.map_or(Measure::Power, |own| own.measure),
+                ..Self::POWERS
+            });
+            match own {
+                Ok(own) if own.measure == all.measure => {
+                    for (value, own) in all.values.iter_mut().zip(own.values) {
+                        value.set(point, own);
+                    }
+                    all.first_share.set(point, own.first_share);
+                    all.first_heat.set(point, own.first_heat);
+                }
+                _ => all.values[0].set(point, f64::NAN),
+            }
+        }
+        all.unwrap_or(Self::POWERS)
     }
 }
 
@@ -258,6 +320,15 @@ pub struct Undefined {
     pub what: &'static str,
     /// Its value, in the unit stated by `what`.
     pub value: f64,
+}
+
+impl Undefined {
+    /// Points that are evaluated together take different branches of a law, so that each must be evaluated on its own. It never leaves
+    /// the framework.
+    pub const DISAGREED: Self = Self {
+        what: "branch that all points take",
+        value: f64::NAN,
+    };
 }
 
 /// The range in which a source states its formula to be valid. Outside it the model still returns a result, and this is noted.
@@ -335,9 +406,9 @@ pub struct Extent {
     pub least: f64,
     /// Maximum observed value.
     pub greatest: f64,
-    /// Number of observations.
+    /// Number of points with an observation.
     pub seen: u32,
-    /// Number of observations outside the limit; NaN counts as outside.
+    /// Number of points outside the limit; NaN counts as outside.
     pub outside: u32,
 }
 
@@ -350,68 +421,92 @@ impl Extent {
         outside: 0,
     };
 
-    #[inline]
-    fn add(self, x: f64, outside: bool) -> Self {
-        // NaN is ignored, as in `min` and `max`, which promise more and cost more.
-        Self {
-            least: if x < self.least { x } else { self.least },
-            greatest: if x > self.greatest { x } else { self.greatest },
-            seen: self.seen + 1,
-            outside: self.outside + u32::from(outside),
-        }
-    }
-
-    /// One point, with its minimum and maximum value.
-    #[inline]
-    pub(crate) fn point(least: f64, greatest: f64, outside: bool) -> Self {
-        Self::EMPTY.add(least, false).add(greatest, false).once_if(outside)
-    }
-
-    #[inline]
-    fn once_if(self, outside: bool) -> Self {
-        Self {
-            seen: 1,
-            outside: u32::from(outside),
-            ..self
-        }
-    }
-
-    /// Counts the given number of operating points: observed, outside.
-    #[inline]
-    pub(crate) fn times(self, points: u32) -> Self {
-        Self {
-            seen: self.seen.min(1) * points,
-            outside: self.outside.min(1) * points,
-            ..self
-        }
-    }
-
     /// Both together.
     #[inline]
     pub fn merge(self, other: Self) -> Self {
         Self {
-            least: if other.least < self.least {
-                other.least
-            } else {
-                self.least
-            },
-            greatest: if other.greatest > self.greatest {
-                other.greatest
-            } else {
-                self.greatest
-            },
             seen: self.seen.saturating_add(other.seen),
             outside: self.outside.saturating_add(other.outside),
+            ..self.spanning(other.least, other.greatest)
         }
     }
 
-    /// Counts one operating point: observed, outside.
+    /// The same with further values; NaN is ignored, as in `min` and `max`, which promise more and cost more.
     #[inline]
-    pub fn once(self) -> Self {
+    fn spanning(self, least: f64, greatest: f64) -> Self {
         Self {
-            seen: self.seen.min(1),
-            outside: self.outside.min(1),
+            least: if least < self.least { least } else { self.least },
+            greatest: if greatest > self.greatest {
+                greatest
+            } else {
+                self.greatest
+            },
             ..self
+        }
+    }
+}
+
+/// What the points that are evaluated together observe of one limit or quantity, with one bit for each of them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Seen {
+    least: f64,
+    greatest: f64,
+    seen: u32,
+    outside: u32,
+}
+
+impl Seen {
+    /// No observation.
+    pub const NOTHING: Self = Self {
+        least: f64::INFINITY,
+        greatest: f64::NEG_INFINITY,
+        seen: 0,
+        outside: 0,
+    };
+
+    #[inline]
+    fn add(self, (least, greatest): (f64, f64), seen: u32, outside: u32) -> Self {
+        Self {
+            least: if least < self.least { least } else { self.least },
+            greatest: if greatest > self.greatest {
+                greatest
+            } else {
+                self.greatest
+            },
+            seen: self.seen | seen,
+            outside: self.outside | outside,
+        }
+    }
+
+    /// The values of some points, of which some are outside a limit.
+    #[inline]
+    pub(crate) fn of(range: (f64, f64), seen: u32, outside: u32) -> Self {
+        Self::NOTHING.add(range, seen, outside)
+    }
+
+    /// What one point observes, as observed by each of several.
+    pub(crate) fn for_points(self, points: u32) -> Self {
+        let spread = |bits: u32| if bits == 0 { 0 } else { points };
+        Self {
+            seen: spread(self.seen),
+            outside: spread(self.outside),
+            ..self
+        }
+    }
+
+    /// The points outside the limit, as bits.
+    pub(crate) fn outside(self) -> u32 {
+        self.outside
+    }
+
+    /// The observations with each point counted once.
+    #[inline]
+    pub fn extent(self) -> Extent {
+        Extent {
+            least: self.least,
+            greatest: self.greatest,
+            seen: self.seen.count_ones(),
+            outside: self.outside.count_ones(),
         }
     }
 }
@@ -527,12 +622,12 @@ impl NoteBase {
 // stalls, in every call of a model.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
-pub struct Notes<'a> {
+pub struct Notes<'a, R: Real = f64> {
     base: NoteBase,
-    pub(crate) book: Notebook<'a>,
+    pub(crate) book: Notebook<'a, R>,
 }
 
-impl<'a> Notes<'a> {
+impl Notes<'_> {
     /// Muted notes.
     pub const MUTED: Notes<'static> = Notes {
         base: NoteBase {
@@ -543,21 +638,17 @@ impl<'a> Notes<'a> {
         },
         book: Notebook::CLOSED,
     };
+}
 
-    /// Notes of one instance into the cells of a scratch.
+impl<'a> Notes<'a> {
+    /// Notes of one instance at one point into the cells of a scratch.
     #[inline]
-    pub fn new(cells: &'a [Cell<Extent>], base: NoteBase) -> Self {
+    pub fn new(cells: &'a [Cell<Seen>], base: NoteBase) -> Self {
         let book = Notebook {
             cells,
             ..Notebook::CLOSED
         };
         Self { base, book }
-    }
-
-    /// Muted notes of one instance.
-    #[inline]
-    pub(crate) fn muted(base: NoteBase) -> Self {
-        Self::new(&[], base)
     }
 
     /// The same notes, recording every step.
@@ -568,20 +659,20 @@ impl<'a> Notes<'a> {
         };
         Self { book, ..self }
     }
+}
 
-    /// Notes of one instance into the cells of a scratch, initially empty.
+impl<'a, R: Points> Notes<'a, R> {
+    /// The notes of one of the points.
     #[inline]
-    pub fn fresh(cells: &'a [Cell<Extent>], base: NoteBase) -> Self {
-        Self::new(cells, base).anew()
+    pub(crate) fn at(self, point: usize) -> Notes<'a> {
+        Notes {
+            base: self.base,
+            book: self.book.at(point),
+        }
     }
+}
 
-    /// The same notes, initially empty.
-    #[inline]
-    pub(crate) fn anew(self) -> Self {
-        self.book.clear(self.base);
-        self
-    }
-
+impl<'a, R: Real> Notes<'a, R> {
     /// The same target for a nested instance. It keeps nothing, because it may be evaluated at several speeds or with several oils.
     #[inline]
     pub fn nested(self, base: NoteBase) -> Self {
@@ -595,42 +686,49 @@ impl<'a> Notes<'a> {
         Self { base, ..self }
     }
 
-    /// The same instance with other cells.
-    pub(crate) fn into(self, cells: &'a [Cell<Extent>]) -> Self {
-        let book = Notebook { cells, ..self.book };
-        Self { book, ..self }
-    }
-
-    /// The same notes with space for the values that each instance computes [`once`](Self::once); NaN if not yet computed.
-    #[inline]
-    pub(crate) fn keeping(self, kept: &'a [Cell<[f64; MOST_KEPT]>]) -> Self {
-        let book = Notebook { kept, ..self.book };
-        Self { book, ..self }
-    }
-
     /// The same notes for an instance that is evaluated several times at a point, at other speeds or with other oils: nothing is
     /// kept.
     #[inline]
     pub(crate) fn forgetting(self) -> Self {
-        self.keeping(&[])
+        let book = Notebook {
+            kept: &[],
+            kept_alone: &[],
+            ..self.book
+        };
+        Self { book, ..self }
     }
 
     /// Values that depend only on speed, oil and its level. The iterations of one point and all points that differ in torque only
     /// share them; without space to keep them they are computed again. Each instance has one slot, so it must always compute the
     /// same values. Limits and observed quantities are noted elsewhere.
-    #[inline]
-    pub fn once<const N: usize>(&self, numbers: impl FnOnce() -> [f64; N]) -> [f64; N] {
+    #[inline(always)]
+    pub fn once<const N: usize>(&self, numbers: impl FnOnce() -> [R; N]) -> [R; N] {
         const { assert!(0 < N && N <= MOST_KEPT) };
         let Some(kept) = self.book.kept.get(self.base.instance()) else {
             return numbers();
         };
-        let kept = kept.as_array_of_cells();
-        if kept[0].get().is_nan() {
-            for (kept, number) in kept.iter().zip(numbers()) {
-                kept.set(number);
-            }
-        }
-        std::array::from_fn(|i| kept[i].get())
+        let known = kept.take();
+        let known = known.unwrap_or_else(|| {
+            let numbers = numbers();
+            std::array::from_fn(|i| if i < N { numbers[i] } else { R::ZERO })
+        });
+        kept.set(Some(known));
+        std::array::from_fn(|i| known[i])
+    }
+
+    /// The same notes of those points only at which a condition holds.
+    #[inline(always)]
+    #[must_use]
+    pub fn among(self, mask: R::Mask) -> Self {
+        let points = self.book.points & mask.bits();
+        let book = Notebook { points, ..self.book };
+        Self { book, ..self }
+    }
+
+    /// The points that note, as bits.
+    #[inline]
+    pub fn points(&self) -> u32 {
+        self.book.points
     }
 
     /// True if the notes are not used.
@@ -640,52 +738,48 @@ impl<'a> Notes<'a> {
     }
 
     /// Notes whether a value, in the limit's unit, is in its stated range. Returns the value.
-    #[inline]
-    pub fn check(&self, limit: &Limit, x: f64) -> f64 {
+    #[inline(always)]
+    pub fn check(&self, limit: &Limit, x: R) -> R {
         if let Some(cell) = self.book.cells.get(self.base.limits() + limit.index) {
-            let inside = x >= limit.least && x <= limit.greatest;
-            cell.set(cell.get().add(x, !inside));
+            let points = self.book.points;
+            let outside = points & !x.is_within(limit.least, limit.greatest).bits();
+            cell.set(cell.get().add(x.extremes(points), points, outside));
         }
-        self.step(limit.name, limit.unit, x);
-        x
+        self.show(limit.name, limit.unit, x)
     }
 
     /// Notes an observed quantity in its unit. Returns the value.
-    #[inline]
-    pub fn observe(&self, observed: &Observed, x: f64) -> f64 {
+    #[inline(always)]
+    pub fn observe(&self, observed: &Observed, x: R) -> R {
         if let Some(cell) = self.book.cells.get(self.base.observed() + observed.index) {
-            cell.set(cell.get().add(x, false));
+            let points = self.book.points;
+            cell.set(cell.get().add(x.extremes(points), points, 0));
         }
-        self.step(observed.name, observed.unit, x);
-        x
+        self.show(observed.name, observed.unit, x)
     }
 
     /// Shows an intermediate of the formula in an explanation, in the source's symbol and unit. Returns the value.
-    #[inline]
-    pub fn show(&self, symbol: &'static str, unit: &'static str, x: f64) -> f64 {
-        self.step(symbol, unit, x);
-        x
-    }
-
-    /// Names the branch of the formula in an explanation.
-    #[inline]
-    pub fn branch(&self, taken: &'static str) {
-        if let Some(trace) = self.book.trace {
-            trace.write(Step::Branch {
-                instance: self.base.instance(),
-                taken,
-            });
-        }
-    }
-
-    #[inline]
-    fn step(&self, symbol: &'static str, unit: &'static str, value: f64) {
+    #[inline(always)]
+    pub fn show(&self, symbol: &'static str, unit: &'static str, x: R) -> R {
         if let Some(trace) = self.book.trace {
             trace.write(Step::Value {
                 instance: self.base.instance(),
                 symbol,
                 unit,
-                value,
+                // A single point is explained.
+                value: x.extremes(1).0,
+            });
+        }
+        x
+    }
+
+    /// Names the branch of the formula in an explanation.
+    #[inline(always)]
+    pub fn branch(&self, taken: &'static str) {
+        if let Some(trace) = self.book.trace {
+            trace.write(Step::Branch {
+                instance: self.base.instance(),
+                taken,
             });
         }
     }
@@ -711,7 +805,7 @@ mod tests {
 
     #[test]
     fn a_limit_counts_what_is_outside_and_nan_too() {
-        let mut extents = [Extent::EMPTY];
+        let mut extents = [Seen::NOTHING];
         {
             let cells = Cell::from_mut(&mut extents[..]).as_slice_of_cells();
             let notes = Notes::new(cells, NoteBase::default());
@@ -719,8 +813,9 @@ mod tests {
                 notes.check(&RANGE, x);
             }
         }
-        assert_eq!((extents[0].seen, extents[0].outside, extents[0].greatest), (3, 2, 1.5));
-        assert_eq!(extents[0].once().outside, 1);
+        // Three observations of one point.
+        let extent = extents[0].extent();
+        assert_eq!((extent.seen, extent.outside, extent.greatest), (1, 1, 1.5));
     }
 
     #[test]

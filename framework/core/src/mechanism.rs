@@ -3,6 +3,7 @@
 //! A mechanism consists of an empty marker type, a plain trait that models implement, a context that lists each quantity once
 //! ([`context!`](crate::context)), and, if its parts have a section in the document, an attachment ([`crate::attach`]).
 
+mod answers;
 pub mod auxiliary;
 pub mod bearing;
 pub mod clutch;
@@ -19,6 +20,7 @@ mod slot;
 pub mod synchronizer;
 pub mod tooth_friction;
 
+pub use answers::Answers;
 pub use law::{Follows, Law, ROUNDED, settle};
 pub use scalar::{Lookup, Scalar};
 pub use slot::{ModelRef, NamedSlots, Slot};
@@ -30,9 +32,9 @@ use serde::de::DeserializeOwned;
 
 use crate::attach::Attach;
 use crate::document::Unit;
-use crate::lanes::{LaneNotes, LossLanes};
-use crate::loads::{LoadLanes, StaticRating};
-use crate::loss::{Loss, NoteBase, Notes, Term, Undefined};
+use crate::loads::StaticRating;
+use crate::loss::{Loss, Notes, Term, Undefined};
+use crate::real::{Lane, Points, Real};
 
 /// A physical cause of loss. Implemented by an empty marker type, once per mechanism.
 pub trait Mechanism: Sized + 'static {
@@ -45,16 +47,16 @@ pub trait Mechanism: Sized + 'static {
     /// An example part for the conformance suite and `eval`, in YAML.
     const EXAMPLE: &'static str;
     /// The quantities of the context.
-    const QUANTITIES: &'static [Quantity<Self>] = <Self::At<'static> as Inputs<'static, Self>>::QUANTITIES;
+    const QUANTITIES: &'static [Quantity<Self>] = <Self::At<'static, f64> as Inputs<'static, Self, f64>>::QUANTITIES;
     /// The laws between them.
-    const LAWS: &'static [Law<Self>] = <Self::At<'static> as Inputs<'static, Self>>::LAWS;
+    const LAWS: &'static [Law<Self>] = <Self::At<'static, f64> as Inputs<'static, Self, f64>>::LAWS;
     /// The term set by `constant`, `formula` and `table`.
     const TOTAL: Term = Term::no_load("total");
     /// The component: the typed fields of its entry. [`NoPart`] if there is none. Derived values are computed during
     /// deserialisation (`serde(try_from)`), so that an existing part is complete.
     type Part: DeserializeOwned + JsonSchema + Send + Sync;
-    /// All inputs of a model; defined by [`context!`](crate::context).
-    type At<'a>: Inputs<'a, Self>;
+    /// All inputs of a model, at one point or at several; defined by [`context!`](crate::context).
+    type At<'a, R: Real>: Inputs<'a, Self, R>;
     /// A [`Loss`], or an `f64` for a coefficient.
     type Answer: Answer;
     /// The plain trait that a model implements, as `dyn`.
@@ -70,20 +72,26 @@ pub trait Mechanism: Sized + 'static {
         None
     }
     /// A context at its usual point, the base point of `eval` and the conformance grid.
-    fn usual<'a>(part: &'a Self::Part, notes: Notes<'a>) -> Self::At<'a> {
+    fn usual<'a>(part: &'a Self::Part, notes: Notes<'a>) -> Self::At<'a, f64> {
         Self::At::usual(part, notes)
     }
     /// Calls the model; written by [`answered_by!`](crate::answered_by).
-    fn answer(model: &Self::Model, at: &Self::At<'_>) -> Result<Self::Answer, Undefined>;
+    fn answer(model: &Self::Model, at: &Self::At<'_, f64>) -> Result<Self::Answer, Undefined>;
     /// The relative speed opposed by the moments of the result: the quantity `speed`; one if there is none. \[rad/s\]
-    fn speed(at: &Self::At<'_>) -> f64 {
+    fn speed(at: &Self::At<'_, f64>) -> f64 {
         let speed = Self::QUANTITIES.iter().find(|q| q.name == "speed");
         speed.map_or(1.0, |q| (q.get)(at))
     }
-    /// Compares the batched results of models with those at single points around a context; for mechanisms whose models may
-    /// implement batched evaluation. Returns the faults.
-    fn compare_batched(_model: &Self::Model, _at: &Self::At<'_>, _notes: NoteBase) -> Option<&'static str> {
-        None
+    /// The result of a model at several points together. An error, whichever, has the points evaluated one by one; that is what most
+    /// models do, whose law is written for one point.
+    ///
+    /// # Errors
+    /// If the points take different branches, one of them is undefined, or the law is not written for several points.
+    fn answer_together(
+        _model: &Self::Model,
+        _at: &Self::At<'_, Lane>,
+    ) -> Result<<Self::Answer as Answer>::Of<Lane>, Undefined> {
+        Err(Undefined::DISAGREED)
     }
     /// The adapter through which `none`, `constant`, `formula` and `table` serve this mechanism; written by
     /// [`answered_by!`](crate::answered_by).
@@ -94,7 +102,7 @@ pub trait Mechanism: Sized + 'static {
 #[macro_export]
 macro_rules! answered_by {
     ($method:ident) => {
-        fn answer(model: &Self::Model, at: &Self::At<'_>) -> Result<Self::Answer, $crate::loss::Undefined> {
+        fn answer(model: &Self::Model, at: &Self::At<'_, f64>) -> Result<Self::Answer, $crate::loss::Undefined> {
             model.$method(at)
         }
         fn scalar(law: $crate::mechanism::Scalar<Self>) -> ::std::sync::Arc<Self::Model> {
@@ -104,15 +112,27 @@ macro_rules! answered_by {
 }
 
 /// All inputs of the models of a mechanism; [`context!`](crate::context) implements it.
-pub trait Inputs<'a, M: Mechanism>: Copy {
+pub trait Inputs<'a, M: Mechanism, R: Real>: Copy {
     /// The list of the quantities.
     const QUANTITIES: &'static [Quantity<M>];
     /// The laws between them.
     const LAWS: &'static [Law<M>];
     /// The context at its usual point.
-    fn usual(part: &'a M::Part, notes: Notes<'a>) -> Self;
+    fn usual(part: &'a M::Part, notes: Notes<'a, R>) -> Self;
+    /// The component.
+    fn part(&self) -> &'a M::Part;
     /// Target of limits, observed quantities and steps.
-    fn notes(&self) -> Notes<'a>;
+    fn notes(&self) -> Notes<'a, R>;
+    /// The same with another target.
+    fn with_notes(&self, notes: Notes<'a, R>) -> Self;
+    /// The context of one of the points.
+    fn at(&self, point: usize) -> M::At<'a, f64>
+    where
+        R: Points;
+    /// The context of several points, from that of each.
+    fn together(part: &'a M::Part, notes: Notes<'a, R>, each: impl Fn(usize) -> M::At<'a, f64>) -> Self
+    where
+        R: Points;
 }
 
 /// A mechanism whose parts have their own section in the document.
@@ -122,27 +142,14 @@ pub trait Component: Mechanism<Answer = Loss> {
     /// Attachment of its parts; determines relative speed, loads, oil and which members take the reaction.
     type Attachment: Attach;
     /// The context of a part at its site.
-    fn context<'a>(
+    fn context<'a, R: Points>(
         part: &'a Self::Part,
-        site: <Self::Attachment as Attach>::Site<'a>,
-        notes: Notes<'a>,
-    ) -> Self::At<'a>;
-    /// Batched losses at several loads of the support, with all other quantities as in `at`; false if the mechanism has no batched
-    /// evaluation, so that its models are evaluated once per load.
-    fn losses(_model: &Self::Model, _at: &Self::At<'_>, _loads: &LoadLanes, _losses: &mut LossLanes) -> bool {
-        false
-    }
-    /// False if no note of a model depends on the load.
-    fn notes_depend_on_load(_model: &Self::Model) -> bool {
-        true
-    }
+        site: <Self::Attachment as Attach>::Site<'a, R>,
+        notes: Notes<'a, R>,
+    ) -> Self::At<'a, R>;
     /// Static load rating of a part that carries load, if known.
     fn static_rating(_part: &Self::Part) -> Option<StaticRating> {
         None
-    }
-    /// Writes the notes of models at these loads; false if [`losses`](Self::losses) has no batched evaluation.
-    fn note(_model: &Self::Model, _at: &Self::At<'_>, _loads: &LoadLanes, _notes: LaneNotes<'_>) -> bool {
-        false
     }
 }
 
@@ -159,6 +166,14 @@ mod sealed {
 
 /// The result of a mechanism's models: a [`Loss`] or a coefficient. Sealed.
 pub trait Answer: sealed::Sealed + Copy + Send + Sync {
+    /// The result at several points.
+    type Of<R: Real>;
+    /// The result of the only point.
+    fn alone(self) -> Self::Of<f64>;
+    /// The results of the points of some bits, evaluated one by one; NaN where one is undefined.
+    fn one_by_one<R: Points>(points: u32, evaluate: impl FnMut(usize) -> Result<Self, Undefined>) -> Self::Of<R>;
+    /// The result of one of the points.
+    fn at<R: Points>(all: &Self::Of<R>, point: usize) -> Self;
     /// The named values of the result at a relative speed: for a loss, the power of each term. \[W or the unit of the result\]
     fn values(&self, terms: &'static [Term], speed: f64) -> Vec<(&'static str, f64)>;
     /// True if the result is finite and not negative.
@@ -172,6 +187,16 @@ pub trait Answer: sealed::Sealed + Copy + Send + Sync {
 }
 
 impl Answer for Loss {
+    type Of<R: Real> = Loss<R>;
+    fn alone(self) -> Self {
+        self
+    }
+    fn one_by_one<R: Points>(points: u32, evaluate: impl FnMut(usize) -> Result<Self, Undefined>) -> Loss<R> {
+        Loss::one_by_one(points, evaluate)
+    }
+    fn at<R: Points>(all: &Loss<R>, point: usize) -> Self {
+        all.at(point)
+    }
     fn values(&self, terms: &'static [Term], speed: f64) -> Vec<(&'static str, f64)> {
         terms.iter().map(|t| (t.name, self.watts(t.index, speed))).collect()
     }
@@ -190,6 +215,19 @@ impl Answer for Loss {
 }
 
 impl Answer for f64 {
+    type Of<R: Real> = R;
+    fn alone(self) -> Self {
+        self
+    }
+    fn one_by_one<R: Points>(points: u32, mut evaluate: impl FnMut(usize) -> Result<Self, Undefined>) -> R {
+        R::each(|point| match points >> point & 1 {
+            1 => evaluate(point).unwrap_or(f64::NAN),
+            _ => 0.0,
+        })
+    }
+    fn at<R: Points>(all: &R, point: usize) -> Self {
+        all.at(point)
+    }
     fn values(&self, _terms: &'static [Term], _speed: f64) -> Vec<(&'static str, f64)> {
         vec![("value", *self)]
     }
@@ -222,9 +260,9 @@ pub struct Quantity<M: Mechanism> {
     /// Source of the value in the framework.
     pub from: &'static str,
     /// Reads the value, SI.
-    pub get: for<'a, 'b> fn(&'b M::At<'a>) -> f64,
+    pub get: for<'a, 'b> fn(&'b M::At<'a, f64>) -> f64,
     /// Sets the value, SI.
-    pub set: for<'a, 'b> fn(&'b mut M::At<'a>, f64),
+    pub set: for<'a, 'b> fn(&'b mut M::At<'a, f64>, f64),
 }
 
 impl<M: Mechanism> Quantity<M> {
@@ -277,7 +315,7 @@ macro_rules! context {
         $(#[doc = $head])+
         #[derive(Clone, Copy)]
         #[non_exhaustive]
-        pub struct $At<'a> {
+        pub struct $At<'a, R: $crate::real::Real = f64> {
             /// The component.
             pub part: &'a <$M as $crate::mechanism::Mechanism>::Part,
             $(
@@ -285,13 +323,13 @@ macro_rules! context {
                 #[doc = ""]
                 #[doc = concat!("SI here; in that unit usually ", stringify!($usual), ", tested from ", stringify!($least), " to ",
                     stringify!($greatest), ". From ", $from, ".")]
-                pub $name: f64,
+                pub $name: R,
             )+
             /// Target of limits, observed quantities and steps.
-            pub notes: $crate::loss::Notes<'a>,
+            pub notes: $crate::loss::Notes<'a, R>,
         }
 
-        impl<'a> $crate::mechanism::Inputs<'a, $M> for $At<'a> {
+        impl<'a, R: $crate::real::Real> $crate::mechanism::Inputs<'a, $M, R> for $At<'a, R> {
             const QUANTITIES: &'static [$crate::mechanism::Quantity<$M>] = &[$($crate::mechanism::Quantity {
                 name: stringify!($name), doc: concat!($($doc),+), usual: $usual, least: $least, greatest: $greatest, from: $from,
                 get: |at| at.$name, set: |at, si| at.$name = si,
@@ -301,7 +339,7 @@ macro_rules! context {
                 text: $law, quantities: &[$((stringify!($of), $follows)),+], always: <[&str]>::is_empty(&[$(stringify!($usually))?]),
             }),+)?];
 
-            fn usual(part: &'a <$M as $crate::mechanism::Mechanism>::Part, notes: $crate::loss::Notes<'a>) -> Self {
+            fn usual(part: &'a <$M as $crate::mechanism::Mechanism>::Part, notes: $crate::loss::Notes<'a, R>) -> Self {
                 // Models evaluate others at their own contexts at every point, so units are looked up once.
                 const COUNT: usize = <$M as $crate::mechanism::Mechanism>::QUANTITIES.len();
                 static USUAL: ::std::sync::OnceLock<[f64; COUNT]> = ::std::sync::OnceLock::new();
@@ -311,18 +349,45 @@ macro_rules! context {
                         q.unit().to_si(q.usual)
                     })
                 });
-                Self { part, $($name,)+ notes }
+                Self { part, $($name: R::constant($name),)+ notes }
             }
 
-            fn notes(&self) -> $crate::loss::Notes<'a> {
+            fn part(&self) -> &'a <$M as $crate::mechanism::Mechanism>::Part {
+                self.part
+            }
+
+            fn notes(&self) -> $crate::loss::Notes<'a, R> {
                 self.notes
+            }
+
+            fn with_notes(&self, notes: $crate::loss::Notes<'a, R>) -> Self {
+                Self { notes, ..*self }
+            }
+
+            #[inline(always)]
+            fn at(&self, point: usize) -> $At<'a>
+            where
+                R: $crate::real::Points,
+            {
+                $At { part: self.part, $($name: self.$name.at(point),)+ notes: self.notes.at(point) }
+            }
+
+            fn together(
+                part: &'a <$M as $crate::mechanism::Mechanism>::Part,
+                notes: $crate::loss::Notes<'a, R>,
+                each: impl Fn(usize) -> $At<'a>,
+            ) -> Self
+            where
+                R: $crate::real::Points,
+            {
+                Self { part, $($name: R::each(|point| each(point).$name),)+ notes }
             }
         }
 
-        impl<'a> $At<'a> {
+        impl<'a, R: $crate::real::Real> $At<'a, R> {
             /// The context at its usual point.
-            pub fn usual(part: &'a <$M as $crate::mechanism::Mechanism>::Part, notes: $crate::loss::Notes<'a>) -> Self {
-                <Self as $crate::mechanism::Inputs<'a, $M>>::usual(part, notes)
+            pub fn usual(part: &'a <$M as $crate::mechanism::Mechanism>::Part, notes: $crate::loss::Notes<'a, R>) -> Self {
+                <Self as $crate::mechanism::Inputs<'a, $M, R>>::usual(part, notes)
             }
 
             /// The same with some quantities changed.
@@ -339,32 +404,32 @@ macro_rules! context {
             }
 
             /// Notes whether a value is in the range of a limit; returns the value.
-            #[inline]
-            pub fn check(&self, limit: &$crate::loss::Limit, x: f64) -> f64 {
+            #[inline(always)]
+            pub fn check(&self, limit: &$crate::loss::Limit, x: R) -> R {
                 self.notes.check(limit, x)
             }
 
             /// Notes an observed quantity; returns the value.
-            #[inline]
-            pub fn observe(&self, observed: &$crate::loss::Observed, x: f64) -> f64 {
+            #[inline(always)]
+            pub fn observe(&self, observed: &$crate::loss::Observed, x: R) -> R {
                 self.notes.observe(observed, x)
             }
 
             /// Shows an intermediate in an explanation; returns the value.
-            #[inline]
-            pub fn show(&self, symbol: &'static str, unit: &'static str, x: f64) -> f64 {
+            #[inline(always)]
+            pub fn show(&self, symbol: &'static str, unit: &'static str, x: R) -> R {
                 self.notes.show(symbol, unit, x)
             }
 
             /// Values that depend only on speed, oil and its level, computed once for all iterations of a point and all points that
             /// differ in torque only.
-            #[inline]
-            pub fn once<const N: usize>(&self, numbers: impl FnOnce() -> [f64; N]) -> [f64; N] {
+            #[inline(always)]
+            pub fn once<const N: usize>(&self, numbers: impl FnOnce() -> [R; N]) -> [R; N] {
                 self.notes.once(numbers)
             }
 
             /// Names the branch in an explanation.
-            #[inline]
+            #[inline(always)]
             pub fn branch(&self, taken: &'static str) {
                 self.notes.branch(taken);
             }
@@ -373,56 +438,55 @@ macro_rules! context {
 }
 
 /// Unit conversions for empirical formulas, which then show their units at the point of use.
-pub trait ShopUnits: sealed::Sealed {
+pub trait ShopUnits: Real {
     /// rad/s to revolutions per minute.
-    fn rpm(self) -> f64;
-    /// m to mm.
-    fn mm(self) -> f64;
-    /// m to um.
-    fn um(self) -> f64;
-    /// m2/s to mm2/s.
-    fn mm2_s(self) -> f64;
-    /// Pa s to mPa s.
-    fn mpa_s(self) -> f64;
-    /// Pa to GPa.
-    fn gpa(self) -> f64;
-    /// N/m to N/mm.
-    fn n_mm(self) -> f64;
-    /// N mm to N m.
-    fn nmm_in_nm(self) -> f64;
-}
-
-impl ShopUnits for f64 {
-    #[inline]
-    fn rpm(self) -> f64 {
+    #[inline(always)]
+    #[must_use]
+    fn rpm(self) -> Self {
         self * (30.0 / std::f64::consts::PI)
     }
-    #[inline]
-    fn mm(self) -> f64 {
+    /// m to mm.
+    #[inline(always)]
+    #[must_use]
+    fn mm(self) -> Self {
         self * 1e3
     }
-    #[inline]
-    fn um(self) -> f64 {
+    /// m to um.
+    #[inline(always)]
+    #[must_use]
+    fn um(self) -> Self {
         self * 1e6
     }
-    #[inline]
-    fn mm2_s(self) -> f64 {
+    /// m2/s to mm2/s.
+    #[inline(always)]
+    #[must_use]
+    fn mm2_s(self) -> Self {
         self * 1e6
     }
-    #[inline]
-    fn mpa_s(self) -> f64 {
+    /// Pa s to mPa s.
+    #[inline(always)]
+    #[must_use]
+    fn mpa_s(self) -> Self {
         self * 1e3
     }
-    #[inline]
-    fn gpa(self) -> f64 {
+    /// Pa to GPa.
+    #[inline(always)]
+    #[must_use]
+    fn gpa(self) -> Self {
         self * 1e-9
     }
-    #[inline]
-    fn n_mm(self) -> f64 {
+    /// N/m to N/mm.
+    #[inline(always)]
+    #[must_use]
+    fn n_mm(self) -> Self {
         self * 1e-3
     }
-    #[inline]
-    fn nmm_in_nm(self) -> f64 {
+    /// N mm to N m.
+    #[inline(always)]
+    #[must_use]
+    fn nmm_in_nm(self) -> Self {
         self * 1e-3
     }
 }
+
+impl<R: Real> ShopUnits for R {}

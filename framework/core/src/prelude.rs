@@ -9,10 +9,12 @@ pub use crate::attach::{Clearance, ClearanceSite, MemberSite, Oil, OnMember, Sup
 pub use crate::document::Diagnostic;
 pub use crate::loss::{Limit, Loss, Notes, Observed, Term, Undefined};
 pub use crate::mechanism::auxiliary::{Auxiliary, AuxiliaryAt, AuxiliaryModel};
-pub use crate::mechanism::bearing::{Bearing, BearingAt, BearingKind, BearingModel, BearingPart, Lubrication};
+pub use crate::mechanism::bearing::{
+    Bearing, BearingAt, BearingKind, BearingLaw, BearingModel, BearingPart, Lubrication,
+};
 pub use crate::mechanism::clutch::{Clutch, ClutchAt, ClutchModel, ClutchPart};
 pub use crate::mechanism::gear_drag::{Covers, DragPart, GearBody, GearDrag, GearDragAt, GearDragModel, Scope};
-pub use crate::mechanism::gear_mesh::{GearMesh, GearMeshAt, GearMeshModel, MeshPart};
+pub use crate::mechanism::gear_mesh::{GearMesh, GearMeshAt, GearMeshLaw, GearMeshModel, MeshPart};
 pub use crate::mechanism::heat_dissipation::{
     HeatDissipation, HeatDissipationAt, HeatDissipationModel, HousingPart, WarmSide,
 };
@@ -22,11 +24,12 @@ pub use crate::mechanism::planetary_drag::{PlanetaryDrag, PlanetaryDragAt, Plane
 pub use crate::mechanism::seal::{Seal, SealAt, SealKind, SealModel, SealPart};
 pub use crate::mechanism::synchronizer::{CouplingKind, CouplingPart, Synchronizer, SynchronizerAt, SynchronizerModel};
 pub use crate::mechanism::tooth_friction::{
-    Along, ContactAt, PathAt, PathExtent, PathNode, ToothFriction, ToothFrictionModel, WeightedFriction,
+    Along, ContactAt, PathAt, PathExtent, PathNode, ToothFriction, ToothFrictionLaw, ToothFrictionModel,
 };
 pub use crate::mechanism::{
-    Component, Lookup, Mechanism, ModelRef, NamedSlots, NoPart, Quantity, Scalar, ShopUnits, Slot,
+    Answers, Component, Lookup, Mechanism, ModelRef, NamedSlots, NoPart, Quantity, Scalar, ShopUnits, Slot,
 };
+pub use crate::real::{Mask, Real};
 pub use crate::registry::{Build, Catalogue, Evidence, ShippedCycle, ShippedSet, default_of, formula, inventory};
 pub use crate::table::{Interpolation, Outside, Reading};
 pub use crate::{

@@ -114,8 +114,6 @@ pub(crate) struct Component {
     pub between: [Option<u16>; 2],
     /// True if its loss may depend on torque or load.
     pub loaded: bool,
-    /// False if the notes of its model are the same at all loads.
-    pub notes_depend_on_load: bool,
     /// True if its model is `none`.
     pub off: bool,
     /// Number of its support, if it carries load.
@@ -134,7 +132,6 @@ impl Component {
         Self {
             between: placed.between(),
             loaded: placed.loaded(),
-            notes_depend_on_load: placed.notes_depend_on_load(),
             off: placed.off(),
             support: placed.support(),
             sharing: sharing.filter(|_| placed.loaded()),

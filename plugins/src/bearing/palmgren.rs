@@ -4,11 +4,10 @@
 //! dm^b with f1 = z (P0/C0)^y; M2 = f2 Fa dm for axially loaded cylindrical roller bearings.
 
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::lanes::{Lane, LaneNotes, LossLanes, cube_root, each, exp, ln, over, wide};
-use gearloss_framework::loads::LoadLanes;
 use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
-use gearloss_framework::mechanism::bearing::{Bearing, BearingAt, BearingKind, BearingModel, BearingPart};
+use gearloss_framework::mechanism::bearing::{Bearing, BearingAt, BearingKind, BearingLaw, BearingPart};
+use gearloss_framework::real::{Mask as _, Real};
 use gearloss_framework::registry::Build;
 use gearloss_framework::{coefficients, limits, observed, terms};
 
@@ -120,88 +119,65 @@ pub fn flanged(part: &BearingPart) -> bool {
 }
 
 /// Ratio of two loads; infinite if the second is zero.
-fn ratio(load: f64, other: f64) -> f64 {
-    if other > 0.0 {
-        load / other
-    } else if load > 0.0 {
-        f64::INFINITY
-    } else {
-        0.0
-    }
+#[inline(always)]
+fn ratio<R: Real>(load: R, other: R) -> R {
+    let limit = R::select(load.is_above(R::ZERO), R::constant(f64::INFINITY), R::ZERO);
+    R::select(other.is_above(R::ZERO), load / other, limit)
 }
 
 impl Palmgren {
     /// f1 from P0. \[-\]
     #[inline(always)]
-    fn f1(&self, p0: f64) -> f64 {
+    fn f1<R: Real>(&self, p0: R) -> R {
         if self.law.exponent == 0.0 {
-            self.law.z
+            R::constant(self.law.z)
         } else {
-            self.law.z * exp(self.law.exponent * ln(p0 / self.c0))
+            (p0 / self.c0).power(self.law.exponent) * self.law.z
         }
-    }
-
-    /// M1 from f1 and P1. \[N mm\]
-    #[inline(always)]
-    fn m1(&self, f1: f64, p1: f64) -> f64 {
-        f1 * self.power(p1) * self.d_m_b
     }
 
     /// P1 to its power. \[N^a\]
     #[inline(always)]
-    fn power(&self, p1: f64) -> f64 {
-        if self.law.a == 1.0 {
-            p1
-        } else {
-            exp(self.law.a * ln(p1))
-        }
-    }
-
-    /// M2 from the axial load. \[N mm\]
-    #[inline(always)]
-    fn m2(&self, fa: f64) -> f64 {
-        self.f2 * fa * self.d_m
+    fn power<R: Real>(&self, p1: R) -> R {
+        if self.law.a == 1.0 { p1 } else { p1.power(self.law.a) }
     }
 
     /// The load-independent moment. \[N mm\]
-    fn no_load(&self, at: &BearingAt<'_>) -> f64 {
+    #[inline(always)]
+    fn no_load<R: Real>(&self, at: &BearingAt<'_, R>) -> R {
         let f0 = match self.f0 {
-            F0::Fixed(f0) => f0,
+            F0::Fixed(f0) => R::constant(f0),
             F0::Dip { least, most, covered } => {
-                let dip = at.show("dip", "-", (at.oil_height / covered).clamp(0.0, 1.0));
-                least + (most - least) * dip
+                let dip = at.show("dip", "-", (at.oil_height / covered).at_least(0.0).at_most(1.0));
+                dip * (most - least) + least
             }
         };
-        let product = at.show("nu n", "mm2/s 1/min", at.nu.mm2_s() * at.speed.abs().rpm());
+        let product = at.show("nu n", "mm2/s 1/min", at.nu.mm2_s() * at.speed.magnitude().rpm());
         let c = &self.coefficients;
         let published = c.viscous_from == Constants::PUBLISHED.viscous_from;
-        let m0 = if product >= c.viscous_from {
-            at.branch(if published {
-                "nu n at least 2000: viscous"
-            } else {
-                "nu n at least the changed limit: viscous"
-            });
-            let power = if c.viscous_exponent == 2.0 / 3.0 {
-                cube_root(product).powi(2)
-            } else {
-                product.powf(c.viscous_exponent)
-            };
-            c.viscous_factor * f0 * self.cube * power
+        let constant = product.is_below(R::constant(c.viscous_from));
+        at.branch(match (constant.all(), published) {
+            (false, true) => "nu n at least 2000: viscous",
+            (false, false) => "nu n at least the changed limit: viscous",
+            (true, true) => "nu n below 2000: constant",
+            (true, false) => "nu n below the changed limit: constant",
+        });
+        let power = if c.viscous_exponent == 2.0 / 3.0 {
+            let root = product.cube_root();
+            root * root
         } else {
-            at.branch(if published {
-                "nu n below 2000: constant"
-            } else {
-                "nu n below the changed limit: constant"
-            });
-            c.constant_factor * f0 * self.cube
+            product.power(c.viscous_exponent)
         };
+        let viscous = f0 * c.viscous_factor * self.cube * power;
+        let m0 = R::select(constant, f0 * c.constant_factor * self.cube, viscous);
         at.show("f0", "-", f0);
         at.show("M0", "N mm", m0)
     }
 }
 
-impl BearingModel for Palmgren {
-    fn loss(&self, at: &BearingAt<'_>) -> Result<Loss, Undefined> {
+impl BearingLaw for Palmgren {
+    #[inline(always)]
+    fn loss<R: Real>(&self, at: &BearingAt<'_, R>) -> Result<Loss<R>, Undefined> {
         let (fr, fa) = (at.show("Fr", "N", at.radial), at.show("Fa", "N", at.axial));
         let (p0, p1) = self.law.rule.equivalent(fr, fa);
         if self.law.exponent != 0.0 {
@@ -213,70 +189,13 @@ impl BearingModel for Palmgren {
             at.check(&RADIAL_RATIO, ratio(fr, fa));
         }
         let [m0] = at.once(|| [self.no_load(at)]);
-        let m1 = at.show("M1", "N mm", self.m1(f1, p1));
-        let m2 = if self.flanged && fa > 0.0 {
+        let mut load = at.show("M1", "N mm", f1 * self.power(p1) * self.d_m_b);
+        if self.flanged && fa.is_above(R::ZERO).agreed()? {
             at.check(&AXIAL_RATIO, ratio(fa, fr));
-            at.show("M2", "N mm", self.m2(fa))
-        } else {
-            0.0
-        };
+            load += at.show("M2", "N mm", fa * self.f2 * self.d_m);
+        }
         Ok(Loss::MOMENTS
-            .with(&LOAD, (m1 + m2).nmm_in_nm())
+            .with(&LOAD, load.nmm_in_nm())
             .with(&NO_LOAD, m0.nmm_in_nm()))
-    }
-
-    fn losses(&self, at: &BearingAt<'_>, loads: &LoadLanes, losses: &mut LossLanes) {
-        let [m0] = at.once(|| [self.no_load(at)]);
-        wide(
-            #[inline(always)]
-            || {
-                let (p0, p1) = self.law.rule.lanes(&loads.radial, &loads.axial);
-                // Evaluated outside the loops, unless both branches are computed in them.
-                let f1 = if self.law.exponent == 0.0 {
-                    Lane::all(self.law.z)
-                } else {
-                    over(
-                        &p0,
-                        #[inline(always)]
-                        |p0| self.f1(p0),
-                    )
-                };
-                let power = if self.law.a == 1.0 {
-                    p1
-                } else {
-                    over(
-                        &p1,
-                        #[inline(always)]
-                        |p1| self.power(p1),
-                    )
-                };
-                let m1 = each(|i| f1[i] * power[i] * self.d_m_b);
-                let fa = &loads.axial;
-                losses.begin(&Loss::MOMENTS);
-                if self.flanged {
-                    let m2 = |i: usize| if fa[i] > 0.0 { self.m2(fa[i]) } else { 0.0 };
-                    losses.add(&LOAD, |i| (m1[i] + m2(i)).nmm_in_nm());
-                } else {
-                    losses.add(&LOAD, |i| m1[i].nmm_in_nm());
-                }
-                losses.add(&NO_LOAD, |_| m0.nmm_in_nm());
-            },
-        );
-    }
-
-    fn note(&self, _at: &BearingAt<'_>, loads: &LoadLanes, notes: LaneNotes<'_>) {
-        let (_, p1) = wide(
-            #[inline(always)]
-            || self.law.rule.lanes(&loads.radial, &loads.axial),
-        );
-        notes.observe(&P1, &p1, &p1);
-        if self.spherical_thrust {
-            let ratios = each(|i| ratio(loads.radial[i], loads.axial[i]));
-            notes.check(&RADIAL_RATIO, &ratios, &ratios);
-        }
-        if self.flanged {
-            let ratios = each(|i| ratio(loads.axial[i], loads.radial[i]));
-            notes.check_where(&AXIAL_RATIO, &ratios, &loads.axial.map(|fa| fa > 0.0));
-        }
     }
 }

@@ -1,7 +1,7 @@
 //! Factors f0 and f1 by kind, series and lubrication: SKF General Catalogue 1994, in the form of ISO/TR 14179-2.
 
-use gearloss_framework::lanes::{LANES, Lane};
 use gearloss_framework::mechanism::bearing::{BearingKind, BearingPart, Lubrication};
+use gearloss_framework::real::Real;
 
 /// What is missing, and how to fix it.
 pub type Lack = (String, String);
@@ -49,48 +49,27 @@ pub enum Rule {
 impl Rule {
     /// P0 and P1 from radial and axial load; P1 is at least the radial load. \[N\]
     #[inline(always)]
-    pub fn equivalent(self, fr: f64, fa: f64) -> (f64, f64) {
+    pub fn equivalent<R: Real>(self, fr: R, fa: R) -> (R, R) {
         let (p0, p1) = match self {
-            Self::DeepGroove { k } => (fr.max(0.6 * fr + 0.5 * fa), k * fa - 0.1 * fr),
-            Self::Angular { y0 } => (fr.max(0.5 * fr + y0 * fa), fa - 0.1 * fr),
-            Self::TwoRows { k, y0 } => (fr + y0 * fa, k * fa - 0.1 * fr),
-            Self::FourPoint => (fr + 0.58 * fa, 1.5 * fa + 3.6 * fr),
+            Self::DeepGroove { k } => (fr.larger(fr * 0.6 + fa * 0.5), fa * k - fr * 0.1),
+            Self::Angular { y0 } => (fr.larger(fr * 0.5 + fa * y0), fa - fr * 0.1),
+            Self::TwoRows { k, y0 } => (fr + fa * y0, fa * k - fr * 0.1),
+            Self::FourPoint => (fr + fa * 0.58, fa * 1.5 + fr * 3.6),
             Self::Radial => (fr, fr),
-            Self::Tapered { y } => (fr, 2.0 * y * fa),
-            Self::Spherical { y } if fr < y * fa => (fr, 1.35 * y * fa),
-            Self::Spherical { y } if fr > 0.0 => (fr, fr * (1.0 + 0.35 * (y * fa / fr).powi(3))),
-            Self::Spherical { .. } => (fr, 0.0),
-            Self::Thrust => (fa, fa),
-            Self::Ball { k_cot, y0 } => (fr.max(0.5 * fr + y0 * fa), k_cot * fa - 0.1 * fr),
-            Self::BallTwoRows { k_cot, y0 } => (fr + y0 * fa, k_cot * fa - 0.1 * fr),
-            Self::Roller { k_cot } => (fr, k_cot * fa),
-        };
-        (p0, p1.max(fr))
-    }
-
-    /// The same in all lanes.
-    #[inline(always)]
-    pub fn lanes(self, fr: &Lane, fa: &Lane) -> (Lane, Lane) {
-        #[inline(always)]
-        fn each(rule: Rule, fr: &Lane, fa: &Lane) -> (Lane, Lane) {
-            let (mut p0, mut p1) = (Lane::ZERO, Lane::ZERO);
-            for i in 0..LANES {
-                (p0[i], p1[i]) = rule.equivalent(fr[i], fa[i]);
+            Self::Tapered { y } => (fr, fa * (2.0 * y)),
+            Self::Spherical { y } => {
+                let axial = fa * y;
+                let ratio = axial / fr;
+                let mostly_radial = fr * (ratio * ratio * ratio * 0.35 + 1.0);
+                let p1 = R::select(fr.is_above(R::ZERO), mostly_radial, R::ZERO);
+                (fr, R::select(fr.is_below(axial), axial * 1.35, p1))
             }
-            (p0, p1)
-        }
-        // One loop per rule, so that the loops have no branches.
-        match self {
-            Self::DeepGroove { k } => each(Self::DeepGroove { k }, fr, fa),
-            Self::Angular { y0 } => each(Self::Angular { y0 }, fr, fa),
-            Self::TwoRows { k, y0 } => each(Self::TwoRows { k, y0 }, fr, fa),
-            Self::Radial => each(Self::Radial, fr, fa),
-            Self::Tapered { y } => each(Self::Tapered { y }, fr, fa),
-            Self::Thrust => each(Self::Thrust, fr, fa),
-            Self::Ball { k_cot, y0 } => each(Self::Ball { k_cot, y0 }, fr, fa),
-            Self::Roller { k_cot } => each(Self::Roller { k_cot }, fr, fa),
-            other => each(other, fr, fa),
-        }
+            Self::Thrust => (fa, fa),
+            Self::Ball { k_cot, y0 } => (fr.larger(fr * 0.5 + fa * y0), fa * k_cot - fr * 0.1),
+            Self::BallTwoRows { k_cot, y0 } => (fr + fa * y0, fa * k_cot - fr * 0.1),
+            Self::Roller { k_cot } => (fr, fa * k_cot),
+        };
+        (p0, p1.larger(fr))
     }
 }
 

@@ -23,11 +23,10 @@ mod rows;
 
 use drag::{Bath, Body, Depth, Drag};
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::lanes::{LaneNotes, LossLanes, count, wide};
-use gearloss_framework::loads::LoadLanes;
 use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
-use gearloss_framework::mechanism::bearing::{Bearing, BearingAt, BearingModel, BearingPart, Lubrication, one_by_one};
+use gearloss_framework::mechanism::bearing::{Bearing, BearingAt, BearingLaw, BearingPart, Lubrication};
+use gearloss_framework::real::{Mask as _, Real};
 use gearloss_framework::registry::{Build, Evidence, default_of, formula};
 use gearloss_framework::{coefficients, limits, observed, register, terms};
 use rows::{Lack, Variables};
@@ -291,50 +290,55 @@ fn drag_of(params: &Skf, part: &BearingPart, row: &rows::Row) -> Result<Option<D
 }
 
 impl Model {
-    fn check_speeds(&self, at: &BearingAt<'_>, n: f64) {
+    #[inline(always)]
+    fn check_speeds<R: Real>(&self, at: &BearingAt<'_, R>, n: R) -> Result<(), Undefined> {
         at.check(&SPEED, n * self.d_m);
-        if at.outer_speed != 0.0 {
-            at.check(&OUTER, at.outer_speed.abs().rpm());
+        if !at.outer_speed.is_zero().agreed()? {
+            at.check(&OUTER, at.outer_speed.magnitude().rpm());
         }
+        Ok(())
     }
 
-    fn check_viscosity(&self, at: &BearingAt<'_>) {
-        let Some(law) = &self.drag else { return };
-        match law.depth(at.oil_height.mm(), 0.5 * at.part.outside.mm()) {
+    #[inline(always)]
+    fn check_viscosity<R: Real>(&self, at: &BearingAt<'_, R>, drag: &Drag) -> Result<(), Undefined> {
+        match drag.depth(at.oil_height.mm(), 0.5 * at.part.outside.mm())? {
             Depth::Low => at.check(&VISCOSITY, at.nu.mm2_s()),
             Depth::Deep => at.check(&VISCOSITY_DEEP, at.nu.mm2_s()),
-            Depth::None => return,
+            Depth::None => return Ok(()),
         };
+        Ok(())
     }
 
     /// The terms that depend only on speed and oil; the speed in 1/min, not zero.
-    fn moments(&self, at: &BearingAt<'_>, n: f64) -> Moments {
+    #[inline(always)]
+    fn moments<R: Real>(&self, at: &BearingAt<'_, R>, n: R) -> Moments<R> {
         let nu = at.nu.mm2_s();
+        let one = R::constant(1.0);
         let [phi_ish, phi_rs, phi_bl, viscous, drag] = at.once(|| {
-            let (ln_n, ln_nu) = (n.ln(), nu.ln());
+            let (ln_n, ln_nu) = (n.logarithm(), nu.logarithm());
             let drag = self.drag.as_ref();
             let c = &self.coefficients;
-            let inlet = c.inlet_speed_exponent * (ln_n + self.ln_d_m) + c.inlet_viscosity_exponent * ln_nu;
+            let inlet = (ln_n + self.ln_d_m) * c.inlet_speed_exponent + ln_nu * c.inlet_viscosity_exponent;
+            let mixed = ((ln_n + ln_nu) * c.mixed_exponent).exponential();
             [
-                1.0 / (1.0 + c.inlet_factor * inlet.exp()),
-                (-self.starvation * nu * n).max(-700.0).exp(),
-                (-c.mixed_factor * (c.mixed_exponent * (ln_n + ln_nu)).exp() * self.d_m)
-                    .max(-700.0)
-                    .exp(),
-                (c.rolling_exponent * (ln_n + ln_nu)).exp(),
-                drag.map_or(0.0, |drag| drag.moment(at.oil_height.mm(), n.min(self.fastest), nu)),
+                one / (inlet.exponential() * c.inlet_factor + one),
+                (nu * n * -self.starvation).exponential(),
+                (mixed * (-c.mixed_factor * self.d_m)).exponential(),
+                ((ln_n + ln_nu) * c.rolling_exponent).exponential(),
+                drag.map_or(R::ZERO, |drag| {
+                    drag.moment(at.oil_height.mm(), n.at_most(self.fastest), nu)
+                }),
             ]
         });
-        let mu_bl = self
-            .mu_bl
-            .unwrap_or(if at.mu_bl > 0.0 { at.mu_bl } else { self.edition_mu_bl });
-        let mu_ehl = self.mu_ehl.unwrap_or(at.mu_ehl);
+        let stated = R::select(at.mu_bl.is_above(R::ZERO), at.mu_bl, R::constant(self.edition_mu_bl));
+        let mu_bl = self.mu_bl.map_or(stated, R::constant);
+        let mu_ehl = self.mu_ehl.map_or(at.mu_ehl, R::constant);
         Moments {
             phi_ish,
             phi_rs,
             phi_bl,
             rolling: phi_ish * phi_rs * viscous,
-            mu_sl: phi_bl * mu_bl + (1.0 - phi_bl) * mu_ehl,
+            mu_sl: phi_bl * mu_bl + (one - phi_bl) * mu_ehl,
             drag,
         }
     }
@@ -345,26 +349,27 @@ fn prepare(params: Skf, cx: &mut Build<'_>) -> Result<Model, Diagnostic> {
     Model::new(&params, part).map_err(|(message, help)| cx.error(message).help(help))
 }
 
-impl BearingModel for Model {
-    fn loss(&self, at: &BearingAt<'_>) -> Result<Loss, Undefined> {
+impl BearingLaw for Model {
+    #[inline(always)]
+    fn loss<R: Real>(&self, at: &BearingAt<'_, R>) -> Result<Loss<R>, Undefined> {
         let (fr, fa) = (at.show("Fr", "N", at.radial), at.show("Fa", "N", at.axial));
-        if fa > self.axial {
+        if fa.is_above(R::constant(self.axial)).any() {
             return Err(Undefined {
                 what: "axial load over C0",
-                value: 10.0 * fa / self.axial,
+                value: fa.extremes(1).0 * 10.0 / self.axial,
             });
         }
-        let n = at.speed.abs().rpm();
+        let n = at.speed.magnitude().rpm();
         let nu = at.show("nu", "mm2/s", at.nu.mm2_s());
         let (g_rr, g_sl) = self.variables.evaluate(fr, fa, n, nu, self.blend);
         at.show("G_rr", "-", g_rr);
         at.show("G_sl", "-", g_sl);
-        self.check_speeds(at, n);
-        let seals = self.seals.nmm_in_nm();
-        if n == 0.0 {
+        self.check_speeds(at, n)?;
+        let seals = R::constant(self.seals.nmm_in_nm());
+        if n.is_zero().agreed()? {
             at.branch("at standstill: starting friction");
             return Ok(Loss::MOMENTS
-                .with(&SLIDING, (self.coefficients.starting_friction * g_sl).nmm_in_nm())
+                .with(&SLIDING, (g_sl * self.coefficients.starting_friction).nmm_in_nm())
                 .with(&SEAL, seals));
         }
         let moments = self.moments(at, n);
@@ -374,85 +379,41 @@ impl BearingModel for Model {
         at.show("phi_rs", "-", moments.phi_rs);
         let m_rr = at.show("M_rr", "N mm", moments.rolling * g_rr);
         let m_sl = at.show("M_sl", "N mm", moments.mu_sl * g_sl);
-        let (rolling_0, sliding_0) = self.variables.without_load(n);
-        let (m_rr_0, m_sl_0) = (moments.rolling * rolling_0, moments.mu_sl * sliding_0);
-        let mut loss = Loss::MOMENTS
-            .with(&ROLLING, (m_rr - m_rr_0).max(0.0).nmm_in_nm())
-            .with(&SLIDING, (m_sl - m_sl_0).max(0.0).nmm_in_nm())
-            .with(&SEAL, seals);
+        let mut loss = Loss::MOMENTS.with(&SEAL, seals);
         if self.variables.feel_centrifugal_force() {
+            let (rolling_0, sliding_0) = self.variables.without_load(n);
+            let (m_rr_0, m_sl_0) = (moments.rolling * rolling_0, moments.mu_sl * sliding_0);
             let centrifugal = at.show("M_rr + M_sl without load", "N mm", m_rr_0 + m_sl_0);
-            loss = loss.with(&CENTRIFUGAL, centrifugal.nmm_in_nm());
+            loss = loss
+                .with(&ROLLING, (m_rr - m_rr_0).at_least(0.0).nmm_in_nm())
+                .with(&SLIDING, (m_sl - m_sl_0).at_least(0.0).nmm_in_nm())
+                .with(&CENTRIFUGAL, centrifugal.nmm_in_nm());
+        } else {
+            loss = loss.with(&ROLLING, m_rr.nmm_in_nm()).with(&SLIDING, m_sl.nmm_in_nm());
         }
-        if self.drag.is_none() {
+        let Some(drag) = &self.drag else {
             return Ok(loss);
-        }
+        };
         at.show("H", "mm", at.oil_height.mm());
-        self.check_viscosity(at);
-        if n > self.fastest {
+        self.check_viscosity(at, drag)?;
+        if n.is_above(R::constant(self.fastest)).any() {
             at.branch("n d_m above 0.5e6: drag at 0.5e6 is used");
         }
         Ok(loss.with(&DRAG, at.show("M_drag", "N mm", moments.drag).nmm_in_nm()))
-    }
-
-    fn losses(&self, at: &BearingAt<'_>, loads: &LoadLanes, losses: &mut LossLanes) {
-        let n = at.speed.abs().rpm();
-        if n == 0.0 || !self.variables.in_lanes() {
-            return one_by_one(self, at, loads, losses);
-        }
-        let moments = self.moments(at, n);
-        wide(
-            #[inline(always)]
-            || {
-                let powers = losses.powers();
-                let (g_rr, g_sl) = self.variables.lanes(&loads.radial, &loads.axial, self.blend, powers);
-                losses.begin(&Loss::MOMENTS);
-                losses.add(&ROLLING, |i| (moments.rolling * g_rr[i]).nmm_in_nm());
-                losses.add(&SLIDING, |i| (moments.mu_sl * g_sl[i]).nmm_in_nm());
-                for (term, moment) in [(&DRAG, moments.drag), (&SEAL, self.seals)] {
-                    if moment != 0.0 {
-                        losses.add(term, |_| moment.nmm_in_nm());
-                    }
-                }
-                if count(|i| loads.axial[i] > self.axial) > 0 {
-                    for (lane, fa) in loads.axial.iter().enumerate() {
-                        if *fa > self.axial {
-                            losses.leave(lane);
-                        }
-                    }
-                }
-            },
-        );
-    }
-
-    fn notes_depend_on_load(&self) -> bool {
-        false
-    }
-
-    fn note(&self, at: &BearingAt<'_>, _loads: &LoadLanes, _notes: LaneNotes<'_>) {
-        let n = at.speed.abs().rpm();
-        self.check_speeds(at, n);
-        if n == 0.0 {
-            return;
-        }
-        let moments = self.moments(at, n);
-        at.observe(&PHI_BL, moments.phi_bl);
-        at.observe(&MU_SL, moments.mu_sl);
-        self.check_viscosity(at);
     }
 }
 
 /// The load-independent factors of the moments.
 #[derive(Debug, Clone, Copy)]
-struct Moments {
-    phi_ish: f64,
-    phi_rs: f64,
-    phi_bl: f64,
+struct Moments<R> {
+    phi_ish: R,
+    phi_rs: R,
+    phi_bl: R,
     /// Rolling moment per G_rr. \[N mm\]
-    rolling: f64,
-    mu_sl: f64,
+    rolling: R,
+    mu_sl: R,
     /// \[N mm\]
-    drag: f64,
+    drag: R,
 }
 
 register!(Bearing, "skf", Skf,

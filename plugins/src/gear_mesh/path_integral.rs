@@ -19,11 +19,12 @@
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::geometry::LoadSharing;
-use gearloss_framework::lanes::{LANES, Lane, LaneNotes, LossLanes, count, over, wide};
-use gearloss_framework::loss::{Loss, Notes, Undefined};
-use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt, GearMeshModel, note_one_by_one, one_by_one};
+use gearloss_framework::loss::{Loss, Undefined};
+use gearloss_framework::mechanism::Answers;
+use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt, GearMeshLaw};
 use gearloss_framework::mechanism::mean_friction::MeanFrictionAt;
-use gearloss_framework::mechanism::tooth_friction::{Along, PathAt, ToothFriction, WeightedFriction};
+use gearloss_framework::mechanism::tooth_friction::{PathAt, ToothFriction};
+use gearloss_framework::real::{Mask as _, Real};
 use gearloss_framework::registry::{Build, Evidence, ModelRef, Slot, default_of, formula};
 use gearloss_framework::{observed, register, terms};
 use schemars::JsonSchema;
@@ -113,8 +114,6 @@ struct Integral {
     rolling_weights: Vec<f64>,
     loss_factor: f64,
     friction: Slot<ToothFriction>,
-    /// Closed evaluation of the friction summed by `weights`, if the law provides one.
-    short: Option<Box<dyn WeightedFriction>>,
     rolling: Rolling,
     rolling_thermal: bool,
     rolling_speed: f64,
@@ -143,7 +142,6 @@ fn prepare(params: PathIntegral, cx: &mut Build<'_>) -> Result<Integral, Diagnos
     Ok(Integral {
         rolling_weights,
         weight: weights.iter().sum(),
-        short: friction.weighted(path.nodes(), &weights),
         weights,
         loss_factor: pair.loss_factor_local(params.load_sharing),
         path,
@@ -160,173 +158,93 @@ fn prepare(params: PathIntegral, cx: &mut Build<'_>) -> Result<Integral, Diagnos
 
 /// Rolling force per face width. \[N/m\] Line load in N/m, radius in m, viscosity in Pa s, mean rolling speed in m/s,
 /// pressure-viscosity coefficient in 1/Pa, reduced modulus in Pa.
-fn goksem_hargreaves(line_load: f64, radius: f64, eta: f64, rolling: f64, alpha: f64, modulus: f64) -> f64 {
+#[inline(always)]
+fn goksem_hargreaves<R: Real>(line_load: R, radius: f64, eta: R, rolling: R, alpha: R, modulus: f64) -> R {
     let (g, u, w) = (
         alpha * modulus,
         eta * rolling / (modulus * radius),
         line_load / (modulus * radius),
     );
-    4.318 * (g * u).powf(0.658) * w.powf(0.0126) * radius / alpha
+    (g * u).power(0.658) * 4.318 * w.power(0.0126) * radius / alpha
 }
 
 /// Factor on the rolling force for a Hertz pressure in Pa, a slide-roll ratio and a mean rolling speed in m/s.
-fn inlet_heating(at: &GearMeshAt<'_>, pressure: f64, slide_roll: f64, rolling: f64) -> f64 {
+#[inline(always)]
+fn inlet_heating<R: Real>(at: &GearMeshAt<'_, R>, pressure: R, slide_roll: f64, rolling: R) -> R {
     let load = at.eta * at.beta * rolling * rolling / at.conductivity;
-    thermal_factor(pressure / at.part.modulus, slide_roll, load)
+    thermal_factor(pressure / at.part.modulus, R::constant(slide_roll), load)
 }
 
 /// Rolling force per face width from the film. \[N/m\]
-fn crook(film: f64) -> f64 {
-    9.0e7 * film
+#[inline(always)]
+fn crook<R: Real>(film: R) -> R {
+    film * 9.0e7
 }
 
-impl GearMeshModel for Integral {
-    fn loss(&self, at: &GearMeshAt<'_>) -> Result<Loss, Undefined> {
-        if at.speed == 0.0 || at.torque == 0.0 {
+impl GearMeshLaw for Integral {
+    #[inline(always)]
+    fn loss<R: Answers>(&self, at: &GearMeshAt<'_, R>) -> Result<Loss<R>, Undefined> {
+        let idle = at.speed.is_zero() | at.torque.is_zero();
+        if idle.all() {
             at.branch("no speed or no torque: no loss");
             return Ok(Loss::POWERS);
         }
-        let pair = &at.part.pair;
-        let speed = at.speed.abs();
+        let at = &at.with(|to| to.notes = at.notes.among(!idle));
+        let speed = at.speed.magnitude();
         let mean = MeanFrictionAt::at_pitch_point(at, at.notes);
         let normal = at.show("F_bn", "N", mean.normal_force);
+        let bodies = at.bodies()?;
         let path = self
             .path
             .at_operating_point(&mean, at.notes.nested_at_same_state(self.friction.notes))
-            .with(|to| to.bodies = at.bodies());
-        let line_load = at.show("F_bn/b", "N/m", path.line_load);
-        let short = self.short.as_ref().map_or(f64::NAN, |short| short.sum(&path));
-        let (sum, along) = if short.is_finite() && at.notes.is_muted() {
-            (short, Along::default())
-        } else {
-            self.path.with_space(|mu| {
-                let along = self.friction.along(&path, mu)?;
-                let sum: f64 = self.weights.iter().zip(&*mu).map(|(weight, mu)| weight * mu).sum();
-                Ok((if short.is_finite() { short } else { sum }, along))
-            })?
-        };
+            .with(|to| to.bodies = bodies);
+        at.show("F_bn/b", "N/m", path.line_load);
+        let (sum, along) = self.path.with_space(|mu| {
+            let along = R::along(&*self.friction, &path, mu)?;
+            let terms = self.weights.iter().zip(&*mu);
+            Ok((terms.fold(R::ZERO, |sum, (weight, mu)| sum + *mu * *weight), along))
+        })?;
         at.observe(&MU_MEAN, sum / self.weight);
-        at.observe(&LOSS_FACTOR, self.loss_factor);
+        at.observe(&LOSS_FACTOR, R::constant(self.loss_factor));
+        let watts = at.show("P_s", "W", sum * normal * speed);
         let loss = Loss::POWERS
-            .with(&SLIDING, at.show("P_s", "W", sum * normal * speed))
+            .with(&SLIDING, R::select(idle, R::ZERO, watts))
             .heats_first(along.first_heat);
         if self.rolling == Rolling::None {
             return Ok(loss);
         }
-        let places = self.path.nodes().iter().zip(&self.rolling_weights);
-        let rolling: f64 = places
-            .filter(|(node, _)| node.share > 0.0)
-            .map(|(node, weight)| {
-                let sum_speed = node.sum_speed * speed;
-                let (w, modulus) = (node.share * line_load, at.part.modulus);
-                let power = if self.rolling == Rolling::Crook {
-                    let u = at.eta * 0.5 * sum_speed / (modulus * node.radius);
-                    let h = node.radius * dowson_higginson(u, at.alpha * modulus, w / (modulus * node.radius));
-                    crook(h) * sum_speed * self.rolling_speed
-                } else {
-                    let force = goksem_hargreaves(w, node.radius, at.eta, 0.5 * sum_speed, at.alpha, modulus);
-                    let heated = if self.rolling_thermal {
-                        inlet_heating(at, path.contact(node).pressure, node.slide_roll, 0.5 * sum_speed)
-                    } else {
-                        1.0
-                    };
-                    heated * force * sum_speed
-                };
-                weight * power * pair.facewidth
-            })
-            .sum();
-        Ok(loss.with(&ROLLING, at.show("P_r", "W", rolling)))
-    }
-
-    fn is_costly(&self) -> bool {
-        self.short.is_none()
-    }
-
-    fn losses(&self, at: &GearMeshAt<'_>, torques: &Lane, losses: &mut LossLanes) {
-        let speed = at.speed.abs();
-        let answered = self.in_lanes(
-            at,
-            torques,
-            #[inline(always)]
-            |path, line_loads| {
-                let sums = self.short.as_ref()?.sums(path, line_loads, losses.powers());
-                let sliding = |i: usize| sums[i] * at.part.pair.normal_force(torques[i]) * speed;
-                losses.keep(&sums);
-                losses.begin(&Loss::POWERS);
-                losses.add(&SLIDING, sliding);
-                if count(|i| sliding(i).is_nan()) > 0 {
-                    for lane in (0..LANES).filter(|lane| sliding(*lane).is_nan()) {
-                        losses.leave(lane);
-                    }
-                }
-                Some(())
-            },
-        );
-        if answered.is_none() {
-            one_by_one(self, at, torques, losses);
-        }
-    }
-
-    fn note(&self, at: &GearMeshAt<'_>, torques: &Lane, losses: &LossLanes, notes: LaneNotes<'_>) {
-        let noted = self.in_lanes(
-            at,
-            torques,
-            #[inline(always)]
-            |path, line_loads| {
-                let short = self.short.as_ref()?;
-                let own = notes.nested(self.friction.notes);
-                if !short.note(path, line_loads, own) {
-                    let noted = self.path.with_lanes(|mu| {
-                        let wide = self.friction.along_lanes(path, line_loads, mu);
-                        wide.then(|| self.friction.note_lanes(path, line_loads, mu, own))
-                    });
-                    noted?;
-                }
-                let sums = losses.kept();
-                if let Some((least, greatest)) = notes.range(sums) {
-                    notes.observe_range(&MU_MEAN, least / self.weight, greatest / self.weight);
-                } else {
-                    let mean = over(sums, |sum| sum / self.weight);
-                    notes.observe(&MU_MEAN, &mean, &mean);
-                }
-                at.observe(&LOSS_FACTOR, self.loss_factor);
-                Some(())
-            },
-        );
-        if noted.is_none() {
-            note_one_by_one(self, at, torques, notes);
-        }
+        let rolling = at.show("P_r", "W", self.rolling_power(at, &path));
+        Ok(loss.with(&ROLLING, R::select(idle, R::ZERO, rolling)))
     }
 }
 
 impl Integral {
-    /// Applies a function to the path and the line loads (N/m) of all lanes; `None` if it has no batched evaluation.
-    fn in_lanes<R>(
-        &self,
-        at: &GearMeshAt<'_>,
-        torques: &Lane,
-        then: impl FnOnce(&PathAt<'_>, &Lane) -> Option<R>,
-    ) -> Option<R> {
-        if self.rolling != Rolling::None || at.speed == 0.0 || self.short.is_none() {
-            return None;
-        }
-        let pair = &at.part.pair;
-        let mean = MeanFrictionAt::at_pitch_point(at, Notes::MUTED);
-        let notes = at.notes.nested_at_same_state(self.friction.notes);
-        let path = self
-            .path
-            .at_operating_point(&mean, notes)
-            .with(|to| to.bodies = at.bodies());
-        wide(
-            #[inline(always)]
-            || {
-                if count(|i| torques[i] == 0.0) > 0 {
-                    return None;
-                }
-                let line_loads = over(torques, |torque| pair.line_load(pair.normal_force(torque)));
-                then(&path, &line_loads)
-            },
-        )
+    /// Power of rolling friction. \[W\]
+    #[inline(always)]
+    fn rolling_power<R: Real>(&self, at: &GearMeshAt<'_, R>, path: &PathAt<'_, R>) -> R {
+        let modulus = at.part.modulus;
+        let nodes = self.path.nodes().iter().zip(&self.rolling_weights);
+        nodes
+            .filter(|(node, _)| node.share > 0.0)
+            .fold(R::ZERO, |sum, (node, weight)| {
+                let sum_speed = path.speed * node.sum_speed;
+                let rolling = sum_speed * 0.5;
+                let line_load = path.line_load * node.share;
+                let power = if self.rolling == Rolling::Crook {
+                    let u = at.eta * rolling / (modulus * node.radius);
+                    let film = dowson_higginson(u, at.alpha * modulus, line_load / (modulus * node.radius));
+                    crook(film * node.radius) * sum_speed * self.rolling_speed
+                } else {
+                    let force = goksem_hargreaves(line_load, node.radius, at.eta, rolling, at.alpha, modulus);
+                    if self.rolling_thermal {
+                        let pressure = path.unit_pressure() * node.root_load;
+                        inlet_heating(at, pressure, node.slide_roll, rolling) * force * sum_speed
+                    } else {
+                        force * sum_speed
+                    }
+                };
+                sum + power * *weight * at.part.pair.facewidth
+            })
     }
 }
 
@@ -468,26 +386,6 @@ pub(crate) mod tests {
         assert!((cycle / 183.716 - 1.0).abs() < 1e-5, "{cycle}");
         let travel = watts(&model(friction, "tooth_travel"));
         assert!((travel / 221.384 - 1.0).abs() < 1e-5, "{travel}");
-    }
-
-    #[test]
-    fn blocks_note_what_points_alone_do_under_every_load_sharing() {
-        let registry = Registry::linked().unwrap();
-        let files = Files::default();
-        for sharing in ["rigid", "ramp", "symmetric_ramp", "third", "uniform", "contact_lines"] {
-            for kind in [Kind::Spur, Kind::Swapped, Kind::Helical, Kind::Internal] {
-                let part = Arc::new(pair_of(kind));
-                let mut model = model(json!({ "type": "xu", "roughness": "composite_rms" }), "base_pitch");
-                model["load_sharing"] = sharing.into();
-                let mut build = Build::new(&registry, &files);
-                let slot = build.slot_at::<GearMesh>("model", &part, &model).unwrap();
-                for torque in [0.01, 2.0, 300.0] {
-                    let at = GearMeshAt::usual(&part, Notes::MUTED).with(|to| to.torque = torque);
-                    let fault = GearMesh::compare_batched(&*slot, &at, slot.notes);
-                    assert_eq!(fault, None, "{sharing} {kind:?} {torque}");
-                }
-            }
-        }
     }
 
     #[test]

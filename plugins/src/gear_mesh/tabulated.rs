@@ -166,7 +166,7 @@ impl Tabulated {
     /// The table for a point, built on first use, and the temperatures whose mean is its axis.
     fn table(&self, at: &GearMeshAt<'_>, direct: &DirectModel<'_>) -> Result<(&Table, [f64; 2]), Undefined> {
         let build = |known| Table::new(direct, &self.extents, self.nodes, self.checks, known);
-        if let Some([first, second]) = at.bodies() {
+        if let Some([first, second]) = at.bodies()? {
             let table = self
                 .over_bodies
                 .get_or_init(|| direct.follows_bodies(&self.extents).then(|| build(true)));

@@ -9,7 +9,7 @@ use std::time::Instant;
 
 use gearloss_framework::evaluate::{Point, PowerFlow};
 use gearloss_framework::gearbox::Gearbox;
-use gearloss_framework::lanes::LANES;
+use gearloss_framework::real::LANES;
 use gearloss_framework::language::Language;
 use gearloss_framework::resolve::Choice;
 use gearloss_plugins as _;
@@ -54,12 +54,12 @@ fn main() -> Result<(), Box<dyn Error>> {
             };
             let mut row = transmission.batch(&case, &point, &[100.0], &mut scratch);
             for (torques, losses) in torques.chunks(LANES).zip(losses.chunks_mut(LANES)) {
-                let block = row.follow(torques);
-                if block.alone()[..torques.len()].contains(&true) {
+                let block = row.solve(torques);
+                if (0..torques.len()).any(|point| block.is_alone(point)) {
                     return Err("a point has to be evaluated alone".into());
                 }
                 losses.copy_from_slice(&block.losses()[..torques.len()]);
-                passes += block.passes()[..torques.len()].iter().sum::<usize>();
+                passes += (0..torques.len()).map(|point| block.passes(point)).sum::<usize>();
             }
         }
         let (passes, calls) = (passes as f64 / points, scratch.calls() as f64 / points);

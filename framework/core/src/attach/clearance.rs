@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Attach, Names, Oil, Spot, State, sealed};
 use crate::immersion::Height;
+use crate::real::Points;
 
 /// Between two members, with relative speed only.
 #[derive(Debug)]
@@ -27,15 +28,15 @@ pub type ClearanceSeat = [Option<u16>; 2];
 /// The state at a clearance.
 #[derive(Debug, Clone, Copy)]
 #[non_exhaustive]
-pub struct ClearanceSite<'a> {
+pub struct ClearanceSite<'a, R = f64> {
     /// Speed of the first member relative to the second, signed; zero when closed. \[rad/s\]
-    pub speed: f64,
+    pub speed: R,
     /// Speed of the first member, signed. \[rad/s\]
-    pub first_speed: f64,
+    pub first_speed: R,
     /// The local oil.
-    pub oil: &'a Oil,
+    pub oil: &'a Oil<R>,
     /// Oil height above the axis.
-    pub level: Height,
+    pub level: Height<R>,
 }
 
 impl sealed::Sealed for Clearance {}
@@ -43,7 +44,7 @@ impl sealed::Sealed for Clearance {}
 impl Attach for Clearance {
     type Place = ClearancePlace;
     type Seat = ClearanceSeat;
-    type Site<'a> = ClearanceSite<'a>;
+    type Site<'a, R: Points> = ClearanceSite<'a, R>;
     const LOADED: bool = false;
 
     fn seat(place: &ClearancePlace, names: &mut Names<'_>) -> Option<ClearanceSeat> {
@@ -64,7 +65,7 @@ impl Attach for Clearance {
     }
 
     #[inline(always)]
-    fn site<'a>(seat: ClearanceSeat, spot: &Spot, state: &State<'a>) -> ClearanceSite<'a> {
+    fn site<'a, R: Points>(seat: ClearanceSeat, spot: &Spot, state: &State<'a, R>) -> ClearanceSite<'a, R> {
         ClearanceSite {
             speed: state.relative(seat[0], seat[1]),
             first_speed: state.speed(seat[0]),

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Attach, Names, Oil, Spot, State, sealed};
 use crate::immersion::Height;
+use crate::real::Points;
 
 /// On a shaft or an idler gear, against the housing.
 #[derive(Debug)]
@@ -24,13 +25,13 @@ pub struct MemberPlace {
 /// The state at a component on a member.
 #[derive(Debug, Clone, Copy)]
 #[non_exhaustive]
-pub struct MemberSite<'a> {
+pub struct MemberSite<'a, R = f64> {
     /// Speed of the member, signed. \[rad/s\]
-    pub speed: f64,
+    pub speed: R,
     /// The local oil.
-    pub oil: &'a Oil,
+    pub oil: &'a Oil<R>,
     /// Oil height above the axis.
-    pub level: Height,
+    pub level: Height<R>,
 }
 
 impl sealed::Sealed for OnMember {}
@@ -38,7 +39,7 @@ impl sealed::Sealed for OnMember {}
 impl Attach for OnMember {
     type Place = MemberPlace;
     type Seat = u16;
-    type Site<'a> = MemberSite<'a>;
+    type Site<'a, R: Points> = MemberSite<'a, R>;
     const LOADED: bool = false;
 
     fn seat(place: &MemberPlace, names: &mut Names<'_>) -> Option<u16> {
@@ -48,7 +49,7 @@ impl Attach for OnMember {
     }
 
     #[inline(always)]
-    fn site<'a>(seat: u16, spot: &Spot, state: &State<'a>) -> MemberSite<'a> {
+    fn site<'a, R: Points>(seat: u16, spot: &Spot, state: &State<'a, R>) -> MemberSite<'a, R> {
         MemberSite {
             speed: state.speed(Some(seat)),
             oil: state.oil(spot),

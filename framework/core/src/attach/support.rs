@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Attach, Names, Oil, Spot, State, sealed};
 use crate::immersion::Height;
+use crate::real::Points;
 
 /// Between a shaft and its support: the housing, or another member.
 #[derive(Debug)]
@@ -121,21 +122,21 @@ pub struct SupportSeat {
 /// The state at a bearing.
 #[derive(Debug, Clone, Copy)]
 #[non_exhaustive]
-pub struct SupportSite<'a> {
+pub struct SupportSite<'a, R = f64> {
     /// Speed of the inner member relative to the outer one, signed. \[rad/s\]
-    pub speed: f64,
+    pub speed: R,
     /// Speed of the outer member, signed. \[rad/s\]
-    pub outer_speed: f64,
+    pub outer_speed: R,
     /// Radial load, with its factor. \[N\]
-    pub radial: f64,
+    pub radial: R,
     /// Axial load, with its factor. \[N\]
-    pub axial: f64,
+    pub axial: R,
     /// Tilting moment. \[Nm\]
-    pub tilting: f64,
+    pub tilting: R,
     /// The local oil.
-    pub oil: &'a Oil,
+    pub oil: &'a Oil<R>,
     /// Oil height above the axis.
-    pub level: Height,
+    pub level: Height<R>,
 }
 
 impl sealed::Sealed for Support {}
@@ -143,7 +144,7 @@ impl sealed::Sealed for Support {}
 impl Attach for Support {
     type Place = SupportPlace;
     type Seat = SupportSeat;
-    type Site<'a> = SupportSite<'a>;
+    type Site<'a, R: Points> = SupportSite<'a, R>;
     const LOADED: bool = true;
 
     fn seat(place: &SupportPlace, names: &mut Names<'_>) -> Option<SupportSeat> {
@@ -171,7 +172,7 @@ impl Attach for Support {
     }
 
     #[inline(always)]
-    fn site<'a>(seat: SupportSeat, spot: &Spot, state: &State<'a>) -> SupportSite<'a> {
+    fn site<'a, R: Points>(seat: SupportSeat, spot: &Spot, state: &State<'a, R>) -> SupportSite<'a, R> {
         let load = &state.loads[seat.number as usize];
         SupportSite {
             speed: state.relative(Some(seat.inner), seat.outer),

@@ -1,10 +1,10 @@
 //! The path of contact of one mesh, prepared for local friction laws.
 
 use crate::geometry::{LoadSharing, Pair, PathPoint};
-use crate::lanes::Lane;
 use crate::loss::Notes;
 use crate::mechanism::mean_friction::MeanFrictionAt;
 use crate::mechanism::tooth_friction::{CUT_OFF, PathAt, PathExtent, PathNode, SMOOTH};
+use crate::real::Real;
 
 /// Points of most paths: four sections for a smooth law.
 const FEW: usize = 4 * SMOOTH;
@@ -101,28 +101,26 @@ impl Path {
     }
 
     /// The path at one operating point.
-    pub fn at_operating_point<'a>(&'a self, mean: &'a MeanFrictionAt<'a>, notes: Notes<'a>) -> PathAt<'a> {
+    #[inline(always)]
+    pub fn at_operating_point<'a, R: Real>(
+        &'a self,
+        mean: &'a MeanFrictionAt<'a, R>,
+        notes: Notes<'a, R>,
+    ) -> PathAt<'a, R> {
         PathAt::new(&self.nodes, &self.extent, self.length, mean, notes)
     }
 
-    /// Runs a function with space for friction at each point; most paths need little, and zeroing more costs time.
-    pub fn with_space<R>(&self, run: impl FnOnce(&mut [f64]) -> R) -> R {
+    /// Runs a function with space for friction at each node; most paths need little, and zeroing more costs time.
+    #[inline(always)]
+    pub fn with_space<R: Real, T>(&self, run: impl FnOnce(&mut [R]) -> T) -> T {
         const SOME: usize = 4 * FEW;
         if self.len() <= FEW {
-            run(&mut [0.0; FEW][..self.len()])
+            run(&mut [R::ZERO; FEW][..self.len()])
         } else if self.len() <= SOME {
-            run(&mut [0.0; SOME][..self.len()])
+            run(&mut [R::ZERO; SOME][..self.len()])
         } else {
-            run(&mut [0.0; Self::MOST][..self.len()])
+            run(&mut vec![R::ZERO; self.len()])
         }
-    }
-
-    /// As [`Path::with_space`] for all lanes; `None` for a path with many points, which is evaluated lane by lane.
-    pub fn with_lanes<R>(&self, run: impl FnOnce(&mut [Lane]) -> Option<R>) -> Option<R> {
-        if self.len() > FEW {
-            return None;
-        }
-        run(&mut [Lane::ZERO; FEW][..self.len()])
     }
 
     /// Sliding power per normal force and speed of the first gear, for friction at each point. \[m\]

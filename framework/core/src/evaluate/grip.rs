@@ -7,36 +7,34 @@
 //! a thousandth of the common speed changes its sign all the time, and only the mean over both signs remains. Here that mean
 //! increases linearly with the relative speed, up to full friction at `locked_below` times the common speed. Without a common
 //! speed, against the stationary housing, nothing changes however slowly a gear rotates.
-//! no common speed, and nothing changes however slowly a gear turns.
 
+use crate::real::Real;
 use crate::transmission::Transmission;
 
 impl Transmission {
     /// Share of full friction at a contact, from the relative speed of its bodies and their common speed.
-    #[inline]
-    fn grip(&self, relative: f64, together: f64) -> f64 {
-        let full = self.locked_below * together.abs();
-        if relative.abs() < full {
-            relative.abs() / full
-        } else {
-            1.0
-        }
+    #[inline(always)]
+    fn grip<R: Real>(&self, relative: R, together: R) -> R {
+        let full = together.magnitude() * self.locked_below;
+        let slides = !relative.magnitude().is_below(full);
+        R::select(slides, R::constant(1.0), relative.magnitude() / full)
     }
 
     /// The share for a mesh: its gears rotate together with the carrier.
-    #[inline]
-    pub(super) fn mesh_grip(&self, index: usize, speeds: &[f64]) -> f64 {
-        let carrier = self.meshes[index].seat.carrier.map_or(0.0, |carrier| speeds[carrier]);
+    #[inline(always)]
+    pub(super) fn mesh_grip<R: Real>(&self, index: usize, speeds: &[R]) -> R {
+        let carrier = self.meshes[index].seat.carrier;
+        let carrier = carrier.map_or(R::ZERO, |carrier| speeds[carrier]);
         self.grip(self.mesh_speed(index, speeds), carrier)
     }
 
     /// Copies of a component, times the factor on their loss and their share of friction.
-    #[inline]
-    pub(super) fn copies(&self, index: usize, speeds: &[f64]) -> f64 {
+    #[inline(always)]
+    pub(super) fn copies<R: Real>(&self, index: usize, speeds: &[R]) -> R {
         let component = &self.components[index];
         let [a, b] = component
             .between
-            .map(|member| member.map_or(0.0, |m| speeds[m as usize]));
-        component.count * self.grip(a - b, a.abs().min(b.abs()))
+            .map(|member| member.map_or(R::ZERO, |m| speeds[m as usize]));
+        self.grip(a - b, a.magnitude().smaller(b.magnitude())) * component.count
     }
 }

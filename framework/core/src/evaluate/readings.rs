@@ -22,7 +22,7 @@ pub struct Reading {
 }
 
 /// All quantities of a context, in their documented units.
-pub(crate) fn readings<M: Mechanism>(at: &M::At<'_>) -> Vec<Reading> {
+pub(crate) fn readings<M: Mechanism>(at: &M::At<'_, f64>) -> Vec<Reading> {
     let of = |q: &crate::mechanism::Quantity<M>| Reading {
         name: q.name,
         unit: q.unit(),
@@ -52,15 +52,7 @@ impl MemberTorques {
 impl Solution<'_> {
     /// What the models read at this point.
     pub(super) fn state(&self) -> State<'_> {
-        let s = &*self.scratch;
-        State {
-            speeds: &s.speeds,
-            oils: &s.oils,
-            temperatures: &s.temperatures,
-            surface: s.surface,
-            loads: &s.loads,
-            calls: &s.calls,
-        }
+        self.scratch.models.conditions.open(false).0
     }
 
     /// The context of the model of a part, one copy.
@@ -100,7 +92,7 @@ impl Solution<'_> {
                 }
             }
         }
-        if self.ideal {
+        if self.scratch.ideal {
             return torques;
         }
         for (k, mesh) in state.meshes.iter().enumerate() {

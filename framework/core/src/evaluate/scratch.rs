@@ -1,62 +1,130 @@
-//! Workspace for one evaluation, and observations over many.
+//! Workspace for one evaluation, of one point or of several together, and observations over many.
 
 use std::cell::Cell;
 
-use crate::attach::Oil;
+use crate::attach::{Oil, State};
 use crate::flow::{Balance, Status, Work};
 use crate::loads::SupportLoad;
-use crate::loss::{Extent, Loss, MOST_KEPT, Undefined};
+use crate::loss::{Extent, Kept, Loss, Notebook, Seen, Undefined};
+use crate::real::{Mask as _, Points};
 use crate::transmission::{Case, Transmission};
 
-/// A loss that has not been evaluated yet.
-const NOT_YET: Result<Loss, Undefined> = Ok(Loss::POWERS);
+/// What models read, and where they note.
+#[derive(Debug, Clone)]
+pub(super) struct Conditions<R: Points> {
+    pub speeds: Vec<R>,
+    pub temperatures: Vec<R>,
+    pub oils: Vec<Oil<R>>,
+    pub surface: R,
+    pub loads: Vec<SupportLoad<R>>,
+    /// Points that are solved; among several, those that are missing must be solved alone.
+    pub live: R::Mask,
+    /// True if all points have their speeds and temperatures in common.
+    pub common: bool,
+    /// Values that models keep over the iterations of a point, and over points with the same speeds and temperatures, by instance.
+    pub kept: Vec<Cell<Kept<R>>>,
+    /// The same for points that are evaluated one by one.
+    pub kept_alone: Vec<Cell<Kept<f64>>>,
+    pub cells: Vec<Cell<Seen>>,
+    /// Loss model evaluations for the points.
+    pub calls: Cell<usize>,
+}
+
+impl<R: Points> Conditions<R> {
+    /// What models read, and the notebook; a closed one unless they note.
+    #[inline(always)]
+    pub fn open(&self, notes: bool) -> (State<'_, R>, Notebook<'_, R>) {
+        let state = State {
+            speeds: &self.speeds,
+            oils: &self.oils,
+            temperatures: &self.temperatures,
+            surface: self.surface,
+            loads: &self.loads,
+            calls: &self.calls,
+        };
+        let book = Notebook {
+            cells: if notes { &self.cells } else { &[] },
+            points: R::bits(self.live),
+            kept: &self.kept,
+            kept_alone: if self.common { &self.kept_alone } else { &[] },
+            trace: None,
+        };
+        (state, book)
+    }
+
+    /// Forgets the notes and the values that models keep.
+    pub fn forget(&mut self) {
+        self.cells.fill(Cell::new(Seen::NOTHING));
+        self.kept.fill(Cell::new(None));
+        self.kept_alone.fill(Cell::new(None));
+    }
+
+    /// The first of the points that are solved; the first of all if there is none.
+    pub fn first(&self) -> usize {
+        (0..R::COUNT).find(|point| self.live.at(*point)).unwrap_or(0)
+    }
+
+    /// What the first point decides by a condition; those that decide otherwise leave.
+    #[inline(always)]
+    pub fn decide(&mut self, condition: R::Mask) -> bool {
+        let decided = condition.at(self.first());
+        self.live = self.live & if decided { condition } else { !condition };
+        decided
+    }
+
+    /// True if a model is outside its stated range at a point, among the cells of models.
+    pub fn leaves_a_range(&self, point: usize, cells: usize) -> bool {
+        let mut seen = self.cells[..cells].iter();
+        seen.any(|seen| seen.get().outside() >> point & 1 == 1)
+    }
+}
+
+/// What models read and return.
+#[derive(Debug, Clone)]
+pub(super) struct Models<R: Points> {
+    pub conditions: Conditions<R>,
+    /// Loads with the most loaded planet of each set, and with each other planet; empty if planets share equally.
+    pub uneven_loads: [Vec<SupportLoad<R>>; 2],
+    /// Tangential forces with those of a planet's meshes; empty if planets share equally.
+    pub uneven_forces: Vec<R>,
+    pub passed: Vec<R>,
+    pub tangential: Vec<R>,
+    pub component_losses: Vec<Result<Loss<R>, Undefined>>,
+    pub mesh_losses: Vec<Result<Loss<R>, Undefined>>,
+    pub drag_losses: Vec<Result<Loss<R>, Undefined>>,
+    /// Relative speed of each component. \[rad/s\]
+    pub relative: Vec<R>,
+    /// Rotating components that carry load: they are evaluated in every iteration.
+    pub braking: Vec<usize>,
+}
 
 /// Workspace for evaluating the points of one case. All of it is allocated once.
 #[derive(Debug, Clone)]
-pub struct Scratch {
-    pub(super) prescribed: Vec<f64>,
-    pub(super) given: Vec<f64>,
-    pub(super) speeds: Vec<f64>,
-    pub(super) temperatures: Vec<f64>,
-    pub(super) oils: Vec<Oil>,
-    pub(super) surface: f64,
-    pub(super) loads: Vec<SupportLoad>,
-    /// Loads with the most loaded planet of each set, and with each other planet; empty if planets share equally.
-    pub(super) uneven_loads: [Vec<SupportLoad>; 2],
-    /// Tangential forces with those of a planet's meshes; empty if planets share equally.
-    pub(super) uneven_forces: Vec<f64>,
-    pub(super) passed: Vec<f64>,
-    pub(super) tangential: Vec<f64>,
-    pub(super) component_losses: Vec<Result<Loss, Undefined>>,
-    pub(super) mesh_losses: Vec<Result<Loss, Undefined>>,
-    pub(super) drag_losses: Vec<Result<Loss, Undefined>>,
-    pub(super) idle_drags: Vec<f64>,
-    /// Relative speed of each component. \[rad/s\]
-    pub(super) relative: Vec<f64>,
-    /// Rotating components that carry load: they are evaluated in every iteration.
-    pub(super) braking: Vec<usize>,
-    /// Values that models keep over the iterations of a point or the points of a batch, by instance.
-    pub(super) kept: Vec<[f64; MOST_KEPT]>,
-    pub(super) cells: Vec<Extent>,
-    pub(super) work: Work,
-    pub(super) watts: Vec<f64>,
-    pub(super) sum: f64,
+pub struct Scratch<R: Points = f64> {
+    pub(super) models: Models<R>,
+    pub(super) prescribed: Vec<R>,
+    pub(super) work: Work<R>,
+    pub(super) watts: Vec<R>,
+    pub(super) sum: R,
     pub(super) undefined: Option<(usize, Undefined)>,
-    pub(super) balance: Balance,
-    pub(super) status: Status,
-    pub(super) passes: usize,
-    /// Loss model evaluations for the point.
-    pub(super) calls: Cell<usize>,
+    /// Of each point.
+    pub(super) balance: Vec<Balance>,
+    pub(super) status: Vec<Status>,
+    /// True if nothing rotates.
+    pub(super) standing: bool,
+    /// True if the power flow is ideal.
+    pub(super) ideal: bool,
+    pub(super) passes: R,
     /// Loss model evaluations for previous points.
     pub(super) called: usize,
     /// Observed extents of every limit and observed quantity since the scratch was made, one count per point.
     pub totals: Vec<Extent>,
 }
 
-impl Scratch {
-    /// Loss model evaluations for the last evaluated point.
-    pub fn calls(&self) -> usize {
-        self.calls.get()
+impl<R: Points> Scratch<R> {
+    /// Loss model evaluations for all points so far.
+    pub fn all_calls(&self) -> usize {
+        self.called + self.models.conditions.calls.get()
     }
 
     /// Observed extents since the scratch was made or since the last call.
@@ -65,34 +133,110 @@ impl Scratch {
         std::mem::replace(&mut self.totals, empty)
     }
 
+    /// Counts the observations at the last evaluated points as those of further points.
+    pub(crate) fn count_seen(&mut self) {
+        for (total, seen) in self.totals.iter_mut().zip(&self.models.conditions.cells) {
+            let seen = seen.get().extent();
+            if seen.seen > 0 {
+                *total = total.merge(seen);
+            }
+        }
+    }
+
+    pub(super) fn new(transmission: &Transmission, case: &Case) -> Self {
+        let columns = case.flow.columns();
+        let (supports, meshes) = (transmission.supports.len(), transmission.meshes.len());
+        let instances = transmission.instances.len();
+        let zeros = |count: usize| vec![R::ZERO; count];
+        // Not evaluated yet.
+        let losses = |count: usize| vec![Ok(Loss::POWERS); count];
+        let uneven = |count: usize| if transmission.uneven { count } else { 0 };
+        Self {
+            models: Models {
+                conditions: Conditions {
+                    speeds: zeros(columns),
+                    temperatures: Vec::with_capacity(transmission.nodes()),
+                    oils: vec![Oil::default(); transmission.oils.len()],
+                    surface: R::ZERO,
+                    loads: vec![SupportLoad::default(); supports],
+                    live: R::mask(|_| true),
+                    common: false,
+                    kept: vec![Cell::new(None); instances],
+                    kept_alone: vec![Cell::new(None); instances],
+                    cells: vec![Cell::new(Seen::NOTHING); transmission.cells],
+                    calls: Cell::new(0),
+                },
+                uneven_loads: [(); 2].map(|()| vec![SupportLoad::default(); uneven(supports)]),
+                uneven_forces: zeros(uneven(meshes)),
+                passed: zeros(transmission.loads.scratch_len()),
+                tangential: zeros(meshes),
+                component_losses: losses(transmission.components.len()),
+                mesh_losses: losses(meshes),
+                drag_losses: losses(transmission.drags.len()),
+                relative: zeros(transmission.components.len()),
+                braking: Vec::with_capacity(transmission.components.len()),
+            },
+            prescribed: zeros(case.speed_ports.len() + case.ruled_speeds),
+            work: case.flow.work(),
+            watts: zeros(transmission.parts.len()),
+            sum: R::ZERO,
+            undefined: None,
+            balance: vec![
+                Balance {
+                    input: 0.0,
+                    output: 0.0,
+                };
+                R::COUNT
+            ],
+            status: vec![Status::Standstill; R::COUNT],
+            standing: false,
+            ideal: false,
+            passes: R::ZERO,
+            called: 0,
+            totals: vec![Extent::EMPTY; transmission.cells],
+        }
+    }
+}
+
+impl Scratch {
+    /// Loss model evaluations for the last evaluated point.
+    pub fn calls(&self) -> usize {
+        self.models.conditions.calls.get()
+    }
+
     /// Losses of all parts at the last evaluated point, in their order; zero if undefined. \[W\]
     pub fn watts(&self) -> &[f64] {
         &self.watts
     }
 
     /// Speeds of the members (rad/s), and the note cells of heat models.
-    pub(crate) fn speeds_and_cells(&mut self) -> (&[f64], &[Cell<Extent>]) {
-        (&self.speeds, Cell::from_mut(&mut self.cells[..]).as_slice_of_cells())
+    pub(crate) fn speeds_and_cells(&self) -> (&[f64], &[Cell<Seen>]) {
+        (&self.models.conditions.speeds, &self.models.conditions.cells)
     }
 
-    /// Loss model evaluations for all points so far.
-    pub fn all_calls(&self) -> usize {
-        self.called + self.calls.get()
+    /// Counts what heat models note as one more point.
+    pub(crate) fn note_heat<T>(&mut self, run: impl FnOnce(&[Cell<Seen>]) -> T) -> T {
+        let cells = vec![Cell::new(Seen::NOTHING); self.totals.len()];
+        let result = run(&cells);
+        for (total, seen) in self.totals.iter_mut().zip(cells) {
+            *total = total.merge(seen.get().extent());
+        }
+        result
     }
 
     /// Speeds of the members. \[rad/s\]
     pub fn speeds(&self) -> &[f64] {
-        &self.speeds
+        &self.models.conditions.speeds
     }
 
     /// Operating state of the transmission.
     pub fn status(&self) -> Status {
-        self.status
+        self.status[0]
     }
 
     /// Input and output power. \[W\]
     pub fn power(&self) -> [f64; 2] {
-        [self.balance.input, self.balance.output]
+        [self.balance[0].input, self.balance[0].output]
     }
 
     /// Torque that a port of a member applies. \[Nm\]
@@ -102,69 +246,6 @@ impl Scratch {
 
     /// Share of the heat of a mesh that enters its first gear.
     pub(crate) fn first_heat(&self, mesh: usize) -> f64 {
-        self.mesh_losses[mesh].as_ref().map_or(0.5, Loss::first_heat)
-    }
-
-    /// Counts the observations at the last evaluated point as one more point.
-    pub(crate) fn count_seen(&mut self) {
-        for (total, seen) in self.totals.iter_mut().zip(&self.cells) {
-            if seen.seen > 0 {
-                *total = total.merge(seen.once());
-            }
-        }
-    }
-
-    /// Note cells of heat dissipation models; they count over all points.
-    pub(crate) fn heat_cells(&mut self) -> &mut [Extent] {
-        &mut self.totals
-    }
-
-    pub(super) fn new(transmission: &Transmission, case: &Case) -> Self {
-        let columns = case.flow.columns();
-        let supports = transmission.supports.len();
-        Self {
-            prescribed: vec![0.0; case.speed_ports.len() + case.ruled_speeds],
-            given: vec![0.0; case.torque_ports.len() + case.ruled_torques],
-            speeds: vec![0.0; columns],
-            temperatures: Vec::with_capacity(transmission.nodes()),
-            oils: vec![Oil::default(); transmission.oils.len()],
-            surface: 0.0,
-            loads: vec![SupportLoad::default(); supports],
-            uneven_loads: [(); 2].map(|()| {
-                let count = if transmission.uneven { supports } else { 0 };
-                vec![SupportLoad::default(); count]
-            }),
-            uneven_forces: vec![
-                0.0;
-                if transmission.uneven {
-                    transmission.meshes.len()
-                } else {
-                    0
-                }
-            ],
-            passed: vec![0.0; transmission.loads.scratch_len()],
-            tangential: vec![0.0; transmission.meshes.len()],
-            component_losses: vec![NOT_YET; transmission.components.len()],
-            mesh_losses: vec![NOT_YET; transmission.meshes.len()],
-            drag_losses: vec![NOT_YET; transmission.drags.len()],
-            idle_drags: vec![0.0; columns],
-            relative: vec![0.0; transmission.components.len()],
-            braking: Vec::with_capacity(transmission.components.len()),
-            kept: vec![[f64::NAN; MOST_KEPT]; transmission.instances.len()],
-            cells: vec![Extent::EMPTY; transmission.cells],
-            work: case.flow.work(),
-            watts: vec![0.0; transmission.parts.len()],
-            sum: 0.0,
-            undefined: None,
-            balance: Balance {
-                input: 0.0,
-                output: 0.0,
-            },
-            status: Status::Standstill,
-            passes: 0,
-            calls: Cell::new(0),
-            called: 0,
-            totals: vec![Extent::EMPTY; transmission.cells],
-        }
+        self.models.mesh_losses[mesh].as_ref().map_or(0.5, Loss::first_heat)
     }
 }

@@ -5,6 +5,7 @@ use crate::flow::Status;
 use crate::loads::SupportLoad;
 use crate::loss::{Extent, Loss, Notebook, Trace, Undefined};
 use crate::mechanism::gear_mesh::GearMeshAt;
+use crate::real::{Points, Real};
 use crate::transmission::{Case, PartInfo, PartKind, Transmission};
 
 /// Loss of one part, all copies.
@@ -44,6 +45,9 @@ impl PartLoss {
     }
 }
 
+/// Results of a model at some points, with their relative speed, the factor on them, and where the part is stationary.
+type PartState<'s, R> = (&'s Result<Loss<R>, Undefined>, R, R, <R as Real>::Mask);
+
 impl Transmission {
     pub(super) fn part_loss(&self, part: &PartInfo, s: &Scratch) -> PartLoss {
         let (result, speed, factor, still) = self.part_state(part, s);
@@ -55,43 +59,54 @@ impl Transmission {
         }
     }
 
-    /// Power of a part, as [`PartLoss::watts`].
-    pub(super) fn part_watts(&self, part: &PartInfo, s: &Scratch) -> Result<f64, Undefined> {
-        match self.part_state(part, s) {
-            (Err(reason), ..) => Err(*reason),
-            (Ok(_), _, _, true) => Ok(0.0),
-            (Ok(loss), speed, factor, false) => Ok(loss.total_watts(speed) * factor),
-        }
+    /// Powers of a part, as [`PartLoss::watts`].
+    #[inline(always)]
+    pub(super) fn part_watts<R: Points>(&self, part: &PartInfo, s: &Scratch<R>) -> Result<R, Undefined> {
+        let (loss, speed, factor, still) = self.part_state(part, s);
+        let loss = loss.as_ref().map_err(|reason| *reason)?;
+        Ok(R::select(still, R::ZERO, loss.total_watts(speed) * factor))
     }
 
-    /// Result, relative speed, factor and whether the part is stationary.
-    fn part_state<'s>(&self, part: &PartInfo, s: &'s Scratch) -> (&'s Result<Loss, Undefined>, f64, f64, bool) {
+    /// Powers of one term of a part by number, as [`PartLoss::term_watts`].
+    #[inline(always)]
+    pub(super) fn term_watts<R: Points>(&self, part: usize, term: usize, s: &Scratch<R>) -> R {
+        let (loss, speed, factor, still) = self.part_state(&self.parts[part], s);
+        let watts = loss.as_ref().map_or(R::ZERO, |loss| loss.watts(term, speed) * factor);
+        R::select(still, R::ZERO, watts)
+    }
+
+    #[inline(always)]
+    fn part_state<'s, R: Points>(&self, part: &PartInfo, s: &'s Scratch<R>) -> PartState<'s, R> {
+        let m = &s.models;
+        let speeds = &m.conditions.speeds[..];
         match part.kind {
             PartKind::Component(i) => {
-                let relative = s.relative[i];
+                let relative = m.relative[i];
                 (
-                    &s.component_losses[i],
+                    &m.component_losses[i],
                     relative,
-                    self.copies(i, &s.speeds),
-                    relative == 0.0,
+                    self.copies(i, speeds),
+                    relative.is_zero(),
                 )
             }
             PartKind::Mesh(i) => {
-                let speed = self.mesh_speed(i, &s.speeds);
+                let speed = self.mesh_speed(i, speeds);
                 let count = self.meshes[i].seat.count * self.meshes[i].loss_factor;
-                let returned = s.mesh_losses[i].as_ref().map_or(0.0, |loss| loss.total_watts(speed)) * count;
-                let ratio = if returned > 0.0 {
-                    s.work.mesh_loss[i] / returned
-                } else {
-                    1.0
-                };
-                (&s.mesh_losses[i], speed, count * ratio, speed == 0.0)
+                let returned = m.mesh_losses[i]
+                    .as_ref()
+                    .map_or(R::ZERO, |loss| loss.total_watts(speed));
+                let returned = returned * count;
+                let lost = returned.is_above(R::ZERO);
+                let ratio = R::select(lost, s.work.mesh_loss[i] / returned, R::constant(1.0));
+                (&m.mesh_losses[i], speed, ratio * count, speed.is_zero())
             }
             PartKind::Drag(i) => {
                 let seat = &self.drags[i].seat;
-                let [first, second] = seat.members.map(|m| s.speeds[m]);
-                let still = first == 0.0 && (!seat.pair || second == 0.0);
-                (&s.drag_losses[i], first, seat.count * self.drags[i].loss_factor, still)
+                let [first, second] = seat.members.map(|m| speeds[m]);
+                let alone = R::mask(|_| !seat.pair);
+                let still = first.is_zero() & (alone | second.is_zero());
+                let factor = R::constant(seat.count * self.drags[i].loss_factor);
+                (&m.drag_losses[i], first, factor, still)
             }
         }
     }
@@ -101,14 +116,13 @@ impl Transmission {
 pub struct Solution<'a> {
     pub(super) transmission: &'a Transmission,
     pub(super) case: &'a Case,
-    pub(super) scratch: &'a mut Scratch,
-    pub(super) ideal: bool,
+    pub(super) scratch: &'a Scratch,
 }
 
 impl Solution<'_> {
     /// Operating state of the transmission.
     pub fn status(&self) -> Status {
-        self.scratch.status
+        self.scratch.status()
     }
 
     /// True if losses are defined: the power flow converged and no loss is undefined.
@@ -152,7 +166,7 @@ impl Solution<'_> {
 
     /// Input power; with ideal power flow that of the driving ports. \[W\]
     pub fn input_power(&self) -> Option<f64> {
-        self.is_complete().then_some(self.scratch.balance.input)
+        self.is_complete().then_some(self.scratch.balance[0].input)
     }
 
     /// Output power; with ideal power flow the input minus the losses, `None` if they exceed it. \[W\]
@@ -161,10 +175,10 @@ impl Solution<'_> {
         if self.status() == Status::LossAboveInput {
             return None;
         }
-        Some(if self.ideal {
-            (self.scratch.balance.input - loss).max(0.0)
+        Some(if self.scratch.ideal {
+            (self.scratch.balance[0].input - loss).max(0.0)
         } else {
-            self.scratch.balance.output
+            self.scratch.balance[0].output
         })
     }
 
@@ -177,7 +191,7 @@ impl Solution<'_> {
     /// Loss over the speed of the reference port; `None` at standstill. \[Nm\]
     pub fn loss_torque(&self) -> Option<f64> {
         let t = self.transmission;
-        let speed = self.scratch.speeds[t.ports[t.reference_port()].member].abs();
+        let speed = self.scratch.models.conditions.speeds[t.ports[t.reference_port()].member].abs();
         let loss = self.loss()?;
         (speed > 0.0).then(|| loss / speed)
     }
@@ -186,13 +200,13 @@ impl Solution<'_> {
     /// \[W\]
     pub fn residual(&self) -> Option<f64> {
         let t = self.transmission;
-        if self.ideal {
+        if self.scratch.ideal {
             return None;
         }
         let power: f64 = t
             .ports
             .iter()
-            .map(|p| self.scratch.work.ports[p.member] * self.scratch.speeds[p.member])
+            .map(|p| self.scratch.work.ports[p.member] * self.scratch.models.conditions.speeds[p.member])
             .sum();
         Some(power - self.loss()?)
     }
@@ -204,12 +218,12 @@ impl Solution<'_> {
 
     /// Iterations over the loss models.
     pub fn passes(&self) -> usize {
-        self.scratch.passes
+        self.scratch.passes as usize
     }
 
     /// Speed of a member by number. \[rad/s\]
     pub fn speed(&self, member: usize) -> f64 {
-        self.scratch.speeds[member]
+        self.scratch.models.conditions.speeds[member]
     }
 
     /// Torque that a port applies to the transmission. \[Nm\]
@@ -232,25 +246,31 @@ impl Solution<'_> {
             .components
             .iter()
             .find(|c| c.support == Some(support as u16))?;
-        of.sharing.and(self.scratch.uneven_loads[0].get(support).copied())
+        of.sharing
+            .and(self.scratch.models.uneven_loads[0].get(support).copied())
     }
 
     /// Load of a support by number; the mean over the planets if it is on one.
     pub fn load(&self, support: usize) -> SupportLoad {
-        self.scratch.loads[support]
+        self.scratch.models.conditions.loads[support]
     }
 
     /// Torque of one copy of a mesh on its first gear, signed. \[Nm\]
     pub fn mesh_torque(&self, mesh: usize) -> f64 {
-        self.scratch.tangential[mesh] * self.transmission.meshes[mesh].seat.pair.working_radius[0]
+        self.scratch.models.tangential[mesh] * self.transmission.meshes[mesh].seat.pair.working_radius[0]
     }
 
     /// The context of the model of a mesh, one copy, with muted notes.
     pub fn mesh_at(&self, mesh: usize) -> GearMeshAt<'_> {
-        let s = &*self.scratch;
+        let s = self.scratch;
         let state = self.state();
-        self.transmission
-            .mesh_at(mesh, s.tangential[mesh], s.work.drives[mesh], &state, &Notebook::CLOSED)
+        self.transmission.mesh_at(
+            mesh,
+            s.models.tangential[mesh],
+            s.work.drives[mesh],
+            &state,
+            &Notebook::CLOSED,
+        )
     }
 
     /// Loss of each part, in the order of the parts.
@@ -267,14 +287,15 @@ impl Solution<'_> {
     }
 
     /// Observed extents of limits and observed quantities at this point.
-    pub fn extents(&self) -> &[Extent] {
-        &self.scratch.cells
+    pub fn extents(&self) -> Vec<Extent> {
+        let cells = &self.scratch.models.conditions.cells;
+        cells.iter().map(|seen| seen.get().extent()).collect()
     }
 
     /// True if a model was outside a stated range.
     pub fn leaves_a_range(&self) -> bool {
-        let models = &self.scratch.cells[..self.transmission.rated_cells()];
-        models.iter().any(|seen| seen.outside > 0)
+        let models = self.transmission.rated_cells();
+        self.scratch.models.conditions.leaves_a_range(0, models)
     }
 
     /// Static safety of a bearing by the number of its support, on the most loaded planet if it is on planets; `None` without load
@@ -282,14 +303,16 @@ impl Solution<'_> {
     pub fn static_safety(&self, support: usize) -> Option<f64> {
         let t = self.transmission;
         let rated = t.rated.iter().position(|rated| rated.support == support)?;
-        let seen = self.scratch.cells[t.rated_cells() + rated];
+        let seen = self.scratch.models.conditions.cells[t.rated_cells() + rated]
+            .get()
+            .extent();
         (seen.seen > 0).then_some(seen.least)
     }
 
     /// Evaluates one part again, recording every step. The numbers are those of the solution.
     pub fn explain(&self, part: usize) -> (PartLoss, Trace) {
         let t = self.transmission;
-        let s = &*self.scratch;
+        let s = self.scratch;
         let trace = Trace::default();
         let state = self.state();
         let info = &t.parts[part];
@@ -299,9 +322,11 @@ impl Solution<'_> {
         };
         let mut loss = t.part_loss(info, s);
         loss.result = match info.kind {
-            PartKind::Component(i) => super::loaded_loss(&t.components[i], &state, &s.uneven_loads, &book),
-            PartKind::Mesh(i) => t.mesh(i, s.tangential[i], s.work.drives[i], &state, &book),
-            PartKind::Drag(i) => t.drag(i, &state, &book),
+            PartKind::Component(i) => {
+                super::loaded_loss(&t.components[i], &state, &s.models.uneven_loads, &book, &mut true)
+            }
+            PartKind::Mesh(i) => t.mesh(i, s.models.tangential[i], s.work.drives[i], &state, &book, &mut true),
+            PartKind::Drag(i) => t.drag(i, &state, &book, &mut true),
         };
         (loss, trace)
     }

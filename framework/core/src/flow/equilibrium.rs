@@ -1,82 +1,89 @@
 //! Equilibrium of every member at given losses: one product with the inverse, and one small system for friction.
 
-use super::linear::{add, back, factor, larger, product};
 use super::system::{Flow, MeshRow};
-use super::work::{Active, Drive, Work};
+use super::work::{Drive, Work};
+use crate::real::{Mask as _, Points, Real};
 
 /// Relative to the fastest speed, speeds below this are rounding error.
 const STILL: f64 = 1e-12;
 
 impl Flow {
-    /// Torques for the losses in `work.used`; false if friction leaves no unique equilibrium.
-    pub(super) fn solve(&self, speeds: &[f64], work: &mut Work, kept: bool) -> bool {
+    /// Torques for the losses in `work.used`, refined to rounding where they are `kept`. Returns where friction leaves a unique
+    /// equilibrium; elsewhere the torques are as before.
+    #[inline(always)]
+    pub(super) fn solve<R: Points>(&self, work: &mut Work<R>, kept: R::Mask) -> R::Mask {
         self.outside(work);
-        if !self.friction(work) {
-            return false;
-        }
+        let regular = self.friction(work);
         self.step(work);
         std::mem::swap(&mut work.unknown, &mut work.step);
-        if kept {
+        if kept.any() {
             // One step of iterative refinement keeps the balance at rounding.
-            product(&self.base, &work.unknown, &mut work.residual);
+            self.base.product(&work.unknown, &mut work.residual);
             for (residual, right) in work.residual.iter().zip(&mut work.right) {
-                *right -= residual;
+                *right -= *residual;
             }
-            for own in &work.active {
-                let lost = own.share * work.unknown[own.row];
-                add(-lost, &self.friction[own.mesh].sides[own.side].change, &mut work.right);
+            for &mesh in &work.active {
+                let friction = &self.friction[mesh];
+                let lost = work.used.share(mesh) * work.unknown[friction.row];
+                let side = &friction.sides[driven_side(work.drives[mesh])];
+                side.change.add(-lost, &mut work.right);
             }
             self.step(work);
-            add(1.0, &work.step, &mut work.unknown);
+            for (unknown, step) in work.unknown.iter_mut().zip(&work.step) {
+                *unknown = R::select(kept, *unknown + *step, *unknown);
+            }
         }
-        if !work.unknown.iter().all(|x| x.is_finite()) {
-            return false;
+        let size = work.unknown[..self.size].iter();
+        let size = size.fold(R::ZERO, |sum, x| sum + x.magnitude());
+        let found = regular & size.is_below(R::constant(f64::INFINITY));
+        if !found.any() {
+            return found;
         }
-        for ((multiplier, x), scale) in work.multipliers.iter_mut().zip(&work.unknown).zip(&self.scale) {
-            *multiplier = x * scale;
+        let (rows, ports) = work.unknown[..self.size].split_at(self.rows);
+        for ((multiplier, x), scale) in work.multipliers.iter_mut().zip(rows).zip(&self.scale) {
+            *multiplier = R::select(found, *x * *scale, *multiplier);
         }
-        for (port, torque) in self.unknown.iter().zip(&work.unknown[self.rows..]) {
-            work.ports[*port] = *torque;
+        for (port, torque) in self.unknown.iter().zip(ports) {
+            work.ports[*port] = R::select(found, *torque, work.ports[*port]);
         }
-        self.powers(speeds, work);
-        true
+        self.powers(work);
+        found
     }
 
     /// Copies the values that are constant over all solves of a point: given torques, and the speeds of the gears of each mesh.
-    pub(super) fn prepare(&self, speeds: &[f64], torques: &[f64], work: &mut Work) {
-        work.ports.fill(0.0);
-        for (port, torque) in self.given.iter().zip(torques) {
-            work.ports[*port] += torque;
+    #[inline(always)]
+    pub(super) fn prepare<R: Points>(&self, work: &mut Work<R>) {
+        work.ports.fill(R::ZERO);
+        for (port, torque) in self.given.iter().zip(&work.given) {
+            work.ports[*port] += *torque;
         }
-        work.applied.fill(0.0);
+        work.multipliers.fill(R::ZERO);
+        work.applied.fill(R::ZERO);
         work.applied[..self.columns].copy_from_slice(&work.ports);
-        self.relative(speeds, &mut work.relative);
-    }
-
-    /// Speeds of second and first gear of each mesh in the carrier's frame; zero if they are rounding error.
-    pub(super) fn relative(&self, speeds: &[f64], relative: &mut [[f64; 2]]) {
-        let still = STILL * speeds.iter().fold(0.0, |most, w| larger(most, w.abs()));
-        for (relative, mesh) in relative.iter_mut().zip(&self.meshes) {
-            *relative = [mesh.second, mesh.first].map(|gear| relative_speed(gear, mesh, speeds, still));
+        let fastest = work.speeds.iter().fold(R::ZERO, |most, w| most.larger(w.magnitude()));
+        for (relative, mesh) in work.relative.iter_mut().zip(&self.meshes) {
+            *relative = [mesh.second, mesh.first].map(|gear| relative_speed(gear, mesh, &work.speeds, fastest * STILL));
         }
     }
 
     /// The right-hand side: given torques, drags, and losses of meshes that are not a share of their power.
-    fn outside(&self, work: &mut Work) {
+    #[inline(always)]
+    fn outside<R: Points>(&self, work: &mut Work<R>) {
         for (right, applied) in work.right.iter_mut().zip(&work.applied) {
-            *right = -applied;
+            *right = -*applied;
         }
         for (right, drag) in work.right.iter_mut().zip(work.used.drags()) {
-            *right -= drag;
+            *right -= *drag;
         }
         for (k, mesh) in self.meshes.iter().enumerate() {
             let loss = work.used.constant(k);
             let side = driven_side(work.drives[k]);
             let relative = work.relative[k][side];
-            if loss == 0.0 || relative == 0.0 {
+            let acts = !(loss.is_zero() | relative.is_zero());
+            if !acts.any() {
                 continue;
             }
-            let torque = loss / relative;
+            let torque = R::select(acts, loss / relative, R::ZERO);
             if let Some(driven) = [mesh.second, mesh.first][side] {
                 work.right[driven] += torque;
             }
@@ -86,81 +93,144 @@ impl Flow {
         }
     }
 
-    /// Factors the small system of the meshes with friction: identity plus responses times shares.
-    fn friction(&self, work: &mut Work) -> bool {
+    /// Factors the small system of the meshes with friction: identity plus responses times shares. Returns where it is regular.
+    #[inline(always)]
+    fn friction<R: Points>(&self, work: &mut Work<R>) -> R::Mask {
         work.active.clear();
-        for (mesh, (friction, drive)) in self.friction.iter().zip(&work.drives).enumerate() {
+        for mesh in 0..self.friction.len() {
+            if work.used.share(mesh).is_above(R::ZERO).any() {
+                work.active.push(mesh);
+            }
+        }
+        let n = work.active.len();
+        for (j, &mesh) in work.active.iter().enumerate() {
             let share = work.used.share(mesh);
-            if share > 0.0 {
-                work.active.push(Active {
-                    mesh,
-                    row: friction.row,
-                    side: driven_side(*drive),
-                    share,
-                });
+            let coupling = &self.friction[mesh].sides[driven_side(work.drives[mesh])].coupling;
+            let column = &mut work.small[j * n..(j + 1) * n];
+            for (entry, &other) in column.iter_mut().zip(&work.active) {
+                *entry = share * coupling[other];
             }
+            column[j] = column[j] + 1.0;
         }
-        let count = work.active.len();
-        for (j, own) in work.active.iter().enumerate() {
-            let coupling = &self.friction[own.mesh].sides[own.side].coupling;
-            let column = &mut work.small[j * count..(j + 1) * count];
-            for (entry, other) in column.iter_mut().zip(&work.active) {
-                *entry = coupling[other.mesh] * own.share;
-            }
-            column[j] += 1.0;
-        }
-        factor(&mut work.small[..count * count], &mut work.order[..count], count)
+        eliminate(&mut work.small[..n * n], &mut work.order[..n])
     }
 
     /// The solution for the right-hand side (Sherman, Morrison and Woodbury).
-    fn step(&self, work: &mut Work) {
-        product(&self.inverse, &work.right, &mut work.step);
-        let count = work.active.len();
-        if count == 0 {
+    #[inline(always)]
+    fn step<R: Points>(&self, work: &mut Work<R>) {
+        self.inverse.product(&work.right, &mut work.step);
+        let n = work.active.len();
+        if n == 0 {
             return;
         }
-        for (share, own) in work.shares.iter_mut().zip(&work.active) {
-            *share = work.step[own.row];
+        for (share, &mesh) in work.shares.iter_mut().zip(&work.active) {
+            *share = work.step[self.friction[mesh].row];
         }
-        back(
-            &work.small[..count * count],
-            &work.order[..count],
-            count,
-            &mut work.shares[..count],
-        );
-        for (share, own) in work.shares.iter().zip(&work.active) {
-            let lost = share * own.share;
-            add(-lost, &self.friction[own.mesh].sides[own.side].response, &mut work.step);
+        substitute(&work.small[..n * n], &work.order[..n], &mut work.shares[..n]);
+        for (share, &mesh) in work.shares.iter().zip(&work.active) {
+            let lost = *share * work.used.share(mesh);
+            let side = &self.friction[mesh].sides[driven_side(work.drives[mesh])];
+            side.response.add(-lost, &mut work.step);
         }
     }
 
     /// Rolling powers, the largest internal power, and the losses of meshes as used.
-    fn powers(&self, speeds: &[f64], work: &mut Work) {
-        let mut largest = 0.0_f64;
+    #[inline(always)]
+    fn powers<R: Points>(&self, work: &mut Work<R>) {
+        let mut largest = R::ZERO;
         for (k, mesh) in self.meshes.iter().enumerate() {
             let relative = work.relative[k];
             let rolling = -work.multipliers[mesh.row] * mesh.z1 * relative[1];
-            largest = larger(largest, rolling.abs());
-            let moves = relative[driven_side(work.drives[k])] != 0.0;
-            let constant = if moves { work.used.constant(k) } else { 0.0 };
-            work.mesh_loss[k] = work.used.share(k) * rolling.abs() + constant;
+            largest = largest.larger(rolling.magnitude());
+            let still = relative[driven_side(work.drives[k])].is_zero();
+            let constant = R::select(still, R::ZERO, work.used.constant(k));
+            work.mesh_loss[k] = work.used.share(k) * rolling.magnitude() + constant;
             work.rolling[k] = rolling;
         }
-        for (speed, torque) in speeds.iter().zip(&work.ports) {
-            largest = larger(largest, (speed * torque).abs());
+        for (speed, torque) in work.speeds.iter().zip(&work.ports) {
+            largest = largest.larger((*speed * *torque).magnitude());
         }
         work.largest = largest;
     }
 }
 
+/// LU factors of a matrix, column by column; returns where it is regular. A point that is solved alone exchanges rows where another
+/// pivot is larger; among several, those that would are solved alone, which they hardly ever are: the matrix is close to identity.
+#[inline(always)]
+fn eliminate<R: Points>(matrix: &mut [R], order: &mut [usize]) -> R::Mask {
+    let n = order.len();
+    let mut regular = R::mask(|_| true);
+    for k in 0..n {
+        let mut most = R::ZERO;
+        for row in k + 1..n {
+            most = most.larger(matrix[k * n + row].magnitude());
+        }
+        order[k] = k;
+        let smaller = matrix[k * n + k].magnitude().is_below(most);
+        if smaller.any() {
+            if R::COUNT == 1 {
+                let rows = k + 1..n;
+                let own = rows
+                    .clone()
+                    .find(|row| matrix[k * n + row].magnitude().is_equal(most).any());
+                order[k] = own.unwrap_or(k);
+                for column in 0..n {
+                    matrix.swap(column * n + k, column * n + order[k]);
+                }
+            } else {
+                regular = regular & !smaller;
+            }
+        }
+        // Entries are of order one, because rows are scaled.
+        regular = regular & !matrix[k * n + k].magnitude().is_below(R::constant(1e-13));
+        // The inverse of the pivot is stored.
+        let inverse = R::constant(1.0) / matrix[k * n + k];
+        matrix[k * n + k] = inverse;
+        for row in k + 1..n {
+            matrix[k * n + row] = matrix[k * n + row] * inverse;
+        }
+        for later in k + 1..n {
+            let upper = matrix[later * n + k];
+            for row in k + 1..n {
+                let lower = matrix[k * n + row];
+                matrix[later * n + row] -= lower * upper;
+            }
+        }
+    }
+    regular
+}
+
+/// Solves with the factors of [`eliminate`], in place.
+#[inline(always)]
+fn substitute<R: Real>(factors: &[R], order: &[usize], x: &mut [R]) {
+    let n = order.len();
+    for (k, row) in order.iter().enumerate() {
+        x.swap(k, *row);
+    }
+    for k in 0..n {
+        let own = x[k];
+        for row in k + 1..n {
+            x[row] -= factors[k * n + row] * own;
+        }
+    }
+    for k in (0..n).rev() {
+        let own = x[k] * factors[k * n + k];
+        x[k] = own;
+        for row in 0..k {
+            x[row] -= factors[k * n + row] * own;
+        }
+    }
+}
+
 /// Speed of a gear in the carrier's frame; zero if it is rounding error.
-fn relative_speed(gear: Option<usize>, mesh: &MeshRow, speeds: &[f64], still: f64) -> f64 {
-    let speed = |column: Option<usize>| column.map_or(0.0, |c| speeds[c]);
+#[inline(always)]
+fn relative_speed<R: Real>(gear: Option<usize>, mesh: &MeshRow, speeds: &[R], still: R) -> R {
+    let speed = |column: Option<usize>| column.map_or(R::ZERO, |c| speeds[c]);
     let relative = speed(gear) - speed(mesh.carrier);
-    if relative.abs() <= still { 0.0 } else { relative }
+    R::select(relative.magnitude().is_above(still), relative, R::ZERO)
 }
 
 /// Which side of [`super::system::Friction`] loses torque.
-fn driven_side(drive: Drive) -> usize {
+pub(super) fn driven_side(drive: Drive) -> usize {
     usize::from(drive == Drive::Second)
 }

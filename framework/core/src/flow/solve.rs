@@ -1,76 +1,92 @@
-//! The iteration between torque and loss.
+//! The iteration between torque and loss, of one point or of several together.
+//!
+//! Points that are solved together have the driving gears in common. The leading point, that with the largest power, decides them;
+//! points that would decide otherwise, and those that do not converge soon, leave and are solved alone. The operations of a point
+//! are the same either way.
 
-use super::linear::larger;
 use super::system::Flow;
 use super::work::{Drive, FlowState, Outcome, Tolerance, Work};
+use crate::real::{Mask as _, Points};
 
 /// Relative to the largest internal power, a rolling power below this has no direction.
-pub(super) const NO_POWER: f64 = 1e-13;
+const NO_POWER: f64 = 1e-13;
 /// A driving gear that changes more often than this indicates a train that may be self-locking.
 const TURNS: u8 = 4;
 /// Iterations without progress after which steps are halved.
-pub(super) const PATIENCE: usize = 10;
+const PATIENCE: usize = 10;
+/// Iterations after which points that are solved together leave; up to here, no step is halved.
+const TOGETHER: usize = PATIENCE - 2;
 /// Safety factor: the remaining error is estimated from two steps.
-pub(super) const SAFETY: f64 = 0.5;
+const SAFETY: f64 = 0.5;
 /// Maximum extrapolation, in steps in either direction.
-pub(super) const REACH: (f64, f64) = (-9.0, 0.9);
+const REACH: (f64, f64) = (-9.0, 0.9);
 
 impl Flow {
-    /// The power flow without losses. Speeds of all columns; torques of the given ports in their order.
-    pub fn ideal(&self, speeds: &[f64], torques: &[f64], work: &mut Work) {
-        work.used.values.fill(0.0);
-        work.drags.fill(0.0);
-        work.mismatch = 0.0;
-        self.begin(speeds, torques, work, true);
+    /// The power flow without losses, at the speeds and given torques of the work.
+    pub fn ideal<R: Points>(&self, work: &mut Work<R>) {
+        work.live = R::mask(|_| true);
+        work.used.values.fill(R::ZERO);
+        work.drags.fill(R::ZERO);
+        work.mismatch = R::ZERO;
+        R::wide(
+            #[inline(always)]
+            || self.begin(work, R::mask(|_| true)),
+        );
     }
 
-    /// The power flow without mesh losses, for the drags in `work.used`, and the resulting driving gears; to rounding if it is
+    /// The power flow without mesh losses, for the drags in `work.used`, and the resulting driving gears; to rounding where it is
     /// `kept`.
-    fn begin(&self, speeds: &[f64], torques: &[f64], work: &mut Work, kept: bool) {
-        self.prepare(speeds, torques, work);
+    #[inline(always)]
+    fn begin<R: Points>(&self, work: &mut Work<R>, kept: R::Mask) {
+        self.prepare(work);
         work.drives.fill(Drive::Neither);
-        if !self.solve(speeds, work, kept) {
-            // Reached only if torques overflow.
-            work.multipliers.fill(0.0);
-            work.ports.fill(0.0);
-            work.rolling.fill(0.0);
-            work.mesh_loss.fill(0.0);
-            work.largest = 0.0;
-        }
+        work.rolling.fill(R::ZERO);
+        work.mesh_loss.fill(R::ZERO);
+        work.largest = R::ZERO;
+        // There is none only if torques overflow.
+        self.solve(work, kept);
+        work.leading = (0..R::COUNT)
+            .filter(|point| work.live.at(*point))
+            .fold(0, |most, point| {
+                if work.largest.at(point) > work.largest.at(most) {
+                    point
+                } else {
+                    most
+                }
+            });
         for k in 0..self.meshes.len() {
-            work.drives[k] = drive(work.rolling[k], work.largest);
-            work.rolling[k] = if work.drives[k] == Drive::Neither {
-                0.0
-            } else {
-                work.rolling[k]
-            };
+            let drives = |point: usize| drive(work.rolling[k].at(point), work.largest.at(point));
+            let decided = drives(work.leading);
+            let agreed = R::mask(|point| drives(point) == decided);
+            work.drives[k] = decided;
+            if decided == Drive::Neither {
+                work.rolling[k] = R::ZERO;
+            }
+            work.keep(agreed);
         }
     }
 
-    /// The power flow with losses that `losses` computes from the torques; `steady` are the torques on all columns from drags that
-    /// are independent of torque, with which the initial torques are computed. The losses in `work` are those of the accepted
-    /// solve, so the power balance holds to rounding for any tolerance. The first iteration is a guess, so there are at least two.
-    pub fn real(
+    /// The power flow with losses that `losses` computes from the torques, at the speeds and given torques of the work. The losses in `work` are those of the accepted solve, so
+    /// the power balance holds to rounding for any tolerance. The first iteration is a guess, so there are at least two.
+    pub fn real<R: Points>(
         &self,
-        speeds: &[f64],
-        torques: &[f64],
-        steady: &[f64],
         tolerance: Tolerance,
-        work: &mut Work,
-        mut losses: impl FnMut(&mut FlowState<'_>),
+        work: &mut Work<R>,
+        mut losses: impl FnMut(&mut FlowState<'_, R>),
     ) -> Outcome {
-        work.used.values.fill(0.0);
-        work.used.drags_mut().copy_from_slice(steady);
-        self.begin(speeds, torques, work, false);
+        for values in [&mut work.used, &mut work.used_before, &mut work.answer_before] {
+            values.values.fill(R::ZERO);
+        }
+        work.used.drags_mut().copy_from_slice(&work.steady);
+        R::wide(
+            #[inline(always)]
+            || self.begin(work, R::mask(|_| false)),
+        );
         work.turned.fill(0);
+        work.passes = R::ZERO;
         let mut passes = 0;
-        let task = Task {
-            speeds,
-            torques,
-            tolerance,
-        };
-        let end = match self.iterate(task, work, &mut losses, &mut passes, false) {
-            End::Turning => self.patterns(task, work, &mut losses, &mut passes),
+        let end = match self.iterate(tolerance, work, &mut losses, &mut passes, false) {
+            End::Turning => self.patterns(tolerance, work, &mut losses, &mut passes),
             End::Agreed => Outcome::Converged { passes },
             End::Open => Outcome::NoConvergence,
         };
@@ -79,91 +95,130 @@ impl Flow {
     }
 
     /// Iterates models and equilibrium until they agree; `fixed` keeps the driving gears.
-    fn iterate(
+    fn iterate<R: Points>(
         &self,
-        task: Task<'_>,
-        work: &mut Work,
-        losses: &mut impl FnMut(&mut FlowState<'_>),
+        tolerance: Tolerance,
+        work: &mut Work<R>,
+        losses: &mut impl FnMut(&mut FlowState<'_, R>),
         passes: &mut usize,
         fixed: bool,
     ) -> End {
-        let Task { speeds, tolerance, .. } = task;
-        let mut known = false;
-        let (mut least, mut slow, mut damping) = (f64::INFINITY, 0, 1.0);
-        for _ in 0..tolerance.passes {
+        let mut steps = Steps::default();
+        work.done = R::mask(|_| false);
+        let most = if R::COUNT == 1 {
+            tolerance.passes
+        } else {
+            tolerance.passes.min(TOGETHER)
+        };
+        for _ in 0..most {
             *passes += 1;
-            if !evaluate_losses(speeds, work, losses) {
+            let finite = evaluate_losses(work, losses);
+            work.keep(finite);
+            if R::COUNT == 1 && !finite.all() {
                 return End::Open;
             }
-            self.weigh(speeds, work);
-            work.mismatch = work.entries().fold(0.0, |most, e| larger(most, e.mismatch().abs()));
-            let left = if known { remaining(work) } else { work.mismatch };
-            let last = known && left <= SAFETY * tolerance.power * work.largest;
-            if work.mismatch < least {
-                (least, slow) = (work.mismatch, 0);
-            } else {
-                slow += 1;
-                if slow == PATIENCE {
-                    (damping, slow) = (0.5 * damping, 0);
-                }
-            }
-            let back = if known && !last { secant(work) } else { 0.0 };
-            let pace = if last { 1.0 } else { damping };
-            self.advance(work, back, pace);
-            if !self.solve(speeds, work, last) {
+            let found = R::wide(
+                #[inline(always)]
+                || self.follow(tolerance, work, &mut steps),
+            );
+            work.keep(found);
+            if R::COUNT == 1 && !found.all() {
                 return if fixed { End::Turning } else { End::Open };
             }
-            known = true;
             if !fixed && turn(work) {
                 // The friction just used was on the wrong gear: this flow is invalid.
-                known = false;
-                least = f64::INFINITY;
+                steps = Steps {
+                    slow: steps.slow,
+                    damping: steps.damping,
+                    ..Steps::default()
+                };
+                work.done = R::mask(|_| false);
                 if work.turned.iter().any(|turned| *turned > TURNS) {
                     return End::Turning;
                 }
                 continue;
             }
-            if last {
+            work.passes = R::select(steps.last & !work.done, R::constant(*passes as f64), work.passes);
+            work.done = steps.last;
+            if (work.done | !work.live).all() {
                 return End::Agreed;
             }
         }
-        End::Open
+        work.keep(work.done);
+        if R::COUNT == 1 { End::Open } else { End::Agreed }
+    }
+
+    /// Follows the results of the models with the next torques. Returns where there are any.
+    #[inline(always)]
+    fn follow<R: Points>(&self, tolerance: Tolerance, work: &mut Work<R>, steps: &mut Steps<R>) -> R::Mask {
+        self.weigh(work);
+        work.list_live_entries();
+        let mut mismatch = R::ZERO;
+        for &entry in &work.live_entries {
+            mismatch = mismatch.larger(work.difference(entry).magnitude());
+        }
+        work.mismatch = mismatch;
+        steps.last = if steps.known {
+            let enough = work.largest * (SAFETY * tolerance.power);
+            work.done | !remaining(work).is_above(enough)
+        } else {
+            work.done
+        };
+        if R::COUNT == 1 {
+            steps.halve_without_progress(mismatch.at(0));
+        }
+        let back = if steps.known {
+            R::select(steps.last, R::ZERO, secant(work))
+        } else {
+            R::ZERO
+        };
+        let pace = R::select(steps.last, R::constant(1.0), R::constant(steps.damping));
+        self.advance(work, back, pace);
+        steps.known = true;
+        self.solve(work, steps.last)
     }
 
     /// Power per unit of each entry of the losses.
-    fn weigh(&self, speeds: &[f64], work: &mut Work) {
+    #[inline(always)]
+    fn weigh<R: Points>(&self, work: &mut Work<R>) {
         let meshes = self.meshes.len();
         for (weight, rolling) in work.weights.iter_mut().zip(&work.rolling) {
-            *weight = rolling.abs();
+            *weight = rolling.magnitude();
         }
-        work.weights[meshes..2 * meshes].fill(1.0);
-        for (weight, speed) in work.weights[2 * meshes..].iter_mut().zip(speeds) {
-            *weight = speed.abs();
+        work.weights[meshes..2 * meshes].fill(R::constant(1.0));
+        for (weight, speed) in work.weights[2 * meshes..].iter_mut().zip(&work.speeds) {
+            *weight = speed.magnitude();
         }
     }
 
-    /// The losses of the next solve: the result, extrapolated by `back` towards the previous result, with relaxation.
-    fn advance(&self, work: &mut Work, back: f64, pace: f64) {
-        let answers = work.answer.values.iter().zip(&mut work.answer_before.values);
-        let uses = work.used.values.iter_mut().zip(&mut work.used_before.values);
-        for ((used, used_before), (answer, answer_before)) in uses.zip(answers) {
-            *used_before = *used;
-            *used += pace * (answer - back * (answer - *answer_before) - *used);
-            *answer_before = *answer;
-        }
-        for magnitude in &mut work.used.values[..2 * self.meshes.len()] {
-            *magnitude = magnitude.max(0.0);
+    /// The losses of the next solve: the result, extrapolated by `back` towards the previous result, with relaxation. Those of
+    /// converged points stay.
+    #[inline(always)]
+    fn advance<R: Points>(&self, work: &mut Work<R>, back: R, pace: R) {
+        for &entry in &work.live_entries {
+            let (used, answer) = (work.used.values[entry], work.answer.values[entry]);
+            let next = used + pace * (answer - back * (answer - work.answer_before.values[entry]) - used);
+            let magnitude = entry < 2 * self.meshes.len();
+            let next = if magnitude { next.at_least(0.0) } else { next };
+            work.used_before.values[entry] = used;
+            work.used.values[entry] = R::select(work.done, used, next);
+            work.answer_before.values[entry] = answer;
         }
     }
 
     /// Tries patterns of the meshes whose driving gear kept changing, in order of the number of changes to the ideal pattern.
-    fn patterns(
+    fn patterns<R: Points>(
         &self,
-        task: Task<'_>,
-        work: &mut Work,
-        losses: &mut impl FnMut(&mut FlowState<'_>),
+        tolerance: Tolerance,
+        work: &mut Work<R>,
+        losses: &mut impl FnMut(&mut FlowState<'_, R>),
         passes: &mut usize,
     ) -> Outcome {
+        if R::COUNT > 1 {
+            // Each point has its own pattern.
+            work.live = R::mask(|_| false);
+            return Outcome::Converged { passes: *passes };
+        }
         let mut doubtful = [0_usize; 8];
         let mut count = 0;
         for k in 0..self.meshes.len() {
@@ -175,11 +230,11 @@ impl Flow {
                 count += 1;
             }
         }
-        self.ideal(task.speeds, task.torques, work);
+        self.ideal(work);
         work.ideal.copy_from_slice(&work.drives);
         for changes in 0..=count as u32 {
             for pattern in (0..1_u32 << count).filter(|p| p.count_ones() == changes) {
-                self.ideal(task.speeds, task.torques, work);
+                self.ideal(work);
                 for (bit, &k) in doubtful[..count].iter().enumerate() {
                     if pattern >> bit & 1 == 1 {
                         work.drives[k] = if work.ideal[k] == Drive::Second {
@@ -189,9 +244,9 @@ impl Flow {
                         };
                     }
                 }
-                let end = self.iterate(task, work, losses, passes, true);
+                let end = self.iterate(tolerance, work, losses, passes, true);
                 let agrees = |k: usize| {
-                    let now = drive(work.rolling[k], work.largest);
+                    let now = drive(work.rolling[k].at(0), work.largest.at(0));
                     now == Drive::Neither || now == work.drives[k]
                 };
                 if matches!(end, End::Agreed) && (0..self.meshes.len()).all(agrees) {
@@ -203,17 +258,47 @@ impl Flow {
     }
 }
 
-/// The problem and its tolerance.
-#[derive(Clone, Copy)]
-struct Task<'a> {
-    speeds: &'a [f64],
-    torques: &'a [f64],
-    tolerance: Tolerance,
+/// The steps of one loop.
+struct Steps<R: Points> {
+    /// True once the values of two iterations are known.
+    known: bool,
+    /// Points for which the iteration is the last one.
+    last: R::Mask,
+    /// Smallest mismatch so far, and the iterations since.
+    least: f64,
+    slow: usize,
+    /// Share of a step that is taken.
+    damping: f64,
+}
+
+impl<R: Points> Default for Steps<R> {
+    fn default() -> Self {
+        Self {
+            known: false,
+            last: R::mask(|_| false),
+            least: f64::INFINITY,
+            slow: 0,
+            damping: 1.0,
+        }
+    }
+}
+
+impl<R: Points> Steps<R> {
+    fn halve_without_progress(&mut self, mismatch: f64) {
+        if mismatch < self.least {
+            (self.least, self.slow) = (mismatch, 0);
+            return;
+        }
+        self.slow += 1;
+        if self.slow == PATIENCE {
+            (self.damping, self.slow) = (0.5 * self.damping, 0);
+        }
+    }
 }
 
 /// How a loop ended.
 enum End {
-    /// Loads and losses agree.
+    /// Loads and losses agree at all points that have not left.
     Agreed,
     /// A driving gear changed too often, or the tried pattern has no equilibrium.
     Turning,
@@ -221,41 +306,73 @@ enum End {
     Open,
 }
 
-/// Evaluates the losses of the models at the present torques; false if a result is NaN.
-fn evaluate_losses(speeds: &[f64], work: &mut Work, losses: &mut impl FnMut(&mut FlowState<'_>)) -> bool {
-    work.model_losses.fill(0.0);
-    work.answer.drags_mut().fill(0.0);
+/// Evaluates the losses of the models at the present torques. Returns where all of them are finite.
+fn evaluate_losses<R: Points>(work: &mut Work<R>, losses: &mut impl FnMut(&mut FlowState<'_, R>)) -> R::Mask {
+    R::wide(
+        #[inline(always)]
+        || {
+            // What belongs to converged points stays, so that their losses are those of the accepted torques.
+            let done = work.done;
+            let pairs = work.evaluated.iter_mut().zip(&work.multipliers);
+            for (evaluated, now) in pairs.chain(work.evaluated_ports.iter_mut().zip(&work.ports)) {
+                *evaluated = R::select(done, *evaluated, *now);
+            }
+        },
+    );
+    work.model_losses.fill(R::ZERO);
+    work.answer.drags_mut().fill(R::ZERO);
     losses(&mut FlowState {
-        speeds,
-        multipliers: &work.multipliers,
+        speeds: &work.speeds,
+        steady: &work.steady,
+        multipliers: &work.evaluated,
         drives: &work.drives,
-        ports: &work.ports,
+        ports: &work.evaluated_ports,
+        live: &mut work.live,
         mesh_loss: &mut work.model_losses,
         drags: work.answer.drags_mut(),
     });
-    for (k, loss) in work.model_losses.iter().enumerate() {
-        work.answer.set_mesh(k, *loss, work.rolling[k].abs());
-    }
-    work.model_losses
-        .iter()
-        .chain(work.answer.drags())
-        .all(|x| x.is_finite())
+    R::wide(
+        #[inline(always)]
+        || {
+            let mut sum = R::ZERO;
+            for (k, loss) in work.model_losses.iter().enumerate() {
+                work.answer.set_mesh(k, *loss, work.rolling[k].magnitude());
+                sum += loss.magnitude();
+            }
+            for drag in work.answer.drags() {
+                sum += drag.magnitude();
+            }
+            sum.is_below(R::constant(f64::INFINITY))
+        },
+    )
 }
 
-/// Adopts the driving gears of the last solve; true if one of them was assumed differently.
-fn turn(work: &mut Work) -> bool {
+/// Adopts the driving gears of the last solve as the leading point decides; true if one of them was assumed differently.
+fn turn<R: Points>(work: &mut Work<R>) -> bool {
     let mut turned = false;
+    if !work.live.at(work.leading) {
+        // All points that are left agree so far.
+        work.leading = (0..R::COUNT).find(|point| work.live.at(*point)).unwrap_or(0);
+    }
     for k in 0..work.drives.len() {
-        let now = drive(work.rolling[k], work.largest);
-        if now == Drive::Neither || now == work.drives[k] {
-            continue;
-        }
-        if work.drives[k] == Drive::Neither {
-            turned |= work.used.share(k) > 0.0 || work.used.constant(k) > 0.0;
-        } else {
-            turned = true;
+        let before = work.drives[k];
+        // The driving gear after the solve, and whether another one was assumed.
+        let decide = |point: usize| {
+            let now = drive(work.rolling[k].at(point), work.largest.at(point));
+            if now == Drive::Neither || now == before {
+                return (before, false);
+            }
+            let lost = work.used.share(k).at(point) > 0.0 || work.used.constant(k).at(point) > 0.0;
+            (now, before != Drive::Neither || lost)
+        };
+        let decided = decide(work.leading);
+        let agreed = R::mask(|point| decide(point) == decided);
+        work.keep(agreed);
+        let (now, wrong) = decided;
+        if wrong && before != Drive::Neither {
             work.turned[k] += 1;
         }
+        turned |= wrong;
         work.drives[k] = now;
     }
     turned
@@ -263,47 +380,45 @@ fn turn(work: &mut Work) -> bool {
 
 /// Expected error after one more plain step: the mismatch of each loss decreases as in the last step, or as all of them together,
 /// whichever is slower. A loss that has just appeared gives no rate yet.
-fn remaining(work: &Work) -> f64 {
-    let (moved, followed) = work.entries().fold((0.0, 0.0), |(moved, followed), entry| {
-        (
-            larger(moved, (entry.moved() * entry.weight).abs()),
-            larger(followed, (entry.followed() * entry.weight).abs()),
-        )
-    });
-    let common = if moved > 0.0 { followed / moved } else { 1.0 };
-    let mut most = 0.0;
-    for entry in work.entries() {
-        let mismatch = entry.mismatch().abs();
-        if mismatch == 0.0 {
-            continue;
-        }
-        let (moved, followed) = (entry.moved().abs(), entry.followed().abs());
-        let own = if followed < moved { followed / moved } else { 1.0 };
-        let falls = larger(common, own);
+#[inline(always)]
+fn remaining<R: Points>(work: &Work<R>) -> R {
+    let (mut moved, mut followed) = (R::ZERO, R::ZERO);
+    for &entry in &work.live_entries {
+        let (own_moved, own_followed) = work.changes(entry);
+        moved = moved.larger(own_moved * work.weights[entry].magnitude());
+        followed = followed.larger(own_followed * work.weights[entry].magnitude());
+    }
+    let one = R::constant(1.0);
+    let common = R::select(moved.is_above(R::ZERO), followed / moved, one);
+    let mut most = R::ZERO;
+    for &entry in &work.live_entries {
+        let mismatch = work.difference(entry).magnitude();
+        let (moved, followed) = work.changes(entry);
+        let own = R::select(followed.is_below(moved), followed / moved, one);
+        let falls = common.larger(own);
         // The sum of all following steps, as a geometric series.
-        most = larger(most, mismatch * falls / larger(1e-3, 1.0 - falls));
+        let left = mismatch * falls / R::constant(1e-3).larger(one - falls);
+        most = R::select(mismatch.is_zero(), most, most.larger(left));
     }
     most
 }
 
 /// Extrapolation factor towards the previous result that makes the mismatch along the last step vanish (Anderson 1965 with a depth
 /// of one).
-fn secant(work: &Work) -> f64 {
-    let (mut product, mut square) = (0.0, 0.0);
-    for entry in work.entries() {
-        let now = entry.mismatch();
-        let before = (entry.answer_before - entry.used_before) * entry.weight;
+#[inline(always)]
+fn secant<R: Points>(work: &Work<R>) -> R {
+    let (mut product, mut square) = (R::ZERO, R::ZERO);
+    for &entry in &work.live_entries {
+        let now = work.difference(entry);
+        let before = (work.answer_before.values[entry] - work.used_before.values[entry]) * work.weights[entry];
         product += now * (now - before);
         square += (now - before) * (now - before);
     }
-    if square > 0.0 {
-        (product / square).clamp(REACH.0, REACH.1)
-    } else {
-        0.0
-    }
+    let back = (product / square).at_least(REACH.0).at_most(REACH.1);
+    R::select(square.is_above(R::ZERO), back, R::ZERO)
 }
 
-pub(super) fn drive(rolling: f64, largest: f64) -> Drive {
+fn drive(rolling: f64, largest: f64) -> Drive {
     if rolling.abs() <= NO_POWER * largest {
         Drive::Neither
     } else if rolling > 0.0 {

@@ -1,7 +1,7 @@
 //! The square system of equilibrium: multipliers of rows and torques of ports.
 
-use super::batched::SparseFlow;
-use super::linear::{Panels, inverse, padded, product};
+use super::linear::inverse;
+use super::sparse::{SparseMatrix, SparseVector};
 use crate::kinematics::Train;
 
 /// A mesh among the rows.
@@ -63,9 +63,9 @@ pub(super) struct Friction {
 #[derive(Debug, Clone)]
 pub(super) struct Side {
     /// Change of the column per share of loss: less torque on the driven gear, the reaction on the carrier.
-    pub change: Vec<f64>,
+    pub change: SparseVector,
     /// The inverse times the change.
-    pub response: Vec<f64>,
+    pub response: SparseVector,
     /// Its entries at the rows of all meshes.
     pub coupling: Vec<f64>,
 }
@@ -77,11 +77,9 @@ pub struct Flow {
     pub(super) rows: usize,
     pub(super) size: usize,
     /// The matrix without friction.
-    pub(super) base: Panels,
+    pub(super) base: SparseMatrix,
     /// Its inverse.
-    pub(super) inverse: Panels,
-    /// Sparse copies of it and of the friction effects, for blocks of points.
-    pub(super) sparse: SparseFlow,
+    pub(super) inverse: SparseMatrix,
     /// Scale of each row: the unknown is the multiplier over its scale.
     pub(super) scale: Vec<f64>,
     pub(super) meshes: Vec<MeshRow>,
@@ -144,13 +142,13 @@ impl Flow {
         for &(row, part, member, equation) in &parts {
             base[row * size + equation] = part * base[row * size + member];
         }
-        let inverse = Panels::new(&inverse(base.clone(), size).ok_or(FlowFault::Singular)?, size);
+        let inverse = SparseMatrix::new(&inverse(base.clone(), size).ok_or(FlowFault::Singular)?, size);
         let friction: Vec<Friction> = meshes
             .iter()
             .map(|mesh| Friction {
                 row: mesh.row,
                 sides: [(mesh.second, mesh.sz2), (mesh.first, mesh.z1)].map(|(driven, coefficient)| {
-                    let mut change = vec![0.0; padded(size)];
+                    let mut change = vec![0.0; size];
                     if let Some(driven) = driven {
                         change[driven] -= coefficient * scale[mesh.row];
                     }
@@ -160,24 +158,21 @@ impl Flow {
                     for &(_, part, member, equation) in parts.iter().filter(|part| part.0 == mesh.row) {
                         change[equation] += part * change[member];
                     }
-                    let mut response = vec![0.0; padded(size)];
-                    product(&inverse, &change, &mut response);
-                    let coupling = meshes.iter().map(|other| response[other.row]).collect();
+                    let mut response = vec![0.0; size];
+                    inverse.product(&change, &mut response);
                     Side {
-                        change,
-                        response,
-                        coupling,
+                        coupling: meshes.iter().map(|other| response[other.row]).collect(),
+                        change: SparseVector::new(&change),
+                        response: SparseVector::new(&response),
                     }
                 }),
             })
             .collect();
-        let base = Panels::new(&base, size);
         Ok(Self {
             columns: n,
             rows: m,
             size,
-            sparse: SparseFlow::new(&base, &inverse, size, &friction),
-            base,
+            base: SparseMatrix::new(&base, size),
             inverse,
             scale,
             meshes,

@@ -115,50 +115,43 @@ fn solve_to(
     let meshes: Vec<MeshRow> = rig.meshes.iter().map(|m| m.0).collect();
     let flow = Flow::new(&train, meshes, rig.shares.clone(), &motion.loops, unknown, given).unwrap();
     let mut work = flow.work();
-    let torques: Vec<f64> = torque_ports.iter().map(|p| p.1).collect();
+    work.given = torque_ports.iter().map(|p| p.1).collect();
+    work.speeds.clone_from(&speeds);
     let tolerance = Tolerance { power, passes: 60 };
-    let steady = vec![0.0; rig.columns];
-    let outcome = flow.real(
-        &speeds,
-        &torques,
-        &steady,
-        tolerance,
-        &mut work,
-        |state: &mut FlowState<'_>| {
-            for (k, (mesh, _)) in rig.meshes.iter().enumerate() {
-                let speed = |c: Option<usize>| c.map_or(0.0, |c| state.speeds[c]);
-                let lambda = state.multipliers[mesh.row].abs();
-                let (z, column) = if state.drives[k] == Drive::Second {
-                    (mesh.sz2, mesh.second)
-                } else {
-                    (mesh.z1, mesh.first)
-                };
-                let relative = speed(column) - speed(mesh.carrier);
-                let relative = if relative.abs() < 1e-12 * speed(column).abs() {
-                    0.0
-                } else {
-                    relative
-                };
-                state.mesh_loss[k] = law(k, lambda * z.abs(), relative.abs());
-            }
-            for (a, b, moment) in &rig.drags {
-                let speed = |c: Option<usize>| c.map_or(0.0, |c: usize| state.speeds[c]);
-                let delta = speed(*a) - speed(*b);
-                if delta.abs() > 1e-12 * speed(*a).abs().max(speed(*b).abs()) {
-                    if let Some(a) = a {
-                        state.drags[*a] -= moment * delta.signum();
-                    }
-                    if let Some(b) = b {
-                        state.drags[*b] += moment * delta.signum();
-                    }
+    let outcome = flow.real(tolerance, &mut work, |state: &mut FlowState<'_>| {
+        for (k, (mesh, _)) in rig.meshes.iter().enumerate() {
+            let speed = |c: Option<usize>| c.map_or(0.0, |c| state.speeds[c]);
+            let lambda = state.multipliers[mesh.row].abs();
+            let (z, column) = if state.drives[k] == Drive::Second {
+                (mesh.sz2, mesh.second)
+            } else {
+                (mesh.z1, mesh.first)
+            };
+            let relative = speed(column) - speed(mesh.carrier);
+            let relative = if relative.abs() < 1e-12 * speed(column).abs() {
+                0.0
+            } else {
+                relative
+            };
+            state.mesh_loss[k] = law(k, lambda * z.abs(), relative.abs());
+        }
+        for (a, b, moment) in &rig.drags {
+            let speed = |c: Option<usize>| c.map_or(0.0, |c: usize| state.speeds[c]);
+            let delta = speed(*a) - speed(*b);
+            if delta.abs() > 1e-12 * speed(*a).abs().max(speed(*b).abs()) {
+                if let Some(a) = a {
+                    state.drags[*a] -= moment * delta.signum();
+                }
+                if let Some(b) = b {
+                    state.drags[*b] += moment * delta.signum();
                 }
             }
-            let more = extra(state);
-            for (drag, torque) in state.drags.iter_mut().zip(more) {
-                *drag += torque;
-            }
-        },
-    );
+        }
+        let more = extra(state);
+        for (drag, torque) in state.drags.iter_mut().zip(more) {
+            *drag += torque;
+        }
+    });
     let drag_loss = -work.drags.iter().zip(&speeds).map(|(d, w)| d * w).sum::<f64>();
     Solved {
         speeds,

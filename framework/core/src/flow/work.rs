@@ -1,7 +1,7 @@
 //! Workspace, model interface and outcome of one solve.
 
 use super::Flow;
-use super::linear::padded;
+use crate::real::{Mask as _, Points};
 
 /// Which gear of a mesh drives in the carrier's frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -34,26 +34,29 @@ impl Default for Tolerance {
 }
 
 /// Torques in one iteration, and the target of the losses that follow from them.
-#[derive(Debug)]
-pub struct FlowState<'a> {
+pub struct FlowState<'a, R: Points = f64> {
     /// Speeds of all columns. \[rad/s\]
-    pub speeds: &'a [f64],
+    pub speeds: &'a [R],
+    /// Torques on all columns from drags that are independent of torque. \[Nm\]
+    pub steady: &'a [R],
     /// Multipliers of the rows as written. \[Nm per coefficient\]
-    pub multipliers: &'a [f64],
+    pub multipliers: &'a [R],
     /// Which gear drives, by mesh.
     pub drives: &'a [Drive],
     /// Torques on all columns from ports. \[Nm\]
-    pub ports: &'a [f64],
+    pub ports: &'a [R],
+    /// The points that are solved; one is removed if a loss of it is undefined.
+    pub live: &'a mut R::Mask,
     /// Loss of each mesh, all copies together, to be written. \[W\]
-    pub mesh_loss: &'a mut [f64],
+    pub mesh_loss: &'a mut [R],
     /// Torques on all columns from drags, to be written; they oppose motion. \[Nm\]
-    pub drags: &'a mut [f64],
+    pub drags: &'a mut [R],
 }
 
 /// How the loop ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Outcome {
-    /// Loads and losses agree.
+    /// Loads and losses agree, at all points that have not left.
     Converged {
         /// Iterations over the loss models.
         passes: usize,
@@ -67,150 +70,160 @@ pub enum Outcome {
 /// Losses in the form used by the equilibrium: shares of rolling power of the meshes, then losses of meshes as constant powers,
 /// then torques of drags by column.
 #[derive(Debug, Clone)]
-pub(super) struct Losses {
-    pub values: Vec<f64>,
+pub(super) struct Losses<R> {
+    pub values: Vec<R>,
     meshes: usize,
 }
 
-impl Losses {
+impl<R: Points> Losses<R> {
     fn new(meshes: usize, columns: usize) -> Self {
         Self {
-            values: vec![0.0; 2 * meshes + columns],
+            values: vec![R::ZERO; 2 * meshes + columns],
             meshes,
         }
     }
-    pub fn share(&self, mesh: usize) -> f64 {
+    pub fn share(&self, mesh: usize) -> R {
         self.values[mesh]
     }
-    pub fn constant(&self, mesh: usize) -> f64 {
+    pub fn constant(&self, mesh: usize) -> R {
         self.values[self.meshes + mesh]
     }
-    pub fn drags(&self) -> &[f64] {
+    pub fn drags(&self) -> &[R] {
         &self.values[2 * self.meshes..]
     }
-    pub fn drags_mut(&mut self) -> &mut [f64] {
+    pub fn drags_mut(&mut self) -> &mut [R] {
         &mut self.values[2 * self.meshes..]
     }
     /// Writes the loss of a mesh as a share of its rolling power, or as a constant if the share is not small.
-    pub fn set_mesh(&mut self, mesh: usize, loss: f64, rolling: f64) {
-        let proportional = loss > 0.0 && loss < 0.5 * rolling;
-        self.values[mesh] = if proportional { loss / rolling } else { 0.0 };
-        self.values[self.meshes + mesh] = if proportional { 0.0 } else { loss.max(0.0) };
-    }
-}
-
-/// A mesh with friction in the present solve.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Active {
-    pub mesh: usize,
-    /// Number of its row.
-    pub row: usize,
-    /// Which side of [`super::system::Friction`] loses torque.
-    pub side: usize,
-    /// Share of its rolling power that is lost.
-    pub share: f64,
-}
-
-/// One entry of the losses over two iterations.
-pub(super) struct Entry {
-    pub used: f64,
-    pub used_before: f64,
-    pub answer: f64,
-    pub answer_before: f64,
-    /// Power per unit of the entry.
-    pub weight: f64,
-}
-
-impl Entry {
-    /// Difference of the result to the value used. \[W\]
-    pub fn mismatch(&self) -> f64 {
-        (self.answer - self.used) * self.weight
-    }
-    /// Change of the value in the last step.
-    pub fn moved(&self) -> f64 {
-        self.used - self.used_before
-    }
-    /// Change of the result in the last step.
-    pub fn followed(&self) -> f64 {
-        self.answer - self.answer_before
+    #[inline(always)]
+    pub fn set_mesh(&mut self, mesh: usize, loss: R, rolling: R) {
+        let proportional = loss.is_above(R::ZERO) & loss.is_below(rolling * 0.5);
+        self.values[mesh] = R::select(proportional, loss / rolling, R::ZERO);
+        self.values[self.meshes + mesh] = R::select(proportional, R::ZERO, loss.at_least(0.0));
     }
 }
 
 /// Workspace for one solve; made once, used for every point.
 #[derive(Debug, Clone)]
-pub struct Work {
+pub struct Work<R: Points = f64> {
+    /// Speeds of all columns. \[rad/s\]
+    pub speeds: Vec<R>,
+    /// Torques of the given ports, in their order. \[Nm\]
+    pub given: Vec<R>,
+    /// Torques on all columns from drags that are independent of torque. \[Nm\]
+    pub steady: Vec<R>,
     /// Multipliers of the rows as written.
-    pub multipliers: Vec<f64>,
+    pub multipliers: Vec<R>,
     /// Torques of ports on all columns.
-    pub ports: Vec<f64>,
+    pub ports: Vec<R>,
     /// Torques of drags on all columns.
-    pub drags: Vec<f64>,
+    pub drags: Vec<R>,
     /// Loss of each mesh as used in the accepted solve. \[W\]
-    pub mesh_loss: Vec<f64>,
+    pub mesh_loss: Vec<R>,
     /// Power that the first gear puts into each mesh, in the carrier's frame. \[W\]
-    pub rolling: Vec<f64>,
-    /// Which gear drives, by mesh.
+    pub rolling: Vec<R>,
+    /// Which gear drives, by mesh, at all points that have not left.
     pub drives: Vec<Drive>,
     /// Largest internal power of the accepted solve. \[W\]
-    pub largest: f64,
+    pub largest: R,
     /// Largest difference of power between the losses used last and the results of the models. \[W\]
-    pub mismatch: f64,
+    pub mismatch: R,
+    /// Points that are solved together. A point leaves if it decides otherwise than the leading one, and is solved alone.
+    pub live: R::Mask,
+    /// Iterations over the loss models of each point.
+    pub passes: R,
+    /// Points whose loads and losses agree; their torques no longer change.
+    pub(super) done: R::Mask,
+    /// The point that decides which gears drive.
+    pub(super) leading: usize,
+    /// Multipliers and port torques at which the models are evaluated.
+    pub(super) evaluated: Vec<R>,
+    pub(super) evaluated_ports: Vec<R>,
     /// Results of the models for the meshes. \[W\]
-    pub(super) model_losses: Vec<f64>,
+    pub(super) model_losses: Vec<R>,
     /// Losses in the last solve, in the one before, and the results of the models for each.
-    pub(super) used: Losses,
-    pub(super) used_before: Losses,
-    pub(super) answer: Losses,
-    pub(super) answer_before: Losses,
+    pub(super) used: Losses<R>,
+    pub(super) used_before: Losses<R>,
+    pub(super) answer: Losses<R>,
+    pub(super) answer_before: Losses<R>,
     /// Power per unit of each entry of the losses.
-    pub(super) weights: Vec<f64>,
+    pub(super) weights: Vec<R>,
+    /// Entries of the losses that changed in the last two iterations.
+    pub(super) live_entries: Vec<usize>,
     /// Number of changes of the driving gear of each mesh.
     pub(super) turned: Vec<u8>,
     pub(super) ideal: Vec<Drive>,
-    /// Given torques on all columns, padded.
-    pub(super) applied: Vec<f64>,
+    /// Given torques on all columns.
+    pub(super) applied: Vec<R>,
     /// Speeds of second and first gear of each mesh in the carrier's frame; zero if they are rounding error.
-    pub(crate) relative: Vec<[f64; 2]>,
-    pub(super) right: Vec<f64>,
-    pub(super) residual: Vec<f64>,
-    pub(super) unknown: Vec<f64>,
-    pub(super) step: Vec<f64>,
-    /// The small system of the meshes with friction.
-    pub(super) active: Vec<Active>,
-    pub(super) small: Vec<f64>,
+    pub(crate) relative: Vec<[R; 2]>,
+    pub(super) right: Vec<R>,
+    pub(super) residual: Vec<R>,
+    pub(super) unknown: Vec<R>,
+    pub(super) step: Vec<R>,
+    /// Meshes with friction in the present solve, and their small system.
+    pub(super) active: Vec<usize>,
+    pub(super) small: Vec<R>,
+    /// The row that was exchanged with each row of the small system.
     pub(super) order: Vec<usize>,
-    pub(super) shares: Vec<f64>,
+    pub(super) shares: Vec<R>,
 }
 
-impl Work {
+impl<R: Points> Work<R> {
     /// Computes the losses of an ideal power flow; they change no torque.
-    pub fn once(&mut self, speeds: &[f64], mut losses: impl FnMut(&mut FlowState<'_>)) {
-        self.model_losses.fill(0.0);
+    pub fn once(&mut self, mut losses: impl FnMut(&mut FlowState<'_, R>)) {
+        self.model_losses.fill(R::ZERO);
         losses(&mut FlowState {
-            speeds,
+            speeds: &self.speeds,
+            steady: &self.steady,
             multipliers: &self.multipliers,
             drives: &self.drives,
             ports: &self.ports,
+            live: &mut self.live,
             mesh_loss: &mut self.model_losses,
             drags: &mut self.drags,
         });
         self.mesh_loss.copy_from_slice(&self.model_losses);
-        self.drags.fill(0.0);
+        self.drags.fill(R::ZERO);
+        self.passes = R::constant(1.0);
     }
 
-    /// The entries of the losses.
-    pub(super) fn entries(&self) -> impl Iterator<Item = Entry> + '_ {
-        let uses = self.used.values.iter().zip(&self.used_before.values);
-        let answers = self.answer.values.iter().zip(&self.answer_before.values);
-        uses.zip(answers)
-            .zip(&self.weights)
-            .map(|(((used, used_before), (answer, answer_before)), weight)| Entry {
-                used: *used,
-                used_before: *used_before,
-                answer: *answer,
-                answer_before: *answer_before,
-                weight: *weight,
-            })
+    /// Removes the points where a condition does not hold. A point that is solved alone stays.
+    #[inline(always)]
+    pub(super) fn keep(&mut self, mask: R::Mask) {
+        if R::COUNT > 1 {
+            self.live = self.live & mask;
+        }
+    }
+
+    /// Difference of a result to the value used. \[W\]
+    #[inline(always)]
+    pub(super) fn difference(&self, entry: usize) -> R {
+        (self.answer.values[entry] - self.used.values[entry]) * self.weights[entry]
+    }
+
+    /// Change of a value in the last step, and of the result.
+    #[inline(always)]
+    pub(super) fn changes(&self, entry: usize) -> (R, R) {
+        let change = |now: &Losses<R>, before: &Losses<R>| (now.values[entry] - before.values[entry]).magnitude();
+        (
+            change(&self.used, &self.used_before),
+            change(&self.answer, &self.answer_before),
+        )
+    }
+
+    /// Lists the entries of the losses in which anything changes; the others change no sum.
+    #[inline(always)]
+    pub(super) fn list_live_entries(&mut self) {
+        self.live_entries.clear();
+        for entry in 0..self.weights.len() {
+            let [used, before, answer, answer_before] =
+                [&self.used, &self.used_before, &self.answer, &self.answer_before].map(|losses| losses.values[entry]);
+            let same = used.is_equal(answer) & used.is_equal(before) & answer.is_equal(answer_before);
+            if !same.all() {
+                self.live_entries.push(entry);
+            }
+        }
     }
 
     /// Meshes whose driving gear changed in the last solve; with [`Outcome::SelfLocking`] the locking ones.
@@ -229,37 +242,48 @@ impl Flow {
         self.columns
     }
 
-    /// Workspace for solving this flow.
-    pub fn work(&self) -> Work {
-        let (n, s, k) = (self.columns, padded(self.size), self.meshes.len());
+    /// Workspace for solving this flow at one point or at several.
+    pub fn work<R: Points>(&self) -> Work<R> {
+        let (n, s, k) = (self.columns, self.size.max(self.columns), self.meshes.len());
+        let zeros = |count: usize| vec![R::ZERO; count];
         let losses = Losses::new(k, n);
         Work {
-            multipliers: vec![0.0; self.rows],
-            ports: vec![0.0; n],
-            drags: vec![0.0; n],
-            mesh_loss: vec![0.0; k],
-            rolling: vec![0.0; k],
+            speeds: zeros(n),
+            given: zeros(self.given.len()),
+            steady: zeros(n),
+            multipliers: zeros(self.rows),
+            ports: zeros(n),
+            drags: zeros(n),
+            mesh_loss: zeros(k),
+            rolling: zeros(k),
             drives: vec![Drive::Neither; k],
-            largest: 0.0,
-            mismatch: 0.0,
-            model_losses: vec![0.0; k],
+            largest: R::ZERO,
+            mismatch: R::ZERO,
+            live: R::mask(|_| true),
+            passes: R::ZERO,
+            done: R::mask(|_| false),
+            leading: 0,
+            evaluated: zeros(self.rows),
+            evaluated_ports: zeros(n),
+            model_losses: zeros(k),
             used: losses.clone(),
             used_before: losses.clone(),
             answer: losses.clone(),
-            weights: vec![0.0; losses.values.len()],
+            weights: zeros(losses.values.len()),
+            live_entries: Vec::with_capacity(losses.values.len()),
             answer_before: losses,
             turned: vec![0; k],
             ideal: vec![Drive::Neither; k],
-            applied: vec![0.0; s],
-            relative: vec![[0.0; 2]; k],
-            right: vec![0.0; s],
-            residual: vec![0.0; s],
-            unknown: vec![0.0; s],
-            step: vec![0.0; s],
+            applied: zeros(s),
+            relative: vec![[R::ZERO; 2]; k],
+            right: zeros(s),
+            residual: zeros(s),
+            unknown: zeros(s),
+            step: zeros(s),
             active: Vec::with_capacity(k),
-            small: vec![0.0; k * k],
+            small: zeros(k * k),
             order: vec![0; k],
-            shares: vec![0.0; k],
+            shares: zeros(k),
         }
     }
 }

@@ -4,6 +4,7 @@
 //! when the first gear drives, B and D ends of double contact, C pitch point.
 
 use super::involute::{inverse_involute, involute};
+use crate::real::Real;
 
 /// Input data of a pair. SI; angles in rad.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -324,13 +325,13 @@ impl Pair {
     /// Normal force on the flanks at a torque of the first gear in N m. \[N\]
     // Written so that a loop over torques divides once.
     #[inline(always)]
-    pub fn normal_force(&self, torque: f64) -> f64 {
+    pub fn normal_force<R: Real>(&self, torque: R) -> R {
         torque * (1.0 / (self.base_radius[0] * self.cos_base_helix))
     }
 
     /// A force in N per face width. \[N/m\]
     #[inline(always)]
-    pub fn line_load(&self, force: f64) -> f64 {
+    pub fn line_load<R: Real>(&self, force: R) -> R {
         force * (1.0 / self.facewidth)
     }
 

@@ -4,11 +4,11 @@ use super::SupportLoad;
 use super::layout::{Layout, LoadFault, MemberLayout, SupportLayout};
 use super::statics::{Action, Reaction, Statics};
 use super::thrust::Taking;
+use crate::real::Real;
 
 /// Loads of all supports as a function of the tangential force of each mesh.
 #[derive(Debug, Clone)]
 pub struct ShaftLoads {
-    pub(super) supports: usize,
     /// Reactions by support.
     pub(super) cases: Vec<Cases>,
     /// Members from the supported to the supporting, without those whose thrust passes through their supports.
@@ -21,13 +21,13 @@ pub(super) struct Cases {
     /// To permanent loads.
     always: Reaction,
     /// To one newton of the tangential force of a mesh: of a positive one, and of a negative one.
-    pub meshes: Vec<(usize, [Reaction; 2])>,
+    meshes: Vec<(usize, [Reaction; 2])>,
     /// To the centrifugal force of a planet body per squared speed of its carrier.
     planets: Vec<(usize, Reaction)>,
     /// True if there can be a couple.
-    pub couples: bool,
+    couples: bool,
     /// If a single mesh loads the support: the length of the force per newton, positive and negative.
-    pub only: Option<(usize, [f64; 2])>,
+    only: Option<(usize, [f64; 2])>,
 }
 
 impl Cases {
@@ -67,20 +67,24 @@ impl Cases {
         }
     }
 
-    /// The part that is independent of torque, at the speeds of all members.
-    pub fn torqueless(&self, speed: impl Fn(usize) -> f64) -> Reaction {
-        let mut sum = self.always;
+    /// The force, or the couple, on the support; `part` chooses it. The part that is independent of torque depends on the squared
+    /// speed of carriers.
+    #[inline(always)]
+    fn sum<R: Real>(&self, part: impl Fn(&Reaction) -> [f64; 2], tangential: &[R], speeds: &[R]) -> [R; 2] {
+        let mut sum = part(&self.always).map(R::constant);
+        let mut add = |case: [R; 2], factor: R| {
+            sum[0] += factor * case[0];
+            sum[1] += factor * case[1];
+        };
         for (carrier, reaction) in &self.planets {
-            add(&mut sum, reaction, speed(*carrier).powi(2));
+            add(part(reaction).map(R::constant), speeds[*carrier] * speeds[*carrier]);
         }
-        sum
-    }
-
-    fn sum(&self, tangential: &[f64], speed: impl Fn(usize) -> f64) -> Reaction {
-        let mut sum = self.torqueless(speed);
-        for (mesh, senses) in &self.meshes {
+        for (mesh, [ahead, back]) in &self.meshes {
             let force = tangential[*mesh];
-            add(&mut sum, &senses[usize::from(force < 0.0)], force);
+            let backwards = force.is_below(R::ZERO);
+            let (ahead, back) = (part(ahead), part(back));
+            let case = [0, 1].map(|k| R::select(backwards, R::constant(back[k]), R::constant(ahead[k])));
+            add(case, force);
         }
         sum
     }
@@ -178,7 +182,6 @@ impl ShaftLoads {
             .collect();
         let order = passed_on(order);
         Ok(Self {
-            supports: layout.supports.len(),
             cases: cases
                 .iter()
                 .map(|reactions| Cases::new(reactions, layout.meshes.len(), &planets))
@@ -194,30 +197,34 @@ impl ShaftLoads {
 
     /// Writes the loads of all supports. `tangential` is the signed tangential force of one copy of each mesh (N), `speeds` are
     /// those of all members (rad/s), the length of `passed` is [`ShaftLoads::scratch_len`].
-    pub fn evaluate(&self, tangential: &[f64], speeds: &[f64], passed: &mut [f64], loads: &mut [SupportLoad]) {
-        for support in 0..self.supports {
-            let cases = &self.cases[support];
-            let sum = cases.sum(tangential, |m| speeds[m]);
-            loads[support] = SupportLoad {
+    #[inline(always)]
+    pub fn evaluate<R: Real>(&self, tangential: &[R], speeds: &[R], passed: &mut [R], loads: &mut [SupportLoad<R>]) {
+        for (cases, load) in self.cases.iter().zip(&mut *loads) {
+            *load = SupportLoad {
                 radial: match &cases.only {
                     Some((mesh, lengths)) => under(lengths, tangential[*mesh]),
-                    None => length(sum.force),
+                    None => length(cases.sum(|reaction| reaction.force, tangential, speeds)),
                 },
-                axial: 0.0,
+                axial: R::ZERO,
                 // Few supports take a couple, and a square root is expensive.
-                tilting: if cases.couples { length(sum.couple) } else { 0.0 },
-                untaken: 0.0,
+                tilting: if cases.couples {
+                    length(cases.sum(|reaction| reaction.couple, tangential, speeds))
+                } else {
+                    R::ZERO
+                },
+                untaken: R::ZERO,
             };
         }
         // Thrust that members pass on, and the magnitude of the forces in its sum.
         let (passed, sizes) = passed.split_at_mut(self.order.len());
-        passed.fill(0.0);
-        sizes.fill(0.0);
+        passed.fill(R::ZERO);
+        sizes.fill(R::ZERO);
         for (place, member) in self.order.iter().enumerate() {
-            let (mut thrust, mut scale) = (member.always, member.size);
+            let (mut thrust, mut scale) = (R::constant(member.always), R::constant(member.size));
             for (mesh, factor) in &member.meshes {
-                thrust += factor * tangential[*mesh];
-                scale += (factor * tangential[*mesh]).abs();
+                let own = tangential[*mesh] * *factor;
+                thrust += own;
+                scale += own.magnitude();
             }
             thrust += passed[place];
             scale += sizes[place];
@@ -232,9 +239,11 @@ impl ShaftLoads {
 
     /// The force of each support on its member, y and z, for given tangential forces at standstill. \[N\]
     pub fn vectors(&self, tangential: &[f64]) -> Vec<[f64; 2]> {
-        (0..self.supports)
-            .map(|support| self.cases[support].sum(tangential, |_| 0.0).force)
-            .collect()
+        // Carriers are the only members whose speed matters.
+        let carriers = self.cases.iter().flat_map(|cases| &cases.planets);
+        let still = vec![0.0; carriers.map(|(carrier, _)| carrier + 1).max().unwrap_or(0)];
+        let sum = |cases: &Cases| cases.sum(|reaction| reaction.force, tangential, &still);
+        self.cases.iter().map(sum).collect()
     }
 }
 
@@ -276,14 +285,16 @@ fn middle(supports: &[(usize, SupportLayout)]) -> f64 {
 }
 
 /// Length of a vector; forces are far from overflow, so `hypot` is not needed.
-fn length([y, z]: [f64; 2]) -> f64 {
-    (y * y + z * z).sqrt()
+#[inline(always)]
+fn length<R: Real>([y, z]: [R; 2]) -> R {
+    (y * y + z * z).root()
 }
 
 /// The length of the force on a support that a single mesh loads.
 #[inline(always)]
-pub(super) fn under([ahead, back]: &[f64; 2], force: f64) -> f64 {
-    force.abs() * if force < 0.0 { *back } else { *ahead }
+fn under<R: Real>([ahead, back]: &[f64; 2], force: R) -> R {
+    let backwards = force.is_below(R::ZERO);
+    force.magnitude() * R::select(backwards, R::constant(*back), R::constant(*ahead))
 }
 
 fn add(sum: &mut Reaction, case: &Reaction, factor: f64) {

@@ -2,6 +2,8 @@
 //!
 //! Source: ISO 76:2006: S0 = C0/P0 with P0 = X0 Fr + Y0 Fa, and never less than Fr for radial bearings.
 
+use crate::real::Real;
+
 /// Minimum static safety below which a bearing is reported: ISO 76 requires 1 in normal, smoothly running service with ball
 /// bearings, and more with roller bearings.
 pub const LEAST_STATIC_SAFETY: f64 = 1.0;
@@ -38,17 +40,16 @@ impl StaticFactors {
 
     /// Equivalent static load P0. \[N\]
     #[inline]
-    pub fn load(&self, radial: f64, axial: f64) -> f64 {
-        (self.radial * radial + self.axial * axial).max(self.least * radial)
+    pub fn load<R: Real>(&self, radial: R, axial: R) -> R {
+        (radial * self.radial + axial * self.axial).larger(radial * self.least)
     }
 }
 
 impl StaticRating {
-    /// Static safety S0 = C0/P0; `None` without load.
+    /// Static safety S0 = C0/P0; infinite without load.
     #[inline]
-    pub fn safety(&self, radial: f64, axial: f64) -> Option<f64> {
-        let p0 = self.factors.load(radial, axial.abs());
-        (p0 > 0.0).then(|| self.c0 / p0)
+    pub fn safety<R: Real>(&self, radial: R, axial: R) -> R {
+        R::constant(self.c0) / self.factors.load(radial, axial.magnitude())
     }
 }
 
@@ -63,10 +64,10 @@ mod tests {
             c0: 24_000.0,
             factors: StaticFactors::radial(0.6, 0.5),
         };
-        assert_eq!(rating.safety(3000.0, 1000.0), Some(8.0));
-        assert_eq!(rating.safety(1000.0, 3000.0), Some(24_000.0 / 2100.0));
-        assert_eq!(rating.safety(1000.0, -3000.0), Some(24_000.0 / 2100.0));
-        assert_eq!(rating.safety(0.0, 0.0), None);
+        assert_eq!(rating.safety(3000.0, 1000.0), 8.0);
+        assert_eq!(rating.safety(1000.0, 3000.0), 24_000.0 / 2100.0);
+        assert_eq!(rating.safety(1000.0, -3000.0), 24_000.0 / 2100.0);
+        assert_eq!(rating.safety(0.0, 0.0), f64::INFINITY);
     }
 
     #[test]
@@ -79,6 +80,6 @@ mod tests {
                 least: 0.0,
             },
         };
-        assert_eq!(rating.safety(10.0, 100_000.0), Some(0.5));
+        assert_eq!(rating.safety(10.0, 100_000.0), 0.5);
     }
 }

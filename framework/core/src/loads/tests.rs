@@ -1,8 +1,8 @@
 #![allow(clippy::unwrap_used)]
-use super::batched::tests::assert_batched_equals_single;
 use super::layout::Section;
 use super::*;
 use crate::attach::Axial;
+use crate::real::{LANES, Lane, Points, Real};
 use proptest::prelude::*;
 
 fn close(value: f64, printed: f64, scale: f64) {
@@ -113,7 +113,7 @@ fn two_speed() -> Layout {
 
 fn loads_of(layout: &Layout, tangential: &[f64]) -> (Vec<SupportLoad>, Vec<[f64; 2]>) {
     let solved = ShaftLoads::new(layout).unwrap();
-    assert_batched_equals_single(&solved, layout.meshes.len(), &vec![100.0; layout.members.len()]);
+    assert_several_equal_single(&solved, layout.meshes.len(), &vec![100.0; layout.members.len()]);
     let mut loads = vec![SupportLoad::default(); layout.supports.len()];
     let mut passed = vec![0.0; solved.scratch_len()];
     // Rotated first, so that the forces of the caller stay unchanged.
@@ -482,7 +482,7 @@ fn g_planet_bearing() {
         meshes: vec![sun, ring],
     };
     let solved = ShaftLoads::new(&layout).unwrap();
-    assert_batched_equals_single(&solved, layout.meshes.len(), &vec![100.0; layout.members.len()]);
+    assert_several_equal_single(&solved, layout.meshes.len(), &vec![100.0; layout.members.len()]);
     // The most loaded planet carries 1.1 times its share of 60 N m; the carrier turns at 750 rpm.
     let share = 1.1 * 60.0 / 3.0;
     let speeds = [0.0, 750.0 * std::f64::consts::PI / 30.0, 0.0, 0.0];
@@ -707,7 +707,7 @@ fn axial_case(a: SupportLayout, b: SupportLayout, thrust: f64) -> Result<(f64, f
         meshes: Vec::new(),
     };
     let solved = ShaftLoads::new(&layout)?;
-    assert_batched_equals_single(&solved, layout.meshes.len(), &vec![100.0; layout.members.len()]);
+    assert_several_equal_single(&solved, layout.meshes.len(), &vec![100.0; layout.members.len()]);
     let (loads, _) = loads_of(&layout, &[]);
     Ok((loads[0].axial, loads[1].axial, loads[0].untaken))
 }
@@ -921,6 +921,27 @@ fn e3_electric_drive_unit() {
             // The centre distances are printed to nine digits, which leaves seven in the small difference of the angles.
             assert!((load.radial - radial).abs() < 1e-6 * 7446.0, "{} {radial}", load.radial);
             assert!((load.axial - axial).abs() < 1e-6 * 7446.0, "{} {axial}", load.axial);
+        }
+    }
+}
+
+/// Asserts that the loads of several points equal those of each, to the bit.
+fn assert_several_equal_single(loads: &ShaftLoads, meshes: usize, speeds: &[f64]) {
+    // Forces of both signs and zero.
+    let force =
+        |k: usize, i: usize| 137.0 * (i as f64 - 5.0) * if (i + k) % 3 == 0 { -1.0 } else { 1.0 + 0.1 * k as f64 };
+    let supports = loads.vectors(&vec![0.0; meshes]).len();
+    let tangential: Vec<Lane> = (0..meshes).map(|k| Lane::each(|i| force(k, i))).collect();
+    let lanes: Vec<Lane> = speeds.iter().map(|speed| Lane::constant(*speed)).collect();
+    let mut together = vec![SupportLoad::<Lane>::default(); supports];
+    let mut passed = vec![Lane::ZERO; loads.scratch_len()];
+    loads.evaluate(&tangential, &lanes, &mut passed, &mut together);
+    for i in 0..LANES {
+        let own: Vec<f64> = (0..meshes).map(|k| force(k, i)).collect();
+        let mut alone = vec![SupportLoad::<f64>::default(); supports];
+        loads.evaluate(&own, speeds, &mut vec![0.0; loads.scratch_len()], &mut alone);
+        for (together, alone) in together.iter().zip(&alone) {
+            assert_eq!(together.at(i), *alone);
         }
     }
 }

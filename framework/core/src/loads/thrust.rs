@@ -3,18 +3,19 @@
 use super::SupportLoad;
 use super::layout::SupportLayout;
 use crate::attach::Axial;
+use crate::real::Real;
 
 /// The thrust arrangement of one member, over its own supports.
 #[derive(Debug, Clone)]
 pub struct Taking {
-    pub(super) supports: Vec<usize>,
+    supports: Vec<usize>,
     /// The two supports with a contact angle that load each other, which take thrust towards +x and -x, with their induced thrust
     /// per radial load.
-    pub(super) pair: Option<[(usize, f64); 2]>,
+    pair: Option<[(usize, f64); 2]>,
     /// Supports with a spring and its force. \[N\]
-    pub(super) springs: Vec<(usize, f64)>,
+    springs: Vec<(usize, f64)>,
     /// Supports that take thrust towards -x and towards +x, with their shares of it.
-    pub(super) takers: [Vec<(usize, f64)>; 2],
+    takers: [Vec<(usize, f64)>; 2],
 }
 
 impl Taking {
@@ -58,39 +59,42 @@ impl Taking {
 
     /// Adds the axial load of each support for a thrust towards +x; returns the untaken thrust. `scale` is the magnitude of the
     /// forces in the sum of the thrust.
-    pub fn share(&self, thrust: f64, scale: f64, loads: &mut [SupportLoad]) -> f64 {
+    #[inline(always)]
+    pub fn share<R: Real>(&self, thrust: R, scale: R, loads: &mut [SupportLoad<R>]) -> R {
         // Bearings with a contact angle load each other: the pair balances K + S_L against S_R.
         if let Some([(r, induced_r), (l, induced_l)]) = self.pair {
-            let (s_r, s_l) = (induced_r * loads[r].radial, induced_l * loads[l].radial);
+            let (s_r, s_l) = (loads[r].radial * induced_r, loads[l].radial * induced_l);
             let thrust = thrust + self.springs.iter().map(|s| s.1).sum::<f64>();
-            if thrust + s_l >= s_r {
-                loads[r].axial += thrust + s_l;
-                loads[l].axial += s_l;
-            } else {
-                loads[r].axial += s_r;
-                loads[l].axial += s_r - thrust;
-            }
-            return 0.0;
+            let left = (thrust + s_l).is_below(s_r);
+            loads[r].axial += R::select(left, s_r, thrust + s_l);
+            loads[l].axial += R::select(left, s_r - thrust, s_l);
+            return R::ZERO;
         }
         let mut rest = thrust;
         for (i, spring) in &self.springs {
-            loads[*i].axial += spring.abs();
-            rest += spring;
+            loads[*i].axial += R::constant(spring.abs());
+            rest += R::constant(*spring);
         }
-        if rest.abs() <= 1e-9 * scale {
-            return 0.0;
+        // What is rounding error is no thrust.
+        let rest = R::select(rest.magnitude().is_above(scale * 1e-9), rest, R::ZERO);
+        let mut untaken = R::ZERO;
+        for (takers, own) in self.takers.iter().zip([-rest, rest]) {
+            let own = own.at_least(0.0);
+            for (i, share) in takers {
+                loads[*i].axial += own * *share;
+            }
+            if takers.is_empty() {
+                untaken += own;
+            }
         }
-        let takers = &self.takers[usize::from(rest > 0.0)];
-        for (i, share) in takers {
-            loads[*i].axial += rest.abs() * share;
+        if self.takers.iter().all(|takers| !takers.is_empty()) {
+            return R::ZERO;
         }
-        if !takers.is_empty() {
-            return 0.0;
-        }
+        let untaken = R::select(rest.is_below(R::ZERO), -untaken, untaken);
         for i in &self.supports {
-            loads[*i].untaken = rest;
+            loads[*i].untaken = untaken;
         }
-        rest
+        untaken
     }
 }
 

@@ -2,31 +2,43 @@
 
 use std::cell::Cell;
 
-use super::{Extent, MOST_KEPT, NoteBase, Notes, Trace};
+use super::{MOST_KEPT, NoteBase, Notes, Seen, Trace};
+use crate::real::{Points, Real};
+
+/// Values that an instance keeps, once they have been computed.
+pub type Kept<R> = Option<[R; MOST_KEPT]>;
 
 /// Cells for the notes of all instances, space for the values that they keep, and the steps of an explanation. Made once per
 /// iteration; the notes of each instance are derived from it.
 #[derive(Debug, Clone, Copy)]
-pub struct Notebook<'a> {
+pub struct Notebook<'a, R: Real = f64> {
     /// Cells of limits and observed quantities; without them nothing is noted.
-    pub(crate) cells: &'a [Cell<Extent>],
-    /// Space for the values that each instance computes [once](Notes::once), initially NaN; without it nothing is kept.
-    pub(crate) kept: &'a [Cell<[f64; MOST_KEPT]>],
+    pub(crate) cells: &'a [Cell<Seen>],
+    /// The points that note, as bits.
+    pub(crate) points: u32,
+    /// Space for the values that each instance computes [once](Notes::once); without it nothing is kept.
+    pub(crate) kept: &'a [Cell<Kept<R>>],
+    /// The same for points that are evaluated one by one, if they have their speeds and oils in common.
+    pub(crate) kept_alone: &'a [Cell<Kept<f64>>],
     /// Target of recorded steps.
     pub(crate) trace: Option<&'a Trace>,
 }
 
-impl<'a> Notebook<'a> {
-    /// Nothing is noted or kept.
+impl Notebook<'_> {
+    /// Nothing is noted or kept, at one point.
     pub const CLOSED: Notebook<'static> = Notebook {
         cells: &[],
+        points: 1,
         kept: &[],
+        kept_alone: &[],
         trace: None,
     };
+}
 
+impl<'a, R: Real> Notebook<'a, R> {
     /// Notes of one instance, added to its previous notes.
     #[inline]
-    pub fn notes(&self, base: NoteBase) -> Notes<'a> {
+    pub fn notes(&self, base: NoteBase) -> Notes<'a, R> {
         Notes { base, book: *self }
     }
 
@@ -34,7 +46,21 @@ impl<'a> Notebook<'a> {
     #[inline]
     pub(crate) fn clear(&self, base: NoteBase) {
         for cell in self.cells.get(base.limits()..base.end()).unwrap_or_default() {
-            cell.set(Extent::EMPTY);
+            cell.set(Seen::NOTHING);
+        }
+    }
+}
+
+impl<'a, R: Points> Notebook<'a, R> {
+    /// The notebook of one of the points.
+    #[inline]
+    pub(crate) fn at(&self, point: usize) -> Notebook<'a> {
+        Notebook {
+            cells: self.cells,
+            points: self.points & 1 << point,
+            kept: self.kept_alone,
+            kept_alone: self.kept_alone,
+            trace: self.trace,
         }
     }
 }

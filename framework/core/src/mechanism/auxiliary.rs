@@ -3,6 +3,7 @@
 use crate::attach::{MemberSite, OnMember};
 use crate::loss::{Loss, Notes, Undefined};
 use crate::mechanism::{Component, Mechanism, NoPart, Scalar};
+use crate::real::{Points, Real};
 use crate::{answered_by, context};
 
 /// Marker of the mechanism; never constructed.
@@ -41,7 +42,7 @@ impl Mechanism for Auxiliary {
     const ANSWER: &'static str = "Torque taken from the shaft. [Nm]";
     const EXAMPLE: &'static str = "{}";
     type Part = NoPart;
-    type At<'a> = AuxiliaryAt<'a>;
+    type At<'a, R: Real> = AuxiliaryAt<'a, R>;
     type Answer = Loss;
     type Model = dyn AuxiliaryModel;
 
@@ -53,7 +54,7 @@ impl Component for Auxiliary {
     type Attachment = OnMember;
 
     #[inline(always)]
-    fn context<'a>(part: &'a NoPart, site: MemberSite<'a>, notes: Notes<'a>) -> AuxiliaryAt<'a> {
+    fn context<'a, R: Points>(part: &'a NoPart, site: MemberSite<'a, R>, notes: Notes<'a, R>) -> AuxiliaryAt<'a, R> {
         let oil = site.oil;
         AuxiliaryAt {
             part,

@@ -4,10 +4,10 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::attach::{Support, SupportSite};
-use crate::lanes::{LANES, Lane, LaneNotes, LossLanes, REMEMBERED, each, same_notes};
-use crate::loads::{LoadLanes, StaticFactors, StaticRating};
-use crate::loss::{Loss, NoteBase, Notes, Term, Undefined};
+use crate::loads::{StaticFactors, StaticRating};
+use crate::loss::{Loss, Notes, Term, Undefined};
 use crate::mechanism::{Component, Mechanism, Scalar};
+use crate::real::{Lane, Points, Real};
 use crate::{answered_by, context};
 
 /// Marker of the mechanism; never constructed.
@@ -22,39 +22,32 @@ pub trait BearingModel: Send + Sync {
     /// [`BearingAt::once`], which skips them in all iterations of a point but the first.
     fn loss(&self, at: &BearingAt<'_>) -> Result<Loss, Undefined>;
 
-    /// Batched [`loss`](Self::loss) at several loads, with all other quantities as in `at`, whose loads are unused; muted. The
-    /// result must have the bits of [`loss`](Self::loss), except for remembered powers ([`LossLanes::powers`]); the conformance
-    /// suite compares both. The default evaluates each lane separately.
-    fn losses(&self, at: &BearingAt<'_>, loads: &LoadLanes, losses: &mut LossLanes) {
-        one_by_one(self, at, loads, losses);
-    }
-
-    /// False if no limit or observed quantity depends on the load. [`note`](Self::note) is then called once for many points,
-    /// without load and without active lanes: it must use only [`LaneNotes::all`] or the notes of the context.
-    fn notes_depend_on_load(&self) -> bool {
-        true
-    }
-
-    /// Writes the notes of [`loss`](Self::loss) at these loads.
-    fn note(&self, at: &BearingAt<'_>, loads: &LoadLanes, notes: LaneNotes<'_>) {
-        if !self.notes_depend_on_load() {
-            let _ = self.loss(&at.under(loads, 0, notes.all()));
-            return;
-        }
-        for lane in (0..LANES).filter(|lane| notes.wanted(*lane)) {
-            // NaN excludes the lane, whose point is then evaluated as a single point.
-            let _ = self.loss(&at.under(loads, lane, notes.lane(lane)));
-        }
+    /// The losses at several points together; written by a [law](BearingLaw). An error has them evaluated one by one.
+    ///
+    /// # Errors
+    /// As [`Mechanism::answer_together`].
+    fn losses(&self, _at: &BearingAt<'_, Lane>) -> Result<Loss<Lane>, Undefined> {
+        Err(Undefined::DISAGREED)
     }
 }
 
-/// Evaluates a model in each lane: the default of [`BearingModel::losses`].
-pub fn one_by_one<M: BearingModel + ?Sized>(model: &M, at: &BearingAt<'_>, loads: &LoadLanes, losses: &mut LossLanes) {
-    for lane in 0..LANES {
-        if !losses.wanted(lane) {
-            continue;
-        }
-        losses.put(lane, model.loss(&at.under(loads, lane, at.notes)));
+/// A model of bearings that is written once for one point and for several; mark `loss` as `#[inline(always)]`, so that it uses wide
+/// instructions.
+pub trait BearingLaw: Send + Sync {
+    /// Loss at one operating point, or at several. Pure; must not allocate.
+    fn loss<R: Real>(&self, at: &BearingAt<'_, R>) -> Result<Loss<R>, Undefined>;
+}
+
+impl<L: BearingLaw> BearingModel for L {
+    fn loss(&self, at: &BearingAt<'_>) -> Result<Loss, Undefined> {
+        BearingLaw::loss(self, at)
+    }
+
+    fn losses(&self, at: &BearingAt<'_, Lane>) -> Result<Loss<Lane>, Undefined> {
+        Lane::wide(
+            #[inline(always)]
+            || BearingLaw::loss(self, at),
+        )
     }
 }
 
@@ -322,19 +315,6 @@ context! {
     }
 }
 
-impl<'a> BearingAt<'a> {
-    /// The context at the load of one lane.
-    #[inline]
-    fn under(&self, loads: &LoadLanes, lane: usize, notes: Notes<'a>) -> Self {
-        self.with(|to| {
-            to.radial = loads.radial[lane];
-            to.axial = loads.axial[lane];
-            to.tilting = loads.tilting[lane];
-            to.notes = notes;
-        })
-    }
-}
-
 impl Mechanism for Bearing {
     const KEY: &'static str = "bearing";
     const MEANING: &'static str = "Friction of a rolling bearing.";
@@ -342,63 +322,14 @@ impl Mechanism for Bearing {
     const EXAMPLE: &'static str = "{ kind: deep_groove_ball, series: \"63\", bore: 40 mm, outside: 90 mm, width: 23 mm, c0: 24000 N, c: 42300 N }";
     const TOTAL: Term = Term::load("total");
     type Part = BearingPart;
-    type At<'a> = BearingAt<'a>;
+    type At<'a, R: Real> = BearingAt<'a, R>;
     type Answer = Loss;
     type Model = dyn BearingModel;
 
     answered_by!(loss);
 
-    fn compare_batched(model: &Self::Model, at: &BearingAt<'_>, notes: NoteBase) -> Option<&'static str> {
-        let factor = |i: usize| 0.3 + 1.5 * i as f64 / LANES as f64;
-        let loads = LoadLanes {
-            radial: each(|i| at.radial * factor(i)),
-            // Some lanes without load.
-            axial: each(|i| if i % 5 == 0 { 0.0 } else { at.axial * factor(i) }),
-            tilting: each(|i| at.tilting * factor(i)),
-            untaken: Lane::ZERO,
-        };
-        let of = |lane: usize, notes: Notes<'_>| model.loss(&at.under(&loads, lane, notes));
-        let mut losses = LossLanes::NONE;
-        let without = at.with(|to| {
-            (to.radial, to.axial, to.tilting) = (0.0, 0.0, 0.0);
-            to.notes = Notes::MUTED;
-        });
-        model.losses(&without, &loads, &mut losses);
-        if !(0..LANES).all(|lane| losses.agrees(lane, &of(lane, Notes::MUTED), 0.0)) {
-            return Some("`losses` differs from `loss`");
-        }
-        // Remembered values come from another speed and similar loads.
-        let before = without.with(|to| to.speed *= 1.3);
-        let closer = |load: &Lane| each(|i| load[i] * 1.001);
-        let nearby = LoadLanes {
-            radial: closer(&loads.radial),
-            axial: closer(&loads.axial),
-            tilting: closer(&loads.tilting),
-            untaken: Lane::ZERO,
-        };
-        let mut remembered = LossLanes::remembering();
-        model.losses(&before, &nearby, &mut remembered);
-        model.losses(&without, &loads, &mut remembered);
-        if !(0..LANES).all(|lane| remembered.agrees(lane, &of(lane, Notes::MUTED), REMEMBERED)) {
-            return Some("`losses` remembers a value that is not a power of the loads times a constant");
-        }
-        // The single point notes values that are undefined at a load.
-        if (0..LANES).any(|lane| of(lane, Notes::MUTED).is_err()) {
-            return None;
-        }
-        let single = |lane: usize, notes: Notes<'_>| {
-            let _ = of(lane, notes);
-        };
-        let together = |notes: LaneNotes<'_>| model.note(&without.with(|to| to.notes = notes.all()), &loads, notes);
-        let same = same_notes(notes, single, together);
-        let once = |notes: LaneNotes<'_>| {
-            let notes = notes.for_a_row();
-            model.note(&without.with(|to| to.notes = notes.all()), &LoadLanes::NONE, notes);
-        };
-        if !model.notes_depend_on_load() && !same_notes(notes, single, once) {
-            return Some("a note depends on the load");
-        }
-        (!same).then_some("`note` writes other notes than `loss`")
+    fn answer_together(model: &Self::Model, at: &BearingAt<'_, Lane>) -> Result<Loss<Lane>, Undefined> {
+        model.losses(at)
     }
 }
 
@@ -407,7 +338,11 @@ impl Component for Bearing {
     type Attachment = Support;
 
     #[inline(always)]
-    fn context<'a>(part: &'a BearingPart, site: SupportSite<'a>, notes: Notes<'a>) -> BearingAt<'a> {
+    fn context<'a, R: Points>(
+        part: &'a BearingPart,
+        site: SupportSite<'a, R>,
+        notes: Notes<'a, R>,
+    ) -> BearingAt<'a, R> {
         let oil = site.oil;
         BearingAt {
             part,
@@ -419,29 +354,17 @@ impl Component for Bearing {
             temperature: oil.temperature,
             nu: oil.nu,
             rho: oil.rho,
-            oil_height: part.oil_height.unwrap_or_else(|| site.level.over_bottom(part.raceway)),
+            oil_height: part
+                .oil_height
+                .map_or_else(|| site.level.over_bottom(part.raceway), R::constant),
             mu_bl: oil.mu_bl,
             mu_ehl: oil.mu_ehl,
             notes,
         }
     }
 
-    fn losses(model: &Self::Model, at: &BearingAt<'_>, loads: &LoadLanes, losses: &mut LossLanes) -> bool {
-        model.losses(at, loads, losses);
-        true
-    }
-
-    fn notes_depend_on_load(model: &Self::Model) -> bool {
-        model.notes_depend_on_load()
-    }
-
     fn static_rating(part: &BearingPart) -> Option<StaticRating> {
         part.static_rating()
-    }
-
-    fn note(model: &Self::Model, at: &BearingAt<'_>, loads: &LoadLanes, notes: LaneNotes<'_>) -> bool {
-        model.note(at, loads, notes);
-        true
     }
 }
 

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::attach::{Clearance, ClearanceSite};
 use crate::loss::{Loss, Notes, Undefined};
 use crate::mechanism::{Component, Mechanism, Scalar};
+use crate::real::{Points, Real};
 use crate::{answered_by, context};
 
 /// Marker of the mechanism; never constructed.
@@ -64,7 +65,7 @@ impl Mechanism for Clutch {
     const ANSWER: &'static str = "Drag moment. [Nm]";
     const EXAMPLE: &'static str = "{ inner_diameter: 110 mm, outer_diameter: 140 mm, faces: 12, gap: 0.15 mm }";
     type Part = ClutchPart;
-    type At<'a> = ClutchAt<'a>;
+    type At<'a, R: Real> = ClutchAt<'a, R>;
     type Answer = Loss;
     type Model = dyn ClutchModel;
 
@@ -76,7 +77,11 @@ impl Component for Clutch {
     type Attachment = Clearance;
 
     #[inline(always)]
-    fn context<'a>(part: &'a ClutchPart, site: ClearanceSite<'a>, notes: Notes<'a>) -> ClutchAt<'a> {
+    fn context<'a, R: Points>(
+        part: &'a ClutchPart,
+        site: ClearanceSite<'a, R>,
+        notes: Notes<'a, R>,
+    ) -> ClutchAt<'a, R> {
         let oil = site.oil;
         ClutchAt {
             part,

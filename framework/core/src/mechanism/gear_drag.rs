@@ -7,6 +7,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 use crate::immersion;
 use crate::loss::{Loss, Undefined};
 use crate::mechanism::{Mechanism, ROUNDED, Scalar};
+use crate::real::Real;
 use crate::{answered_by, context};
 
 /// Marker of the mechanism; never constructed.
@@ -235,7 +236,7 @@ radial_clearance: 8 mm
 axial_clearance: 12 mm
 ";
     type Part = DragPart;
-    type At<'a> = GearDragAt<'a>;
+    type At<'a, R: Real> = GearDragAt<'a, R>;
     type Answer = Loss;
     type Model = dyn GearDragModel;
 

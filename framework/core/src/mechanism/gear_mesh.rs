@@ -7,11 +7,10 @@ use serde::{Deserialize, Serialize};
 
 use crate::description::gears::ShiftSign;
 use crate::geometry::{Pair, PairFault, PairSpec};
-use crate::lanes::{LANES, Lane, LaneNotes, LossLanes, REMEMBERED, each, same_notes};
-use crate::loss::{Loss, NoteBase, Notes, Term, Undefined};
+use crate::loss::{Loss, Term, Undefined};
 use crate::lubricant::Lubricant;
-use crate::mechanism::Mechanism;
-use crate::mechanism::Scalar;
+use crate::mechanism::{Answers, Mechanism, Scalar};
+use crate::real::{Lane, Mask as _, Points as _, Real};
 use crate::{answered_by, context};
 
 /// Marker of the mechanism; never constructed.
@@ -25,51 +24,32 @@ pub trait GearMeshModel: Send + Sync {
     /// Loss at one operating point. Pure; must not allocate.
     fn loss(&self, at: &GearMeshAt<'_>) -> Result<Loss, Undefined>;
 
-    /// True if a second evaluation for the notes costs more than batching saves, as for friction that is iterated at every point of
-    /// the path: points are then evaluated one by one.
-    fn is_costly(&self) -> bool {
-        false
-    }
-
-    /// Batched [`loss`](Self::loss) at several torques, with all other quantities as in `at`, whose torque is unused; muted. The
-    /// result must have the bits of [`loss`](Self::loss), except for remembered powers ([`LossLanes::powers`]); the conformance
-    /// suite compares both. The default evaluates each lane separately.
-    fn losses(&self, at: &GearMeshAt<'_>, torques: &Lane, losses: &mut LossLanes) {
-        one_by_one(self, at, torques, losses);
-    }
-
-    /// Writes the notes of [`loss`](Self::loss) at these torques, those of the last call of [`losses`](Self::losses).
-    fn note(&self, at: &GearMeshAt<'_>, torques: &Lane, _losses: &LossLanes, notes: LaneNotes<'_>) {
-        note_one_by_one(self, at, torques, notes);
+    /// The losses at several points together; written by a [law](GearMeshLaw). An error has them evaluated one by one.
+    ///
+    /// # Errors
+    /// As [`Mechanism::answer_together`].
+    fn losses(&self, _at: &GearMeshAt<'_, Lane>) -> Result<Loss<Lane>, Undefined> {
+        Err(Undefined::DISAGREED)
     }
 }
 
-/// Evaluates a model in each lane: the default of [`GearMeshModel::losses`].
-pub fn one_by_one<M: GearMeshModel + ?Sized>(model: &M, at: &GearMeshAt<'_>, torques: &Lane, losses: &mut LossLanes) {
-    for (lane, torque) in torques.iter().enumerate() {
-        if !losses.wanted(lane) {
-            continue;
-        }
-        losses.put(lane, model.loss(&at.with(|to| to.torque = *torque)));
-    }
+/// A model of gear meshes that is written once for one point and for several; mark `loss` as `#[inline(always)]`, so that it uses
+/// wide instructions.
+pub trait GearMeshLaw: Send + Sync {
+    /// Loss at one operating point, or at several. Pure; must not allocate.
+    fn loss<R: Answers>(&self, at: &GearMeshAt<'_, R>) -> Result<Loss<R>, Undefined>;
 }
 
-/// Writes the notes of each lane: the default of [`GearMeshModel::note`].
-pub fn note_one_by_one<M: GearMeshModel + ?Sized>(
-    model: &M,
-    at: &GearMeshAt<'_>,
-    torques: &Lane,
-    notes: LaneNotes<'_>,
-) {
-    for (lane, torque) in torques.iter().enumerate() {
-        if !notes.wanted(lane) {
-            continue;
-        }
-        // NaN excludes the lane, whose point is then evaluated as a single point.
-        let _ = model.loss(&at.with(|to| {
-            to.torque = *torque;
-            to.notes = notes.lane(lane);
-        }));
+impl<L: GearMeshLaw> GearMeshModel for L {
+    fn loss(&self, at: &GearMeshAt<'_>) -> Result<Loss, Undefined> {
+        GearMeshLaw::loss(self, at)
+    }
+
+    fn losses(&self, at: &GearMeshAt<'_, Lane>) -> Result<Loss<Lane>, Undefined> {
+        Lane::wide(
+            #[inline(always)]
+            || GearMeshLaw::loss(self, at),
+        )
     }
 }
 
@@ -286,10 +266,14 @@ context! {
     }
 }
 
-impl GearMeshAt<'_> {
+impl<R: Real> GearMeshAt<'_, R> {
     /// Body temperatures of both gears, if known. \[degC\]
-    pub fn bodies(&self) -> Option<[f64; 2]> {
-        (self.bodies_known > 0.5).then_some([self.temperature_1, self.temperature_2])
+    ///
+    /// # Errors
+    /// If they are known at some points only.
+    pub fn bodies(&self) -> Result<Option<[R; 2]>, Undefined> {
+        let known = self.bodies_known.is_above(R::HALF).agreed()?;
+        Ok(known.then_some([self.temperature_1, self.temperature_2]))
     }
 }
 
@@ -301,48 +285,14 @@ impl Mechanism for GearMesh {
 facewidth: 14 mm, tip_diameter: [82.636 mm, 118.544 mm], ra: [0.4 um, 0.4 um], rq: [0.5 um, 0.5 um] }";
     const TOTAL: Term = Term::load("total");
     type Part = MeshPart;
-    type At<'a> = GearMeshAt<'a>;
+    type At<'a, R: Real> = GearMeshAt<'a, R>;
     type Answer = Loss;
     type Model = dyn GearMeshModel;
 
     answered_by!(loss);
 
-    fn compare_batched(model: &Self::Model, at: &GearMeshAt<'_>, notes: NoteBase) -> Option<&'static str> {
-        let torques = each(|i| at.torque * (0.3 + 1.5 * i as f64 / LANES as f64));
-        let of = |lane: usize, notes: Notes<'_>| {
-            model.loss(&at.with(|to| {
-                to.torque = torques[lane];
-                to.notes = notes;
-            }))
-        };
-        let mut losses = LossLanes::NONE;
-        let without = at.with(|to| {
-            to.torque = 0.0;
-            to.notes = Notes::MUTED;
-        });
-        model.losses(&without, &torques, &mut losses);
-        if !(0..LANES).all(|lane| losses.agrees(lane, &of(lane, Notes::MUTED), 0.0)) {
-            return Some("`losses` differs from `loss`");
-        }
-        // Remembered values come from another speed and similar torques.
-        let before = without.with(|to| to.speed *= 1.3);
-        let mut remembered = LossLanes::remembering();
-        model.losses(&before, &each(|i| torques[i] * 1.001), &mut remembered);
-        model.losses(&without, &torques, &mut remembered);
-        if !(0..LANES).all(|lane| remembered.agrees(lane, &of(lane, Notes::MUTED), REMEMBERED)) {
-            return Some("`losses` remembers a value that is not a power of the torques times a constant");
-        }
-        // The single point notes values that are undefined at a torque.
-        if (0..LANES).any(|lane| of(lane, Notes::MUTED).is_err()) {
-            return None;
-        }
-        let single = |lane: usize, notes: Notes<'_>| {
-            let _ = of(lane, notes);
-        };
-        let together = |notes: LaneNotes<'_>| {
-            model.note(&without.with(|to| to.notes = notes.all()), &torques, &losses, notes);
-        };
-        (!same_notes(notes, single, together)).then_some("`note` writes other notes than `loss`")
+    fn answer_together(model: &Self::Model, at: &GearMeshAt<'_, Lane>) -> Result<Loss<Lane>, Undefined> {
+        model.losses(at)
     }
 }
 

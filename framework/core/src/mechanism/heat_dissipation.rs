@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::loss::Undefined;
 use crate::mechanism::Mechanism;
 use crate::mechanism::Scalar;
+use crate::real::Real;
 use crate::{answered_by, context};
 
 /// Marker of the mechanism; never constructed.
@@ -99,7 +100,7 @@ air_speed: 0 m/s
 ";
     const OWN: &'static [&'static str] = &["constant"];
     type Part = HousingPart;
-    type At<'a> = HeatDissipationAt<'a>;
+    type At<'a, R: Real> = HeatDissipationAt<'a, R>;
     type Answer = f64;
     type Model = dyn HeatDissipationModel;
 

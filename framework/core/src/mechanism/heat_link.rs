@@ -8,6 +8,7 @@ use crate::loss::Undefined;
 use crate::mechanism::Mechanism;
 use crate::mechanism::Scalar;
 use crate::mechanism::heat_dissipation::HousingPart;
+use crate::real::Real;
 use crate::{answered_by, context};
 
 /// Marker of the mechanism; never constructed.
@@ -117,7 +118,7 @@ gear:
   facewidth: 30 mm
 ";
     type Part = HeatLinkPart;
-    type At<'a> = HeatLinkAt<'a>;
+    type At<'a, R: Real> = HeatLinkAt<'a, R>;
     type Answer = f64;
     type Model = dyn HeatLinkModel;
 

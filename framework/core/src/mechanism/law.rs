@@ -15,7 +15,7 @@ pub struct Law<M: Mechanism> {
 }
 
 /// The value of one quantity from the others, SI; not finite if it is not determined.
-pub type Follows<M> = for<'a, 'b> fn(&'b <M as Mechanism>::At<'a>) -> f64;
+pub type Follows<M> = for<'a, 'b> fn(&'b <M as Mechanism>::At<'a, f64>) -> f64;
 
 /// Tolerance of a stated value to the value computed from others, relative to the larger of both: written values are rounded, data
 /// sheet values to three digits, products of two of them to fewer.
@@ -27,7 +27,7 @@ pub const ROUNDED: f64 = 0.01;
 /// # Errors
 /// If stated quantities contradict each other by more than rounding; the error names them.
 pub fn settle<M: Mechanism>(
-    at: &mut M::At<'_>,
+    at: &mut M::At<'_, f64>,
     stated: &[&'static str],
 ) -> Result<Vec<(&'static str, &'static str)>, Diagnostic> {
     let mut known = stated.to_vec();
@@ -116,7 +116,7 @@ fn within<M: Mechanism>(law: &Law<M>, quantity: &Quantity<M>, value: f64) -> Res
 }
 
 /// Rejects a law whose quantities contradict each other.
-fn agree<M: Mechanism>(law: &Law<M>, at: &M::At<'_>, stated: &[&'static str]) -> Result<(), Diagnostic> {
+fn agree<M: Mechanism>(law: &Law<M>, at: &M::At<'_, f64>, stated: &[&'static str]) -> Result<(), Diagnostic> {
     // Of two contradicting quantities, the stated one is named.
     let own = law
         .quantities

@@ -4,6 +4,7 @@ use crate::loss::{Notes, Undefined};
 use crate::mechanism::Mechanism;
 use crate::mechanism::Scalar;
 use crate::mechanism::gear_mesh::{GearMeshAt, MeshPart};
+use crate::real::Real;
 use crate::{answered_by, context};
 
 /// Marker of the mechanism; never constructed.
@@ -80,25 +81,31 @@ context! {
     }
 }
 
-impl<'a> MeanFrictionAt<'a> {
+impl<'a, R: Real> MeanFrictionAt<'a, R> {
     /// The mesh at its pitch point.
-    pub fn at_pitch_point(at: &GearMeshAt<'a>, notes: Notes<'a>) -> Self {
+    #[inline(always)]
+    pub fn at_pitch_point(at: &GearMeshAt<'a, R>, notes: Notes<'a, R>) -> Self {
         let part = at.part;
         let pair = &part.pair;
         let tangential = at.torque / pair.base_radius[0];
         let normal_force = pair.normal_force(at.torque);
-        let pitch_speed = at.speed.abs() * pair.working_radius[0];
+        let speed = at.speed.magnitude();
+        let pitch_speed = speed * pair.working_radius[0];
         Self {
             part,
             line_load: tangential / pair.facewidth,
             normal_force,
-            pressure: hertz(normal_force / pair.facewidth, part.modulus, pair.pitch_radius),
-            speed: at.speed.abs(),
+            pressure: hertz(
+                normal_force / pair.facewidth,
+                R::constant(part.modulus),
+                R::constant(pair.pitch_radius),
+            ),
+            speed,
             pitch_speed,
-            sum_speed: 2.0 * pitch_speed * pair.sin_working_angle,
-            radius: pair.pitch_radius,
-            ra: part.ra,
-            rq: part.rq,
+            sum_speed: pitch_speed * 2.0 * pair.sin_working_angle,
+            radius: R::constant(pair.pitch_radius),
+            ra: R::constant(part.ra),
+            rq: R::constant(part.rq),
             temperature: at.temperature,
             nu: at.nu,
             eta: at.eta,
@@ -113,8 +120,8 @@ impl<'a> MeanFrictionAt<'a> {
 }
 
 /// Hertz pressure of a line contact from line load in N/m, reduced modulus in Pa and radius in m. \[Pa\]
-pub fn hertz(line_load: f64, modulus: f64, radius: f64) -> f64 {
-    (line_load * modulus / (2.0 * std::f64::consts::PI * radius)).sqrt()
+pub fn hertz<R: Real>(line_load: R, modulus: R, radius: R) -> R {
+    (line_load * modulus / (radius * (2.0 * std::f64::consts::PI))).root()
 }
 
 /// Line load at which a line contact has a Hertz pressure. \[N/m\]
@@ -138,7 +145,7 @@ impl Mechanism for MeanFriction {
     const ANSWER: &'static str = "Coefficient of friction. [-]";
     const EXAMPLE: &'static str = crate::mechanism::gear_mesh::GearMesh::EXAMPLE;
     type Part = MeshPart;
-    type At<'a> = MeanFrictionAt<'a>;
+    type At<'a, R: Real> = MeanFrictionAt<'a, R>;
     type Answer = f64;
     type Model = dyn MeanFrictionModel;
 

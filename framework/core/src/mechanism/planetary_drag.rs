@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::loss::{Loss, Undefined};
 use crate::mechanism::gear_drag::{Covers, DragPart};
 use crate::mechanism::{Mechanism, Scalar, ShopUnits};
+use crate::real::Real;
 use crate::{answered_by, context};
 
 /// Marker of the mechanism; never constructed.
@@ -109,7 +110,7 @@ has_level: true
     /// Losses in oil are nearly power laws of speed and viscosity.
     const LOGARITHMIC: &'static [&'static str] = &["speed", "carrier_speed", "nu", "eta", "answer"];
     type Part = PlanetaryPart;
-    type At<'a> = PlanetaryDragAt<'a>;
+    type At<'a, R: Real> = PlanetaryDragAt<'a, R>;
     type Answer = Loss;
     type Model = dyn PlanetaryDragModel;
 

@@ -32,7 +32,7 @@ impl<M: Mechanism> Scalar<M> {
     ///
     /// # Errors
     /// If the formula is undefined, the table ends, or the value is negative.
-    pub fn value(&self, at: &M::At<'_>) -> Result<f64, Undefined> {
+    pub fn value(&self, at: &M::At<'_, f64>) -> Result<f64, Undefined> {
         let value = match &self.law {
             ScalarLaw::None => return Ok(0.0),
             ScalarLaw::Constant(value) => return Ok(*value),
@@ -67,7 +67,7 @@ impl<M: Mechanism> Scalar<M> {
     ///
     /// # Errors
     /// As [`Scalar::value`].
-    pub fn moment(&self, at: &M::At<'_>) -> Result<Loss, Undefined> {
+    pub fn moment(&self, at: &M::At<'_, f64>) -> Result<Loss, Undefined> {
         Ok(Loss::MOMENTS.with(&M::TOTAL, self.value(at)?))
     }
 
@@ -75,7 +75,7 @@ impl<M: Mechanism> Scalar<M> {
     ///
     /// # Errors
     /// As [`Scalar::value`].
-    pub fn power(&self, at: &M::At<'_>) -> Result<Loss, Undefined> {
+    pub fn power(&self, at: &M::At<'_, f64>) -> Result<Loss, Undefined> {
         Ok(Loss::POWERS.with(&M::TOTAL, self.value(at)?))
     }
 }
@@ -99,7 +99,7 @@ impl<M: Mechanism> Lookup<M> {
     ///
     /// # Errors
     /// If the table ends.
-    pub fn value(&self, at: &M::At<'_>) -> Result<(f64, f64), Undefined> {
+    pub fn value(&self, at: &M::At<'_, f64>) -> Result<(f64, f64), Undefined> {
         let mut inputs = [0.0; 4];
         for ((input, q), axis) in inputs.iter_mut().zip(&self.axes).zip(self.tables[0].axes()) {
             *input = q.unit().from_si((q.get)(at));

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::attach::{MemberSite, OnMember};
 use crate::loss::{Loss, Notes, Undefined};
 use crate::mechanism::{Component, Mechanism, Scalar};
+use crate::real::{Points, Real};
 use crate::{answered_by, context};
 
 /// Marker of the mechanism; never constructed.
@@ -64,7 +65,7 @@ impl Mechanism for Seal {
     const ANSWER: &'static str = "Friction moment. [Nm]";
     const EXAMPLE: &'static str = "{ diameter: 40 mm, kind: radial_lip }";
     type Part = SealPart;
-    type At<'a> = SealAt<'a>;
+    type At<'a, R: Real> = SealAt<'a, R>;
     type Answer = Loss;
     type Model = dyn SealModel;
 
@@ -76,7 +77,7 @@ impl Component for Seal {
     type Attachment = OnMember;
 
     #[inline(always)]
-    fn context<'a>(part: &'a SealPart, site: MemberSite<'a>, notes: Notes<'a>) -> SealAt<'a> {
+    fn context<'a, R: Points>(part: &'a SealPart, site: MemberSite<'a, R>, notes: Notes<'a, R>) -> SealAt<'a, R> {
         let oil = site.oil;
         SealAt {
             part,

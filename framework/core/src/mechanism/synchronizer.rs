@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::attach::{Clearance, ClearanceSite};
 use crate::loss::{Loss, Notes, Undefined};
 use crate::mechanism::{Component, Mechanism, Scalar};
+use crate::real::{Points, Real};
 use crate::{answered_by, context};
 
 /// Marker of the mechanism; never constructed.
@@ -92,7 +93,7 @@ impl Mechanism for Synchronizer {
     const EXAMPLE: &'static str =
         "{ kind: synchronizer, cones: 1, cone_diameter: 62 mm, cone_width: 8 mm, cone_angle: 6.5 deg, gap: 0.15 mm }";
     type Part = CouplingPart;
-    type At<'a> = SynchronizerAt<'a>;
+    type At<'a, R: Real> = SynchronizerAt<'a, R>;
     type Answer = Loss;
     type Model = dyn SynchronizerModel;
 
@@ -104,7 +105,11 @@ impl Component for Synchronizer {
     type Attachment = Clearance;
 
     #[inline(always)]
-    fn context<'a>(part: &'a CouplingPart, site: ClearanceSite<'a>, notes: Notes<'a>) -> SynchronizerAt<'a> {
+    fn context<'a, R: Points>(
+        part: &'a CouplingPart,
+        site: ClearanceSite<'a, R>,
+        notes: Notes<'a, R>,
+    ) -> SynchronizerAt<'a, R> {
         let oil = site.oil;
         SynchronizerAt {
             part,

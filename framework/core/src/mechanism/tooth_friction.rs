@@ -1,13 +1,11 @@
 //! Friction between flanks along the path of contact.
 
-mod suite;
-
-use crate::lanes::{Lane, LaneNotes, Powers};
-use crate::loss::{NoteBase, Notes, Undefined};
+use crate::loss::{Notes, Undefined};
 use crate::mechanism::Scalar;
 use crate::mechanism::Slot;
 use crate::mechanism::mean_friction::{MeanFrictionAt, hertz, load_at, modulus_at, radius_at};
-use crate::mechanism::{Mechanism, NoPart};
+use crate::mechanism::{Inputs as _, Mechanism, NoPart};
+use crate::real::{Lane, Points, Real};
 use crate::{answered_by, context};
 
 /// Marker of the mechanism; never constructed.
@@ -37,23 +35,58 @@ pub trait ToothFrictionModel: Send + Sync {
         Ok(Along::default())
     }
 
-    /// Batched coefficients at all nodes of a path for several line loads (N/m), with all other quantities as in `path`, whose own
-    /// line load and `mean` are unused; muted. They must have the bits of [`along`](Self::along), the heat must be split equally
-    /// between both bodies, and undefined values must be NaN. False if the law has no batched evaluation: it is then evaluated once
-    /// per load. Used for the notes of laws with a [`weighted`](Self::weighted) sum.
-    fn along_lanes(&self, _path: &PathAt<'_>, _line_loads: &Lane, _mu: &mut [Lane]) -> bool {
-        false
+    /// The coefficients at several points together; written by a [law](ToothFrictionLaw). An error has them evaluated one by one.
+    ///
+    /// # Errors
+    /// As [`Mechanism::answer_together`].
+    fn along_together(&self, _path: &PathAt<'_, Lane>, _mu: &mut [Lane]) -> Result<Along<Lane>, Undefined> {
+        Err(Undefined::DISAGREED)
+    }
+}
+
+/// A law of friction that is written once for one point and for several; mark `along` as `#[inline(always)]`, so that it uses wide
+/// instructions.
+pub trait ToothFrictionLaw: Send + Sync {
+    /// Coefficient of friction at one contact. \[-\] Pure; must not allocate.
+    fn mu<R: Real>(&self, at: &ContactAt<'_, R>) -> Result<R, Undefined>;
+
+    /// As [`ToothFrictionModel::order`].
+    fn order(&self) -> usize {
+        SMOOTH
     }
 
-    /// The sum of the coefficients over the nodes of a path with given weights, prepared if the law provides a faster way than node
-    /// by node; accurate to 1e-9. The heat must be split equally between both bodies, and the sum must be NaN where
-    /// [`along`](Self::along) is undefined.
-    fn weighted(&self, _nodes: &[PathNode], _weights: &[f64]) -> Option<Box<dyn WeightedFriction>> {
-        None
+    /// As [`ToothFrictionModel::along`].
+    #[inline(always)]
+    fn along<R: Real>(&self, path: &PathAt<'_, R>, mu: &mut [R]) -> Result<Along<R>, Undefined> {
+        for (node, mu) in path.nodes.iter().zip(mu) {
+            *mu = self.mu(&path.contact(node))?;
+        }
+        Ok(Along::default())
+    }
+}
+
+impl<L: ToothFrictionLaw> ToothFrictionModel for L {
+    fn mu(&self, at: &ContactAt<'_>) -> Result<f64, Undefined> {
+        ToothFrictionLaw::mu(self, at)
     }
 
-    /// Writes the notes of [`along`](Self::along), from the coefficients of [`along_lanes`](Self::along_lanes).
-    fn note_lanes(&self, _path: &PathAt<'_>, _line_loads: &Lane, _mu: &[Lane], _notes: LaneNotes<'_>) {}
+    fn order(&self) -> usize {
+        ToothFrictionLaw::order(self)
+    }
+
+    fn along(&self, path: &PathAt<'_>, mu: &mut [f64]) -> Result<Along, Undefined> {
+        Lane::wide(
+            #[inline(always)]
+            || ToothFrictionLaw::along(self, path, mu),
+        )
+    }
+
+    fn along_together(&self, path: &PathAt<'_, Lane>, mu: &mut [Lane]) -> Result<Along<Lane>, Undefined> {
+        Lane::wide(
+            #[inline(always)]
+            || ToothFrictionLaw::along(self, path, mu),
+        )
+    }
 }
 
 /// Nodes on each section of a path for a smooth law.
@@ -62,32 +95,17 @@ pub const SMOOTH: usize = 7;
 /// Nodes on each section of a path for a law with a cut-off at a point that depends on load, speed and oil.
 pub const CUT_OFF: usize = 64;
 
-/// A sum of coefficients of friction over the nodes of a path with given weights, prepared by a law.
-pub trait WeightedFriction: Send + Sync {
-    /// The sum for one line load; NaN if the nodes must be evaluated.
-    fn sum(&self, path: &PathAt<'_>) -> f64;
-
-    /// Batched sums for several line loads (N/m), to the bit except for remembered powers; the line load of `path` and its `mean`
-    /// are unused.
-    fn sums(&self, path: &PathAt<'_>, line_loads: &Lane, powers: &mut Powers) -> Lane;
-
-    /// Writes the notes of the law along the path. False if that needs the coefficients at all nodes.
-    fn note(&self, _path: &PathAt<'_>, _line_loads: &Lane, _notes: LaneNotes<'_>) -> bool {
-        false
-    }
-}
-
 /// Results of a law for a whole path in addition to its coefficients.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Along {
+pub struct Along<R = f64> {
     /// Share of the friction heat that enters the body of the first gear. \[-\]
-    pub first_heat: f64,
+    pub first_heat: R,
 }
 
-impl Default for Along {
+impl<R: Real> Default for Along<R> {
     /// Half of the heat for each body.
     fn default() -> Self {
-        Self { first_heat: 0.5 }
+        Self { first_heat: R::HALF }
     }
 }
 
@@ -143,15 +161,12 @@ context! {
     }
 }
 
-impl ContactAt<'_> {
+impl<R: Real> ContactAt<'_, R> {
     /// Slide-to-roll ratio: sliding velocity over mean rolling velocity; zero at standstill. \[-\]
-    #[inline]
-    pub fn slide_roll(&self) -> f64 {
-        if self.sum_speed > 0.0 {
-            2.0 * self.sliding / self.sum_speed
-        } else {
-            0.0
-        }
+    #[inline(always)]
+    pub fn slide_roll(&self) -> R {
+        let moves = self.sum_speed.is_above(R::ZERO);
+        R::select(moves, self.sliding * 2.0 / self.sum_speed, R::ZERO)
     }
 }
 
@@ -246,55 +261,55 @@ impl PathExtent {
 /// The whole path of contact at one operating point. SI.
 #[derive(Clone, Copy)]
 #[non_exhaustive]
-pub struct PathAt<'a> {
+pub struct PathAt<'a, R: Real = f64> {
     /// The points on the path.
     pub nodes: &'a [PathNode],
     /// Their extent.
     pub extent: &'a PathExtent,
     /// Magnitude of the speed of the first gear in the carrier's frame, positive. \[rad/s\]
-    pub speed: f64,
+    pub speed: R,
     /// Reference line load, positive. \[N/m\]
-    pub line_load: f64,
+    pub line_load: R,
     /// Reduced modulus E/(1 - nu^2) of equal materials. \[Pa\]
     pub modulus: f64,
     /// Length of the line of contact of one pair. \[m\]
     pub length: f64,
     /// Arithmetic mean roughness, mean of both flanks. \[m\]
-    pub ra: f64,
+    pub ra: R,
     /// Root mean square roughness of both flanks together. \[m\]
-    pub rq: f64,
+    pub rq: R,
     /// Temperature of the oil. \[degC\]
-    pub temperature: f64,
+    pub temperature: R,
     /// Kinematic viscosity. \[m2/s\]
-    pub nu: f64,
+    pub nu: R,
     /// Dynamic viscosity. \[Pa s\]
-    pub eta: f64,
+    pub eta: R,
     /// Density. \[kg/m3\]
-    pub rho: f64,
+    pub rho: R,
     /// Pressure-viscosity coefficient. \[1/Pa\]
-    pub alpha: f64,
+    pub alpha: R,
     /// Relative decrease of the viscosity with temperature. \[1/K\]
-    pub beta: f64,
+    pub beta: R,
     /// Thermal conductivity. \[W/(m K)\]
-    pub conductivity: f64,
+    pub conductivity: R,
     /// Lubricant factor of mean mesh friction.
-    pub x_l: f64,
+    pub x_l: R,
     /// Body temperatures of both gears, if a thermal network provides them. \[degC\]
-    pub bodies: Option<[f64; 2]>,
+    pub bodies: Option<[R; 2]>,
     /// The inputs of a mean friction law for this mesh.
-    pub mean: &'a MeanFrictionAt<'a>,
+    pub mean: &'a MeanFrictionAt<'a, R>,
     /// Target of limits, observed quantities and steps.
-    pub notes: Notes<'a>,
+    pub notes: Notes<'a, R>,
 }
 
-impl<'a> PathAt<'a> {
+impl<'a, R: Real> PathAt<'a, R> {
     /// The path of a mesh: its points, their extent and the length of the line of contact of one pair. \[m\]
     pub fn new(
         nodes: &'a [PathNode],
         extent: &'a PathExtent,
         length: f64,
-        mean: &'a MeanFrictionAt<'a>,
-        notes: Notes<'a>,
+        mean: &'a MeanFrictionAt<'a, R>,
+        notes: Notes<'a, R>,
     ) -> Self {
         PathAt {
             nodes,
@@ -333,22 +348,23 @@ impl<'a> PathAt<'a> {
     }
 
     /// Hertz pressure of a node with `root_load` one. \[Pa m^0.5\]
-    #[inline]
-    pub fn unit_pressure(&self) -> f64 {
-        (self.line_load * self.modulus / (2.0 * std::f64::consts::PI)).sqrt()
+    #[inline(always)]
+    pub fn unit_pressure(&self) -> R {
+        (self.line_load * self.modulus / (2.0 * std::f64::consts::PI)).root()
     }
 
     /// One point of the path as a contact.
-    pub fn contact(&self, node: &PathNode) -> ContactAt<'a> {
+    #[inline(always)]
+    pub fn contact(&self, node: &PathNode) -> ContactAt<'a, R> {
         ContactAt {
             part: &NoPart {},
-            sliding: node.sliding * self.speed,
-            sum_speed: node.sum_speed * self.speed,
-            radius: node.radius,
-            line_load: node.share * self.line_load,
-            pressure: node.root_load * self.unit_pressure(),
-            modulus: self.modulus,
-            length: self.length,
+            sliding: self.speed * node.sliding,
+            sum_speed: self.speed * node.sum_speed,
+            radius: R::constant(node.radius),
+            line_load: self.line_load * node.share,
+            pressure: self.unit_pressure() * node.root_load,
+            modulus: R::constant(self.modulus),
+            length: R::constant(self.length),
             ra: self.ra,
             rq: self.rq,
             temperature: self.temperature,
@@ -365,21 +381,45 @@ impl<'a> PathAt<'a> {
     }
 }
 
+impl<R: Points> PathAt<'_, R> {
+    /// Runs a function with the path at one of the points.
+    pub fn at<T>(&self, point: usize, run: impl FnOnce(&PathAt<'_>) -> T) -> T {
+        let mean = self.mean.at(point);
+        run(&PathAt {
+            nodes: self.nodes,
+            extent: self.extent,
+            speed: self.speed.at(point),
+            line_load: self.line_load.at(point),
+            modulus: self.modulus,
+            length: self.length,
+            ra: self.ra.at(point),
+            rq: self.rq.at(point),
+            temperature: self.temperature.at(point),
+            nu: self.nu.at(point),
+            eta: self.eta.at(point),
+            rho: self.rho.at(point),
+            alpha: self.alpha.at(point),
+            beta: self.beta.at(point),
+            conductivity: self.conductivity.at(point),
+            x_l: self.x_l.at(point),
+            bodies: self.bodies.map(|bodies| bodies.map(|body| body.at(point))),
+            mean: &mean,
+            notes: self.notes.at(point),
+        })
+    }
+}
+
 impl Mechanism for ToothFriction {
     const KEY: &'static str = "tooth_friction";
     const MEANING: &'static str = "Coefficient of friction between flanks along the path of contact.";
     const ANSWER: &'static str = "Coefficient of friction. [-]";
     const EXAMPLE: &'static str = "{}";
     type Part = NoPart;
-    type At<'a> = ContactAt<'a>;
+    type At<'a, R: Real> = ContactAt<'a, R>;
     type Answer = f64;
     type Model = dyn ToothFrictionModel;
 
     answered_by!(mu);
-
-    fn compare_batched(model: &Self::Model, at: &ContactAt<'_>, notes: NoteBase) -> Option<&'static str> {
-        suite::fault(model, at, notes)
-    }
 }
 
 impl ToothFrictionModel for Scalar<ToothFriction> {

@@ -10,10 +10,10 @@ use super::from_resolved;
 use crate::attach::{Attach, Common, Names, Spot, State};
 use crate::document::Diagnostic;
 use crate::evaluate::{Reading, readings};
-use crate::lanes::{LaneNotes, LossLanes};
-use crate::loads::{LoadLanes, StaticRating};
+use crate::loads::StaticRating;
 use crate::loss::{Loss, NoteBase, Notebook, Notes, Undefined};
-use crate::mechanism::{Component, Slot};
+use crate::mechanism::{Answers, Component, Slot};
+use crate::real::Lane;
 
 /// Seals [`Placed`] within the framework.
 pub(crate) mod sealed {
@@ -24,19 +24,8 @@ pub(crate) mod sealed {
 pub trait Placed: sealed::Sealed + Send + Sync {
     /// Loss of one copy; its model notes into the book.
     fn loss(&self, state: &State<'_>, book: &Notebook<'_>) -> Result<Loss, Undefined>;
-    /// Batched losses of one copy at several loads of its support, with all other quantities as in the state; false if its
-    /// mechanism has no batched evaluation.
-    fn losses(&self, _state: &State<'_>, _loads: &LoadLanes, _book: &Notebook<'_>, _losses: &mut LossLanes) -> bool {
-        false
-    }
-    /// Notes of its model at these loads; false if [`Placed::losses`] has no batched evaluation.
-    fn note(&self, _state: &State<'_>, _loads: &LoadLanes, _notes: LaneNotes<'_>) -> bool {
-        false
-    }
-    /// False if [`Placed::note`] writes the same notes at all loads.
-    fn notes_depend_on_load(&self) -> bool {
-        true
-    }
+    /// The same at several points; NaN where it is undefined.
+    fn losses(&self, state: &State<'_, Lane>, book: &Notebook<'_, Lane>) -> Loss<Lane>;
     /// The context of the model at a state, one copy.
     fn readings(&self, state: &State<'_>) -> Vec<Reading>;
     /// The two members that take the reaction; `None` for the housing.
@@ -64,22 +53,24 @@ struct PlacedAs<C: Component> {
 
 impl<C: Component> sealed::Sealed for PlacedAs<C> {}
 
+impl<C: Component> PlacedAs<C> {
+    #[inline(always)]
+    fn answer<R: Answers>(&self, state: &State<'_, R>, book: &Notebook<'_, R>) -> Result<Loss<R>, Undefined> {
+        let site = C::Attachment::site(self.seat, &self.spot, state);
+        R::answer::<C>(
+            &*self.model,
+            &C::context(&self.part, site, book.notes(self.model.notes)),
+        )
+    }
+}
+
 impl<C: Component> Placed for PlacedAs<C> {
     fn loss(&self, state: &State<'_>, book: &Notebook<'_>) -> Result<Loss, Undefined> {
-        let site = C::Attachment::site(self.seat, &self.spot, state);
-        C::answer(&self.model, &C::context(&self.part, site, book.notes(self.model.notes)))
+        self.answer(state, book)
     }
-    fn losses(&self, state: &State<'_>, loads: &LoadLanes, book: &Notebook<'_>, losses: &mut LossLanes) -> bool {
-        let site = C::Attachment::site(self.seat, &self.spot, state);
-        let at = C::context(&self.part, site, book.notes(self.model.notes));
-        C::losses(&self.model, &at, loads, losses)
-    }
-    fn note(&self, state: &State<'_>, loads: &LoadLanes, notes: LaneNotes<'_>) -> bool {
-        let site = C::Attachment::site(self.seat, &self.spot, state);
-        C::note(&self.model, &C::context(&self.part, site, notes.all()), loads, notes)
-    }
-    fn notes_depend_on_load(&self) -> bool {
-        C::notes_depend_on_load(&self.model)
+    fn losses(&self, state: &State<'_, Lane>, book: &Notebook<'_, Lane>) -> Loss<Lane> {
+        // Undefined points are NaN.
+        self.answer(state, book).unwrap_or(Loss::POWERS)
     }
     fn readings(&self, state: &State<'_>) -> Vec<Reading> {
         let site = C::Attachment::site(self.seat, &self.spot, state);

@@ -1,7 +1,5 @@
 //! Operating temperature of an operating point.
 
-use std::cell::Cell;
-
 use super::balance::{Outcome, Root, Step, balance};
 use super::housing::SumpOil;
 use crate::evaluate::{Point, Scratch};
@@ -103,8 +101,9 @@ impl Transmission {
             let oil = sump(root.temperature);
             if let Ok(flow) = housing.flow(&oil) {
                 surface = Some(flow.surface);
-                let cells = Cell::from_mut(scratch.heat_cells()).as_slice_of_cells();
-                ways = housing.flows(&oil, flow.surface, cells).unwrap_or_default();
+                ways = scratch
+                    .note_heat(|cells| housing.flows(&oil, flow.surface, cells))
+                    .unwrap_or_default();
             }
         }
         Equilibrium {

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::balance::{Balance, Step, single};
 use crate::description::{GearboxEntry, HeatInto, OutsideEntry, Thermal, ThermalMode};
 use crate::document::Diagnostic;
-use crate::loss::{Extent, Notes, Trace, Undefined};
+use crate::loss::{Notes, Seen, Trace, Undefined};
 use crate::mechanism::Slot;
 use crate::mechanism::heat_dissipation::{HeatDissipation, HeatDissipationAt, HousingPart, WarmSide};
 use crate::registry::Build;
@@ -243,7 +243,7 @@ impl Housing {
         &self,
         oil: &SumpOil,
         surface: f64,
-        cells: &[Cell<Extent>],
+        cells: &[Cell<Seen>],
     ) -> Result<Vec<f64>, (usize, Undefined)> {
         let flow = |(i, way): (usize, &Way)| {
             self.flow_of(way, oil, surface, Notes::new(cells, way.model.notes))

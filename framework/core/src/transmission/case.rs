@@ -17,9 +17,8 @@ pub struct Case {
     pub speed_ports: Vec<usize>,
     /// Ports with a given torque, in the order of a point's torques.
     pub torque_ports: Vec<usize>,
-    /// Number of speeds and torques added by rules.
+    /// Number of speeds added by rules.
     pub(crate) ruled_speeds: usize,
-    pub(crate) ruled_torques: usize,
 }
 
 impl Transmission {
@@ -94,7 +93,6 @@ impl Transmission {
             motion,
             flow,
             ruled_speeds: state.standing.len() + equal.len(),
-            ruled_torques: equal.len(),
             speed_ports,
             torque_ports,
         })

@@ -11,6 +11,7 @@ use crate::document::Diagnostic;
 use crate::immersion::upward;
 use crate::lubricant::Lubricant;
 use crate::mechanism::gear_mesh::MeshOil;
+use crate::real::Points;
 use crate::table::clamped;
 
 /// Oil height of the sump above its datum while rotating.
@@ -43,23 +44,23 @@ pub struct Oils {
 
 impl Oils {
     /// Oil height above the datum at given speeds. \[m\]
-    pub fn surface(&self, speeds: &[f64]) -> f64 {
+    pub fn surface<R: Points>(&self, speeds: &[R]) -> R {
         match &self.surface {
-            Surface::Dry => f64::NEG_INFINITY,
-            Surface::Fixed(height) => *height,
+            Surface::Dry => R::constant(f64::NEG_INFINITY),
+            Surface::Fixed(height) => R::constant(*height),
             Surface::Over {
                 member,
                 speeds: at,
                 levels,
-            } => clamped(at, levels, speeds[*member].abs()),
+            } => speeds[*member].map(|speed| clamped(at, levels, speed.abs())),
         }
     }
 
     /// Writes the state of all oils at the temperatures of the nodes, or at one for all nodes. \[degC\]
-    pub fn write_states(&self, temperatures: &[f64], oils: &mut [Oil]) {
+    pub fn write_states<R: Points>(&self, temperatures: &[R], oils: &mut [Oil<R>]) {
         for ((lubricant, node, offset), oil) in self.spots.iter().zip(oils) {
             let temperature = temperatures.get(*node).unwrap_or(&temperatures[0]);
-            *oil = self.lubricants[*lubricant].oil_at(temperature + offset);
+            *oil = Oil::of_points(|point| self.lubricants[*lubricant].oil_at(temperature.at(point) + offset));
         }
     }
 

@@ -11,9 +11,11 @@ use crate::description::GearboxEntry;
 use crate::document::Diagnostic;
 use crate::evaluate::{Reading, readings};
 use crate::loss::{Loss, NoteBase, Notebook, Notes, Undefined};
+use crate::mechanism::Answers;
 use crate::mechanism::gear_drag::Covers;
 use crate::mechanism::planetary_drag::{PlanetaryDrag, PlanetaryDragAt, PlanetaryPart};
 use crate::mechanism::{ModelRef, Slot};
+use crate::real::{Lane, Points};
 use crate::registry::{Build, Placed, Sealed};
 
 /// Unequal load sharing among the planets of a set.
@@ -77,7 +79,7 @@ struct PlacedDrag {
 }
 
 impl PlacedDrag {
-    fn context<'a>(&'a self, state: &State<'_>, notes: Notes<'a>) -> PlanetaryDragAt<'a> {
+    fn context<'a, R: Points>(&'a self, state: &State<'_, R>, notes: Notes<'a, R>) -> PlanetaryDragAt<'a, R> {
         let [speed, carrier_speed, planet_speed] = self.members.map(|m| state.speed(Some(m)));
         let oil = state.oil(&self.spot);
         let part = &*self.part;
@@ -87,14 +89,14 @@ impl PlacedDrag {
             speed,
             carrier_speed,
             planet_speed,
-            volume: part.oil_volume.unwrap_or(0.0),
-            level: state.level(&self.spot).level.max(-10.0),
+            volume: R::constant(part.oil_volume.unwrap_or(0.0)),
+            level: state.level(&self.spot).level.at_least(-10.0),
             temperature: oil.temperature,
             nu: oil.nu,
             eta: oil.eta,
             rho: oil.rho,
-            size: part.size.unwrap_or(0.0),
-            ratio: part.ratio.unwrap_or(0.0),
+            size: R::constant(part.size.unwrap_or(0.0)),
+            ratio: R::constant(part.ratio.unwrap_or(0.0)),
             notes,
         }
     }
@@ -102,10 +104,20 @@ impl PlacedDrag {
 
 impl Sealed for PlacedDrag {}
 
+impl PlacedDrag {
+    fn answer<R: Answers>(&self, state: &State<'_, R>, book: &Notebook<'_, R>) -> Result<Loss<R>, Undefined> {
+        let notes = book.notes(self.model.notes).forgetting();
+        R::answer::<PlanetaryDrag>(&*self.model, &self.context(state, notes))
+    }
+}
+
 impl Placed for PlacedDrag {
     fn loss(&self, state: &State<'_>, book: &Notebook<'_>) -> Result<Loss, Undefined> {
-        self.model
-            .loss(&self.context(state, book.notes(self.model.notes).forgetting()))
+        self.answer(state, book)
+    }
+    fn losses(&self, state: &State<'_, Lane>, book: &Notebook<'_, Lane>) -> Loss<Lane> {
+        // Undefined points are NaN.
+        self.answer(state, book).unwrap_or(Loss::POWERS)
     }
     fn readings(&self, state: &State<'_>) -> Vec<Reading> {
         readings::<PlanetaryDrag>(&self.context(state, Notes::MUTED))

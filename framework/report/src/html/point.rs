@@ -127,7 +127,8 @@ fn bearings(b: &Built<'_>, solution: &Solution<'_>) -> PageTable {
         let safety = bearing
             .as_ref()
             .and_then(BearingPart::static_rating)
-            .and_then(|rating| rating.safety(radial, axial));
+            .map(|rating| rating.safety(radial, axial))
+            .filter(|safety| safety.is_finite());
         let speed = read("speed").unwrap_or(0.0);
         let factor = bearing.as_ref().map(|b| speed.abs() * b.mean_diameter() * 1e3);
         let name = bearing.as_ref().and_then(|b| b.designation.clone());

@@ -262,7 +262,7 @@ impl ContactPathEntry {
         let fine = Path::even(&part.pair, sharing, self.places as usize);
         let along = fine
             .at_operating_point(&mean, Notes::MUTED)
-            .with(|to| to.bodies = at.bodies());
+            .with(|to| to.bodies = at.bodies().unwrap_or(None));
         let loaded = at.speed != 0.0 && at.torque != 0.0;
         let mu = if loaded {
             friction.coefficients(&along, &mean, fine.len())

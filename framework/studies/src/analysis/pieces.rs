@@ -10,18 +10,21 @@ use rayon::prelude::*;
 use super::solve::{Solver, Space};
 use super::{Field, PointResult, Points, merge};
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::lanes::LANES;
 use gearloss_framework::loss::Extent;
+use gearloss_framework::real::LANES;
 use gearloss_framework::transmission::Transmission;
 
 /// Points of a piece of a list.
 const PIECE: usize = 1024;
 
+/// Torques of one speed in a piece of a grid: a few full blocks.
+const ROWS: usize = 4 * LANES;
+
 /// Maximum number of points of a piece of a grid: sufficient for full blocks of a square map with 10^7 points.
-const LARGEST: usize = LANES * 3200;
+const LARGEST: usize = ROWS * 3200;
 
 /// Number of points that are solved at once, at least one piece.
-const TOGETHER: usize = LANES * 2048;
+const TOGETHER: usize = ROWS * 2048;
 
 /// Maximum number of points with data in memory while a field is solved piece by piece.
 pub const MOST_IN_FLIGHT: usize = 2 * LARGEST;
@@ -134,7 +137,7 @@ impl Field {
     fn piece(&self) -> usize {
         match self {
             Self::Grid { speeds, .. } if (1..=LARGEST).contains(&speeds.len()) => {
-                speeds.len() * (LARGEST / speeds.len()).min(LANES)
+                speeds.len() * (LARGEST / speeds.len()).min(ROWS)
             }
             _ => PIECE,
         }

@@ -44,7 +44,7 @@ impl PreparedPoint {
         let extents: Vec<Extent> = of_heat
             .iter()
             .zip(solution.extents())
-            .map(|(heat, seen)| heat.merge(seen.once()))
+            .map(|(heat, seen)| heat.merge(seen))
             .collect();
         SolvedPoint {
             locking: self_locking(transmission, self, &solution, found.temperatures()),

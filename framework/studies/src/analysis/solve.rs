@@ -2,8 +2,8 @@
 
 use super::{Given, OilTemperature, PointResult, Points, sums};
 use gearloss_framework::evaluate::{BatchScratch, Block, Point, PowerFlow, Scratch, Solution};
-use gearloss_framework::lanes::{LANES, Lane};
 use gearloss_framework::loss::Extent;
+use gearloss_framework::real::{LANES, Lane, Real as _};
 use gearloss_framework::transmission::{Case, Transmission};
 
 /// Minimum size of a block; smaller blocks are slower than single points.
@@ -89,10 +89,6 @@ impl<'a> Solver<'a> {
         let mut results = std::mem::take(&mut space.results);
         space.spare.clear();
         space.spare.extend(results.drain(..).map(|point| point.parts));
-        // Otherwise results would depend on previous points of this thread.
-        if let Some(rows) = &mut space.rows {
-            rows.forget();
-        }
         let given = |number: &usize| self.points.field.at(*number);
         let together = |a: &usize, b: &usize| {
             let (a, b) = (given(a), given(b));
@@ -199,9 +195,9 @@ impl<'a> Solver<'a> {
             }
             let given = &given[..some.len()];
             let start = results.len();
-            let block = row.follow(given);
+            let block = row.solve(given);
             self.of_block(given, speed, oil, &block, spare, results);
-            let alone = *block.alone();
+            let alone: [bool; LANES] = std::array::from_fn(|lane| block.is_alone(lane));
             for (lane, torque) in given.iter().enumerate().filter(|(lane, _)| alone[*lane]) {
                 let given = Given {
                     torque: *torque,
@@ -233,9 +229,7 @@ impl<'a> Solver<'a> {
         }
         for (part, term, sum) in &self.terms {
             let watts = block.term_watts(*part, *term);
-            for (sum, watts) in sums[*sum].iter_mut().zip(watts.iter()) {
-                *sum += watts;
-            }
+            sums[*sum] += watts;
             if let Some(terms) = terms.get_mut(*part) {
                 terms[*term] = watts;
             }
@@ -270,9 +264,9 @@ impl<'a> Solver<'a> {
                     .iter()
                     .map(|terms| std::array::from_fn(|k| terms[k][lane]))
                     .collect(),
-                outside: block.outside(lane),
+                outside: block.leaves_a_range(lane),
                 undefined: None,
-                passes: block.passes()[lane],
+                passes: block.passes(lane),
                 evaluations: 0,
             });
         }

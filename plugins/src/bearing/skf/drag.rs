@@ -1,5 +1,8 @@
 //! Drag of rolling elements in an oil bath or under an oil jet, SKF catalogue, including the simpler form of its 2004 edition.
 
+use gearloss_framework::loss::Undefined;
+use gearloss_framework::real::{Mask as _, Real};
+
 use super::Constants;
 
 /// V_M over H/d_m for balls, read from the catalogue's diagram to about 2 %.
@@ -147,47 +150,60 @@ impl Drag {
     }
 
     /// Depth class of an oil height; deep is above half of the outside diameter.
-    pub fn depth(&self, height: f64, half: f64) -> Depth {
-        match self.bath {
-            Bath::Level if height > half => Depth::Deep,
-            Bath::Level if height > 0.0 => Depth::Low,
+    ///
+    /// # Errors
+    /// If several points disagree.
+    #[inline(always)]
+    pub fn depth<R: Real>(&self, height: R, half: f64) -> Result<Depth, Undefined> {
+        Ok(match self.bath {
+            Bath::Level if height.is_above(R::constant(half)).agreed()? => Depth::Deep,
+            Bath::Level if height.is_above(R::ZERO).agreed()? => Depth::Low,
             Bath::Vertical(_) => Depth::Deep,
             Bath::Level | Bath::Jet(_) => Depth::None,
-        }
+        })
     }
 
     /// Moment at an oil height in mm, speed in 1/min, viscosity in mm2/s. \[N mm\]
-    pub fn moment(&self, height: f64, n: f64, nu: f64) -> f64 {
+    #[inline(always)]
+    pub fn moment<R: Real>(&self, height: R, n: R, nu: R) -> R {
         match self.bath {
             Bath::Level => self.moment_at_height(height, n, nu),
-            Bath::Jet(height) => 2.0 * self.moment_at_height(height, n, nu),
-            Bath::Vertical(share) => share * self.moment_at_height(1.2 * self.d_m, n, nu),
+            Bath::Jet(height) => self.moment_at_height(R::constant(height), n, nu) * 2.0,
+            Bath::Vertical(share) => self.moment_at_height(R::constant(1.2 * self.d_m), n, nu) * share,
         }
     }
 
-    fn moment_at_height(&self, height: f64, n: f64, nu: f64) -> f64 {
-        if height <= 0.0 || n == 0.0 {
-            return 0.0;
-        }
+    #[inline(always)]
+    fn moment_at_height<R: Real>(&self, height: R, n: R, nu: R) -> R {
+        let dry = !height.is_above(R::ZERO) | n.is_zero();
         if let Some(v_m) = self.v_m {
-            return v_m * self.churning * n * n;
+            return R::select(dry, R::ZERO, n * n * (v_m * self.churning));
         }
-        let height = height.min(1.2 * self.d_m);
-        let v_m = v_m(if self.rollers { &V_M_ROLLERS } else { &V_M }, height / self.d_m);
-        let t = 2.0 * ((0.6 * self.d_m - height) / (0.6 * self.d_m)).acos();
-        let f_t = if t <= std::f64::consts::PI {
-            (0.5 * t).sin()
-        } else {
-            1.0
-        };
-        let r_s = 0.36 * self.d_m * self.d_m * (t - t.sin()) * self.f_a;
-        let churning = v_m * self.churning * n * n;
-        if f_t == 0.0 || r_s == 0.0 {
-            return churning;
-        }
+        let table = if self.rollers { &V_M_ROLLERS } else { &V_M };
+        let height = height.at_most(1.2 * self.d_m);
+        let churning = n * n * self.churning * height.lift(|height| v_m(table, height / self.d_m));
+        let f_t = height.lift(|height| {
+            let t = self.angle(height);
+            if t <= std::f64::consts::PI {
+                (0.5 * t).sin()
+            } else {
+                1.0
+            }
+        });
+        let r_s = height.lift(|height| {
+            let t = self.angle(height);
+            0.36 * self.d_m * self.d_m * (t - t.sin()) * self.f_a
+        });
         let c = &self.coefficients;
-        let resistance = (n * self.d_m * self.d_m * f_t / nu).powf(c.bath_exponent);
-        churning + c.bath_factor * n * n * self.d_m.powi(3) * resistance * r_s
+        let resistance = (n * (self.d_m * self.d_m) * f_t / nu).power(c.bath_exponent);
+        let resistance = n * n * (c.bath_factor * self.d_m.powi(3)) * resistance * r_s;
+        let both = R::select(f_t.is_zero() | r_s.is_zero(), churning, churning + resistance);
+        R::select(dry, R::ZERO, both)
+    }
+
+    /// Angle of immersion t at an oil height in mm. \[rad\]
+    fn angle(&self, height: f64) -> f64 {
+        2.0 * ((0.6 * self.d_m - height) / (0.6 * self.d_m)).acos()
     }
 }
 

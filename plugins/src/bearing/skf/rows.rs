@@ -1,7 +1,7 @@
 //! Constants of the SKF model by kind and series of bearing.
 
-use gearloss_framework::lanes::{LANES, Lane, Powers, count, cube_root, each, exp, ln, sine};
 use gearloss_framework::mechanism::bearing::{BearingKind, BearingPart};
+use gearloss_framework::real::{Mask as _, Real};
 
 /// What is missing, and how to fix it.
 pub type Lack = (String, String);
@@ -349,62 +349,35 @@ pub fn row(part: &BearingPart, needle_as_full_complement: bool) -> Result<Row, L
     })
 }
 
-/// A power of a load; zero for zero load.
-#[inline(always)]
-fn power(load: f64, exponent: f64) -> f64 {
-    exp(exponent * ln(load))
-}
-
 /// Exponents of the load in G_rr, in G_sl under radial load only, and of Fa/C0 in the contact angle.
 const ROLLING: f64 = 0.54;
 const SLIDING: f64 = 5.0 / 3.0;
 const ANGLE: f64 = 0.24;
-/// The cube root in G_sl under both loads.
-const CUBE_ROOT: f64 = 1.0 / 3.0;
 
 /// G_rr and G_sl of deep groove ball bearings under radial load.
-fn radial(fr: f64, rolling: f64, sliding: f64) -> (f64, f64) {
-    (rolling * power(fr, ROLLING), sliding * power(fr, SLIDING))
-}
-
-/// The same under both loads.
-fn combined(fr: f64, fa: f64, c0: f64, (rolling, r2): (f64, f64), sliding: (f64, f64)) -> (f64, f64) {
-    let pushed = fa / sine(angle(power(share(fa, c0), ANGLE)));
-    (
-        rolling * power(fr + r2 * pushed, ROLLING),
-        sliding.0 * cube_root(cubed_sliding(fr, fa, pushed, sliding.1)),
-    )
-}
-
-/// The axial load over C0, so that a loop over loads divides once.
 #[inline(always)]
-fn share(fa: f64, c0: f64) -> f64 {
-    fa * (1.0 / c0)
+fn radial<R: Real>(fr: R, rolling: f64, sliding: f64) -> (R, R) {
+    (fr.power(ROLLING) * rolling, fr.power(SLIDING) * sliding)
 }
 
-/// True without axial load, or with one so small that its logarithm is that of zero: an angle of zero has no sine to divide by.
+/// The same under both loads, from the axial load over C0.
 #[inline(always)]
-fn is_nothing(share: f64) -> bool {
-    share < f64::MIN_POSITIVE
-}
-
-/// The contact angle from the power of the axial load over C0. \[rad\]
-#[inline(always)]
-fn angle(power: f64) -> f64 {
-    (24.6 * power).to_radians()
-}
-
-/// The cube of G_sl under both loads, without its factor.
-#[inline(always)]
-fn cubed_sliding(fr: f64, fa: f64, pushed: f64, s2: f64) -> f64 {
+fn combined<R: Real>(fr: R, fa: R, share: R, (rolling, r2): (f64, f64), sliding: (f64, f64)) -> (R, R) {
+    // The contact angle is 24.6 (Fa/C0)^0.24 degrees.
+    let angle = share.power(ANGLE) * 24.6 * (std::f64::consts::PI / 180.0);
+    let pushed = fa / angle.sine();
     let fr_2 = fr * fr;
-    fr_2 * fr_2 * fr + s2 * (fa * fa * fa) * pushed
+    let cube = fr_2 * fr_2 * fr + (fa * fa * fa) * sliding.1 * pushed;
+    (
+        (fr + pushed * r2).power(ROLLING) * rolling,
+        cube.cube_root() * sliding.0,
+    )
 }
 
 /// Blends the radial form continuously into the combined form, for a share from zero to one.
 #[inline(always)]
-fn blended(share: f64, radial: (f64, f64), combined: (f64, f64)) -> (f64, f64) {
-    let weight = share * share * (3.0 - 2.0 * share);
+fn blended<R: Real>(share: R, radial: (R, R), combined: (R, R)) -> (R, R) {
+    let weight = share * share * (R::constant(3.0) - share * 2.0);
     (
         radial.0 + weight * (combined.0 - radial.0),
         radial.1 + weight * (combined.1 - radial.1),
@@ -412,102 +385,24 @@ fn blended(share: f64, radial: (f64, f64), combined: (f64, f64)) -> (f64, f64) {
 }
 
 impl Variables {
-    /// True if [`Variables::lanes`] supports this kind; other kinds are evaluated point by point.
-    pub fn in_lanes(&self) -> bool {
-        matches!(self, Self::DeepGroove { .. })
-    }
-
     /// True if the centrifugal force of the balls acts in addition to the load.
     pub fn feel_centrifugal_force(&self) -> bool {
         matches!(self, Self::Ball { .. })
     }
 
     /// G_rr and G_sl at a speed in 1/min without load; zero for all kinds but [`Variables::Ball`].
-    pub fn without_load(&self, n: f64) -> (f64, f64) {
-        match self {
-            Self::Ball { .. } => self.evaluate(0.0, 0.0, n, 0.0, None),
-            _ => (0.0, 0.0),
-        }
-    }
-
-    /// As [`Variables::evaluate`] in all lanes, for kinds that have them, with powers that may be remembered.
     #[inline(always)]
-    pub fn lanes(&self, fr: &Lane, fa: &Lane, blend: Option<f64>, powers: &mut Powers) -> (Lane, Lane) {
-        let Self::DeepGroove {
-            rolling,
-            r2,
-            sliding,
-            s2,
-            c0,
-        } = *self
-        else {
-            return (Lane::ZERO, Lane::ZERO);
-        };
-        let (mut g_rr, mut g_sl) = (Lane::ZERO, Lane::ZERO);
-        let unpushed = count(|i| is_nothing(share(fa[i], c0)));
-        // No blending equals blending up to an axial load below all others.
-        let to = blend.unwrap_or(0.0);
-        let combined_only = unpushed == 0 && count(|i| fa[i] < to * fr[i]) == 0;
-        // One function per loop: the steps of a lane depend on each other, those of different lanes do not.
-        if !combined_only {
-            g_rr = powers.raise(
-                0,
-                |i| fr[i],
-                ROLLING,
-                #[inline(always)]
-                |fr| rolling * power(fr, ROLLING),
-            );
-            g_sl = powers.raise(
-                1,
-                |i| fr[i],
-                SLIDING,
-                #[inline(always)]
-                |fr| sliding[0] * power(fr, SLIDING),
-            );
+    pub fn without_load<R: Real>(&self, n: R) -> (R, R) {
+        match self {
+            Self::Ball { .. } => self.evaluate(R::ZERO, R::ZERO, n, R::ZERO, None),
+            _ => (R::ZERO, R::ZERO),
         }
-        if unpushed == LANES as u64 {
-            return (g_rr, g_sl);
-        }
-        let angles = powers.raise(
-            2,
-            |i| fa[i],
-            ANGLE,
-            #[inline(always)]
-            |fa| angle(power(share(fa, c0), ANGLE)),
-        );
-        let pushed = each(|i| fa[i] / sine(angles[i]));
-        let both_rr = powers.raise(
-            3,
-            |i| fr[i] + r2 * pushed[i],
-            ROLLING,
-            #[inline(always)]
-            |load| rolling * power(load, ROLLING),
-        );
-        let both_sl = powers.raise(
-            4,
-            #[inline(always)]
-            |i| cubed_sliding(fr[i], fa[i], pushed[i], s2),
-            CUBE_ROOT,
-            #[inline(always)]
-            |cubed| sliding[1] * cube_root(cubed),
-        );
-        if combined_only {
-            return (both_rr, both_sl);
-        }
-        for i in 0..LANES {
-            let radial = (g_rr[i], g_sl[i]);
-            let combined = (both_rr[i], both_sl[i]);
-            let limit = to * fr[i];
-            let blended = blended(fa[i] / limit, radial, combined);
-            let both = if fa[i] < limit { blended } else { combined };
-            (g_rr[i], g_sl[i]) = if is_nothing(share(fa[i], c0)) { radial } else { both };
-        }
-        (g_rr, g_sl)
     }
 
     /// G_rr and G_sl from radial and axial load in N, speed in 1/min and viscosity in mm2/s; `blend` is the share Fa/Fr of deep
     /// groove ball bearings up to which the radial form passes into the combined one.
-    pub fn evaluate(&self, fr: f64, fa: f64, n: f64, nu: f64, blend: Option<f64>) -> (f64, f64) {
+    #[inline(always)]
+    pub fn evaluate<R: Real>(&self, fr: R, fa: R, n: R, nu: R, blend: Option<f64>) -> (R, R) {
         match *self {
             Self::DeepGroove {
                 rolling,
@@ -516,14 +411,22 @@ impl Variables {
                 s2,
                 c0,
             } => {
-                if is_nothing(share(fa, c0)) {
+                let share = fa * (1.0 / c0);
+                // Also an axial load so small that its logarithm is that of zero: an angle of zero has no sine to divide by.
+                let unpushed = share.is_below(R::constant(f64::MIN_POSITIVE));
+                if unpushed.all() {
                     return radial(fr, rolling, sliding[0]);
                 }
-                let combined = combined(fr, fa, c0, (rolling, r2), (sliding[1], s2));
-                match blend {
-                    Some(to) if fa < to * fr => blended(fa / (to * fr), radial(fr, rolling, sliding[0]), combined),
-                    _ => combined,
+                let limit = fr * blend.unwrap_or(0.0);
+                let blends = fa.is_below(limit);
+                let both = combined(fr, fa, share, (rolling, r2), (sliding[1], s2));
+                if !(unpushed | blends).any() {
+                    return both;
                 }
+                let alone = radial(fr, rolling, sliding[0]);
+                let mixed = blended(fa / limit, alone, both);
+                let choose = |alone, mixed, both| R::select(unpushed, alone, R::select(blends, mixed, both));
+                (choose(alone.0, mixed.0, both.0), choose(alone.1, mixed.1, both.1))
             }
             Self::Ball {
                 rolling,
@@ -533,25 +436,27 @@ impl Variables {
                 s2,
                 s3,
             } => {
-                let power = |x: f64| x.powf(4.0 / 3.0);
+                let centrifugal = n * n;
+                let power = |x: R| x.power(4.0 / 3.0);
                 (
-                    rolling * (fr + r3 * n * n + r2 * fa).powf(0.54),
-                    sliding * (power(fr + s3 * n * n) + s2 * power(fa)),
+                    (fr + centrifugal * r3 + fa * r2).power(0.54) * rolling,
+                    (power(fr + centrifugal * s3) + power(fa) * s2) * sliding,
                 )
             }
-            Self::Cylindrical { rolling, axial, radial } => (rolling * fr.powf(0.31), axial * fa + radial * fr),
+            Self::Cylindrical { rolling, axial, radial } => (fr.power(0.31) * rolling, fa * axial + fr * radial),
             Self::Tapered {
                 rolling,
                 r2_y,
                 sliding,
                 s2_y,
-            } => (rolling * (fr + r2_y * fa).powf(0.31), sliding * (fr + s2_y * fa)),
+            } => ((fr + fa * r2_y).power(0.31) * rolling, (fr + fa * s2_y) * sliding),
             Self::Spherical { rolling, sliding } => {
-                let light = rolling[0].0 * (fr + rolling[0].1 * fa).powf(0.54);
-                let heavy = rolling[1].0 * (fr + rolling[1].1 * fa).powf(0.31);
-                let sliding_light = sliding[0].0 * (fr.powi(4) + sliding[0].1 * fa.powi(4)).cbrt();
-                let sliding_heavy = sliding[1].0 * (fr.powi(3) + sliding[1].1 * fa.powi(3)).cbrt();
-                (light.min(heavy), sliding_light.min(sliding_heavy))
+                let cube = |x: R| x * x * x;
+                let light = (fr + fa * rolling[0].1).power(0.54) * rolling[0].0;
+                let heavy = (fr + fa * rolling[1].1).power(0.31) * rolling[1].0;
+                let sliding_light = (cube(fr) * fr + cube(fa) * fa * sliding[0].1).cube_root() * sliding[0].0;
+                let sliding_heavy = (cube(fr) + cube(fa) * sliding[1].1).cube_root() * sliding[1].0;
+                (light.smaller(heavy), sliding_light.smaller(sliding_heavy))
             }
             Self::Toroidal {
                 rolling,
@@ -559,18 +464,18 @@ impl Variables {
                 sliding,
                 sliding_change,
             } => (
-                if fr < rolling_change {
-                    rolling[0] * fr.powf(0.54)
-                } else {
-                    rolling[1] * fr.powf(0.31)
-                },
-                if fr < sliding_change {
-                    sliding[0] * fr.powf(5.0 / 3.0)
-                } else {
-                    sliding[1] * fr
-                },
+                R::select(
+                    fr.is_below(R::constant(rolling_change)),
+                    fr.power(0.54) * rolling[0],
+                    fr.power(0.31) * rolling[1],
+                ),
+                R::select(
+                    fr.is_below(R::constant(sliding_change)),
+                    fr.power(5.0 / 3.0) * sliding[0],
+                    fr * sliding[1],
+                ),
             ),
-            Self::Thrust { rolling, sliding } => (rolling.0 * fa.powf(rolling.1), sliding.0 * fa.powf(sliding.1)),
+            Self::Thrust { rolling, sliding } => (fa.power(rolling.1) * rolling.0, fa.power(sliding.1) * sliding.0),
             Self::SphericalThrust {
                 rolling,
                 light,
@@ -578,15 +483,13 @@ impl Variables {
                 guide,
                 d_m,
             } => {
-                let power = |x: f64| x.powf(5.0 / 3.0);
-                let rolling_light = rolling[0].0 * (fr + rolling[0].1 * fa).powf(0.54);
-                let rolling_heavy = rolling[1].0 * (fr + rolling[1].1 * fa).powf(0.31);
-                let sliding = (light.0 * (power(fr) + light.1 * power(fa))).min(heavy * (fr + fa));
-                let guide = guide.0 * (fr + guide.1 * fa);
-                (
-                    rolling_light.min(rolling_heavy),
-                    sliding + guide * (-1e-6 * (n * nu).powf(1.4) * d_m).max(-700.0).exp(),
-                )
+                let power = |x: R| x.power(5.0 / 3.0);
+                let rolling_light = (fr + fa * rolling[0].1).power(0.54) * rolling[0].0;
+                let rolling_heavy = (fr + fa * rolling[1].1).power(0.31) * rolling[1].0;
+                let sliding = ((power(fr) + power(fa) * light.1) * light.0).smaller((fr + fa) * heavy);
+                let guide = (fr + fa * guide.1) * guide.0;
+                let weight = ((n * nu).power(1.4) * (-1e-6 * d_m)).exponential();
+                (rolling_light.smaller(rolling_heavy), sliding + guide * weight)
             }
         }
     }
@@ -598,6 +501,7 @@ mod tests {
     use super::*;
     use crate::printed::Printed;
     use gearloss_framework::mechanism::bearing::BearingEntry;
+    use gearloss_framework::real::{LANES, Lane, Points as _};
 
     /// Bore and outside diameter for a mean diameter, mm.
     fn part(kind: BearingKind, series: &str, d_m: f64) -> BearingPart {
@@ -710,7 +614,7 @@ mod tests {
     }
 
     #[test]
-    fn lanes_have_the_bits_of_single_loads_beside_every_border() {
+    fn several_points_have_the_bits_of_each_beside_every_border() {
         let row = Variables::DeepGroove {
             rolling: 4.4e-7,
             r2: 1.7,
@@ -720,22 +624,22 @@ mod tests {
         };
         let fr = 1000.0;
         for blend in [None, Some(0.1)] {
-            // All above the blend limit; one below it, one on it, near zero, at zero; all without blending.
-            let of_one = |one: f64| each(move |i| if i == 7 { one } else { 150.0 + i as f64 });
+            // All above the blend limit; one below it, one on it, near zero, at zero; all without axial load.
+            let of_one = |one: f64| Lane::each(move |i| if i == 7 { one } else { 150.0 + i as f64 });
             for fa in [500.0, 30.0, 0.1 * fr, 1e-310, 0.0]
                 .map(of_one)
                 .into_iter()
                 .chain([Lane::ZERO])
             {
-                for radial in [Lane::all(fr), of_one(0.0), Lane::ZERO] {
-                    let mut exact = Powers::EXACT;
-                    let (g_rr, g_sl) = row.lanes(&radial, &fa, blend, &mut exact);
+                for radial in [Lane::constant(fr), of_one(0.0), Lane::ZERO] {
+                    let [n, nu] = [1000.0, 30.0];
+                    let all = row.evaluate(radial, fa, Lane::constant(n), Lane::constant(nu), blend);
                     for i in 0..LANES {
-                        let own = row.evaluate(radial[i], fa[i], 1000.0, 30.0, blend);
-                        let lanes = (g_rr[i].to_bits(), g_sl[i].to_bits());
+                        let own = row.evaluate(radial[i], fa[i], n, nu, blend);
+                        let bits = |(g_rr, g_sl): (f64, f64)| (g_rr.to_bits(), g_sl.to_bits());
                         assert_eq!(
-                            lanes,
-                            (own.0.to_bits(), own.1.to_bits()),
+                            bits((all.0[i], all.1[i])),
+                            bits(own),
                             "{blend:?} {} {}",
                             radial[i],
                             fa[i]

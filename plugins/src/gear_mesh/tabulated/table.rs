@@ -3,7 +3,7 @@
 use std::thread;
 
 use gearloss_framework::attach::Oil;
-use gearloss_framework::loss::{Extent, Notes, Undefined};
+use gearloss_framework::loss::{Notes, Seen, Undefined};
 use gearloss_framework::lubricant::Lubricant;
 use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt, MeshPart};
 use gearloss_framework::registry::Slot;
@@ -105,14 +105,13 @@ impl DirectModel<'_> {
     /// # Errors
     /// If it is undefined.
     pub fn answer(&self, point: &Point) -> Result<Answer, Undefined> {
-        let mut extents = vec![Extent::EMPTY; self.model.notes.end()];
-        let cells = Cell::from_mut(extents.as_mut_slice()).as_slice_of_cells();
-        let notes = Notes::new(cells, self.model.notes);
+        let cells = vec![Cell::new(Seen::NOTHING); self.model.notes.end()];
+        let notes = Notes::new(&cells, self.model.notes);
         let loss = self.model.loss(&point.context(self.part, self.lubricant, notes))?;
         Ok(Answer {
             watts: loss.total_watts(point.speed),
             share: loss.first_heat(),
-            left: cells.iter().filter(|cell| cell.get().outside > 0).count(),
+            left: cells.iter().filter(|cell| cell.get().extent().outside > 0).count(),
         })
     }
 

@@ -5,7 +5,7 @@ use std::cell::Cell;
 use super::circuit::{Circuit, Exchange};
 use super::parts::{Law, Lawful, Network, Rate, Surroundings};
 use crate::evaluate::Scratch;
-use crate::loss::{Extent, Notes, Undefined};
+use crate::loss::{Notes, Seen, Undefined};
 use crate::mechanism::heat_link::HeatLinkAt;
 use crate::transmission::{HeatPath, PartKind, Transmission};
 
@@ -76,7 +76,7 @@ impl Network {
     pub(crate) fn circuit(
         &self,
         temperatures: &[f64],
-        (speeds, cells): (&[f64], &[Cell<Extent>]),
+        (speeds, cells): (&[f64], &[Cell<Seen>]),
         around: &Surroundings,
         circuit: &mut Circuit,
     ) -> Result<(), (usize, Undefined)> {
@@ -133,7 +133,7 @@ impl Lawful {
         speeds: &[f64],
         vehicle_speed: f64,
         oil_flow: f64,
-        cells: &[Cell<Extent>],
+        cells: &[Cell<Seen>],
     ) -> Result<f64, Undefined> {
         let oil = self.lubricant.oil_at(0.5 * (first + second));
         let at = HeatLinkAt {

@@ -133,7 +133,7 @@ pub fn sine(x: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lanes::{LANES, each, wide};
+    use crate::real::{LANES, Lane, Points as _};
 
     #[test]
     fn the_exponential_agrees_with_the_standard_library() {
@@ -191,14 +191,14 @@ mod tests {
 
     #[test]
     fn wide_instructions_have_the_bits_of_single_numbers() {
-        let x = each(|i| 0.37 + 11.3 * i as f64);
-        let together = wide(
+        let x = Lane::each(|i| 0.37 + 11.3 * i as f64);
+        let together = Lane::wide(
             #[inline(always)]
             || [x.map(exp), x.map(ln), x.map(cube_root), x.map(|x| sine(x * 0.007))],
         );
         for i in 0..LANES {
             let alone = [exp(x[i]), ln(x[i]), cube_root(x[i]), sine(x[i] * 0.007)];
-            assert_eq!(together.map(|lane| lane[i].to_bits()), alone.map(f64::to_bits));
+            assert_eq!(together.map(|lane: Lane| lane[i].to_bits()), alone.map(f64::to_bits));
         }
     }
 }

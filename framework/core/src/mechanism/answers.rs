@@ -1,0 +1,105 @@
+//! How models answer for one point, and for several together.
+
+use super::tooth_friction::{Along, PathAt, ToothFrictionModel};
+use super::{Answer, Inputs, Mechanism};
+use crate::attach::State;
+use crate::loss::{Loss, Notebook, Undefined};
+use crate::real::{Lane, Points};
+use crate::registry::Placed;
+
+/// Numbers for which models answer: one point, or several. Several are answered together by a law that is written for any
+/// [`Real`](crate::real::Real), one by one by others and where their branches differ.
+pub trait Answers: Points {
+    /// The result of a model; NaN at points where it is undefined, unless there is one only.
+    ///
+    /// # Errors
+    /// Why it is undefined at the only point.
+    fn answer<M: Mechanism>(
+        model: &M::Model,
+        at: &M::At<'_, Self>,
+    ) -> Result<<M::Answer as Answer>::Of<Self>, Undefined>;
+
+    /// The loss of one copy of a placed component.
+    ///
+    /// # Errors
+    /// As [`Answers::answer`].
+    fn placed(placed: &dyn Placed, state: &State<'_, Self>, book: &Notebook<'_, Self>)
+    -> Result<Loss<Self>, Undefined>;
+
+    /// Coefficients of friction at all nodes of a path.
+    ///
+    /// # Errors
+    /// As [`Answers::answer`].
+    fn along(
+        model: &dyn ToothFrictionModel,
+        path: &PathAt<'_, Self>,
+        mu: &mut [Self],
+    ) -> Result<Along<Self>, Undefined>;
+}
+
+impl Answers for f64 {
+    #[inline(always)]
+    fn answer<M: Mechanism>(
+        model: &M::Model,
+        at: &M::At<'_, f64>,
+    ) -> Result<<M::Answer as Answer>::Of<f64>, Undefined> {
+        M::answer(model, at).map(Answer::alone)
+    }
+
+    #[inline(always)]
+    fn placed(placed: &dyn Placed, state: &State<'_>, book: &Notebook<'_>) -> Result<Loss, Undefined> {
+        placed.loss(state, book)
+    }
+
+    #[inline(always)]
+    fn along(model: &dyn ToothFrictionModel, path: &PathAt<'_>, mu: &mut [f64]) -> Result<Along, Undefined> {
+        model.along(path, mu)
+    }
+}
+
+impl Answers for Lane {
+    #[inline(always)]
+    fn answer<M: Mechanism>(
+        model: &M::Model,
+        at: &M::At<'_, Lane>,
+    ) -> Result<<M::Answer as Answer>::Of<Lane>, Undefined> {
+        if let Ok(all) = M::answer_together(model, at) {
+            return Ok(all);
+        }
+        let evaluate = |point: usize| M::answer(model, &at.at(point));
+        Ok(M::Answer::one_by_one(at.notes().points(), evaluate))
+    }
+
+    #[inline(always)]
+    fn placed(
+        placed: &dyn Placed,
+        state: &State<'_, Lane>,
+        book: &Notebook<'_, Lane>,
+    ) -> Result<Loss<Lane>, Undefined> {
+        Ok(placed.losses(state, book))
+    }
+
+    #[inline(always)]
+    fn along(
+        model: &dyn ToothFrictionModel,
+        path: &PathAt<'_, Lane>,
+        mu: &mut [Lane],
+    ) -> Result<Along<Lane>, Undefined> {
+        if let Ok(along) = model.along_together(path, mu) {
+            return Ok(along);
+        }
+        let mut all = Along::<Lane>::default();
+        let mut own = vec![0.0; mu.len()];
+        let points = path.notes.points();
+        for point in (0..Lane::COUNT).filter(|point| points >> point & 1 == 1) {
+            let along = path.at(point, |path| model.along(path, &mut own));
+            for (mu, own) in mu.iter_mut().zip(&own) {
+                mu.set(point, if along.is_ok() { *own } else { f64::NAN });
+            }
+            if let Ok(along) = along {
+                all.first_heat.set(point, along.first_heat);
+            }
+        }
+        Ok(all)
+    }
+}

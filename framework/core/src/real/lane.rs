@@ -1,0 +1,272 @@
+//! Numbers and conditions of several points, so that one instruction serves several of them.
+//!
+//! A loop over the numbers of a lane without calls or branches becomes a few wide instructions within [`Points::wide`]; only code that
+//! is inlined into it uses them, so everything here is `#[inline(always)]`.
+
+use std::ops::{Add, AddAssign, BitAnd, BitOr, Deref, Div, Mul, Neg, Not, Sub, SubAssign};
+
+use super::{Mask, Points, Real, elementary};
+
+/// Points that are evaluated together. Sixteen numbers fill two of the widest registers, enough to hide the latency of an operation;
+/// with more, intermediate results of a law no longer fit into registers, with fewer, the fixed cost of an evaluation weighs more.
+pub const LANES: usize = 16;
+
+/// A number for each of several points.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[repr(align(64))]
+pub struct Lane([f64; LANES]);
+
+/// A condition for each of several points: all bits set, or none, as wide as the numbers that it selects.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[repr(align(64))]
+pub struct LaneMask([u64; LANES]);
+
+impl Deref for Lane {
+    type Target = [f64; LANES];
+    #[inline(always)]
+    fn deref(&self) -> &[f64; LANES] {
+        &self.0
+    }
+}
+
+impl Default for Lane {
+    fn default() -> Self {
+        Self([0.0; LANES])
+    }
+}
+
+impl Lane {
+    /// A number from two.
+    #[inline(always)]
+    fn with(mut self, other: Self, number: impl Fn(f64, f64) -> f64) -> Self {
+        for (own, other) in self.0.iter_mut().zip(other.0) {
+            *own = number(*own, other);
+        }
+        self
+    }
+
+    #[inline(always)]
+    fn compare(self, other: Self, holds: impl Fn(f64, f64) -> bool) -> LaneMask {
+        let mut mask = LaneMask([0; LANES]);
+        for ((own, a), b) in mask.0.iter_mut().zip(self.0).zip(other.0) {
+            *own = if holds(a, b) { !0 } else { 0 };
+        }
+        mask
+    }
+}
+
+macro_rules! operators {
+    ($($Operator:ident $operator:ident),+) => {$(
+        impl $Operator for Lane {
+            type Output = Self;
+            #[inline(always)]
+            fn $operator(self, other: Self) -> Self {
+                self.with(other, |a, b| a.$operator(b))
+            }
+        }
+        impl $Operator<f64> for Lane {
+            type Output = Self;
+            #[inline(always)]
+            fn $operator(self, other: f64) -> Self {
+                self.map(|a| a.$operator(other))
+            }
+        }
+    )+};
+}
+operators!(Add add, Sub sub, Mul mul, Div div);
+
+impl Neg for Lane {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        self.map(|x| -x)
+    }
+}
+
+impl AddAssign for Lane {
+    #[inline(always)]
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+
+impl SubAssign for Lane {
+    #[inline(always)]
+    fn sub_assign(&mut self, other: Self) {
+        *self = *self - other;
+    }
+}
+
+impl BitAnd for LaneMask {
+    type Output = Self;
+    #[inline(always)]
+    fn bitand(mut self, other: Self) -> Self {
+        for (own, other) in self.0.iter_mut().zip(other.0) {
+            *own &= other;
+        }
+        self
+    }
+}
+
+impl BitOr for LaneMask {
+    type Output = Self;
+    #[inline(always)]
+    fn bitor(mut self, other: Self) -> Self {
+        for (own, other) in self.0.iter_mut().zip(other.0) {
+            *own |= other;
+        }
+        self
+    }
+}
+
+impl Not for LaneMask {
+    type Output = Self;
+    #[inline(always)]
+    fn not(mut self) -> Self {
+        for own in &mut self.0 {
+            *own = !*own;
+        }
+        self
+    }
+}
+
+impl Mask for LaneMask {
+    #[inline(always)]
+    fn constant(holds: bool) -> Self {
+        Self([if holds { !0 } else { 0 }; LANES])
+    }
+    #[inline(always)]
+    fn any(self) -> bool {
+        self.0.iter().fold(0, |all, own| all | own) != 0
+    }
+    #[inline(always)]
+    fn all(self) -> bool {
+        self.0.iter().fold(!0, |all, own| all & own) != 0
+    }
+    #[inline(always)]
+    fn at(self, point: usize) -> bool {
+        self.0[point] != 0
+    }
+    #[inline(always)]
+    fn bits(self) -> u32 {
+        let mut bits = 0;
+        for (point, own) in self.0.iter().enumerate() {
+            bits |= (*own as u32 & 1) << point;
+        }
+        bits
+    }
+}
+
+impl Real for Lane {
+    type Mask = LaneMask;
+    const ZERO: Self = Self([0.0; LANES]);
+    const HALF: Self = Self([0.5; LANES]);
+    #[inline(always)]
+    fn is_within(self, least: f64, greatest: f64) -> LaneMask {
+        self.test(|x| x >= least && x <= greatest)
+    }
+    #[inline(always)]
+    fn extremes(self, points: u32) -> (f64, f64) {
+        let (mut least, mut greatest) = (f64::INFINITY, f64::NEG_INFINITY);
+        for (point, x) in self.0.into_iter().enumerate() {
+            let x = if points >> point & 1 == 1 { x } else { f64::NAN };
+            least = if x < least { x } else { least };
+            greatest = if x > greatest { x } else { greatest };
+        }
+        (least, greatest)
+    }
+    #[inline(always)]
+    fn constant(x: f64) -> Self {
+        Self([x; LANES])
+    }
+    #[inline(always)]
+    fn is_below(self, other: Self) -> LaneMask {
+        self.compare(other, |a, b| a < b)
+    }
+    #[inline(always)]
+    fn is_equal(self, other: Self) -> LaneMask {
+        self.compare(other, |a, b| a == b)
+    }
+    #[inline(always)]
+    fn select(mask: LaneMask, mut then: Self, other: Self) -> Self {
+        for ((own, mask), other) in then.0.iter_mut().zip(mask.0).zip(other.0) {
+            *own = f64::from_bits(own.to_bits() & mask | other.to_bits() & !mask);
+        }
+        then
+    }
+    #[inline(always)]
+    fn magnitude(self) -> Self {
+        self.map(f64::abs)
+    }
+    #[inline(always)]
+    fn root(self) -> Self {
+        self.map(f64::sqrt)
+    }
+    #[inline(always)]
+    fn cube_root(self) -> Self {
+        self.map(elementary::cube_root)
+    }
+    #[inline(always)]
+    fn exponential(self) -> Self {
+        self.map(elementary::exp)
+    }
+    #[inline(always)]
+    fn logarithm(self) -> Self {
+        self.map(elementary::ln)
+    }
+    #[inline(always)]
+    fn sine(self) -> Self {
+        self.map(elementary::sine)
+    }
+    #[inline(always)]
+    fn lift(self, function: impl Fn(f64) -> f64) -> Self {
+        self.map(function)
+    }
+}
+
+impl Points for Lane {
+    const COUNT: usize = LANES;
+    #[inline(always)]
+    fn each(mut number: impl FnMut(usize) -> f64) -> Self {
+        let mut lane = Self([0.0; LANES]);
+        for (point, own) in lane.0.iter_mut().enumerate() {
+            *own = number(point);
+        }
+        lane
+    }
+    #[inline(always)]
+    fn mask(mut holds: impl FnMut(usize) -> bool) -> LaneMask {
+        let mut mask = LaneMask([0; LANES]);
+        for (point, own) in mask.0.iter_mut().enumerate() {
+            *own = if holds(point) { !0 } else { 0 };
+        }
+        mask
+    }
+    #[inline(always)]
+    fn at(&self, point: usize) -> f64 {
+        self.0[point]
+    }
+    #[inline(always)]
+    fn set(&mut self, point: usize, x: f64) {
+        self.0[point] = x;
+    }
+    #[inline(always)]
+    fn map(mut self, mut number: impl FnMut(f64) -> f64) -> Self {
+        for own in &mut self.0 {
+            *own = number(*own);
+        }
+        self
+    }
+    #[inline(always)]
+    fn test(self, mut holds: impl FnMut(f64) -> bool) -> LaneMask {
+        let mut mask = LaneMask([0; LANES]);
+        for (own, x) in mask.0.iter_mut().zip(self.0) {
+            *own = if holds(x) { !0 } else { 0 };
+        }
+        mask
+    }
+    #[inline(always)]
+    fn wide<T>(work: impl FnOnce() -> T) -> T {
+        pulp::Arch::new().dispatch(work)
+    }
+}
