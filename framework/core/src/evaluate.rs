@@ -212,11 +212,10 @@ impl Transmission {
         let silent = if iterates { SILENT } else { 0 };
         let mut pass = 0;
         let (work, models) = (&mut s.work, &mut s.models);
-        let settled = models.conditions.live;
+        work.live = models.conditions.live;
         let losses = |flow: &mut FlowState<'_, R>| {
             let notes = !quiet && pass >= silent;
             pass += 1;
-            *flow.live = *flow.live & settled;
             self.lose(case, flow, models, notes);
         };
         let outcome = if iterates {
@@ -226,7 +225,7 @@ impl Transmission {
             work.once(losses);
             Outcome::Converged { passes: 1 }
         };
-        models.conditions.live = work.live & settled;
+        models.conditions.live = work.live;
         let converged = matches!(outcome, Outcome::Converged { .. });
         if !quiet && matches!(outcome, Outcome::Converged { passes } if passes <= silent) {
             self.note(&s.work.drives, &mut s.models);

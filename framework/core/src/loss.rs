@@ -494,6 +494,15 @@ impl Seen {
         }
     }
 
+    /// The observations without those of other points; the values are those of all.
+    pub(crate) fn among(self, points: u32) -> Self {
+        Self {
+            seen: self.seen & points,
+            outside: self.outside & points,
+            ..self
+        }
+    }
+
     /// The points outside the limit, as bits.
     pub(crate) fn outside(self) -> u32 {
         self.outside

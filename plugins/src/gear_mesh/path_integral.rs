@@ -267,7 +267,6 @@ pub(crate) mod tests {
     use super::*;
     use gearloss_framework::geometry::{Pair, PairSpec};
     use gearloss_framework::loss::Notes;
-    use gearloss_framework::mechanism::Mechanism as _;
     use gearloss_framework::mechanism::gear_mesh::MeshPart;
     use gearloss_framework::registry::{Files, Registry};
     use serde_json::{Value, json};

@@ -135,8 +135,10 @@ impl<R: Points> Scratch<R> {
 
     /// Counts the observations at the last evaluated points as those of further points.
     pub(crate) fn count_seen(&mut self) {
-        for (total, seen) in self.totals.iter_mut().zip(&self.models.conditions.cells) {
-            let seen = seen.get().extent();
+        let c = &self.models.conditions;
+        let solved = R::bits(c.live);
+        for (total, seen) in self.totals.iter_mut().zip(&c.cells) {
+            let seen = seen.get().among(solved).extent();
             if seen.seen > 0 {
                 *total = total.merge(seen);
             }

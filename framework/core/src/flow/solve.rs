@@ -24,7 +24,6 @@ const REACH: (f64, f64) = (-9.0, 0.9);
 impl Flow {
     /// The power flow without losses, at the speeds and given torques of the work.
     pub fn ideal<R: Points>(&self, work: &mut Work<R>) {
-        work.live = R::mask(|_| true);
         work.used.values.fill(R::ZERO);
         work.drags.fill(R::ZERO);
         work.mismatch = R::ZERO;

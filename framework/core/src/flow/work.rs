@@ -128,7 +128,7 @@ pub struct Work<R: Points = f64> {
     pub largest: R,
     /// Largest difference of power between the losses used last and the results of the models. \[W\]
     pub mismatch: R,
-    /// Points that are solved together. A point leaves if it decides otherwise than the leading one, and is solved alone.
+    /// Points that are solved together, as set before a solve. A point leaves if it decides otherwise than the leading one, and is solved alone.
     pub live: R::Mask,
     /// Iterations over the loss models of each point.
     pub passes: R,

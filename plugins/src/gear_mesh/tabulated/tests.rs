@@ -2,7 +2,7 @@
 use std::cell::Cell;
 use std::sync::Arc;
 
-use gearloss_framework::loss::{Extent, Notes};
+use gearloss_framework::loss::{Extent, Notes, Seen};
 use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt, MeshPart};
 use gearloss_framework::registry::{Build, Files, Registry, Slot};
 use gearloss_numerics::sampling::Sobol;
@@ -73,14 +73,13 @@ impl Rig {
 
     fn interpolated(&self, point: &Point) -> Interpolated {
         let lubricant = &self.part.oil.as_ref().unwrap().lubricant;
-        let mut extents = vec![Extent::EMPTY; self.cells];
-        let cells = Cell::from_mut(extents.as_mut_slice()).as_slice_of_cells();
-        let at = point.context(&self.part, lubricant, Notes::new(cells, self.table.notes));
+        let cells = vec![Cell::new(Seen::NOTHING); self.cells];
+        let at = point.context(&self.part, lubricant, Notes::new(&cells, self.table.notes));
         let loss = self.table.loss(&at).unwrap();
         Interpolated {
             watts: loss.sum(),
             share: loss.first_heat(),
-            extents,
+            extents: cells.iter().map(|seen| seen.get().extent()).collect(),
         }
     }
 
