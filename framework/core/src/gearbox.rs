@@ -22,6 +22,7 @@ const LONGEST_CHAIN: usize = 8;
 const MOST_SHOWN: usize = 100;
 
 /// A gearbox after reading and checking. Resolving and building are repeated for every choice of models and overrides.
+#[derive(Clone)]
 pub struct Gearbox {
     /// The checked description, SI.
     pub value: Value,

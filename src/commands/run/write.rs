@@ -28,9 +28,10 @@ pub const REPORT: &str = "report.html";
 
 /// Writes the page into the folder of the results.
 pub fn report(run: &Run<'_>, template: Option<&str>) -> Result<(), Failure> {
-    let context = run.context("report");
+    let study = run.analyses.study_for_analysis();
+    let context = run.context(&study, "report");
     let mut report = run.report.borrow_mut();
-    for (name, gearbox) in &run.study.gearboxes {
+    for (name, gearbox) in &study.gearboxes {
         report.gearboxes.push(gearbox_page(&context, name, gearbox)?);
     }
     let frame = Frame::new(run.study, run.language, env!("CARGO_PKG_VERSION"));
