@@ -13,8 +13,8 @@ use gearloss_framework::resolve::Choice;
 use gearloss_framework::thermal::network::{Scheme, StepSize};
 use gearloss_framework::transmission::Transmission;
 use gearloss_plugins::tooth_friction::ehl_mixed::EhlMixed;
-use gearloss_studies::analysis::{Driven, OilTemperature, Ride, Stretch, drive};
 use gearloss_studies::duty::{CycleEntry, Duty, FileCycleEntry, ShippedCycleEntry, Vehicle, VehicleEntry};
+use gearloss_studies::points::{Driven, OilTemperature, Ride, Stretch, drive};
 use serde_json::json;
 
 const UNIT: &str = "examples/electric-drive-unit/gearbox.yaml";

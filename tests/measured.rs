@@ -5,7 +5,7 @@ use crate::common::{self, RPM, language};
 use std::path::{Path, PathBuf};
 
 use gearloss::api::{Choice, Gearbox, OilTemperature, PowerFlow};
-use gearloss_studies::analysis::PreparedPoint;
+use gearloss_studies::points::PreparedPoint;
 use serde_json::Value;
 
 /// One stage from 3000 to 1500 rpm, which turns the sense of rotation.

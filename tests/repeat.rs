@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use crate::common::{RPM, language, two_speed_with};
 use gearloss_framework::evaluate::{Point, PowerFlow};
 use gearloss_framework::flow::Tolerance;
-use gearloss_studies::analysis::{Bits, Field, MOST_IN_FLIGHT, OilTemperature, Points, held, run_grid, solve_pieces};
+use gearloss_studies::points::{Bits, Field, MOST_IN_FLIGHT, OilTemperature, Points, held, run_grid, solve_pieces};
 use serde_json::json;
 
 #[test]
@@ -64,7 +64,7 @@ fn one_thread_and_many_give_the_same_bits() {
     assert_eq!(one.passes, many.passes);
     assert_eq!(one.seen, many.seen);
     for (a, b) in one.points.iter().zip(&many.points) {
-        let bits = |p: &gearloss_studies::analysis::PointResult| {
+        let bits = |p: &gearloss_studies::points::PointResult| {
             (
                 p.loss.map(f64::to_bits),
                 p.efficiency.map(f64::to_bits),
@@ -173,7 +173,7 @@ fn pieces_solved_alone_are_those_of_the_whole_field() {
         .unwrap();
         alone[0].clone().made(start, &Bits::of).write_bits(&mut again);
         assert!(bytes == again, "piece {number}");
-        gearloss_studies::analysis::merge(&mut seen, &alone[0].seen);
+        gearloss_studies::points::merge(&mut seen, &alone[0].seen);
         start = end;
     }
     assert_eq!((start, seen), (17500, whole.seen));

@@ -4,7 +4,7 @@ use gearloss_framework::document::{Unit, parse_quantity};
 use gearloss_framework::evaluate::PowerFlow;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::transmission::Transmission;
-use gearloss_studies::analysis::{OilTemperature, PreparedPoint};
+use gearloss_studies::points::{OilTemperature, PreparedPoint};
 
 use crate::args::{FlowArg, PointArgs};
 use crate::output::Failure;

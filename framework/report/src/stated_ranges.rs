@@ -1,8 +1,8 @@
 //! Quantities outside their stated ranges in all analyses of a run, for the end of its output.
 
 use gearloss_studies::analyses::Outcome;
-use gearloss_studies::analysis::Note;
 use gearloss_studies::distinct::distinct;
+use gearloss_studies::points::Note;
 
 use crate::text::{beyond, significant};
 

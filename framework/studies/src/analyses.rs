@@ -50,7 +50,7 @@ use serde_json::Value;
 pub use context::{Built, Context, Stopped, gear_of};
 pub use head::Head;
 
-use crate::analysis::Note;
+use crate::points::Note;
 use crate::study::{ParameterKey, Then, Uses, Write};
 use crate::table::Table;
 

@@ -14,7 +14,7 @@ mod steady;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::analysis::PointResult;
+use crate::points::PointResult;
 use gearloss_framework::description::Ordered;
 
 use columns::KNOWN;

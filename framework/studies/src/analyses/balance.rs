@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::{Analysis, Built, Context, Head, Outcome, Stopped, gear_of};
-use crate::analysis::{Note, notes};
+use crate::points::{Note, notes};
 use crate::register_analysis;
 use crate::study::{Uses, Write};
 use crate::table::Table;

@@ -9,8 +9,8 @@ use serde::{Deserialize, Serialize};
 use super::axes::{axis, speeds, torques};
 use super::numbers::{RPM, tidy};
 use super::{Analysis, Built, Context, Stopped, gear_of};
-use crate::analysis::{Given, PointResult};
 use crate::measured::{Measured, Seen};
+use crate::points::{Given, PointResult};
 use crate::register_analysis;
 use crate::study::{By, Data, PowerAxis, Quantity, SpeedAxis, TorqueAxis, Uses, Write};
 

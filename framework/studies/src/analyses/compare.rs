@@ -12,7 +12,7 @@ pub use with_data::{Band, ComparedPoint, DataComparison, DataOfComparison, Ranki
 
 use super::measurable::countable;
 use super::{Analysis, Context, Head, Outcome, Stopped};
-use crate::analysis::Note;
+use crate::points::Note;
 use crate::register_analysis;
 use crate::study::{Data, Difference, Quantity, Uses, Write};
 use crate::table::Table;

@@ -16,7 +16,7 @@ use super::axes::{speeds, torques};
 use super::measurable::is_measurable;
 use super::numbers::{RPM, tidy};
 use super::{Analysis, Built, Context, Head, Outcome, Stopped, gear_of};
-use crate::analysis::{Note, Points, notes};
+use crate::points::{Note, Points, notes};
 use crate::register_analysis;
 use crate::study::{Data, SpeedAxis, TorqueAxis, Uses, Write};
 use crate::table::Table;

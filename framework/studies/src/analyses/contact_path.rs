@@ -22,7 +22,7 @@ use serde_json::Value;
 
 use super::numbers::{RPM, tidy};
 use super::{Analysis, Built, Context, Head, Outcome, Stopped, gear_of};
-use crate::analysis::Note;
+use crate::points::Note;
 use crate::register_analysis;
 use crate::study::{Uses, Write};
 use crate::table::Table;

@@ -15,8 +15,8 @@ use serde_json::Value;
 
 use super::head::{Head, InputFile};
 use super::progress::{Progress, Running};
-use crate::analysis::{Bits, Field, Given, GridResult, Make, Piece, Points, held, solve_pieces};
 use crate::codes;
+use crate::points::{Bits, Field, Given, GridResult, Make, Piece, Points, held, solve_pieces};
 use crate::study::{Grid, Study};
 use crate::table::RowSink;
 use crate::tasks::{Task, TaskResults};

@@ -1,8 +1,8 @@
 //! Reads and simulates the cycles of a study.
 
-use crate::analysis::{Driven, OilTemperature, Ride, can_drive, drive};
 use crate::codes;
 use crate::duty::{Demand, Duty, Given, Interval, Vehicle};
+use crate::points::{Driven, OilTemperature, Ride, can_drive, drive};
 use crate::study::{By, Conditions, DriveEntry};
 use gearloss_framework::document::{Diagnostic, classify};
 use gearloss_framework::thermal::network::{Network, StepSize};

@@ -12,7 +12,7 @@ use super::duties::{Duties, MeanLoss, Unfinished, sums_energies};
 use super::shares::together;
 use super::trial::{Left, Trial};
 use super::{Analysis, Built, Context, Head, Outcome, Stopped};
-use crate::analysis::Note;
+use crate::points::Note;
 use crate::register_analysis;
 use crate::study::{By, DriveEntry, Uses, Write};
 use crate::table::Table;

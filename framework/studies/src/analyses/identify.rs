@@ -27,10 +27,10 @@ pub use folds::{FoldOfSet, FoldsOfSet};
 pub use outcome::{IdentificationOfSet, IdentifyOutcome};
 
 use super::{Analysis, Built, Context, Stopped, gear_of};
-use crate::analysis::Rows;
 use crate::codes;
 use crate::identify::{Faults, HoldOut, Identification, Settings, group_words};
 use crate::measured::Measured;
+use crate::points::Rows;
 use crate::register_analysis;
 use crate::study::{FoldsEntry, IdentifiedEntry, ParameterKey, Then, Uses, Write};
 use found::{Found, Prepared};

@@ -23,7 +23,7 @@ use super::axes::grid_axes;
 use super::ranges::{Range, once};
 use super::trial::{Left, Trial, left};
 use super::{Analysis, Built, Context, Stopped};
-use crate::analysis::{Points, notes};
+use crate::points::{Points, notes};
 use crate::register_analysis;
 use crate::study::{Grid, NameOr, ParameterKey, RangeEntry, Uses, Write};
 

@@ -1,7 +1,7 @@
 //! Losses of a point summed by mechanism, component, stage, term or the usual sums.
 
-use crate::analysis::{PointResult, SUMS};
 use crate::distinct::distinct;
+use crate::points::{PointResult, SUMS};
 use crate::study::By;
 use gearloss_framework::transmission::{PartInfo, PartKind, Transmission};
 

@@ -12,7 +12,7 @@ use super::numbers::{RPM, tidy};
 use super::ranges::published;
 use super::shares::{Shares, together};
 use super::{Analysis, Built, Context, Stopped, gear_of};
-use crate::analysis::{GridResult, notes};
+use crate::points::{GridResult, notes};
 use crate::register_analysis;
 use crate::study::{By, SpeedAxis, TorqueAxis, Uses, Write};
 use crate::varied::{Tie, Varied};

@@ -7,7 +7,7 @@ use super::axes::{axis, speeds, torques};
 use super::breakdown::{Along, As, BreakdownOutcome, Common, RowOfBars, Stacks};
 use super::numbers::{RPM, tidy};
 use super::{Analysis, Context, Stopped, gear_of};
-use crate::analysis::Given;
+use crate::points::Given;
 use crate::register_analysis;
 use crate::study::{By, SpeedAxis, TemperatureAxis, TorqueAxis, Uses, Write};
 

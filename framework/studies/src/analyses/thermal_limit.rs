@@ -11,7 +11,7 @@ use super::axes::{speeds, torques};
 use super::balance::needs_balance;
 use super::numbers::{RPM, tidy};
 use super::{Analysis, Built, Context, Head, Outcome, Stopped, gear_of};
-use crate::analysis::{Note, Points, notes};
+use crate::points::{Note, Points, notes};
 use crate::register_analysis;
 use crate::study::{SpeedAxis, TorqueAxis, Uses, Write};
 use crate::table::Table;

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::analysis::{GridResult, OilTemperature, OnRig, PointResult, Points, Rows, SolvedRows, notes, run_grid};
+use crate::points::{GridResult, OilTemperature, OnRig, PointResult, Points, Rows, SolvedRows, notes, run_grid};
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::Language;
 use gearloss_framework::loss::Extent;

@@ -10,7 +10,7 @@ use super::trial::Left;
 use super::{Analysis, Context, Head, Outcome, Stopped};
 use crate::analyses::axes::grid_axes;
 use crate::analyses::inputs::Input;
-use crate::analysis::Note;
+use crate::points::Note;
 use crate::register_analysis;
 use crate::study::{NameOr, ParameterKey, ToleranceEntry, Uses, Write};
 use crate::table::Table;

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::analyses::numbers::{RPM, tidy};
 use crate::analyses::shares::{Shares, together};
 use crate::analyses::{Built, Context, Head, Outcome, Stopped};
-use crate::analysis::{Given, GridResult, Note, PointResult, Points, notes};
+use crate::points::{Given, GridResult, Note, PointResult, Points, notes};
 use crate::study::By;
 use crate::table::Table;
 

@@ -5,7 +5,7 @@ use super::Map;
 use super::export::{ExportData, ExportName, Refusal};
 use super::plan::Planned;
 use super::shown::LossGrid;
-use crate::analysis::{Given, Statistics, held};
+use crate::points::{Given, Statistics, held};
 
 impl ExportData {
     pub(super) fn solve(cx: &Context<'_>, formats: &[ExportName], map: &Map<'_>) -> Result<Self, Stopped> {

@@ -9,7 +9,7 @@ use super::super::axes::grid_axes;
 use super::super::{Built, Context, Stopped};
 use super::axes::Axes;
 use super::entry::MapEntry;
-use crate::analysis::{Field, Given, Points};
+use crate::points::{Field, Given, Points};
 use crate::study::{Envelope, Grid};
 
 /// The points of one map over a grid.

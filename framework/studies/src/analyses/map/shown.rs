@@ -2,7 +2,7 @@
 
 use super::super::numbers::spread_over;
 use super::axes::Axes;
-use crate::analysis::{Field, Numbered, PointResult};
+use crate::points::{Field, Numbered, PointResult};
 
 /// Grids with more points are shown by a selection of their rows and columns.
 const MOST_SHOWN: usize = 65_536;

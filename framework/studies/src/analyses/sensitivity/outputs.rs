@@ -7,7 +7,7 @@ use serde::Serialize;
 use super::super::numbers::{RPM, tidy};
 use super::super::shares::{Shares, together};
 use super::super::trial::why;
-use crate::analysis::PointResult;
+use crate::points::PointResult;
 use crate::study::By;
 
 /// Kind of an output.

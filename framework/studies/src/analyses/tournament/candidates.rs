@@ -12,7 +12,7 @@ use super::super::{Built, Context, Stopped};
 use super::CandidatesEntry;
 use super::marks::{Mark, marks};
 use super::slot::{Candidate, Slot};
-use crate::analysis::{Field, GridResult, PointResult, Points, notes, run_grid};
+use crate::points::{Field, GridResult, PointResult, Points, notes, run_grid};
 
 /// Relative difference of losses below which two models are equal: residual of the iterated power flow.
 const ALIKE: f64 = 1e-9;

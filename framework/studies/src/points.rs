@@ -1,4 +1,4 @@
-//! Analyses: many points of one transmission, in parallel, with the same bits on any number of threads.
+//! Many points of one transmission, solved in parallel with the same bits on any number of threads.
 
 mod bits;
 mod cycle;
