@@ -1,8 +1,8 @@
 //! An analysis of our own crate: the torque that turns the unloaded gearbox over the temperature of its oil, and the ratio of the torques
 //! with cold and with warm oil.
 
-use gearloss::pictures::page::Page;
-use gearloss::pictures::register_view;
+use gearloss::report::page::Page;
+use gearloss::report::register_view;
 use gearloss::studies::prelude::*;
 
 /// Torque that turns the unloaded gearbox, over the temperature of the oil.
