@@ -150,7 +150,7 @@ impl<'a> Run<'a> {
             Ok(outcome) => {
                 let shown = runner.present(analysis, outcome.as_ref(), out);
                 drop(runner);
-                let written = tables.finish(&outcome.tables());
+                let written = tables.finish(&outcome.tables()).map_err(Failure::from);
                 shown.and(written)
             }
             Err(Stopped::Checked) => Ok(()),

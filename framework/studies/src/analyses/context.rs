@@ -19,7 +19,7 @@ use crate::codes;
 use crate::points::{Bits, Field, Given, GridResult, Make, Piece, Points, held, solve_pieces};
 use crate::study::{Grid, Study};
 use crate::table::RowSink;
-use crate::tasks::{Task, TaskResults};
+use crate::tasks::{StorageError, Task, TaskResults};
 
 /// Why an analysis has no outcome.
 #[derive(Debug, thiserror::Error)]
@@ -39,9 +39,9 @@ pub enum Stopped {
     /// It needs results of tasks of other runs.
     #[error("it needs results that other runs compute")]
     Elsewhere,
-    /// Results cannot be written or read; the text to print.
+    /// Results cannot be written or read.
     #[error("{0}")]
-    Unwritten(String),
+    Unwritten(#[from] StorageError),
 }
 
 impl Stopped {
@@ -396,7 +396,7 @@ impl<'a> Context<'a> {
                 return Err(Stopped::Interrupted);
             }
             if let Some(kept) = self.tasks.filter(|kept| !kept.completes()) {
-                let bytes = postcard::to_stdvec(&result).map_err(|e| Stopped::Unwritten(format!("error: {e}\n")))?;
+                let bytes = postcard::to_stdvec(&result).map_err(StorageError::Encode)?;
                 kept.keep(self.task(stage, number), &bytes)?;
             }
             Ok(result)
@@ -602,9 +602,13 @@ fn unlike(task: Task<'_>) -> Stopped {
         stage,
         number,
     } = task;
-    Stopped::Unwritten(format!(
-        "error: result {number} of stage {stage} in part {part} of `{analysis}` is not that of its task\n  = help: delete the folders of the shards and run them again\n"
-    ))
+    let analysis = analysis.to_owned();
+    Stopped::Unwritten(StorageError::OtherTask {
+        analysis,
+        part,
+        stage,
+        number,
+    })
 }
 
 /// The gear of an entry, or the first.
