@@ -62,7 +62,7 @@ fn solved(torque: f64) -> (f64, f64) {
         gear: gear.clone(),
         speeds: vec![3000.0 * RPM],
         torques: vec![torque],
-        oil: OilTemperature::of(&t, None),
+        oil: OilTemperature::from_conditions(&t, None),
         flow: PowerFlow::Real,
     };
     let mut scratch = t.scratch(&point.case);

@@ -107,7 +107,7 @@ pub fn prepare(args: &PointArgs, gearbox: &Gearbox, transmission: &Transmission)
         gear,
         speeds: speeds.iter().map(|s| s.1).collect(),
         torques: torques.iter().map(|s| s.1).collect(),
-        oil: OilTemperature::of(transmission, given),
+        oil: OilTemperature::from_conditions(transmission, given),
         flow: if args.power_flow == FlowArg::Real {
             PowerFlow::Real
         } else {

@@ -265,7 +265,7 @@ impl<'a> Uses<'a> {
         Self {
             cycles: &drive.cycles,
             vehicle: drive.vehicle.as_ref(),
-            ..Self::new(drive.gearbox.as_ref(), &drive.model_sets).at(&drive.gear)
+            ..Self::new(drive.gearbox.as_ref(), &drive.model_sets).in_gears(&drive.gear)
         }
     }
 
@@ -291,7 +291,7 @@ impl<'a> Uses<'a> {
     }
 
     /// With gears.
-    pub fn at(self, gears: impl IntoIterator<Item = &'a String>) -> Self {
+    pub fn in_gears(self, gears: impl IntoIterator<Item = &'a String>) -> Self {
         let gears = gears.into_iter().collect();
         Self { gears, ..self }
     }

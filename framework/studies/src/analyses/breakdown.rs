@@ -69,7 +69,7 @@ impl Analysis for BreakdownEntry {
 
     fn uses(&self) -> Uses<'_> {
         Uses::new(self.gearbox.as_ref(), &self.model_sets)
-            .at(&self.gear)
+            .in_gears(&self.gear)
             .with("measured", self.measured.as_ref())
     }
 

@@ -93,7 +93,7 @@ impl Analysis for CompareEntry {
         Uses {
             grid: self.grid.as_ref(),
             ..Uses::new(self.gearbox.as_ref(), self.base.iter().chain(&self.against))
-                .at(&self.gear)
+                .in_gears(&self.gear)
                 .bind(&self.bind)
                 .with("data", self.data.as_ref())
         }

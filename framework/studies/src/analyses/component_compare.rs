@@ -173,7 +173,7 @@ impl Analysis for ComponentCompareEntry {
 
     fn uses(&self) -> Uses<'_> {
         Uses::new(self.gearbox.as_ref(), &self.model_set)
-            .at(&self.gear)
+            .in_gears(&self.gear)
             .with("measured", self.measured.as_ref())
     }
 

@@ -16,7 +16,7 @@ use serde_json::Value;
 use super::head::{Head, InputFile};
 use super::progress::{Progress, Running};
 use crate::codes;
-use crate::points::{Bits, Field, Given, GridResult, Make, Piece, Points, held, solve_pieces};
+use crate::points::{Bits, Field, Given, GridResult, Make, Piece, Points, solve_pieces, take_points};
 use crate::study::{Grid, Study};
 use crate::table::RowSink;
 use crate::tasks::{StorageError, Task, TaskResults};
@@ -311,7 +311,7 @@ impl<'a> Context<'a> {
         self.checked(built, points)?;
         let mut all = GridResult::default();
         let numbers: Vec<usize> = (0..points.field.pieces()).collect();
-        self.evaluate(built, points, &numbers, &held, &mut |piece| {
+        self.evaluate(built, points, &numbers, &take_points, &mut |piece| {
             all.add(piece);
             Ok(())
         })?;
@@ -325,7 +325,7 @@ impl<'a> Context<'a> {
     pub fn solve(&self, built: &Built<'_>, points: &Points) -> Result<GridResult, Stopped> {
         self.holds("analyses", points.field.len(), 1)?;
         let mut all = GridResult::default();
-        self.solve_pieces(built, points, &held, &mut |piece| {
+        self.solve_pieces(built, points, &take_points, &mut |piece| {
             all.add(piece);
             Ok(())
         })?;
@@ -350,7 +350,7 @@ impl<'a> Context<'a> {
             return self.evaluate(built, points, &all, make, take);
         };
         let missing = self.missing(kept, stage, all.len())?;
-        self.evaluate(built, points, &missing.own, &Bits::of, &mut |piece| {
+        self.evaluate(built, points, &missing.own, &Bits::from_points, &mut |piece| {
             let mut bytes = Vec::new();
             piece.write_bits(&mut bytes);
             kept.keep(self.task(stage, piece.number), &bytes)

@@ -102,7 +102,7 @@ impl Analysis for CycleAnalysisEntry {
         cx.undivided()?;
         let mut cycles = Vec::new();
         for b in &built {
-            let shares = Shares::of(&b.transmission, self.by).under(&names);
+            let shares = Shares::new(&b.transmission, self.by).under(&names);
             let running = cx.running(duties.intervals(), &b.name);
             for read in &duties.list {
                 let driven = duties.drive(&b.transmission, read, &|n| running.advance(n));

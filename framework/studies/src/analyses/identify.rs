@@ -50,7 +50,7 @@ impl Analysis for IdentifyEntry {
             grid: self.next.as_ref().map(|next| &next.grid),
             grid_key: "next.grid",
             ..Uses::new(self.gearbox.as_ref(), &self.model_sets)
-                .at(&self.gear)
+                .in_gears(&self.gear)
                 .bind(&self.bind)
                 .with("data", Some(&self.data))
         }

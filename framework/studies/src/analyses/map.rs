@@ -45,7 +45,7 @@ impl Analysis for MapEntry {
         Uses {
             grid: self.grid.as_ref(),
             ..Uses::new(self.gearbox.as_ref(), &self.model_sets)
-                .at(&self.gear)
+                .in_gears(&self.gear)
                 .bind(&self.bind)
                 .with("points", self.points.as_ref())
                 .with("measured", self.measured.as_ref())

@@ -157,7 +157,7 @@ impl Analysis for OperatingPointsEntry {
 
     fn uses(&self) -> Uses<'_> {
         Uses::new(self.gearbox.as_ref(), &self.model_sets)
-            .at(&self.gear)
+            .in_gears(&self.gear)
             .bind(&self.bind)
             .with("data", Some(&self.data))
     }
@@ -193,7 +193,7 @@ impl OperatingPointsEntry {
     fn of_set(&self, listed: &Measured, solved: &Solved<'_>, names: &[String]) -> PointsOfSet {
         let built = solved.built.iter();
         let shares: Vec<Shares> = built
-            .map(|b| Shares::of(&b.transmission, self.by).under(names))
+            .map(|b| Shares::new(&b.transmission, self.by).under(names))
             .collect();
         let rows = listed.rows.iter().zip(&solved.rows).enumerate();
         let points = rows.map(|(i, (row, (place, gear, point)))| OperatingPoint {

@@ -80,7 +80,7 @@ impl Analysis for RmsSurfaceEntry {
 
     fn uses(&self) -> Uses<'_> {
         Uses::new(self.gearbox.as_ref(), &self.against)
-            .at(&self.gear)
+            .in_gears(&self.gear)
             .bind(&self.bind)
             .with("data", Some(&self.data))
     }

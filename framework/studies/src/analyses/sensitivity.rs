@@ -163,7 +163,7 @@ impl Evaluate for At<'_> {
             let point = point(i);
             if *shares {
                 let places = evaluations.ranges.iter().zip(&point);
-                let values: Vec<f64> = places.map(|(range, share)| range.at(*share)).collect();
+                let values: Vec<f64> = places.map(|(range, share)| range.value_at(*share)).collect();
                 evaluations.solved(&values)
             } else {
                 evaluations.solved(&point)

@@ -43,7 +43,7 @@ impl Analysis for SpinLossEntry {
     type Outcome = BreakdownOutcome;
 
     fn uses(&self) -> Uses<'_> {
-        Uses::new(self.gearbox.as_ref(), &self.model_sets).at(&self.gears)
+        Uses::new(self.gearbox.as_ref(), &self.model_sets).in_gears(&self.gears)
     }
 
     fn run(&self, cx: &Context<'_>) -> Result<BreakdownOutcome, Stopped> {

@@ -66,7 +66,7 @@ impl Analysis for SweepEntry {
     type Outcome = SweepOutcome;
 
     fn uses(&self) -> Uses<'_> {
-        Uses::new(self.gearbox.as_ref(), &self.model_sets).at(&self.gear)
+        Uses::new(self.gearbox.as_ref(), &self.model_sets).in_gears(&self.gear)
     }
 
     fn run(&self, cx: &Context<'_>) -> Result<SweepOutcome, Stopped> {
@@ -173,7 +173,7 @@ impl SweepEntry {
     fn record(&self, solved: &Solved<'_>, shares: &[String]) -> SweepOfValue {
         let t = &solved.built.transmission;
         let [first, second] = solved.places;
-        let own = Shares::of(t, self.by).under(shares);
+        let own = Shares::new(t, self.by).under(shares);
         SweepOfValue {
             model_set: solved.built.name.clone(),
             gear: solved.gear.clone(),

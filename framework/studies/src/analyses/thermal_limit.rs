@@ -112,7 +112,7 @@ impl Analysis for ThermalLimitEntry {
     type Outcome = ThermalLimitOutcome;
 
     fn uses(&self) -> Uses<'_> {
-        Uses::new(self.gearbox.as_ref(), &self.model_sets).at(&self.gear)
+        Uses::new(self.gearbox.as_ref(), &self.model_sets).in_gears(&self.gear)
     }
 
     fn run(&self, cx: &Context<'_>) -> Result<ThermalLimitOutcome, Stopped> {

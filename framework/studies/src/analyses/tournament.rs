@@ -126,7 +126,7 @@ impl Analysis for TournamentEntry {
         Uses {
             grid: self.grid.as_ref(),
             ..Uses::new(self.gearbox.as_ref(), &self.model_set)
-                .at(&self.gear)
+                .in_gears(&self.gear)
                 .with("data", self.data.as_ref())
         }
     }

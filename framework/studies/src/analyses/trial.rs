@@ -52,7 +52,7 @@ impl<'a> Trial<'a> {
     /// Solves all points. Their temperature follows the overrides unless given otherwise.
     pub fn solve(&self, transmission: &Transmission, points: &Points) -> Result<GridResult, String> {
         let points = Points {
-            oil: OilTemperature::of(transmission, self.study.entry.conditions.oil_temperature),
+            oil: OilTemperature::from_conditions(transmission, self.study.entry.conditions.oil_temperature),
             ..points.clone()
         };
         let solved = run_grid(transmission, &points, &|_| self.cx.should_continue());

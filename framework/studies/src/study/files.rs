@@ -328,7 +328,7 @@ impl Study {
             torque_at: vec![conditions.torque_at.clone()],
             speed_at: vec![conditions.speed_at.clone()],
             field,
-            oil: OilTemperature::of(transmission, conditions.oil_temperature),
+            oil: OilTemperature::from_conditions(transmission, conditions.oil_temperature),
             flow: conditions.power_flow,
             terms: false,
         }

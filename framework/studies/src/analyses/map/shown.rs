@@ -104,15 +104,15 @@ pub struct LossGrid {
 impl LossGrid {
     /// The efficiency at a grid point.
     pub fn efficiency(&self, torque: usize, speed: usize) -> Option<f64> {
-        self.at(torque, speed)?[0]
+        self.values_at(torque, speed)?[0]
     }
 
     /// The loss torque at a grid point. \[Nm\]
     pub fn loss_torque(&self, torque: usize, speed: usize) -> Option<f64> {
-        self.at(torque, speed)?[1]
+        self.values_at(torque, speed)?[1]
     }
 
-    fn at(&self, torque: usize, speed: usize) -> Option<[Option<f64>; 2]> {
+    fn values_at(&self, torque: usize, speed: usize) -> Option<[Option<f64>; 2]> {
         self.values[torque * self.axes.speeds.len() + speed]
     }
 
