@@ -163,7 +163,7 @@ fn solve_follows_overrides_sets_and_the_other_port() {
 }
 
 #[test]
-fn wrong_arguments_say_how_to_mend_them() {
+fn wrong_arguments_say_how_to_fix_them() {
     for (args, words) in [
         (vec!["solve", GEARBOX], "add --gear"),
         (

@@ -178,7 +178,7 @@ mod tests {
     }
 
     #[test]
-    fn one_line_tells_of_all_analyses_and_models() {
+    fn one_line_names_all_analyses_and_models() {
         let mut ranges = StatedRanges::default();
         ranges.add(left("bearings.B1.model", 2.0, "map"));
         ranges.add(left("bearings.B1.model", 1.0, "city"));
