@@ -260,7 +260,8 @@ fn take_reason(from: &mut &[u8]) -> Option<Undefined> {
     })
 }
 
-/// A reason as a static text. The number of reasons is limited, and each is stored once.
+/// A reason as a static text, because [`Undefined`] is copied for millions of points and therefore owns no text. Reasons are texts
+/// of models, so that there are few; each is allocated once and never freed.
 fn lasting(text: &str) -> &'static str {
     static KNOWN: Mutex<BTreeSet<&'static str>> = Mutex::new(BTreeSet::new());
     let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
