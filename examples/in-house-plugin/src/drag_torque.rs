@@ -61,7 +61,6 @@ pub struct DragTorque {
 
 impl Analysis for DragTorqueEntry {
     const TYPE: &'static str = "drag_torque";
-    const MEANING: &'static str = "Torque that turns the unloaded gearbox, over the temperature of the oil.";
     type Outcome = DragTorqueOutcome;
 
     fn uses(&self) -> Uses<'_> {

@@ -137,7 +137,7 @@ impl<'a> Run<'a> {
     pub(super) fn attempt(&self, name: &str, analysis: &AnalysisEntry, out: &mut Out) -> Result<(), Failure> {
         self.report.borrow_mut().sections.push(Section {
             name: name.to_owned(),
-            about: analysis.kind().meaning.to_owned(),
+            about: analysis.kind().meaning(),
             ..Section::default()
         });
         let tables = Tables::new(&self.files, analysis.formats());

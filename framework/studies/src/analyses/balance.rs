@@ -16,7 +16,7 @@ use crate::register_analysis;
 use crate::study::{Uses, Write};
 use crate::table::Table;
 
-/// Heat balance of one point.
+/// Heat balance of one point: losses and heat over temperature, and every step of the search.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct BalanceEntry {
     /// Gearbox; default: the first.
@@ -218,8 +218,6 @@ pub fn reason(transmission: &Transmission, why: &Unbalanced) -> String {
 
 impl Analysis for BalanceEntry {
     const TYPE: &'static str = "balance";
-    const MEANING: &'static str =
-        "Heat balance of one point: losses and heat over temperature, and every step of the search.";
     type Outcome = BalanceOutcome;
 
     fn uses(&self) -> Uses<'_> {

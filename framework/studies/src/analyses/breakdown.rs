@@ -64,7 +64,6 @@ register_analysis!(BreakdownEntry);
 
 impl Analysis for BreakdownEntry {
     const TYPE: &'static str = "breakdown";
-    const MEANING: &'static str = "Loss breakdown over speed or torque.";
     type Outcome = BreakdownOutcome;
 
     fn uses(&self) -> Uses<'_> {

@@ -86,7 +86,6 @@ pub enum Comparisons {
 
 impl Analysis for CompareEntry {
     const TYPE: &'static str = "compare";
-    const MEANING: &'static str = "Difference between model sets over a grid.";
     type Outcome = CompareOutcome;
 
     fn uses(&self) -> Uses<'_> {

@@ -168,7 +168,6 @@ struct Evaluated<'a> {
 
 impl Analysis for ComponentCompareEntry {
     const TYPE: &'static str = "component_compare";
-    const MEANING: &'static str = "Several models of one component over speed.";
     type Outcome = ComponentCompareOutcome;
 
     fn uses(&self) -> Uses<'_> {

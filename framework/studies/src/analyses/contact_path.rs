@@ -162,8 +162,6 @@ impl Friction {
 
 impl Analysis for ContactPathEntry {
     const TYPE: &'static str = "contact_path";
-    const MEANING: &'static str =
-        "Velocities, load, pressure, friction, film thickness and loss along the path of contact of one mesh.";
     type Outcome = ContactPathOutcome;
 
     fn uses(&self) -> Uses<'_> {

@@ -28,7 +28,7 @@ pub use outcome::{
     InputOfBand, IntervalOfDuty, ReferenceOfDuty, TemperatureOfNode,
 };
 
-/// Cycle losses, energy and temperatures.
+/// Cycle losses, energy and temperatures, for driving cycles or load spectra.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct CycleAnalysisEntry {
     /// Cycles and settings of the simulation.
@@ -70,7 +70,6 @@ register_analysis!(CycleAnalysisEntry);
 
 impl Analysis for CycleAnalysisEntry {
     const TYPE: &'static str = "cycle";
-    const MEANING: &'static str = "Cycle losses, energy and temperatures, for driving cycles or load spectra.";
     type Outcome = CycleOutcome;
 
     fn uses(&self) -> Uses<'_> {

@@ -19,7 +19,7 @@ use crate::table::Table;
 
 pub use least::LeastLoss;
 
-/// Mean cycle losses over one property of an oil.
+/// Mean cycle losses over one property of an oil, and their minimum.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct FluidSweepEntry {
     /// Cycles and settings of the simulation.
@@ -139,7 +139,6 @@ struct Search<'a> {
 
 impl Analysis for FluidSweepEntry {
     const TYPE: &'static str = "fluid_sweep";
-    const MEANING: &'static str = "Mean cycle losses over one property of an oil, and their minimum.";
     type Outcome = FluidSweepOutcome;
 
     fn uses(&self) -> Uses<'_> {

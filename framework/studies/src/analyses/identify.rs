@@ -41,7 +41,6 @@ register_analysis!(IdentifyEntry);
 
 impl Analysis for IdentifyEntry {
     const TYPE: &'static str = "identify";
-    const MEANING: &'static str = "Identification of uncertain parameters from measured points.";
     const PARAMETERS: Option<ParameterKey> = Some(ParameterKey::Whole("parameters"));
     type Outcome = IdentifyOutcome;
 

@@ -38,7 +38,6 @@ register_analysis!(MapEntry);
 
 impl Analysis for MapEntry {
     const TYPE: &'static str = "map";
-    const MEANING: &'static str = "Losses and efficiency over a grid.";
     type Outcome = MapOutcome;
 
     fn uses(&self) -> Uses<'_> {

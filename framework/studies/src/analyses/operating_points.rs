@@ -16,7 +16,7 @@ use crate::register_analysis;
 use crate::study::{By, Data, Uses, Write};
 use crate::table::Table;
 
-/// Losses of a list of operating points from a file.
+/// Losses of a list of operating points from a file, as stacked bars with measured values.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct OperatingPointsEntry {
     /// Gearbox; default: the first.
@@ -151,8 +151,6 @@ impl MeasuredAtPoint {
 
 impl Analysis for OperatingPointsEntry {
     const TYPE: &'static str = "operating_points";
-    const MEANING: &'static str =
-        "Losses of a list of operating points from a file, as stacked bars with measured values.";
     type Outcome = OperatingPointsOutcome;
 
     fn uses(&self) -> Uses<'_> {

@@ -32,7 +32,9 @@ const NOISE: f64 = 1e-9;
 /// Number of resamples for the intervals of shares.
 const RESAMPLES: usize = 200;
 
-/// Sensitivity of the losses over a grid: mean loss in total and by mechanism and term, mean efficiency, and relative change of the loss at
+/// Sensitivity of the losses: slopes, screening, shares of the variance.
+///
+/// Over a grid: mean loss in total and by mechanism and term, mean efficiency, and relative change of the loss at
 /// the points (`relative_loss`: root mean square over the points, not for `local`).
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct SensitivityEntry {
@@ -94,7 +96,6 @@ register_analysis!(SensitivityEntry);
 
 impl Analysis for SensitivityEntry {
     const TYPE: &'static str = "sensitivity";
-    const MEANING: &'static str = "Sensitivity of the losses: slopes, screening, shares of the variance.";
     const PARAMETERS: Option<ParameterKey> = Some(ParameterKey::Range("parameters"));
     type Outcome = SensitivityOutcome;
 

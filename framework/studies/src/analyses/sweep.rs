@@ -62,7 +62,6 @@ register_analysis!(SweepEntry);
 
 impl Analysis for SweepEntry {
     const TYPE: &'static str = "sweep";
-    const MEANING: &'static str = "Losses and efficiency over the values of one path, or of two.";
     type Outcome = SweepOutcome;
 
     fn uses(&self) -> Uses<'_> {

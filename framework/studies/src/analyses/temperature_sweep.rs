@@ -42,7 +42,6 @@ register_analysis!(TemperatureSweepEntry);
 
 impl Analysis for TemperatureSweepEntry {
     const TYPE: &'static str = "temperature_sweep";
-    const MEANING: &'static str = "Loss breakdown over oil temperature.";
     type Outcome = BreakdownOutcome;
 
     fn uses(&self) -> Uses<'_> {

@@ -108,7 +108,6 @@ pub struct ThermalLimit {
 
 impl Analysis for ThermalLimitEntry {
     const TYPE: &'static str = "thermal_limit";
-    const MEANING: &'static str = "The torque, or the speed, at which the heat balance reaches a given temperature.";
     type Outcome = ThermalLimitOutcome;
 
     fn uses(&self) -> Uses<'_> {
