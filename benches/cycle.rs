@@ -8,8 +8,8 @@ use gearloss_framework::evaluate::PowerFlow;
 use gearloss_framework::resolve::{Choice, lookup};
 use gearloss_framework::thermal::network::{Scheme, StepSize};
 use gearloss_framework::transmission::Transmission;
-use gearloss_studies::analysis::{OilTemperature, Ride, drive};
 use gearloss_studies::duty::{CycleEntry, Interval, ShippedCycleEntry, Vehicle, VehicleEntry};
+use gearloss_studies::points::{OilTemperature, Ride, drive};
 use serde_json::json;
 
 /// Loss over the whole cycle. \[J\]

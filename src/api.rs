@@ -64,7 +64,7 @@ pub use gearloss_framework::transmission::{Case, Transmission};
 pub use gearloss_studies::analyses;
 pub use gearloss_studies::analyses::progress::{Progress, Silent, Steps};
 pub use gearloss_studies::analyses::{Context, Outcome, Stopped};
-pub use gearloss_studies::analysis::{Field, Given, GridResult, OilTemperature, PointResult, Points};
+pub use gearloss_studies::points::{Field, Given, GridResult, OilTemperature, PointResult, Points};
 pub use gearloss_studies::run::StudyRun;
 pub use gearloss_studies::study::Study;
 pub use gearloss_studies::table::{Column, Table, Texts, Values};
@@ -111,7 +111,7 @@ pub fn solve_point(
 /// # Errors
 /// If the gear state is unknown, or if the ports do not match it.
 pub fn solve_points(gearbox: &Gearbox, transmission: &Transmission, points: &Points) -> Result<GridResult, Findings> {
-    let solved = gearloss_studies::analysis::run_grid(transmission, points, &|_| true);
+    let solved = gearloss_studies::points::run_grid(transmission, points, &|_| true);
     // The progress above breaks nothing off.
     Ok(solved.map_err(|list| gearbox.findings(list))?.unwrap_or_default())
 }

@@ -46,7 +46,7 @@ use gearloss_plugins as _;
 pub use gearloss_document as document;
 pub use gearloss_framework as framework;
 pub use gearloss_numerics as numerics;
-pub use gearloss_report as pictures;
+pub use gearloss_report as report;
 pub use gearloss_studies as studies;
 
 use args::{Args, Command};

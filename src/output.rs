@@ -6,6 +6,7 @@ use gearloss_framework::document::Diagnostic;
 use gearloss_framework::gearbox::Findings;
 pub use gearloss_report::text::{TextTable as Table, figures, number, significant};
 use gearloss_studies::analyses::Stopped;
+use gearloss_studies::tasks::StorageError;
 
 /// How a command ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -65,9 +66,23 @@ impl From<Stopped> for Failure {
         match stopped {
             Stopped::Found(findings) => Self::Found(findings),
             Stopped::Several(list) => list.as_slice().into(),
-            Stopped::Unwritten(text) => Self::Input(text),
+            Stopped::Unwritten(error) => error.into(),
             Stopped::Interrupted | Stopped::Checked | Stopped::Elsewhere => Self::Interrupted,
         }
+    }
+}
+
+/// Results that cannot be written or read.
+impl From<StorageError> for Failure {
+    fn from(error: StorageError) -> Self {
+        let help = match &error {
+            StorageError::Write { .. } => "choose another folder with -o",
+            StorageError::SameName(_) => "rename an analysis or a model set",
+            StorageError::Encode(_) => "this is a bug of the analysis; run it without --shard",
+            StorageError::Read { .. } => "run its shard again, then merge",
+            StorageError::OtherTask { .. } => "delete the folders of the shards and run them again",
+        };
+        Self::input(error, help)
     }
 }
 

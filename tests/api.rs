@@ -1,12 +1,13 @@
 //! The library as a program uses it: documents from memory, points, studies, typed outcomes.
 
 use std::path::{Path, PathBuf};
+use std::sync::Barrier;
 
 use gearloss::api::analyses::cycle::CycleOutcome;
 use gearloss::api::analyses::operating_points::OperatingPointsOutcome;
 use gearloss::api::{
-    Choice, Disk, Field, FileSource as _, Findings, Gearbox, Given, InMemory, Outcome, Points, SharedSource, StudyRun,
-    read_study, solve_point, solve_points,
+    Choice, Disk, Field, FileSource as _, Findings, Gearbox, Given, InMemory, Language, Outcome, Points, SharedSource,
+    Study, StudyRun, read_study, solve_point, solve_points,
 };
 
 use crate::common::{file, language, two_speed, two_speed_with};
@@ -140,4 +141,67 @@ fn an_analysis_that_there_is_not_is_named() {
         .map(|(name, outcome)| outcome.map(|_| name).unwrap())
         .collect();
     assert_eq!(names, ["sets", "town"]);
+}
+
+/// A study of the two-speed gearbox in memory, with files beside it.
+fn study_in_memory(language: &Language, analyses: &str, files: &[(&str, &str)]) -> Study {
+    let gearbox = std::fs::read_to_string(file("examples/two-speed-ev/gearbox.yaml")).unwrap();
+    let study = format!("gearloss: study/1\ngearboxes: {{ ours: gearbox.yaml }}\nanalyses:\n{analyses}");
+    let texts = [("gearbox.yaml", gearbox.as_str()), ("study.yaml", study.as_str())];
+    let files = InMemory::new(files.iter().copied().chain(texts));
+    read_study(language, &files.shared(), "study.yaml").unwrap()
+}
+
+#[test]
+fn two_runs_of_one_study_at_once_list_their_own_inputs() {
+    let language = language();
+    let names = ["first", "second"];
+    let seal = |name: &str| {
+        format!(
+            "  {name}: {{ type: component_compare, component: seals.D1, torque: 1 Nm, speed: 1000 rpm, \
+             models: {{ rig: {{ type: table, file: {name}.csv }} }} }}\n"
+        )
+    };
+    let table = "speed [rpm],moment [Nm]\n0,0.1\n20000,0.2\n";
+    let files = [("first.csv", table), ("second.csv", table)];
+    let study = study_in_memory(&language, &names.map(seal).concat(), &files);
+    // Both begin together each time, so that one reads its file while the other runs.
+    let together = Barrier::new(names.len());
+    let run = |name: &str| {
+        for _ in 0..20 {
+            together.wait();
+            let outcome = StudyRun::new(&language, &study).analysis(name).unwrap();
+            let inputs: Vec<&str> = outcome.head().inputs.iter().map(|input| input.file.as_str()).collect();
+            assert_eq!(inputs, ["study", "gearbox.yaml", &format!("{name}.csv")]);
+        }
+    };
+    std::thread::scope(|scope| {
+        for name in names {
+            let run = &run;
+            scope.spawn(move || run(name));
+        }
+    });
+}
+
+#[test]
+fn model_sets_found_by_one_run_are_unknown_to_another() {
+    let language = language();
+    let analyses = "  fit:
+    type: identify
+    data: { file: rig.csv }
+    model_sets: [own]
+    residuals: [loss]
+    parameters: { viscosity: { path: lubricants.sump.viscosity.factor, from: 0.5, to: 2 } }
+    starts: 1
+    folds: 0
+    then: fitted
+  fitted: { type: operating_points, data: { file: rig.csv }, model_sets: [fitted] }
+";
+    let rig = "torque [Nm],speed [rpm],loss [W]\n5,2000,40\n10,2000,50\n20,8000,300\n";
+    let study = study_in_memory(&language, analyses, &[("rig.csv", rig)]);
+    let [first, second] = [(); 2].map(|()| StudyRun::new(&language, &study));
+    first.analysis("fit").unwrap();
+    first.analysis("fitted").unwrap();
+    let error = second.analysis("fitted").err().unwrap().to_string();
+    assert!(error.contains("the model set `fitted` has no values"), "{error}");
 }

@@ -160,7 +160,7 @@ fn spreads(out: &mut String, language: &Language) {
         &Rows {
             title: "Mesh M1",
             text: "16/83 teeth, 1.25 mm, 26 deg, Ra 0.3 um, about 5.4 mPa s. Loss in W. The line load is below 150 N/mm at 5 and 20 Nm, \
-                   so models with that clamp lie higher.",
+                   so models with this lower limit give higher losses.",
             part: "meshes.M1",
             slot: "meshes.M1.model",
             also: &[],
@@ -174,7 +174,7 @@ fn spreads(out: &mut String, language: &Language) {
         &Rows {
             title: "Churning of gear G4",
             text: "101 teeth, 1.6 mm, dipping in 6.4 mm2/s oil of 100 degC; its mesh partner is dry. Loss in W. The law of ISO/TR \
-                   14179-2 belongs to the stage and stands in the next table.",
+                   14179-2 is for a stage and is compared in the next table.",
             part: "gears.G4.drag.churning",
             slot: "gears.G4.drag.churning",
             also: &[("meshes.M2.drag.churning", json!("none"))],
@@ -337,11 +337,11 @@ fn churning_table(out: &mut String, language: &Language) {
     }
     out.push_str(
         "## Churning torque of one gear, N m\n\n96 teeth, 1.6 mm, 27 deg, 17 mm wide, tip 176.25 mm, 45 mm deep in 1.3 l of oil of 842 kg/m3; \
-         splash factor 1, gaps 10 and 30 mm, fill 0.35. In brackets an independent computation. `changenet_2011`, `iso14179_2` and \
-         the reconstructed `mauz` agree within a factor of three (five for thick oil at low speed); `shore` includes that oil is \
-         thrown about; `iso14179_1` swings with viscosity, `seetharaman_kahraman` runs away with speed. The computation in brackets \
-         counts the flanks of the teeth in the wetted surface of `mauz`, and for `iso14179_1` the teeth alone, with the depth over \
-         the reference diameter; here `mauz` counts faces and rim, as he states it, and `iso14179_1` sides and teeth.\n\n",
+         splash factor 1, gaps 10 and 30 mm, fill 0.35. Values in brackets: an independent computation. `changenet_2011`, `iso14179_2` and \
+         the reconstructed `mauz` agree within a factor of three (five for thick oil at low speed); `shore` includes the \
+         oil that is flung off; `iso14179_1` varies strongly with viscosity, and `seetharaman_kahraman` rises too steeply with speed. \
+         The independent computation includes the tooth flanks in the wetted surface of `mauz`, and for `iso14179_1` only the teeth, \
+         with the depth over the reference diameter. Here `mauz` uses faces and rim, as published, and `iso14179_1` sides and teeth.\n\n",
     );
     let names = [
         "changenet_2011",
@@ -417,8 +417,8 @@ fn the_comparison_is_not_stale() {
     let language = common::language();
     let mut out = String::from(
         "# Models side by side\n\nGenerated from the program: `UPDATE=1 cargo test --test all comparison::`. The first tables take the two-speed \
-         example in first gear at 100 degC and exchange one model; the others put published laws on one gear beside an \
-         independent computation. A spread is no error of a program: it is what the field does not agree on.\n\n",
+         example in first gear at 100 degC and exchange one model; the others compare published laws for one gear \
+         with an independent computation. A large spread is not an error of the program: the published models differ by this much.\n\n",
     );
     spreads(&mut out, &language);
     churning_table(&mut out, &language);

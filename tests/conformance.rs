@@ -64,7 +64,7 @@ fn two_models_of_one_name_name_both_places() {
 }
 
 #[test]
-fn two_sets_of_one_name_and_two_rows_of_one_designation_are_told() {
+fn two_sets_of_one_name_and_two_rows_of_one_designation_are_reported() {
     let (mechanisms, models) = linked();
     let set = *inventory::iter::<ShippedSet>().next().unwrap();
     let found = Registry::from_entries(mechanisms.clone(), models.clone(), [], [set, set])

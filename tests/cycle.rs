@@ -13,8 +13,8 @@ use gearloss_framework::resolve::Choice;
 use gearloss_framework::thermal::network::{Scheme, StepSize};
 use gearloss_framework::transmission::Transmission;
 use gearloss_plugins::tooth_friction::ehl_mixed::EhlMixed;
-use gearloss_studies::analysis::{Driven, OilTemperature, Ride, Stretch, drive};
 use gearloss_studies::duty::{CycleEntry, Duty, FileCycleEntry, ShippedCycleEntry, Vehicle, VehicleEntry};
+use gearloss_studies::points::{Driven, OilTemperature, Ride, Stretch, drive};
 use serde_json::json;
 
 const UNIT: &str = "examples/electric-drive-unit/gearbox.yaml";
@@ -233,7 +233,7 @@ fn a_faulty_file_is_refused_with_its_line() {
 }
 
 #[test]
-fn what_does_not_fit_together_is_told() {
+fn what_does_not_fit_together_is_reported() {
     let own = "{ file: drive.csv, columns: { time: t, torque: T_in, speed: n_in }, temperatures: { swamp: T } }";
     let csv = "t [s],T_in [Nm],n_in [rpm],T [degC],v [km/h]\n0,1,100,20,3\n1,1,100,20,3\n2,1,100,20,3\n";
     assert!(refused("node", own, csv, "").contains("no node is called `swamp`"));

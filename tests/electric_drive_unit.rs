@@ -15,10 +15,10 @@ use gearloss_framework::resolve::Choice;
 use gearloss_framework::thermal::Outcome;
 use gearloss_framework::thermal::network::{Moment, Scheme, StepSize, Surroundings};
 use gearloss_framework::transmission::Transmission;
-use gearloss_studies::analysis::{Driven, OilTemperature, Ride, drive};
 use gearloss_studies::duty::{
     CoastDownEntry, CycleEntry, Regeneration, RoadLoad, STANDARD_GRAVITY, ShippedCycleEntry, Vehicle,
 };
+use gearloss_studies::points::{Driven, OilTemperature, Ride, drive};
 use serde_json::{Value, json};
 
 const EXAMPLE: &str = "examples/electric-drive-unit/gearbox.yaml";

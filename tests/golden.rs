@@ -42,7 +42,7 @@ fn verdict(language: &Language, folder: &Path) -> String {
 }
 
 #[test]
-fn every_class_of_input_error_says_what_where_and_how_to_mend_it() {
+fn every_class_of_input_error_states_problem_place_and_fix() {
     let language = common::language();
     let mut wrong = Vec::new();
     for folder in common::cases() {

@@ -15,9 +15,9 @@ use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::Language;
 use gearloss_framework::resolve::Choice;
 use gearloss_numerics::inference::{Coverage, Widening, succession};
-use gearloss_studies::analysis::{Rows, levels};
 use gearloss_studies::identify::{HoldOut, Identification, Settings};
 use gearloss_studies::measured::MeasuredEntry;
+use gearloss_studies::points::{Rows, levels};
 use gearloss_studies::study::{HoldOutEntry, HoldOutRows, IdentifiedEntry, Quantity, ScaleEntry};
 use serde_json::{Value, json};
 

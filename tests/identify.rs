@@ -357,7 +357,7 @@ analyses:
 }
 
 #[test]
-fn what_the_points_do_not_see_is_told_and_the_rest_is_found() {
+fn what_the_points_do_not_see_is_reported_and_the_rest_is_found() {
     let csv = losses(&points(&[("meshes.*.loss_factor", json!(1.2))], &TORQUES, &SPEEDS), 1.0);
     let study = study(
         "analyses:
@@ -386,7 +386,7 @@ fn what_the_points_do_not_see_is_told_and_the_rest_is_found() {
 }
 
 #[test]
-fn what_cannot_be_identified_is_told_with_its_place_and_how_to_mend_it() {
+fn what_cannot_be_identified_is_reported_with_its_place_and_how_to_fix_it() {
     let csv = losses(&points(&[], &[5.0, 10.0], &[4000.0, 8000.0]), 1.0);
     let mesh = "mesh: { path: \"meshes.*.loss_factor\", from: 0.5, to: 2 }";
     let bare = "torque [Nm],speed [rpm],loss [W],loss_torque [Nm]\n5,4000,90,0.21\n10,4000,130,0.31\n5,8000,220,0.26\n";

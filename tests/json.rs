@@ -36,7 +36,7 @@ fn check(args: &[&str]) -> (Value, i32) {
 }
 
 #[test]
-fn check_tells_what_is_fine() {
+fn check_reports_valid_files() {
     let (value, code) = check(&["examples/two-speed-ev/gearbox.yaml", "examples/two-speed-ev/study.yaml"]);
     assert_eq!(code, 0);
     let files = value["files"].as_array().unwrap();
@@ -151,7 +151,7 @@ fn options_of_gearboxes_are_refused_for_studies() {
 }
 
 #[test]
-fn a_missing_file_is_told_beside_the_others() {
+fn a_missing_file_is_reported_beside_the_others() {
     let (value, code) = check(&["nowhere.yaml", "examples/two-speed-ev/gearbox.yaml"]);
     assert_eq!(code, 2);
     let finding = &value["files"][0]["findings"][0];

@@ -5,7 +5,7 @@ use crate::common::{self, RPM, language};
 use std::path::{Path, PathBuf};
 
 use gearloss::api::{Choice, Gearbox, OilTemperature, PowerFlow};
-use gearloss_studies::analysis::PreparedPoint;
+use gearloss_studies::points::PreparedPoint;
 use serde_json::Value;
 
 /// One stage from 3000 to 1500 rpm, which turns the sense of rotation.
@@ -62,7 +62,7 @@ fn solved(torque: f64) -> (f64, f64) {
         gear: gear.clone(),
         speeds: vec![3000.0 * RPM],
         torques: vec![torque],
-        oil: OilTemperature::of(&t, None),
+        oil: OilTemperature::from_conditions(&t, None),
         flow: PowerFlow::Real,
     };
     let mut scratch = t.scratch(&point.case);

@@ -238,7 +238,7 @@ fn numbers_that_were_laid_out_can_be_changed_by_path() {
 }
 
 #[test]
-fn an_override_that_meets_nothing_or_does_not_fit_is_told() {
+fn an_override_that_meets_nothing_or_does_not_fit_is_reported() {
     let language = common::language();
     let gearbox = Gearbox::read(&language, &common::file("examples/two-speed-ev/gearbox.yaml")).unwrap();
     for (path, value, said) in [
@@ -325,7 +325,7 @@ fn a_program_without_one_recipe_says_so() {
 }
 
 #[test]
-fn a_conductance_that_turns_negative_is_told_with_its_link() {
+fn a_conductance_that_turns_negative_is_reported_with_its_link() {
     let language = common::language();
     let drive = two_speed().with(
         "thermal.network.links.sump_casing.model",
@@ -352,7 +352,7 @@ fn a_conductance_that_turns_negative_is_told_with_its_link() {
 }
 
 #[test]
-fn a_circuit_of_oil_that_does_not_close_is_told_and_no_exchanger_cools_the_air() {
+fn a_circuit_of_oil_that_does_not_close_is_reported_and_no_exchanger_cools_the_air() {
     let language = common::language();
     let gearbox = Gearbox::read(&language, &common::file("examples/electric-drive-unit/gearbox.yaml")).unwrap();
     let with = |path: &str, value: Value| Choice {

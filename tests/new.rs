@@ -216,7 +216,7 @@ fn the_study_takes_the_first_state_that_drives_and_names_the_gearbox_from_where_
 }
 
 #[test]
-fn a_comparison_of_sets_that_the_gearbox_does_not_fit_is_left_out_and_told() {
+fn a_comparison_of_sets_that_the_gearbox_does_not_fit_is_omitted_with_a_note() {
     let folder = folder("unfit");
     out(&folder, &["new", "gearbox", "single-stage"]);
     let text = std::fs::read_to_string(folder.join("gearbox.yaml")).unwrap();

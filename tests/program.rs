@@ -163,7 +163,7 @@ fn solve_follows_overrides_sets_and_the_other_port() {
 }
 
 #[test]
-fn wrong_arguments_say_how_to_mend_them() {
+fn wrong_arguments_say_how_to_fix_them() {
     for (args, words) in [
         (vec!["solve", GEARBOX], "add --gear"),
         (
@@ -747,4 +747,28 @@ fn huge_speeds_are_printed_in_engineering_notation() {
     assert!(text.lines().all(|line| line.len() < 250), "{text}");
     let (tables, _) = text.split_once("\nstatus ").unwrap();
     assert!(!tables.contains("inf"), "{text}");
+}
+
+/// The test runs itself as a process of its own, in which a thread panics under the hook of the program.
+#[test]
+fn a_panic_in_any_thread_ends_the_program_with_exit_code_3() {
+    const CHILD: &str = "PANICS_UNDER_THE_HOOK";
+    if std::env::var_os(CHILD).is_some() {
+        // Installs the hook, and refuses the arguments of the test program.
+        let _ = gearloss::main();
+        let _ = std::thread::spawn(|| panic!("of a model")).join();
+        return;
+    }
+    let name = "program::a_panic_in_any_thread_ends_the_program_with_exit_code_3";
+    let ended = Command::new(std::env::current_exe().unwrap())
+        .args(["--exact", name, "--nocapture"])
+        .env(CHILD, "1")
+        .output()
+        .unwrap();
+    let text = String::from_utf8_lossy(&ended.stderr);
+    assert_eq!(ended.status.code(), Some(3), "{text}");
+    assert!(
+        text.contains("of a model") && text.contains("This is a bug in gearloss"),
+        "{text}"
+    );
 }

@@ -11,7 +11,7 @@ use gearloss_framework::language::Language;
 use gearloss_framework::resolve::Choice;
 use gearloss_framework::thermal::{Equilibrium, Outcome};
 use gearloss_framework::transmission::Transmission;
-use gearloss_studies::analysis::OilTemperature;
+use gearloss_studies::points::OilTemperature;
 use serde_json::{Value, json};
 
 fn folder() -> std::path::PathBuf {

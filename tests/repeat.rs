@@ -5,7 +5,9 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use crate::common::{RPM, language, two_speed_with};
 use gearloss_framework::evaluate::{Point, PowerFlow};
 use gearloss_framework::flow::Tolerance;
-use gearloss_studies::analysis::{Bits, Field, MOST_IN_FLIGHT, OilTemperature, Points, held, run_grid, solve_pieces};
+use gearloss_studies::points::{
+    Bits, Field, MOST_IN_FLIGHT, OilTemperature, Points, run_grid, solve_pieces, take_points,
+};
 use serde_json::json;
 
 #[test]
@@ -64,7 +66,7 @@ fn one_thread_and_many_give_the_same_bits() {
     assert_eq!(one.passes, many.passes);
     assert_eq!(one.seen, many.seen);
     for (a, b) in one.points.iter().zip(&many.points) {
-        let bits = |p: &gearloss_studies::analysis::PointResult| {
+        let bits = |p: &gearloss_studies::points::PointResult| {
             (
                 p.loss.map(f64::to_bits),
                 p.efficiency.map(f64::to_bits),
@@ -111,7 +113,7 @@ fn few_points_of_a_large_field_are_held_at_once() {
         let (mut taken, mut next) = (0, 0);
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         let whole = pool.install(|| {
-            solve_pieces(&t, &points, &numbers, &held, &solved, &mut |piece| {
+            solve_pieces(&t, &points, &numbers, &take_points, &solved, &mut |piece| {
                 assert_eq!(piece.number, next);
                 next += 1;
                 taken += piece.len();
@@ -148,7 +150,7 @@ fn pieces_solved_alone_are_those_of_the_whole_field() {
     };
     let whole = run_grid(&t, &points, &|_| true).unwrap().unwrap();
     for (i, point) in whole.points.iter().enumerate() {
-        let given = points.field.at(i);
+        let given = points.field.given_point(i);
         assert_eq!((point.torque, point.speed), (given.torque, given.speed), "{i}");
     }
     // Lines of 64 torques at 70 speeds, in three tasks each.
@@ -157,7 +159,7 @@ fn pieces_solved_alone_are_those_of_the_whole_field() {
     let mut seen = Vec::new();
     for number in 0..4 {
         let mut alone = Vec::new();
-        solve_pieces(&t, &points, &[number], &held, &|_| true, &mut |piece| {
+        solve_pieces(&t, &points, &[number], &take_points, &|_| true, &mut |piece| {
             alone.push(piece);
             true
         })
@@ -166,18 +168,18 @@ fn pieces_solved_alone_are_those_of_the_whole_field() {
         assert!(alone[0].points().eq(&whole.points[start..end]));
         // As bytes they are the same, whichever tasks they come from.
         let (mut bytes, mut again) = (Vec::new(), Vec::new());
-        solve_pieces(&t, &points, &[number], &Bits::of, &|_| true, &mut |piece| {
+        solve_pieces(&t, &points, &[number], &Bits::from_points, &|_| true, &mut |piece| {
             piece.write_bits(&mut bytes);
             true
         })
         .unwrap();
-        alone[0].clone().made(start, &Bits::of).write_bits(&mut again);
+        alone[0].clone().made(start, &Bits::from_points).write_bits(&mut again);
         assert!(bytes == again, "piece {number}");
-        gearloss_studies::analysis::merge(&mut seen, &alone[0].seen);
+        gearloss_studies::points::merge(&mut seen, &alone[0].seen);
         start = end;
     }
     assert_eq!((start, seen), (17500, whole.seen));
-    let stopped = solve_pieces(&t, &points, &[0, 1, 2, 3], &held, &|_| true, &mut |piece| {
+    let stopped = solve_pieces(&t, &points, &[0, 1, 2, 3], &take_points, &|_| true, &mut |piece| {
         piece.number < 1
     });
     assert!(!stopped.unwrap(), "who takes no more is handed no more");

@@ -114,7 +114,7 @@ fn without_an_efficiency_the_torques_at_both_ports_give_it() {
 }
 
 #[test]
-fn what_a_comparison_lacks_is_told() {
+fn what_a_comparison_lacks_is_reported() {
     for (analysis, said) in [
         (
             format!("against: [ours/own], grid: g, {DATA}"),

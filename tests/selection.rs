@@ -10,7 +10,7 @@ use gearloss_framework::resolve::Choice;
 use gearloss_numerics::inference::{Decision, PointSet, folds};
 use gearloss_numerics::sampling::inverse_normal;
 use gearloss_numerics::selection::{Combination, Losses, MeasuredLosses, compare_pair, rank, validate, winner};
-use gearloss_studies::analysis::{Field, OilTemperature, Points, run_grid};
+use gearloss_studies::points::{Field, OilTemperature, Points, run_grid};
 use serde_json::{Value, json};
 
 /// Numbers that are the same every time (Steele, Lea, Flood: SplitMix, 2014).
@@ -79,7 +79,7 @@ fn bench(language: &Language, setting: &Setting<'_>) -> Bench {
             };
             let solved = run_grid(&transmission, &points, &|_| true).unwrap().unwrap();
             let of = |own: &dyn Fn(&str) -> bool| -> Vec<f64> {
-                let sum = |p: &gearloss_studies::analysis::PointResult| {
+                let sum = |p: &gearloss_studies::points::PointResult| {
                     assert!(p.loss.is_some(), "{model} has no loss at {} Nm", p.torque);
                     let parts = transmission.parts().iter().zip(&p.parts);
                     parts.filter(|(part, _)| own(part.mechanism)).map(|(_, w)| w).sum()

@@ -117,7 +117,7 @@ fn a_sum_has_the_slopes_and_shares_of_its_terms() {
 }
 
 #[test]
-fn what_cannot_be_asked_is_told_with_its_place_and_how_to_mend_it() {
+fn what_cannot_be_asked_is_reported_with_its_place_and_how_to_fix_it() {
     let kv = "lubricants.sump.viscosity.kv100";
     let one = format!("parameters: [{{ path: {kv}, percent: 5 }}]");
     for (analysis, said) in [

@@ -351,7 +351,7 @@ fn parts_of_anything_else_are_refused() {
 }
 
 #[test]
-fn more_shards_than_pieces_are_fine_and_wrong_numbers_are_told() {
+fn more_shards_than_pieces_are_fine_and_wrong_numbers_are_reported() {
     let folder = with_gearbox("many");
     let study = "gearloss: study/1\ngearboxes: { ours: gearbox.yaml }\ngrids:\n  few: { gear: first, torque: [5 Nm, 10 Nm], speed: [2000 rpm, 8000 rpm] }\nanalyses:\n  map: { type: map, grid: few, write: [csv] }\n";
     fs::write(folder.join("study.yaml"), study).unwrap();

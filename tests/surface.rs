@@ -147,7 +147,7 @@ fn all_pairs_stand_on_the_same_points() {
 }
 
 #[test]
-fn what_cannot_be_drawn_is_told_with_its_place_and_how_to_mend_it() {
+fn what_cannot_be_drawn_is_reported_with_its_place_and_how_to_fix_it() {
     let points = "torque [Nm],speed [rpm],loss [W],kv\n5,2000,60,6\n";
     let good = surface(", against: [joint]");
     let replaced = |from: &str, to: &str| {

@@ -192,7 +192,7 @@ analyses:
 }
 
 #[test]
-fn a_temperature_that_is_not_found_is_told_and_leaves_gaps() {
+fn a_temperature_that_is_not_found_is_reported_and_leaves_gaps() {
     let study = "grids:
   line: { gear: reducing, torque: -16 Nm, speed: [1000 rpm, 3000 rpm] }
 analyses:

@@ -67,7 +67,7 @@ lubricants: { oil: { viscosity: { kv40: 46 mm2/s, kv100: 8 mm2/s } } }
 ";
 
 #[test]
-fn a_differential_turns_both_sides_equally_unless_told_otherwise() {
+fn a_differential_turns_both_sides_equally_unless_stated_otherwise() {
     let language = language();
     let t = built(&language, DIFFERENTIAL);
     let (speeds, torques, status, efficiency) = solve(&t, "only", &[("input", 4000.0)], &[("input", 50.0)]);

@@ -14,9 +14,9 @@ use gearloss_framework::resolve::Choice;
 use gearloss_numerics::least_squares::{Reason, Status};
 use gearloss_plugins as _;
 use gearloss_studies::analyses::identify::IdentifyEntry;
-use gearloss_studies::analysis::Rows;
 use gearloss_studies::identify::{Fitted, Identification, ModelKink, Settings};
 use gearloss_studies::measured::Measured;
+use gearloss_studies::points::Rows;
 use gearloss_studies::study::StudyEntry;
 use serde_json::json;
 

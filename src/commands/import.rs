@@ -42,7 +42,7 @@ pub fn run(args: &ImportArgs, out: &mut Out) -> Result<End, Failure> {
     let mut means = Vec::new();
     for run in &list.runs {
         let folder = beside.join(&run.folder);
-        let told = |fault: String, help: &str| {
+        let told = |fault: &dyn std::fmt::Display, help: &str| {
             Failure::input(
                 format!("{}, line {}: {}: {fault}", runs.display(), run.line, folder.display()),
                 help,
@@ -50,12 +50,12 @@ pub fn run(args: &ImportArgs, out: &mut Out) -> Result<End, Failure> {
         };
         let samples = history(&folder).map_err(|fault| {
             told(
-                fault,
+                &fault,
                 "give the folder under `postProcessing` with the output of the function object",
             )
         })?;
         let mean = Mean::over_time(&samples, *axis as usize, window)
-            .map_err(|fault| told(fault, "choose --from and --to within the times of the run"))?;
+            .map_err(|fault| told(&fault, "choose --from and --to within the times of the run"))?;
         means.push(mean.times(*factor));
     }
     // Drag opposes the motion, so all moments have the same sign.

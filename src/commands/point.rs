@@ -4,7 +4,7 @@ use gearloss_framework::document::{Unit, parse_quantity};
 use gearloss_framework::evaluate::PowerFlow;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::transmission::Transmission;
-use gearloss_studies::analysis::{OilTemperature, PreparedPoint};
+use gearloss_studies::points::{OilTemperature, PreparedPoint};
 
 use crate::args::{FlowArg, PointArgs};
 use crate::output::Failure;
@@ -107,7 +107,7 @@ pub fn prepare(args: &PointArgs, gearbox: &Gearbox, transmission: &Transmission)
         gear,
         speeds: speeds.iter().map(|s| s.1).collect(),
         torques: torques.iter().map(|s| s.1).collect(),
-        oil: OilTemperature::of(transmission, given),
+        oil: OilTemperature::from_conditions(transmission, given),
         flow: if args.power_flow == FlowArg::Real {
             PowerFlow::Real
         } else {

@@ -39,7 +39,7 @@ pub fn choice(args: &ChoiceArgs) -> Result<Choice, Findings> {
         let found = |list: Vec<Diagnostic>, sources: Sources| Findings { list, sources };
         let Some((path, value)) = text.split_once('=') else {
             let error = Diagnostic::error("", "an override without `=`")
-                .at(span(source, 0, text.len()))
+                .at_span(span(source, 0, text.len()))
                 .help("write `--set PATH=VALUE`")
                 .code(codes::CHOICE);
             return Err(found(vec![error], sources));

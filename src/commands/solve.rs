@@ -3,7 +3,7 @@
 use gearloss_framework::coefficients::changed_from_source;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_report::point::{point_json, point_text, remarks};
-use gearloss_studies::analysis::evidence;
+use gearloss_studies::points::evidence;
 use serde_json::json;
 
 use super::check::grade;

@@ -9,9 +9,9 @@ use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::Language;
 use gearloss_framework::resolve::Choice;
 use gearloss_studies::analyses::identify::IdentifyEntry;
-use gearloss_studies::analysis::Rows;
 use gearloss_studies::identify::{Faults, Identification};
 use gearloss_studies::measured::{Measured, MeasuredEntry};
+use gearloss_studies::points::Rows;
 use gearloss_studies::study::StudyEntry;
 use serde_json::{Map, Value, json};
 

@@ -9,8 +9,8 @@ use std::sync::Arc;
 use gearloss::api::{
     Disk, FileSource, Findings, InMemory, Outcome, SharedSource, Stopped, Study, StudyRun, read_study,
 };
-use gearloss::pictures::csv::CsvTable;
-use gearloss::pictures::page::{Page, Text};
+use gearloss::report::csv::CsvTable;
+use gearloss::report::page::{Page, Text};
 use gearloss::studies::study::Write;
 use serde_json::Value;
 

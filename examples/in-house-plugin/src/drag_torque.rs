@@ -1,8 +1,8 @@
 //! An analysis of our own crate: the torque that turns the unloaded gearbox over the temperature of its oil, and the ratio of the torques
 //! with cold and with warm oil.
 
-use gearloss::pictures::page::Page;
-use gearloss::pictures::register_view;
+use gearloss::report::page::Page;
+use gearloss::report::register_view;
 use gearloss::studies::prelude::*;
 
 /// Torque that turns the unloaded gearbox, over the temperature of the oil.
@@ -61,11 +61,10 @@ pub struct DragTorque {
 
 impl Analysis for DragTorqueEntry {
     const TYPE: &'static str = "drag_torque";
-    const MEANING: &'static str = "Torque that turns the unloaded gearbox, over the temperature of the oil.";
     type Outcome = DragTorqueOutcome;
 
     fn uses(&self) -> Uses<'_> {
-        Uses::new(self.gearbox.as_ref(), &self.model_sets).at(&self.gear)
+        Uses::new(self.gearbox.as_ref(), &self.model_sets).in_gears(&self.gear)
     }
 
     fn run(&self, cx: &Context<'_>) -> Result<DragTorqueOutcome, Stopped> {

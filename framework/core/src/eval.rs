@@ -68,7 +68,7 @@ pub fn evaluate_input(
         let place = move |finding: Diagnostic| {
             let finding = walked.places.place(finding);
             if finding.spans.is_empty() {
-                finding.at(start)
+                finding.at_span(start)
             } else {
                 finding
             }

@@ -22,6 +22,7 @@ const LONGEST_CHAIN: usize = 8;
 const MOST_SHOWN: usize = 100;
 
 /// A gearbox after reading and checking. Resolving and building are repeated for every choice of models and overrides.
+#[derive(Clone)]
 pub struct Gearbox {
     /// The checked description, SI.
     pub value: Value,
@@ -296,7 +297,9 @@ impl Gearbox {
             },
         };
         match (self.places.locate(&finding.path), self.places.get(&written)) {
-            (Some(component), Some(model)) => finding.at(component).label(model.value, "the model comes from here"),
+            (Some(component), Some(model)) => finding
+                .at_span(component)
+                .label(model.value, "the model comes from here"),
             _ => finding,
         }
     }
@@ -356,7 +359,7 @@ pub fn other_kind(node: &Node, wanted: DocumentKind, name: &str) -> Option<Diagn
     };
     Some(
         Diagnostic::error("gearloss", message)
-            .at(key.span)
+            .at_span(key.span)
             .help(help)
             .code(codes::OTHER_DOCUMENT),
     )
@@ -382,7 +385,7 @@ impl Chain<'_> {
             self.found.push(match from {
                 Some(span) => {
                     Diagnostic::error("extends", format!("{name} is a study; only a gearbox can be extended"))
-                        .at(span)
+                        .at_span(span)
                         .help("name a gearbox file, such as one under `gearboxes` of that study")
                         .code(codes::EXTENDS)
                 }
@@ -396,7 +399,11 @@ impl Chain<'_> {
         let span = read.node.get("extends").map(|n| n.span);
         let error = |message: String| {
             let error = Diagnostic::error("extends", message).help("name a gearbox file, relative to this one");
-            if let Some(span) = span { error.at(span) } else { error }
+            if let Some(span) = span {
+                error.at_span(span)
+            } else {
+                error
+            }
         };
         let file = folder.join(base);
         if self.seen.contains(&file) || self.seen.len() >= LONGEST_CHAIN {

@@ -254,7 +254,7 @@ fn node(sheet: &Sheet, row: usize) -> Result<Option<(Node, bool)>, String> {
         if !(least..=1.0).contains(&efficiency) {
             return Err(format!(
                 "{}: an efficiency of {efficiency}; it must be between 0 and 1, or 0 and 100 %",
-                sheet.at(row, EFFICIENCY)
+                sheet.describe_cell(row, EFFICIENCY)
             ));
         }
         if torque < 0.0 {

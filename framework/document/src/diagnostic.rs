@@ -71,7 +71,7 @@ impl Diagnostic {
     }
 
     /// Adds a place in the text.
-    pub fn at(self, span: Span) -> Self {
+    pub fn at_span(self, span: Span) -> Self {
         self.label(span, "")
     }
 
@@ -384,7 +384,7 @@ mod tests {
         let mut sources = Sources::default();
         let source = sources.add("gear.yaml", "a: 1\nb: 30 Nm\n");
         let finding = Diagnostic::error("b", "a torque")
-            .at(Span {
+            .at_span(Span {
                 source,
                 start: 8,
                 end: 13,

@@ -47,7 +47,7 @@ impl Places {
     /// Adds the place of its path to a finding without a place.
     pub fn place(&self, finding: Diagnostic) -> Diagnostic {
         match self.locate(&finding.path) {
-            Some(span) if finding.spans.is_empty() => finding.at(span),
+            Some(span) if finding.spans.is_empty() => finding.at_span(span),
             _ => finding,
         }
     }

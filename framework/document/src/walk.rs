@@ -148,7 +148,9 @@ fn is_id(text: &str, digits_first: bool) -> bool {
 
 impl<'a> Walker<'a> {
     fn report(&mut self, node: &Node, message: impl Into<String>, help: impl Into<String>) {
-        let finding = Diagnostic::error(self.path.clone(), message).at(node.span).help(help);
+        let finding = Diagnostic::error(self.path.clone(), message)
+            .at_span(node.span)
+            .help(help);
         self.findings.push(finding);
     }
 
@@ -318,7 +320,7 @@ impl<'a> Walker<'a> {
         if !words.is_empty() && !words.contains(text) {
             let close = did_you_mean(text, words.iter().map(String::as_str)).map(str::to_owned);
             let finding = Diagnostic::error(self.path.clone(), format!("`{text}` is not an allowed value"))
-                .at(node.span)
+                .at_span(node.span)
                 .note(format!("allowed values: {}", words.join(", ")))
                 .help(close.map_or_else(|| "write one of them".to_owned(), |close| format!("write `{close}`")));
             self.findings.push(finding.code(codes::UNKNOWN_TYPE));
@@ -428,7 +430,7 @@ impl<'a> Walker<'a> {
                         )
                     };
                     w.findings
-                        .push(Diagnostic::error(w.path.clone(), message).at(key.span).help(help));
+                        .push(Diagnostic::error(w.path.clone(), message).at_span(key.span).help(help));
                     w.last_is(codes::WRONG_NAME);
                 }
                 w.places.0.insert(
@@ -475,7 +477,7 @@ impl<'a> Walker<'a> {
         };
         let help = format!("write it without indentation, with full paths: `set: {{ {whole}: ... }}`");
         let error = Diagnostic::error(format!("{}.set", self.path), "`set` is a top-level key");
-        self.findings.push(error.at(node.span).help(help));
+        self.findings.push(error.at_span(node.span).help(help));
         true
     }
 
@@ -498,7 +500,7 @@ impl<'a> Walker<'a> {
             Content::Map(_) => match node.get("type") {
                 None => {
                     let finding = Diagnostic::error(self.path.clone(), format!("a {what} needs a `type`"))
-                        .at(node.span)
+                        .at_span(node.span)
                         .note(format!("linked: {}", names().collect::<Vec<_>>().join(", ")))
                         .help("`model:` replaces the complete default: add its `type`");
                     self.findings.push(finding.code(codes::MISSING_KEY));
@@ -528,7 +530,7 @@ impl<'a> Walker<'a> {
 
     fn unknown_type(&mut self, node: &Node, what: &str, name: &str, names: &[&str]) {
         let finding = Diagnostic::error(self.path.clone(), format!("there is no {what} `{name}`"))
-            .at(node.span)
+            .at_span(node.span)
             .note(format!("linked: {}", names.join(", ")))
             .help(match did_you_mean(name, names.iter().copied()) {
                 Some(close) => format!("write `{close}`"),
@@ -631,7 +633,7 @@ impl<'a> Walker<'a> {
                     None if field.required => {
                         let first_sentence = field.doc.split(". ").next().unwrap_or_default().trim_end_matches('.');
                         let finding = Diagnostic::error(self.path.clone(), format!("`{name}` is missing"))
-                            .at(node.span)
+                            .at_span(node.span)
                             .help(format!("add `{name}:` ({first_sentence})"));
                         self.findings.push(finding.code(codes::MISSING_KEY));
                         None
@@ -698,7 +700,7 @@ impl<'a> Walker<'a> {
                     .help("choose one of these keys, or remove it"),
             }
         };
-        self.findings.push(finding.at(key.span).code(codes::UNKNOWN_KEY));
+        self.findings.push(finding.at_span(key.span).code(codes::UNKNOWN_KEY));
         meant
     }
 

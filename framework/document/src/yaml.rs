@@ -38,7 +38,7 @@ pub fn read_yaml(source: u16, text: &str) -> Read {
                 content: Content::Null,
                 span,
             },
-            findings: vec![error.at(span).help(help).code(codes::UNREADABLE)],
+            findings: vec![error.at_span(span).help(help).code(codes::UNREADABLE)],
         };
     }
     let mut reader = Reader {
@@ -95,7 +95,7 @@ impl<'a> Reader<'a> {
                     "check this place and the text before it: a bracket, brace, quote or colon is missing, or the indentation is wrong"
                 };
                 let finding = Diagnostic::error("", format!("this is not valid YAML: {}", error.info()))
-                    .at(span)
+                    .at_span(span)
                     .help(help);
                 self.findings.push(finding);
                 Err(Broken)
@@ -113,7 +113,8 @@ impl<'a> Reader<'a> {
     }
 
     fn report(&mut self, span: Span, message: &str, help: &str) {
-        self.findings.push(Diagnostic::error("", message).at(span).help(help));
+        self.findings
+            .push(Diagnostic::error("", message).at_span(span).help(help));
     }
 
     fn document(&mut self) -> Result<Node, Broken> {
@@ -233,7 +234,7 @@ impl<'a> Reader<'a> {
             match entries.iter().find(|(key, _)| key.name == name) {
                 Some((key, _)) => self.findings.push(
                     Diagnostic::error("", format!("the key `{name}` occurs twice"))
-                        .at(key_span)
+                        .at_span(key_span)
                         .code(codes::DUPLICATE_KEY)
                         .label(key.span, "first occurrence")
                         .help("rename one of them or merge them"),

@@ -10,7 +10,7 @@ fn fault(of: &Problem<'_>) -> String {
 }
 
 #[test]
-fn check_2_9_what_makes_no_sense_is_told_at_once() {
+fn check_2_9_invalid_problems_are_refused_at_once() {
     let mut three = parameters(&[1.0, -1.0, f64::NAN], &[2.0, 0.0, -INF], &[0.0, 5.0, INF]);
     three[1] = three[1].clone().log().prior(-1.0, 0.0);
     let text = fault(&Problem::new(|_: &[f64]| Ok(vec![0.0; 9]), three));
@@ -142,7 +142,7 @@ fn check_2_9_an_interruption_gives_the_best_point_so_far() {
 }
 
 #[test]
-fn limits_are_kept_and_told() {
+fn limits_are_kept_and_reported() {
     let of = problem(wood, &[-3.0, -1.0, -3.0, -1.0], &[-INF; 4], &[INF; 4]);
     let options = Options {
         iterations: 3,

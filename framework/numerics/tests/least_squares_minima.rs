@@ -29,7 +29,7 @@ fn check_2_7_himmelblau_has_four_minima() {
 }
 
 #[test]
-fn check_2_7_a_valley_is_told_from_equivalent_minima() {
+fn check_2_7_a_valley_is_distinguished_from_equivalent_minima() {
     // Only the product of both is seen.
     let law = |x: &[f64]| [1.0, 2.0, 3.0].map(|t| x[0] * x[1] * t - t - 0.1 * t * t).to_vec();
     let of = problem(law, &[1.0, 1.0], &[0.2, 0.2], &[5.0, 5.0]);
@@ -51,7 +51,7 @@ fn check_2_7_a_valley_is_told_from_equivalent_minima() {
 }
 
 #[test]
-fn check_2_7_a_start_in_a_poorer_minimum_is_told() {
+fn check_2_7_a_start_in_a_poorer_minimum_is_reported() {
     // A parabola with a wave on it: many minima, the lowest at zero.
     let law = |x: &[f64]| vec![0.3 * x[0], 2.0 * (2.0 * x[0]).sin(), 2.0 * ((2.0 * x[0]).cos() - 1.0)];
     let of = problem(law, &[6.0], &[-8.0], &[8.0]);

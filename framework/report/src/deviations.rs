@@ -1,6 +1,6 @@
 //! Figures of differences: over speed and torque, as histograms, as parity plots.
 
-use gearloss_studies::analysis::{histogram, levels};
+use gearloss_studies::points::{histogram, levels};
 
 use crate::plot::{Line, Stroke};
 use crate::{Cloud, Figure, Map};

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::plot::{self, Bar, COLOURS, Interval, Line, PlotFault, Stroke};
+use super::plot::{self, Bar, COLOURS, Interval, Line, PlotError, Stroke};
 
 /// A figure as data.
 #[derive(Debug, Clone, PartialEq)]
@@ -141,7 +141,7 @@ impl Figure {
     ///
     /// # Errors
     /// If drawing fails.
-    pub fn svg(&self) -> Result<String, PlotFault> {
+    pub fn svg(&self) -> Result<String, PlotError> {
         match self {
             Self::Bars {
                 title,

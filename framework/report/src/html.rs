@@ -289,7 +289,7 @@ mod tests {
     }
 
     #[test]
-    fn a_template_of_the_user_takes_the_place_and_its_faults_are_told() {
+    fn a_template_of_the_user_takes_the_place_and_its_faults_are_reported() {
         let own = "{{ frame.title }}: {% for s in sections %}{{ s.name }} {{ s.figures | length }}{% endfor %}";
         assert_eq!(page(&report(), Some(own)).unwrap(), "A &amp; B: limit 1");
         let fault = page(&report(), Some("{% for %}")).unwrap_err();

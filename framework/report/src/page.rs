@@ -9,7 +9,7 @@ use gearloss_framework::document::Diagnostic;
 use gearloss_framework::registry::inventory;
 use gearloss_studies::analyses::Outcome;
 use gearloss_studies::analyses::ranges::PublishedCoefficient;
-use gearloss_studies::analysis::Note;
+use gearloss_studies::points::Note;
 use gearloss_studies::table::Table;
 
 use crate::Figure;

@@ -3,25 +3,24 @@
 use std::io::Write;
 use std::sync::Arc;
 
-use bytes::Bytes;
+use arrow_array::types::UInt32Type;
+use arrow_array::{ArrayRef, DictionaryArray, Float64Array, RecordBatch, StringArray};
+use arrow_schema::{DataType, Field, Schema, SchemaRef};
 use gearloss_studies::table::{Column, Table, Values};
-use parquet::basic::{Compression, LogicalType, Repetition, Type as Physical};
-use parquet::column::writer::{ColumnCloseResult, ColumnWriter, get_column_writer};
-use parquet::data_type::ByteArray;
+use parquet::arrow::ArrowWriter;
+use parquet::arrow::arrow_writer::ArrowWriterOptions;
+use parquet::basic::Compression;
 use parquet::errors::ParquetError;
-use parquet::file::properties::{WriterProperties, WriterPropertiesPtr};
-use parquet::file::writer::{SerializedFileWriter, SerializedPageWriter, TrackedWrite};
-use parquet::schema::types::{ColumnDescPtr, ColumnPath, Type, TypePtr};
-use rayon::prelude::*;
+use parquet::file::properties::WriterProperties;
+use parquet::schema::types::ColumnPath;
 
 /// A table that is written in batches of rows.
 pub struct ParquetTable<W: Write + Send> {
-    writer: SerializedFileWriter<W>,
-    /// Rows of the incomplete row group.
-    rows: Table,
+    writer: ArrowWriter<W>,
+    schema: SchemaRef,
 }
 
-/// Minimum number of rows of a row group except the last.
+/// Number of rows of a row group; those of the incomplete one are in memory in packed form.
 const GROUP: usize = 32_768;
 
 /// Number columns with so many repeated values that a dictionary saves space.
@@ -35,25 +34,27 @@ impl<W: Write + Send> ParquetTable<W> {
     pub fn new(to: W, header: &Table) -> Result<Self, ParquetError> {
         let mut properties = WriterProperties::builder()
             .set_compression(Compression::SNAPPY)
+            .set_max_row_group_row_count(Some(GROUP))
             .set_created_by(concat!("gearloss ", env!("CARGO_PKG_VERSION")).to_owned());
-        let mut fields: Vec<TypePtr> = Vec::new();
+        let mut fields = Vec::new();
         for Column { name, values, .. } in &header.columns {
-            let field = match values {
-                Values::Texts(_) => Type::primitive_type_builder(name, Physical::BYTE_ARRAY)
-                    .with_logical_type(Some(LogicalType::String)),
-                Values::Numbers(_) => Type::primitive_type_builder(name, Physical::DOUBLE),
+            let kind = match values {
+                Values::Texts(_) => DataType::Dictionary(Box::new(DataType::UInt32), Box::new(DataType::Utf8)),
+                Values::Numbers(_) => DataType::Float64,
             };
-            if matches!(values, Values::Numbers(_)) && !REPEATED.contains(&name.as_str()) {
+            if kind == DataType::Float64 && !REPEATED.contains(&name.as_str()) {
                 properties = properties.set_column_dictionary_enabled(ColumnPath::from(vec![name.clone()]), false);
             }
-            fields.push(Arc::new(field.with_repetition(Repetition::OPTIONAL).build()?));
+            fields.push(Field::new(name, kind, true));
         }
-        let schema = Type::group_type_builder("results").with_fields(fields).build()?;
-        let writer = SerializedFileWriter::new(to, Arc::new(schema), Arc::new(properties.build()))?;
-        Ok(Self {
-            writer,
-            rows: header.header(),
-        })
+        let schema = Arc::new(Schema::new(fields));
+        // Without the schema of Arrow, in which texts are codes of a dictionary: for every reader they are strings.
+        let options = ArrowWriterOptions::new()
+            .with_properties(properties.build())
+            .with_skip_arrow_metadata(true)
+            .with_schema_root("results".to_owned());
+        let writer = ArrowWriter::try_new_with_options(to, Arc::clone(&schema), options)?;
+        Ok(Self { writer, schema })
     }
 
     /// Adds rows.
@@ -61,85 +62,39 @@ impl<W: Write + Send> ParquetTable<W> {
     /// # Errors
     /// Errors of the writer.
     pub fn rows(&mut self, rows: &Table) -> Result<(), ParquetError> {
-        self.rows.extend(std::slice::from_ref(rows), &[(0, 0..rows.len())]);
-        if self.rows.len() < GROUP {
-            return Ok(());
-        }
-        self.group()
-    }
-
-    /// Writes the collected rows as a row group; columns are compressed in parallel.
-    fn group(&mut self) -> Result<(), ParquetError> {
-        let header = self.rows.header();
-        let rows = std::mem::replace(&mut self.rows, header);
-        if rows.is_empty() {
-            return Ok(());
-        }
-        let descriptions = self.writer.schema_descr().columns().to_vec();
-        let properties = self.writer.properties().clone();
-        let pack = |(column, description)| packed(column, description, &properties);
-        let columns = rows.columns.par_iter().zip(&descriptions).with_max_len(1);
-        let all: Vec<(Bytes, ColumnCloseResult)> = columns.map(pack).collect::<Result<_, _>>()?;
-        let mut group = self.writer.next_row_group()?;
-        for (bytes, end) in all {
-            group.append_column(&bytes, end)?;
-        }
-        group.close().map(|_| ())
+        let columns = rows.columns.iter().map(|column| array(&column.values)).collect();
+        self.writer
+            .write(&RecordBatch::try_new(Arc::clone(&self.schema), columns)?)
     }
 
     /// Completes the table.
     ///
     /// # Errors
     /// Errors of the writer.
-    pub fn finish(mut self) -> Result<(), ParquetError> {
-        self.group()?;
+    pub fn finish(self) -> Result<(), ParquetError> {
         self.writer.close().map(|_| ())
     }
 }
 
-/// The bytes of a column of a row group.
-fn packed(
-    column: &Column,
-    description: &ColumnDescPtr,
-    properties: &WriterPropertiesPtr,
-) -> Result<(Bytes, ColumnCloseResult), ParquetError> {
-    let mut bytes = TrackedWrite::new(Vec::with_capacity(column.len() * size_of::<f64>()));
-    let pages = Box::new(SerializedPageWriter::new(&mut bytes));
-    let mut writer = get_column_writer(description.clone(), properties.clone(), pages);
-    match (&mut writer, &column.values) {
-        (ColumnWriter::DoubleColumnWriter(to), Values::Numbers(numbers)) => {
-            let levels: Vec<i16> = numbers.iter().map(|x| i16::from(!x.is_nan())).collect();
-            if levels.contains(&0) {
-                let known: Vec<f64> = numbers.iter().copied().filter(|x| !x.is_nan()).collect();
-                to.write_batch(&known, Some(&levels), None)?;
-            } else {
-                to.write_batch(numbers, Some(&levels), None)?;
-            }
+/// The values of a column; gaps are nulls.
+fn array(values: &Values) -> ArrayRef {
+    match values {
+        Values::Numbers(numbers) => {
+            let known = numbers.iter().map(|x| Some(*x).filter(|x| !x.is_nan()));
+            Arc::new(known.collect::<Float64Array>())
         }
-        (ColumnWriter::ByteArrayColumnWriter(to), Values::Texts(texts)) => {
-            let kinds: Vec<ByteArray> = texts
-                .kinds()
-                .iter()
-                .map(|kind| ByteArray::from(kind.as_str()))
-                .collect();
-            let levels: Vec<i16> = texts.codes().iter().map(|code| i16::from(code.is_some())).collect();
-            let known: Vec<ByteArray> = texts
-                .codes()
-                .iter()
-                .flatten()
-                .map(|code| kinds[*code as usize].clone())
-                .collect();
-            to.write_batch(&known, Some(&levels), None)?;
+        Values::Texts(texts) => {
+            let kinds = StringArray::from_iter_values(texts.kinds());
+            let codes = texts.codes().iter().copied().collect();
+            Arc::new(DictionaryArray::<UInt32Type>::new(codes, Arc::new(kinds)))
         }
-        _ => return Err(ParquetError::General("a column of another kind".to_owned())),
     }
-    let end = writer.close()?;
-    Ok((bytes.into_inner()?.into(), end))
 }
 
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
+    use bytes::Bytes;
     use parquet::file::reader::{FileReader, SerializedFileReader};
     use parquet::record::RowAccessor;
 
@@ -156,7 +111,7 @@ mod tests {
         let mut bytes = Vec::new();
         let mut file = ParquetTable::new(&mut bytes, &table).unwrap();
         file.rows(&table).unwrap();
-        file.group().unwrap();
+        file.writer.flush().unwrap();
         file.rows(&table.header()).unwrap();
         file.rows(&table).unwrap();
         file.finish().unwrap();

@@ -37,7 +37,9 @@ const SIZE: (u32, u32) = (960, 560);
 const TEXT: i32 = 15;
 
 /// Why a figure could not be drawn.
-pub type PlotFault = String;
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{0}")]
+pub struct PlotError(String);
 
 pub(super) use field::{cloud, map};
 pub use intervals::Interval;
@@ -83,8 +85,8 @@ pub enum Stroke {
 
 fn drawn(
     title: &str,
-    draw: impl FnOnce(&DrawingArea<SVGBackend<'_>, Shift>) -> Result<(), PlotFault>,
-) -> Result<String, PlotFault> {
+    draw: impl FnOnce(&DrawingArea<SVGBackend<'_>, Shift>) -> Result<(), PlotError>,
+) -> Result<String, PlotError> {
     let mut svg = String::new();
     {
         let root = SVGBackend::with_string(&mut svg, SIZE).into_drawing_area();
@@ -98,8 +100,8 @@ fn drawn(
     Ok(svg)
 }
 
-fn fault(error: impl std::fmt::Display) -> PlotFault {
-    error.to_string()
+fn fault(error: impl std::fmt::Display) -> PlotError {
+    PlotError(error.to_string())
 }
 
 fn colour(i: usize) -> RGBColor {
@@ -150,7 +152,7 @@ fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
     (low - 0.03 * span, high + 0.08 * span)
 }
 
-fn legend(root: &DrawingArea<SVGBackend<'_>, Shift>, names: &[String], solid: bool) -> Result<(), PlotFault> {
+fn legend(root: &DrawingArea<SVGBackend<'_>, Shift>, names: &[String], solid: bool) -> Result<(), PlotError> {
     let style = ("sans-serif", TEXT).into_font().color(&BLACK);
     for (i, name) in names.iter().enumerate() {
         let (x, y) = (SIZE.0 as i32 - 190, 60 + 24 * i as i32);
@@ -175,7 +177,7 @@ pub(super) fn bars(
     (over, height): (&str, &str),
     names: &[String],
     bars: &[Bar],
-) -> Result<String, PlotFault> {
+) -> Result<String, PlotError> {
     drawn(title, |root| {
         let measured = bars.iter().any(|b| b.measured.is_some());
         let tallest = bars
@@ -266,7 +268,7 @@ fn axes<'a, 'b>(
     (x_name, y_name): (&str, &str),
     x: (f64, f64),
     y: (f64, f64),
-) -> Result<Chart<'a, 'b>, PlotFault> {
+) -> Result<Chart<'a, 'b>, PlotError> {
     let mut chart = ChartBuilder::on(area)
         .x_label_area_size(50)
         .y_label_area_size(70)
@@ -294,7 +296,7 @@ pub(super) fn areas(
     names: &[String],
     places: &[f64],
     stacks: &[Vec<f64>],
-) -> Result<String, PlotFault> {
+) -> Result<String, PlotError> {
     drawn(title, |root| {
         let highest = stacks.iter().map(|s| s.iter().sum()).fold(0.0, f64::max);
         let (first, last) = range(places.iter().copied());
@@ -320,7 +322,7 @@ pub(super) fn areas(
 ///
 /// # Errors
 /// If drawing fails.
-pub(super) fn lines(title: &str, x_name: &str, y_name: &str, lines: &[Line]) -> Result<String, PlotFault> {
+pub(super) fn lines(title: &str, x_name: &str, y_name: &str, lines: &[Line]) -> Result<String, PlotError> {
     drawn(title, |root| {
         let points = || lines.iter().flat_map(|l| l.points.iter().flatten());
         let (x, y) = (range(points().map(|p| p.0)), range(points().map(|p| p.1)));

@@ -11,7 +11,7 @@ use gearloss_framework::resolve::Resolved;
 use gearloss_framework::transmission::Transmission;
 use gearloss_studies::analyses::balance::BalanceOfPoint;
 use gearloss_studies::analyses::numbers::{RPM, tidy};
-use gearloss_studies::analysis::{Found, PreparedPoint, SUMS, SelfLocking, SolvedPoint, WeakPoint, sums};
+use gearloss_studies::points::{Found, PreparedPoint, SUMS, SelfLocking, SolvedPoint, WeakPoint, sums};
 use serde::Serialize;
 use serde_json::{Value, json};
 

@@ -1,8 +1,8 @@
 //! Quantities outside their stated ranges in all analyses of a run, for the end of its output.
 
 use gearloss_studies::analyses::Outcome;
-use gearloss_studies::analysis::Note;
 use gearloss_studies::distinct::distinct;
+use gearloss_studies::points::Note;
 
 use crate::text::{beyond, significant};
 
@@ -178,7 +178,7 @@ mod tests {
     }
 
     #[test]
-    fn one_line_tells_of_all_analyses_and_models() {
+    fn one_line_names_all_analyses_and_models() {
         let mut ranges = StatedRanges::default();
         ranges.add(left("bearings.B1.model", 2.0, "map"));
         ranges.add(left("bearings.B1.model", 1.0, "city"));

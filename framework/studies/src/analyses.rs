@@ -50,18 +50,17 @@ use serde_json::Value;
 pub use context::{Built, Context, Stopped, gear_of};
 pub use head::Head;
 
-use crate::analysis::Note;
+use crate::points::Note;
 use crate::study::{ParameterKey, Then, Uses, Write};
 use crate::table::Table;
 
-/// An analysis: its entry in a study and the computation of its outcome.
+/// An analysis: its entry in a study and the computation of its outcome. The first paragraph of the doc comment of the entry describes
+/// the analysis in schema and report.
 ///
 /// It prints nothing, writes no files and has no state between runs.
 pub trait Analysis: DeserializeOwned + JsonSchema + Send + Sync + 'static {
     /// Value of the key `type`.
     const TYPE: &'static str;
-    /// Description of the analysis as a sentence.
-    const MEANING: &'static str;
     /// The key whose entries may be names of parameters of the study.
     const PARAMETERS: Option<ParameterKey> = None;
     /// Outcome.
@@ -167,13 +166,12 @@ type Written = dyn Any + Send + Sync;
 pub struct AnalysisKind {
     /// Value of the key `type`.
     pub name: &'static str,
-    /// Description as a sentence.
-    pub meaning: &'static str,
     /// The key whose entries may be names of parameters of the study.
     pub parameters: Option<ParameterKey>,
     /// Where it is registered.
     pub origin: Origin,
     schema: fn(&mut SchemaGenerator) -> Schema,
+    own_schema: fn(&mut SchemaGenerator) -> Schema,
     read: fn(Value) -> Result<Arc<Written>, serde_json::Error>,
     uses: fn(&Written) -> Uses<'_>,
     then: fn(&Written) -> Option<Then<'_>>,
@@ -189,10 +187,10 @@ impl AnalysisKind {
     pub const fn new<A: Analysis>(origin: Origin) -> Self {
         Self {
             name: A::TYPE,
-            meaning: A::MEANING,
             parameters: A::PARAMETERS,
             origin,
             schema: SchemaGenerator::subschema_for::<A>,
+            own_schema: A::json_schema,
             read: |value| Ok(Arc::new(serde_json::from_value::<A>(value)?)),
             uses: |entry| own::<A>(entry).uses(),
             then: |entry| own::<A>(entry).then(),
@@ -200,6 +198,14 @@ impl AnalysisKind {
             formats: |entry| own::<A>(entry).formats(),
             outcome: SchemaGenerator::subschema_for::<A::Outcome>,
         }
+    }
+
+    /// Description as a sentence: the first paragraph of the doc comment of the entry.
+    pub fn meaning(&self) -> String {
+        let schema = (self.own_schema)(&mut SchemaGenerator::default());
+        let description = schema.get("description").and_then(Value::as_str).unwrap_or_default();
+        let paragraph = description.split("\n\n").next().unwrap_or_default();
+        paragraph.replace('\n', " ")
     }
 
     /// The schema of its outcome.
@@ -314,7 +320,7 @@ impl JsonSchema for AnalysisEntry {
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
         let variants = AnalysisKind::linked().into_iter().map(|kind| {
             let mut variant = (kind.schema)(generator);
-            variant.insert("description".to_owned(), kind.meaning.into());
+            variant.insert("description".to_owned(), kind.meaning().into());
             variant.insert("type".to_owned(), "object".into());
             variant.insert(
                 "properties".to_owned(),

@@ -8,7 +8,7 @@ use gearloss_framework::registry::Evidence;
 use gearloss_framework::resolve::Resolved;
 use gearloss_framework::transmission::Transmission;
 
-use crate::analysis::{Note, STATIC_SAFETY, WeakPoint, evidence, merge, notes};
+use crate::points::{Note, STATIC_SAFETY, WeakPoint, evidence, merge, notes};
 
 /// A gearbox that was read, resolved and built.
 pub struct CheckedGearbox {

@@ -21,8 +21,8 @@ pub mod checked;
 pub mod needs;
 
 // What analyses share: points, varied quantities, identification, fits of columns, lists without repetition.
-pub mod analysis;
 pub mod distinct;
 pub mod fit;
 pub mod identify;
+pub mod points;
 pub mod varied;

@@ -14,7 +14,7 @@ mod steady;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::analysis::PointResult;
+use crate::points::PointResult;
 use gearloss_framework::description::Ordered;
 
 use columns::KNOWN;
@@ -251,7 +251,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn a_german_rig_file_is_recognised_and_told() {
+    fn a_german_rig_file_is_recognised_and_noted() {
         // BOM, semicolons, decimal commas, a row of units.
         let text = "\u{feff}M_an;n_an;eta;T_Öl\nNm;1/min;%;°C\n10,5;3000;97,25;80,1\n-4;1000;90;60\n";
         let rig = entry(
@@ -322,7 +322,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn faulty_rows_are_refused_or_left_out_and_told() {
+    fn faulty_rows_are_refused_or_left_out_and_reported() {
         let text = b"torque [Nm],speed [rpm],loss [W]\n1,2,3\n1,2,\n1,x,3\n";
         let mut rig = entry(&[], &[]);
         let refused = rig.read(text, &[]).unwrap_err().remove(0);
@@ -400,7 +400,7 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn everything_that_is_wrong_is_told_at_once() {
+    fn everything_that_is_wrong_is_reported_at_once() {
         let mut rig = entry(&[("loss", "P_loss"), ("efficency", "eta")], &[]);
         rig.columns.0.push(("efficiency".to_owned(), "eta".into()));
         let faults = rig

@@ -7,7 +7,7 @@ pub use serde::{Deserialize, Serialize};
 pub use crate::analyses::axes::{axis, speeds, torques};
 pub use crate::analyses::numbers::{RPM, tidy};
 pub use crate::analyses::{Analysis, Built, Context, Head, Outcome, Stopped, gear_of};
-pub use crate::analysis::{Given, GridResult, Note, PointResult, Points, notes};
+pub use crate::points::{Given, GridResult, Note, PointResult, Points, notes};
 pub use crate::register_analysis;
 pub use crate::study::{
     By, NameOr, NamesOrParameters, ParameterKey, RangeEntry, SpeedAxis, TemperatureAxis, TorqueAxis, Uses, Write,

@@ -1,73 +1,86 @@
 //! Running a study: its analyses one after the other, each with the model sets that those before it have found.
 
-use std::path::PathBuf;
+use std::collections::BTreeMap;
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use gearloss_framework::attach::dangling;
-use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::Language;
+use serde_json::{Map, Value};
 
 use crate::analyses::progress::Silent;
 use crate::analyses::{Context, Outcome, Stopped};
 use crate::codes;
 use crate::study::Study;
 
-/// A study that is run. It prints nothing and writes no file.
+/// A study that is run. It prints nothing and writes no file. Runs of one study do not affect each other.
 pub struct StudyRun<'a> {
     language: &'a Language,
-    study: &'a Study,
-    /// Files that the gearboxes had read before any analysis.
-    known: Vec<Vec<PathBuf>>,
+    /// The study before any analysis.
+    study: Study,
+    /// Model sets that its analyses have found (`then`): resolved path to value, by name of the set.
+    found: Mutex<BTreeMap<String, Map<String, Value>>>,
 }
 
 impl<'a> StudyRun<'a> {
     /// The run of a study that was checked ([`Study::check`]).
-    pub fn new(language: &'a Language, study: &'a Study) -> Self {
-        let known = |(_, gearbox): &(String, Gearbox)| gearbox.files.all().into_iter().map(|(file, _)| file).collect();
+    pub fn new(language: &'a Language, study: &Study) -> Self {
         Self {
             language,
-            study,
-            known: study.gearboxes.iter().map(known).collect(),
+            study: study.clone(),
+            found: Mutex::default(),
         }
+    }
+
+    /// The study for the next analysis: with the model sets found so far, and with gearboxes that have read no files of other analyses,
+    /// so that the inputs listed in an outcome are its own.
+    pub fn study_for_analysis(&self) -> Study {
+        let mut study = self.study.clone();
+        for (set, values) in self.found().iter() {
+            study.fill_set(set, values.clone());
+        }
+        study
     }
 
     /// The outcome of one analysis. Analyses whose model sets it uses (`then`) must have run before it.
     ///
     /// # Errors
     /// That no analysis has the name; everything that is wrong with its input.
-    pub fn analysis(&self, name: &'a str) -> Result<Box<dyn Outcome>, Stopped> {
-        self.run(&Context::new(self.language, self.study, name, &Silent))
+    pub fn analysis(&self, name: &str) -> Result<Box<dyn Outcome>, Stopped> {
+        let study = self.study_for_analysis();
+        self.run(&Context::new(self.language, &study, name, &Silent))
     }
 
     /// Every analysis with its name and its outcome, in the order of the study; each runs when the iterator reaches it. An error
     /// of one does not stop those after it.
-    pub fn outcomes(&self) -> impl Iterator<Item = (&'a str, Result<Box<dyn Outcome>, Stopped>)> + '_ {
+    pub fn outcomes(&self) -> impl Iterator<Item = (&str, Result<Box<dyn Outcome>, Stopped>)> {
         let names = self.study.entry.analyses.ids();
         names.map(|name| (name, self.analysis(name)))
     }
 
-    /// The outcome of the analysis of a context, which may report progress, keep results of tasks or take rows of large tables.
-    ///
-    /// Files that other analyses have read are forgotten, so that the inputs listed in the outcome are its own.
+    /// The outcome of the analysis of a context, which may report progress, keep results of tasks or take rows of large tables. The
+    /// study of the context is the one of [`StudyRun::study_for_analysis`].
     ///
     /// # Errors
     /// As [`StudyRun::analysis`], and [`Stopped::Checked`] of a context that only checks.
     pub fn run(&self, cx: &Context<'_>) -> Result<Box<dyn Outcome>, Stopped> {
-        let Some(analysis) = self.study.entry.analyses.get(cx.name) else {
-            let names: Vec<&str> = self.study.entry.analyses.ids().collect();
+        let Some(analysis) = cx.study.entry.analyses.get(cx.name) else {
+            let names: Vec<&str> = cx.study.entry.analyses.ids().collect();
             return Err(cx.found(vec![dangling("analyses", "analysis", cx.name, &names)]));
         };
-        for ((_, gearbox), known) in self.study.gearboxes.iter().zip(&self.known) {
-            gearbox.files.forget_all_but(known);
-        }
-        if let Some((set, by)) = self.study.pending(analysis).filter(|_| !cx.only_checks) {
+        if let Some((set, by)) = cx.study.pending(analysis).filter(|_| !cx.only_checks) {
             let message = format!("the model set `{set}` has no values, because the analysis `{by}` produced none");
             let help = format!("correct `{by}`, or choose another set");
             return Err(cx.wrong_as(codes::NOT_FOUND_YET, &cx.path(), message, &help));
         }
         let outcome = analysis.run(cx)?;
         if let Some(then) = analysis.then() {
-            self.study.keep_found(then.set, outcome.found());
+            let values = outcome.found().into_iter().collect();
+            self.found().insert(then.set.to_owned(), values);
         }
         Ok(outcome)
+    }
+
+    fn found(&self) -> MutexGuard<'_, BTreeMap<String, Map<String, Value>>> {
+        self.found.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

@@ -18,7 +18,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-pub use axes::{Envelope, OfRating, PowerAxis, Shares, Span, SpeedAxis, TemperatureAxis, TorqueAxis};
+pub use axes::{AxisError, Envelope, OfRating, PowerAxis, Shares, Span, SpeedAxis, TemperatureAxis, TorqueAxis};
 pub use by::By;
 pub use compare::{Difference, Quantity};
 pub use data::Data;
@@ -200,7 +200,7 @@ impl Grid {
     ///
     /// # Errors
     /// The path without a list of values.
-    pub fn combinations(&self) -> Result<Vec<Vec<(String, Value)>>, String> {
+    pub(crate) fn combinations(&self) -> Result<Vec<Vec<(String, Value)>>, String> {
         let mut all: Vec<Vec<(String, Value)>> = vec![Vec::new()];
         for (path, values) in self.bind.iter() {
             let values = values
@@ -265,7 +265,7 @@ impl<'a> Uses<'a> {
         Self {
             cycles: &drive.cycles,
             vehicle: drive.vehicle.as_ref(),
-            ..Self::new(drive.gearbox.as_ref(), &drive.model_sets).at(&drive.gear)
+            ..Self::new(drive.gearbox.as_ref(), &drive.model_sets).in_gears(&drive.gear)
         }
     }
 
@@ -291,7 +291,7 @@ impl<'a> Uses<'a> {
     }
 
     /// With gears.
-    pub fn at(self, gears: impl IntoIterator<Item = &'a String>) -> Self {
+    pub fn in_gears(self, gears: impl IntoIterator<Item = &'a String>) -> Self {
         let gears = gears.into_iter().collect();
         Self { gears, ..self }
     }

@@ -12,7 +12,49 @@
 //! [`Context::part`]: crate::analyses::Context::part
 //! [`Context::undivided`]: crate::analyses::Context::undivided
 
+use std::io;
+use std::path::PathBuf;
+
 use crate::analyses::Stopped;
+
+/// Why results cannot be written, or stored results of tasks not be read.
+#[derive(Debug, thiserror::Error)]
+pub enum StorageError {
+    /// A file cannot be written.
+    #[error("cannot write {}: {error}", .file.display())]
+    Write {
+        /// The file.
+        file: PathBuf,
+        /// The reason.
+        error: io::Error,
+    },
+    /// Two results would be written to one file.
+    #[error("two results would have the name {0}")]
+    SameName(String),
+    /// A result has no form as bytes: a bug of its analysis.
+    #[error("a result cannot be encoded: {0}")]
+    Encode(postcard::Error),
+    /// The result of a task cannot be read.
+    #[error("cannot read a result of `{analysis}`: {error}")]
+    Read {
+        /// Name of the analysis.
+        analysis: String,
+        /// The reason.
+        error: io::Error,
+    },
+    /// A stored result belongs to another task.
+    #[error("result {number} of stage {stage} in part {part} of `{analysis}` is not that of its task")]
+    OtherTask {
+        /// Name of the analysis.
+        analysis: String,
+        /// Number of the part, see [`Task::part`].
+        part: usize,
+        /// Number of the stage.
+        stage: usize,
+        /// Index of the task.
+        number: usize,
+    },
+}
 
 /// A task of an analysis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]

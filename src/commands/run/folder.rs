@@ -5,6 +5,7 @@ use std::io::{self, ErrorKind, Seek as _, Write as _};
 use std::path::{Path, PathBuf};
 
 use gearloss_framework::files::{LONGEST_TEXT, read_text};
+use gearloss_studies::tasks::StorageError;
 
 use crate::output::Failure;
 
@@ -28,16 +29,16 @@ impl Held {
     /// If another run writes into it, or if it is not writable.
     pub fn take(folder: &Path) -> Result<(Self, bool), Failure> {
         let mark = folder.join(MARK);
-        fs::create_dir_all(folder).map_err(|e| cannot(folder, &e))?;
+        fs::create_dir_all(folder).map_err(|e| cannot_write(folder, e))?;
         loop {
-            let left = is_regular(&mark).map_err(|e| cannot(&mark, &e))?;
+            let left = is_regular(&mark).map_err(|e| cannot_write(&mark, e))?;
             let opened = OpenOptions::new()
                 .read(true)
                 .write(true)
                 .create(true)
                 .truncate(false)
                 .open(&mark);
-            let mut file = opened.map_err(|e| cannot(&mark, &e))?;
+            let mut file = opened.map_err(|e| cannot_write(&mark, e))?;
             let locked = file.try_lock();
             if let Err(TryLockError::WouldBlock) = locked {
                 return Err(busy(folder, &mark));
@@ -45,7 +46,7 @@ impl Held {
             let token = token();
             let marked = file.set_len(0).and_then(|()| file.rewind());
             let marked = marked.and_then(|()| file.write_all(token.as_bytes()));
-            marked.map_err(|e| cannot(&mark, &e))?;
+            marked.map_err(|e| cannot_write(&mark, e))?;
             // The run that held the lock may have removed the file since it was opened here. A lock that prevents reading also prevents
             // removal.
             match read_text(&mark, LONGEST_TEXT) {
@@ -97,11 +98,11 @@ fn busy(folder: &Path, mark: &Path) -> Failure {
 }
 
 /// The error that results cannot be written.
-pub fn cannot(path: &Path, e: &dyn std::fmt::Display) -> Failure {
-    Failure::input(
-        format!("cannot write {}: {e}", path.display()),
-        "choose another folder with -o",
-    )
+pub fn cannot_write(path: &Path, error: impl Into<io::Error>) -> StorageError {
+    StorageError::Write {
+        file: path.to_owned(),
+        error: error.into(),
+    }
 }
 
 /// Whether a regular file exists at the path, which may be overwritten.

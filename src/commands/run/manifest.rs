@@ -10,11 +10,12 @@ use gearloss_framework::files::{LONGEST_DATA, read_bytes};
 use gearloss_framework::language::Language;
 use gearloss_studies::analyses::head::inputs;
 use gearloss_studies::study::Study;
+use gearloss_studies::tasks::StorageError;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use super::folder::{Held, cannot, is_unfinished, temporary};
+use super::folder::{Held, cannot_write, is_unfinished, temporary};
 use super::write::hash_of;
 use crate::output::Failure;
 use crate::shard::Shard;
@@ -102,7 +103,7 @@ impl Manifest {
     }
 
     /// Records in the folder that its shard is finished, with the number of results.
-    pub fn finish(self, folder: &Path, results: usize) -> Result<(), Failure> {
+    pub fn finish(self, folder: &Path, results: usize) -> Result<(), StorageError> {
         let results = Some(results);
         store(&folder.join(MANIFEST), &Self { results, ..self })
     }
@@ -160,12 +161,12 @@ fn texts(value: &Value, words: &mut BTreeSet<String>) {
     }
 }
 
-fn store(file: &Path, value: &impl Serialize) -> Result<(), Failure> {
+fn store(file: &Path, value: &impl Serialize) -> Result<(), StorageError> {
     let stored = temporary(file).and_then(|(part, mut to)| {
         to.write_all(&serde_json::to_vec(value)?)?;
         fs::rename(part, file)
     });
-    stored.map_err(|e| cannot(file, &e))
+    stored.map_err(|e| cannot_write(file, e))
 }
 
 fn load<T: DeserializeOwned>(file: &Path) -> Option<T> {

@@ -2,12 +2,13 @@
 
 use std::collections::BTreeSet;
 use std::fs;
-use std::io::BufWriter;
+use std::io::{self, BufWriter};
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use super::folder::{cannot, temporary};
-use crate::output::Failure;
+use gearloss_studies::tasks::StorageError;
+
+use super::folder::{cannot_write, temporary};
 
 /// The result folder and the files written into it.
 #[derive(Debug, Default)]
@@ -46,13 +47,10 @@ pub struct Place {
 }
 
 impl Place {
-    pub fn new(files: &Files, name: &str) -> Result<(Self, BufWriter<fs::File>), Failure> {
+    pub fn new(files: &Files, name: &str) -> Result<(Self, BufWriter<fs::File>), StorageError> {
         // Names of analyses, sets and products are joined with hyphens, which they may contain.
         if !locked(&files.names).insert(name.to_owned()) {
-            return Err(Failure::input(
-                format!("two results would have the name {name}"),
-                "rename an analysis or a model set",
-            ));
+            return Err(StorageError::SameName(name.to_owned()));
         }
         let path = files.folder.join(name);
         let mut place = Self {
@@ -66,18 +64,18 @@ impl Place {
                 place.part = part;
                 Ok((place, BufWriter::new(file)))
             }
-            Err(e) => Err(place.cannot(&e)),
+            Err(e) => Err(place.cannot_write(e)),
         }
     }
 
-    pub fn cannot(&self, e: &dyn std::fmt::Display) -> Failure {
-        cannot(&self.path, e)
+    pub fn cannot_write(&self, error: impl Into<io::Error>) -> StorageError {
+        cannot_write(&self.path, error)
     }
 
     /// Moves the complete file to its final path. An existing link there is replaced, not followed.
-    pub fn done(mut self, written: Result<(), String>) -> Result<(), Failure> {
-        let moved = written.and_then(|()| fs::rename(&self.part, &self.path).map_err(|e| e.to_string()));
-        moved.map_err(|e| self.cannot(&e))?;
+    pub fn done(mut self, written: io::Result<()>) -> Result<(), StorageError> {
+        let moved = written.and_then(|()| fs::rename(&self.part, &self.path));
+        moved.map_err(|e| self.cannot_write(e))?;
         self.name.clear();
         Ok(())
     }

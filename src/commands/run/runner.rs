@@ -34,7 +34,7 @@ pub struct Run<'a> {
     pub(super) left: Cell<usize>,
     /// The same for the end of the run.
     pub(super) stated_ranges: RefCell<StatedRanges>,
-    analyses: StudyRun<'a>,
+    pub(super) analyses: StudyRun<'a>,
     /// Task results of shards.
     pub(super) tasks: Option<ShardTasks>,
     /// True for `check`: an analysis stops before it computes and reports its errors.
@@ -126,31 +126,31 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// The context of an analysis.
-    pub(super) fn context<'r>(&'r self, name: &'r str) -> Context<'r> {
-        let cx = Context::new(self.language, self.study, name, &self.bars);
+    /// The context of an analysis; the study is that of [`StudyRun::study_for_analysis`].
+    pub(super) fn context<'r>(&'r self, study: &'r Study, name: &'r str) -> Context<'r> {
+        let cx = Context::new(self.language, study, name, &self.bars);
         let cx = if self.only_checks { cx.checking() } else { cx };
         cx.with_tasks(self.tasks.as_ref().map(|tasks| tasks as &dyn TaskResults))
     }
 
-    /// Runs an analysis and adds its section to the report. Files read by earlier analyses are cleared, so that its results list only its
-    /// own inputs.
+    /// Runs an analysis and adds its section to the report.
     pub(super) fn attempt(&self, name: &str, analysis: &AnalysisEntry, out: &mut Out) -> Result<(), Failure> {
         self.report.borrow_mut().sections.push(Section {
             name: name.to_owned(),
-            about: analysis.kind().meaning.to_owned(),
+            about: analysis.kind().meaning(),
             ..Section::default()
         });
         let tables = Tables::new(&self.files, analysis.formats());
+        let study = self.analyses.study_for_analysis();
         let runner = Runner {
-            cx: self.context(name).with_sink(&tables),
+            cx: self.context(&study, name).with_sink(&tables),
             run: self,
         };
         match self.analyses.run(&runner.cx) {
             Ok(outcome) => {
                 let shown = runner.present(analysis, outcome.as_ref(), out);
                 drop(runner);
-                let written = tables.finish(&outcome.tables());
+                let written = tables.finish(&outcome.tables()).map_err(Failure::from);
                 shown.and(written)
             }
             Err(Stopped::Checked) => Ok(()),

@@ -73,22 +73,18 @@ impl RowSink for Unwanted {
 fn compute(run: &Run<'_>) -> Result<usize, Failure> {
     let mut failed = 0;
     for (name, analysis) in run.study.entry.analyses.iter() {
+        let study = run.analyses.study_for_analysis();
         // It depends on an analysis whose results are incomplete.
-        if run.study.pending(analysis).is_some() {
+        if study.pending(analysis).is_some() {
             continue;
         }
-        let cx = run.context(name).with_sink(&Unwanted);
-        match analysis.run(&cx) {
-            Ok(outcome) => {
-                if let Some(then) = analysis.then() {
-                    run.study.keep_found(then.set, outcome.found());
-                }
-            }
+        let cx = run.context(&study, name).with_sink(&Unwanted);
+        match run.analyses.run(&cx) {
             Err(Stopped::Found(findings)) => {
                 Out::error().text(&findings.render())?;
                 failed += 1;
             }
-            Err(Stopped::Elsewhere | Stopped::Checked) => {}
+            Ok(_) | Err(Stopped::Elsewhere | Stopped::Checked) => {}
             Err(stopped) => return Err(stopped.into()),
         }
     }

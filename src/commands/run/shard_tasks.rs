@@ -7,9 +7,9 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use gearloss_studies::analyses::Stopped;
 use gearloss_studies::analyses::head::fnv1a_64;
 use gearloss_studies::study::Study;
-use gearloss_studies::tasks::{Task, TaskResults};
+use gearloss_studies::tasks::{StorageError, Task, TaskResults};
 
-use super::folder::cannot;
+use super::folder::cannot_write;
 use super::task_file::{Place, TaskFile};
 use crate::output::Failure;
 use crate::shard::Shard;
@@ -50,7 +50,7 @@ impl ShardTasks {
         for (analysis, files) in &tasks.analyses {
             let path = file(folder, analysis);
             if path.symlink_metadata().is_ok() {
-                let own = TaskFile::reopen(&path).map_err(|e| cannot(&path, &e))?;
+                let own = TaskFile::reopen(&path).map_err(|e| cannot_write(&path, e))?;
                 let mut files = locked(files);
                 files.before = own.len();
                 files.own = Some(own);
@@ -65,7 +65,7 @@ impl ShardTasks {
             let files = folders.iter().map(|folder| file(folder, analysis));
             // A shard without tasks of an analysis has no file for it.
             let files = files.filter(|path| path.is_file());
-            let read = |path: PathBuf| TaskFile::read_only(&path).map_err(|e| cannot(&path, &e));
+            let read = |path: PathBuf| TaskFile::read_only(&path).map_err(|e| cannot_write(&path, e));
             Ok(Mutex::new(Files {
                 others: files.map(read).collect::<Result<_, _>>()?,
                 ..Files::default()
@@ -113,10 +113,6 @@ fn locked(files: &Mutex<Files>) -> MutexGuard<'_, Files> {
     files.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-fn unwritten(path: &Path, e: &dyn std::fmt::Display) -> Stopped {
-    Stopped::Unwritten(cannot(path, e).text().unwrap_or_default())
-}
-
 impl TaskResults for ShardTasks {
     /// Tasks are assigned to the shards in turn, those of each stage from another shard on.
     fn is_own(&self, task: Task<'_>) -> bool {
@@ -148,12 +144,11 @@ impl TaskResults for ShardTasks {
         let result = result
             .flatten()
             .unwrap_or_else(|| Err(std::io::ErrorKind::NotFound.into()));
-        result.map_err(|e| {
-            Stopped::Unwritten(format!(
-                "error: cannot read a result of `{}`: {e}\n  = help: run its shard again, then merge\n",
-                task.analysis
-            ))
-        })
+        let analysis = || task.analysis.to_owned();
+        Ok(result.map_err(|error| StorageError::Read {
+            analysis: analysis(),
+            error,
+        })?)
     }
 
     fn keep(&self, task: Task<'_>, result: &[u8]) -> Result<(), Stopped> {
@@ -162,10 +157,10 @@ impl TaskResults for ShardTasks {
         };
         let path = file(&self.folder, task.analysis);
         if files.own.is_none() {
-            files.own = Some(TaskFile::reopen(&path).map_err(|e| unwritten(&path, &e))?);
+            files.own = Some(TaskFile::reopen(&path).map_err(|e| cannot_write(&path, e))?);
         }
         let kept = files.own.as_mut().map(|own| own.append(place(task), result));
-        kept.transpose().map_err(|e| unwritten(&path, &e))?;
+        kept.transpose().map_err(|e| cannot_write(&path, e))?;
         files.computed += 1;
         Ok(())
     }

@@ -1,7 +1,7 @@
 //! Tables of results as files.
 
 use std::fs;
-use std::io::BufWriter;
+use std::io::{self, BufWriter};
 use std::sync::{Mutex, PoisonError};
 
 use gearloss_report::csv::CsvTable;
@@ -9,9 +9,9 @@ use gearloss_report::parquet::ParquetTable;
 use gearloss_studies::analyses::Stopped;
 use gearloss_studies::study::Write;
 use gearloss_studies::table::{RowSink, Table};
+use gearloss_studies::tasks::StorageError;
 
 use super::result_files::{Files, Place};
-use crate::output::Failure;
 
 /// A table that is written in batches of rows.
 pub struct TableFiles {
@@ -21,41 +21,41 @@ pub struct TableFiles {
 
 impl TableFiles {
     /// The files of a table in the requested formats.
-    pub fn new(files: &Files, formats: &[Write], header: &Table) -> Result<Self, Failure> {
+    pub fn new(files: &Files, formats: &[Write], header: &Table) -> Result<Self, StorageError> {
         let mut table = Self {
             csv: None,
             parquet: None,
         };
         if formats.contains(&Write::Csv) {
             let (place, file) = Place::new(files, &format!("{}.csv", header.name))?;
-            let csv = CsvTable::new(file, header).map_err(|e| place.cannot(&e))?;
+            let csv = CsvTable::new(file, header).map_err(|e| place.cannot_write(e))?;
             table.csv = Some((place, csv));
         }
         if formats.contains(&Write::Parquet) {
             let (place, file) = Place::new(files, &format!("{}.parquet", header.name))?;
-            let parquet = ParquetTable::new(file, header).map_err(|e| place.cannot(&e))?;
+            let parquet = ParquetTable::new(file, header).map_err(|e| place.cannot_write(e))?;
             table.parquet = Some((place, parquet));
         }
         Ok(table)
     }
 
     /// Adds rows.
-    pub fn rows(&mut self, rows: &Table) -> Result<(), Failure> {
+    pub fn rows(&mut self, rows: &Table) -> Result<(), StorageError> {
         if let Some((place, csv)) = &mut self.csv {
-            csv.rows(rows).map_err(|e| place.cannot(&e))?;
+            csv.rows(rows).map_err(|e| place.cannot_write(e))?;
         }
         if let Some((place, parquet)) = &mut self.parquet {
-            parquet.rows(rows).map_err(|e| place.cannot(&e))?;
+            parquet.rows(rows).map_err(|e| place.cannot_write(e))?;
         }
         Ok(())
     }
 
-    pub fn finish(self) -> Result<(), Failure> {
+    pub fn finish(self) -> Result<(), StorageError> {
         if let Some((place, csv)) = self.csv {
-            place.done(csv.finish().map_err(|e| e.to_string()))?;
+            place.done(csv.finish())?;
         }
         if let Some((place, parquet)) = self.parquet {
-            place.done(parquet.finish().map_err(|e| e.to_string()))?;
+            place.done(parquet.finish().map_err(io::Error::from))?;
         }
         Ok(())
     }
@@ -78,7 +78,7 @@ impl<'r> Tables<'r> {
     }
 
     /// Writes the tables of an outcome and completes those written in batches.
-    pub fn finish(self, tables: &[Table]) -> Result<(), Failure> {
+    pub fn finish(self, tables: &[Table]) -> Result<(), StorageError> {
         let mut begun = self.begun.into_inner().unwrap_or_else(PoisonError::into_inner);
         for table in tables {
             let file = if let Some(own) = begun.iter().position(|(name, _)| *name == table.name) {
@@ -96,16 +96,15 @@ impl<'r> Tables<'r> {
 
 impl RowSink for Tables<'_> {
     fn take(&self, rows: &Table) -> Result<(), Stopped> {
-        let unwritten = |failure: Failure| Stopped::Unwritten(failure.text().unwrap_or_default());
         let mut begun = self.begun.lock().unwrap_or_else(PoisonError::into_inner);
         let known = begun.iter().position(|(name, _)| *name == rows.name);
         let own = if let Some(own) = known {
             own
         } else {
-            let file = TableFiles::new(self.files, self.formats, rows).map_err(unwritten)?;
+            let file = TableFiles::new(self.files, self.formats, rows)?;
             begun.push((rows.name.clone(), file));
             begun.len() - 1
         };
-        begun[own].1.rows(rows).map_err(unwritten)
+        Ok(begun[own].1.rows(rows)?)
     }
 }

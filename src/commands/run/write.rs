@@ -1,7 +1,7 @@
 //! Files of results.
 
 use std::fs;
-use std::io::{BufRead as _, BufReader, Write as _};
+use std::io::{self, BufRead as _, BufReader, Write as _};
 use std::path::Path;
 
 use gearloss_framework::files::open_regular;
@@ -20,7 +20,7 @@ pub fn outcome(runner: &Runner<'_>, outcome: &dyn Outcome) -> Result<(), Failure
     let (place, mut file) = Place::new(&runner.run.files, &format!("{}.json", runner.name))?;
     let written = outcome.write_json(&mut file).map_err(std::io::Error::from);
     let written = written.and_then(|()| file.write_all(b"\n")).and_then(|()| file.flush());
-    place.done(written.map_err(|e| e.to_string()))
+    Ok(place.done(written)?)
 }
 
 /// Name of the report.
@@ -28,9 +28,10 @@ pub const REPORT: &str = "report.html";
 
 /// Writes the page into the folder of the results.
 pub fn report(run: &Run<'_>, template: Option<&str>) -> Result<(), Failure> {
-    let context = run.context("report");
+    let study = run.analyses.study_for_analysis();
+    let context = run.context(&study, "report");
     let mut report = run.report.borrow_mut();
-    for (name, gearbox) in &run.study.gearboxes {
+    for (name, gearbox) in &study.gearboxes {
         report.gearboxes.push(gearbox_page(&context, name, gearbox)?);
     }
     let frame = Frame::new(run.study, run.language, env!("CARGO_PKG_VERSION"));
@@ -53,21 +54,21 @@ pub fn picture(runner: &Runner<'_>, name: &str, figure: Figure, formats: &[Write
     if formats.contains(&Write::Svg) {
         // A product precedes its set with a slash.
         let file = format!("{}.svg", name.replace('/', "-"));
-        keep(runner.run, &file, figure.svg().map(String::into_bytes))?;
+        keep(
+            runner.run,
+            &file,
+            figure.svg().map(String::into_bytes).map_err(io::Error::other),
+        )?;
     }
     runner.run.in_section(|section| section.figures.push(figure));
     Ok(())
 }
 
 /// Writes a result file completely, or reports an error.
-pub fn keep(runner: &Run<'_>, file: &str, bytes: Result<Vec<u8>, String>) -> Result<(), Failure> {
+pub fn keep(runner: &Run<'_>, file: &str, bytes: io::Result<Vec<u8>>) -> Result<(), Failure> {
     let (place, mut to) = Place::new(&runner.files, file)?;
-    let written = bytes.and_then(|bytes| {
-        to.write_all(&bytes)
-            .and_then(|()| to.flush())
-            .map_err(|e| e.to_string())
-    });
-    place.done(written)
+    let written = bytes.and_then(|bytes| to.write_all(&bytes).and_then(|()| to.flush()));
+    Ok(place.done(written)?)
 }
 
 /// The hash of a regular file, read in blocks.

@@ -37,7 +37,7 @@ fn efficiencies_become_losses_before_they_are_interpolated() {
 }
 
 #[test]
-fn a_corner_that_the_motor_does_not_reach_holds_the_last_loss_and_is_told() {
+fn a_corner_that_the_motor_does_not_reach_has_the_last_loss_and_a_note() {
     let text = "speed [rpm],torque [Nm],loss [W]\n1000,10,100\n1000,20,200\n2000,10,150\n";
     let map = MotorMap::read(text.as_bytes()).unwrap();
     let at = |rpm: f64, torque: f64| map.loss(rpm * PI / 30.0, torque, 20.0);

@@ -31,6 +31,18 @@ impl Default for Files {
     }
 }
 
+/// With the files read so far; the copy keeps its own list of those that it reads from then on.
+impl Clone for Files {
+    fn clone(&self) -> Self {
+        let read = self.read.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        Self {
+            folder: self.folder.clone(),
+            source: Arc::clone(&self.source),
+            read: Mutex::new(read.clone()),
+        }
+    }
+}
+
 impl Files {
     /// Files on disk, in the folder of a document.
     pub fn beside(folder: impl Into<PathBuf>) -> Self {
@@ -63,12 +75,6 @@ impl Files {
             .into();
         read.insert(path, Arc::clone(&text));
         Ok(text)
-    }
-
-    /// Forgets the files read, except for some.
-    pub fn forget_all_but(&self, kept: &[PathBuf]) {
-        let mut read = self.read.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-        read.retain(|path, _| kept.contains(path));
     }
 
     /// Provides a text for a file that need not exist.

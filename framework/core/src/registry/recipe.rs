@@ -43,7 +43,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn one_recipe_is_taken_none_and_two_are_told() {
+    fn one_recipe_is_used_none_and_two_are_reported() {
         let recipe = NetworkRecipe {
             meaning: "Nothing.",
             generate: |_, _| Ok(Value::Null),

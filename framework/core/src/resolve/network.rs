@@ -58,7 +58,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn patterns_inside_the_network_are_told_from_others() {
+    fn patterns_inside_the_network_are_distinguished_from_others() {
         for inside in ["thermal.network.links.a.conductance", "thermal.*.nodes", "*.*.x"] {
             assert!(meets_inside(inside), "{inside}");
         }

@@ -358,7 +358,7 @@ mod tests {
     }
 
     #[test]
-    fn a_law_without_value_at_the_balance_is_told() {
+    fn a_law_without_value_at_the_balance_is_reported() {
         let law = |least: f64| {
             balance([20.0, 150.0], move |t| {
                 if t < least {

@@ -122,7 +122,7 @@ impl Sheet {
         if number.abs() > MOST {
             return Err(format!(
                 "{}: `{}` is unrealistically large",
-                self.at(row, wanted),
+                self.describe_cell(row, wanted),
                 self.text(row, wanted).unwrap_or_default()
             ));
         }
@@ -135,7 +135,7 @@ impl Sheet {
         if number.is_some_and(|x| x < 0.0) {
             return Err(format!(
                 "{}: `{}` is negative",
-                self.at(row, wanted),
+                self.describe_cell(row, wanted),
                 self.text(row, wanted).unwrap_or_default()
             ));
         }
@@ -148,7 +148,7 @@ impl Sheet {
         if number.is_some_and(|t| !(-60.0..=250.0).contains(&t)) {
             return Err(format!(
                 "{}: `{}` is outside -60 to 250 degC",
-                self.at(row, wanted),
+                self.describe_cell(row, wanted),
                 self.text(row, wanted).unwrap_or_default()
             ));
         }
@@ -163,7 +163,7 @@ impl Sheet {
     }
 
     /// Line and column as text.
-    pub fn at(&self, row: usize, wanted: usize) -> String {
+    pub fn describe_cell(&self, row: usize, wanted: usize) -> String {
         let line = self.line(row);
         self.columns[wanted].as_ref().map_or_else(
             || format!("line {line}"),

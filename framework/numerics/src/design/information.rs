@@ -219,7 +219,7 @@ mod tests {
     }
 
     #[test]
-    fn what_tells_nothing_is_refused() {
+    fn a_plan_without_information_is_refused() {
         assert!(
             Information::new(&[1.0, 1.0], &[vec![1.0, 1.0]])
                 .unwrap_err()

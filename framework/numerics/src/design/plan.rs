@@ -304,7 +304,7 @@ mod tests {
     }
 
     #[test]
-    fn an_exchange_mends_a_poor_plan() {
+    fn an_exchange_improves_a_poor_plan() {
         let design = line(Rule::Determinant);
         let poor = design.plan(&[10, 10, 10, 10]).unwrap();
         let better = design.exchange(&poor).unwrap();

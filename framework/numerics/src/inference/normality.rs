@@ -94,7 +94,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_tested_is_told() {
+    fn what_cannot_be_tested_is_reported() {
         assert_eq!(anderson_darling(&[1.0; 7]), None);
         assert_eq!(anderson_darling(&[1.0; 20]), None);
         assert_eq!(anderson_darling(&[f64::NAN; 20]), None);

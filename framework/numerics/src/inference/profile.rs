@@ -253,7 +253,7 @@ mod tests {
     }
 
     #[test]
-    fn faults_of_fits_are_told() {
+    fn faults_of_fits_are_reported() {
         let better = profile(OPEN).end(Side::Upper, &mut with(|_| -1.0)).unwrap_err();
         assert!(matches!(better, ProfileFault::BetterOptimum(refit) if refit.objective == 4.0));
         let failed = profile(OPEN)

@@ -161,7 +161,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn waves_and_saws_are_told_from_chance() {
+    fn waves_and_zigzags_are_distinguished_from_chance() {
         let line = vec![(0..40).collect::<Vec<usize>>()];
         let wave: Vec<f64> = (0..40).map(|i| (f64::from(i) * 0.3).sin()).collect();
         let found = succession(&wave, &line).unwrap();
@@ -182,7 +182,7 @@ mod tests {
     }
 
     #[test]
-    fn what_has_no_succession_is_told() {
+    fn residuals_without_neighbours_have_no_succession() {
         assert_eq!(succession(&[1.0, 2.0], &[vec![0], vec![1]]), None);
         assert_eq!(succession(&[0.0, 0.0], &[vec![0, 1]]), None);
         assert_eq!(succession(&[1.0], &[vec![0, 1]]), None);

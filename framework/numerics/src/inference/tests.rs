@@ -80,7 +80,7 @@ fn a_line_has_its_textbook_deviations() {
 }
 
 #[test]
-fn lack_of_fit_is_told_in_words() {
+fn lack_of_fit_is_described_in_words() {
     let wild = line(&[[0.0, 0.0], [1.0, 9.0], [2.0, -9.0], [3.0, 0.0]], Accuracy::Given)
         .lack_of_fit()
         .unwrap();

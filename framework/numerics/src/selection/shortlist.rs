@@ -119,7 +119,7 @@ mod tests {
     }
 
     #[test]
-    fn models_that_are_not_told_apart_spread() {
+    fn indistinguishable_models_have_a_spread_of_predictions() {
         let [load, _, other] = shapes();
         let measured = measured(
             load.iter()

@@ -145,7 +145,7 @@ mod tests {
     }
 
     #[test]
-    fn faults_of_the_function_are_told() {
+    fn faults_of_the_function_are_reported() {
         let parameters = [Parameter::new("a", Scale::Log, 1.0, [0.5, 2.0]).unwrap()];
         assert!(
             gradients(&parameters, 0.0, |_: &[f64]| Err("no".to_owned()))

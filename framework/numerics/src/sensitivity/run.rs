@@ -55,7 +55,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_first_fault_is_told() {
+    fn the_first_fault_is_reported() {
         let point = |i: usize| vec![i as f64];
         let fails = |x: &[f64]| {
             if x[0] >= 3.0 {

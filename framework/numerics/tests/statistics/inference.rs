@@ -193,7 +193,7 @@ fn check_7_2_verdicts() {
 
 /// Wider bounds are no better data, and no worse ones.
 #[test]
-fn verdicts_do_not_hang_on_the_width_of_the_bounds() {
+fn verdicts_do_not_depend_on_the_width_of_the_bounds() {
     let narrow = optimum();
     for factor in [0.5, 2.0, 10.0] {
         let wider = parameters(&OPTIMUM).into_iter().map(|mut parameter| {
@@ -222,7 +222,7 @@ fn verdicts_do_not_hang_on_the_width_of_the_bounds() {
 }
 
 #[test]
-fn an_interval_that_fills_the_range_is_told_so() {
+fn an_interval_that_fills_the_range_is_named_as_such() {
     let list = parameters(&OPTIMUM).into_iter().enumerate().map(|(k, mut parameter)| {
         if k == H {
             parameter.bounds = [parameter.u - 0.1, parameter.u + 0.15];

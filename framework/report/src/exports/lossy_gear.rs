@@ -4,7 +4,7 @@
 
 use gearloss_studies::analyses::map::{Axes, ExportFile, ExportFormat, ExportMap, LossGrid, Refusal};
 use gearloss_studies::analyses::numbers::{RPM, tidy};
-use gearloss_studies::analysis::Given;
+use gearloss_studies::points::Given;
 use gearloss_studies::register_export;
 
 register_export!(LossyGear);

@@ -9,7 +9,7 @@ use gearloss_framework::transmission::Transmission;
 use gearloss_studies::analyses::axes::{speeds, torques};
 use gearloss_studies::analyses::numbers::RPM;
 use gearloss_studies::analyses::{Built, Context, gear_of};
-use gearloss_studies::analysis::{Given, OilTemperature, evidence};
+use gearloss_studies::points::{Given, OilTemperature, evidence};
 
 use super::PageTable;
 use super::gearbox::table;

@@ -3,7 +3,7 @@
 use super::super::contours::{Piece, levels, pieces};
 use super::super::{Cloud, Map};
 use super::{
-    BLACK, Circle, Color, DrawingArea, EmptyElement, HPos, IntoFont, PathElement, PlotFault, Pos, RGBColor, Rectangle,
+    BLACK, Circle, Color, DrawingArea, EmptyElement, HPos, IntoFont, PathElement, PlotError, Pos, RGBColor, Rectangle,
     SVGBackend, Shift, TEXT, Text, VPos, WHITE, drawn, fault, shade, short, two_sided,
 };
 
@@ -40,7 +40,7 @@ fn tone(value: f64, (low, high): (f64, f64), diverging: bool) -> RGBColor {
     if diverging { two_sided(share) } else { shade(share) }
 }
 
-fn bar_of_colours(root: &Area<'_>, (low, high): (f64, f64), diverging: bool) -> Result<(), PlotFault> {
+fn bar_of_colours(root: &Area<'_>, (low, high): (f64, f64), diverging: bool) -> Result<(), PlotError> {
     let (x, steps) = (LEFT + WIDTH + 30, 40);
     for k in 0..steps {
         let part = [
@@ -59,7 +59,7 @@ fn bar_of_colours(root: &Area<'_>, (low, high): (f64, f64), diverging: bool) -> 
     Ok(())
 }
 
-fn names(root: &Area<'_>, x: &str, y: &str) -> Result<(), PlotFault> {
+fn names(root: &Area<'_>, x: &str, y: &str) -> Result<(), PlotError> {
     let below = style(&BLACK, TEXT, Pos::new(HPos::Center, VPos::Top));
     let at = (LEFT + WIDTH / 2, TOP + HEIGHT + 34);
     root.draw(&Text::new(x.to_owned(), at, below)).map_err(fault)?;
@@ -72,7 +72,7 @@ fn names(root: &Area<'_>, x: &str, y: &str) -> Result<(), PlotFault> {
 ///
 /// # Errors
 /// If drawing fails.
-pub fn map(map: &Map) -> Result<String, PlotFault> {
+pub fn map(map: &Map) -> Result<String, PlotError> {
     drawn(&map.title, |root| {
         let (xs, ys) = (&map.x.1, &map.y.1);
         let (columns, rows) = (xs.len().max(1) as i32, ys.len().max(1) as i32);
@@ -174,7 +174,7 @@ pub fn map(map: &Map) -> Result<String, PlotFault> {
 }
 
 /// A cross that is visible on dark and on light cells.
-fn cross(root: &Area<'_>, (x, y): (i32, i32)) -> Result<(), PlotFault> {
+fn cross(root: &Area<'_>, (x, y): (i32, i32)) -> Result<(), PlotError> {
     const ARM: i32 = 7;
     for (colour, width) in [(&WHITE, 5), (&BLACK, 2)] {
         for arm in [ARM, -ARM] {
@@ -195,7 +195,7 @@ fn draw_line(
     line: &[Piece],
     place: &dyn Fn((f64, f64)) -> (i32, i32),
     width: u32,
-) -> Result<(), PlotFault> {
+) -> Result<(), PlotError> {
     for [from, to] in line {
         let piece = PathElement::new(vec![place(*from), place(*to)], BLACK.mix(0.8).stroke_width(width));
         root.draw(&piece).map_err(fault)?;
@@ -226,7 +226,7 @@ fn within(values: &[f64], x: f64) -> Option<f64> {
 ///
 /// # Errors
 /// If drawing fails.
-pub fn cloud(cloud: &Cloud) -> Result<String, PlotFault> {
+pub fn cloud(cloud: &Cloud) -> Result<String, PlotError> {
     drawn(&cloud.title, |root| {
         let of = |f: fn(&(f64, f64, f64)) -> f64| cloud.points.iter().map(f);
         let ranges = (

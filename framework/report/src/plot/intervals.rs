@@ -3,7 +3,7 @@
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use super::{PlotFault, SIZE, TEXT, colour, drawn, fault, range};
+use super::{PlotError, SIZE, TEXT, colour, drawn, fault, range};
 
 /// One interval with its value.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -22,7 +22,7 @@ pub struct Interval {
 ///
 /// # Errors
 /// If drawing fails.
-pub fn intervals(title: &str, x_name: &str, marks: &[f64], list: &[Interval]) -> Result<String, PlotFault> {
+pub fn intervals(title: &str, x_name: &str, marks: &[f64], list: &[Interval]) -> Result<String, PlotError> {
     drawn(title, |root| {
         let places = list.iter().flat_map(|i| {
             [Some(i.at), i.before]

@@ -5,7 +5,7 @@ mod pictures;
 
 use gearloss_studies::analyses::map::{MapOfSet, MapOutcome, ShownGrid, ShownPoint};
 use gearloss_studies::analyses::numbers::{RPM, tidy};
-use gearloss_studies::analysis::OilTemperature;
+use gearloss_studies::points::OilTemperature;
 
 use crate::exports;
 use crate::page::Page;

@@ -1,20 +1,20 @@
 //! Values of the axes of grids and sweeps, with their errors.
 
-use crate::study::{Grid, SpeedAxis, TorqueAxis};
+use crate::study::{AxisError, Grid, SpeedAxis, TorqueAxis};
 use gearloss_framework::transmission::Transmission;
 
 use super::{Context, Stopped};
 use crate::codes;
 
 /// Values of an axis, or the error with its path.
-pub fn axis(cx: &Context<'_>, path: &str, values: Result<Vec<f64>, String>) -> Result<Vec<f64>, Stopped> {
-    values.map_err(|reason| {
-        let help = if reason.contains("rating") {
+pub fn axis(cx: &Context<'_>, path: &str, values: Result<Vec<f64>, AxisError>) -> Result<Vec<f64>, Stopped> {
+    values.map_err(|error| {
+        let help = if error == AxisError::NoRating {
             "add `rating: { torque: 20 Nm, speed: 22000 rpm }` to the gearbox, or give the axis its own values"
         } else {
             "give a step that divides the range"
         };
-        cx.wrong_as(codes::AXIS, path, reason, help)
+        cx.wrong_as(codes::AXIS, path, error.to_string(), help)
     })
 }
 

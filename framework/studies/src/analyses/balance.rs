@@ -11,12 +11,12 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::{Analysis, Built, Context, Head, Outcome, Stopped, gear_of};
-use crate::analysis::{Note, notes};
+use crate::points::{Note, notes};
 use crate::register_analysis;
 use crate::study::{Uses, Write};
 use crate::table::Table;
 
-/// Heat balance of one point.
+/// Heat balance of one point: losses and heat over temperature, and every step of the search.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct BalanceEntry {
     /// Gearbox; default: the first.
@@ -218,12 +218,10 @@ pub fn reason(transmission: &Transmission, why: &Unbalanced) -> String {
 
 impl Analysis for BalanceEntry {
     const TYPE: &'static str = "balance";
-    const MEANING: &'static str =
-        "Heat balance of one point: losses and heat over temperature, and every step of the search.";
     type Outcome = BalanceOutcome;
 
     fn uses(&self) -> Uses<'_> {
-        Uses::new(self.gearbox.as_ref(), &self.model_sets).at(&self.gear)
+        Uses::new(self.gearbox.as_ref(), &self.model_sets).in_gears(&self.gear)
     }
 
     fn run(&self, cx: &Context<'_>) -> Result<BalanceOutcome, Stopped> {

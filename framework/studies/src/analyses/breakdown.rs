@@ -9,8 +9,8 @@ use serde::{Deserialize, Serialize};
 use super::axes::{axis, speeds, torques};
 use super::numbers::{RPM, tidy};
 use super::{Analysis, Built, Context, Stopped, gear_of};
-use crate::analysis::{Given, PointResult};
 use crate::measured::{Measured, Seen};
+use crate::points::{Given, PointResult};
 use crate::register_analysis;
 use crate::study::{By, Data, PowerAxis, Quantity, SpeedAxis, TorqueAxis, Uses, Write};
 
@@ -64,12 +64,11 @@ register_analysis!(BreakdownEntry);
 
 impl Analysis for BreakdownEntry {
     const TYPE: &'static str = "breakdown";
-    const MEANING: &'static str = "Loss breakdown over speed or torque.";
     type Outcome = BreakdownOutcome;
 
     fn uses(&self) -> Uses<'_> {
         Uses::new(self.gearbox.as_ref(), &self.model_sets)
-            .at(&self.gear)
+            .in_gears(&self.gear)
             .with("measured", self.measured.as_ref())
     }
 

@@ -12,7 +12,7 @@ pub use with_data::{Band, ComparedPoint, DataComparison, DataOfComparison, Ranki
 
 use super::measurable::countable;
 use super::{Analysis, Context, Head, Outcome, Stopped};
-use crate::analysis::Note;
+use crate::points::Note;
 use crate::register_analysis;
 use crate::study::{Data, Difference, Quantity, Uses, Write};
 use crate::table::Table;
@@ -86,14 +86,13 @@ pub enum Comparisons {
 
 impl Analysis for CompareEntry {
     const TYPE: &'static str = "compare";
-    const MEANING: &'static str = "Difference between model sets over a grid.";
     type Outcome = CompareOutcome;
 
     fn uses(&self) -> Uses<'_> {
         Uses {
             grid: self.grid.as_ref(),
             ..Uses::new(self.gearbox.as_ref(), self.base.iter().chain(&self.against))
-                .at(&self.gear)
+                .in_gears(&self.gear)
                 .bind(&self.bind)
                 .with("data", self.data.as_ref())
         }

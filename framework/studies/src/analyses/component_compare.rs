@@ -16,7 +16,7 @@ use super::axes::{speeds, torques};
 use super::measurable::is_measurable;
 use super::numbers::{RPM, tidy};
 use super::{Analysis, Built, Context, Head, Outcome, Stopped, gear_of};
-use crate::analysis::{Note, Points, notes};
+use crate::points::{Note, Points, notes};
 use crate::register_analysis;
 use crate::study::{Data, SpeedAxis, TorqueAxis, Uses, Write};
 use crate::table::Table;
@@ -168,12 +168,11 @@ struct Evaluated<'a> {
 
 impl Analysis for ComponentCompareEntry {
     const TYPE: &'static str = "component_compare";
-    const MEANING: &'static str = "Several models of one component over speed.";
     type Outcome = ComponentCompareOutcome;
 
     fn uses(&self) -> Uses<'_> {
         Uses::new(self.gearbox.as_ref(), &self.model_set)
-            .at(&self.gear)
+            .in_gears(&self.gear)
             .with("measured", self.measured.as_ref())
     }
 

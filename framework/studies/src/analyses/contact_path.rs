@@ -22,7 +22,7 @@ use serde_json::Value;
 
 use super::numbers::{RPM, tidy};
 use super::{Analysis, Built, Context, Head, Outcome, Stopped, gear_of};
-use crate::analysis::Note;
+use crate::points::Note;
 use crate::register_analysis;
 use crate::study::{Uses, Write};
 use crate::table::Table;
@@ -162,12 +162,10 @@ impl Friction {
 
 impl Analysis for ContactPathEntry {
     const TYPE: &'static str = "contact_path";
-    const MEANING: &'static str =
-        "Velocities, load, pressure, friction, film thickness and loss along the path of contact of one mesh.";
     type Outcome = ContactPathOutcome;
 
     fn uses(&self) -> Uses<'_> {
-        Uses::new(self.gearbox.as_ref(), &self.model_sets).at(&self.gear)
+        Uses::new(self.gearbox.as_ref(), &self.model_sets).in_gears(&self.gear)
     }
 
     fn run(&self, cx: &Context<'_>) -> Result<ContactPathOutcome, Stopped> {

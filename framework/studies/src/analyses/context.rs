@@ -15,11 +15,11 @@ use serde_json::Value;
 
 use super::head::{Head, InputFile};
 use super::progress::{Progress, Running};
-use crate::analysis::{Bits, Field, Given, GridResult, Make, Piece, Points, held, solve_pieces};
 use crate::codes;
+use crate::points::{Bits, Field, Given, GridResult, Make, Piece, Points, solve_pieces, take_points};
 use crate::study::{Grid, Study};
 use crate::table::RowSink;
-use crate::tasks::{Task, TaskResults};
+use crate::tasks::{StorageError, Task, TaskResults};
 
 /// Why an analysis has no outcome.
 #[derive(Debug, thiserror::Error)]
@@ -39,9 +39,9 @@ pub enum Stopped {
     /// It needs results of tasks of other runs.
     #[error("it needs results that other runs compute")]
     Elsewhere,
-    /// Results cannot be written or read; the text to print.
+    /// Results cannot be written or read.
     #[error("{0}")]
-    Unwritten(String),
+    Unwritten(#[from] StorageError),
 }
 
 impl Stopped {
@@ -311,7 +311,7 @@ impl<'a> Context<'a> {
         self.checked(built, points)?;
         let mut all = GridResult::default();
         let numbers: Vec<usize> = (0..points.field.pieces()).collect();
-        self.evaluate(built, points, &numbers, &held, &mut |piece| {
+        self.evaluate(built, points, &numbers, &take_points, &mut |piece| {
             all.add(piece);
             Ok(())
         })?;
@@ -325,7 +325,7 @@ impl<'a> Context<'a> {
     pub fn solve(&self, built: &Built<'_>, points: &Points) -> Result<GridResult, Stopped> {
         self.holds("analyses", points.field.len(), 1)?;
         let mut all = GridResult::default();
-        self.solve_pieces(built, points, &held, &mut |piece| {
+        self.solve_pieces(built, points, &take_points, &mut |piece| {
             all.add(piece);
             Ok(())
         })?;
@@ -350,7 +350,7 @@ impl<'a> Context<'a> {
             return self.evaluate(built, points, &all, make, take);
         };
         let missing = self.missing(kept, stage, all.len())?;
-        self.evaluate(built, points, &missing.own, &Bits::of, &mut |piece| {
+        self.evaluate(built, points, &missing.own, &Bits::from_points, &mut |piece| {
             let mut bytes = Vec::new();
             piece.write_bits(&mut bytes);
             kept.keep(self.task(stage, piece.number), &bytes)
@@ -396,7 +396,7 @@ impl<'a> Context<'a> {
                 return Err(Stopped::Interrupted);
             }
             if let Some(kept) = self.tasks.filter(|kept| !kept.completes()) {
-                let bytes = postcard::to_stdvec(&result).map_err(|e| Stopped::Unwritten(format!("error: {e}\n")))?;
+                let bytes = postcard::to_stdvec(&result).map_err(StorageError::Encode)?;
                 kept.keep(self.task(stage, number), &bytes)?;
             }
             Ok(result)
@@ -602,9 +602,13 @@ fn unlike(task: Task<'_>) -> Stopped {
         stage,
         number,
     } = task;
-    Stopped::Unwritten(format!(
-        "error: result {number} of stage {stage} in part {part} of `{analysis}` is not that of its task\n  = help: delete the folders of the shards and run them again\n"
-    ))
+    let analysis = analysis.to_owned();
+    Stopped::Unwritten(StorageError::OtherTask {
+        analysis,
+        part,
+        stage,
+        number,
+    })
 }
 
 /// The gear of an entry, or the first.

@@ -16,9 +16,9 @@ use super::inputs::Input;
 use super::numbers::tidy;
 use super::shares::{Shares, together};
 use super::{Analysis, Context, Head, Outcome, Stopped};
-use crate::analysis::Note;
 use crate::codes;
 use crate::distinct::distinct;
+use crate::points::Note;
 use crate::register_analysis;
 use crate::study::{By, DriveEntry, ToleranceEntry, Uses, Write};
 use crate::table::Table;
@@ -28,7 +28,7 @@ pub use outcome::{
     InputOfBand, IntervalOfDuty, ReferenceOfDuty, TemperatureOfNode,
 };
 
-/// Cycle losses, energy and temperatures.
+/// Cycle losses, energy and temperatures, for driving cycles or load spectra.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct CycleAnalysisEntry {
     /// Cycles and settings of the simulation.
@@ -70,7 +70,6 @@ register_analysis!(CycleAnalysisEntry);
 
 impl Analysis for CycleAnalysisEntry {
     const TYPE: &'static str = "cycle";
-    const MEANING: &'static str = "Cycle losses, energy and temperatures, for driving cycles or load spectra.";
     type Outcome = CycleOutcome;
 
     fn uses(&self) -> Uses<'_> {
@@ -102,7 +101,7 @@ impl Analysis for CycleAnalysisEntry {
         cx.undivided()?;
         let mut cycles = Vec::new();
         for b in &built {
-            let shares = Shares::of(&b.transmission, self.by).under(&names);
+            let shares = Shares::new(&b.transmission, self.by).under(&names);
             let running = cx.running(duties.intervals(), &b.name);
             for read in &duties.list {
                 let driven = duties.drive(&b.transmission, read, &|n| running.advance(n));

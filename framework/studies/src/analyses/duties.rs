@@ -1,8 +1,8 @@
 //! Reads and simulates the cycles of a study.
 
-use crate::analysis::{Driven, OilTemperature, Ride, can_drive, drive};
 use crate::codes;
 use crate::duty::{Demand, Duty, Given, Interval, Vehicle};
+use crate::points::{Driven, OilTemperature, Ride, can_drive, drive};
 use crate::study::{By, Conditions, DriveEntry};
 use gearloss_framework::document::{Diagnostic, classify};
 use gearloss_framework::thermal::network::{Network, StepSize};
@@ -109,7 +109,7 @@ impl<'a> Duties<'a> {
 
     /// Reasons why the cycles cannot be simulated with a gearbox.
     pub fn check(&self, cx: &Context<'_>, path: &str, b: &Built<'_>) -> Result<(), Stopped> {
-        let oil = OilTemperature::of(&b.transmission, self.conditions.oil_temperature);
+        let oil = OilTemperature::from_conditions(&b.transmission, self.conditions.oil_temperature);
         let in_time = self.list.iter().find(|read| matches!(read.duty, Duty::Trace(_)));
         if let (OilTemperature::Balance, Some(read)) = (oil, in_time) {
             let message = format!(
@@ -219,7 +219,7 @@ impl<'a> Duties<'a> {
                 .unwrap_or(&t.ports()[t.reference_port()].name),
             vehicle: self.vehicle.as_ref(),
             gear: gear_of(self.entry.gear.as_deref(), t),
-            oil: OilTemperature::of(t, self.conditions.oil_temperature),
+            oil: OilTemperature::from_conditions(t, self.conditions.oil_temperature),
             spectrum: matches!(read.duty, Duty::Spectrum(_)),
             start: self.entry.start,
             ambient: self.entry.ambient,
@@ -302,7 +302,7 @@ impl Duties<'_> {
         by: By,
         names: &[String],
     ) -> Result<(Vec<MeanLoss>, Left), Unfinished> {
-        let shares = Shares::of(t, by).under(names);
+        let shares = Shares::new(t, by).under(names);
         let mut losses = Vec::new();
         let mut seen = Left::new();
         for read in &self.list {

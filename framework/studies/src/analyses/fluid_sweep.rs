@@ -12,14 +12,14 @@ use super::duties::{Duties, MeanLoss, Unfinished, sums_energies};
 use super::shares::together;
 use super::trial::{Left, Trial};
 use super::{Analysis, Built, Context, Head, Outcome, Stopped};
-use crate::analysis::Note;
+use crate::points::Note;
 use crate::register_analysis;
 use crate::study::{By, DriveEntry, Uses, Write};
 use crate::table::Table;
 
 pub use least::LeastLoss;
 
-/// Mean cycle losses over one property of an oil.
+/// Mean cycle losses over one property of an oil, and their minimum.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct FluidSweepEntry {
     /// Cycles and settings of the simulation.
@@ -139,7 +139,6 @@ struct Search<'a> {
 
 impl Analysis for FluidSweepEntry {
     const TYPE: &'static str = "fluid_sweep";
-    const MEANING: &'static str = "Mean cycle losses over one property of an oil, and their minimum.";
     type Outcome = FluidSweepOutcome;
 
     fn uses(&self) -> Uses<'_> {

@@ -27,10 +27,10 @@ pub use folds::{FoldOfSet, FoldsOfSet};
 pub use outcome::{IdentificationOfSet, IdentifyOutcome};
 
 use super::{Analysis, Built, Context, Stopped, gear_of};
-use crate::analysis::Rows;
 use crate::codes;
 use crate::identify::{Faults, HoldOut, Identification, Settings, group_words};
 use crate::measured::Measured;
+use crate::points::Rows;
 use crate::register_analysis;
 use crate::study::{FoldsEntry, IdentifiedEntry, ParameterKey, Then, Uses, Write};
 use found::{Found, Prepared};
@@ -41,7 +41,6 @@ register_analysis!(IdentifyEntry);
 
 impl Analysis for IdentifyEntry {
     const TYPE: &'static str = "identify";
-    const MEANING: &'static str = "Identification of uncertain parameters from measured points.";
     const PARAMETERS: Option<ParameterKey> = Some(ParameterKey::Whole("parameters"));
     type Outcome = IdentifyOutcome;
 
@@ -50,7 +49,7 @@ impl Analysis for IdentifyEntry {
             grid: self.next.as_ref().map(|next| &next.grid),
             grid_key: "next.grid",
             ..Uses::new(self.gearbox.as_ref(), &self.model_sets)
-                .at(&self.gear)
+                .in_gears(&self.gear)
                 .bind(&self.bind)
                 .with("data", Some(&self.data))
         }

@@ -27,9 +27,9 @@ use self::plan::{Planned, on_grid};
 use self::points::{RowsOf, Taken, Taker, UndefinedLoss};
 use self::shown::Selection;
 use super::{Analysis, Built, Context, Stopped};
-use crate::analysis::{Field, Note, Numbered, OilTemperature, Piece, PointResult, SUMS, evidence, merge, notes};
 use crate::distinct::distinct;
 use crate::measured::Measured;
+use crate::points::{Field, Note, Numbered, OilTemperature, Piece, PointResult, SUMS, evidence, merge, notes};
 use crate::register_analysis;
 use crate::study::{Data, Uses, Write};
 use crate::table::Table;
@@ -38,14 +38,13 @@ register_analysis!(MapEntry);
 
 impl Analysis for MapEntry {
     const TYPE: &'static str = "map";
-    const MEANING: &'static str = "Losses and efficiency over a grid.";
     type Outcome = MapOutcome;
 
     fn uses(&self) -> Uses<'_> {
         Uses {
             grid: self.grid.as_ref(),
             ..Uses::new(self.gearbox.as_ref(), &self.model_sets)
-                .at(&self.gear)
+                .in_gears(&self.gear)
                 .bind(&self.bind)
                 .with("points", self.points.as_ref())
                 .with("measured", self.measured.as_ref())

@@ -10,13 +10,13 @@ use super::numbers::{RPM, tidy};
 use super::rows::Solved;
 use super::shares::{Shares, together};
 use super::{Analysis, Built, Context, Head, Outcome, Stopped};
-use crate::analysis::{Note, PointResult};
 use crate::measured::{Measured, Row};
+use crate::points::{Note, PointResult};
 use crate::register_analysis;
 use crate::study::{By, Data, Uses, Write};
 use crate::table::Table;
 
-/// Losses of a list of operating points from a file.
+/// Losses of a list of operating points from a file, as stacked bars with measured values.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct OperatingPointsEntry {
     /// Gearbox; default: the first.
@@ -151,13 +151,11 @@ impl MeasuredAtPoint {
 
 impl Analysis for OperatingPointsEntry {
     const TYPE: &'static str = "operating_points";
-    const MEANING: &'static str =
-        "Losses of a list of operating points from a file, as stacked bars with measured values.";
     type Outcome = OperatingPointsOutcome;
 
     fn uses(&self) -> Uses<'_> {
         Uses::new(self.gearbox.as_ref(), &self.model_sets)
-            .at(&self.gear)
+            .in_gears(&self.gear)
             .bind(&self.bind)
             .with("data", Some(&self.data))
     }
@@ -193,7 +191,7 @@ impl OperatingPointsEntry {
     fn of_set(&self, listed: &Measured, solved: &Solved<'_>, names: &[String]) -> PointsOfSet {
         let built = solved.built.iter();
         let shares: Vec<Shares> = built
-            .map(|b| Shares::of(&b.transmission, self.by).under(names))
+            .map(|b| Shares::new(&b.transmission, self.by).under(names))
             .collect();
         let rows = listed.rows.iter().zip(&solved.rows).enumerate();
         let points = rows.map(|(i, (row, (place, gear, point)))| OperatingPoint {

@@ -79,7 +79,7 @@ impl Range {
     }
 
     /// The value at a fraction of the range.
-    pub fn at(&self, share: f64) -> f64 {
+    pub fn value_at(&self, share: f64) -> f64 {
         let [low, high] = self.ends;
         (low + share * (high - low)).clamp(low, high)
     }

@@ -25,7 +25,9 @@ pub use self::outcome::{
     AxisOfSurface, LeastOfSurface, PairOfSurface, PointLeftOut, RangeOfSurface, RmsSurfaceOutcome, SurfaceOfSet,
 };
 
-/// Root mean square difference from measured points for every pair of values of two quantities of the gearbox.
+/// Misfit between models and a measurement over two quantities of the gearbox.
+///
+/// The root mean square difference from measured points for every pair of values.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct RmsSurfaceEntry {
     /// Gearbox of sets without a product; default: the first.
@@ -75,12 +77,11 @@ register_analysis!(RmsSurfaceEntry);
 
 impl Analysis for RmsSurfaceEntry {
     const TYPE: &'static str = "rms_surface";
-    const MEANING: &'static str = "Misfit between models and a measurement over two quantities of the gearbox.";
     type Outcome = RmsSurfaceOutcome;
 
     fn uses(&self) -> Uses<'_> {
         Uses::new(self.gearbox.as_ref(), &self.against)
-            .at(&self.gear)
+            .in_gears(&self.gear)
             .bind(&self.bind)
             .with("data", Some(&self.data))
     }

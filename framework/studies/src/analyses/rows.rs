@@ -1,7 +1,7 @@
 //! Reads points of a file and solves them with model sets.
 
-use crate::analysis::{BuiltFrom, Note, OnRig, PointResult, Rows, notes};
 use crate::measured::{Measured, MeasuredEntry, PortSpeeds};
+use crate::points::{BuiltFrom, Note, OnRig, PointResult, Rows, notes};
 use crate::study::Data;
 use gearloss_framework::description::Ordered;
 use gearloss_framework::document::Diagnostic;

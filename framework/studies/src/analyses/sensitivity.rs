@@ -23,7 +23,7 @@ use super::axes::grid_axes;
 use super::ranges::{Range, once};
 use super::trial::{Left, Trial, left};
 use super::{Analysis, Built, Context, Stopped};
-use crate::analysis::{Points, notes};
+use crate::points::{Points, notes};
 use crate::register_analysis;
 use crate::study::{Grid, NameOr, ParameterKey, RangeEntry, Uses, Write};
 
@@ -32,7 +32,9 @@ const NOISE: f64 = 1e-9;
 /// Number of resamples for the intervals of shares.
 const RESAMPLES: usize = 200;
 
-/// Sensitivity of the losses over a grid: mean loss in total and by mechanism and term, mean efficiency, and relative change of the loss at
+/// Sensitivity of the losses: slopes, screening, shares of the variance.
+///
+/// Over a grid: mean loss in total and by mechanism and term, mean efficiency, and relative change of the loss at
 /// the points (`relative_loss`: root mean square over the points, not for `local`).
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct SensitivityEntry {
@@ -94,7 +96,6 @@ register_analysis!(SensitivityEntry);
 
 impl Analysis for SensitivityEntry {
     const TYPE: &'static str = "sensitivity";
-    const MEANING: &'static str = "Sensitivity of the losses: slopes, screening, shares of the variance.";
     const PARAMETERS: Option<ParameterKey> = Some(ParameterKey::Range("parameters"));
     type Outcome = SensitivityOutcome;
 
@@ -163,7 +164,7 @@ impl Evaluate for At<'_> {
             let point = point(i);
             if *shares {
                 let places = evaluations.ranges.iter().zip(&point);
-                let values: Vec<f64> = places.map(|(range, share)| range.at(*share)).collect();
+                let values: Vec<f64> = places.map(|(range, share)| range.value_at(*share)).collect();
                 evaluations.solved(&values)
             } else {
                 evaluations.solved(&point)

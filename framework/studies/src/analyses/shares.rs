@@ -1,7 +1,7 @@
 //! Losses of a point summed by mechanism, component, stage, term or the usual sums.
 
-use crate::analysis::{PointResult, SUMS};
 use crate::distinct::distinct;
+use crate::points::{PointResult, SUMS};
 use crate::study::By;
 use gearloss_framework::transmission::{PartInfo, PartKind, Transmission};
 
@@ -16,7 +16,7 @@ pub struct Shares {
 
 impl Shares {
     /// The shares of one transmission.
-    pub fn of(t: &Transmission, by: By) -> Self {
+    pub fn new(t: &Transmission, by: By) -> Self {
         let mut names: Vec<String> = Vec::new();
         if by == By::Sum {
             names.extend(SUMS.iter().map(|(name, _)| (*name).to_owned()));
@@ -94,12 +94,12 @@ impl Shares {
 
 /// Combined names of several transmissions, in the order of the first, without shares that have no loss under any model.
 pub fn together<'a>(all: impl Iterator<Item = &'a Transmission> + Clone, by: By) -> Vec<String> {
-    let mut names: Vec<String> = distinct(all.clone().flat_map(|t| Shares::of(t, by).names));
+    let mut names: Vec<String> = distinct(all.clone().flat_map(|t| Shares::new(t, by).names));
     // Shares with `none` everywhere are omitted.
     if by != By::Sum {
         names.retain(|name| {
             all.clone().any(|t| {
-                let shares = Shares::of(t, by);
+                let shares = Shares::new(t, by);
                 t.parts().iter().zip(&shares.places).any(|(part, places)| {
                     let entry = &t.instances()[part.notes.instance()].entry;
                     entry.name != "none" && places.iter().any(|p| shares.names[*p] == *name)

@@ -12,7 +12,9 @@ use super::{Analysis, Built, Context, Stopped};
 use crate::register_analysis;
 use crate::study::{By, SpeedAxis, Uses, Write};
 
-/// No-load losses: every free port turns without torque.
+/// No-load losses in every gear, including neutral and towing.
+///
+/// Every free port turns without torque.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct SpinLossEntry {
     /// Gearbox; default: the first.
@@ -39,11 +41,10 @@ register_analysis!(SpinLossEntry);
 
 impl Analysis for SpinLossEntry {
     const TYPE: &'static str = "spin_loss";
-    const MEANING: &'static str = "No-load losses in every gear, including neutral and towing.";
     type Outcome = BreakdownOutcome;
 
     fn uses(&self) -> Uses<'_> {
-        Uses::new(self.gearbox.as_ref(), &self.model_sets).at(&self.gears)
+        Uses::new(self.gearbox.as_ref(), &self.model_sets).in_gears(&self.gears)
     }
 
     fn run(&self, cx: &Context<'_>) -> Result<BreakdownOutcome, Stopped> {

@@ -12,7 +12,7 @@ use super::numbers::{RPM, tidy};
 use super::ranges::published;
 use super::shares::{Shares, together};
 use super::{Analysis, Built, Context, Stopped, gear_of};
-use crate::analysis::{GridResult, notes};
+use crate::points::{GridResult, notes};
 use crate::register_analysis;
 use crate::study::{By, SpeedAxis, TorqueAxis, Uses, Write};
 use crate::varied::{Tie, Varied};
@@ -62,11 +62,10 @@ register_analysis!(SweepEntry);
 
 impl Analysis for SweepEntry {
     const TYPE: &'static str = "sweep";
-    const MEANING: &'static str = "Losses and efficiency over the values of one path, or of two.";
     type Outcome = SweepOutcome;
 
     fn uses(&self) -> Uses<'_> {
-        Uses::new(self.gearbox.as_ref(), &self.model_sets).at(&self.gear)
+        Uses::new(self.gearbox.as_ref(), &self.model_sets).in_gears(&self.gear)
     }
 
     fn run(&self, cx: &Context<'_>) -> Result<SweepOutcome, Stopped> {
@@ -173,7 +172,7 @@ impl SweepEntry {
     fn record(&self, solved: &Solved<'_>, shares: &[String]) -> SweepOfValue {
         let t = &solved.built.transmission;
         let [first, second] = solved.places;
-        let own = Shares::of(t, self.by).under(shares);
+        let own = Shares::new(t, self.by).under(shares);
         SweepOfValue {
             model_set: solved.built.name.clone(),
             gear: solved.gear.clone(),

@@ -7,7 +7,7 @@ use super::axes::{axis, speeds, torques};
 use super::breakdown::{Along, As, BreakdownOutcome, Common, RowOfBars, Stacks};
 use super::numbers::{RPM, tidy};
 use super::{Analysis, Context, Stopped, gear_of};
-use crate::analysis::Given;
+use crate::points::Given;
 use crate::register_analysis;
 use crate::study::{By, SpeedAxis, TemperatureAxis, TorqueAxis, Uses, Write};
 
@@ -42,11 +42,10 @@ register_analysis!(TemperatureSweepEntry);
 
 impl Analysis for TemperatureSweepEntry {
     const TYPE: &'static str = "temperature_sweep";
-    const MEANING: &'static str = "Loss breakdown over oil temperature.";
     type Outcome = BreakdownOutcome;
 
     fn uses(&self) -> Uses<'_> {
-        Uses::new(self.gearbox.as_ref(), &self.model_sets).at(&self.gear)
+        Uses::new(self.gearbox.as_ref(), &self.model_sets).in_gears(&self.gear)
     }
 
     fn run(&self, cx: &Context<'_>) -> Result<BreakdownOutcome, Stopped> {

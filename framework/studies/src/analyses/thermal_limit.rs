@@ -11,7 +11,7 @@ use super::axes::{speeds, torques};
 use super::balance::needs_balance;
 use super::numbers::{RPM, tidy};
 use super::{Analysis, Built, Context, Head, Outcome, Stopped, gear_of};
-use crate::analysis::{Note, Points, notes};
+use crate::points::{Note, Points, notes};
 use crate::register_analysis;
 use crate::study::{SpeedAxis, TorqueAxis, Uses, Write};
 use crate::table::Table;
@@ -108,11 +108,10 @@ pub struct ThermalLimit {
 
 impl Analysis for ThermalLimitEntry {
     const TYPE: &'static str = "thermal_limit";
-    const MEANING: &'static str = "The torque, or the speed, at which the heat balance reaches a given temperature.";
     type Outcome = ThermalLimitOutcome;
 
     fn uses(&self) -> Uses<'_> {
-        Uses::new(self.gearbox.as_ref(), &self.model_sets).at(&self.gear)
+        Uses::new(self.gearbox.as_ref(), &self.model_sets).in_gears(&self.gear)
     }
 
     fn run(&self, cx: &Context<'_>) -> Result<ThermalLimitOutcome, Stopped> {

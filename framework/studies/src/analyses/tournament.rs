@@ -27,7 +27,9 @@ use crate::study::{Data, Difference, Quantity, Uses, Write};
 /// Maximum number of combinations.
 const MOST: usize = 200_000;
 
-/// Every combination of the models of some mechanisms. The loss of each model is evaluated once and added. With measured points,
+/// Every combination of models, ranked by a measurement.
+///
+/// The loss of each model is evaluated once and added. With measured points,
 /// combinations are ranked by their cross-validated error relative to the accuracy of the measured loss; without them, their spread is the
 /// model-form uncertainty.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -119,14 +121,13 @@ register_analysis!(TournamentEntry);
 
 impl Analysis for TournamentEntry {
     const TYPE: &'static str = "tournament";
-    const MEANING: &'static str = "Every combination of models, ranked by a measurement.";
     type Outcome = TournamentOutcome;
 
     fn uses(&self) -> Uses<'_> {
         Uses {
             grid: self.grid.as_ref(),
             ..Uses::new(self.gearbox.as_ref(), &self.model_set)
-                .at(&self.gear)
+                .in_gears(&self.gear)
                 .with("data", self.data.as_ref())
         }
     }

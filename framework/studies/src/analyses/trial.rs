@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::analysis::{GridResult, OilTemperature, OnRig, PointResult, Points, Rows, SolvedRows, notes, run_grid};
+use crate::points::{GridResult, OilTemperature, OnRig, PointResult, Points, Rows, SolvedRows, notes, run_grid};
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::Language;
 use gearloss_framework::loss::Extent;
@@ -52,7 +52,7 @@ impl<'a> Trial<'a> {
     /// Solves all points. Their temperature follows the overrides unless given otherwise.
     pub fn solve(&self, transmission: &Transmission, points: &Points) -> Result<GridResult, String> {
         let points = Points {
-            oil: OilTemperature::of(transmission, self.study.entry.conditions.oil_temperature),
+            oil: OilTemperature::from_conditions(transmission, self.study.entry.conditions.oil_temperature),
             ..points.clone()
         };
         let solved = run_grid(transmission, &points, &|_| self.cx.should_continue());

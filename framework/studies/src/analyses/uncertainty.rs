@@ -10,12 +10,14 @@ use super::trial::Left;
 use super::{Analysis, Context, Head, Outcome, Stopped};
 use crate::analyses::axes::grid_axes;
 use crate::analyses::inputs::Input;
-use crate::analysis::Note;
+use crate::points::Note;
 use crate::register_analysis;
 use crate::study::{NameOr, ParameterKey, ToleranceEntry, Uses, Write};
 use crate::table::Table;
 
-/// Effect of uncertain inputs on efficiency, loss and temperature over a grid: every input is drawn from its distribution.
+/// Uncertainty bands of efficiency, loss and temperature from uncertain inputs.
+///
+/// Every input is drawn from its distribution, over a grid.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct UncertaintyEntry {
     /// Gearbox; default: the first.
@@ -152,7 +154,6 @@ impl QuantityBand {
 
 impl Analysis for UncertaintyEntry {
     const TYPE: &'static str = "uncertainty";
-    const MEANING: &'static str = "Uncertainty bands of efficiency, loss and temperature from uncertain inputs.";
     const PARAMETERS: Option<ParameterKey> = Some(ParameterKey::Range("inputs"));
     type Outcome = UncertaintyOutcome;
 

@@ -1,6 +1,46 @@
 //! Output of OpenFOAM's `forces` function object: `forces.dat` (all releases until about 2016, and openfoam.org) and `moment.dat`
 //! (openfoam.com), with or without parentheses and porous parts.
 
+/// Why moments cannot be read or averaged.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum MomentsError {
+    /// A word of a line is not a finite number.
+    #[error("line {line}: `{word}` is not a number")]
+    NotANumber {
+        /// Line, from 1.
+        line: usize,
+        /// The word.
+        word: String,
+    },
+    /// The number of columns belongs to no format.
+    #[error("line {line}: {count} numbers; moment.dat has 10 or 13, forces.dat 13 or 19")]
+    Columns {
+        /// Line, from 1.
+        line: usize,
+        /// Number of columns.
+        count: usize,
+    },
+    /// The time is not later than that of the line before.
+    #[error("line {line}: time {time} does not increase")]
+    Time {
+        /// Line, from 1.
+        line: usize,
+        /// Time. \[s\]
+        time: f64,
+    },
+    /// Fewer than two samples lie in the averaging time.
+    #[error("{inside} samples in the averaging time; {}", .of.map_or_else(
+        || "there is no sample".to_owned(),
+        |[first, last]| format!("times are {first} to {last} s"),
+    ))]
+    TooFewSamples {
+        /// Number of samples in the averaging time.
+        inside: usize,
+        /// Times of the first and the last of all samples. \[s\]
+        of: Option<[f64; 2]>,
+    },
+}
+
 /// Moments at one time. \[Nm\]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sample {
@@ -31,15 +71,15 @@ impl Mean {
     /// Mean between two times, weighted by the length of the time steps.
     ///
     /// # Errors
-    /// That fewer than two samples lie between the times, with the times that there are.
-    pub fn over_time(samples: &[Sample], axis: usize, [from, to]: [f64; 2]) -> Result<Self, String> {
+    /// [`MomentsError::TooFewSamples`].
+    pub fn over_time(samples: &[Sample], axis: usize, [from, to]: [f64; 2]) -> Result<Self, MomentsError> {
         let inside: Vec<&Sample> = samples.iter().filter(|s| s.time >= from && s.time <= to).collect();
         if inside.len() < 2 {
-            let range = match (samples.first(), samples.last()) {
-                (Some(first), Some(last)) => format!("times are {} to {} s", first.time, last.time),
-                _ => "there is no sample".to_owned(),
-            };
-            return Err(format!("{} samples in the averaging time; {range}", inside.len()));
+            let ends = samples.first().zip(samples.last());
+            return Err(MomentsError::TooFewSamples {
+                inside: inside.len(),
+                of: ends.map(|(first, last)| [first.time, last.time]),
+            });
         }
         let mean = |f: &dyn Fn(&Sample) -> f64| {
             let mut sum = 0.0;
@@ -81,34 +121,32 @@ impl Mean {
 ///
 /// # Errors
 /// The line that cannot be read, and why.
-pub fn samples(text: &str) -> Result<Vec<Sample>, String> {
+pub fn samples(text: &str) -> Result<Vec<Sample>, MomentsError> {
     let mut samples: Vec<Sample> = Vec::new();
-    for (i, line) in text.lines().enumerate() {
-        let line = line.trim();
-        if line.is_empty() || line.starts_with('#') {
+    for (line, content) in (1..).zip(text.lines()) {
+        let content = content.trim();
+        if content.is_empty() || content.starts_with('#') {
             continue;
         }
-        let words = line.split(|c: char| c.is_whitespace() || c == '(' || c == ')' || c == ',');
+        let words = content.split(|c: char| c.is_whitespace() || c == '(' || c == ')' || c == ',');
         let numbers: Vec<f64> = words
             .filter(|w| !w.is_empty())
             .map(|w| {
                 let number = w.parse::<f64>().ok().filter(|x| x.is_finite());
-                number.ok_or_else(|| format!("line {}: `{w}` is not a number", i + 1))
+                number.ok_or_else(|| MomentsError::NotANumber {
+                    line,
+                    word: w.to_owned(),
+                })
             })
             .collect::<Result<_, _>>()?;
-        let nested = line.contains("((");
+        let nested = content.contains("((");
         let pressure = match (numbers.len(), nested) {
             // Time, forces and moments by pressure and viscous; the same with porous.
             (13, true) => 7,
             (19, _) => 10,
             // Time, total, pressure, viscous; the same with porous.
             (10, _) | (13, false) => 4,
-            (count, _) => {
-                return Err(format!(
-                    "line {}: {count} numbers; moment.dat has 10 or 13, forces.dat 13 or 19",
-                    i + 1
-                ));
-            }
+            (count, _) => return Err(MomentsError::Columns { line, count }),
         };
         let three = |at: usize| [numbers[at], numbers[at + 1], numbers[at + 2]];
         let sample = Sample {
@@ -117,7 +155,10 @@ pub fn samples(text: &str) -> Result<Vec<Sample>, String> {
             viscous: three(pressure + 3),
         };
         if samples.last().is_some_and(|last| last.time >= sample.time) {
-            return Err(format!("line {}: time {} does not increase", i + 1, sample.time));
+            return Err(MomentsError::Time {
+                line,
+                time: sample.time,
+            });
         }
         samples.push(sample);
     }
@@ -157,21 +198,11 @@ mod tests {
             ((1.0 + 4.0 * 2.0) / 5.0, 1.0, 3)
         );
         assert!(mean.spread > 0.0 && mean.times(2.0).total() == 2.0 * mean.total());
-        assert!(
-            Mean::over_time(&all, 0, [3.0, 7.0])
-                .unwrap_err()
-                .contains("1 samples in the averaging time; times are 0 to 6 s")
-        );
-        assert!(samples("1 2 3\n").unwrap_err().contains("line 1: 3 numbers"));
-        assert!(
-            samples("1 a 0 0 0 0 0 0 0 0\n")
-                .unwrap_err()
-                .contains("`a` is not a number")
-        );
-        assert!(
-            samples("2 0 0 0 0 0 0 0 0 0\n1 0 0 0 0 0 0 0 0 0\n")
-                .unwrap_err()
-                .contains("does not increase")
-        );
+        let few = Mean::over_time(&all, 0, [3.0, 7.0]).unwrap_err().to_string();
+        assert_eq!(few, "1 samples in the averaging time; times are 0 to 6 s");
+        let wrong = |text: &str| samples(text).unwrap_err().to_string();
+        assert!(wrong("1 2 3\n").contains("line 1: 3 numbers"));
+        assert!(wrong("1 a 0 0 0 0 0 0 0 0\n").contains("`a` is not a number"));
+        assert!(wrong("2 0 0 0 0 0 0 0 0 0\n1 0 0 0 0 0 0 0 0 0\n").contains("does not increase"));
     }
 }

@@ -1,8 +1,8 @@
 //! The least-squares problem of an identification: measured points, and the gearbox with given parameters.
 
-use crate::analysis::{OnRig, PointResult, Rows, SolvedRows};
 use crate::codes;
 use crate::measured::{Measured, PortSpeeds, Rig, Seen};
+use crate::points::{OnRig, PointResult, Rows, SolvedRows};
 use crate::study::{Difference, IdentifiedEntry, Quantity};
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::gearbox::{Findings, Gearbox};

@@ -105,7 +105,7 @@ pub struct TorqueMeterEntry {
 
 impl TorqueMeterEntry {
     /// Stated accuracy at a torque. \[Nm\]
-    fn at(self, torque: f64) -> f64 {
+    fn accuracy_at(self, torque: f64) -> f64 {
         let scale = 0.01 * self.percent_of_full_scale * self.full_scale;
         self.absolute.hypot(0.01 * self.percent_of_torque * torque).hypot(scale)
     }
@@ -221,7 +221,7 @@ impl Instruments {
 
     /// Standard deviation of the torque at a port. \[Nm\]
     pub fn torque(&self, port: usize, torque: f64) -> f64 {
-        self.torque[port].at(torque) / self.divisor
+        self.torque[port].accuracy_at(torque) / self.divisor
     }
 
     fn of_ports(&self, at: &Powers) -> [(f64, f64); 2] {

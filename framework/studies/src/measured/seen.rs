@@ -1,7 +1,7 @@
 //! Measured values at a point, from the available columns.
 
 use super::{Instruments, Measured, Powers, Rig, Row};
-use crate::analysis::PointResult;
+use crate::points::PointResult;
 use crate::study::{Difference, Quantity};
 
 /// Measured values from the available columns, without the contribution of the rig.

@@ -6,6 +6,20 @@ use serde::{Deserialize, Serialize};
 /// Maximum number of values of one axis.
 const MOST: usize = 100_000;
 
+/// Why an axis has no values.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum AxisError {
+    /// The step has the wrong sign or is zero.
+    #[error("the step does not lead from `from` to `to`")]
+    Step,
+    /// The step is too small.
+    #[error("the axis has more than {MOST} values")]
+    TooMany,
+    /// The gearbox has no rating.
+    #[error("the axis uses fractions of a rating, but the gearbox has none")]
+    NoRating,
+}
+
 /// From, to and step of an axis, SI.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Span {
@@ -27,13 +41,13 @@ impl Span {
     ///
     /// # Errors
     /// If the step does not divide the range, or gives too many values.
-    pub fn values(&self) -> Result<Vec<f64>, String> {
+    pub fn values(&self) -> Result<Vec<f64>, AxisError> {
         let count = (self.to - self.from) / self.step;
         if !count.is_finite() || count < 0.0 {
-            return Err("the step does not lead from `from` to `to`".to_owned());
+            return Err(AxisError::Step);
         }
         if count > MOST as f64 {
-            return Err(format!("the axis has more than {MOST} values"));
+            return Err(AxisError::TooMany);
         }
         let count = (count * (1.0 + 1e-12) + 1e-9).floor() as usize;
         Ok((0..=count).map(|i| self.from + i as f64 * self.step).collect())
@@ -72,8 +86,8 @@ pub struct OfRating {
 }
 
 impl OfRating {
-    fn values(&self, rating: Option<f64>) -> Result<Vec<f64>, String> {
-        let rating = rating.ok_or("the axis uses fractions of a rating, but the gearbox has none")?;
+    fn values(&self, rating: Option<f64>) -> Result<Vec<f64>, AxisError> {
+        let rating = rating.ok_or(AxisError::NoRating)?;
         let shares = match &self.of_rating {
             Shares::List(list) => list.clone(),
             Shares::Steps(s) => Span::new(s.from, s.to, s.step).values()?,
@@ -115,7 +129,7 @@ impl TorqueAxis {
     ///
     /// # Errors
     /// As [`Span::values`], or if the axis uses fractions of a missing rating.
-    pub fn values(&self, rating: Option<f64>) -> Result<Vec<f64>, String> {
+    pub fn values(&self, rating: Option<f64>) -> Result<Vec<f64>, AxisError> {
         match self {
             Self::One(torque) => Ok(vec![*torque]),
             Self::List(list) => Ok(list.clone()),
@@ -163,7 +177,7 @@ impl SpeedAxis {
     ///
     /// # Errors
     /// As [`Span::values`], or if the axis uses fractions of a missing rating.
-    pub fn values(&self, rating: Option<f64>) -> Result<Vec<f64>, String> {
+    pub fn values(&self, rating: Option<f64>) -> Result<Vec<f64>, AxisError> {
         match self {
             Self::One(speed) => Ok(vec![*speed]),
             Self::List(list) => Ok(list.clone()),
@@ -209,7 +223,7 @@ impl PowerAxis {
     ///
     /// # Errors
     /// As [`Span::values`].
-    pub fn values(&self) -> Result<Vec<f64>, String> {
+    pub fn values(&self) -> Result<Vec<f64>, AxisError> {
         match self {
             Self::One(power) => Ok(vec![*power]),
             Self::List(list) => Ok(list.clone()),
@@ -249,7 +263,7 @@ impl TemperatureAxis {
     ///
     /// # Errors
     /// As [`Span::values`].
-    pub fn values(&self) -> Result<Vec<f64>, String> {
+    pub fn values(&self) -> Result<Vec<f64>, AxisError> {
         match self {
             Self::One(temperature) => Ok(vec![*temperature]),
             Self::List(list) => Ok(list.clone()),
@@ -274,7 +288,7 @@ impl Envelope {
     ///
     /// # Errors
     /// If the lists differ in length or speeds are not ascending.
-    pub fn check(&self) -> Result<(), String> {
+    pub(crate) fn check(&self) -> Result<(), String> {
         if self.speed.len() != self.torque.len() {
             return Err(format!(
                 "an envelope needs equal numbers of speeds and torques, not {} and {}",
@@ -383,6 +397,6 @@ mod tests {
             of_rating: Shares::List(vec![0.5, 1.0]),
         });
         assert_eq!(axis.values(Some(20.0)).unwrap(), [10.0, 20.0]);
-        assert!(axis.values(None).unwrap_err().contains("has none"));
+        assert_eq!(axis.values(None), Err(AxisError::NoRating));
     }
 }

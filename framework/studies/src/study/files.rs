@@ -8,12 +8,12 @@ use serde_json::{Map, Value};
 
 use super::names::devices;
 use super::parameters::{TakenOver, replace_names, written_at};
-use super::then::PromisedSets;
+use super::then::{PromisedSets, promised_sets};
 use super::{Data, Grid, StudyEntry, Uses};
 use crate::analyses::AnalysisEntry;
-use crate::analysis::{Field, OilTemperature, Points, Rows};
 use crate::codes;
 use crate::measured::{FaultPlace, Measured, MeasuredEntry, MeasuredFault};
+use crate::points::{Field, OilTemperature, Points, Rows};
 use gearloss_framework::attach::dangling;
 use gearloss_framework::description::Ordered;
 use gearloss_framework::document::{self, Diagnostic, Places, Sources, read_yaml};
@@ -24,6 +24,7 @@ use gearloss_framework::resolve::{Choice, OWN_MODELS, Resolved, called_own, expa
 use gearloss_framework::transmission::{Case, Transmission, WHEELS};
 
 /// A study as read, with its gearboxes.
+#[derive(Clone)]
 pub struct Study {
     /// The entry.
     pub entry: StudyEntry,
@@ -131,7 +132,7 @@ impl Study {
             .unwrap_or_default();
         let entry: StudyEntry = serde_json::from_value(walked.value).map_err(bug)?;
         let mut unusable = devices(&entry);
-        let promised = PromisedSets::new(&entry, &mut sets).unwrap_or_else(|found| {
+        let promised = promised_sets(&entry, &mut sets).unwrap_or_else(|found| {
             unusable.extend(found);
             PromisedSets::default()
         });
@@ -248,11 +249,9 @@ impl Study {
             .set
             .iter()
             .map(|(path, value)| (path.to_owned(), value.clone()));
-        let mut sets = self.sets.clone();
-        self.promised.fill(&mut sets);
         Choice {
             set: set.filter(|set| *set != OWN_MODELS).map(str::to_owned),
-            sets,
+            sets: self.sets.clone(),
             overrides: wheels.chain(changes).collect(),
         }
     }
@@ -305,18 +304,20 @@ impl Study {
         })
     }
 
-    /// Sets the values of the model set from `then` of an analysis, resolved path to value, for later analyses.
-    pub fn keep_found(&self, set: &str, values: impl IntoIterator<Item = (String, Value)>) {
-        self.promised.keep(set, values.into_iter().collect());
+    /// Fills the model set from `then` of an analysis with values, resolved path to value.
+    pub(crate) fn fill_set(&mut self, set: &str, values: Map<String, Value>) {
+        if let Some(set) = self.sets.get_mut(set) {
+            set["set"] = Value::Object(values);
+        }
     }
 
     /// The first model set of an analysis that needs values from another analysis, with that analysis.
     pub fn pending(&self, analysis: &AnalysisEntry) -> Option<(String, String)> {
-        let sets = analysis.uses().sets;
-        let name = |set: &&String| set.rsplit('/').next().unwrap_or(set).to_owned();
-        let set = sets.iter().map(name).find(|set| self.promised.is_pending(set))?;
-        let by = self.promised.promised_by(&set)?;
-        Some((set, by))
+        analysis.uses().sets.into_iter().find_map(|set| {
+            let (set, by) = self.promised.get_key_value(without_product(set))?;
+            let is_pending = self.sets.get(set).is_some_and(|own| own.get("set").is_none());
+            is_pending.then(|| (set.clone(), by.clone()))
+        })
     }
 
     /// Points under the conditions.
@@ -327,7 +328,7 @@ impl Study {
             torque_at: vec![conditions.torque_at.clone()],
             speed_at: vec![conditions.speed_at.clone()],
             field,
-            oil: OilTemperature::of(transmission, conditions.oil_temperature),
+            oil: OilTemperature::from_conditions(transmission, conditions.oil_temperature),
             flow: conditions.power_flow,
             terms: false,
         }
@@ -421,10 +422,11 @@ impl Study {
             let (_, gearbox) = self.gearbox(&path, gearbox)?;
             let mut built = Vec::new();
             for set in &sets {
-                let promised_by = self.promised.promised_by(set.rsplit('/').next().unwrap_or(set));
-                let Some(by) = promised_by else { continue };
+                let Some(by) = self.promised.get(without_product(set)) else {
+                    continue;
+                };
                 let order = |analysis: &str| self.entry.analyses.index(analysis);
-                if order(name) <= order(&by) {
+                if order(name) <= order(by) {
                     let message = format!("the set `{set}` has no values before the analysis `{by}`");
                     let below = Diagnostic::error(&path, message).help(format!("write this analysis below `{by}`"));
                     found.push(below.code(codes::NOT_FOUND_YET));
@@ -655,6 +657,11 @@ impl Study {
             .get(name)
             .ok_or_else(|| self.findings(vec![dangling(&format!("{path}.grid"), "grid", name, &names)]))
     }
+}
+
+/// The set of `SET` or `PRODUCT/SET`.
+fn without_product(set: &str) -> &str {
+    set.rsplit('/').next().unwrap_or(set)
 }
 
 /// Place of data: under `measurements`, or at the key of the analysis.

@@ -41,7 +41,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn devices_are_told_from_other_names() {
+    fn devices_are_distinguished_from_other_names() {
         for name in ["CON", "aux", "nul", "Prn", "com1", "LPT9"] {
             assert!(is_device(name), "{name}");
         }

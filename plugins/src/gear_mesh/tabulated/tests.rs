@@ -342,7 +342,7 @@ fn what_makes_no_table_is_refused() {
 }
 
 #[test]
-fn a_model_without_a_value_at_a_node_is_told() {
+fn a_model_without_a_value_at_a_node_is_reported() {
     let part = Arc::new(stage(1));
     let formula = json!({ "type": "formula", "formula": "sqrt(temperature)" });
     let (table, _) = build(&part, &json!({ "type": "tabulated", "of": path_integral(formula) })).unwrap();

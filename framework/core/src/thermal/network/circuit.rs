@@ -424,7 +424,7 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn a_node_that_hangs_on_nothing_has_no_temperature() {
+    fn a_node_without_links_has_no_temperature() {
         let lost = Circuit {
             capacities: vec![0.0; 2],
             held: vec![Some(20.0), None],

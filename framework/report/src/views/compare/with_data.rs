@@ -4,7 +4,7 @@
 use gearloss_studies::analyses::compare::{Band, CompareOutcome, DataComparison, ranking};
 use gearloss_studies::analyses::measurable::note;
 use gearloss_studies::analyses::numbers::RPM;
-use gearloss_studies::analysis::Statistics;
+use gearloss_studies::points::Statistics;
 
 use crate::deviations::{Deviation, histograms, parity, picture};
 use crate::page::Page;

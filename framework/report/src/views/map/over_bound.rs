@@ -2,7 +2,7 @@
 
 use gearloss_studies::analyses::map::{MapOfSet, MapOutcome, NotesOfSet, ShownPoint};
 use gearloss_studies::analyses::numbers::{RPM, word};
-use gearloss_studies::analysis::OilTemperature;
+use gearloss_studies::points::OilTemperature;
 
 use crate::page::Page;
 use crate::text::{TextTable, fixed, number, spread};

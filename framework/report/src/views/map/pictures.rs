@@ -2,7 +2,7 @@
 
 use gearloss_studies::analyses::map::{Axes, MapOfSet, MapOutcome, Mark, ShownGrid, ShownPoint};
 use gearloss_studies::analyses::numbers::{RPM, tidy, word};
-use gearloss_studies::analysis::OilTemperature;
+use gearloss_studies::points::OilTemperature;
 
 use crate::page::Page;
 use crate::{Cloud, Figure, Map};

@@ -1,7 +1,7 @@
 //! Figures of a ranking: best error with each model, errors of the best combinations, spread of the shortlist.
 
 use gearloss_studies::analyses::tournament::{RankedCombination, RankedPoint, Ranking};
-use gearloss_studies::analysis::bands;
+use gearloss_studies::points::bands;
 
 use crate::Figure;
 use crate::page::Page;

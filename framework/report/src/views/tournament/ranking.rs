@@ -2,8 +2,8 @@
 
 use gearloss_numerics::inference::VISIBLE;
 use gearloss_studies::analyses::tournament::{RankedCombination, RankedPoint, Ranking};
-use gearloss_studies::analysis::Statistics;
 use gearloss_studies::distinct::distinct;
+use gearloss_studies::points::Statistics;
 
 use super::verdict::{short_marks, verdict};
 use crate::page::Page;

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::analyses::numbers::{RPM, tidy};
 use crate::analyses::shares::{Shares, together};
 use crate::analyses::{Built, Context, Head, Outcome, Stopped};
-use crate::analysis::{Given, GridResult, Note, PointResult, Points, notes};
+use crate::points::{Given, GridResult, Note, PointResult, Points, notes};
 use crate::study::By;
 use crate::table::Table;
 
@@ -257,7 +257,7 @@ impl Stacks {
         rows: Vec<RowOfBars>,
         measured: MeasuredAt<'_>,
     ) -> BreakdownOfSet {
-        let shares = Shares::of(&b.transmission, self.by).under(&self.names);
+        let shares = Shares::new(&b.transmission, self.by).under(&self.names);
         let point = |p: &PointResult| {
             let scale = self.unit.scale(p);
             let scaled = |stack: Vec<f64>, scale: f64| stack.into_iter().map(|w| w * scale).collect();

@@ -7,7 +7,7 @@ use super::{CompareEntry, unit};
 use crate::analyses::axes::grid_axes;
 use crate::analyses::numbers::{RPM, tidy};
 use crate::analyses::{Built, Context, Head, Stopped};
-use crate::analysis::{GridResult, Note, PointResult, Statistics, notes};
+use crate::points::{GridResult, Note, PointResult, Statistics, notes};
 use crate::study::{Difference, Grid, Quantity};
 use crate::table::Table;
 

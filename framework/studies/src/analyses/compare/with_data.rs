@@ -8,8 +8,8 @@ use crate::analyses::measurable::is_measurable;
 use crate::analyses::numbers::{RPM, tidy};
 use crate::analyses::rows::Solved;
 use crate::analyses::{Built, Context, Head, Stopped};
-use crate::analysis::{Note, PointResult, Statistics, bands};
 use crate::measured::{Measured, Row, Seen, counted};
+use crate::points::{Note, PointResult, Statistics, bands};
 use crate::study::{Data, Difference, Quantity};
 use crate::table::Table;
 

@@ -8,7 +8,7 @@ use crate::analyses::duties::{Duties, MeanLoss};
 use crate::analyses::inputs::Input;
 use crate::analyses::trial::{Left, Trial};
 use crate::analyses::{Built, Context, Stopped};
-use crate::analysis::{correlation, quantile};
+use crate::points::{correlation, quantile};
 
 /// Probabilities of the ends and the middle of a band.
 const SHARES: [f64; 3] = [0.025, 0.5, 0.975];

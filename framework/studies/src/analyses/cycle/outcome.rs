@@ -6,7 +6,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::analyses::Head;
-use crate::analysis::Note;
+use crate::points::Note;
 
 /// Cycles simulated with each model set.
 #[derive(Debug, Serialize, JsonSchema)]

@@ -12,8 +12,8 @@ use crate::analyses::balance::reason;
 use crate::analyses::duties::{Read, nodes};
 use crate::analyses::numbers::RPM;
 use crate::analyses::shares::Shares;
-use crate::analysis::{Driven, Stretch, notes};
 use crate::duty::Duty;
+use crate::points::{Driven, Stretch, notes};
 
 /// The results of a simulated cycle.
 pub fn duty(

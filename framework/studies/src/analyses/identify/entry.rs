@@ -6,7 +6,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::study::{Data, FoldsEntry, HoldOutEntry, IdentifiedEntry, NamesOrParameters, Quantity, Write};
 
-/// Identification of uncertain parameters of gearbox and rig from measured points by bounded least squares, with intervals and verdicts.
+/// Identification of uncertain parameters from measured points.
+///
+/// Parameters of gearbox and rig by bounded least squares, with intervals and verdicts.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct IdentifyEntry {
     /// Gearbox; default: the first.

@@ -9,13 +9,13 @@ use super::lines::{Sheet, sheets};
 use super::next::{self, Candidates, Next};
 use super::posterior::{self, PosteriorOfSet};
 use crate::analyses::{Context, Stopped};
-use crate::analysis::{Note, merge, notes};
 use crate::codes;
 use crate::distinct::distinct;
 use crate::identify::{
     Calculated, Fitted, HoldOut, Identification, Identified, Observation, Pair, Profiled, Settings, ShareBands,
 };
 use crate::measured::{Measured, Seen};
+use crate::points::{Note, merge, notes};
 use crate::study::{Difference, Quantity};
 
 /// Results for one model set, for tables and figures.
@@ -222,7 +222,7 @@ impl Found {
 fn rows(there: &Calculated, measured: &Measured, mechanisms: &[&'static str]) -> Vec<RowOfSet> {
     let solved = there.solved.rows.iter().zip(&measured.rows);
     let row = |((number, gear, point), row): (&(usize, String, _), _)| {
-        let point: &crate::analysis::PointResult = point;
+        let point: &crate::points::PointResult = point;
         let parts = there.solved.transmissions[*number].1.parts();
         let of_mechanism = |mechanism: &&str| {
             let own = parts

@@ -1,9 +1,9 @@
 //! Lines of measured points: one gear state, torque and temperature, over speed.
 
-use crate::analysis::levels;
 use crate::distinct::distinct;
 use crate::identify::Identification;
 use crate::measured::Measured;
+use crate::points::levels;
 use crate::study::Quantity;
 
 /// Difference of oil temperatures above which points belong to different lines. \[K\]

@@ -12,7 +12,7 @@ use super::parameter::ParameterOfSet;
 use super::posterior::PosteriorOfSet;
 use super::search::SearchOfSet;
 use crate::analyses::Head;
-use crate::analysis::Note;
+use crate::points::Note;
 
 /// Identification of uncertain parameters from measured points with each model set.
 #[derive(Debug, Clone, Serialize, JsonSchema)]

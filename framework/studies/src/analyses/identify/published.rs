@@ -5,8 +5,8 @@ use serde_json::Value;
 use super::outcome::{IdentificationOfSet, IdentifyOutcome};
 use super::{tables, values};
 use crate::analyses::{Head, Outcome, TextFile};
-use crate::analysis::Note;
 use crate::identify::Identified;
+use crate::points::Note;
 use crate::table::Table;
 
 impl Outcome for IdentifyOutcome {

@@ -12,7 +12,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use super::axes::Axes;
 use super::outcome::{MapOfSet, MapOutcome};
 use super::shown::LossGrid;
-use crate::analysis::Given;
+use crate::points::Given;
 
 /// A format of loss tables.
 pub trait ExportFormat: Sync {

@@ -5,7 +5,7 @@ use super::Map;
 use super::export::{ExportData, ExportName, Refusal};
 use super::plan::Planned;
 use super::shown::LossGrid;
-use crate::analysis::{Given, Statistics, held};
+use crate::points::{Given, Statistics, take_points};
 
 impl ExportData {
     pub(super) fn solve(cx: &Context<'_>, formats: &[ExportName], map: &Map<'_>) -> Result<Self, Stopped> {
@@ -59,7 +59,7 @@ fn loss_torques(cx: &Context<'_>, map: &Map<'_>, list: Vec<Given>) -> Result<Vec
         return Ok(losses);
     }
     let points = cx.listed(&map.built.transmission, &map.gear, list);
-    cx.solve_pieces(&map.built, &points, &held, &mut |piece| {
+    cx.solve_pieces(&map.built, &points, &take_points, &mut |piece| {
         losses.extend(piece.points().map(|p| p.loss_torque));
         Ok(())
     })?;

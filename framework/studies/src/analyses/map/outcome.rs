@@ -9,8 +9,8 @@ use super::super::{Head, Outcome};
 use super::export::{ExportData, ExportName};
 use super::points::MapPoints;
 use super::shown::ShownMap;
-use crate::analysis::{Note, OilTemperature, WeakPoint};
 use crate::distinct::distinct;
+use crate::points::{Note, OilTemperature, WeakPoint};
 use crate::table::Table;
 
 /// The maps of an analysis.

@@ -9,7 +9,7 @@ use super::super::axes::grid_axes;
 use super::super::{Built, Context, Stopped};
 use super::axes::Axes;
 use super::entry::MapEntry;
-use crate::analysis::{Field, Given, Points};
+use crate::points::{Field, Given, Points};
 use crate::study::{Envelope, Grid};
 
 /// The points of one map over a grid.
@@ -84,7 +84,7 @@ fn below(grid: &Grid, axes: &Axes) -> Field {
         return whole;
     };
     let held = |place: &u32| {
-        let Given { torque, speed, .. } = whole.at(*place as usize);
+        let Given { torque, speed, .. } = whole.given_point(*place as usize);
         envelope.holds(torque, speed)
     };
     let count = u32::try_from(whole.len()).unwrap_or(u32::MAX);

@@ -12,7 +12,7 @@ use serde_json::Value;
 use super::super::Built;
 use super::super::numbers::{RPM, tidy, word};
 use super::shown::{Picked, Selection};
-use crate::analysis::{Field, Numbered, PointResult, SUMS};
+use crate::points::{Field, Numbered, PointResult, SUMS};
 use crate::table::{Table, Values};
 
 /// Columns of a point from its torque to the first sum.

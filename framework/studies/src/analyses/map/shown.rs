@@ -2,7 +2,7 @@
 
 use super::super::numbers::spread_over;
 use super::axes::Axes;
-use crate::analysis::{Field, Numbered, PointResult};
+use crate::points::{Field, Numbered, PointResult};
 
 /// Grids with more points are shown by a selection of their rows and columns.
 const MOST_SHOWN: usize = 65_536;
@@ -104,15 +104,15 @@ pub struct LossGrid {
 impl LossGrid {
     /// The efficiency at a grid point.
     pub fn efficiency(&self, torque: usize, speed: usize) -> Option<f64> {
-        self.at(torque, speed)?[0]
+        self.values_at(torque, speed)?[0]
     }
 
     /// The loss torque at a grid point. \[Nm\]
     pub fn loss_torque(&self, torque: usize, speed: usize) -> Option<f64> {
-        self.at(torque, speed)?[1]
+        self.values_at(torque, speed)?[1]
     }
 
-    fn at(&self, torque: usize, speed: usize) -> Option<[Option<f64>; 2]> {
+    fn values_at(&self, torque: usize, speed: usize) -> Option<[Option<f64>; 2]> {
         self.values[torque * self.axes.speeds.len() + speed]
     }
 

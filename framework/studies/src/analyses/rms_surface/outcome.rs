@@ -7,7 +7,7 @@ use serde::Serialize;
 use super::least::{Flat, Least};
 use crate::analyses::trial::Left;
 use crate::analyses::{Head, Outcome};
-use crate::analysis::Note;
+use crate::points::Note;
 use crate::study::{Difference, Quantity};
 use crate::table::Table;
 

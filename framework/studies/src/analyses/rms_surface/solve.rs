@@ -8,8 +8,8 @@ use super::{Axis, RmsSurfaceEntry};
 use crate::analyses::rows::SolvedRow;
 use crate::analyses::trial::{Left, Trial};
 use crate::analyses::{Built, Context, Stopped};
-use crate::analysis::{Rows, Statistics};
 use crate::measured::{Measured, Seen, counted};
+use crate::points::{Rows, Statistics};
 
 /// A row at a pair: the difference of the model from the measurement, or why there is none.
 pub type Difference = Result<f64, String>;

@@ -9,7 +9,7 @@ use super::super::trial::Left;
 use super::super::{Head, Outcome};
 use super::Found;
 use super::outputs::{Output, OutputKind};
-use crate::analysis::Note;
+use crate::points::Note;
 use crate::table::Table;
 use crate::varied::Varied;
 

@@ -7,7 +7,7 @@ use serde::Serialize;
 use super::super::numbers::{RPM, tidy};
 use super::super::shares::{Shares, together};
 use super::super::trial::why;
-use crate::analysis::PointResult;
+use crate::points::PointResult;
 use crate::study::By;
 
 /// Kind of an output.
@@ -119,7 +119,7 @@ impl Outputs {
         let count = points.len().max(1) as f64;
         let mut values = vec![all.iter().sum::<f64>() / count];
         for (by, names) in [(By::Mechanism, &self.mechanisms), (By::Term, &self.terms)] {
-            let shares = Shares::of(t, by).under(names);
+            let shares = Shares::new(t, by).under(names);
             let mut sums = vec![0.0; names.len()];
             for point in points {
                 for (sum, watts) in sums.iter_mut().zip(shares.stack(point).unwrap_or_default()) {

@@ -9,7 +9,7 @@ use serde_json::Value;
 use crate::analyses::numbers::word;
 use crate::analyses::ranges::PublishedCoefficient;
 use crate::analyses::{Head, Outcome};
-use crate::analysis::Note;
+use crate::points::Note;
 use crate::table::Table;
 
 /// Losses and efficiency at every value with each model set.

@@ -12,7 +12,7 @@ use super::super::{Built, Context, Stopped};
 use super::CandidatesEntry;
 use super::marks::{Mark, marks};
 use super::slot::{Candidate, Slot};
-use crate::analysis::{Field, GridResult, PointResult, Points, notes, run_grid};
+use crate::points::{Field, GridResult, PointResult, Points, notes, run_grid};
 
 /// Relative difference of losses below which two models are equal: residual of the iterated power flow.
 const ALIKE: f64 = 1e-9;
@@ -296,7 +296,11 @@ fn with_nested(registry: &Registry, model: &Entry, slot: &str, left_out: &mut Ve
 /// Time of one thread for the points, the minimum of a few tries; absent if interrupted. Only ratios of times are used. \[s\]
 fn timed(cx: &Context<'_>, transmission: &Transmission, points: &Points) -> Option<f64> {
     let few = Points {
-        field: Field::List((0..points.field.len().min(32)).map(|i| points.field.at(i)).collect()),
+        field: Field::List(
+            (0..points.field.len().min(32))
+                .map(|i| points.field.given_point(i))
+                .collect(),
+        ),
         ..points.clone()
     };
     let mut least = f64::INFINITY;

@@ -9,7 +9,7 @@ use super::candidates::{Gathering, left};
 use super::outcome::{CandidateOfTournament, MechanismOfTournament};
 use super::slot::{Candidate, Slot};
 use super::{MOST, TournamentEntry};
-use crate::analysis::{Field as Given, Given as GivenPoint, PointResult, Points};
+use crate::points::{Field as Given, Given as GivenPoint, PointResult, Points};
 use crate::study::Quantity;
 
 /// Points, the loss of all other components, and the loss of each candidate.

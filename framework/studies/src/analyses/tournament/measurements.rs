@@ -7,8 +7,8 @@ use super::super::numbers::significant;
 use super::super::{Context, Stopped};
 use super::TournamentEntry;
 use super::field::Field;
-use crate::analysis::Given;
 use crate::measured::{Measured, Row, Seen};
+use crate::points::Given;
 use crate::study::{Difference, Quantity};
 
 /// The rows of a file in one gear.

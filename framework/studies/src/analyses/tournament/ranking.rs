@@ -9,7 +9,7 @@ use super::candidates::{Gathering, left};
 use super::field::{Field, given};
 use super::measurements::{Measurements, OwnRows};
 use super::{Comparison, RankedCombination, RankedPoint, Ranking, TournamentEntry};
-use crate::analysis::{GridResult, Statistics, run_grid};
+use crate::points::{GridResult, Statistics, run_grid};
 use crate::study::Data;
 
 /// A ranking with its conclusions.

@@ -7,7 +7,7 @@ use super::candidates::Gathering;
 use super::field::Field;
 use super::slot::Slot;
 use super::{ShareOfSpread, Spread, SpreadPoint, TournamentEntry};
-use crate::analysis::GridResult;
+use crate::points::GridResult;
 
 impl TournamentEntry {
     /// The spread of every combination over a grid.

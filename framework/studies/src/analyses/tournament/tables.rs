@@ -2,7 +2,7 @@
 
 use super::super::{Head, Outcome};
 use super::{Ranking, Spread, Tournament, TournamentOutcome};
-use crate::analysis::Note;
+use crate::points::Note;
 use crate::table::Table;
 
 impl Outcome for TournamentOutcome {

@@ -8,7 +8,7 @@ use crate::analyses::inputs::Input;
 use crate::analyses::numbers::{RPM, tidy};
 use crate::analyses::trial::{Left, Trial, left};
 use crate::analyses::{Built, Context, Stopped};
-use crate::analysis::{PointResult, Points, correlation, quantile};
+use crate::points::{PointResult, Points, correlation, quantile};
 
 /// Probabilities of the ends and the middle of a band.
 pub const SHARES: [f64; 3] = [0.025, 0.5, 0.975];

@@ -157,7 +157,7 @@ fn a_gap_is_refused_unless_it_is_accepted() {
 }
 
 #[test]
-fn cells_without_a_number_are_told_together() {
+fn cells_without_a_number_are_reported_together() {
     let help = "correct the cell, or delete the row";
     assert_eq!(
         faults(&entry(), "t [s],v [m/s]\n0,NaN\n1,\n2,fast\n3,-0.1\n"),

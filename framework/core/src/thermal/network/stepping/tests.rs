@@ -273,7 +273,7 @@ fn u5k_lagged_steps_are_the_published_ones() {
 }
 
 #[test]
-fn what_never_agrees_is_told_and_changes_nothing() {
+fn what_never_agrees_is_reported_and_changes_nothing() {
     struct Wild(bool);
     impl Heated for Wild {
         fn warm(&mut self, _: &[f64], warm: &mut Warm) -> Result<(), Unbalanced> {

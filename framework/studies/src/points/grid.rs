@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{OilTemperature, Piece, held, solve_pieces};
+use super::{OilTemperature, Piece, solve_pieces, take_points};
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::evaluate::PowerFlow;
 use gearloss_framework::flow::Status;
@@ -101,7 +101,7 @@ impl Field {
     ///
     /// # Panics
     /// If the index is out of bounds: a bug of the caller.
-    pub fn at(&self, i: usize) -> Given {
+    pub fn given_point(&self, i: usize) -> Given {
         match self {
             Self::Grid { torques, speeds } => Given::on_grid(torques, speeds, i),
             Self::Part {
@@ -213,7 +213,7 @@ impl Points {
             torque_at: vec![port.clone()],
             speed_at: vec![port],
             field,
-            oil: OilTemperature::of(transmission, None),
+            oil: OilTemperature::from_conditions(transmission, None),
             flow: PowerFlow::Real,
             terms: false,
         }
@@ -244,7 +244,7 @@ pub fn run_grid(
 ) -> Result<Option<GridResult>, Vec<Diagnostic>> {
     let numbers: Vec<usize> = (0..points.field.pieces()).collect();
     let mut all = GridResult::default();
-    let whole = solve_pieces(transmission, points, &numbers, &held, progress, &mut |piece| {
+    let whole = solve_pieces(transmission, points, &numbers, &take_points, progress, &mut |piece| {
         all.add(piece);
         true
     })?;

@@ -58,7 +58,7 @@ impl Found {
 
 impl OilTemperature {
     /// From the conditions if given, otherwise from the gearbox.
-    pub fn of(transmission: &Transmission, given: Option<f64>) -> Self {
+    pub fn from_conditions(transmission: &Transmission, given: Option<f64>) -> Self {
         match (given, transmission.thermal_mode) {
             (Some(given), _) => Self::Fixed(given),
             (None, ThermalMode::Fixed) => Self::Fixed(transmission.oil_temperature),

@@ -1,4 +1,4 @@
-//! Analyses: many points of one transmission, in parallel, with the same bits on any number of threads.
+//! Many points of one transmission, solved in parallel with the same bits on any number of threads.
 
 mod bits;
 mod cycle;
@@ -18,7 +18,7 @@ pub use gearloss_numerics::statistics::{Statistics, bands, correlation, histogra
 pub use grid::{Field, Given, GridResult, PointResult, Points, merge, run_grid};
 pub use locking::{SelfLocking, self_locking};
 pub use notes::{Note, STATIC_SAFETY, Stated, WeakPoint, evidence, notes};
-pub use pieces::{MOST_IN_FLIGHT, Make, Numbered, Piece, held, solve_pieces};
+pub use pieces::{MOST_IN_FLIGHT, Make, Numbered, Piece, solve_pieces, take_points};
 pub use prepared::{PreparedPoint, SolvedPoint};
 pub use rows::{BuiltFrom, OnRig, Rows, SolvedRows};
 pub use sums::{SUMS, sum_of, sums};

@@ -160,7 +160,7 @@ impl Rows<'_> {
             torque_at: vec![torque_at],
             speed_at: vec![speed_at],
             field: Field::List(list),
-            oil: OilTemperature::of(transmission, self.oil),
+            oil: OilTemperature::from_conditions(transmission, self.oil),
             flow: self.flow,
             terms: self.terms,
         }

@@ -42,7 +42,7 @@ pub struct Bits {
 
 impl Bits {
     /// Serialises points; a `make` function for [`super::solve_pieces`].
-    pub fn of(points: &mut Numbered<'_>) -> Self {
+    pub fn from_points(points: &mut Numbered<'_>) -> Self {
         let mut bits = Self::default();
         for (_, point) in points {
             point.write_bits(&mut bits.bytes);
@@ -52,7 +52,7 @@ impl Bits {
     }
 
     /// The bytes of some points.
-    fn some(&self, own: Range<usize>) -> &[u8] {
+    fn bytes_of_points(&self, own: Range<usize>) -> &[u8] {
         let ends = [own.start, own.end].map(|point| point.checked_sub(1).map_or(0, |last| self.ends[last]));
         &self.bytes[ends[0]..ends[1]]
     }
@@ -65,7 +65,7 @@ impl Piece<Bits> {
         count(to, self.len());
         count(to, self.seen.len());
         for (task, own) in self.runs() {
-            to.extend_from_slice(self.tasks[task].some(own));
+            to.extend_from_slice(self.tasks[task].bytes_of_points(own));
         }
         for extent in &self.seen {
             numbers(to, &[extent.least, extent.greatest]);
@@ -260,7 +260,8 @@ fn take_reason(from: &mut &[u8]) -> Option<Undefined> {
     })
 }
 
-/// A reason as a static text. The number of reasons is limited, and each is stored once.
+/// A reason as a static text, because [`Undefined`] is copied for millions of points and therefore owns no text. Reasons are texts
+/// of models, so that there are few; each is allocated once and never freed.
 fn lasting(text: &str) -> &'static str {
     static KNOWN: Mutex<BTreeSet<&'static str>> = Mutex::new(BTreeSet::new());
     let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
@@ -324,7 +325,7 @@ mod tests {
     #[test]
     fn every_bit_comes_back() {
         let mut bytes = Vec::new();
-        piece().made(0, &Bits::of).write_bits(&mut bytes);
+        piece().made(0, &Bits::from_points).write_bits(&mut bytes);
         let mut from = &bytes[..];
         let read = Piece::read_bits(&mut from).unwrap();
         assert!(from.is_empty());
@@ -333,14 +334,14 @@ mod tests {
             (5, piece().points().collect(), &piece().seen)
         );
         let mut again = Vec::new();
-        read.made(0, &Bits::of).write_bits(&mut again);
+        read.made(0, &Bits::from_points).write_bits(&mut again);
         assert_eq!(bytes, again);
     }
 
     #[test]
     fn fewer_bytes_are_no_piece() {
         let mut bytes = Vec::new();
-        piece().made(0, &Bits::of).write_bits(&mut bytes);
+        piece().made(0, &Bits::from_points).write_bits(&mut bytes);
         for length in 0..bytes.len() {
             assert!(Piece::read_bits(&mut &bytes[..length]).is_none(), "{length} bytes");
         }

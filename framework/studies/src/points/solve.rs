@@ -89,7 +89,7 @@ impl<'a> Solver<'a> {
         let mut results = std::mem::take(&mut space.results);
         space.spare.clear();
         space.spare.extend(results.drain(..).map(|point| point.parts));
-        let given = |number: &usize| self.points.field.at(*number);
+        let given = |number: &usize| self.points.field.given_point(*number);
         let together = |a: &usize, b: &usize| {
             let (a, b) = (given(a), given(b));
             a.speed.to_bits() == b.speed.to_bits() && a.oil == b.oil
@@ -173,7 +173,7 @@ impl<'a> Solver<'a> {
         let temperature = [oil];
         let mut row = self.transmission.batch(self.case, &point, &temperature, rows);
         // Where the torque turns so do the drivers, which the points of a block have in common.
-        let torque = |number: &usize| self.points.field.at(*number).torque;
+        let torque = |number: &usize| self.points.field.given_point(*number).torque;
         let blocks = run
             .chunk_by(|a, b| torque(a) * torque(b) > 0.0)
             .flat_map(|own| own.chunks(LANES));

@@ -52,7 +52,7 @@ pub type Numbered<'a> = [(usize, &'a mut PointResult)];
 pub type Make<'a, T> = dyn Fn(&mut Numbered<'_>) -> T + Sync + 'a;
 
 /// The points themselves; the originals remain without components, terms and nodes.
-pub fn held(points: &mut Numbered<'_>) -> Vec<PointResult> {
+pub fn take_points(points: &mut Numbered<'_>) -> Vec<PointResult> {
     let taken = |(_, point): &mut (usize, &mut PointResult)| PointResult {
         nodes: std::mem::take(&mut point.nodes),
         parts: std::mem::take(&mut point.parts),
@@ -166,7 +166,7 @@ impl Field {
         }
         let mut numbers: Vec<usize> = own.collect();
         numbers.sort_by(|a, b| {
-            let (a, b) = (self.at(*a), self.at(*b));
+            let (a, b) = (self.given_point(*a), self.given_point(*b));
             let oil = |oil: Option<f64>| oil.unwrap_or(f64::NEG_INFINITY);
             a.speed.total_cmp(&b.speed).then(oil(a.oil).total_cmp(&oil(b.oil)))
         });
@@ -183,7 +183,7 @@ struct Task<T> {
 }
 
 /// Solves the pieces with the given indices and passes them on in this order. `make` extracts the requested data of the points on all
-/// threads, while they are in the caches; points are not stored unless `make` returns them ([`held`]). Data of at most [`MOST_IN_FLIGHT`] points
+/// threads, while they are in the caches; points are not stored unless `make` returns them ([`take_points`]). Data of at most [`MOST_IN_FLIGHT`] points
 /// are in memory: while some are taken, the next are solved. `progress` is called with the number of newly solved points; if it or `take`
 /// returns false, the work stops and this returns false.
 ///
