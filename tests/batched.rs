@@ -2,7 +2,6 @@
 
 use crate::common::{RPM, file, language, two_speed};
 use gearloss_framework::evaluate::Point;
-use gearloss_framework::flow::Tolerance;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::Language;
 use gearloss_framework::loss::{Extent, MOST_TERMS};
