@@ -149,6 +149,7 @@ impl Transmission {
         s.models.conditions.temperatures.clear();
         s.models.conditions.temperatures.extend_from_slice(temperatures);
         s.models.conditions.common = true;
+        s.models.conditions.live = true;
         self.settle_prescribed(case, s, noting);
     }
 
@@ -156,7 +157,6 @@ impl Transmission {
     fn settle_prescribed<R: Answers>(&self, case: &Case, s: &mut Scratch<R>, noting: Noting) {
         let m = &mut s.models;
         let c = &mut m.conditions;
-        c.live = R::mask(|_| true);
         case.motion.speeds(&s.prescribed, &mut c.speeds);
         self.oils.write_states(&c.temperatures, &mut c.oils);
         c.surface = self.oils.surface(&c.speeds);

@@ -9,7 +9,7 @@ use crate::document::{Diagnostic, Unit, did_you_mean};
 use crate::formula::Formula;
 use crate::mechanism::gear_drag::Scope;
 pub use crate::mechanism::scalar::PLACE;
-use crate::mechanism::scalar::ScalarLaw;
+use crate::mechanism::scalar::{Input, ScalarLaw};
 pub use crate::mechanism::{Lookup, Scalar};
 use crate::mechanism::{Mechanism, Quantity};
 use crate::registry::{Build, Built, Entry, Evidence, Graded, USER_DEFINED, formula};
@@ -162,7 +162,10 @@ fn build_formula<M: Mechanism>(value: &Value, cx: &mut Build<'_>) -> Result<Buil
                 .help(format!("state {needed}")));
         }
     }
-    built::<M>(ScalarLaw::Formula(formula), cx)
+    built::<M>(
+        ScalarLaw::Formula(formula, M::QUANTITIES.iter().map(Input::new).collect()),
+        cx,
+    )
 }
 
 impl<M: Mechanism> Lookup<M> {
@@ -222,7 +225,7 @@ impl<M: Mechanism> Lookup<M> {
         })?;
         Ok(Self {
             tables: vec![table],
-            axes,
+            axes: axes.into_iter().map(Input::new).collect(),
         })
     }
 
@@ -324,7 +327,10 @@ impl<M: Mechanism> Lookup<M> {
                     .help("correct it: losses and coefficients must not be negative"));
             }
         }
-        Ok(Self { tables, axes })
+        Ok(Self {
+            tables,
+            axes: axes.into_iter().map(Input::new).collect(),
+        })
     }
 }
 

@@ -1,7 +1,8 @@
-//! Batches: points with the same speeds and temperatures that differ in one torque, several of which are solved together.
+//! Batches: several points that are solved together.
 //!
-//! Speeds, oils and all values that depend only on them, including notes, are computed once per batch. The numbers of a point are
-//! those of [`Transmission::evaluate`] to the bit, whatever the other points are.
+//! A [`Batch`] has the same speeds and temperatures and differs in one torque: speeds, oils and all values that depend only on them,
+//! including notes, are computed once. [`Transmission::evaluate_together`] takes points with a speed, torque and temperature each. The
+//! numbers of a point are those of [`Transmission::evaluate`] to the bit, whatever the other points are.
 
 use std::cell::Cell;
 
@@ -10,7 +11,11 @@ use crate::attach::Oil;
 use crate::flow::{Balance, Status};
 use crate::loss::{Extent, Loss, Undefined};
 use crate::real::{LANES, Lane, Mask as _, Points as _, Real as _};
+use crate::thermal::Unbalanced;
 use crate::transmission::{Case, Transmission};
+
+/// Minimum number of points that are solved together; fewer are faster one by one.
+const FEW: usize = 4;
 
 /// Workspace for the batches of one case; all of it is allocated once.
 #[derive(Debug, Clone)]
@@ -27,6 +32,11 @@ impl BatchScratch {
     pub fn take_totals(&mut self) -> Vec<Extent> {
         let pairs = self.together.take_totals().into_iter().zip(self.alone.take_totals());
         pairs.map(|(together, alone)| together.merge(alone)).collect()
+    }
+
+    /// Workspace for points that are solved one by one.
+    pub fn alone(&mut self) -> &mut Scratch {
+        &mut self.alone
     }
 
     /// Number of loss model evaluations for all points so far.
@@ -75,6 +85,88 @@ impl Transmission {
             temperatures,
             s: scratch,
         }
+    }
+}
+
+impl Transmission {
+    /// Solves points with a speed, torque and temperature each, at most [`LANES`]; they have the power flow and the tolerance of the
+    /// first. \[degC\]
+    ///
+    /// # Panics
+    /// If there are none or too many, or as [`Transmission::evaluate`]: bugs of the caller.
+    pub fn evaluate_together<'s, 't>(
+        &'s self,
+        case: &Case,
+        points: &[Point<'_>],
+        temperatures: impl Fn(usize) -> &'t [f64],
+        noting: Noting,
+        scratch: &'s mut BatchScratch,
+    ) -> Block<'s> {
+        assert!((1..=LANES).contains(&points.len()), "1 to {LANES} points");
+        let s = &mut scratch.together;
+        // Lanes without a point repeat the last one and are not read.
+        let own = |lane: usize| lane.min(points.len() - 1);
+        let ports = case.speed_ports.len();
+        for (port, speed) in s.prescribed.iter_mut().enumerate() {
+            *speed = Lane::each(|lane| {
+                if port < ports {
+                    points[own(lane)].speeds[port]
+                } else {
+                    0.0
+                }
+            });
+        }
+        let ports = case.torque_ports.len();
+        for (port, torque) in s.work.given.iter_mut().enumerate() {
+            *torque = Lane::each(|lane| {
+                if port < ports {
+                    points[own(lane)].torques[port]
+                } else {
+                    0.0
+                }
+            });
+        }
+        let c = &mut s.models.conditions;
+        c.temperatures.resize(temperatures(0).len(), Lane::ZERO);
+        for (node, temperature) in c.temperatures.iter_mut().enumerate() {
+            *temperature = Lane::each(|lane| temperatures(own(lane))[node]);
+        }
+        c.common = false;
+        c.live = Lane::mask(|lane| lane < points.len());
+        self.settle_prescribed(case, s, noting);
+        self.solve_settled(case, &points[0], s, noting);
+        Block {
+            transmission: self,
+            s: &scratch.together,
+        }
+    }
+
+    /// The losses of points by number at temperatures, as [`Transmission::probe`]. \[degC, W\]
+    pub(crate) fn probe_all(
+        &self,
+        case: &Case,
+        points: &[Point<'_>],
+        asked: &[(usize, f64)],
+        scratch: &mut BatchScratch,
+    ) -> Vec<Result<f64, Unbalanced>> {
+        let mut losses = Vec::with_capacity(asked.len());
+        for asked in asked.chunks(LANES) {
+            let first = losses.len();
+            let mut alone = Lane::mask(|_| true);
+            if asked.len() >= FEW {
+                let own: [Point<'_>; LANES] = std::array::from_fn(|lane| points[asked[lane.min(asked.len() - 1)].0]);
+                let temperature = |lane: usize| std::slice::from_ref(&asked[lane].1);
+                let block = self.evaluate_together(case, &own[..asked.len()], temperature, Noting::Muted, scratch);
+                losses.extend((0..asked.len()).map(|lane| Ok(block.losses()[lane])));
+                alone = Lane::mask(|lane| block.is_alone(lane));
+            } else {
+                losses.resize(first + asked.len(), Ok(0.0));
+            }
+            for (lane, (point, temperature)) in asked.iter().enumerate().filter(|(lane, _)| alone.at(*lane)) {
+                losses[first + lane] = self.probe(case, &points[*point], &[*temperature], &mut scratch.alone);
+            }
+        }
+        losses
     }
 }
 
@@ -188,6 +280,11 @@ impl Block<'_> {
         self.s.balance[point]
     }
 
+    /// Output power, as [`Solution::output_power`]. \[W\]
+    pub fn output_power(&self, point: usize) -> Option<f64> {
+        self.s.output_power(point)
+    }
+
     /// Sums of all losses. \[W\]
     pub fn losses(&self) -> &Lane {
         &self.s.sum
@@ -217,8 +314,8 @@ impl Block<'_> {
         self.s.passes[point] as usize
     }
 
-    /// Speed of a member by number. \[rad/s\]
-    pub fn speed(&self, member: usize) -> f64 {
-        self.s.models.conditions.speeds[member][0]
+    /// Speeds of a member by number. \[rad/s\]
+    pub fn speeds(&self, member: usize) -> &Lane {
+        &self.s.models.conditions.speeds[member]
     }
 }

@@ -145,6 +145,16 @@ impl<R: Points> Scratch<R> {
         }
     }
 
+    /// Output power of a point with losses; with ideal power flow the input minus the losses, `None` if they exceed it. \[W\]
+    pub(super) fn output_power(&self, point: usize) -> Option<f64> {
+        let balance = self.balance[point];
+        match self.status[point] {
+            Status::LossAboveInput => None,
+            _ if self.ideal => Some((balance.input - self.sum.at(point)).max(0.0)),
+            _ => Some(balance.output),
+        }
+    }
+
     pub(super) fn new(transmission: &Transmission, case: &Case) -> Self {
         let columns = case.flow.columns();
         let (supports, meshes) = (transmission.supports.len(), transmission.meshes.len());

@@ -171,15 +171,7 @@ impl Solution<'_> {
 
     /// Output power; with ideal power flow the input minus the losses, `None` if they exceed it. \[W\]
     pub fn output_power(&self) -> Option<f64> {
-        let loss = self.loss()?;
-        if self.status() == Status::LossAboveInput {
-            return None;
-        }
-        Some(if self.scratch.ideal {
-            (self.scratch.balance[0].input - loss).max(0.0)
-        } else {
-            self.scratch.balance[0].output
-        })
+        self.loss().and_then(|_| self.scratch.output_power(0))
     }
 
     /// Output power over input power; `None` if the output is zero.

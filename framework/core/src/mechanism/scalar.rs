@@ -23,8 +23,30 @@ pub(crate) enum ScalarLaw<M: Mechanism> {
     None,
     /// In SI.
     Constant(f64),
-    Formula(Formula),
+    /// With the inputs of the formula, in its order.
+    Formula(Formula, Vec<Input<M>>),
     Table(Lookup<M>),
+}
+
+/// A quantity of a context with its documented unit, which is looked up once.
+pub struct Input<M: Mechanism> {
+    quantity: &'static Quantity<M>,
+    unit: &'static Unit,
+}
+
+impl<M: Mechanism> Input<M> {
+    /// The quantity of a formula or table.
+    pub(crate) fn new(quantity: &'static Quantity<M>) -> Self {
+        Self {
+            quantity,
+            unit: quantity.unit(),
+        }
+    }
+
+    /// Its value at a context, in its documented unit.
+    fn value(&self, at: &M::At<'_, f64>) -> f64 {
+        self.unit.from_si((self.quantity.get)(at))
+    }
 }
 
 impl<M: Mechanism> Scalar<M> {
@@ -36,12 +58,12 @@ impl<M: Mechanism> Scalar<M> {
         let value = match &self.law {
             ScalarLaw::None => return Ok(0.0),
             ScalarLaw::Constant(value) => return Ok(*value),
-            ScalarLaw::Formula(formula) => {
-                let mut inputs = [0.0; MOST_QUANTITIES];
-                for (input, q) in inputs.iter_mut().zip(M::QUANTITIES) {
-                    *input = q.unit().from_si((q.get)(at));
+            ScalarLaw::Formula(formula, inputs) => {
+                let mut values = [0.0; MOST_QUANTITIES];
+                for (value, input) in values.iter_mut().zip(inputs) {
+                    *value = input.value(at);
                 }
-                formula.value(&inputs[..M::QUANTITIES.len()])?
+                formula.value(&values[..inputs.len()])?
             }
             ScalarLaw::Table(lookup) => {
                 let (value, place) = lookup.value(at)?;
@@ -90,7 +112,7 @@ limits! {
 pub struct Lookup<M: Mechanism> {
     /// One for each column of results.
     pub(crate) tables: Vec<Table>,
-    pub(crate) axes: Vec<&'static Quantity<M>>,
+    pub(crate) axes: Vec<Input<M>>,
 }
 
 impl<M: Mechanism> Lookup<M> {
@@ -101,11 +123,11 @@ impl<M: Mechanism> Lookup<M> {
     /// If the table ends.
     pub fn value(&self, at: &M::At<'_, f64>) -> Result<(f64, f64), Undefined> {
         let mut inputs = [0.0; 4];
-        for ((input, q), axis) in inputs.iter_mut().zip(&self.axes).zip(self.tables[0].axes()) {
-            *input = q.unit().from_si((q.get)(at));
+        for ((value, input), axis) in inputs.iter_mut().zip(&self.axes).zip(self.tables[0].axes()) {
+            *value = input.value(at);
             // A table over non-negative speeds applies to both directions of rotation.
-            if q.least < 0.0 && q.unit().symbol == "rpm" && axis.values[0] >= 0.0 {
-                *input = input.abs();
+            if input.quantity.least < 0.0 && input.unit.symbol == "rpm" && axis.values[0] >= 0.0 {
+                *value = value.abs();
             }
         }
         let inputs = &inputs[..self.axes.len()];

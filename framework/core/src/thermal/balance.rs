@@ -55,6 +55,16 @@ pub struct Root {
     pub beyond: Option<Step>,
 }
 
+impl Root {
+    fn at(step: Step) -> Self {
+        Self {
+            temperature: step.temperature,
+            step,
+            beyond: None,
+        }
+    }
+}
+
 /// Outcome of a balance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
@@ -110,8 +120,20 @@ impl<E> Balance<E> {
         self.stable.first()
     }
 
-    fn evaluate(&mut self, temperature: f64, law: &mut impl FnMut(f64) -> Result<Step, E>) -> Option<Step> {
-        match law(temperature) {
+    fn new([low, high]: [f64; 2], stretches: usize) -> Self {
+        Self {
+            outcome: Outcome::NoneBelowMaximum,
+            stable: Vec::new(),
+            history: Vec::new(),
+            scanned: 0,
+            spacing: (high - low) / stretches as f64,
+            undefined: None,
+        }
+    }
+
+    /// Keeps what a law gave at a temperature.
+    fn take(&mut self, temperature: f64, given: Result<Step, E>) -> Option<Step> {
+        match given {
             Ok(step) => {
                 self.history.push(step);
                 Some(step)
@@ -129,154 +151,253 @@ impl<E> Balance<E> {
 /// Two crossings that are closer to each other than the spacing of the scan may both be missed; the residual of a found temperature
 /// is still below 1e-10 of the loss.
 pub fn balance<E>(range: [f64; 2], law: impl FnMut(f64) -> Result<Step, E>) -> Balance<E> {
-    search(range, STRETCHES, DOUBLINGS, law)
+    search_one(range, [STRETCHES, DOUBLINGS], law)
 }
 
 /// As [`balance`], without a scan: for losses that decrease and dissipation that increases throughout, so that there is one
 /// temperature.
 pub fn single<E>(range: [f64; 2], law: impl FnMut(f64) -> Result<Step, E>) -> Balance<E> {
-    search(range, 1, 0, law)
+    search_one(range, [1, 0], law)
 }
+
+fn search_one<E>(range: [f64; 2], scan: [usize; 2], mut law: impl FnMut(f64) -> Result<Step, E>) -> Balance<E> {
+    let mut found = search(range, scan, 1, |asked| asked.iter().map(|(_, t)| law(*t)).collect());
+    found.pop().unwrap_or_else(|| Balance::new(range, 1))
+}
+
+/// As [`balance`], of several members side by side. The law is asked for many at once: numbers of members and temperatures.
+pub fn balance_all<E>(
+    range: [f64; 2],
+    members: usize,
+    law: impl FnMut(&[(usize, f64)]) -> Vec<Result<Step, E>>,
+) -> Vec<Balance<E>> {
+    search(range, [STRETCHES, DOUBLINGS], members, law)
+}
+
+/// The scan of one member: temperatures, and what the law gave there.
+type Scan = Vec<(f64, Option<Step>)>;
 
 fn search<E>(
     [low, high]: [f64; 2],
-    stretches: usize,
-    doublings: usize,
-    mut law: impl FnMut(f64) -> Result<Step, E>,
-) -> Balance<E> {
-    let mut found = Balance {
-        outcome: Outcome::NoneBelowMaximum,
-        stable: Vec::new(),
-        history: Vec::new(),
-        scanned: 0,
-        spacing: (high - low) / stretches as f64,
-        undefined: None,
+    [stretches, doublings]: [usize; 2],
+    members: usize,
+    mut law: impl FnMut(&[(usize, f64)]) -> Vec<Result<Step, E>>,
+) -> Vec<Balance<E>> {
+    let mut found: Vec<Balance<E>> = (0..members).map(|_| Balance::new([low, high], stretches)).collect();
+    let mut ask = |found: &mut [Balance<E>], asked: &[(usize, f64)]| -> Vec<Option<Step>> {
+        let given = law(asked).into_iter().zip(asked);
+        given
+            .map(|(given, (member, t))| found[*member].take(*t, given))
+            .collect()
     };
     let place = |i: usize, count: usize| low + (high - low) * i as f64 / count as f64;
-    let mut scan: Vec<(f64, Option<Step>)> = (0..=stretches)
-        .map(|i| (place(i, stretches), found.evaluate(place(i, stretches), &mut law)))
+    let spread = |members: &[usize], places: &[f64]| -> Vec<(usize, f64)> {
+        let pairs = members.iter().flat_map(|member| places.iter().map(|t| (*member, *t)));
+        pairs.collect()
+    };
+    let everyone: Vec<usize> = (0..members).collect();
+    let places: Vec<f64> = (0..=stretches).map(|i| place(i, stretches)).collect();
+    let steps = ask(&mut found, &spread(&everyone, &places));
+    let mut scans: Vec<Scan> = steps
+        .chunks(places.len())
+        .map(|steps| places.iter().copied().zip(steps.iter().copied()).collect())
         .collect();
     for doubling in 1..=doublings {
         // Losses exceeded dissipation at all points: refine the scan before concluding that they do so everywhere.
-        if scan
+        let exceeds = |scan: &Scan| {
+            scan.iter()
+                .skip(1)
+                .all(|(_, step)| step.is_some_and(|s| s.residual() > 0.0))
+        };
+        let open: Vec<usize> = everyone
             .iter()
-            .skip(1)
-            .any(|(_, step)| step.is_none_or(|s| s.residual() <= 0.0))
-        {
+            .copied()
+            .filter(|member| exceeds(&scans[*member]))
+            .collect();
+        let count = stretches << doubling;
+        let places: Vec<f64> = (0..count / 2).map(|i| place(2 * i + 1, count)).collect();
+        let steps = ask(&mut found, &spread(&open, &places));
+        for (member, steps) in open.iter().zip(steps.chunks(places.len())) {
+            found[*member].spacing = (high - low) / count as f64;
+            let mut between = places.iter().copied().zip(steps.iter().copied());
+            let scan = std::mem::take(&mut scans[*member]);
+            scans[*member] = scan
+                .into_iter()
+                .flat_map(|old| [Some(old), between.next()])
+                .flatten()
+                .collect();
+        }
+    }
+    let mut closings: Vec<Closings> = scans
+        .into_iter()
+        .zip(&mut found)
+        .map(|(scan, own)| own.bracket(scan))
+        .collect();
+    loop {
+        let asked: Vec<(usize, f64)> = everyone
+            .iter()
+            .filter_map(|member| Some((*member, closings[*member].next(&mut found[*member])?)))
+            .collect();
+        if asked.is_empty() {
             break;
         }
-        let count = stretches << doubling;
-        found.spacing = (high - low) / count as f64;
-        let between: Vec<(f64, Option<Step>)> = (0..count / 2)
-            .map(|i| place(2 * i + 1, count))
-            .map(|t| (t, found.evaluate(t, &mut law)))
-            .collect();
-        let mut both = Vec::with_capacity(count + 1);
-        for (i, old) in scan.into_iter().enumerate() {
-            both.push(old);
-            both.extend(between.get(i).copied());
-        }
-        scan = both;
-    }
-    found.scanned = found.history.len();
-    if let Some((_, Some(first))) = scan.first()
-        && first.is_balanced()
-        && scan[1].1.is_some_and(|next| next.residual() < 0.0)
-    {
-        // No loss: the lower end itself.
-        found.stable.push(Root {
-            temperature: first.temperature,
-            step: *first,
-            beyond: None,
-        });
-    }
-    let mut gap = false;
-    for pair in scan.windows(2) {
-        match (pair[0].1, pair[1].1) {
-            (Some(a), Some(b)) if a.residual() > 0.0 && b.residual() <= 0.0 => {
-                match close([a, b], &mut found, &mut law) {
-                    Some(root) => found.stable.push(root),
-                    None => gap = true,
-                }
-            }
-            // Losses are below dissipation where a law starts to be defined, or above it where a law ends.
-            (None, Some(b)) if b.residual() <= 0.0 => gap = true,
-            (Some(a), None) if a.residual() > 0.0 => gap = true,
-            _ => {}
+        let steps = ask(&mut found, &asked);
+        for ((member, _), step) in asked.iter().zip(steps) {
+            closings[*member].take(step);
         }
     }
-    let nothing = scan.iter().all(|(_, step)| step.is_none());
-    found.outcome = match &found.stable[..] {
-        [] if gap || nothing => Outcome::Undefined,
-        [] => Outcome::NoneBelowMaximum,
-        [one] if one.beyond.is_some() => Outcome::AtDiscontinuity,
-        [_] => Outcome::Converged,
-        _ => Outcome::Several,
-    };
+    for (own, closings) in found.iter_mut().zip(closings) {
+        own.outcome = match &own.stable[..] {
+            [] if closings.gap => Outcome::Undefined,
+            [] => Outcome::NoneBelowMaximum,
+            [one] if one.beyond.is_some() => Outcome::AtDiscontinuity,
+            [_] => Outcome::Converged,
+            _ => Outcome::Several,
+        };
+    }
     found
 }
 
-/// Closes a bracket from losses above dissipation to losses below it. `None` if a law is undefined inside.
-fn close<E>(
-    [cold, warm]: [Step; 2],
-    found: &mut Balance<E>,
-    law: &mut impl FnMut(f64) -> Result<Step, E>,
-) -> Option<Root> {
-    let root = |step: Step| Root {
-        temperature: step.temperature,
-        step,
-        beyond: None,
-    };
-    // `last` is the newest step, `other` the opposite end of the bracket, `before` the step that the newest one replaced.
-    let (mut last, mut other) = (warm, cold);
-    let mut share = last.residual() / (last.residual() - other.residual());
-    for _ in 0..MOST {
-        let best = if last.residual().abs() < other.residual().abs() {
-            last
-        } else {
-            other
+impl<E> Balance<E> {
+    /// The brackets of a finished scan.
+    fn bracket(&mut self, scan: Scan) -> Closings {
+        self.scanned = self.history.len();
+        if let Some((_, Some(first))) = scan.first()
+            && first.is_balanced()
+            && scan[1].1.is_some_and(|next| next.residual() < 0.0)
+        {
+            // No loss: the lower end itself.
+            self.stable.push(Root::at(*first));
+        }
+        let mut closings = Closings {
+            brackets: Vec::new(),
+            open: None,
+            gap: scan.iter().all(|(_, step)| step.is_none()),
         };
+        for pair in scan.windows(2) {
+            match (pair[0].1, pair[1].1) {
+                (Some(a), Some(b)) if a.residual() > 0.0 && b.residual() <= 0.0 => closings.brackets.push([a, b]),
+                // Losses are below dissipation where a law starts to be defined, or above it where a law ends.
+                (None, Some(b)) if b.residual() <= 0.0 => closings.gap = true,
+                (Some(a), None) if a.residual() > 0.0 => closings.gap = true,
+                _ => {}
+            }
+        }
+        closings.brackets.reverse();
+        closings
+    }
+}
+
+/// The brackets of a member, from losses above dissipation to losses below it, which are closed one after the other.
+struct Closings {
+    /// The coldest last.
+    brackets: Vec<[Step; 2]>,
+    open: Option<Closing>,
+    /// True if a law is undefined where a balance may be.
+    gap: bool,
+}
+
+impl Closings {
+    /// The next temperature to ask for; `None` if all brackets are closed, whose temperatures are then among the stable ones.
+    fn next<E>(&mut self, found: &mut Balance<E>) -> Option<f64> {
+        loop {
+            let open = match &mut self.open {
+                Some(open) => open,
+                None => self.open.insert(Closing::new(self.brackets.pop()?)),
+            };
+            match open.next() {
+                Next::Ask(temperature) => return Some(temperature),
+                Next::Closed(root) => {
+                    found.stable.push(root);
+                    self.open = None;
+                }
+            }
+        }
+    }
+
+    /// Takes what the law gave there.
+    fn take(&mut self, step: Option<Step>) {
+        match (step, &mut self.open) {
+            (Some(step), Some(open)) => open.take(step),
+            // A law is undefined inside.
+            _ => (self.open, self.gap) = (None, true),
+        }
+    }
+}
+
+/// A bracket that is being closed.
+struct Closing {
+    bracket: [Step; 2],
+    /// The newest step.
+    last: Step,
+    /// The opposite end of the bracket.
+    other: Step,
+    /// Position of the next step between both.
+    share: f64,
+    steps: usize,
+}
+
+/// What a bracket needs, or gave.
+enum Next {
+    Ask(f64),
+    Closed(Root),
+}
+
+impl Closing {
+    fn new([cold, warm]: [Step; 2]) -> Self {
+        Self {
+            bracket: [cold, warm],
+            last: warm,
+            other: cold,
+            share: warm.residual() / (warm.residual() - cold.residual()),
+            steps: 0,
+        }
+    }
+
+    fn next(&self) -> Next {
+        let (last, other) = (self.last, self.other);
+        let nearer = last.residual().abs() < other.residual().abs();
+        let best = if nearer { last } else { other };
         if best.is_balanced() {
-            return Some(root(best));
+            return Next::Closed(Root::at(best));
         }
         let width = (other.temperature - last.temperature).abs();
         let least = (4.0 * f64::EPSILON * last.temperature.abs()).max(CLOSED) / width;
-        if least > 0.5 {
-            break;
+        if least <= 0.5 && self.steps < MOST {
+            let share = self.share.clamp(least, 1.0 - least);
+            return Next::Ask(last.temperature + share * (other.temperature - last.temperature));
         }
-        let t = last.temperature + share.clamp(least, 1.0 - least) * (other.temperature - last.temperature);
-        let new = found.evaluate(t, law)?;
-        let before;
-        if (new.residual() > 0.0) == (last.residual() > 0.0) {
-            before = last;
+        let [below, above] = if last.residual() > 0.0 {
+            [last, other]
         } else {
-            before = other;
-            other = last;
-        }
-        last = new;
-        share = next([last, other, before]);
-    }
-    let (below, above) = if last.residual() > 0.0 {
-        (last, other)
-    } else {
-        (other, last)
-    };
-    // The temperature has no more digits. The residual is rounding if it does not exceed slope times width.
-    let slope = (warm.residual() - cold.residual()).abs() / (warm.temperature - cold.temperature);
-    let width = (above.temperature - below.temperature).abs();
-    if below.residual() - above.residual() <= STEEPEST * slope * width {
-        let best = if below.residual() < -above.residual() {
-            below
-        } else {
-            above
+            [other, last]
         };
-        return Some(root(best));
+        // The temperature has no more digits. The residual is rounding if it does not exceed slope times width.
+        let [cold, warm] = self.bracket;
+        let slope = (warm.residual() - cold.residual()).abs() / (warm.temperature - cold.temperature);
+        let width = (above.temperature - below.temperature).abs();
+        if below.residual() - above.residual() <= STEEPEST * slope * width {
+            let nearer = below.residual() < -above.residual();
+            return Next::Closed(Root::at(if nearer { below } else { above }));
+        }
+        Next::Closed(Root {
+            beyond: Some(above),
+            ..Root::at(below)
+        })
     }
-    Some(Root {
-        temperature: below.temperature,
-        step: below,
-        beyond: Some(above),
-    })
+
+    fn take(&mut self, new: Step) {
+        let before;
+        if (new.residual() > 0.0) == (self.last.residual() > 0.0) {
+            before = self.last;
+        } else {
+            before = self.other;
+            self.other = self.last;
+        }
+        self.last = new;
+        self.share = next([self.last, self.other, before]);
+        self.steps += 1;
+    }
 }
 
 /// Position of the next step between two ends of a bracket, from zero at the first to one at the second.

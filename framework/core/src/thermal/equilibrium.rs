@@ -1,8 +1,8 @@
 //! Operating temperature of an operating point.
 
-use super::balance::{Outcome, Root, Step, balance};
+use super::balance::{Balance, Outcome, Root, Step, balance, balance_all};
 use super::housing::SumpOil;
-use crate::evaluate::{Point, Scratch};
+use crate::evaluate::{BatchScratch, Point, Scratch};
 use crate::loss::{Trace, Undefined};
 use crate::transmission::{Case, Transmission};
 
@@ -38,8 +38,6 @@ pub struct Equilibrium {
     pub scanned: usize,
     /// Spacing of the scan: two balances that are closer may both be missed. \[K\]
     pub spacing: f64,
-    /// Number of loss model evaluations.
-    pub calls: usize,
     /// Temperature at which losses or heat were undefined, and the reason.
     pub undefined: Option<(f64, Unbalanced)>,
 }
@@ -75,30 +73,57 @@ impl Transmission {
     /// Balances the temperature of a point. The caller evaluates the point at that temperature.
     pub fn equilibrium(&self, case: &Case, point: &Point<'_>, scratch: &mut Scratch) -> Equilibrium {
         let housing = self.housing();
-        let sump = |temperature: f64| {
-            let (rho, heat_capacity) = self.sump_heat(temperature);
-            SumpOil {
-                temperature,
-                rho,
-                heat_capacity,
-            }
-        };
-        let mut calls = 0;
         let found = balance([housing.coldest(), housing.maximum], |t| {
-            let loss = self.probe(case, point, &[t], scratch)?;
-            calls += scratch.calls();
-            let flow = housing.flow(&sump(t)).map_err(|(way, e)| Unbalanced::Way(way, e))?;
-            Ok(Step {
-                temperature: t,
-                loss: loss + housing.into_oil,
-                heat: flow.from_oil,
-                scale: loss + housing.into_oil + flow.scale,
-            })
+            self.heat_step(t, self.probe(case, point, &[t], scratch))
         });
+        self.balanced(found, scratch)
+    }
+
+    /// Balances the temperatures of several points side by side: with the numbers of each alone.
+    pub fn equilibria(&self, case: &Case, points: &[Point<'_>], scratch: &mut BatchScratch) -> Vec<Equilibrium> {
+        let housing = self.housing();
+        let found = balance_all([housing.coldest(), housing.maximum], points.len(), |asked| {
+            let losses = self.probe_all(case, points, asked, scratch);
+            let steps = losses.into_iter().zip(asked);
+            steps.map(|(loss, (_, t))| self.heat_step(*t, loss)).collect()
+        });
+        found
+            .into_iter()
+            .map(|found| self.balanced(found, scratch.alone()))
+            .collect()
+    }
+
+    /// The oil of the sump at a temperature in degC.
+    fn sump(&self, temperature: f64) -> SumpOil {
+        let (rho, heat_capacity) = self.sump_heat(temperature);
+        SumpOil {
+            temperature,
+            rho,
+            heat_capacity,
+        }
+    }
+
+    /// Losses and heat at a temperature in degC, from the losses there.
+    fn heat_step(&self, temperature: f64, loss: Result<f64, Unbalanced>) -> Result<Step, Unbalanced> {
+        let (housing, loss) = (self.housing(), loss?);
+        let flow = housing
+            .flow(&self.sump(temperature))
+            .map_err(|(way, e)| Unbalanced::Way(way, e))?;
+        Ok(Step {
+            temperature,
+            loss: loss + housing.into_oil,
+            heat: flow.from_oil,
+            scale: loss + housing.into_oil + flow.scale,
+        })
+    }
+
+    /// A finished balance with the heat flows at its temperature, which are noted.
+    fn balanced(&self, found: Balance<Unbalanced>, scratch: &mut Scratch) -> Equilibrium {
+        let housing = self.housing();
         let mut surface = None;
         let mut ways = Vec::new();
         if let Some(root) = found.taken() {
-            let oil = sump(root.temperature);
+            let oil = self.sump(root.temperature);
             if let Ok(flow) = housing.flow(&oil) {
                 surface = Some(flow.surface);
                 ways = scratch
@@ -114,7 +139,6 @@ impl Transmission {
             history: found.history,
             scanned: found.scanned,
             spacing: found.spacing,
-            calls,
             undefined: found.undefined,
         }
     }

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::temperature::Found;
 use super::{OilTemperature, Piece, solve_pieces, take_points};
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::evaluate::PowerFlow;
@@ -174,21 +175,25 @@ pub struct PointResult {
 }
 
 impl PointResult {
-    /// Removes everything that depends on a temperature that was not found.
-    pub(super) fn without_temperature(self) -> Self {
-        Self {
-            oil: None,
-            nodes: Vec::new(),
-            efficiency: None,
-            loss: None,
-            loss_torque: None,
-            input: None,
-            output: None,
-            sums: [0.0; 6],
-            parts: vec![0.0; self.parts.len()],
-            terms: Vec::new(),
-            ..self
+    /// Adds how the temperature was found; without one, removes everything that depends on it.
+    pub(super) fn set_temperature(&mut self, found: &Found) {
+        self.surface = found.balance.as_ref().and_then(|b| b.surface);
+        self.balance = found.outcome();
+        self.evaluations = found.evaluations();
+        if found.is_sound() {
+            let network = found.network.as_ref();
+            self.nodes = network.map(|n| n.temperatures.clone()).unwrap_or_default();
+            return;
         }
+        self.oil = None;
+        self.efficiency = None;
+        self.loss = None;
+        self.loss_torque = None;
+        self.input = None;
+        self.output = None;
+        self.sums = [0.0; 6];
+        self.parts.fill(0.0);
+        self.terms.clear();
     }
 }
 

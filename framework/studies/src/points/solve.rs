@@ -1,10 +1,14 @@
 //! Points of a field, solved singly or, if several have the same speed and temperature, batched.
 
+use super::temperature::find_all;
 use super::{Given, OilTemperature, PointResult, Points, sums};
-use gearloss_framework::evaluate::{BatchScratch, Block, Point, PowerFlow, Scratch, Solution};
+use gearloss_framework::evaluate::{BatchScratch, Block, Noting, Point, PowerFlow, Scratch, Solution};
 use gearloss_framework::loss::Extent;
 use gearloss_framework::real::{LANES, Lane, Real as _};
 use gearloss_framework::transmission::{Case, Transmission};
+
+/// Points that are balanced and solved side by side.
+const GROUP: usize = 4 * LANES;
 
 /// Minimum size of a block; smaller blocks are slower than single points.
 const FEW: usize = 6;
@@ -94,20 +98,103 @@ impl<'a> Solver<'a> {
             let (a, b) = (given(a), given(b));
             a.speed.to_bits() == b.speed.to_bits() && a.oil == b.oil
         };
+        let mut rest: Vec<usize> = Vec::new();
         for run in numbers.chunk_by(together) {
             let first = given(&run[0]);
-            let oil = first.oil.map_or(self.points.oil, OilTemperature::Fixed);
+            let oil = self.oil_of(first);
             match oil {
                 OilTemperature::Fixed(oil)
                     if run.len() >= FEW && self.points.flow == PowerFlow::Real && self.at_torque.is_some() =>
                 {
+                    self.several(&rest, space, &mut results);
+                    rest.clear();
                     self.row(run, first.speed, oil, space, &mut results);
                 }
-                _ => results.extend(run.iter().map(|number| self.single(given(number), space))),
+                _ => rest.extend(run),
             }
         }
+        self.several(&rest, space, &mut results);
         space.results = results;
         &mut space.results
+    }
+
+    /// Origin of the oil temperature of a point.
+    fn oil_of(&self, given: Given) -> OilTemperature {
+        given.oil.map_or(self.points.oil, OilTemperature::Fixed)
+    }
+
+    /// Points with speeds and temperatures of their own.
+    fn several(&self, numbers: &[usize], space: &mut Space, results: &mut Vec<PointResult>) {
+        for group in numbers.chunks(GROUP) {
+            let given: Vec<Given> = group
+                .iter()
+                .map(|number| self.points.field.given_point(*number))
+                .collect();
+            let network = given.iter().any(|given| self.oil_of(*given) == OilTemperature::Network);
+            if given.len() < FEW || network {
+                results.extend(given.iter().map(|given| self.single(*given, space)));
+            } else {
+                self.group(&given, space, results);
+            }
+        }
+    }
+
+    /// The same, solved together.
+    fn group(&self, given: &[Given], space: &mut Space, results: &mut Vec<PointResult>) {
+        let Space {
+            rows,
+            torques,
+            speeds,
+            spare,
+            ..
+        } = space;
+        let batch = rows.get_or_insert_with(|| self.transmission.batch_scratch(self.case));
+        let with_first = |template: &[f64], first: f64| {
+            let mut own = template.to_vec();
+            own.iter_mut().take(1).for_each(|own| *own = first);
+            own
+        };
+        let own: Vec<[Vec<f64>; 2]> = given
+            .iter()
+            .map(|given| [with_first(speeds, given.speed), with_first(torques, given.torque)])
+            .collect();
+        let points: Vec<Point<'_>> = own
+            .iter()
+            .map(|[speeds, torques]| Point {
+                speeds,
+                torques,
+                flow: self.points.flow,
+                ..Point::default()
+            })
+            .collect();
+        let found = find_all(
+            self.transmission,
+            self.case,
+            &points,
+            |point| self.oil_of(given[point]),
+            batch,
+        );
+        let start = results.len();
+        for first in (0..points.len()).step_by(LANES) {
+            let last = points.len().min(first + LANES);
+            let temperatures = |lane: usize| found[first + lane].temperatures();
+            let some = &points[first..last];
+            let block = self
+                .transmission
+                .evaluate_together(self.case, some, temperatures, Noting::Counted, batch);
+            let oil = |lane: usize| found[first + lane].oil;
+            self.of_block(&given[first..last], oil, &block, spare, results);
+            let alone: Vec<usize> = (0..some.len()).filter(|lane| block.is_alone(*lane)).collect();
+            for lane in alone {
+                let solution = self
+                    .transmission
+                    .evaluate(self.case, &some[lane], temperatures(lane), batch.alone());
+                results[start + first + lane] = self.of_solution(given[first + lane], oil(lane), &solution);
+            }
+        }
+        for (result, found) in results[start..].iter_mut().zip(&found) {
+            result.set_temperature(found);
+        }
     }
 
     fn single(&self, given: Given, space: &mut Space) -> PointResult {
@@ -129,27 +216,13 @@ impl<'a> Solver<'a> {
             flow: self.points.flow,
             ..Point::default()
         };
-        let wanted = given.oil.map_or(self.points.oil, OilTemperature::Fixed);
-        let warm = wanted.find(self.transmission, self.case, &point, single);
+        let warm = self.oil_of(given).find(self.transmission, self.case, &point, single);
         let solution = self
             .transmission
             .evaluate(self.case, &point, warm.temperatures(), single);
-        let result = PointResult {
-            surface: warm.balance.as_ref().and_then(|b| b.surface),
-            balance: warm.outcome(),
-            evaluations: warm.evaluations(),
-            nodes: warm
-                .network
-                .as_ref()
-                .map(|n| n.temperatures.clone())
-                .unwrap_or_default(),
-            ..self.of_solution(given, warm.oil, &solution)
-        };
-        if warm.is_sound() {
-            result
-        } else {
-            result.without_temperature()
-        }
+        let mut result = self.of_solution(given, warm.oil, &solution);
+        result.set_temperature(&warm);
+        result
     }
 
     fn row(&self, run: &[usize], speed: f64, oil: f64, space: &mut Space, results: &mut Vec<PointResult>) {
@@ -193,18 +266,17 @@ impl<'a> Solver<'a> {
             for (given, number) in given.iter_mut().zip(some) {
                 *given = torque(number);
             }
-            let given = &given[..some.len()];
             let start = results.len();
-            let block = row.solve(given);
-            self.of_block(given, speed, oil, &block, spare, results);
+            let block = row.solve(&given[..some.len()]);
+            let points = given.map(|torque| Given {
+                torque,
+                speed,
+                oil: None,
+            });
+            self.of_block(&points[..some.len()], |_| oil, &block, spare, results);
             let alone: [bool; LANES] = std::array::from_fn(|lane| block.is_alone(lane));
-            for (lane, torque) in given.iter().enumerate().filter(|(lane, _)| alone[*lane]) {
-                let given = Given {
-                    torque: *torque,
-                    speed,
-                    oil: None,
-                };
-                results[start + lane] = self.of_solution(given, oil, &row.alone(*torque));
+            for lane in (0..some.len()).filter(|lane| alone[*lane]) {
+                results[start + lane] = self.of_solution(points[lane], oil, &row.alone(given[lane]));
             }
         }
     }
@@ -212,9 +284,8 @@ impl<'a> Solver<'a> {
     /// The points of a block; points that must be evaluated singly are placeholders.
     fn of_block(
         &self,
-        torques: &[f64],
-        speed: f64,
-        oil: f64,
+        given: &[Given],
+        oil: impl Fn(usize) -> f64,
         block: &Block<'_>,
         spare: &mut Vec<Vec<f64>>,
         results: &mut Vec<PointResult>,
@@ -234,30 +305,32 @@ impl<'a> Solver<'a> {
                 terms[*term] = watts;
             }
         }
-        for (lane, torque) in torques.iter().enumerate() {
+        for (lane, given) in given.iter().enumerate() {
             let loss = block.losses()[lane];
-            let reference_speed = block.speed(self.reference);
-            let balance = block.balance(lane);
+            let reference_speed = block.speeds(self.reference)[lane];
+            let (input, output) = (block.balance(lane).input, block.output_power(lane));
             let mut parts = spare.pop().unwrap_or_default();
             parts.clear();
             parts.extend(block.watts().iter().map(|watts| watts[lane]));
             results.push(PointResult {
-                torque: *torque,
-                speed,
-                torque_speed: self.at_torque.map_or(0.0, |member| block.speed(member)),
+                torque: given.torque,
+                speed: given.speed,
+                torque_speed: self.at_torque.map_or(0.0, |member| block.speeds(member)[lane]),
                 reference_speed,
-                output_speed: self.other.map(|member| block.speed(member)),
+                output_speed: self.other.map(|member| block.speeds(member)[lane]),
                 at_reference: self.at_reference,
-                oil: Some(oil),
+                oil: Some(oil(lane)),
                 surface: None,
                 balance: None,
                 nodes: Vec::new(),
                 status: block.status(lane),
-                efficiency: balance.efficiency_as_is(),
+                efficiency: output
+                    .filter(|output| *output > 0.0 && input > 0.0)
+                    .map(|output| output / input),
                 loss: Some(loss),
                 loss_torque: (reference_speed != 0.0).then(|| loss / reference_speed.abs()),
-                input: Some(balance.input),
-                output: Some(balance.output),
+                input: Some(input),
+                output,
                 sums: std::array::from_fn(|k| sums[k][lane]),
                 parts,
                 terms: terms

@@ -1,7 +1,7 @@
 //! The temperatures at which points are evaluated: given, or found by balance of the oil or of a thermal network.
 
 use gearloss_framework::description::ThermalMode;
-use gearloss_framework::evaluate::{Point, Scratch};
+use gearloss_framework::evaluate::{BatchScratch, Point, Scratch};
 use gearloss_framework::thermal::network::{Moment, Steady, Surroundings};
 use gearloss_framework::thermal::{Equilibrium, Outcome};
 use gearloss_framework::transmission::{Case, Transmission};
@@ -29,6 +29,14 @@ pub struct Found {
 }
 
 impl Found {
+    fn balanced(transmission: &Transmission, found: Equilibrium) -> Self {
+        Self {
+            oil: found.oil().unwrap_or(transmission.housing().maximum),
+            balance: Some(found),
+            network: None,
+        }
+    }
+
     /// Temperatures for the evaluation: of the oil, or of all nodes. \[degC\]
     pub fn temperatures(&self) -> &[f64] {
         match &self.network {
@@ -84,13 +92,7 @@ impl OilTemperature {
         };
         match self {
             Self::Fixed(oil) => given(oil),
-            Self::Balance => {
-                let found = transmission.equilibrium(case, point, scratch);
-                Found {
-                    balance: Some(found.clone()),
-                    ..given(found.oil().unwrap_or(transmission.housing().maximum))
-                }
-            }
+            Self::Balance => Found::balanced(transmission, transmission.equilibrium(case, point, scratch)),
             Self::Network => {
                 let around = Surroundings::default();
                 let moment = Moment {
@@ -109,4 +111,26 @@ impl OilTemperature {
             }
         }
     }
+}
+
+/// The temperatures at which to evaluate several points of one case; balances of the oil are found side by side, with the numbers of
+/// each alone.
+pub fn find_all(
+    transmission: &Transmission,
+    case: &Case,
+    points: &[Point<'_>],
+    origin: impl Fn(usize) -> OilTemperature,
+    scratch: &mut BatchScratch,
+) -> Vec<Found> {
+    let balanced = |number: &usize| origin(*number) == OilTemperature::Balance;
+    let own: Vec<Point<'_>> = (0..points.len())
+        .filter(balanced)
+        .map(|number| points[number])
+        .collect();
+    let mut found = transmission.equilibria(case, &own, scratch).into_iter();
+    let mut next = |number: usize| match balanced(&number).then(|| found.next()).flatten() {
+        Some(equilibrium) => Found::balanced(transmission, equilibrium),
+        None => origin(number).find(transmission, case, &points[number], scratch.alone()),
+    };
+    (0..points.len()).map(&mut next).collect()
 }
