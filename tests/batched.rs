@@ -1,7 +1,7 @@
 //! Points side by side have the bits of points alone, but for the sign of zero: losses, terms, power in and out, notes.
 
 use crate::common::{RPM, file, language, two_speed};
-use gearloss_framework::evaluate::Point;
+use gearloss_framework::evaluate::{Noting, Point};
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::Language;
 use gearloss_framework::loss::{Extent, MOST_TERMS};
@@ -269,4 +269,83 @@ fn what_was_seen_is_the_same_taken_in_one_go_or_in_the_middle_of_a_row() {
     let whole = seen(&[&torques]);
     assert!(whole.iter().any(|extent| extent.seen == 200));
     assert_eq!(whole, seen(&[&torques[..70], &torques[70..]]));
+}
+
+/// Numbers between zero and one that look random.
+fn scatter(seed: u64) -> impl FnMut() -> f64 {
+    let mut state = seed;
+    move || {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1_u64 << 53) as f64
+    }
+}
+
+/// Points with a speed, torque and temperature each have the bits of each alone, whatever the others are and in whichever order;
+/// so have their balances.
+#[test]
+fn points_of_any_composition_have_the_bits_of_each_alone() {
+    let language = language();
+    let mut together = 0;
+    for (path, set) in [
+        ("examples/two-speed-ev/gearbox.yaml", None),
+        ("examples/two-speed-ev/gearbox.yaml", Some("joint")),
+        ("examples/two-speed-ev/gearbox.yaml", Some("iso14179_2")),
+        ("examples/planetary-reducer/gearbox.yaml", None),
+        ("examples/electric-drive-unit/gearbox.yaml", None),
+    ] {
+        let t = transmission(&language, path, set);
+        let state = &t.states()[0].name;
+        let needed = t.torques_needed(t.state(state).unwrap());
+        let names: Vec<&str> = t.ports().iter().map(|p| p.name.as_str()).take(needed).collect();
+        let case = t.case(state, &[], &names).unwrap();
+        let mut random = scatter(7);
+        let given: Vec<(Vec<f64>, Vec<f64>, [f64; 1])> = (0..60)
+            .map(|i| {
+                let speed = if i % 13 == 0 { 0.0 } else { 1500.0 * (random() - 0.1) };
+                let torques = case.torque_ports.iter().map(|_| 30.0 * (random() - 0.3)).collect();
+                (vec![speed; case.speed_ports.len()], torques, [20.0 + 100.0 * random()])
+            })
+            .collect();
+        let points: Vec<Point<'_>> = given
+            .iter()
+            .map(|(speeds, torques, _)| Point {
+                speeds,
+                torques,
+                ..Point::default()
+            })
+            .collect();
+        let mut alone = t.scratch(&case);
+        let single: Vec<(Option<f64>, Vec<u64>)> = (0..points.len())
+            .map(|i| {
+                let solution = t.evaluate(&case, &points[i], &given[i].2, &mut alone);
+                (solution.loss(), bits(solution.watts().iter().copied()))
+            })
+            .collect();
+        let mut scratch = t.batch_scratch(&case);
+        for step in [1, 7, 11] {
+            for size in [LANES, 5] {
+                let order: Vec<usize> = (0..points.len()).map(|i| i * step % points.len()).collect();
+                for some in order.chunks(size) {
+                    let own: Vec<Point<'_>> = some.iter().map(|i| points[*i]).collect();
+                    let temperatures = |lane: usize| &given[some[lane]].2[..];
+                    let block = t.evaluate_together(&case, &own, temperatures, Noting::Counted, &mut scratch);
+                    for (lane, i) in some.iter().enumerate().filter(|(lane, _)| !block.is_alone(*lane)) {
+                        together += 1;
+                        let watts = bits(block.watts().iter().map(|watts| watts[lane]));
+                        let loss = Some(block.losses()[lane]);
+                        assert_eq!((loss, watts), single[*i], "{path} {set:?} point {i} of {some:?}");
+                    }
+                }
+            }
+        }
+        if path.contains("planetary") {
+            let balances = t.equilibria(&case, &points[..20], &mut scratch);
+            for (point, together) in points.iter().zip(balances) {
+                assert_eq!(t.equilibrium(&case, point, &mut alone), together);
+            }
+        }
+    }
+    assert!(together > 800, "{together}");
 }

@@ -291,10 +291,13 @@ impl Transmission {
                 #[inline(always)]
                 || {
                     let speed = self.mesh_speed(i, state.speeds);
-                    flow.mesh_loss[i] = answer.as_ref().map_or(R::ZERO, |loss| {
-                        let watts = loss.total_watts(speed) * mesh.seat.count * mesh.loss_factor;
-                        R::select(speed.is_zero(), R::ZERO, watts * self.mesh_grip(i, state.speeds))
-                    });
+                    flow.mesh_loss[i] = match &answer {
+                        Ok(loss) => {
+                            let watts = loss.total_watts(speed) * mesh.seat.count * mesh.loss_factor;
+                            R::select(speed.is_zero(), R::ZERO, watts * self.mesh_grip(i, state.speeds))
+                        }
+                        Err(_) => R::ZERO,
+                    };
                 },
             );
             *loss = answer;

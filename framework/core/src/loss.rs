@@ -221,7 +221,11 @@ impl<R: Real> Loss<R> {
     /// Sum of all terms as returned: N m or W. Terms are added in their order.
     #[inline(always)]
     pub fn sum(&self) -> R {
-        self.values.iter().fold(R::ZERO, |sum, v| sum + *v)
+        let mut sum = R::ZERO;
+        for value in &self.values {
+            sum += *value;
+        }
+        sum
     }
 
     /// Power of all terms at a relative speed in rad/s: the sum of [`Loss::watts`], to the last bit. \[W\]
@@ -230,7 +234,11 @@ impl<R: Real> Loss<R> {
         match self.measure {
             Measure::Moment => {
                 let speed = speed.magnitude();
-                self.values.iter().fold(R::ZERO, |sum, v| sum + *v * speed)
+                let mut sum = R::ZERO;
+                for value in &self.values {
+                    sum += *value * speed;
+                }
+                sum
             }
             Measure::Power => self.sum(),
         }
@@ -249,10 +257,11 @@ impl<R: Real> Loss<R> {
     #[inline(always)]
     pub fn is_sound(&self) -> R::Mask {
         // Negative values and NaN fail the first comparison, infinity the second.
-        let [a, b, c, d, e] = self
-            .values
-            .map(|value| !(value.is_below(R::ZERO) | !value.is_equal(value)));
-        a & b & c & d & e & self.sum().is_below(R::constant(f64::INFINITY))
+        let mut sound = self.sum().is_below(R::constant(f64::INFINITY));
+        for value in &self.values {
+            sound = sound & !value.is_below(R::ZERO);
+        }
+        sound
     }
 
     /// The result without loss where a condition does not hold.

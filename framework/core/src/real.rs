@@ -50,12 +50,14 @@ pub trait Real:
     /// True where it is below another number; false for NaN, as all comparisons.
     fn is_below(self, other: Self) -> Self::Mask;
     /// True where it is above another number.
+    #[inline(always)]
     fn is_above(self, other: Self) -> Self::Mask {
         other.is_below(self)
     }
     /// True where both are equal.
     fn is_equal(self, other: Self) -> Self::Mask;
     /// True where it is zero.
+    #[inline(always)]
     fn is_zero(self) -> Self::Mask {
         self.is_equal(Self::ZERO)
     }
@@ -80,22 +82,27 @@ pub trait Real:
     /// A function of each number that is not written over [`Real`], such as one read from a table.
     fn lift(self, function: impl Fn(f64) -> f64) -> Self;
     /// A power of a number that is not negative; zero of zero for a positive exponent.
+    #[inline(always)]
     fn power(self, exponent: f64) -> Self {
         (self.logarithm() * exponent).exponential()
     }
     /// The smaller of two numbers; the first if the other is NaN.
+    #[inline(always)]
     fn smaller(self, other: Self) -> Self {
         Self::select(other.is_below(self), other, self)
     }
     /// The larger of two numbers; the first if the other is NaN.
+    #[inline(always)]
     fn larger(self, other: Self) -> Self {
         Self::select(other.is_above(self), other, self)
     }
     /// The number, at least another one.
+    #[inline(always)]
     fn at_least(self, least: f64) -> Self {
         self.larger(Self::constant(least))
     }
     /// The number, at most another one.
+    #[inline(always)]
     fn at_most(self, greatest: f64) -> Self {
         self.smaller(Self::constant(greatest))
     }

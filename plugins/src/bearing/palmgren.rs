@@ -188,7 +188,10 @@ impl BearingLaw for Palmgren {
         if self.spherical_thrust {
             at.check(&RADIAL_RATIO, ratio(fr, fa));
         }
-        let [m0] = at.once(|| [self.no_load(at)]);
+        let [m0] = at.once(
+            #[inline(always)]
+            || [self.no_load(at)],
+        );
         let mut load = at.show("M1", "N mm", f1 * self.power(p1) * self.d_m_b);
         if self.flanged && fa.is_above(R::ZERO).agreed()? {
             at.check(&AXIAL_RATIO, ratio(fa, fr));

@@ -314,22 +314,26 @@ impl Model {
     fn moments<R: Real>(&self, at: &BearingAt<'_, R>, n: R) -> Moments<R> {
         let nu = at.nu.mm2_s();
         let one = R::constant(1.0);
-        let [phi_ish, phi_rs, phi_bl, viscous, drag] = at.once(|| {
-            let (ln_n, ln_nu) = (n.logarithm(), nu.logarithm());
-            let drag = self.drag.as_ref();
-            let c = &self.coefficients;
-            let inlet = (ln_n + self.ln_d_m) * c.inlet_speed_exponent + ln_nu * c.inlet_viscosity_exponent;
-            let mixed = ((ln_n + ln_nu) * c.mixed_exponent).exponential();
-            [
-                one / (inlet.exponential() * c.inlet_factor + one),
-                (nu * n * -self.starvation).exponential(),
-                (mixed * (-c.mixed_factor * self.d_m)).exponential(),
-                ((ln_n + ln_nu) * c.rolling_exponent).exponential(),
-                drag.map_or(R::ZERO, |drag| {
-                    drag.moment(at.oil_height.mm(), n.at_most(self.fastest), nu)
-                }),
-            ]
-        });
+        let [phi_ish, phi_rs, phi_bl, viscous, drag] = at.once(
+            #[inline(always)]
+            || {
+                let (ln_n, ln_nu) = (n.logarithm(), nu.logarithm());
+                let drag = self.drag.as_ref();
+                let c = &self.coefficients;
+                let inlet = (ln_n + self.ln_d_m) * c.inlet_speed_exponent + ln_nu * c.inlet_viscosity_exponent;
+                let mixed = ((ln_n + ln_nu) * c.mixed_exponent).exponential();
+                [
+                    one / (inlet.exponential() * c.inlet_factor + one),
+                    (nu * n * -self.starvation).exponential(),
+                    (mixed * (-c.mixed_factor * self.d_m)).exponential(),
+                    ((ln_n + ln_nu) * c.rolling_exponent).exponential(),
+                    match drag {
+                        Some(drag) => drag.moment(at.oil_height.mm(), n.at_most(self.fastest), nu),
+                        None => R::ZERO,
+                    },
+                ]
+            },
+        );
         let stated = R::select(at.mu_bl.is_above(R::ZERO), at.mu_bl, R::constant(self.edition_mu_bl));
         let mu_bl = self.mu_bl.map_or(stated, R::constant);
         let mu_ehl = self.mu_ehl.map_or(at.mu_ehl, R::constant);

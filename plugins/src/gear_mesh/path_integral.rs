@@ -199,11 +199,17 @@ impl GearMeshLaw for Integral {
             .at_operating_point(&mean, at.notes.nested_at_same_state(self.friction.notes))
             .with(|to| to.bodies = bodies);
         at.show("F_bn/b", "N/m", path.line_load);
-        let (sum, along) = self.path.with_space(|mu| {
-            let along = R::along(&*self.friction, &path, mu)?;
-            let terms = self.weights.iter().zip(&*mu);
-            Ok((terms.fold(R::ZERO, |sum, (weight, mu)| sum + *mu * *weight), along))
-        })?;
+        let (sum, along) = self.path.with_space(
+            #[inline(always)]
+            |mu| {
+                let along = R::along(&*self.friction, &path, mu)?;
+                let mut sum = R::ZERO;
+                for (weight, mu) in self.weights.iter().zip(&*mu) {
+                    sum += *mu * *weight;
+                }
+                Ok((sum, along))
+            },
+        )?;
         at.observe(&MU_MEAN, sum / self.weight);
         at.observe(&LOSS_FACTOR, R::constant(self.loss_factor));
         let watts = at.show("P_s", "W", sum * normal * speed);
@@ -223,28 +229,30 @@ impl Integral {
     #[inline(always)]
     fn rolling_power<R: Real>(&self, at: &GearMeshAt<'_, R>, path: &PathAt<'_, R>) -> R {
         let modulus = at.part.modulus;
-        let nodes = self.path.nodes().iter().zip(&self.rolling_weights);
-        nodes
-            .filter(|(node, _)| node.share > 0.0)
-            .fold(R::ZERO, |sum, (node, weight)| {
-                let sum_speed = path.speed * node.sum_speed;
-                let rolling = sum_speed * 0.5;
-                let line_load = path.line_load * node.share;
-                let power = if self.rolling == Rolling::Crook {
-                    let u = at.eta * rolling / (modulus * node.radius);
-                    let film = dowson_higginson(u, at.alpha * modulus, line_load / (modulus * node.radius));
-                    crook(film * node.radius) * sum_speed * self.rolling_speed
+        let mut sum = R::ZERO;
+        for (node, weight) in self.path.nodes().iter().zip(&self.rolling_weights) {
+            if node.share <= 0.0 {
+                continue;
+            }
+            let sum_speed = path.speed * node.sum_speed;
+            let rolling = sum_speed * 0.5;
+            let line_load = path.line_load * node.share;
+            let power = if self.rolling == Rolling::Crook {
+                let u = at.eta * rolling / (modulus * node.radius);
+                let film = dowson_higginson(u, at.alpha * modulus, line_load / (modulus * node.radius));
+                crook(film * node.radius) * sum_speed * self.rolling_speed
+            } else {
+                let force = goksem_hargreaves(line_load, node.radius, at.eta, rolling, at.alpha, modulus);
+                if self.rolling_thermal {
+                    let pressure = path.unit_pressure() * node.root_load;
+                    inlet_heating(at, pressure, node.slide_roll, rolling) * force * sum_speed
                 } else {
-                    let force = goksem_hargreaves(line_load, node.radius, at.eta, rolling, at.alpha, modulus);
-                    if self.rolling_thermal {
-                        let pressure = path.unit_pressure() * node.root_load;
-                        inlet_heating(at, pressure, node.slide_roll, rolling) * force * sum_speed
-                    } else {
-                        force * sum_speed
-                    }
-                };
-                sum + power * *weight * at.part.pair.facewidth
-            })
+                    force * sum_speed
+                }
+            };
+            sum += power * *weight * at.part.pair.facewidth;
+        }
+        sum
     }
 }
 

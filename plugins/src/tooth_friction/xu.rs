@@ -144,11 +144,14 @@ impl ToothFrictionLaw for Xu {
         let c = &self.coefficients;
         let s = self.roughness.composite(path.ra, path.rq);
         let nu0 = check_oil(path.notes, path.eta, s)?;
-        let [steady, lg_nu0] = path.notes.once(|| {
-            let ln_nu0 = nu0.logarithm();
-            let steady = s.exponential() * c.b9 + path.speed.logarithm() * c.b6 + ln_nu0 * c.b7 + c.b1;
-            [steady, ln_nu0 * LOG10_E]
-        });
+        let [steady, lg_nu0] = path.notes.once(
+            #[inline(always)]
+            || {
+                let ln_nu0 = nu0.logarithm();
+                let steady = s.exponential() * c.b9 + path.speed.logarithm() * c.b6 + ln_nu0 * c.b7 + c.b1;
+                [steady, ln_nu0 * LOG10_E]
+            },
+        );
         // Without load the logarithm is minus infinity, and friction is zero.
         let unit = path.unit_pressure().gpa();
         let common = steady + unit.logarithm() * c.b2;
@@ -171,10 +174,11 @@ impl ToothFrictionLaw for Xu {
                 .check(&ROLLING, path.speed * (0.5 * path.extent.sum_speed[end]));
             path.notes.check(&RADIUS, R::constant(path.extent.radius[end].mm()));
         }
-        let least = mu
-            .iter()
-            .fold(R::constant(f64::INFINITY), |least, mu| least.smaller(*mu));
-        let most = mu.iter().fold(R::ZERO, |most, mu| most.larger(*mu));
+        let (mut least, mut most) = (R::constant(f64::INFINITY), R::ZERO);
+        for mu in &*mu {
+            least = least.smaller(*mu);
+            most = most.larger(*mu);
+        }
         path.notes.observe(&MU, least);
         path.notes.observe(&MU, finite(most)?);
         Ok(Along::default())

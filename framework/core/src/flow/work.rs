@@ -217,9 +217,10 @@ impl<R: Points> Work<R> {
     pub(super) fn list_live_entries(&mut self) {
         self.live_entries.clear();
         for entry in 0..self.weights.len() {
-            let [used, before, answer, answer_before] =
-                [&self.used, &self.used_before, &self.answer, &self.answer_before].map(|losses| losses.values[entry]);
-            let same = used.is_equal(answer) & used.is_equal(before) & answer.is_equal(answer_before);
+            let (used, answer) = (self.used.values[entry], self.answer.values[entry]);
+            let same = used.is_equal(answer)
+                & used.is_equal(self.used_before.values[entry])
+                & answer.is_equal(self.answer_before.values[entry]);
             if !same.all() {
                 self.live_entries.push(entry);
             }

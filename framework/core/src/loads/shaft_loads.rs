@@ -71,22 +71,21 @@ impl Cases {
     /// speed of carriers.
     #[inline(always)]
     fn sum<R: Real>(&self, part: impl Fn(&Reaction) -> [f64; 2], tangential: &[R], speeds: &[R]) -> [R; 2] {
-        let mut sum = part(&self.always).map(R::constant);
-        let mut add = |case: [R; 2], factor: R| {
-            sum[0] += factor * case[0];
-            sum[1] += factor * case[1];
-        };
+        let [y, z] = part(&self.always);
+        let (mut y, mut z) = (R::constant(y), R::constant(z));
         for (carrier, reaction) in &self.planets {
-            add(part(reaction).map(R::constant), speeds[*carrier] * speeds[*carrier]);
+            let (case, factor) = (part(reaction), speeds[*carrier] * speeds[*carrier]);
+            y += factor * case[0];
+            z += factor * case[1];
         }
         for (mesh, [ahead, back]) in &self.meshes {
             let force = tangential[*mesh];
             let backwards = force.is_below(R::ZERO);
             let (ahead, back) = (part(ahead), part(back));
-            let case = [0, 1].map(|k| R::select(backwards, R::constant(back[k]), R::constant(ahead[k])));
-            add(case, force);
+            y += force * R::select(backwards, R::constant(back[0]), R::constant(ahead[0]));
+            z += force * R::select(backwards, R::constant(back[1]), R::constant(ahead[1]));
         }
-        sum
+        [y, z]
     }
 }
 

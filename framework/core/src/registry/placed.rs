@@ -13,7 +13,7 @@ use crate::evaluate::{Reading, readings};
 use crate::loads::StaticRating;
 use crate::loss::{Loss, NoteBase, Notebook, Notes, Undefined};
 use crate::mechanism::{Answers, Component, Slot};
-use crate::real::Lane;
+use crate::real::{Lane, Points as _};
 
 /// Seals [`Placed`] within the framework.
 pub(crate) mod sealed {
@@ -69,8 +69,12 @@ impl<C: Component> Placed for PlacedAs<C> {
         self.answer(state, book)
     }
     fn losses(&self, state: &State<'_, Lane>, book: &Notebook<'_, Lane>) -> Loss<Lane> {
+        let answer = Lane::wide(
+            #[inline(always)]
+            || self.answer(state, book),
+        );
         // Undefined points are NaN.
-        self.answer(state, book).unwrap_or(Loss::POWERS)
+        answer.unwrap_or(Loss::POWERS)
     }
     fn readings(&self, state: &State<'_>) -> Vec<Reading> {
         let site = C::Attachment::site(self.seat, &self.spot, state);
