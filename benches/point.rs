@@ -1,5 +1,5 @@
 //! One point: the two-speed example under each set of models, the planetary one at a given temperature, and its equilibrium; and
-//! many points of neighbouring speeds in batches.
+//! many points of several speeds in batches.
 #![allow(clippy::unwrap_used, missing_docs)]
 
 use std::hint::black_box;

@@ -1,4 +1,4 @@
-//! The models of a gearbox manufacturer: a bearing model from its rig, a baffle around an immersed gear, a separate mechanism (the
+//! The models of a gearbox manufacturer: two bearing models from its rig, a baffle around an immersed gear, a separate mechanism (the
 //! drag of parking locks), and an analysis. All figures are invented.
 //!
 //! No other code refers to this crate: linking it (`use in_house_plugin as _;`) adds its models, its section and its analysis to
@@ -12,3 +12,4 @@ pub mod drag_torque;
 pub mod parking_lock;
 pub mod pawl;
 pub mod rig_line;
+pub mod rig_power;

@@ -36,7 +36,7 @@ impl Mechanism for ParkingLock {
     const ANSWER: &'static str = "Drag moment. [Nm]";
     const EXAMPLE: &'static str = "{ wheel: 90 mm }";
     type Part = ParkingLockPart;
-    type At<'a> = ParkingLockAt<'a>;
+    type At<'a, R: Real> = ParkingLockAt<'a, R>;
     type Answer = Loss;
     type Model = dyn ParkingLockModel;
 
@@ -47,7 +47,11 @@ impl Component for ParkingLock {
     const SECTION: &'static str = "parking_locks";
     type Attachment = OnMember;
 
-    fn context<'a>(part: &'a ParkingLockPart, site: MemberSite<'a>, notes: Notes<'a>) -> ParkingLockAt<'a> {
+    fn context<'a, R: Points>(
+        part: &'a ParkingLockPart,
+        site: MemberSite<'a, R>,
+        notes: Notes<'a, R>,
+    ) -> ParkingLockAt<'a, R> {
         ParkingLockAt {
             part,
             speed: site.speed,

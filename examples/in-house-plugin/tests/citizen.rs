@@ -12,6 +12,7 @@ fn all_models_conform() {
     let language = gearloss_framework::testing::language();
     let own = [
         ("bearing", "rig_line"),
+        ("bearing", "rig_power"),
         ("gear_drag", "baffled"),
         ("parking_lock", "pawl"),
         ("bearing", "skf"),
@@ -28,7 +29,7 @@ fn all_models_conform() {
 #[test]
 fn models_lists_them_with_their_crate() {
     let list = program(&["models"]).fine();
-    for model in ["rig_line", "baffled", "pawl"] {
+    for model in ["rig_line", "rig_power", "baffled", "pawl"] {
         let line = list.lines().find(|l| l.contains(model)).unwrap();
         assert!(line.contains("in-house-plugin"), "{line}");
     }

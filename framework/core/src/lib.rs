@@ -38,6 +38,9 @@
 //!
 //! The guide to your own models (`docs/plugin-guide.md`) continues with ranges, files, nested models and mechanisms.
 //!
+//! A model in `f64` is evaluated point by point. A law over [`Real`](real::Real), such as a
+//! [`BearingLaw`](mechanism::bearing::BearingLaw), serves one point and several points of a map with the same text and the same bits.
+//!
 //! # From a file to a point
 //! [`Language`](language::Language) defines the valid documents. [`Gearbox`](gearbox::Gearbox) is a document as read and checked,
 //! [`Resolved`](resolve::Resolved) the same with catalogue values and a model for every component under a

@@ -682,7 +682,7 @@ impl<'a> Notes<'a> {
 impl<'a, R: Points> Notes<'a, R> {
     /// The notes of one of the points.
     #[inline]
-    pub(crate) fn at(self, point: usize) -> Notes<'a> {
+    pub fn at(self, point: usize) -> Notes<'a> {
         Notes {
             base: self.base,
             book: self.book.at(point),

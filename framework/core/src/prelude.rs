@@ -29,7 +29,7 @@ pub use crate::mechanism::tooth_friction::{
 pub use crate::mechanism::{
     Answers, Component, Lookup, Mechanism, ModelRef, NamedSlots, NoPart, Quantity, Scalar, ShopUnits, Slot,
 };
-pub use crate::real::{Mask, Real};
+pub use crate::real::{Mask, Points, Real};
 pub use crate::registry::{Build, Catalogue, Evidence, ShippedCycle, ShippedSet, default_of, formula, inventory};
 pub use crate::table::{Interpolation, Outside, Reading};
 pub use crate::{

@@ -29,7 +29,7 @@ const TOGETHER: usize = ROWS * 2048;
 /// Maximum number of points with data in memory while a field is solved piece by piece.
 pub const MOST_IN_FLIGHT: usize = 2 * LARGEST;
 
-/// Maximum number of points of a task. Each task starts without results of previous speeds.
+/// Maximum number of points of a task.
 const TASK: usize = 4096;
 
 /// Results of consecutive points of a field, by task.
