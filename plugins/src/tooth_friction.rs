@@ -33,7 +33,7 @@ fn entraining<R: Real>(sum_speed: R) -> Result<R, Undefined> {
 
 /// The coefficient if it is a number, else the reason why it is undefined.
 #[inline(always)]
-fn finite<R: Real>(mu: R) -> Result<R, Undefined> {
+pub(crate) fn finite<R: Real>(mu: R) -> Result<R, Undefined> {
     if mu.is_within(0.0, f64::MAX).all() {
         Ok(mu)
     } else {
