@@ -1,22 +1,25 @@
 //! Powers whose published exponents are roots or whole numbers; at those values the results are exact to the bit.
 
+use gearloss_framework::real::Real;
+
 /// A power: by root or product if the exponent is 1/2, 1/3 or a whole number up to five.
-pub fn power(x: f64, exponent: f64) -> f64 {
+#[inline(always)]
+pub fn power<R: Real>(x: R, exponent: f64) -> R {
     if exponent == 0.5 {
-        x.sqrt()
+        x.root()
     } else if exponent == 1.0 / 3.0 {
-        x.cbrt()
+        x.cube_root()
     } else if exponent == 1.0 {
         x
     } else if exponent == 2.0 {
         x * x
     } else if exponent == 3.0 {
-        x.powi(3)
+        x * x * x
     } else if exponent == 4.0 {
-        x.powi(4)
+        x * x * (x * x)
     } else if exponent == 5.0 {
-        x.powi(5)
+        x * x * (x * x) * x
     } else {
-        x.powf(exponent)
+        x.power(exponent)
     }
 }

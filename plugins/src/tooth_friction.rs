@@ -16,27 +16,30 @@ pub mod xu;
 mod accuracy;
 
 use gearloss_framework::loss::Undefined;
+use gearloss_framework::real::{Mask as _, Real};
 
 /// The sum of the surface speeds (m/s) of a contact that entrains oil; laws that divide by it are undefined otherwise.
-fn entraining(sum_speed: f64) -> Result<f64, Undefined> {
-    if sum_speed > 0.0 {
+#[inline(always)]
+fn entraining<R: Real>(sum_speed: R) -> Result<R, Undefined> {
+    if sum_speed.is_above(R::ZERO).all() {
         Ok(sum_speed)
     } else {
         Err(Undefined {
             what: "sum of the surface speeds, which must be above zero [m/s]",
-            value: sum_speed,
+            value: sum_speed.extremes(1).0,
         })
     }
 }
 
 /// The coefficient if it is a number, else the reason why it is undefined.
-fn finite(mu: f64) -> Result<f64, Undefined> {
-    if mu.is_finite() && mu >= 0.0 {
+#[inline(always)]
+pub(crate) fn finite<R: Real>(mu: R) -> Result<R, Undefined> {
+    if mu.is_within(0.0, f64::MAX).all() {
         Ok(mu)
     } else {
         Err(Undefined {
             what: "coefficient of friction",
-            value: mu,
+            value: mu.extremes(1).0,
         })
     }
 }

@@ -208,10 +208,7 @@ fn together<M: Mechanism>(
         }
         let several: Notebook<'_, Lane> = Notebook {
             cells: &all,
-            points: (1 << LANES) - 1,
-            kept: &[],
-            kept_alone: &[],
-            trace: None,
+            ..Notebook::CLOSED
         };
         let point = |i: usize| {
             let book = Notebook {

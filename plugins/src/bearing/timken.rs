@@ -9,7 +9,8 @@
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
-use gearloss_framework::mechanism::bearing::{Bearing, BearingAt, BearingKind, BearingModel};
+use gearloss_framework::mechanism::bearing::{Bearing, BearingAt, BearingKind, BearingLaw};
+use gearloss_framework::real::Real;
 use gearloss_framework::registry::{Build, Evidence, default_of, formula};
 use gearloss_framework::{coefficients, observed, register, terms};
 use schemars::JsonSchema;
@@ -85,32 +86,29 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Timken, Diagnostic> {
 }
 
 impl Timken {
-    fn force(&self, fr: f64, fa: f64) -> f64 {
-        if fr == 0.0 {
-            return fa;
-        }
-        let ratio = self.k * fa / fr;
+    #[inline(always)]
+    fn force<R: Real>(&self, fr: R, fa: R) -> R {
+        let ratio = fa * self.k / fr;
         let c = &self.coefficients;
         let (most, least, factor) = (c.thrust_ratio, c.radial_ratio, c.radial_factor);
-        if ratio >= most {
-            fa
-        } else if ratio <= least {
-            factor * fr / self.k
-        } else {
-            (factor + (most - factor) * (ratio - least) / (most - least)) * fr / self.k
-        }
+        let line = (ratio - least) * ((most - factor) / (most - least)) + factor;
+        let radial = R::select(ratio.is_above(R::constant(least)), line, R::constant(factor)) * fr / self.k;
+        // Without radial load there is no ratio, or it is infinite.
+        R::select(ratio.is_below(R::constant(most)), radial, fa)
     }
 
     /// Moment from 1/min, mPa s and N. \[Nm\]
-    fn moment(&self, n: f64, mu: f64, force: f64) -> f64 {
+    #[inline(always)]
+    fn moment<R: Real>(&self, n: R, mu: R, force: R) -> R {
         let c = &self.coefficients;
-        c.factor * self.g1 * (n * mu).powf(c.speed_exponent) * force.powf(c.load_exponent)
+        (n * mu).power(c.speed_exponent) * (c.factor * self.g1) * force.power(c.load_exponent)
     }
 }
 
-impl BearingModel for Timken {
-    fn loss(&self, at: &BearingAt<'_>) -> Result<Loss, Undefined> {
-        let n = at.speed.abs().max(self.least_speed).rpm();
+impl BearingLaw for Timken {
+    #[inline(always)]
+    fn loss<R: Real>(&self, at: &BearingAt<'_, R>) -> Result<Loss<R>, Undefined> {
+        let n = at.speed.magnitude().at_least(self.least_speed).rpm();
         let mu = at.show("mu", "mPa s", (at.nu * at.rho).mpa_s());
         let force = at.observe(&FORCE, self.force(at.radial, at.axial));
         Ok(Loss::MOMENTS.with(&LOAD, at.show("M", "Nm", self.moment(n, mu, force))))

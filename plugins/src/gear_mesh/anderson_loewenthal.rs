@@ -8,11 +8,14 @@
 //! to 0.01 to 0.02 (quoted from memory, not checked); here that is an option. External spur gears of steel; a rough model that
 //! usually gives more than the path integral.
 
+use std::f64::consts::LOG10_E;
+
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::geometry::Pair;
 use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
-use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt, GearMeshModel};
+use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt, GearMeshLaw};
+use gearloss_framework::real::{Mask as _, Real};
 use gearloss_framework::registry::{Build, Evidence, default_of, formula};
 use gearloss_framework::{coefficients, limits, observed, register, terms};
 use schemars::JsonSchema;
@@ -73,11 +76,11 @@ struct OnePoint {
     facewidth: f64,
 }
 
-struct Answer {
-    f: f64,
-    film: f64,
-    sliding: f64,
-    rolling: f64,
+struct Answer<R> {
+    f: R,
+    film: R,
+    sliding: R,
+    rolling: R,
 }
 
 impl OnePoint {
@@ -99,29 +102,29 @@ impl OnePoint {
     }
 
     /// Torque in N m and speed in rad/s of the pinion, viscosity in Pa s.
-    fn answer(&self, torque: f64, speed: f64, eta: f64) -> Answer {
+    #[inline(always)]
+    fn answer<R: Real>(&self, torque: R, speed: R, eta: R) -> Answer<R> {
         let c = &self.coefficients;
         let (m, l) = (self.ratio, self.path);
         let sin = self.angle.sin();
         // The published 0.02618 and 0.2094 are a quarter of and twice one rpm in rad/s.
-        let v_s = 0.25 * speed * (1.0 + m) / m * l;
-        let v_t = 2.0 * speed * (0.5 * self.diameter * sin - 0.125 * (m - 1.0) / m * l);
-        let load = 2.0 * torque / (self.diameter * self.angle.cos() * self.cos_base_helix);
-        let argument = c.argument_factor * (load / self.facewidth) / (eta * v_s * v_t * v_t);
-        let f = (c.friction_factor * argument.log10()).max(0.0);
-        let f = self.limits.map_or(f, |[least, most]| f.clamp(least, most));
+        let v_s = speed * (0.25 * (1.0 + m) / m * l);
+        let v_t = speed * 2.0 * (0.5 * self.diameter * sin - 0.125 * (m - 1.0) / m * l);
+        let load = torque * 2.0 / (self.diameter * self.angle.cos() * self.cos_base_helix);
+        let argument = load * (c.argument_factor / self.facewidth) / (eta * v_s * v_t * v_t);
+        let f = (argument.logarithm() * (c.friction_factor * LOG10_E)).at_least(0.0);
+        let f = self.limits.map_or(f, |[least, most]| f.at_least(least).at_most(most));
         let rho_1 = 0.5 * self.diameter * sin + 0.25 * l;
         let rho_2 = 0.5 * m * self.diameter * sin - 0.25 * l;
         let radius = rho_1 * rho_2 / (rho_1 + rho_2);
-        let film = c.film_factor
-            * (v_t * eta.mpa_s()).powf(c.film_speed_exponent)
-            * load.powf(c.film_load_exponent)
-            * radius.powf(c.film_radius_exponent);
+        let film = (v_t * eta.mpa_s()).power(c.film_speed_exponent)
+            * load.power(c.film_load_exponent)
+            * (c.film_factor * radius.powf(c.film_radius_exponent));
         Answer {
             f,
             film,
             sliding: f * load * v_s,
-            rolling: c.rolling_factor * film * self.facewidth * v_t * self.contact_ratio,
+            rolling: film * c.rolling_factor * self.facewidth * v_t * self.contact_ratio,
         }
     }
 }
@@ -145,21 +148,24 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<OnePoint, Diagnostic> {
     Ok(model)
 }
 
-impl GearMeshModel for OnePoint {
-    fn loss(&self, at: &GearMeshAt<'_>) -> Result<Loss, Undefined> {
-        if at.speed == 0.0 || at.torque == 0.0 {
+impl GearMeshLaw for OnePoint {
+    #[inline(always)]
+    fn loss<R: Real>(&self, at: &GearMeshAt<'_, R>) -> Result<Loss<R>, Undefined> {
+        let idle = at.speed.is_zero() | at.torque.is_zero();
+        if idle.all() {
             at.branch("no speed or no torque: no loss");
             return Ok(Loss::POWERS);
         }
+        let at = &at.with(|to| to.notes = to.notes.among(!idle));
         let pair = &at.part.pair;
-        at.check(&HELIX, pair.helix_angle.to_degrees());
+        at.check(&HELIX, R::constant(pair.helix_angle.to_degrees()));
         let ratio = pair.working_radius[self.pinion] / pair.working_radius[0];
-        let answer = self.answer(at.torque * ratio, at.speed.abs() / ratio, at.eta);
+        let answer = self.answer(at.torque * ratio, at.speed.magnitude() / ratio, at.eta);
         at.observe(&F, answer.f);
         at.observe(&FILM, answer.film.um());
-        Ok(Loss::POWERS
-            .with(&SLIDING, at.show("P_S", "W", answer.sliding))
-            .with(&ROLLING, at.show("P_R", "W", answer.rolling)))
+        let [sliding, rolling] = [("P_S", answer.sliding), ("P_R", answer.rolling)]
+            .map(|(symbol, watts)| R::select(idle, R::ZERO, at.show(symbol, "W", watts)));
+        Ok(Loss::POWERS.with(&SLIDING, sliding).with(&ROLLING, rolling))
     }
 }
 

@@ -6,7 +6,8 @@
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::{Loss, Undefined};
-use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt, GearMeshModel};
+use gearloss_framework::mechanism::Answers;
+use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt, GearMeshLaw};
 use gearloss_framework::mechanism::mean_friction::MeanFriction;
 use gearloss_framework::register;
 use gearloss_framework::registry::{Build, Evidence, ModelRef, formula};
@@ -33,8 +34,9 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<EvenShare, Diagnostic> 
     }))
 }
 
-impl GearMeshModel for EvenShare {
-    fn loss(&self, at: &GearMeshAt<'_>) -> Result<Loss, Undefined> {
+impl GearMeshLaw for EvenShare {
+    #[inline(always)]
+    fn loss<R: Answers>(&self, at: &GearMeshAt<'_, R>) -> Result<Loss<R>, Undefined> {
         self.0.loss(at)
     }
 }

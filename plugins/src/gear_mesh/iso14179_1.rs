@@ -9,7 +9,8 @@
 use gearloss_framework::geometry::Pair;
 use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
-use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt, GearMeshModel};
+use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt, GearMeshLaw};
+use gearloss_framework::real::{Mask as _, Real};
 use gearloss_framework::registry::{Evidence, default_of, formula};
 use gearloss_framework::{coefficients, limits, observed, register, terms};
 use schemars::JsonSchema;
@@ -75,33 +76,38 @@ fn advantage(pair: &Pair) -> f64 {
 }
 
 /// f_m from viscosity in mm2/s, K in N/mm2, pitch line speed in m/s.
-fn friction(c: &Constants, nu: f64, k: f64, v: f64) -> f64 {
-    nu.powf(c.viscosity_exponent) * k.powf(c.load_exponent) / (c.divisor * v.powf(c.speed_exponent))
+#[inline(always)]
+fn friction<R: Real>(c: &Constants, nu: R, k: R, v: R) -> R {
+    nu.power(c.viscosity_exponent) * k.power(c.load_exponent) / (v.power(c.speed_exponent) * c.divisor)
 }
 
-impl GearMeshModel for Iso14179 {
-    fn loss(&self, at: &GearMeshAt<'_>) -> Result<Loss, Undefined> {
+impl GearMeshLaw for Iso14179 {
+    #[inline(always)]
+    fn loss<R: Real>(&self, at: &GearMeshAt<'_, R>) -> Result<Loss<R>, Undefined> {
         let pair = &at.part.pair;
-        if at.speed == 0.0 || at.torque == 0.0 {
+        let idle = at.speed.is_zero() | at.torque.is_zero();
+        if idle.all() {
             at.branch("no speed or no torque: no loss");
             return Ok(Loss::POWERS);
         }
+        let at = &at.with(|to| to.notes = to.notes.among(!idle));
         let pinion = usize::from(pair.z[0] > pair.z[1]);
         let [z_1, z_2] = [pair.z[pinion], pair.z[1 - pinion]].map(f64::from);
         let ratio = pair.working_radius[pinion] / pair.working_radius[0];
         let torque = at.show("T1", "Nm", at.torque * ratio);
         let r_w = pair.working_radius[pinion].mm();
         let teeth = if pair.internal { z_2 - z_1 } else { z_1 + z_2 };
-        let k = 1000.0 * torque * teeth / (2.0 * pair.facewidth.mm() * r_w * r_w * z_2);
+        let k = torque * 1000.0 * teeth / (2.0 * pair.facewidth.mm() * r_w * r_w * z_2);
         let k = at.check(&K_FACTOR, k);
-        let v = at.check(&SPEED, at.speed.abs() * pair.working_radius[0]);
+        let v = at.check(&SPEED, at.speed.magnitude() * pair.working_radius[0]);
         let f_m = at.observe(
             &F_M,
-            friction(&self.coefficients, at.nu.mm2_s(), k, v).min(self.greatest),
+            friction(&self.coefficients, at.nu.mm2_s(), k, v).at_most(self.greatest),
         );
-        let m = at.observe(&M, advantage(pair));
-        let input = at.show("P_in", "W", at.torque * at.speed.abs());
-        Ok(Loss::POWERS.with(&SLIDING, f_m * input * pair.working_helix.cos().powi(2) / m))
+        let m = at.observe(&M, R::constant(advantage(pair)));
+        let input = at.show("P_in", "W", at.torque * at.speed.magnitude());
+        let watts = f_m * input * pair.working_helix.cos().powi(2) / m;
+        Ok(Loss::POWERS.with(&SLIDING, R::select(idle, R::ZERO, watts)))
     }
 }
 

@@ -11,7 +11,8 @@ use gearloss_framework::document::Diagnostic;
 use gearloss_framework::geometry::Pair;
 use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
-use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt, GearMeshModel};
+use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt, GearMeshLaw};
+use gearloss_framework::real::{Mask as _, Real};
 use gearloss_framework::registry::{Build, Evidence, default_of, formula};
 use gearloss_framework::{limits, observed, register, terms};
 use schemars::JsonSchema;
@@ -109,32 +110,36 @@ fn prepare(params: Iso14179, cx: &mut Build<'_>) -> Result<Mean, Diagnostic> {
     Ok(Mean::new(&params, &part.pair))
 }
 
-impl GearMeshModel for Mean {
-    fn loss(&self, at: &GearMeshAt<'_>) -> Result<Loss, Undefined> {
+impl GearMeshLaw for Mean {
+    #[inline(always)]
+    fn loss<R: Real>(&self, at: &GearMeshAt<'_, R>) -> Result<Loss<R>, Undefined> {
         let pair = &at.part.pair;
-        if at.speed == 0.0 || at.torque == 0.0 {
+        let idle = at.speed.is_zero() | at.torque.is_zero();
+        if idle.all() {
             at.branch("no speed or no torque: no loss");
             return Ok(Loss::POWERS);
         }
+        let at = &at.with(|to| to.notes = to.notes.among(!idle));
         let mesh = Mesh {
             line_load: (at.torque / pair.base_radius[0] / pair.facewidth).n_mm(),
-            pitch_speed: at.speed.abs() * pair.working_radius[0],
-            sum_per_speed: self.sum_per_speed,
-            radius: pair.pitch_radius.mm(),
+            pitch_speed: at.speed.magnitude() * pair.working_radius[0],
+            sum_per_speed: R::constant(self.sum_per_speed),
+            radius: R::constant(pair.pitch_radius.mm()),
             eta: at.eta.mpa_s(),
-            ra: at.part.ra.um(),
+            ra: R::constant(at.part.ra.um()),
             x_l: at.x_l,
         };
         let mu = self.friction.friction(&mesh, at.notes);
         if self.ohlendorf {
-            at.check(&CONTACT_RATIO, pair.contact_ratio);
+            at.check(&CONTACT_RATIO, R::constant(pair.contact_ratio));
             for ratio in pair.addendum_ratio {
-                at.check(&ADDENDUM, ratio);
+                at.check(&ADDENDUM, R::constant(ratio));
             }
         }
-        let factor = at.observe(&LOSS_FACTOR, self.loss_factor);
-        let input = at.show("P_in", "W", at.torque * at.speed.abs());
-        Ok(Loss::POWERS.with(&SLIDING, at.show("P", "W", input * mu * factor)))
+        let factor = at.observe(&LOSS_FACTOR, R::constant(self.loss_factor));
+        let input = at.show("P_in", "W", at.torque * at.speed.magnitude());
+        let watts = at.show("P", "W", input * mu * factor);
+        Ok(Loss::POWERS.with(&SLIDING, R::select(idle, R::ZERO, watts)))
     }
 }
 

@@ -7,7 +7,8 @@
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::{Loss, Undefined};
-use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt, GearMeshModel};
+use gearloss_framework::mechanism::Answers;
+use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt, GearMeshLaw};
 use gearloss_framework::mechanism::mean_friction::MeanFriction;
 use gearloss_framework::registry::{Build, Evidence, ModelRef, formula};
 use gearloss_framework::{limits, register};
@@ -39,11 +40,12 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Ohlendorf, Diagnostic> 
     }))
 }
 
-impl GearMeshModel for Ohlendorf {
-    fn loss(&self, at: &GearMeshAt<'_>) -> Result<Loss, Undefined> {
-        at.check(&CONTACT_RATIO, at.part.pair.contact_ratio);
+impl GearMeshLaw for Ohlendorf {
+    #[inline(always)]
+    fn loss<R: Answers>(&self, at: &GearMeshAt<'_, R>) -> Result<Loss<R>, Undefined> {
+        at.check(&CONTACT_RATIO, R::constant(at.part.pair.contact_ratio));
         for ratio in at.part.pair.addendum_ratio {
-            at.check(&ADDENDUM, ratio);
+            at.check(&ADDENDUM, R::constant(ratio));
         }
         self.0.loss(at)
     }

@@ -7,7 +7,8 @@
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::geometry::LoadSharing;
 use gearloss_framework::loss::{Loss, Undefined};
-use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt, GearMeshModel};
+use gearloss_framework::mechanism::Answers;
+use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt, GearMeshLaw};
 use gearloss_framework::mechanism::mean_friction::MeanFriction;
 use gearloss_framework::register;
 use gearloss_framework::registry::{Build, Evidence, ModelRef, default_of, formula};
@@ -37,8 +38,9 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Wimmer, Diagnostic> {
     }))
 }
 
-impl GearMeshModel for Wimmer {
-    fn loss(&self, at: &GearMeshAt<'_>) -> Result<Loss, Undefined> {
+impl GearMeshLaw for Wimmer {
+    #[inline(always)]
+    fn loss<R: Answers>(&self, at: &GearMeshAt<'_, R>) -> Result<Loss<R>, Undefined> {
         self.0.loss(at)
     }
 }

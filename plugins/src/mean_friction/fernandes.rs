@@ -8,7 +8,8 @@
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::Undefined;
-use gearloss_framework::mechanism::mean_friction::{MeanFriction, MeanFrictionAt, MeanFrictionModel};
+use gearloss_framework::mechanism::mean_friction::{MeanFriction, MeanFrictionAt, MeanFrictionLaw};
+use gearloss_framework::real::{Mask as _, Real};
 use gearloss_framework::registry::{Build, Evidence, default_of, formula};
 use gearloss_framework::{coefficients, limits, observed, register};
 use schemars::JsonSchema;
@@ -69,36 +70,28 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Fernandes, Diagnostic> 
 }
 
 #[allow(clippy::too_many_arguments)]
-fn mu(
-    c: &Constants,
-    sum_speed: f64,
-    eta: f64,
-    alpha: f64,
-    force: f64,
-    ra: f64,
-    length: f64,
-    radius: f64,
-    x_l: f64,
-) -> f64 {
-    let s_p = sum_speed * eta * alpha.sqrt() / force.sqrt();
-    let s_g = ra / (length * radius).sqrt();
+#[inline(always)]
+fn mu<R: Real>(c: &Constants, sum_speed: R, eta: R, alpha: R, force: R, ra: R, length: f64, radius: R, x_l: R) -> R {
+    let s_p = sum_speed * eta * alpha.root() / force.root();
+    let s_g = ra / (radius * length).root();
     let powers = if c.load_exponent == c.roughness_exponent {
-        (s_g / s_p).powf(c.load_exponent)
+        (s_g / s_p).power(c.load_exponent)
     } else {
-        s_g.powf(c.roughness_exponent) * s_p.powf(-c.load_exponent)
+        s_g.power(c.roughness_exponent) * s_p.power(-c.load_exponent)
     };
-    c.factor * powers * x_l
+    powers * c.factor * x_l
 }
 
-impl MeanFrictionModel for Fernandes {
-    fn mu(&self, at: &MeanFrictionAt<'_>) -> Result<f64, Undefined> {
-        if at.sum_speed == 0.0 {
+impl MeanFrictionLaw for Fernandes {
+    #[inline(always)]
+    fn mu<R: Real>(&self, at: &MeanFrictionAt<'_, R>) -> Result<R, Undefined> {
+        if at.sum_speed.is_zero().any() {
             return Err(Undefined {
                 what: "sum of the surface speeds at the pitch point [m/s]",
                 value: 0.0,
             });
         }
-        let x_l = at.show("X_L", "-", self.x_l.unwrap_or(at.x_l));
+        let x_l = at.show("X_L", "-", self.x_l.map_or(at.x_l, R::constant));
         let force = at.show("F_bn", "N", at.normal_force);
         at.check(&PITCH_SPEED, at.pitch_speed);
         let value = mu(
@@ -112,7 +105,7 @@ impl MeanFrictionModel for Fernandes {
             at.radius,
             x_l,
         );
-        Ok(at.observe(&MU, value.min(self.greatest)))
+        Ok(at.observe(&MU, value.at_most(self.greatest)))
     }
 }
 

@@ -6,7 +6,8 @@
 
 use gearloss_framework::loss::Undefined;
 use gearloss_framework::mechanism::ShopUnits;
-use gearloss_framework::mechanism::mean_friction::{MeanFriction, MeanFrictionAt, MeanFrictionModel};
+use gearloss_framework::mechanism::mean_friction::{MeanFriction, MeanFrictionAt, MeanFrictionLaw};
+use gearloss_framework::real::{Mask as _, Real};
 use gearloss_framework::registry::{Evidence, default_of, formula};
 use gearloss_framework::{coefficients, limits, observed, register};
 use schemars::JsonSchema;
@@ -82,29 +83,28 @@ pub struct Iso13989 {
 }
 
 /// Friction from line load in N/mm, speed in m/s, radius in mm, viscosity in mPa s and roughness in um.
-fn mu(c: &Constants, line_load: f64, sum_speed: f64, radius: f64, eta: f64, ra: f64, x_l: f64) -> f64 {
-    c.factor
-        * (line_load / (sum_speed * radius)).powf(c.load_exponent)
-        * x_l
-        * eta.powf(c.viscosity_exponent)
-        * ra.powf(c.roughness_exponent)
+#[inline(always)]
+fn mu<R: Real>(c: &Constants, line_load: R, sum_speed: R, radius: R, eta: R, ra: R, x_l: R) -> R {
+    let load = (line_load / (sum_speed * radius)).power(c.load_exponent);
+    load * c.factor * x_l * eta.power(c.viscosity_exponent) * ra.power(c.roughness_exponent)
 }
 
-impl MeanFrictionModel for Iso13989 {
-    fn mu(&self, at: &MeanFrictionAt<'_>) -> Result<f64, Undefined> {
-        if at.sum_speed == 0.0 {
+impl MeanFrictionLaw for Iso13989 {
+    #[inline(always)]
+    fn mu<R: Real>(&self, at: &MeanFrictionAt<'_, R>) -> Result<R, Undefined> {
+        if at.sum_speed.is_zero().any() {
             return Err(Undefined {
                 what: "sum of the surface speeds at the pitch point [m/s]",
                 value: 0.0,
             });
         }
-        let x_l = self.x_l.unwrap_or_else(|| self.oil.map_or(at.x_l, OilType::x_l));
+        let x_l = self.x_l.or(self.oil.map(OilType::x_l)).map_or(at.x_l, R::constant);
         let x_l = at.show("X_L0", "-", x_l);
         let w = at.show("w_Bt", "N/mm", at.line_load.n_mm());
         at.check(&PITCH_SPEED, at.pitch_speed);
         let c = &self.coefficients;
         let value = mu(c, w, at.sum_speed, at.radius.mm(), at.eta.mpa_s(), at.ra.um(), x_l);
-        Ok(at.observe(&MU, value.min(self.greatest)))
+        Ok(at.observe(&MU, value.at_most(self.greatest)))
     }
 }
 

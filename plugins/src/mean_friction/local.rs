@@ -7,15 +7,18 @@
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::geometry::LoadSharing;
 use gearloss_framework::loss::Undefined;
-use gearloss_framework::mechanism::NoPart;
-use gearloss_framework::mechanism::mean_friction::{MeanFriction, MeanFrictionAt, MeanFrictionModel};
+use gearloss_framework::mechanism::mean_friction::{MeanFriction, MeanFrictionAt, MeanFrictionLaw};
 use gearloss_framework::mechanism::tooth_friction::{ContactAt, ToothFriction};
+use gearloss_framework::mechanism::{Answers, NoPart};
+use gearloss_framework::real::Mask as _;
 use gearloss_framework::registry::{Build, Evidence, ModelRef, Slot, default_of, formula};
 use gearloss_framework::{observed, register};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use gearloss_framework::contact::path::Path;
+
+use crate::tooth_friction::finite;
 
 observed! { MU = ("mu_m", "-", "Mean coefficient of friction."); }
 
@@ -78,9 +81,10 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Local, Diagnostic> {
     })
 }
 
-impl MeanFrictionModel for Local {
-    fn mu(&self, at: &MeanFrictionAt<'_>) -> Result<f64, Undefined> {
-        if at.speed == 0.0 || at.normal_force == 0.0 {
+impl MeanFrictionLaw for Local {
+    #[inline(always)]
+    fn mu<R: Answers>(&self, at: &MeanFrictionAt<'_, R>) -> Result<R, Undefined> {
+        if (at.speed.is_zero() | at.normal_force.is_zero()).any() {
             return Err(Undefined {
                 what: "speed or load of the mesh, which is zero",
                 value: 0.0,
@@ -89,29 +93,32 @@ impl MeanFrictionModel for Local {
         let notes = at.notes.nested(self.friction.notes);
         let mu = match self.at {
             Where::Path => self.path.with_space(|mu| {
-                self.friction.along(&self.path.at_operating_point(at, notes), mu)?;
+                R::along(&*self.friction, &self.path.at_operating_point(at, notes), mu)?;
                 Ok(self.path.average(mu))
             })?,
-            Where::PitchPoint => self.friction.mu(&ContactAt::usual(&NoPart {}, notes).with(|to| {
-                to.sliding = 0.0;
-                to.sum_speed = at.sum_speed;
-                to.radius = at.radius;
-                to.line_load = at.normal_force / at.part.pair.facewidth;
-                to.pressure = at.pressure;
-                to.modulus = at.part.modulus;
-                to.length = at.part.pair.facewidth / at.part.pair.base_helix.cos();
-                to.ra = at.ra;
-                to.rq = at.rq;
-                to.temperature = at.temperature;
-                to.nu = at.nu;
-                to.eta = at.eta;
-                to.alpha = at.alpha;
-                to.beta = at.beta;
-                to.conductivity = at.conductivity;
-                to.x_l = at.x_l;
-            }))?,
+            Where::PitchPoint => R::answer::<ToothFriction>(
+                &*self.friction,
+                &ContactAt::usual(&NoPart {}, notes).with(|to| {
+                    to.sliding = R::ZERO;
+                    to.sum_speed = at.sum_speed;
+                    to.radius = at.radius;
+                    to.line_load = at.normal_force / at.part.pair.facewidth;
+                    to.pressure = at.pressure;
+                    to.modulus = R::constant(at.part.modulus);
+                    to.length = R::constant(at.part.pair.facewidth / at.part.pair.base_helix.cos());
+                    to.ra = at.ra;
+                    to.rq = at.rq;
+                    to.temperature = at.temperature;
+                    to.nu = at.nu;
+                    to.eta = at.eta;
+                    to.alpha = at.alpha;
+                    to.beta = at.beta;
+                    to.conductivity = at.conductivity;
+                    to.x_l = at.x_l;
+                }),
+            )?,
         };
-        Ok(at.observe(&MU, mu))
+        Ok(at.observe(&MU, finite(mu)?))
     }
 }
 

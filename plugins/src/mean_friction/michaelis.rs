@@ -6,7 +6,8 @@
 
 use gearloss_framework::loss::Undefined;
 use gearloss_framework::mechanism::ShopUnits;
-use gearloss_framework::mechanism::mean_friction::{MeanFriction, MeanFrictionAt, MeanFrictionModel};
+use gearloss_framework::mechanism::mean_friction::{MeanFriction, MeanFrictionAt, MeanFrictionLaw};
+use gearloss_framework::real::{Mask as _, Real};
 use gearloss_framework::registry::{Evidence, default_of, formula};
 use gearloss_framework::{coefficients, limits, observed, register};
 use schemars::JsonSchema;
@@ -61,14 +62,17 @@ fn yes() -> bool {
 }
 
 /// Friction from line load in N/mm, speed in m/s, radius in mm, viscosity in mPa s and roughness in um.
-fn mu(c: &Constants, line_load: f64, sum_speed: f64, radius: f64, eta: f64, ra: f64, x_l: f64) -> f64 {
-    let x_r = c.roughness_factor * (ra / radius).powf(c.roughness_exponent);
-    c.factor * (line_load / (sum_speed * radius)).powf(c.load_exponent) * eta.powf(c.viscosity_exponent) * x_r * x_l
+#[inline(always)]
+fn mu<R: Real>(c: &Constants, line_load: R, sum_speed: R, radius: R, eta: R, ra: R, x_l: R) -> R {
+    let x_r = (ra / radius).power(c.roughness_exponent) * c.roughness_factor;
+    let load = (line_load / (sum_speed * radius)).power(c.load_exponent);
+    load * c.factor * eta.power(c.viscosity_exponent) * x_r * x_l
 }
 
-impl MeanFrictionModel for Michaelis {
-    fn mu(&self, at: &MeanFrictionAt<'_>) -> Result<f64, Undefined> {
-        if at.sum_speed == 0.0 {
+impl MeanFrictionLaw for Michaelis {
+    #[inline(always)]
+    fn mu<R: Real>(&self, at: &MeanFrictionAt<'_, R>) -> Result<R, Undefined> {
+        if at.sum_speed.is_zero().any() {
             return Err(Undefined {
                 what: "sum of the surface speeds at the pitch point [m/s]",
                 value: 0.0,
@@ -76,15 +80,15 @@ impl MeanFrictionModel for Michaelis {
         }
         let line_load = at.check(&LINE_LOAD, at.line_load.n_mm());
         let held = if self.clamp_line_load {
-            line_load.max(self.coefficients.least_line_load)
+            line_load.at_least(self.coefficients.least_line_load)
         } else {
             line_load
         };
-        let x_l = at.show("X_L", "-", self.x_l.unwrap_or(at.x_l));
+        let x_l = at.show("X_L", "-", self.x_l.map_or(at.x_l, R::constant));
         let c = &self.coefficients;
         let value = mu(c, held, at.sum_speed, at.radius.mm(), at.eta.mpa_s(), at.ra.um(), x_l);
         at.check(&PITCH_SPEED, at.pitch_speed);
-        Ok(at.observe(&MU, value.min(self.greatest)))
+        Ok(at.observe(&MU, value.at_most(self.greatest)))
     }
 }
 

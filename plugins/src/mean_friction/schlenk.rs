@@ -9,13 +9,15 @@
 
 use gearloss_framework::loss::{Notes, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
-use gearloss_framework::mechanism::mean_friction::{MeanFriction, MeanFrictionAt, MeanFrictionModel};
+use gearloss_framework::mechanism::mean_friction::{MeanFriction, MeanFrictionAt, MeanFrictionLaw};
+use gearloss_framework::real::{Mask as _, Real};
 use gearloss_framework::registry::{Evidence, default_of, formula};
 use gearloss_framework::{coefficients, limits, observed, register};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::boundary::greatest;
+use crate::powers::power;
 
 limits! {
     pub(crate) LINE_LOAD = ("F_bt/b", "N/mm", 150.0, 3000.0, "lower clamp of the method");
@@ -82,17 +84,18 @@ pub enum OilType {
 
 impl OilType {
     /// X_L at a sum velocity in m/s.
-    pub fn x_l(self, sum_speed: f64) -> f64 {
-        match self {
+    #[inline(always)]
+    pub fn x_l<R: Real>(self, sum_speed: R) -> R {
+        R::constant(match self {
             Self::Mineral => 1.0,
             Self::Polyalphaolefin | Self::Ester => 0.8,
-            Self::Polyglycol => 0.75 * (6.0 / sum_speed).powf(0.2),
+            Self::Polyglycol => return (R::constant(6.0) / sum_speed).power(0.2) * 0.75,
             Self::TractionFluid => 1.3,
             Self::PhosphateEster => 1.5,
             Self::MineralFeup => 0.846,
             Self::SyntheticFeup => 0.65,
             Self::PolyglycolFeup => 0.585,
-        }
+        })
     }
 }
 
@@ -123,77 +126,81 @@ fn yes() -> bool {
 }
 
 /// The quantities of the mesh in the units of the formula.
-pub(crate) struct Mesh {
+pub(crate) struct Mesh<R> {
     /// F_bt/b. \[N/mm\]
-    pub line_load: f64,
+    pub line_load: R,
     /// \[m/s\]
-    pub pitch_speed: f64,
+    pub pitch_speed: R,
     /// Ratio of sum velocity to pitch line velocity.
-    pub sum_per_speed: f64,
+    pub sum_per_speed: R,
     /// rho_redC. \[mm\]
-    pub radius: f64,
+    pub radius: R,
     /// \[mPa s\]
-    pub eta: f64,
+    pub eta: R,
     /// \[um\]
-    pub ra: f64,
+    pub ra: R,
     /// Lubricant factor stated by the oil.
-    pub x_l: f64,
+    pub x_l: R,
 }
 
 /// Friction from line load in N/mm, speed in m/s, radius in mm, viscosity in mPa s and roughness in um.
-pub(crate) fn mu(c: &Constants, line_load: f64, sum_speed: f64, radius: f64, eta: f64, ra: f64, x_l: f64) -> f64 {
+#[inline(always)]
+pub(crate) fn mu<R: Real>(c: &Constants, line_load: R, sum_speed: R, radius: R, eta: R, ra: R, x_l: R) -> R {
     let load = line_load / (sum_speed * radius);
     let powers = if [c.load_exponent, c.viscosity_exponent, c.roughness_exponent] == [0.2, -0.05, 0.25] {
         // One root instead of three powers: the published exponents are multiples of 0.05.
-        (load.powi(4) / eta * ra.powi(5)).powf(0.05)
+        (power(load, 4.0) / eta * power(ra, 5.0)).power(0.05)
     } else {
-        load.powf(c.load_exponent) * eta.powf(c.viscosity_exponent) * ra.powf(c.roughness_exponent)
+        load.power(c.load_exponent) * eta.power(c.viscosity_exponent) * ra.power(c.roughness_exponent)
     };
-    c.factor * powers * x_l
+    powers * c.factor * x_l
 }
 
 impl Schlenk {
     /// Friction of a mesh, with the clamps.
-    pub(crate) fn friction(&self, mesh: &Mesh, notes: Notes<'_>) -> f64 {
+    #[inline(always)]
+    pub(crate) fn friction<R: Real>(&self, mesh: &Mesh<R>, notes: Notes<'_, R>) -> R {
         let line_load = notes.check(&LINE_LOAD, mesh.line_load);
         let c = &self.coefficients;
-        let line_load = if self.clamp_line_load && line_load < c.least_line_load {
-            notes.branch(if c.least_line_load == Constants::PUBLISHED.least_line_load {
-                "line load below 150 N/mm: limited to 150 N/mm"
-            } else {
-                "line load below the changed limit: limited to it"
-            });
-            c.least_line_load
+        let line_load = if self.clamp_line_load {
+            if line_load.is_below(R::constant(c.least_line_load)).all() {
+                notes.branch(if c.least_line_load == Constants::PUBLISHED.least_line_load {
+                    "line load below 150 N/mm: limited to 150 N/mm"
+                } else {
+                    "line load below the changed limit: limited to it"
+                });
+            }
+            line_load.at_least(c.least_line_load)
         } else {
             line_load
         };
         let v_t = notes.check(&PITCH_SPEED, mesh.pitch_speed);
         let sum = mesh.sum_per_speed
             * if self.clamp_speed == SpeedClamp::PitchSpeed {
-                v_t.min(c.greatest_speed)
+                v_t.at_most(c.greatest_speed)
             } else {
                 v_t
             };
         let sum = if self.clamp_speed == SpeedClamp::SumSpeed {
-            sum.min(c.greatest_speed)
+            sum.at_most(c.greatest_speed)
         } else {
             sum
         };
         let sum = notes.show("v_SC", "m/s", sum);
         let radius = notes.show("rho_redC", "mm", mesh.radius);
         let eta = notes.check(&VISCOSITY, mesh.eta);
-        let x_l = self
-            .x_l
-            .unwrap_or_else(|| self.oil.map_or(mesh.x_l, |oil| oil.x_l(sum)));
+        let of_oil = || self.oil.map_or(mesh.x_l, |oil| oil.x_l(sum));
+        let x_l = self.x_l.map_or_else(of_oil, R::constant);
         let x_l = notes.show("X_L", "-", x_l);
         let ra = notes.show("Ra", "um", mesh.ra);
-        notes.observe(&MU, mu(c, line_load, sum, radius, eta, ra, x_l).min(self.greatest))
+        notes.observe(&MU, mu(c, line_load, sum, radius, eta, ra, x_l).at_most(self.greatest))
     }
 }
 
-impl MeanFrictionModel for Schlenk {
-    fn mu(&self, at: &MeanFrictionAt<'_>) -> Result<f64, Undefined> {
-        if at.pitch_speed == 0.0 || at.sum_speed == 0.0 {
+impl MeanFrictionLaw for Schlenk {
+    #[inline(always)]
+    fn mu<R: Real>(&self, at: &MeanFrictionAt<'_, R>) -> Result<R, Undefined> {
+        if (at.pitch_speed.is_zero() | at.sum_speed.is_zero()).any() {
             return Err(Undefined {
                 what: "speed at the pitch point [m/s]",
                 value: 0.0,

@@ -3,11 +3,12 @@
 
 use gearloss_framework::contact::path::Path;
 use gearloss_framework::geometry::{LoadSharing, Pair, PairSpec};
-use gearloss_framework::loss::Notes;
-use gearloss_framework::mechanism::Mechanism as _;
+use gearloss_framework::loss::{NoteBase, Notebook, Notes};
 use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt, MeshPart};
 use gearloss_framework::mechanism::mean_friction::MeanFrictionAt;
 use gearloss_framework::mechanism::tooth_friction::{SMOOTH, ToothFriction};
+use gearloss_framework::mechanism::{Inputs as _, Mechanism as _};
+use gearloss_framework::real::{LANES, Lane, Real as _};
 use gearloss_framework::registry::{Build, Files, Registry};
 use gearloss_numerics::sampling::Sobol;
 use serde_json::{Value, json};
@@ -175,6 +176,45 @@ fn every_law_is_as_close_to_its_limit_as_stated() {
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// Only laws that iterate or read a formula are evaluated one by one.
+#[test]
+fn several_points_together_have_the_bits_of_each_alone() {
+    let registry = Registry::linked().unwrap();
+    let files = Files::default();
+    let case = Case::list(1).next().unwrap();
+    let usual = case.context();
+    let points: [GearMeshAt<'_>; LANES] = std::array::from_fn(|i| {
+        let factor = 0.3 + 0.1 * i as f64;
+        usual.with(|to| {
+            to.torque *= factor;
+            to.speed /= factor;
+            (to.nu, to.eta) = (to.nu * factor, to.eta * factor);
+        })
+    });
+    let all = GearMeshAt::together(&case.part, Notebook::CLOSED.notes(NoteBase::default()), |i| points[i]);
+    let mean = MeanFrictionAt::at_pitch_point(&all, all.notes);
+    for law in laws() {
+        let mut build = Build::new(&registry, &files);
+        let slot = build.slot_beside::<ToothFriction, _>("law", &case.part, &law).unwrap();
+        let path = Path::new(&case.part.pair, LoadSharing::Ramp, SMOOTH).unwrap();
+        let mut together = vec![Lane::ZERO; path.len()];
+        let answer = slot.along_together(&path.at_operating_point(&mean, mean.notes), &mut together);
+        let alone = ["none", "constant", "formula", "ehl_mixed"];
+        assert_eq!(answer.is_err(), alone.contains(&law["type"].as_str().unwrap()), "{law}");
+        for (i, at) in points.iter().enumerate().filter(|_| answer.is_ok()) {
+            let mean = MeanFrictionAt::at_pitch_point(at, Notes::MUTED);
+            let mut mu = vec![0.0; path.len()];
+            slot.along(&path.at_operating_point(&mean, Notes::MUTED), &mut mu)
+                .unwrap();
+            let same = mu
+                .iter()
+                .zip(&together)
+                .all(|(mu, all)| mu.to_bits() == all[i].to_bits());
+            assert!(same, "{law} at point {i}");
+        }
+    }
 }
 
 /// With three nodes on each section the errors reach a thousandth.

@@ -5,9 +5,12 @@
 //! inch form converts to this one. Roughness, quoted from memory, multiplies by 1.13/(1.13 - S), S in um rms of both flanks, below 1.13 um.
 //! Diverges at the pitch point, where the loss still vanishes; limited to `greatest`. Zero where the logarithm is negative.
 
+use std::f64::consts::LOG10_E;
+
 use gearloss_framework::loss::Undefined;
 use gearloss_framework::mechanism::ShopUnits;
-use gearloss_framework::mechanism::tooth_friction::{CUT_OFF, ContactAt, ToothFriction, ToothFrictionModel};
+use gearloss_framework::mechanism::tooth_friction::{CUT_OFF, ContactAt, ToothFriction, ToothFrictionLaw};
+use gearloss_framework::real::{Mask as _, Real};
 use gearloss_framework::registry::{Evidence, default_of, formula};
 use gearloss_framework::{coefficients, limits, observed, register};
 use schemars::JsonSchema;
@@ -46,36 +49,38 @@ pub struct BenedictKelley {
 }
 
 /// Friction of smooth flanks from N/m, Pa s and m/s; may be negative or infinite.
-fn smooth(c: &Constants, line_load: f64, eta: f64, sliding: f64, sum_speed: f64) -> f64 {
-    c.factor * (c.argument_factor * line_load / (eta * sliding * sum_speed * sum_speed)).log10()
+#[inline(always)]
+fn smooth<R: Real>(c: &Constants, line_load: R, eta: R, sliding: R, sum_speed: R) -> R {
+    let argument = line_load * c.argument_factor / (eta * sliding * sum_speed * sum_speed);
+    argument.logarithm() * (c.factor * LOG10_E)
 }
 
-fn rough(limit: f64, s: f64) -> f64 {
-    limit / (limit - s)
-}
-
-impl ToothFrictionModel for BenedictKelley {
-    fn mu(&self, at: &ContactAt<'_>) -> Result<f64, Undefined> {
-        if at.line_load == 0.0 {
+impl ToothFrictionLaw for BenedictKelley {
+    #[inline(always)]
+    fn mu<R: Real>(&self, at: &ContactAt<'_, R>) -> Result<R, Undefined> {
+        let unloaded = at.line_load.is_zero();
+        if unloaded.all() {
             at.branch("no load: no friction");
-            return Ok(at.observe(&MU, 0.0));
+            return Ok(at.observe(&MU, R::ZERO));
         }
         let c = &self.coefficients;
         let factor = if self.roughness {
             let s = at.show("S", "um", at.rq.um());
-            if s >= c.roughness_limit {
+            let limit = R::constant(c.roughness_limit);
+            if !s.is_below(limit).all() {
                 return Err(Undefined {
                     what: "roughness S of both flanks [um], which reaches the value at which the formula diverges",
-                    value: s,
+                    value: s.extremes(1).0,
                 });
             }
-            rough(c.roughness_limit, s)
+            limit / (limit - s)
         } else {
-            1.0
+            R::constant(1.0)
         };
-        at.check(&SUM_SPEED, at.sum_speed);
+        at.notes.among(!unloaded).check(&SUM_SPEED, at.sum_speed);
         let mu = smooth(c, at.line_load, at.eta, at.sliding, at.sum_speed) * factor;
-        Ok(at.observe(&MU, mu.max(0.0).min(self.greatest)))
+        let held = mu.at_least(0.0).at_most(self.greatest);
+        Ok(at.observe(&MU, R::select(unloaded, R::ZERO, held)))
     }
 
     /// Friction is cut off where it reaches its limits.

@@ -6,7 +6,8 @@
 
 use gearloss_framework::loss::Undefined;
 use gearloss_framework::mechanism::ShopUnits;
-use gearloss_framework::mechanism::tooth_friction::{ContactAt, ToothFriction, ToothFrictionModel};
+use gearloss_framework::mechanism::tooth_friction::{ContactAt, ToothFriction, ToothFrictionLaw};
+use gearloss_framework::real::{Mask as _, Real};
 use gearloss_framework::registry::{Evidence, default_of, formula};
 use gearloss_framework::{limits, observed, register};
 use schemars::JsonSchema;
@@ -55,19 +56,21 @@ fn greatest() -> f64 {
     0.5
 }
 
-impl ToothFrictionModel for Doleschel {
-    fn mu(&self, at: &ContactAt<'_>) -> Result<f64, Undefined> {
-        if at.pressure == 0.0 {
+impl ToothFrictionLaw for Doleschel {
+    #[inline(always)]
+    fn mu<R: Real>(&self, at: &ContactAt<'_, R>) -> Result<R, Undefined> {
+        let unloaded = at.pressure.is_zero();
+        if unloaded.all() {
             at.branch("no load: no friction");
-            return Ok(at.observe(&MU, 0.0));
+            return Ok(at.observe(&MU, R::ZERO));
         }
         let sum_speed = entraining(at.sum_speed)?;
-        let mu = self.mu
-            * at.pressure.gpa().powf(self.pressure)
-            * (sum_speed / self.reference_speed).powf(self.speed)
-            * (at.eta.mpa_s() / 20.0).powf(self.viscosity);
-        at.check(&SUM_SPEED, sum_speed);
-        Ok(at.observe(&MU, finite(mu.min(self.greatest))?))
+        let powers = at.pressure.gpa().logarithm() * self.pressure
+            + (sum_speed / self.reference_speed).logarithm() * self.speed
+            + (at.eta.mpa_s() / 20.0).logarithm() * self.viscosity;
+        let mu = (powers.exponential() * self.mu).at_most(self.greatest);
+        at.notes.among(!unloaded).check(&SUM_SPEED, sum_speed);
+        Ok(at.observe(&MU, finite(R::select(unloaded, R::ZERO, mu))?))
     }
 }
 

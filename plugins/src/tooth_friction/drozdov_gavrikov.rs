@@ -6,7 +6,8 @@
 
 use gearloss_framework::loss::Undefined;
 use gearloss_framework::mechanism::ShopUnits;
-use gearloss_framework::mechanism::tooth_friction::{ContactAt, ToothFriction, ToothFrictionModel};
+use gearloss_framework::mechanism::tooth_friction::{ContactAt, ToothFriction, ToothFrictionLaw};
+use gearloss_framework::real::{Mask as _, Real};
 use gearloss_framework::registry::{Evidence, formula};
 use gearloss_framework::{coefficients, limits, observed, register};
 use schemars::JsonSchema;
@@ -51,22 +52,27 @@ pub struct DrozdovGavrikov {
     coefficients: Constants,
 }
 
-impl ToothFrictionModel for DrozdovGavrikov {
-    fn mu(&self, at: &ContactAt<'_>) -> Result<f64, Undefined> {
+impl ToothFrictionLaw for DrozdovGavrikov {
+    #[inline(always)]
+    fn mu<R: Real>(&self, at: &ContactAt<'_, R>) -> Result<R, Undefined> {
         let c = &self.coefficients;
         let nu = at.check(&VISCOSITY, at.nu.mm2_s());
         let p = at.check(&PRESSURE, at.pressure / KGF_CM2);
         let v_g = at.check(&SLIDING, at.sliding);
         let v_s = at.check(&SUM_SPEED, at.sum_speed);
-        let phi = at.show("phi", "-", c.phi_constant - c.phi_pressure * p - c.phi_viscosity * nu);
-        let inverse = c.sliding_factor * power(nu, c.viscosity_exponent) * v_g + v_s * phi + c.constant;
-        if inverse <= 0.0 {
+        let phi = at.show(
+            "phi",
+            "-",
+            R::constant(c.phi_constant) - p * c.phi_pressure - nu * c.phi_viscosity,
+        );
+        let inverse = power(nu, c.viscosity_exponent) * c.sliding_factor * v_g + v_s * phi + c.constant;
+        if !inverse.is_above(R::ZERO).all() {
             return Err(Undefined {
                 what: "inverse of the coefficient of friction",
-                value: inverse,
+                value: inverse.extremes(1).0,
             });
         }
-        Ok(at.observe(&MU, 1.0 / inverse))
+        Ok(at.observe(&MU, R::constant(1.0) / inverse))
     }
 }
 

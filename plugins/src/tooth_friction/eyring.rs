@@ -9,7 +9,8 @@
 use gearloss_framework::loss::Undefined;
 use gearloss_framework::lubricant::pressure::roelands;
 use gearloss_framework::mechanism::ShopUnits;
-use gearloss_framework::mechanism::tooth_friction::{CUT_OFF, ContactAt, ToothFriction, ToothFrictionModel};
+use gearloss_framework::mechanism::tooth_friction::{CUT_OFF, ContactAt, ToothFriction, ToothFrictionLaw};
+use gearloss_framework::real::{Mask as _, Real};
 use gearloss_framework::registry::{Evidence, default_of, formula};
 use gearloss_framework::{limits, observed, register};
 use schemars::JsonSchema;
@@ -49,29 +50,48 @@ fn yes() -> bool {
 }
 
 /// Friction from the slope of the limit (-), 1/Pa, Pa, Pa s, m/s and m.
-fn mu(slope: f64, alpha: f64, p_mean: f64, eta_p: f64, sliding: f64, film: f64) -> f64 {
-    let argument = eta_p * alpha * sliding / (2.0 * slope * film);
-    (2.0 * slope / (alpha * p_mean) * argument.asinh()).min(slope)
+#[inline(always)]
+fn mu<R: Real>(slope: f64, alpha: R, p_mean: R, eta_p: R, sliding: R, film: R) -> R {
+    let argument = eta_p * alpha * sliding / (film * (2.0 * slope));
+    (R::constant(2.0 * slope) / (alpha * p_mean) * asinh(argument)).at_most(slope)
 }
 
-impl ToothFrictionModel for Eyring {
-    fn mu(&self, at: &ContactAt<'_>) -> Result<f64, Undefined> {
+/// Inverse hyperbolic sine of a number that is not negative.
+#[inline(always)]
+fn asinh<R: Real>(x: R) -> R {
+    // ln(1 + y): the rounding of 1 + y cancels, so that small numbers keep their digits.
+    let y = x + x * x / ((x * x + 1.0).root() + 1.0);
+    let whole = y + 1.0;
+    let small = R::select(
+        whole.is_equal(R::constant(1.0)),
+        y,
+        whole.logarithm() * y / (whole - 1.0),
+    );
+    // Where one no longer counts, its square is not needed; it might overflow.
+    R::select(x.is_above(R::constant(1e8)), (x * 2.0).logarithm(), small)
+}
+
+impl ToothFrictionLaw for Eyring {
+    #[inline(always)]
+    fn mu<R: Real>(&self, at: &ContactAt<'_, R>) -> Result<R, Undefined> {
         at.check(&SUM_SPEED, at.sum_speed);
-        if at.sliding == 0.0 || at.line_load == 0.0 || at.pressure == 0.0 {
+        let idle = at.sliding.is_zero() | at.line_load.is_zero() | at.pressure.is_zero();
+        if idle.all() {
             at.branch("no sliding or no load: no friction");
-            return Ok(at.observe(&MU, 0.0));
+            return Ok(at.observe(&MU, R::ZERO));
         }
         let h = contact::film(at, self.film, self.thermal);
-        at.observe(&THICKNESS, h.um());
-        if h == 0.0 {
+        at.notes.among(!idle).observe(&THICKNESS, h.um());
+        if (h.is_zero() & !idle).agreed()? {
             at.branch("no film: the limiting stress");
-            return Ok(at.observe(&MU, self.limiting_slope));
+            return Ok(at.observe(&MU, R::constant(self.limiting_slope)));
         }
-        let p_mean = at.show("p_mean", "GPa", 0.25 * std::f64::consts::PI * at.pressure.gpa()) * 1e9;
+        let p_mean = at.show("p_mean", "GPa", at.pressure.gpa() * (0.25 * std::f64::consts::PI)) * 1e9;
         let eta_p = roelands(at.eta, at.alpha, p_mean, at.temperature, at.temperature, 1.0);
         // Far above gear pressures the viscosity overflows; the stress reaches its limit long before.
-        let eta_p = at.show("eta_p", "Pa s", eta_p.min(1e300));
-        Ok(at.observe(&MU, mu(self.limiting_slope, at.alpha, p_mean, eta_p, at.sliding, h)))
+        let eta_p = at.show("eta_p", "Pa s", eta_p.at_most(1e300));
+        let mu = mu(self.limiting_slope, at.alpha, p_mean, eta_p, at.sliding, h);
+        Ok(at.observe(&MU, R::select(idle, R::ZERO, mu)))
     }
 
     /// Friction is cut off where it reaches its limits.

@@ -5,7 +5,8 @@
 
 use gearloss_framework::loss::Undefined;
 use gearloss_framework::mechanism::ShopUnits;
-use gearloss_framework::mechanism::tooth_friction::{CUT_OFF, ContactAt, ToothFriction, ToothFrictionModel};
+use gearloss_framework::mechanism::tooth_friction::{CUT_OFF, ContactAt, ToothFriction, ToothFrictionLaw};
+use gearloss_framework::real::Real;
 use gearloss_framework::registry::{Evidence, default_of, formula};
 use gearloss_framework::{coefficients, limits, observed, register};
 use schemars::JsonSchema;
@@ -38,13 +39,14 @@ pub struct IsoTc60 {
     coefficients: Constants,
 }
 
-impl ToothFrictionModel for IsoTc60 {
-    fn mu(&self, at: &ContactAt<'_>) -> Result<f64, Undefined> {
+impl ToothFrictionLaw for IsoTc60 {
+    #[inline(always)]
+    fn mu<R: Real>(&self, at: &ContactAt<'_, R>) -> Result<R, Undefined> {
         let c = &self.coefficients;
         let ratio =
             at.line_load.n_mm() * at.rq.um() / (at.radius.mm() * 0.5 * entraining(at.sum_speed)? * at.eta.mpa_s());
-        at.check(&ROLLING, 0.5 * at.sum_speed);
-        Ok(at.observe(&MU, (c.factor * ratio.powf(c.exponent)).min(self.greatest)))
+        at.check(&ROLLING, at.sum_speed * 0.5);
+        Ok(at.observe(&MU, (ratio.power(c.exponent) * c.factor).at_most(self.greatest)))
     }
 
     /// Friction is cut off where it reaches its limit.

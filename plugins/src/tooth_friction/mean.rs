@@ -6,14 +6,17 @@
 use std::sync::Arc;
 
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::loss::{Notes, Undefined};
+use gearloss_framework::loss::Undefined;
+use gearloss_framework::mechanism::Answers;
 use gearloss_framework::mechanism::gear_mesh::{GearMesh, MeshPart};
 use gearloss_framework::mechanism::mean_friction::{MeanFriction, MeanFrictionAt};
-use gearloss_framework::mechanism::tooth_friction::{Along, ContactAt, PathAt, ToothFriction, ToothFrictionModel};
+use gearloss_framework::mechanism::tooth_friction::{Along, ContactAt, PathAt, ToothFriction, ToothFrictionLaw};
 use gearloss_framework::register;
 use gearloss_framework::registry::{Build, Evidence, ModelRef, Slot, formula};
 use schemars::JsonSchema;
 use serde::Deserialize;
+
+use super::finite;
 
 /// A mean friction law as constant friction along the path of contact.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -37,15 +40,16 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Mean, Diagnostic> {
     Ok(Mean { friction, part })
 }
 
-impl ToothFrictionModel for Mean {
-    fn mu(&self, at: &ContactAt<'_>) -> Result<f64, Undefined> {
-        let usual = MeanFrictionAt::usual(&self.part, Notes::MUTED);
-        self.friction.mu(&usual.with(|to| {
+impl ToothFrictionLaw for Mean {
+    #[inline(always)]
+    fn mu<R: Answers>(&self, at: &ContactAt<'_, R>) -> Result<R, Undefined> {
+        let usual = MeanFrictionAt::usual(&self.part, at.notes.nested(self.friction.notes));
+        let at = usual.with(|to| {
             to.line_load = at.line_load * self.part.pair.base_helix.cos();
             to.normal_force = at.line_load * self.part.pair.facewidth;
             to.pressure = at.pressure;
-            to.pitch_speed = 0.5 * at.sum_speed / self.part.pair.working_angle.sin();
-            to.speed = 0.5 * at.sum_speed / (self.part.pair.working_angle.sin() * self.part.pair.working_radius[0]);
+            to.pitch_speed = at.sum_speed * 0.5 / self.part.pair.working_angle.sin();
+            to.speed = at.sum_speed * 0.5 / (self.part.pair.working_angle.sin() * self.part.pair.working_radius[0]);
             to.sum_speed = at.sum_speed;
             to.radius = at.radius;
             to.ra = at.ra;
@@ -57,15 +61,14 @@ impl ToothFrictionModel for Mean {
             to.beta = at.beta;
             to.conductivity = at.conductivity;
             to.x_l = at.x_l;
-            to.notes = at.notes.nested(self.friction.notes);
-        }))
+        });
+        finite(R::answer::<MeanFriction>(&*self.friction, &at)?)
     }
 
-    fn along(&self, path: &PathAt<'_>, mu: &mut [f64]) -> Result<Along, Undefined> {
-        mu.fill(
-            self.friction
-                .mu(&path.mean.with(|to| to.notes = path.notes.nested(self.friction.notes)))?,
-        );
+    #[inline(always)]
+    fn along<R: Answers>(&self, path: &PathAt<'_, R>, mu: &mut [R]) -> Result<Along<R>, Undefined> {
+        let at = path.mean.with(|to| to.notes = path.notes.nested(self.friction.notes));
+        mu.fill(R::answer::<MeanFriction>(&*self.friction, &at)?);
         Ok(Along::default())
     }
 }

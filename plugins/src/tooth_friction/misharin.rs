@@ -6,7 +6,8 @@
 
 use gearloss_framework::loss::Undefined;
 use gearloss_framework::mechanism::ShopUnits;
-use gearloss_framework::mechanism::tooth_friction::{CUT_OFF, ContactAt, ToothFriction, ToothFrictionModel};
+use gearloss_framework::mechanism::tooth_friction::{CUT_OFF, ContactAt, ToothFriction, ToothFrictionLaw};
+use gearloss_framework::real::Real;
 use gearloss_framework::registry::{Evidence, default_of, formula};
 use gearloss_framework::{coefficients, limits, observed, register};
 use schemars::JsonSchema;
@@ -53,16 +54,17 @@ fn yes() -> bool {
     true
 }
 
-impl ToothFrictionModel for Misharin {
-    fn mu(&self, at: &ContactAt<'_>) -> Result<f64, Undefined> {
+impl ToothFrictionLaw for Misharin {
+    #[inline(always)]
+    fn mu<R: Real>(&self, at: &ContactAt<'_, R>) -> Result<R, Undefined> {
         at.check(&PRESSURE, at.pressure.gpa());
         at.check(&SUM_SPEED, at.sum_speed);
         let c = &self.coefficients;
-        let mu = c.factor * (at.sliding * at.sum_speed * at.nu.mm2_s()).powf(c.exponent);
+        let mu = (at.sliding * at.sum_speed * at.nu.mm2_s()).power(c.exponent) * c.factor;
         let mu = if self.held {
-            mu.clamp(c.least_friction, c.greatest_friction)
+            mu.at_least(c.least_friction).at_most(c.greatest_friction)
         } else {
-            mu.min(self.greatest)
+            mu.at_most(self.greatest)
         };
         Ok(at.observe(&MU, mu))
     }

@@ -10,18 +10,23 @@
 //! one for Matsumoto. Boundary and fluid friction are separate laws: constants (0.08 to 0.135 and 0.02 to 0.04 are typical),
 //! `doleschel`, `eyring`.
 
+use std::f64::consts::{FRAC_1_SQRT_2, LOG10_E};
+
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::Undefined;
-use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::tooth_friction::{
-    Along, CUT_OFF, ContactAt, PathAt, SMOOTH, ToothFriction, ToothFrictionModel,
+    Along, CUT_OFF, ContactAt, PathAt, SMOOTH, ToothFriction, ToothFrictionLaw,
 };
+use gearloss_framework::mechanism::{Answers, ShopUnits};
+use gearloss_framework::real::{Mask as _, Real};
 use gearloss_framework::registry::{Build, Evidence, ModelRef, Slot, default_of, formula};
 use gearloss_framework::{limits, observed, register};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use gearloss_framework::contact::{self, Film};
+
+use super::finite;
 
 limits! {
     SUM_SPEED = ("v_S", "m/s", 0.0, 100.0,
@@ -105,33 +110,40 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Mixed, Diagnostic> {
 }
 
 /// Share of boundary friction from the film ratio; for Matsumoto the ratio is film thickness over (Rz1 + Rz2).
-fn share(weight: Weight, lambda: f64, exponent: f64) -> f64 {
+#[inline(always)]
+fn share<R: Real>(weight: Weight, lambda: R, exponent: f64) -> R {
+    let one = R::constant(1.0);
     match weight {
-        Weight::Doleschel if lambda < 2.0 => (1.0 - 0.5 * lambda).powi(2),
-        Weight::Doleschel => 0.0,
-        Weight::Matsumoto => (-0.5 * lambda.log10()).clamp(0.0, 1.0),
-        Weight::Diab => 0.25 * (1.0 - erf(lambda * std::f64::consts::FRAC_1_SQRT_2)),
-        Weight::OlverSpikes => (1.0 + lambda).powf(-exponent),
+        Weight::Doleschel => {
+            let rest = (one - lambda * 0.5).at_least(0.0);
+            rest * rest
+        }
+        Weight::Matsumoto => (lambda.logarithm() * (-0.5 * LOG10_E)).at_least(0.0).at_most(1.0),
+        Weight::Diab => (one - erf(lambda * FRAC_1_SQRT_2)) * 0.25,
+        Weight::OlverSpikes => (lambda + 1.0).power(-exponent),
     }
 }
 
 /// Error function for x above zero, Abramowitz and Stegun 7.1.26, within 1.5e-7.
-fn erf(x: f64) -> f64 {
-    let t = 1.0 / (1.0 + 0.327_591_1 * x);
+#[inline(always)]
+fn erf<R: Real>(x: R) -> R {
+    let one = R::constant(1.0);
+    let t = one / (x * 0.327_591_1 + 1.0);
     let poly =
-        t * (0.254_829_592 + t * (-0.284_496_736 + t * (1.421_413_741 + t * (-1.453_152_027 + t * 1.061_405_429))));
-    1.0 - poly * (-x * x).exp()
+        t * (t * (t * (t * (t * 1.061_405_429 - 1.453_152_027) + 1.421_413_741) - 0.284_496_736) + 0.254_829_592);
+    one - poly * (-x * x).exponential()
 }
 
 impl Mixed {
     /// Share of boundary friction in a contact.
-    fn share(&self, at: &ContactAt<'_>) -> f64 {
+    #[inline(always)]
+    fn share<R: Real>(&self, at: &ContactAt<'_, R>) -> R {
         at.check(&SUM_SPEED, at.sum_speed);
         let h = contact::film(at, self.film, self.params.thermal);
         at.observe(&THICKNESS, h.um());
         let roughness = match self.params.weight {
             Weight::Doleschel => at.ra,
-            Weight::Matsumoto => 2.0 * at.ra * self.params.rz_over_ra,
+            Weight::Matsumoto => at.ra * 2.0 * self.params.rz_over_ra,
             Weight::Diab | Weight::OlverSpikes => at.rq,
         };
         let lambda = at.observe(&LAMBDA, h / roughness);
@@ -142,18 +154,22 @@ impl Mixed {
 /// Number of points evaluated together along a path.
 const CHUNK: usize = 96;
 
-impl ToothFrictionModel for Mixed {
-    fn mu(&self, at: &ContactAt<'_>) -> Result<f64, Undefined> {
+impl ToothFrictionLaw for Mixed {
+    #[inline(always)]
+    fn mu<R: Answers>(&self, at: &ContactAt<'_, R>) -> Result<R, Undefined> {
         let xi = self.share(at);
-        let nested = |slot: &Slot<ToothFriction>| slot.mu(&at.nested(slot));
-        // A law with zero weight is not evaluated: it may be undefined there, as a film at zero speed.
-        let boundary = if xi > 0.0 { xi * nested(&self.boundary)? } else { 0.0 };
-        let fluid = if xi < 1.0 {
-            (1.0 - xi) * nested(&self.fluid)?
-        } else {
-            0.0
+        let nested = |slot: &Slot<ToothFriction>, weight: R| {
+            // A law with zero weight is not evaluated: it may be undefined there, as a film at zero speed.
+            let counts = weight.is_above(R::ZERO);
+            if !counts.any() {
+                return Ok(R::ZERO);
+            }
+            let at = at.nested(slot).with(|to| to.notes = to.notes.among(counts));
+            let mu = R::answer::<ToothFriction>(&**slot, &at)?;
+            Ok(R::select(counts, weight * mu, R::ZERO))
         };
-        Ok(at.observe(&MU, boundary + fluid))
+        let mu = nested(&self.boundary, xi)? + nested(&self.fluid, R::constant(1.0) - xi)?;
+        Ok(at.observe(&MU, finite(mu)?))
     }
 
     /// The share of boundary friction vanishes at a film ratio of two, for Matsumoto with a kink.
@@ -166,19 +182,20 @@ impl ToothFrictionModel for Mixed {
         own.max(self.boundary.order()).max(self.fluid.order())
     }
 
-    fn along(&self, path: &PathAt<'_>, mu: &mut [f64]) -> Result<Along, Undefined> {
+    #[inline(always)]
+    fn along<R: Answers>(&self, path: &PathAt<'_, R>, mu: &mut [R]) -> Result<Along<R>, Undefined> {
         for (nodes, mu) in path.nodes.chunks(CHUNK).zip(mu.chunks_mut(CHUNK)) {
-            let mut fluid = [0.0; CHUNK];
+            let mut fluid = [R::ZERO; CHUNK];
             let fluid = &mut fluid[..nodes.len()];
-            let part = |slot: &Slot<ToothFriction>, mu: &mut [f64]| {
-                slot.along(&path.nested(slot).with(|to| to.nodes = nodes), mu)
+            let part = |slot: &Slot<ToothFriction>, mu: &mut [R]| {
+                R::along(&**slot, &path.nested(slot).with(|to| to.nodes = nodes), mu)
             };
             part(&self.boundary, mu)?;
             part(&self.fluid, fluid)?;
             for ((node, mu), fluid) in nodes.iter().zip(mu).zip(fluid) {
                 let at = path.contact(node);
                 let xi = self.share(&at);
-                *mu = at.observe(&MU, xi * *mu + (1.0 - xi) * *fluid);
+                *mu = at.observe(&MU, xi * *mu + (R::constant(1.0) - xi) * *fluid);
             }
         }
         Ok(Along::default())

@@ -7,7 +7,8 @@
 
 use gearloss_framework::loss::Undefined;
 use gearloss_framework::mechanism::ShopUnits;
-use gearloss_framework::mechanism::tooth_friction::{CUT_OFF, ContactAt, ToothFriction, ToothFrictionModel};
+use gearloss_framework::mechanism::tooth_friction::{CUT_OFF, ContactAt, ToothFriction, ToothFrictionLaw};
+use gearloss_framework::real::Real;
 use gearloss_framework::registry::{Evidence, default_of, formula};
 use gearloss_framework::{coefficients, limits, observed, register};
 use schemars::JsonSchema;
@@ -59,17 +60,18 @@ fn greatest() -> f64 {
     1.0
 }
 
-impl ToothFrictionModel for ODonoghueCameron {
-    fn mu(&self, at: &ContactAt<'_>) -> Result<f64, Undefined> {
+impl ToothFrictionLaw for ODonoghueCameron {
+    #[inline(always)]
+    fn mu<R: Real>(&self, at: &ContactAt<'_, R>) -> Result<R, Undefined> {
         let s = at.show("S", "uin", at.ra / INCH * 1e6);
         let sum_speed = entraining(at.sum_speed)?;
         at.check(&SUM_SPEED, sum_speed);
         let c = &self.coefficients;
-        let speeds = power(at.sliding / INCH, c.sliding_exponent) * (sum_speed / INCH).powf(c.sum_speed_exponent);
+        let speeds = power(at.sliding / INCH, c.sliding_exponent) * (sum_speed / INCH).power(c.sum_speed_exponent);
         let radius = power(at.radius / INCH, c.radius_exponent);
-        let viscosity = at.eta.mpa_s().powf(c.viscosity_exponent);
-        let mu = c.factor * (s + c.roughness_offset) / c.roughness_divisor / (viscosity * speeds * radius);
-        Ok(at.observe(&MU, mu.min(self.greatest)))
+        let viscosity = at.eta.mpa_s().power(c.viscosity_exponent);
+        let mu = (s + c.roughness_offset) * c.factor / c.roughness_divisor / (viscosity * speeds * radius);
+        Ok(at.observe(&MU, mu.at_most(self.greatest)))
     }
 
     /// Friction is cut off where it reaches its limits.

@@ -19,6 +19,8 @@ use gearloss_framework::{coefficients, limits, observed, register};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::finite;
+
 /// Design range of the regression, quoted from memory.
 const FROM: &str = "design range of the regression, quoted from memory";
 limits! {
@@ -99,19 +101,6 @@ fn check_oil<R: Real>(notes: Notes<'_, R>, eta: R, s: R) -> Result<R, Undefined>
         Err(Undefined {
             what: "viscosity at the inlet [mPa s], at most 1",
             value: eta.extremes(1).0,
-        })
-    }
-}
-
-/// An error unless friction is finite.
-#[inline(always)]
-fn finite<R: Real>(mu: R) -> Result<R, Undefined> {
-    if mu.is_below(R::constant(f64::INFINITY)).all() {
-        Ok(mu)
-    } else {
-        Err(Undefined {
-            what: "coefficient of friction",
-            value: mu.extremes(1).0,
         })
     }
 }

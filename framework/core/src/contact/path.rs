@@ -124,12 +124,15 @@ impl Path {
     }
 
     /// Sliding power per normal force and speed of the first gear, for friction at each point. \[m\]
-    pub fn sliding(&self, mu: &[f64]) -> f64 {
-        self.weights.iter().zip(mu).map(|(weight, mu)| weight * mu).sum()
+    #[inline(always)]
+    pub fn sliding<R: Real>(&self, mu: &[R]) -> R {
+        let nodes = self.weights.iter().zip(mu);
+        nodes.fold(R::ZERO, |sum, (weight, mu)| sum + *mu * *weight)
     }
 
     /// Friction weighted by load and sliding velocity.
-    pub fn average(&self, mu: &[f64]) -> f64 {
+    #[inline(always)]
+    pub fn average<R: Real>(&self, mu: &[R]) -> R {
         self.sliding(mu) / self.weights.iter().sum::<f64>()
     }
 }

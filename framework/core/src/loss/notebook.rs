@@ -24,11 +24,11 @@ pub struct Notebook<'a, R: Real = f64> {
     pub(crate) trace: Option<&'a Trace>,
 }
 
-impl Notebook<'_> {
-    /// Nothing is noted or kept, at one point.
-    pub const CLOSED: Notebook<'static> = Notebook {
+impl<R: Points> Notebook<'_, R> {
+    /// Nothing is noted or kept.
+    pub const CLOSED: Notebook<'static, R> = Notebook {
         cells: &[],
-        points: 1,
+        points: (1 << R::COUNT) - 1,
         kept: &[],
         kept_alone: &[],
         trace: None,

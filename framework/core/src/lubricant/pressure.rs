@@ -1,6 +1,7 @@
 //! Pressure-viscosity coefficient, and viscosity under pressure.
 
 use super::ZERO_CELSIUS;
+use crate::real::Real;
 
 /// How the pressure-viscosity coefficient is computed from the oil.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -49,12 +50,15 @@ fn so_klaus(nu: f64, slope: f64, rho: f64) -> f64 {
 
 /// Viscosity under pressure and at another temperature according to Roelands 1966. \[Pa s\] `eta0` in Pa s at `base` degC and zero
 /// pressure, `alpha` its coefficient in 1/Pa, `s0` the slope index over temperature.
-pub fn roelands(eta0: f64, alpha: f64, pressure: f64, base: f64, temperature: f64, s0: f64) -> f64 {
-    let ln_ratio = eta0.ln() + 9.67;
-    let z = alpha / (5.1e-9 * ln_ratio);
-    let above = |t: f64| t + ZERO_CELSIUS - 138.0;
-    let thermal = (above(temperature) / above(base)).powf(-s0);
-    eta0 * (ln_ratio * ((1.0 + 5.1e-9 * pressure).powf(z) * thermal - 1.0)).exp()
+#[inline(always)]
+pub fn roelands<R: Real>(eta0: R, alpha: R, pressure: R, base: R, temperature: R, s0: f64) -> R {
+    let one = R::constant(1.0);
+    let ln_ratio = eta0.logarithm() + 9.67;
+    let z = alpha / (ln_ratio * 5.1e-9);
+    let above = |t: R| t + ZERO_CELSIUS - 138.0;
+    let thermal = (above(temperature) / above(base)).power(-s0);
+    let compressed = ((pressure * 5.1e-9 + one).logarithm() * z).exponential();
+    eta0 * (ln_ratio * (compressed * thermal - one)).exponential()
 }
 
 #[cfg(test)]

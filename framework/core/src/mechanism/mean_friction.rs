@@ -1,10 +1,9 @@
 //! One coefficient of friction for a whole mesh.
 
 use crate::loss::{Notes, Undefined};
-use crate::mechanism::Mechanism;
-use crate::mechanism::Scalar;
 use crate::mechanism::gear_mesh::{GearMeshAt, MeshPart};
-use crate::real::Real;
+use crate::mechanism::{Answers, Mechanism, Scalar};
+use crate::real::{Lane, Points as _, Real};
 use crate::{answered_by, context};
 
 /// Marker of the mechanism; never constructed.
@@ -17,6 +16,35 @@ pub enum MeanFriction {}
 pub trait MeanFrictionModel: Send + Sync {
     /// Coefficient of friction. \[-\] Pure; must not allocate. Called with positive torque and speed.
     fn mu(&self, at: &MeanFrictionAt<'_>) -> Result<f64, Undefined>;
+
+    /// The coefficients at several points together; written by a [law](MeanFrictionLaw). An error has them evaluated one by one.
+    ///
+    /// # Errors
+    /// As [`Mechanism::answer_together`].
+    fn mu_together(&self, _at: &MeanFrictionAt<'_, Lane>) -> Result<Lane, Undefined> {
+        Err(Undefined::DISAGREED)
+    }
+}
+
+/// A law of mean friction that is written once for one point and for several; mark `mu` as `#[inline(always)]`, so that it uses wide
+/// instructions.
+pub trait MeanFrictionLaw: Send + Sync {
+    /// Coefficient of friction at one operating point, or at several. \[-\] Pure; must not allocate. Called with positive torque and
+    /// speed; among several points also without, where the result is not used.
+    fn mu<R: Answers>(&self, at: &MeanFrictionAt<'_, R>) -> Result<R, Undefined>;
+}
+
+impl<L: MeanFrictionLaw> MeanFrictionModel for L {
+    fn mu(&self, at: &MeanFrictionAt<'_>) -> Result<f64, Undefined> {
+        MeanFrictionLaw::mu(self, at)
+    }
+
+    fn mu_together(&self, at: &MeanFrictionAt<'_, Lane>) -> Result<Lane, Undefined> {
+        Lane::wide(
+            #[inline(always)]
+            || MeanFrictionLaw::mu(self, at),
+        )
+    }
 }
 
 context! {
@@ -150,6 +178,10 @@ impl Mechanism for MeanFriction {
     type Model = dyn MeanFrictionModel;
 
     answered_by!(mu);
+
+    fn answer_together(model: &Self::Model, at: &MeanFrictionAt<'_, Lane>) -> Result<Lane, Undefined> {
+        model.mu_together(at)
+    }
 }
 
 impl MeanFrictionModel for Scalar<MeanFriction> {

@@ -4,7 +4,7 @@ use crate::loss::{Notes, Undefined};
 use crate::mechanism::Scalar;
 use crate::mechanism::Slot;
 use crate::mechanism::mean_friction::{MeanFrictionAt, hertz, load_at, modulus_at, radius_at};
-use crate::mechanism::{Inputs as _, Mechanism, NoPart};
+use crate::mechanism::{Answers, Inputs as _, Mechanism, NoPart};
 use crate::real::{Lane, Points, Real};
 use crate::{answered_by, context};
 
@@ -35,7 +35,15 @@ pub trait ToothFrictionModel: Send + Sync {
         Ok(Along::default())
     }
 
-    /// The coefficients at several points together; written by a [law](ToothFrictionLaw). An error has them evaluated one by one.
+    /// The coefficient at several points together; written by a [law](ToothFrictionLaw). An error has them evaluated one by one.
+    ///
+    /// # Errors
+    /// As [`Mechanism::answer_together`].
+    fn mu_together(&self, _at: &ContactAt<'_, Lane>) -> Result<Lane, Undefined> {
+        Err(Undefined::DISAGREED)
+    }
+
+    /// The same at all nodes of a path.
     ///
     /// # Errors
     /// As [`Mechanism::answer_together`].
@@ -44,11 +52,11 @@ pub trait ToothFrictionModel: Send + Sync {
     }
 }
 
-/// A law of friction that is written once for one point and for several; mark `along` as `#[inline(always)]`, so that it uses wide
-/// instructions.
+/// A law of friction that is written once for one point and for several; mark its methods as `#[inline(always)]`, so that they use
+/// wide instructions.
 pub trait ToothFrictionLaw: Send + Sync {
     /// Coefficient of friction at one contact. \[-\] Pure; must not allocate.
-    fn mu<R: Real>(&self, at: &ContactAt<'_, R>) -> Result<R, Undefined>;
+    fn mu<R: Answers>(&self, at: &ContactAt<'_, R>) -> Result<R, Undefined>;
 
     /// As [`ToothFrictionModel::order`].
     fn order(&self) -> usize {
@@ -57,7 +65,7 @@ pub trait ToothFrictionLaw: Send + Sync {
 
     /// As [`ToothFrictionModel::along`].
     #[inline(always)]
-    fn along<R: Real>(&self, path: &PathAt<'_, R>, mu: &mut [R]) -> Result<Along<R>, Undefined> {
+    fn along<R: Answers>(&self, path: &PathAt<'_, R>, mu: &mut [R]) -> Result<Along<R>, Undefined> {
         for (node, mu) in path.nodes.iter().zip(mu) {
             *mu = self.mu(&path.contact(node))?;
         }
@@ -78,6 +86,13 @@ impl<L: ToothFrictionLaw> ToothFrictionModel for L {
         Lane::wide(
             #[inline(always)]
             || ToothFrictionLaw::along(self, path, mu),
+        )
+    }
+
+    fn mu_together(&self, at: &ContactAt<'_, Lane>) -> Result<Lane, Undefined> {
+        Lane::wide(
+            #[inline(always)]
+            || ToothFrictionLaw::mu(self, at),
         )
     }
 
@@ -420,6 +435,10 @@ impl Mechanism for ToothFriction {
     type Model = dyn ToothFrictionModel;
 
     answered_by!(mu);
+
+    fn answer_together(model: &Self::Model, at: &ContactAt<'_, Lane>) -> Result<Lane, Undefined> {
+        model.mu_together(at)
+    }
 }
 
 impl ToothFrictionModel for Scalar<ToothFriction> {
