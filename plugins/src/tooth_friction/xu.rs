@@ -147,7 +147,10 @@ impl ToothFrictionLaw for Xu {
         let fall = -(unit * lg_nu0);
         // One function per loop: the steps of a number depend on each other, those of different nodes do not.
         for (node, mu) in path.nodes.iter().zip(&mut *mu) {
-            *mu = (fall * (node.slide_roll * node.root_load)).exponential();
+            *mu = fall * (node.slide_roll * node.root_load);
+        }
+        for mu in &mut *mu {
+            *mu = mu.exponential();
         }
         for (node, mu) in path.nodes.iter().zip(&mut *mu) {
             let x = fall * (node.slide_roll * node.root_load);
