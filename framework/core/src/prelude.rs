@@ -19,7 +19,7 @@ pub use crate::mechanism::heat_dissipation::{
     HeatDissipation, HeatDissipationAt, HeatDissipationModel, HousingPart, WarmSide,
 };
 pub use crate::mechanism::heat_link::{HeatLink, HeatLinkAt, HeatLinkModel, HeatLinkPart};
-pub use crate::mechanism::mean_friction::{MeanFriction, MeanFrictionAt, MeanFrictionModel};
+pub use crate::mechanism::mean_friction::{MeanFriction, MeanFrictionAt, MeanFrictionLaw, MeanFrictionModel};
 pub use crate::mechanism::planetary_drag::{PlanetaryDrag, PlanetaryDragAt, PlanetaryDragModel, PlanetaryPart};
 pub use crate::mechanism::seal::{Seal, SealAt, SealKind, SealModel, SealPart};
 pub use crate::mechanism::synchronizer::{CouplingKind, CouplingPart, Synchronizer, SynchronizerAt, SynchronizerModel};
