@@ -460,7 +460,7 @@ impl Extent {
 pub struct Seen {
     least: f64,
     greatest: f64,
-    seen: u32,
+    points: u32,
     outside: u32,
 }
 
@@ -469,7 +469,7 @@ impl Seen {
     pub const NOTHING: Self = Self {
         least: f64::INFINITY,
         greatest: f64::NEG_INFINITY,
-        seen: 0,
+        points: 0,
         outside: 0,
     };
 
@@ -482,7 +482,7 @@ impl Seen {
             } else {
                 self.greatest
             },
-            seen: self.seen | seen,
+            points: self.points | seen,
             outside: self.outside | outside,
         }
     }
@@ -497,7 +497,7 @@ impl Seen {
     pub(crate) fn for_points(self, points: u32) -> Self {
         let spread = |bits: u32| if bits == 0 { 0 } else { points };
         Self {
-            seen: spread(self.seen),
+            points: spread(self.points),
             outside: spread(self.outside),
             ..self
         }
@@ -506,7 +506,7 @@ impl Seen {
     /// The observations without those of other points; the values are those of all.
     pub(crate) fn among(self, points: u32) -> Self {
         Self {
-            seen: self.seen & points,
+            points: self.points & points,
             outside: self.outside & points,
             ..self
         }
@@ -523,7 +523,7 @@ impl Seen {
         Extent {
             least: self.least,
             greatest: self.greatest,
-            seen: self.seen.count_ones(),
+            seen: self.points.count_ones(),
             outside: self.outside.count_ones(),
         }
     }
@@ -690,7 +690,7 @@ impl<'a, R: Points> Notes<'a, R> {
     }
 }
 
-impl<'a, R: Real> Notes<'a, R> {
+impl<R: Real> Notes<'_, R> {
     /// The same target for a nested instance. It keeps nothing, because it may be evaluated at several speeds or with several oils.
     #[inline]
     pub fn nested(self, base: NoteBase) -> Self {

@@ -299,16 +299,6 @@ impl Model {
         Ok(())
     }
 
-    #[inline(always)]
-    fn check_viscosity<R: Real>(&self, at: &BearingAt<'_, R>, drag: &Drag) -> Result<(), Undefined> {
-        match drag.depth(at.oil_height.mm(), 0.5 * at.part.outside.mm())? {
-            Depth::Low => at.check(&VISCOSITY, at.nu.mm2_s()),
-            Depth::Deep => at.check(&VISCOSITY_DEEP, at.nu.mm2_s()),
-            Depth::None => return Ok(()),
-        };
-        Ok(())
-    }
-
     /// The terms that depend only on speed and oil; the speed in 1/min, not zero.
     #[inline(always)]
     fn moments<R: Real>(&self, at: &BearingAt<'_, R>, n: R) -> Moments<R> {
@@ -346,6 +336,17 @@ impl Model {
             drag,
         }
     }
+}
+
+/// Notes the viscosity at the depth of the bath.
+#[inline(always)]
+fn check_viscosity<R: Real>(at: &BearingAt<'_, R>, drag: &Drag) -> Result<(), Undefined> {
+    match drag.depth(at.oil_height.mm(), 0.5 * at.part.outside.mm())? {
+        Depth::Low => at.check(&VISCOSITY, at.nu.mm2_s()),
+        Depth::Deep => at.check(&VISCOSITY_DEEP, at.nu.mm2_s()),
+        Depth::None => return Ok(()),
+    };
+    Ok(())
 }
 
 fn prepare(params: Skf, cx: &mut Build<'_>) -> Result<Model, Diagnostic> {
@@ -399,7 +400,7 @@ impl BearingLaw for Model {
             return Ok(loss);
         };
         at.show("H", "mm", at.oil_height.mm());
-        self.check_viscosity(at, drag)?;
+        check_viscosity(at, drag)?;
         if n.is_above(R::constant(self.fastest)).any() {
             at.branch("n d_m above 0.5e6: drag at 0.5e6 is used");
         }

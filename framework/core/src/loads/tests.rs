@@ -928,8 +928,15 @@ fn e3_electric_drive_unit() {
 /// Asserts that the loads of several points equal those of each, to the bit.
 fn assert_several_equal_single(loads: &ShaftLoads, meshes: usize, speeds: &[f64]) {
     // Forces of both signs and zero.
-    let force =
-        |k: usize, i: usize| 137.0 * (i as f64 - 5.0) * if (i + k) % 3 == 0 { -1.0 } else { 1.0 + 0.1 * k as f64 };
+    let force = |k: usize, i: usize| {
+        137.0
+            * (i as f64 - 5.0)
+            * if (i + k).is_multiple_of(3) {
+                -1.0
+            } else {
+                1.0 + 0.1 * k as f64
+            }
+    };
     let supports = loads.vectors(&vec![0.0; meshes]).len();
     let tangential: Vec<Lane> = (0..meshes).map(|k| Lane::each(|i| force(k, i))).collect();
     let lanes: Vec<Lane> = speeds.iter().map(|speed| Lane::constant(*speed)).collect();

@@ -317,10 +317,11 @@ impl Closings {
 
     /// Takes what the law gave there.
     fn take(&mut self, step: Option<Step>) {
-        match (step, &mut self.open) {
-            (Some(step), Some(open)) => open.take(step),
+        if let (Some(step), Some(open)) = (step, &mut self.open) {
+            open.take(step);
+        } else {
             // A law is undefined inside.
-            _ => (self.open, self.gap) = (None, true),
+            (self.open, self.gap) = (None, true);
         }
     }
 }

@@ -370,6 +370,22 @@ fn p7_simpson_set() {
     );
 }
 
+/// Losses of the meshes of a set whose law is nearly proportional, so that the iteration converges, but not immediately.
+fn lost<R: Points>(rig: &Rig, state: &mut FlowState<'_, R>) {
+    for (k, loss) in state.mesh_loss.iter_mut().enumerate() {
+        let (mesh, zeta) = rig.meshes[k];
+        let (z, column) = match state.drives[k] {
+            Drive::Second => (mesh.sz2, mesh.second),
+            _ => (mesh.z1, mesh.first),
+        };
+        let of = |column: Option<usize>| column.map_or(R::ZERO, |c| state.speeds[c]);
+        let multiplier = state.multipliers[mesh.row];
+        let power = (multiplier * z * (of(column) - of(mesh.carrier))).magnitude() * zeta;
+        *loss = power * multiplier.magnitude().at_least(1e-3).power(-0.01);
+    }
+    state.drags.copy_from_slice(state.steady);
+}
+
 /// Near self-locking and beyond, where points turn, lock or converge slowly: those that stay together have the bits of each alone.
 #[test]
 fn points_of_a_set_near_self_locking_are_solved_together_as_alone() {
@@ -380,21 +396,6 @@ fn points_of_a_set_near_self_locking_are_solved_together_as_alone() {
         let motion = Motion::new(&train, &ports, &[0]).unwrap();
         let meshes: Vec<MeshRow> = rig.meshes.iter().map(|m| m.0).collect();
         let flow = Flow::new(&train, meshes, Vec::new(), &motion.loops, vec![3], vec![0]).unwrap();
-        fn lost<R: Points>(rig: &Rig, state: &mut FlowState<'_, R>) {
-            for (k, loss) in state.mesh_loss.iter_mut().enumerate() {
-                let (mesh, zeta) = rig.meshes[k];
-                let (z, column) = match state.drives[k] {
-                    Drive::Second => (mesh.sz2, mesh.second),
-                    _ => (mesh.z1, mesh.first),
-                };
-                let of = |column: Option<usize>| column.map_or(R::ZERO, |c| state.speeds[c]);
-                let multiplier = state.multipliers[mesh.row];
-                // Nearly proportional, so that the iteration converges, but not immediately.
-                let power = (multiplier * z * (of(column) - of(mesh.carrier))).magnitude() * zeta;
-                *loss = power * multiplier.magnitude().at_least(1e-3).power(-0.01);
-            }
-            state.drags.copy_from_slice(state.steady);
-        }
         let (mut all, mut alone) = (flow.work::<Lane>(), flow.work::<f64>());
         for speed in [100.0, 1000.0] {
             let torque = |i: usize| sense * (20.0 + i as f64) * if i == 3 { -1.0 } else { 1.0 };
