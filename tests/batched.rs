@@ -155,7 +155,7 @@ fn the_examples_have_the_same_bits_side_by_side_and_alone() {
             let t = transmission(&language, path, *set);
             let mut own = Count::default();
             compare(&t, &speeds, &torques, &[100.0, 20.0], &mut own);
-            // Planets that share unequally and friction that is iterated are evaluated alone.
+            // The others have states whose points seldom stay together.
             if path.contains("two-speed") {
                 count.together += own.together;
                 count.alone += own.alone;

@@ -236,7 +236,7 @@ fn together<M: Mechanism>(
         for i in 0..LANES {
             let own = point(i);
             let (alone, speed) = (M::answer(model, &own), M::speed(&own));
-            if !same_result(&Ok(M::Answer::at(&answers, i)), &alone, speed) {
+            if !same_result(&Ok(M::Answer::at_point(&answers, i)), &alone, speed) {
                 return Some("gives another result at one of several points");
             }
         }

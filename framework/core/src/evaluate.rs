@@ -326,7 +326,7 @@ impl Transmission {
             // Infinite without load.
             let loaded = R::bits(c.live & safety.is_below(R::constant(f64::INFINITY)));
             let outside = loaded & safety.is_below(R::constant(LEAST_STATIC_SAFETY)).bits();
-            cell.set(Seen::of(safety.extremes(loaded), loaded, outside));
+            cell.set(Seen::new(safety.extremes(loaded), loaded, outside));
         }
     }
 
@@ -372,7 +372,7 @@ impl Transmission {
             .map(|level| state.level(&crate::attach::Spot { oil: drag.oil, level }));
         let towards = |i: usize| {
             let turns = |point: usize| {
-                let own = speed[i].at(point);
+                let own = speed[i].at_point(point);
                 seat.mates[i].iter().any(|y| own * y > 0.0)
             };
             R::each(|point| f64::from(u8::from(turns(point))))
@@ -485,7 +485,7 @@ impl Transmission {
     }
 
     fn correct_loads<R: Points>(&self, case: &Case, ports: &[R], loads: &mut [SupportLoad<R>]) {
-        let torque = |port: usize, point: usize| ports[self.ports[port].member].at(point);
+        let torque = |port: usize, point: usize| ports[self.ports[port].member].at_point(point);
         if let Some(imported) = &self.imported {
             for (i, load) in loads.iter_mut().enumerate() {
                 for point in 0..R::COUNT {
@@ -520,8 +520,8 @@ impl Transmission {
         };
         for point in 0..R::COUNT {
             let ports = self.ports.iter();
-            let powers =
-                ports.map(|p| s.work.ports[p.member].at(point) * s.models.conditions.speeds[p.member].at(point));
+            let powers = ports
+                .map(|p| s.work.ports[p.member].at_point(point) * s.models.conditions.speeds[p.member].at_point(point));
             let balance = Balance::from_powers(powers.clone());
             s.balance[point] = balance;
             s.status[point] = match outcome {
@@ -529,7 +529,7 @@ impl Transmission {
                 Outcome::NoConvergence => Status::NoConvergence,
                 Outcome::Converged { .. } if undefined.is_some() => Status::Undefined,
                 Outcome::Converged { .. } if s.standing => Status::Standstill,
-                Outcome::Converged { .. } if s.ideal && balance.input > 0.0 && sum.at(point) > balance.input => {
+                Outcome::Converged { .. } if s.ideal && balance.input > 0.0 && sum.at_point(point) > balance.input => {
                     Status::LossAboveInput
                 }
                 Outcome::Converged { .. } => Status::from_powers(powers, self.reference_port()),
@@ -610,12 +610,12 @@ fn accepted<R: Points>(
     Err(if sound.all() {
         Undefined {
             what: "thrust that no bearing of the shaft takes [N]",
-            value: untaken.at(0),
+            value: untaken.at_point(0),
         }
     } else {
         Undefined {
             what: "result of the model, which is negative or not finite",
-            value: loss.sum().at(0),
+            value: loss.sum().at_point(0),
         }
     })
 }

@@ -33,12 +33,12 @@ pub struct SupportLoad<R = f64> {
 
 impl<R: Points> SupportLoad<R> {
     /// The load at one of the points.
-    pub fn at(&self, point: usize) -> SupportLoad {
+    pub fn at_point(&self, point: usize) -> SupportLoad {
         SupportLoad {
-            radial: self.radial.at(point),
-            axial: self.axial.at(point),
-            tilting: self.tilting.at(point),
-            untaken: self.untaken.at(point),
+            radial: self.radial.at_point(point),
+            axial: self.axial.at_point(point),
+            tilting: self.tilting.at_point(point),
+            untaken: self.untaken.at_point(point),
         }
     }
 

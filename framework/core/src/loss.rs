@@ -277,12 +277,12 @@ impl<R: Real> Loss<R> {
 impl<R: Points> Loss<R> {
     /// The result of one point.
     #[inline]
-    pub fn at(&self, point: usize) -> Loss {
+    pub fn at_point(&self, point: usize) -> Loss {
         Loss {
             measure: self.measure,
-            values: self.values.map(|value| value.at(point)),
-            first_share: self.first_share.at(point),
-            first_heat: self.first_heat.at(point),
+            values: self.values.map(|value| value.at_point(point)),
+            first_share: self.first_share.at_point(point),
+            first_heat: self.first_heat.at_point(point),
         }
     }
 
@@ -489,7 +489,7 @@ impl Seen {
 
     /// The values of some points, of which some are outside a limit.
     #[inline]
-    pub(crate) fn of(range: (f64, f64), seen: u32, outside: u32) -> Self {
+    pub(crate) fn new(range: (f64, f64), seen: u32, outside: u32) -> Self {
         Self::NOTHING.add(range, seen, outside)
     }
 
@@ -682,10 +682,10 @@ impl<'a> Notes<'a> {
 impl<'a, R: Points> Notes<'a, R> {
     /// The notes of one of the points.
     #[inline]
-    pub fn at(self, point: usize) -> Notes<'a> {
+    pub fn at_point(self, point: usize) -> Notes<'a> {
         Notes {
             base: self.base,
-            book: self.book.at(point),
+            book: self.book.at_point(point),
         }
     }
 }

@@ -126,7 +126,7 @@ pub trait Inputs<'a, M: Mechanism, R: Real>: Copy {
     /// The same with another target.
     fn with_notes(&self, notes: Notes<'a, R>) -> Self;
     /// The context of one of the points.
-    fn at(&self, point: usize) -> M::At<'a, f64>
+    fn at_point(&self, point: usize) -> M::At<'a, f64>
     where
         R: Points;
     /// The context of several points, from that of each.
@@ -173,7 +173,7 @@ pub trait Answer: sealed::Sealed + Copy + Send + Sync {
     /// The results of the points of some bits, evaluated one by one; NaN where one is undefined.
     fn one_by_one<R: Points>(points: u32, evaluate: impl FnMut(usize) -> Result<Self, Undefined>) -> Self::Of<R>;
     /// The result of one of the points.
-    fn at<R: Points>(all: &Self::Of<R>, point: usize) -> Self;
+    fn at_point<R: Points>(all: &Self::Of<R>, point: usize) -> Self;
     /// The named values of the result at a relative speed: for a loss, the power of each term. \[W or the unit of the result\]
     fn values(&self, terms: &'static [Term], speed: f64) -> Vec<(&'static str, f64)>;
     /// True if the result is finite and not negative.
@@ -194,8 +194,8 @@ impl Answer for Loss {
     fn one_by_one<R: Points>(points: u32, evaluate: impl FnMut(usize) -> Result<Self, Undefined>) -> Loss<R> {
         Loss::one_by_one(points, evaluate)
     }
-    fn at<R: Points>(all: &Loss<R>, point: usize) -> Self {
-        all.at(point)
+    fn at_point<R: Points>(all: &Loss<R>, point: usize) -> Self {
+        all.at_point(point)
     }
     fn values(&self, terms: &'static [Term], speed: f64) -> Vec<(&'static str, f64)> {
         terms.iter().map(|t| (t.name, self.watts(t.index, speed))).collect()
@@ -225,8 +225,8 @@ impl Answer for f64 {
             _ => 0.0,
         })
     }
-    fn at<R: Points>(all: &R, point: usize) -> Self {
-        all.at(point)
+    fn at_point<R: Points>(all: &R, point: usize) -> Self {
+        all.at_point(point)
     }
     fn values(&self, _terms: &'static [Term], _speed: f64) -> Vec<(&'static str, f64)> {
         vec![("value", *self)]
@@ -365,11 +365,11 @@ macro_rules! context {
             }
 
             #[inline(always)]
-            fn at(&self, point: usize) -> $At<'a>
+            fn at_point(&self, point: usize) -> $At<'a>
             where
                 R: $crate::real::Points,
             {
-                $At { part: self.part, $($name: self.$name.at(point),)+ notes: self.notes.at(point) }
+                $At { part: self.part, $($name: self.$name.at_point(point),)+ notes: self.notes.at_point(point) }
             }
 
             fn together(

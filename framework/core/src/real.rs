@@ -16,12 +16,22 @@ pub use lane::{LANES, Lane, LaneMask};
 
 use crate::loss::Undefined;
 
-/// A number of a law: of one point, or of each of several points.
+mod sealed {
+    /// Only the framework has numbers of laws and their conditions.
+    pub trait Sealed {}
+    impl Sealed for f64 {}
+    impl Sealed for super::Lane {}
+    impl Sealed for bool {}
+    impl Sealed for super::LaneMask {}
+}
+
+/// A number of a law: of one point, or of each of several points. Sealed.
 ///
 /// Arithmetic with an `f64` is on the right: `x * 2.0`. Powers, exponentials and logarithms have the same bits for one point and for
 /// several; they differ from those of the standard library in the last digits.
 pub trait Real:
-    Copy
+    sealed::Sealed
+    + Copy
     + Debug
     + Default
     + Send
@@ -108,8 +118,10 @@ pub trait Real:
     }
 }
 
-/// A condition at each point.
-pub trait Mask: Copy + Debug + Send + Sync + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output = Self> {
+/// A condition at each point. Sealed.
+pub trait Mask:
+    sealed::Sealed + Copy + Debug + Send + Sync + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output = Self>
+{
     /// The same condition at each point.
     fn constant(holds: bool) -> Self;
     /// True if it holds at any point.
@@ -117,7 +129,7 @@ pub trait Mask: Copy + Debug + Send + Sync + BitAnd<Output = Self> + BitOr<Outpu
     /// True if it holds at every point.
     fn all(self) -> bool;
     /// The condition at one point.
-    fn at(self, point: usize) -> bool;
+    fn at_point(self, point: usize) -> bool;
     /// The condition at all points; the error if it holds at some points only, which are then evaluated one by one.
     ///
     /// # Errors
@@ -145,7 +157,7 @@ pub trait Points: Real {
     /// The conditions of all points from those of each.
     fn mask(holds: impl FnMut(usize) -> bool) -> Self::Mask;
     /// The number of one point.
-    fn at(&self, point: usize) -> f64;
+    fn at_point(&self, point: usize) -> f64;
     /// Changes the number of one point.
     fn set(&mut self, point: usize, x: f64);
     /// A function of each number.
@@ -175,7 +187,7 @@ impl Mask for bool {
         self
     }
     #[inline(always)]
-    fn at(self, _point: usize) -> bool {
+    fn at_point(self, _point: usize) -> bool {
         self
     }
     #[inline(always)]
@@ -258,7 +270,7 @@ impl Points for f64 {
         holds(0)
     }
     #[inline(always)]
-    fn at(&self, _point: usize) -> f64 {
+    fn at_point(&self, _point: usize) -> f64 {
         *self
     }
     #[inline(always)]

@@ -95,7 +95,7 @@ mod tests {
             let together = GearMesh::answer_together(&*slot, &all).unwrap_or_else(|_| panic!("one by one: {model}"));
             for (i, at) in points.iter().enumerate() {
                 let alone = slot.loss(at).unwrap();
-                assert_eq!(together.at(i), alone, "{model}");
+                assert_eq!(together.at_point(i), alone, "{model}");
                 assert_eq!(alone.sum() == 0.0, i == 0, "{model}");
             }
         }
@@ -106,6 +106,6 @@ mod tests {
             .slot_at::<GearMesh>("model", &part, &local)
             .unwrap();
         let together = GearMesh::answer_together(&*slot, &all).unwrap();
-        assert!((0..LANES).all(|i| together.at(i) == slot.loss(&points[i]).unwrap()));
+        assert!((0..LANES).all(|i| together.at_point(i) == slot.loss(&points[i]).unwrap()));
     }
 }

@@ -162,7 +162,7 @@ impl Transmission {
             } else {
                 losses.resize(first + asked.len(), Ok(0.0));
             }
-            for (lane, (point, temperature)) in asked.iter().enumerate().filter(|(lane, _)| alone.at(*lane)) {
+            for (lane, (point, temperature)) in asked.iter().enumerate().filter(|(lane, _)| alone.at_point(*lane)) {
                 losses[first + lane] = self.probe(case, &points[*point], &[*temperature], &mut scratch.alone);
             }
         }
@@ -267,7 +267,7 @@ impl Block<'_> {
     /// True if a point must be solved by [`Batch::alone`]: it takes another branch than the others, or a loss of it is undefined. Its
     /// other results are then undefined.
     pub fn is_alone(&self, point: usize) -> bool {
-        !self.s.models.conditions.live.at(point)
+        !self.s.models.conditions.live.at_point(point)
     }
 
     /// Operating state of the transmission.

@@ -61,13 +61,13 @@ impl<R: Points> Conditions<R> {
 
     /// The first of the points that are solved; the first of all if there is none.
     pub fn first(&self) -> usize {
-        (0..R::COUNT).find(|point| self.live.at(*point)).unwrap_or(0)
+        (0..R::COUNT).find(|point| self.live.at_point(*point)).unwrap_or(0)
     }
 
     /// What the first point decides by a condition; those that decide otherwise leave.
     #[inline(always)]
     pub fn decide(&mut self, condition: R::Mask) -> bool {
-        let decided = condition.at(self.first());
+        let decided = condition.at_point(self.first());
         self.live = self.live & if decided { condition } else { !condition };
         decided
     }
@@ -150,7 +150,7 @@ impl<R: Points> Scratch<R> {
         let balance = self.balance[point];
         match self.status[point] {
             Status::LossAboveInput => None,
-            _ if self.ideal => Some((balance.input - self.sum.at(point)).max(0.0)),
+            _ if self.ideal => Some((balance.input - self.sum.at_point(point)).max(0.0)),
             _ => Some(balance.output),
         }
     }

@@ -45,16 +45,16 @@ impl Flow {
         // There is none only if torques overflow.
         self.solve(work, kept);
         work.leading = (0..R::COUNT)
-            .filter(|point| work.live.at(*point))
+            .filter(|point| work.live.at_point(*point))
             .fold(0, |most, point| {
-                if work.largest.at(point) > work.largest.at(most) {
+                if work.largest.at_point(point) > work.largest.at_point(most) {
                     point
                 } else {
                     most
                 }
             });
         for k in 0..self.meshes.len() {
-            let drives = |point: usize| drive(work.rolling[k].at(point), work.largest.at(point));
+            let drives = |point: usize| drive(work.rolling[k].at_point(point), work.largest.at_point(point));
             let decided = drives(work.leading);
             let agreed = R::mask(|point| drives(point) == decided);
             work.drives[k] = decided;
@@ -164,7 +164,7 @@ impl Flow {
             work.done
         };
         if R::COUNT == 1 {
-            steps.halve_without_progress(mismatch.at(0));
+            steps.halve_without_progress(mismatch.at_point(0));
         }
         let back = if steps.known {
             R::select(steps.last, R::ZERO, secant(work))
@@ -245,7 +245,7 @@ impl Flow {
                 }
                 let end = self.iterate(tolerance, work, losses, passes, true);
                 let agrees = |k: usize| {
-                    let now = drive(work.rolling[k].at(0), work.largest.at(0));
+                    let now = drive(work.rolling[k].at_point(0), work.largest.at_point(0));
                     now == Drive::Neither || now == work.drives[k]
                 };
                 if matches!(end, End::Agreed) && (0..self.meshes.len()).all(agrees) {
@@ -349,19 +349,19 @@ fn evaluate_losses<R: Points>(work: &mut Work<R>, losses: &mut impl FnMut(&mut F
 /// Adopts the driving gears of the last solve as the leading point decides; true if one of them was assumed differently.
 fn turn<R: Points>(work: &mut Work<R>) -> bool {
     let mut turned = false;
-    if !work.live.at(work.leading) {
+    if !work.live.at_point(work.leading) {
         // All points that are left agree so far.
-        work.leading = (0..R::COUNT).find(|point| work.live.at(*point)).unwrap_or(0);
+        work.leading = (0..R::COUNT).find(|point| work.live.at_point(*point)).unwrap_or(0);
     }
     for k in 0..work.drives.len() {
         let before = work.drives[k];
         // The driving gear after the solve, and whether another one was assumed.
         let decide = |point: usize| {
-            let now = drive(work.rolling[k].at(point), work.largest.at(point));
+            let now = drive(work.rolling[k].at_point(point), work.largest.at_point(point));
             if now == Drive::Neither || now == before {
                 return (before, false);
             }
-            let lost = work.used.share(k).at(point) > 0.0 || work.used.constant(k).at(point) > 0.0;
+            let lost = work.used.share(k).at_point(point) > 0.0 || work.used.constant(k).at_point(point) > 0.0;
             (now, before != Drive::Neither || lost)
         };
         let decided = decide(work.leading);

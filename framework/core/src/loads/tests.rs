@@ -948,7 +948,7 @@ fn assert_several_equal_single(loads: &ShaftLoads, meshes: usize, speeds: &[f64]
         let mut alone = vec![SupportLoad::<f64>::default(); supports];
         loads.evaluate(&own, speeds, &mut vec![0.0; loads.scratch_len()], &mut alone);
         for (together, alone) in together.iter().zip(&alone) {
-            assert_eq!(together.at(i), *alone);
+            assert_eq!(together.at_point(i), *alone);
         }
     }
 }

@@ -54,7 +54,7 @@ impl<'a, R: Real> Notebook<'a, R> {
 impl<'a, R: Points> Notebook<'a, R> {
     /// The notebook of one of the points.
     #[inline]
-    pub(crate) fn at(&self, point: usize) -> Notebook<'a> {
+    pub(crate) fn at_point(&self, point: usize) -> Notebook<'a> {
         Notebook {
             cells: self.cells,
             points: self.points & 1 << point,

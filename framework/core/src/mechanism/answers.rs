@@ -66,7 +66,7 @@ impl Answers for Lane {
         if let Ok(all) = M::answer_together(model, at) {
             return Ok(all);
         }
-        let evaluate = |point: usize| M::answer(model, &at.at(point));
+        let evaluate = |point: usize| M::answer(model, &at.at_point(point));
         Ok(M::Answer::one_by_one(at.notes().points(), evaluate))
     }
 
@@ -92,7 +92,7 @@ impl Answers for Lane {
         let mut own = vec![0.0; mu.len()];
         let points = path.notes.points();
         for point in (0..Lane::COUNT).filter(|point| points >> point & 1 == 1) {
-            let along = path.at(point, |path| model.along(path, &mut own));
+            let along = path.at_point(point, |path| model.along(path, &mut own));
             for (mu, own) in mu.iter_mut().zip(&own) {
                 mu.set(point, if along.is_ok() { *own } else { f64::NAN });
             }

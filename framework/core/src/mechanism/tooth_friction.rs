@@ -398,28 +398,28 @@ impl<'a, R: Real> PathAt<'a, R> {
 
 impl<R: Points> PathAt<'_, R> {
     /// Runs a function with the path at one of the points.
-    pub fn at<T>(&self, point: usize, run: impl FnOnce(&PathAt<'_>) -> T) -> T {
-        let mean = self.mean.at(point);
+    pub fn at_point<T>(&self, point: usize, run: impl FnOnce(&PathAt<'_>) -> T) -> T {
+        let mean = self.mean.at_point(point);
         run(&PathAt {
             nodes: self.nodes,
             extent: self.extent,
-            speed: self.speed.at(point),
-            line_load: self.line_load.at(point),
+            speed: self.speed.at_point(point),
+            line_load: self.line_load.at_point(point),
             modulus: self.modulus,
             length: self.length,
-            ra: self.ra.at(point),
-            rq: self.rq.at(point),
-            temperature: self.temperature.at(point),
-            nu: self.nu.at(point),
-            eta: self.eta.at(point),
-            rho: self.rho.at(point),
-            alpha: self.alpha.at(point),
-            beta: self.beta.at(point),
-            conductivity: self.conductivity.at(point),
-            x_l: self.x_l.at(point),
-            bodies: self.bodies.map(|bodies| bodies.map(|body| body.at(point))),
+            ra: self.ra.at_point(point),
+            rq: self.rq.at_point(point),
+            temperature: self.temperature.at_point(point),
+            nu: self.nu.at_point(point),
+            eta: self.eta.at_point(point),
+            rho: self.rho.at_point(point),
+            alpha: self.alpha.at_point(point),
+            beta: self.beta.at_point(point),
+            conductivity: self.conductivity.at_point(point),
+            x_l: self.x_l.at_point(point),
+            bodies: self.bodies.map(|bodies| bodies.map(|body| body.at_point(point))),
             mean: &mean,
-            notes: self.notes.at(point),
+            notes: self.notes.at_point(point),
         })
     }
 }

@@ -144,7 +144,7 @@ impl Mask for LaneMask {
         self.0.iter().fold(!0, |all, own| all & own) != 0
     }
     #[inline(always)]
-    fn at(self, point: usize) -> bool {
+    fn at_point(self, point: usize) -> bool {
         self.0[point] != 0
     }
     #[inline(always)]
@@ -243,7 +243,7 @@ impl Points for Lane {
         mask
     }
     #[inline(always)]
-    fn at(&self, point: usize) -> f64 {
+    fn at_point(&self, point: usize) -> f64 {
         self.0[point]
     }
     #[inline(always)]

@@ -56,7 +56,7 @@ pub struct Root {
 }
 
 impl Root {
-    fn at(step: Step) -> Self {
+    fn from_step(step: Step) -> Self {
         Self {
             temperature: step.temperature,
             step,
@@ -267,7 +267,7 @@ impl<E> Balance<E> {
             && scan[1].1.is_some_and(|next| next.residual() < 0.0)
         {
             // No loss: the lower end itself.
-            self.stable.push(Root::at(*first));
+            self.stable.push(Root::from_step(*first));
         }
         let mut closings = Closings {
             brackets: Vec::new(),
@@ -360,7 +360,7 @@ impl Closing {
         let nearer = last.residual().abs() < other.residual().abs();
         let best = if nearer { last } else { other };
         if best.is_balanced() {
-            return Next::Closed(Root::at(best));
+            return Next::Closed(Root::from_step(best));
         }
         let width = (other.temperature - last.temperature).abs();
         let least = (4.0 * f64::EPSILON * last.temperature.abs()).max(CLOSED) / width;
@@ -379,11 +379,11 @@ impl Closing {
         let width = (above.temperature - below.temperature).abs();
         if below.residual() - above.residual() <= STEEPEST * slope * width {
             let nearer = below.residual() < -above.residual();
-            return Next::Closed(Root::at(if nearer { below } else { above }));
+            return Next::Closed(Root::from_step(if nearer { below } else { above }));
         }
         Next::Closed(Root {
             beyond: Some(above),
-            ..Root::at(below)
+            ..Root::from_step(below)
         })
     }
 

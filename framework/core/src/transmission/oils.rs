@@ -60,7 +60,7 @@ impl Oils {
     pub fn write_states<R: Points>(&self, temperatures: &[R], oils: &mut [Oil<R>]) {
         for ((lubricant, node, offset), oil) in self.spots.iter().zip(oils) {
             let temperature = temperatures.get(*node).unwrap_or(&temperatures[0]);
-            *oil = Oil::of_points(|point| self.lubricants[*lubricant].oil_at(temperature.at(point) + offset));
+            *oil = Oil::of_points(|point| self.lubricants[*lubricant].oil_at(temperature.at_point(point) + offset));
         }
     }
 

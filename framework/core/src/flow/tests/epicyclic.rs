@@ -409,7 +409,7 @@ fn points_of_a_set_near_self_locking_are_solved_together_as_alone() {
             let outcome = flow.real(Tolerance::default(), &mut all, |state| lost(&rig, state));
             assert!(matches!(outcome, Outcome::Converged { .. }), "{outcome:?}");
             for i in 0..LANES {
-                if !all.live.at(i) {
+                if !all.live.at_point(i) {
                     left += 1;
                     continue;
                 }
