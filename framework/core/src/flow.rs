@@ -38,11 +38,6 @@ impl Balance {
         Self { input, output }
     }
 
-    /// The plain quotient of both; `None` if output or input is zero.
-    pub fn efficiency_as_is(&self) -> Option<f64> {
-        (self.output > 0.0 && self.input > 0.0).then(|| self.output / self.input)
-    }
-
     /// Output power over input power; `None` if the output is zero.
     pub fn efficiency(&self) -> Option<f64> {
         // Without losses the quotient may exceed one by rounding.

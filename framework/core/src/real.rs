@@ -122,8 +122,6 @@ pub trait Real:
 pub trait Mask:
     sealed::Sealed + Copy + Debug + Send + Sync + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output = Self>
 {
-    /// The same condition at each point.
-    fn constant(holds: bool) -> Self;
     /// True if it holds at any point.
     fn any(self) -> bool;
     /// True if it holds at every point.
@@ -174,10 +172,6 @@ pub trait Points: Real {
 }
 
 impl Mask for bool {
-    #[inline(always)]
-    fn constant(holds: bool) -> Self {
-        holds
-    }
     #[inline(always)]
     fn any(self) -> bool {
         self

@@ -9,6 +9,22 @@ use crate::real::Real;
 /// Points of most paths: four sections for a smooth law.
 const FEW: usize = 4 * SMOOTH;
 
+/// Points of most paths for a law with a cut-off, and of their like.
+const MANY: usize = 16 * FEW;
+
+/// Runs a function with space for some numbers. Most paths need little, and zeroing more costs time; only paths of more than 448 nodes
+/// allocate.
+#[inline(always)]
+pub(crate) fn with_space<R: Real, T>(len: usize, run: impl FnOnce(&mut [R]) -> T) -> T {
+    if len <= FEW {
+        run(&mut [R::ZERO; FEW][..len])
+    } else if len <= MANY {
+        run(&mut [R::ZERO; MANY][..len])
+    } else {
+        run(&mut vec![R::ZERO; len])
+    }
+}
+
 /// The path of one mesh, prepared.
 pub struct Path {
     nodes: Vec<PathNode>,
@@ -110,17 +126,10 @@ impl Path {
         PathAt::new(&self.nodes, &self.extent, self.length, mean, notes)
     }
 
-    /// Runs a function with space for friction at each node; most paths need little, and zeroing more costs time.
+    /// Runs a function with space for friction at each node.
     #[inline(always)]
     pub fn with_space<R: Real, T>(&self, run: impl FnOnce(&mut [R]) -> T) -> T {
-        const SOME: usize = 4 * FEW;
-        if self.len() <= FEW {
-            run(&mut [R::ZERO; FEW][..self.len()])
-        } else if self.len() <= SOME {
-            run(&mut [R::ZERO; SOME][..self.len()])
-        } else {
-            run(&mut vec![R::ZERO; self.len()])
-        }
+        with_space(self.len(), run)
     }
 
     /// Sliding power per normal force and speed of the first gear, for friction at each point. \[m\]

@@ -86,9 +86,7 @@ impl Transmission {
             s: scratch,
         }
     }
-}
 
-impl Transmission {
     /// Solves points with a speed, torque and temperature each, at most [`LANES`]; they have the power flow and the tolerance of the
     /// first. \[degC\]
     ///
@@ -106,25 +104,13 @@ impl Transmission {
         let s = &mut scratch.together;
         // Lanes without a point repeat the last one and are not read.
         let own = |lane: usize| lane.min(points.len() - 1);
-        let ports = case.speed_ports.len();
+        // Ports beyond those of the case have speeds and torques added by rules, which are zero.
+        let value = |values: &[f64], port: usize| values.get(port).copied().unwrap_or(0.0);
         for (port, speed) in s.prescribed.iter_mut().enumerate() {
-            *speed = Lane::each(|lane| {
-                if port < ports {
-                    points[own(lane)].speeds[port]
-                } else {
-                    0.0
-                }
-            });
+            *speed = Lane::each(|lane| value(points[own(lane)].speeds, port));
         }
-        let ports = case.torque_ports.len();
         for (port, torque) in s.work.given.iter_mut().enumerate() {
-            *torque = Lane::each(|lane| {
-                if port < ports {
-                    points[own(lane)].torques[port]
-                } else {
-                    0.0
-                }
-            });
+            *torque = Lane::each(|lane| value(points[own(lane)].torques, port));
         }
         let c = &mut s.models.conditions;
         c.temperatures.resize(temperatures(0).len(), Lane::ZERO);
@@ -192,9 +178,7 @@ impl Batch<'_> {
 
     /// Solves a single point of the batch.
     pub fn alone(&mut self, torque: f64) -> Solution<'_> {
-        let mut torques = [0.0; 8];
-        let torques = &mut torques[..self.point.torques.len()];
-        torques.copy_from_slice(self.point.torques);
+        let torques = &mut self.s.settled.work.given[..self.point.torques.len()];
         torques[0] = torque;
         let point = Point { torques, ..self.point };
         self.transmission

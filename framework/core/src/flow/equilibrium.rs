@@ -1,5 +1,6 @@
 //! Equilibrium of every member at given losses: one product with the inverse, and one small system for friction.
 
+use super::linear::{eliminate, substitute};
 use super::system::{Flow, MeshRow};
 use super::work::{Drive, Work};
 use crate::real::{Mask as _, Points, Real};
@@ -151,74 +152,6 @@ impl Flow {
             largest = largest.larger((*speed * *torque).magnitude());
         }
         work.largest = largest;
-    }
-}
-
-/// LU factors of a matrix, column by column; returns where it is regular. A point that is solved alone exchanges rows where another
-/// pivot is larger; among several, those that would are solved alone, which they hardly ever are: the matrix is close to identity.
-#[inline(always)]
-fn eliminate<R: Points>(matrix: &mut [R], order: &mut [usize]) -> R::Mask {
-    let n = order.len();
-    let mut regular = R::mask(|_| true);
-    for k in 0..n {
-        let mut most = R::ZERO;
-        for row in k + 1..n {
-            most = most.larger(matrix[k * n + row].magnitude());
-        }
-        order[k] = k;
-        let smaller = matrix[k * n + k].magnitude().is_below(most);
-        if smaller.any() {
-            if R::COUNT == 1 {
-                let rows = k + 1..n;
-                let own = rows
-                    .clone()
-                    .find(|row| matrix[k * n + row].magnitude().is_equal(most).any());
-                order[k] = own.unwrap_or(k);
-                for column in 0..n {
-                    matrix.swap(column * n + k, column * n + order[k]);
-                }
-            } else {
-                regular = regular & !smaller;
-            }
-        }
-        // Entries are of order one, because rows are scaled.
-        regular = regular & !matrix[k * n + k].magnitude().is_below(R::constant(1e-13));
-        // The inverse of the pivot is stored.
-        let inverse = R::constant(1.0) / matrix[k * n + k];
-        matrix[k * n + k] = inverse;
-        for row in k + 1..n {
-            matrix[k * n + row] = matrix[k * n + row] * inverse;
-        }
-        for later in k + 1..n {
-            let upper = matrix[later * n + k];
-            for row in k + 1..n {
-                let lower = matrix[k * n + row];
-                matrix[later * n + row] -= lower * upper;
-            }
-        }
-    }
-    regular
-}
-
-/// Solves with the factors of [`eliminate`], in place.
-#[inline(always)]
-fn substitute<R: Real>(factors: &[R], order: &[usize], x: &mut [R]) {
-    let n = order.len();
-    for (k, row) in order.iter().enumerate() {
-        x.swap(k, *row);
-    }
-    for k in 0..n {
-        let own = x[k];
-        for row in k + 1..n {
-            x[row] -= factors[k * n + row] * own;
-        }
-    }
-    for k in (0..n).rev() {
-        let own = x[k] * factors[k * n + k];
-        x[k] = own;
-        for row in 0..k {
-            x[row] -= factors[k * n + row] * own;
-        }
     }
 }
 

@@ -1,83 +1,71 @@
-//! Small dense linear systems, column by column: factors, solutions, inverse.
+//! Small dense linear systems, column by column, of one point or of several: factors, solutions, inverse.
 
-/// LU factors of a matrix, column by column, with partial pivoting; false if it is singular.
-pub(super) fn factor(matrix: &mut [f64], order: &mut [usize], n: usize) -> bool {
-    // Few meshes have friction at once. A size known at compile time lets the compiler unroll the loops.
-    match n {
-        1 => eliminate(matrix, order, 1),
-        2 => eliminate(matrix, order, 2),
-        3 => eliminate(matrix, order, 3),
-        4 => eliminate(matrix, order, 4),
-        _ => eliminate(matrix, order, n),
-    }
-}
+use crate::real::{Mask as _, Points, Real};
 
+/// LU factors of a matrix, column by column; returns where it is regular. A point that is solved alone exchanges rows where another
+/// pivot is larger; among several, those that would are solved alone, which they hardly ever are: the matrix is close to identity.
 #[inline(always)]
-fn eliminate(matrix: &mut [f64], order: &mut [usize], n: usize) -> bool {
-    let (matrix, order) = (&mut matrix[..n * n], &mut order[..n]);
-    for (k, place) in order.iter_mut().enumerate() {
-        let (left, right) = matrix.split_at_mut((k + 1) * n);
-        let (before, column) = left.split_at_mut(k * n);
-        let mut pivot = k;
-        for i in k + 1..n {
-            if column[i].abs() > column[pivot].abs() {
-                pivot = i;
+pub(super) fn eliminate<R: Points>(matrix: &mut [R], order: &mut [usize]) -> R::Mask {
+    let n = order.len();
+    let mut regular = R::mask(|_| true);
+    for k in 0..n {
+        let mut most = R::ZERO;
+        for row in k + 1..n {
+            most = most.larger(matrix[k * n + row].magnitude());
+        }
+        order[k] = k;
+        let smaller = matrix[k * n + k].magnitude().is_below(most);
+        if smaller.any() {
+            if R::COUNT == 1 {
+                let rows = k + 1..n;
+                let own = rows
+                    .clone()
+                    .find(|row| matrix[k * n + row].magnitude().is_equal(most).any());
+                order[k] = own.unwrap_or(k);
+                for column in 0..n {
+                    matrix.swap(column * n + k, column * n + order[k]);
+                }
+            } else {
+                regular = regular & !smaller;
             }
         }
-        *place = pivot;
         // Entries are of order one, because rows are scaled.
-        if column[pivot].abs() < 1e-13 {
-            return false;
-        }
-        if pivot != k {
-            column.swap(k, pivot);
-            for other in before.chunks_exact_mut(n).chain(right.chunks_exact_mut(n)) {
-                other.swap(k, pivot);
-            }
-        }
+        regular = regular & !matrix[k * n + k].magnitude().is_below(R::constant(1e-13));
         // The inverse of the pivot is stored.
-        column[k] = 1.0 / column[k];
-        let inverse = column[k];
-        let lower = &mut column[k + 1..];
-        for x in lower.iter_mut() {
-            *x *= inverse;
+        let inverse = R::constant(1.0) / matrix[k * n + k];
+        matrix[k * n + k] = inverse;
+        for row in k + 1..n {
+            matrix[k * n + row] = matrix[k * n + row] * inverse;
         }
-        for other in right.chunks_exact_mut(n) {
-            let upper = other[k];
-            for (x, l) in other[k + 1..].iter_mut().zip(&*lower) {
-                *x -= l * upper;
+        for later in k + 1..n {
+            let upper = matrix[later * n + k];
+            for row in k + 1..n {
+                let lower = matrix[k * n + row];
+                matrix[later * n + row] -= lower * upper;
             }
         }
     }
-    true
+    regular
 }
 
-/// Solves with the factors of [`factor`], in place.
-pub(super) fn back(factors: &[f64], order: &[usize], n: usize, x: &mut [f64]) {
-    match n {
-        1 => substitute(factors, order, 1, x),
-        2 => substitute(factors, order, 2, x),
-        3 => substitute(factors, order, 3, x),
-        4 => substitute(factors, order, 4, x),
-        _ => substitute(factors, order, n, x),
-    }
-}
-
+/// Solves with the factors of [`eliminate`], in place.
 #[inline(always)]
-fn substitute(factors: &[f64], order: &[usize], n: usize, x: &mut [f64]) {
-    let (factors, order, x) = (&factors[..n * n], &order[..n], &mut x[..n]);
-    for (k, place) in order.iter().enumerate() {
-        x.swap(k, *place);
+pub(super) fn substitute<R: Real>(factors: &[R], order: &[usize], x: &mut [R]) {
+    let n = order.len();
+    for (k, row) in order.iter().enumerate() {
+        x.swap(k, *row);
     }
-    for (k, column) in factors.chunks_exact(n).enumerate() {
-        for i in k + 1..n {
-            x[i] -= column[i] * x[k];
+    for k in 0..n {
+        let own = x[k];
+        for row in k + 1..n {
+            x[row] -= factors[k * n + row] * own;
         }
     }
-    for (k, column) in factors.chunks_exact(n).enumerate().rev() {
-        x[k] *= column[k];
-        for i in 0..k {
-            x[i] -= column[i] * x[k];
+    for k in (0..n).rev() {
+        let own = x[k] * factors[k * n + k];
+        x[k] = own;
+        for row in 0..k {
+            x[row] -= factors[k * n + row] * own;
         }
     }
 }
@@ -85,14 +73,13 @@ fn substitute(factors: &[f64], order: &[usize], n: usize, x: &mut [f64]) {
 /// The inverse of a matrix; `None` if it is singular.
 pub(super) fn inverse(mut matrix: Vec<f64>, n: usize) -> Option<Vec<f64>> {
     let mut order = vec![0; n];
-    if !factor(&mut matrix, &mut order, n) {
+    if !eliminate(&mut matrix, &mut order) {
         return None;
     }
     let mut inverse = vec![0.0; n * n];
-    for j in 0..n {
-        let column = &mut inverse[j * n..(j + 1) * n];
+    for (j, column) in inverse.chunks_exact_mut(n.max(1)).enumerate() {
         column[j] = 1.0;
-        back(&matrix, &order, n, column);
+        substitute(&matrix, &order, column);
     }
     Some(inverse)
 }

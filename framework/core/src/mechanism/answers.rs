@@ -3,6 +3,7 @@
 use super::tooth_friction::{Along, PathAt, ToothFrictionModel};
 use super::{Answer, Inputs, Mechanism};
 use crate::attach::State;
+use crate::contact::path::with_space;
 use crate::loss::{Loss, Notebook, Undefined};
 use crate::real::{Lane, Points};
 use crate::registry::Placed;
@@ -89,17 +90,18 @@ impl Answers for Lane {
             return Ok(along);
         }
         let mut all = Along::<Lane>::default();
-        let mut own = vec![0.0; mu.len()];
         let points = path.notes.points();
-        for point in (0..Lane::COUNT).filter(|point| points >> point & 1 == 1) {
-            let along = path.at_point(point, |path| model.along(path, &mut own));
-            for (mu, own) in mu.iter_mut().zip(&own) {
-                mu.set(point, if along.is_ok() { *own } else { f64::NAN });
+        with_space(mu.len(), |own: &mut [f64]| {
+            for point in (0..Lane::COUNT).filter(|point| points >> point & 1 == 1) {
+                let along = path.at_point(point, |path| model.along(path, own));
+                for (mu, own) in mu.iter_mut().zip(&*own) {
+                    mu.set(point, if along.is_ok() { *own } else { f64::NAN });
+                }
+                if let Ok(along) = along {
+                    all.first_heat.set(point, along.first_heat);
+                }
             }
-            if let Ok(along) = along {
-                all.first_heat.set(point, along.first_heat);
-            }
-        }
+        });
         Ok(all)
     }
 }

@@ -132,10 +132,6 @@ impl Not for LaneMask {
 
 impl Mask for LaneMask {
     #[inline(always)]
-    fn constant(holds: bool) -> Self {
-        Self([if holds { !0 } else { 0 }; LANES])
-    }
-    #[inline(always)]
     fn any(self) -> bool {
         self.0.iter().fold(0, |all, own| all | own) != 0
     }
