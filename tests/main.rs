@@ -57,6 +57,7 @@ mod studies;
 mod surface;
 mod temperature;
 mod topologies;
+mod variants;
 mod wheels;
 
 /// A file that no `mod` line names would never be compiled, and its tests would never fail.

@@ -31,7 +31,7 @@ mod sealed {
 /// An attachment. The set is closed: mechanisms choose one, they do not define new ones.
 pub trait Attach: sealed::Sealed + 'static {
     /// The keys that the attachment adds to the component's entry.
-    type Place: DeserializeOwned + JsonSchema;
+    type Place: DeserializeOwned + JsonSchema + Send + Sync;
     /// Indices of the members and oils that the place names.
     type Seat: Copy + Send + Sync;
     /// The state at one operating point.
@@ -210,7 +210,7 @@ pub struct SeatedSupport {
 }
 
 /// A clearance with its indices: gear states may close it.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct SeatedClearance {
     /// Id of the component.
     pub id: String,

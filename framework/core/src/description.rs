@@ -11,6 +11,7 @@ pub mod shafts;
 pub mod states;
 
 use schemars::JsonSchema;
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
@@ -93,6 +94,47 @@ pub struct GearboxEntry {
     /// Sources of values.
     #[serde(default)]
     pub sources: Vec<AssumedEntry>,
+}
+
+impl GearboxEntry {
+    /// Reads an entry of a section again, in which only numbers differ from before; the whole document for a section without entries.
+    ///
+    /// # Errors
+    /// If it cannot be read.
+    pub(crate) fn read_again(&mut self, document: &Value, section: &str, id: &str) -> Result<(), serde_json::Error> {
+        let section_value = &document[section];
+        match section {
+            "shafts" => entry_again(&mut self.shafts, section_value, id),
+            "gears" => entry_again(&mut self.gears, section_value, id),
+            "meshes" => entry_again(&mut self.meshes, section_value, id),
+            "planetary_sets" => entry_again(&mut self.planetary_sets, section_value, id),
+            "lubricants" => entry_again(&mut self.lubricants, section_value, id),
+            "housing" => {
+                self.housing = HousingEntry::deserialize(section_value)?;
+                Ok(())
+            }
+            "thermal" => {
+                self.thermal = Thermal::deserialize(section_value)?;
+                Ok(())
+            }
+            _ => {
+                *self = Self::deserialize(document)?;
+                Ok(())
+            }
+        }
+    }
+}
+
+/// Reads one entry of a section again.
+fn entry_again<T: DeserializeOwned>(
+    entries: &mut Ordered<T>,
+    section: &Value,
+    id: &str,
+) -> Result<(), serde_json::Error> {
+    if let Some((_, entry)) = entries.0.iter_mut().find(|(own, _)| own == id) {
+        *entry = T::deserialize(&section[id])?;
+    }
+    Ok(())
 }
 
 /// Assumed: single-pitch deviations of micrometres on pitches of millimetres.

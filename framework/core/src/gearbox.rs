@@ -11,7 +11,7 @@ use crate::codes;
 use crate::document::{Diagnostic, Node, PlacedDiagnostic, Places, Severity, Sources, Span, read_yaml};
 use crate::files::{Disk, LONGEST_TEXT, SharedSource};
 use crate::language::{DRAGS, HEAT, Language};
-use crate::registry::{Files, Registry};
+use crate::registry::{Files, Memory, Registry};
 use crate::resolve::{Choice, Resolved, ValueSource, called_own, expand_set, meets, resolve, sets_of};
 use crate::transmission::Transmission;
 
@@ -204,13 +204,17 @@ impl Gearbox {
     /// # Errors
     /// All findings of resolving, with positions.
     pub fn resolve(&self, language: &Language, choice: &Choice) -> Result<Resolved, Findings> {
-        resolve(language, &self.files, &self.value, choice).map_err(|list| {
-            self.findings(
-                list.into_iter()
-                    .map(|d| self.in_own_set(language, choice, d).code(codes::CHOICE))
-                    .collect(),
-            )
-        })
+        resolve(language, &self.files, &self.value, choice)
+            .map_err(|list| self.faults_of_choice(language, choice, list))
+    }
+
+    /// Findings of resolving with a choice, with positions.
+    pub(crate) fn faults_of_choice(&self, language: &Language, choice: &Choice, list: Vec<Diagnostic>) -> Findings {
+        self.findings(
+            list.into_iter()
+                .map(|d| self.in_own_set(language, choice, d).code(codes::CHOICE))
+                .collect(),
+        )
     }
 
     /// Reads every model set of the document, also the unused ones.
@@ -266,7 +270,21 @@ impl Gearbox {
     /// # Errors
     /// All findings of building, with positions.
     pub fn build(&self, language: &Language, resolved: &Resolved) -> Result<Transmission, Findings> {
-        let mut built = Transmission::new(language, &self.files, resolved).map_err(|list| {
+        let (built, _) = self.build_again(language, resolved, Memory::default())?;
+        Ok(built)
+    }
+
+    /// As [`Gearbox::build`], after another build of the description.
+    ///
+    /// # Errors
+    /// As [`Gearbox::build`]; the memory is then lost.
+    pub(crate) fn build_again(
+        &self,
+        language: &Language,
+        resolved: &Resolved,
+        memory: Memory,
+    ) -> Result<(Transmission, Memory), Findings> {
+        let (mut built, memory) = Transmission::again(language, &self.files, resolved, memory).map_err(|list| {
             self.findings(
                 list.into_iter()
                     .map(|d| self.inherited(language, resolved, d).code(codes::GEARBOX))
@@ -278,7 +296,7 @@ impl Gearbox {
             .into_iter()
             .map(|d| self.places.place(d).code(codes::PLAUSIBILITY))
             .collect();
-        Ok(built)
+        Ok((built, memory))
     }
 
     /// For a model that a component takes from `models`, a finding also shows where it is written.

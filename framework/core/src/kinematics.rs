@@ -53,7 +53,7 @@ impl Row {
 }
 
 /// The columns and rows of one gear state.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Train {
     /// Number of columns: members, and differences that may be prescribed.
     pub columns: usize,

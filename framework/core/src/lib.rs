@@ -86,6 +86,7 @@ mod kinematics;
 pub mod loads;
 pub mod thermal;
 pub mod transmission;
+pub mod variants;
 
 pub use gearloss_document as document;
 pub use gearloss_document::files;

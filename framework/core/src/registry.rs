@@ -5,6 +5,7 @@
 
 mod build;
 mod evaluated;
+mod memory;
 mod placed;
 mod recipe;
 
@@ -16,6 +17,7 @@ use serde_json::{Map, Value};
 
 pub use build::{Build, Files, Instance};
 pub use evaluated::Evaluated;
+pub(crate) use memory::Memory;
 pub(crate) use placed::sealed::Sealed;
 pub use placed::{Placed, Section};
 pub use recipe::NetworkRecipe;

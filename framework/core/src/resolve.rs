@@ -19,6 +19,8 @@ pub use paths::{lookup, matches};
 
 pub use paths::{meets, no_match};
 
+pub(crate) use paths::lookup_mut;
+
 use crate::codes;
 use crate::document::{Diagnostic, did_you_mean};
 use crate::language::{DRAGS, HEAT, Language};
@@ -49,7 +51,7 @@ pub enum ValueSource {
 }
 
 /// The resolved document.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Resolved {
     /// Complete plain data in SI.
     pub value: Value,
@@ -87,47 +89,91 @@ pub fn resolve(
     walked: &Value,
     choice: &Choice,
 ) -> Result<Resolved, Vec<Diagnostic>> {
-    let mut found = Vec::new();
-    let mut value = walked.clone();
-    let mut sources = BTreeMap::new();
-    let mut unreached = Vec::new();
+    Draft::new(language, files, walked, choice).finish(language, &[]).0
+}
 
-    let set = match &choice.set {
-        Some(name) => choice::find(language, &value, &choice.sets, name, &mut found).map(|set| (name.clone(), set)),
-        None => None,
-    };
-    let of_set = set.iter().flat_map(|(_, set)| &set.changes);
-    let (first, later): (Vec<_>, Vec<_>) = own_overrides(&value)
-        .into_iter()
-        .chain(of_set.map(|(path, value, _)| (path.clone(), value.clone())))
-        .chain(choice.overrides.iter().cloned())
-        .partition(|(path, _)| path.ends_with(".designation"));
-    apply(language, &mut value, &first, &mut sources, &mut found);
-    catalogue::fill(language, files, &mut value, &mut sources, &mut found);
-    surfaces(&mut value, &mut sources);
+/// True for an override that is applied before the catalogues, which depend on it.
+pub(crate) fn precedes_catalogues(pattern: &str) -> bool {
+    pattern.ends_with(".designation")
+}
 
-    let own = value.get("models").cloned().unwrap_or(Value::Null);
-    let without = give_models(language, &mut value, &own, set.as_ref(), &mut sources, &mut unreached);
-    if let Some(document) = value.as_object_mut() {
-        for key in ["models", "model_sets", "extends", "set"] {
-            document.shift_remove(key);
+/// One place that an override has written: the number of the override, and the path.
+pub(crate) type Written = (usize, String);
+
+/// A description with everything that a choice states, but before a network is generated: further overrides may follow.
+#[derive(Debug, Clone)]
+pub(crate) struct Draft {
+    resolved: Resolved,
+    /// Overrides inside a network: they are applied after it is generated.
+    inside: Vec<(String, Value)>,
+    found: Vec<Diagnostic>,
+}
+
+impl Draft {
+    pub fn new(language: &Language, files: &Files, walked: &Value, choice: &Choice) -> Self {
+        let mut found = Vec::new();
+        let mut value = walked.clone();
+        let mut sources = BTreeMap::new();
+        let mut unreached = Vec::new();
+
+        let set = match &choice.set {
+            Some(name) => choice::find(language, &value, &choice.sets, name, &mut found).map(|set| (name.clone(), set)),
+            None => None,
+        };
+        let of_set = set.iter().flat_map(|(_, set)| &set.changes);
+        let (first, later): (Vec<_>, Vec<_>) = own_overrides(&value)
+            .into_iter()
+            .chain(of_set.map(|(path, value, _)| (path.clone(), value.clone())))
+            .chain(choice.overrides.iter().cloned())
+            .partition(|(path, _)| precedes_catalogues(path));
+        apply(language, &mut value, first.iter().enumerate(), &mut sources, &mut found);
+        catalogue::fill(language, files, &mut value, &mut sources, &mut found);
+        surfaces(&mut value, &mut sources);
+
+        let own = value.get("models").cloned().unwrap_or(Value::Null);
+        let without = give_models(language, &mut value, &own, set.as_ref(), &mut sources, &mut unreached);
+        if let Some(document) = value.as_object_mut() {
+            for key in ["models", "model_sets", "extends", "set"] {
+                document.shift_remove(key);
+            }
+        }
+        // A generated network depends on all other changes, and changes inside it are applied afterwards.
+        let (inside, later): (Vec<_>, Vec<_>) = later.into_iter().partition(|(path, _)| network::meets_inside(path));
+        apply(language, &mut value, later.iter().enumerate(), &mut sources, &mut found);
+        Self {
+            resolved: Resolved {
+                value,
+                sources,
+                unreached,
+                without,
+            },
+            inside,
+            found,
         }
     }
-    // A generated network depends on all other changes, and changes inside it are applied afterwards.
-    let (inside, later): (Vec<_>, Vec<_>) = later.into_iter().partition(|(path, _)| network::meets_inside(path));
-    apply(language, &mut value, &later, &mut sources, &mut found);
-    if network::expand(language, &mut value, &mut sources, &mut found) {
-        apply(language, &mut value, &inside, &mut sources, &mut found);
-    }
-    if found.is_empty() {
-        Ok(Resolved {
-            value,
-            sources,
-            unreached,
-            without,
-        })
-    } else {
-        Err(found)
+
+    /// The resolved document with further overrides, of which none [precedes the catalogues](precedes_catalogues), and where each of them
+    /// was written.
+    pub fn finish(
+        self,
+        language: &Language,
+        more: &[(String, Value)],
+    ) -> (Result<Resolved, Vec<Diagnostic>>, Vec<Written>) {
+        let Self {
+            mut resolved,
+            inside,
+            mut found,
+        } = self;
+        let Resolved { value, sources, .. } = &mut resolved;
+        let (more_inside, outside): (Vec<_>, Vec<_>) =
+            (more.iter().enumerate()).partition(|(_, (path, _))| network::meets_inside(path));
+        let mut written = apply(language, value, outside.into_iter(), sources, &mut found);
+        if network::expand(language, value, sources, &mut found) {
+            apply(language, value, inside.iter().enumerate(), sources, &mut found);
+            written.extend(apply(language, value, more_inside.into_iter(), sources, &mut found));
+        }
+        let resolved = if found.is_empty() { Ok(resolved) } else { Err(found) };
+        (resolved, written)
     }
 }
 
@@ -340,15 +386,16 @@ fn written_slots(entry: &Map<String, Value>, key: &str) -> Map<String, Value> {
     slots.cloned().unwrap_or_default()
 }
 
-/// Writes overrides into the resolved document, each checked against the schema at its path.
-fn apply(
+/// Writes numbered overrides into the resolved document, each checked against the schema at its path; returns where.
+fn apply<'o>(
     language: &Language,
     value: &mut Value,
-    overrides: &[(String, Value)],
+    overrides: impl Iterator<Item = (usize, &'o (String, Value))>,
     sources: &mut BTreeMap<String, ValueSource>,
     found: &mut Vec<Diagnostic>,
-) {
-    for (pattern, new) in overrides {
+) -> Vec<Written> {
+    let mut written = Vec::new();
+    for (number, (pattern, new)) in overrides {
         let mut hits = matches(value, pattern);
         if hits.is_empty() {
             found.push(paths::no_match(value, pattern));
@@ -368,7 +415,8 @@ fn apply(
                         found.push(Diagnostic::error(&path, "cannot be set here").help("set the key above it"));
                         break;
                     }
-                    sources.insert(path, ValueSource::Override);
+                    sources.insert(path.clone(), ValueSource::Override);
+                    written.push((number, path));
                 }
                 Err(more) => {
                     found.extend(more);
@@ -377,6 +425,7 @@ fn apply(
             }
         }
     }
+    written
 }
 
 /// The error for a path whose last key does not exist: suggests a similar key, or where the keys are listed.

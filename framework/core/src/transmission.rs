@@ -25,6 +25,7 @@ pub use seats::{GearSeat, MeshSeat};
 pub use stage::Stage;
 pub use states::GearState;
 
+pub(crate) use case::Cases;
 pub(crate) use states::RowName;
 
 pub(crate) use nodes::NodeNames;
@@ -73,7 +74,7 @@ pub struct PartInfo {
 pub const WHEELS: &str = "wheels";
 
 /// A port.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Port {
     /// Name.
     pub name: String,
@@ -160,7 +161,9 @@ pub struct Transmission {
     pub(crate) ports: Vec<Port>,
     /// Ports with equal speed that are one among `ports`; usually empty.
     pub(crate) wheels: Vec<Port>,
-    pub(crate) states: Vec<GearState>,
+    pub(crate) states: Arc<Vec<GearState>>,
+    /// Cases of these states that were prepared so far.
+    pub(crate) cases: Arc<Cases>,
     pub(crate) gears: Vec<GearSeat>,
     pub(crate) meshes: Vec<MeshModel>,
     pub(crate) drags: Vec<DragModel>,
@@ -172,7 +175,7 @@ pub struct Transmission {
     /// Supports with a known static load rating.
     pub(crate) rated: Vec<RatedSupport>,
     pub(crate) oils: Oils,
-    pub(crate) loads: ShaftLoads,
+    pub(crate) loads: Arc<ShaftLoads>,
     /// Load correction factors of each support; empty if all are one.
     pub(crate) load_factors: Vec<statics::LoadFactors>,
     pub(crate) imported: Option<statics::Imported>,

@@ -20,6 +20,6 @@ pub use locking::{SelfLocking, self_locking};
 pub use notes::{Note, STATIC_SAFETY, Stated, WeakPoint, evidence, notes};
 pub use pieces::{MOST_IN_FLIGHT, Make, Numbered, Piece, solve_pieces, take_points};
 pub use prepared::{PreparedPoint, SolvedPoint};
-pub use rows::{BuiltFrom, OnRig, Rows, SolvedRows};
+pub use rows::{OnRig, Rows, SolvedRows};
 pub use sums::{SUMS, sum_of, sums};
 pub use temperature::{Found, OilTemperature};

@@ -27,7 +27,7 @@ pub struct PlanetBody {
 }
 
 /// A member for statics.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct MemberLayout {
     /// Permanent forces: position along the shaft, force in x, y, z. \[m, N\]
     pub forces: Vec<(f64, [f64; 3])>,
@@ -46,7 +46,7 @@ pub struct MemberLayout {
 }
 
 /// A support for statics.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SupportLayout {
     /// Member inside.
     pub inner: usize,
@@ -71,7 +71,7 @@ pub struct SupportLayout {
 }
 
 /// A mesh for statics.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MeshLayout {
     /// Members of both gears.
     pub members: [usize; 2],
@@ -117,7 +117,7 @@ impl MeshLayout {
 }
 
 /// The complete layout.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Layout {
     /// Members by number.
     pub members: Vec<MemberLayout>,

@@ -113,7 +113,7 @@ pub fn steel_poisson() -> f64 {
 }
 
 /// A pair of gears, complete.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(try_from = "PairEntry")]
 pub struct MeshPart {
     /// Involute geometry.
@@ -135,6 +135,13 @@ pub struct MeshOil {
     pub id: String,
     /// The oil.
     pub lubricant: Arc<Lubricant>,
+}
+
+/// Equal if it is the same oil, not another one with equal properties.
+impl PartialEq for MeshOil {
+    fn eq(&self, other: &Self) -> bool {
+        self.id == other.id && Arc::ptr_eq(&self.lubricant, &other.lubricant)
+    }
 }
 
 impl MeshPart {

@@ -39,7 +39,7 @@ pub trait HeatDissipationModel: Send + Sync {
 }
 
 /// The outside of the housing; in a gearbox the framework fills it from `housing.outside`.
-#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct HousingPart {
     /// Area that dissipates heat to the air, without fins. [cm2]
     #[schemars(range(min = 0.1, max = 1e8))]

@@ -25,7 +25,7 @@ pub trait PlanetaryDragModel: Send + Sync {
 }
 
 /// A carrier with its planets in the housing; in a gearbox the framework fills it.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct PlanetaryPart {
     /// Number of planets. [-]
     #[schemars(range(min = 2, max = 50))]

@@ -8,7 +8,7 @@ use std::sync::{Arc, Mutex};
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 
-use super::{Entry, Registry, from_resolved};
+use super::{Entry, Memory, Registry, from_resolved};
 use crate::codes;
 use crate::document::{Diagnostic, did_you_mean};
 use crate::files::{Disk, InMemory, LONGEST_DATA, SharedSource};
@@ -123,11 +123,30 @@ pub struct Build<'a> {
     around: Option<Scope>,
     instances: Vec<Instance>,
     cells: usize,
+    /// What the last build left, and what this one leaves.
+    pub(crate) memory: Memory,
+}
+
+/// A model that was built, with everything that it depends on.
+struct KeptSlot<M: Mechanism> {
+    part: Arc<dyn Any + Send + Sync>,
+    value: Value,
+    slot: Slot<M>,
+    /// Its instance and those of its nested models.
+    instances: Vec<Instance>,
+    /// Number of the first of them, and of their first cell and the cell after the last.
+    first: usize,
+    cells: [usize; 2],
 }
 
 impl<'a> Build<'a> {
     /// A fresh build.
     pub fn new(registry: &'a Registry, files: &'a Files) -> Self {
+        Self::again(registry, files, Memory::default())
+    }
+
+    /// A build after another one.
+    pub(crate) fn again(registry: &'a Registry, files: &'a Files, memory: Memory) -> Self {
         Self {
             registry,
             files,
@@ -136,6 +155,7 @@ impl<'a> Build<'a> {
             around: None,
             instances: Vec::new(),
             cells: 0,
+            memory,
         }
     }
 
@@ -239,11 +259,58 @@ impl<'a> Build<'a> {
         part: &Arc<P>,
         value: &Value,
     ) -> Result<Slot<M>, Diagnostic> {
+        let part = Arc::clone(part) as Arc<dyn Any + Send + Sync>;
+        if let Some(slot) = self.kept_slot(path, &part, value) {
+            return Ok(slot);
+        }
+        let (first, first_cell) = (self.instances.len(), self.cells);
         path.clone_into(&mut self.path);
-        self.part = Some(Arc::clone(part) as Arc<dyn Any + Send + Sync>);
+        self.part = Some(Arc::clone(&part));
         let built = self.slot_here(value);
         self.part = None;
-        built
+        let slot: Slot<M> = built?;
+        let kept = KeptSlot {
+            part,
+            value: value.clone(),
+            slot: slot.clone(),
+            instances: self.instances[first..].to_vec(),
+            first,
+            cells: [first_cell, self.cells],
+        };
+        self.memory.keep(path, kept);
+        Ok(slot)
+    }
+
+    /// The model of the last build at a path, if it was built for the same part from an equal choice, and its notes have the same place.
+    fn kept_slot<M: Mechanism>(
+        &mut self,
+        path: &str,
+        part: &Arc<dyn Any + Send + Sync>,
+        value: &Value,
+    ) -> Option<Slot<M>> {
+        let kept: &KeptSlot<M> = self.memory.get(path)?;
+        let same = std::ptr::addr_eq(Arc::as_ptr(&kept.part), Arc::as_ptr(part))
+            && (kept.first, kept.cells[0]) == (self.instances.len(), self.cells)
+            && kept.value == *value;
+        if !same {
+            return None;
+        }
+        self.instances.extend_from_slice(&kept.instances);
+        self.cells = kept.cells[1];
+        Some(kept.slot.clone())
+    }
+
+    /// A part, or that of the last build if it is equal, so that its models are found again.
+    pub(crate) fn part_again<P: PartialEq + Any + Send + Sync>(&mut self, path: &str, part: P) -> Arc<P> {
+        let key = format!("{path}: part");
+        match self.memory.get::<Arc<P>>(&key) {
+            Some(known) if **known == part => Arc::clone(known),
+            _ => {
+                let part = Arc::new(part);
+                self.memory.keep(&key, Arc::clone(&part));
+                part
+            }
+        }
     }
 
     fn slot_here<M: Mechanism>(&mut self, value: &Value) -> Result<Slot<M>, Diagnostic> {

@@ -128,6 +128,13 @@ impl Section {
     }
 }
 
+/// The entry of a component as read, without its model.
+struct Described<C: Component> {
+    place: <C::Attachment as Attach>::Place,
+    common: Common,
+    part: Arc<C::Part>,
+}
+
 fn place<C: Component>(
     value: &Value,
     names: &mut Names<'_>,
@@ -135,10 +142,24 @@ fn place<C: Component>(
 ) -> Result<Option<Box<dyn Placed>>, Diagnostic> {
     let path = names.path().to_owned();
     let read = |e: serde_json::Error| Diagnostic::error(path.clone(), e.to_string());
-    let seat = C::Attachment::seat(&from_resolved(value).map_err(read)?, names);
-    let common: Common = from_resolved(value).map_err(read)?;
-    let part: Arc<C::Part> = Arc::new(from_resolved(value).map_err(read)?);
-    let spot = names.spot(&common);
+    let kept = build.memory.get::<Arc<Described<C>>>(&path);
+    let kept = kept.filter(|_| build.memory.is_same_but_model(&path)).map(Arc::clone);
+    let (seat, described) = if let Some(kept) = kept {
+        (C::Attachment::seat(&kept.place, names), kept)
+    } else {
+        let place = from_resolved(value).map_err(read)?;
+        // Unknown names are reported even if the part is wrong.
+        let seat = C::Attachment::seat(&place, names);
+        let described = Arc::new(Described::<C> {
+            place,
+            common: from_resolved(value).map_err(read)?,
+            part: Arc::new(from_resolved(value).map_err(read)?),
+        });
+        build.memory.keep(&path, Arc::clone(&described));
+        (seat, described)
+    };
+    let spot = names.spot(&described.common);
+    let part = Arc::clone(&described.part);
     let model = build.slot_at::<C>(&format!("{path}.model"), &part, &value["model"])?;
     let (Some(seat), Some(spot)) = (seat, spot) else {
         return Ok(None);

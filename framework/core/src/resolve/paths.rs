@@ -70,29 +70,27 @@ fn descend(value: &Value, keys: &[&str], path: &mut String, found: &mut Vec<Stri
     }
 }
 
+/// The value at a path, to be changed.
+pub(crate) fn lookup_mut<'a>(value: &'a mut Value, path: &str) -> Option<&'a mut Value> {
+    path.split('.').try_fold(value, |value, key| match value {
+        Value::Object(map) => map.get_mut(key),
+        Value::Array(list) => list.get_mut(key.parse::<usize>().ok()?),
+        _ => None,
+    })
+}
+
 /// Writes a value at a path whose parent exists; otherwise false.
 pub(super) fn write(value: &mut Value, path: &str, new: Value) -> bool {
-    let (parent, key) = path
-        .rsplit_once('.')
-        .map_or((None, path), |(parent, key)| (Some(parent), key));
-    let mut target = value;
-    for step in parent.into_iter().flat_map(|p| p.split('.')) {
-        let next = match target {
-            Value::Object(map) => map.get_mut(step),
-            Value::Array(list) => step.parse::<usize>().ok().and_then(|i| list.get_mut(i)),
-            _ => None,
-        };
-        match next {
-            Some(next) => target = next,
-            None => return false,
-        }
-    }
-    match target {
-        Value::Object(map) => {
+    let (parent, key) = match path.rsplit_once('.') {
+        Some((parent, key)) => (lookup_mut(value, parent), key),
+        None => (Some(value), path),
+    };
+    match parent {
+        Some(Value::Object(map)) => {
             map.insert(key.to_owned(), new);
             true
         }
-        Value::Array(list) => match key.parse::<usize>().ok().and_then(|i| list.get_mut(i)) {
+        Some(Value::Array(list)) => match key.parse::<usize>().ok().and_then(|i| list.get_mut(i)) {
             Some(place) => {
                 *place = new;
                 true

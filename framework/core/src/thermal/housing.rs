@@ -63,7 +63,10 @@ impl Housing {
     /// The housing of a description.
     pub(crate) fn new(entry: &GearboxEntry, build: &mut Build<'_>, found: &mut Vec<Diagnostic>) -> Self {
         let thermal = &entry.thermal;
-        let part = Arc::new(HousingPart::from(entry.housing.outside.unwrap_or_default()));
+        let part = build.part_again(
+            "housing.outside",
+            HousingPart::from(entry.housing.outside.unwrap_or_default()),
+        );
         let before = found.len();
         let mut ways = Vec::new();
         let slots = thermal.heat_dissipation.iter().flat_map(|slots| slots.0.iter());

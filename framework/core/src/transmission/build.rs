@@ -1,7 +1,5 @@
 //! From the resolved description to the transmission; reports all errors of this stage at once.
 
-use std::sync::Arc;
-
 use super::drag_models::Drags;
 use super::drags::Covered;
 use super::gearing::gearing;
@@ -23,10 +21,12 @@ use crate::mechanism::Mechanism;
 use crate::mechanism::ModelRef;
 use crate::mechanism::gear_mesh::{GearMesh, MeshPart};
 use crate::mechanism::planetary_drag::PlanetaryDrag;
-use crate::registry::{Build, Files};
+use crate::registry::{Build, Files, Memory};
 use crate::resolve::{Resolved, ValueSource};
 use crate::thermal::Housing;
 use crate::thermal::network::{Around, Network};
+use serde::Deserialize;
+use serde_json::Value;
 
 impl Transmission {
     /// Builds the transmission of a resolved description.
@@ -34,12 +34,26 @@ impl Transmission {
     /// # Errors
     /// All faults, by path.
     pub fn new(language: &Language, files: &Files, resolved: &Resolved) -> Result<Self, Vec<Diagnostic>> {
+        Self::again(language, files, resolved, Memory::default()).map(|(built, _)| built)
+    }
+
+    /// As [`Transmission::new`], after another build of the description whose changes the memory has; steps whose input is the same are
+    /// not repeated. Without success there is no memory for the next build.
+    ///
+    /// # Errors
+    /// All faults, by path.
+    pub(crate) fn again(
+        language: &Language,
+        files: &Files,
+        resolved: &Resolved,
+        mut memory: Memory,
+    ) -> Result<(Self, Memory), Vec<Diagnostic>> {
         let mut found = Vec::new();
         let mut warnings = Vec::new();
-        let frame = Frame::new(language, resolved, &mut found, &mut warnings)?;
+        let frame = Frame::new(language, resolved, &mut memory, &mut found, &mut warnings)?;
         let (entry, members, ports) = (&frame.entry, &frame.members, &frame.ports);
-        let mut oils = OilNumbers::new(entry, members, &frame.meshes, &frame.nodes);
-        let mut build = Build::new(language.registry(), files);
+        let mut oils = OilNumbers::new(entry, members, &frame.meshes, &frame.nodes, &mut memory);
+        let mut build = Build::again(language.registry(), files, memory);
         let models = Models::new(
             language,
             resolved,
@@ -66,9 +80,26 @@ impl Transmission {
         check_network(entry, laid_out, &models.parts, &mut found, &mut warnings);
         classify(&mut found, codes::NETWORK);
         let ends = (&ports[..], &frame.wheels[..]);
-        let states = states(entry, members, &frame.meshes, &models.clearances, ends, &mut found);
+        let mut memory = std::mem::take(&mut build.memory);
+        let (states, cases) = states(
+            entry,
+            members,
+            &frame.meshes,
+            &models.clearances,
+            ends,
+            &mut memory,
+            &mut found,
+        );
         classify(&mut found, codes::POWER_FLOW);
-        let loads = shaft_loads(entry, members, &frame.meshes, supports, &mut found, &mut warnings);
+        let loads = shaft_loads(
+            entry,
+            members,
+            &frame.meshes,
+            supports,
+            &mut memory,
+            &mut found,
+            &mut warnings,
+        );
         let load_factors = load_factors(supports, ports, &mut found);
         let imported = imported_loads(entry, files, ports, &states, supports, &mut found);
         classify(&mut found, codes::SUPPORT);
@@ -82,7 +113,7 @@ impl Transmission {
         let (instances, cells) = build.finish();
         let rated: Vec<RatedSupport> = models.components.iter().filter_map(rated).collect();
         let mut parts = models.parts;
-        parts.sort_by_key(|p| document_order(resolved, &p.path));
+        parts.sort_by_cached_key(|p| document_order(resolved, &p.path));
         if let Some(network) = &mut network {
             warnings.extend(network.warnings());
             network.set_heat(heat_of(&parts, &models.meshes, &frame.nodes));
@@ -98,6 +129,7 @@ impl Transmission {
             ports: frame.ports,
             wheels: frame.wheels,
             states,
+            cases,
             gears: frame.gears,
             meshes: models.meshes,
             drags: models.drags,
@@ -116,7 +148,9 @@ impl Transmission {
             network,
         };
         built.check_states()?;
-        Ok(built)
+        memory.keep(ENTRY, frame.entry);
+        memory.settle();
+        Ok((built, memory))
     }
 }
 
@@ -151,16 +185,17 @@ impl Frame {
     fn new(
         language: &Language,
         resolved: &Resolved,
+        memory: &mut Memory,
         found: &mut Vec<Diagnostic>,
         warnings: &mut Vec<Diagnostic>,
     ) -> Result<Self, Vec<Diagnostic>> {
-        let entry: GearboxEntry = serde_json::from_value(resolved.value.clone())
+        let entry = entry_again(language, &resolved.value, memory)
             .map_err(|e| vec![Diagnostic::error("", format!("the description cannot be read: {e}"))])?;
         let members = Members::new(&entry, found);
         let ports = ports(&entry, &members, found);
         let (ports, wheels) = joined(&entry, &members, ports, found);
         classify(found, codes::SHAFTS);
-        let (gears, meshes) = gearing(language.registry(), &entry, &members, found, warnings);
+        let (gears, meshes) = gearing(language.registry(), &entry, &members, memory, found, warnings);
         let sharing = planets::sharing(&entry, &members, found);
         classify(found, codes::GEARING);
         let nodes = NodeNames::new(&entry, found);
@@ -176,6 +211,24 @@ impl Frame {
             nodes,
         })
     }
+}
+
+/// Key of the description as read in the memory of builds.
+const ENTRY: &str = "description";
+
+/// The description as read: that of the last build, with the changed entries read again.
+fn entry_again(language: &Language, document: &Value, memory: &mut Memory) -> Result<GearboxEntry, serde_json::Error> {
+    let Some(mut entry) = memory.take::<GearboxEntry>(ENTRY) else {
+        return GearboxEntry::deserialize(document);
+    };
+    for path in memory.changed() {
+        let (section, id) = path.split_once('.').unwrap_or((path, ""));
+        // The sections of components are read where they are placed.
+        if !language.registry().sections().any(|(_, own)| own.name == section) {
+            entry.read_again(document, section, id)?;
+        }
+    }
+    Ok(entry)
 }
 
 /// The models on a frame, and the parts of the loss that they compute.
@@ -529,7 +582,7 @@ fn mesh_models(
         };
         let oil = oils.oil(&seat.path, &common);
         let part = MeshPart::new(seat.pair, seat.ra, seat.rq, written.elastic_modulus, written.poisson);
-        let part = Arc::new(part.with_oil(oil.and_then(|oil| oils.lubricant(oil))));
+        let part = build.part_again(&seat.path, part.with_oil(oil.and_then(|oil| oils.lubricant(oil))));
         match build.slot_at::<GearMesh>(&format!("{}.model", seat.path), &part, &choice.value) {
             Ok(model) => {
                 parts.push(PartInfo {

@@ -1,5 +1,7 @@
 //! Common settings of a series of points: gear state, ports with given speed, ports with given torque.
 
+use std::sync::{Mutex, PoisonError};
+
 use super::Transmission;
 use super::states::{GearState, all_ports, explain, prescribed};
 use crate::codes;
@@ -19,6 +21,35 @@ pub struct Case {
     pub torque_ports: Vec<usize>,
     /// Number of speeds added by rules.
     pub(crate) ruled_speeds: usize,
+}
+
+/// The cases of some gear states that were prepared so far, shared by transmissions whose gear states are the same.
+#[derive(Debug, Default)]
+pub(crate) struct Cases(Mutex<Vec<(Asked, Case)>>);
+
+/// Maximum number of cases that are kept: gear states times the ports that a study uses.
+const MOST_KEPT: usize = 64;
+
+/// What determines a case: gear state, ports with given speed, ports with given torque.
+#[derive(Debug, PartialEq)]
+struct Asked {
+    state: usize,
+    speed_ports: Vec<usize>,
+    torque_ports: Vec<usize>,
+}
+
+impl Cases {
+    fn get(&self, asked: &Asked) -> Option<Case> {
+        let kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        kept.iter().find(|(own, _)| own == asked).map(|(_, case)| case.clone())
+    }
+
+    fn keep(&self, asked: Asked, case: &Case) {
+        let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if kept.len() < MOST_KEPT {
+            kept.push((asked, case.clone()));
+        }
+    }
 }
 
 impl Transmission {
@@ -58,6 +89,14 @@ impl Transmission {
             classify(&mut found, codes::GIVEN);
             return Err(found);
         }
+        let asked = Asked {
+            state: index,
+            speed_ports: speed_ports.clone(),
+            torque_ports: torque_ports.clone(),
+        };
+        if let Some(case) = self.cases.get(&asked) {
+            return Ok(case);
+        }
         let (motion, equal) = self.motion(state, &speed_ports, &path)?;
         let mut given: Vec<usize> = torque_ports.iter().map(|p| self.ports[*p].member).collect();
         given.extend(equal.iter().copied());
@@ -88,14 +127,16 @@ impl Transmission {
             given,
         )
         .map_err(|fault| vec![self.flow_fault(&fault, state, equal.len(), &path).code(codes::GIVEN)])?;
-        Ok(Case {
+        let case = Case {
             state: index,
             motion,
             flow,
             ruled_speeds: state.standing.len() + equal.len(),
             speed_ports,
             torque_ports,
-        })
+        };
+        self.cases.keep(asked, &case);
+        Ok(case)
     }
 
     /// Checks that each speed and torque is given once, and no speed at a port that stands.

@@ -47,7 +47,8 @@ impl Drags<'_, '_, '_> {
         for (i, gear) in self.gears.iter().enumerate() {
             let slots = self.entry.gears.0[i].1.drag.as_ref();
             if let Some(mesh) = self.meshes.iter().find(|m| m.gears.contains(&i)) {
-                self.add(slots, &self.on_gear(i, gear, mesh));
+                let place = self.on_gear(i, gear, mesh);
+                self.add(slots, &place);
             }
         }
         for (number, mesh) in self.meshes.iter().enumerate() {
@@ -58,7 +59,8 @@ impl Drags<'_, '_, '_> {
                     temperature_offset: written.temperature_offset,
                     ..Common::default()
                 };
-                self.add(written.drag.as_ref(), &self.on_mesh(number, mesh, common));
+                let place = self.on_mesh(number, mesh, common);
+                self.add(written.drag.as_ref(), &place);
             }
         }
         self.check_meshes_against_gears();
@@ -71,7 +73,7 @@ impl Drags<'_, '_, '_> {
         [0.5 * tip, 0.5 * reference]
     }
 
-    fn on_gear(&self, i: usize, gear: &GearSeat, mesh: &MeshSeat) -> Place {
+    fn on_gear(&mut self, i: usize, gear: &GearSeat, mesh: &MeshSeat) -> Place {
         let written = &self.entry.gears.0[i].1;
         let revolves = mesh.carrier.is_some_and(|c| c != gear.member) && is_planet(self.entry, &gear.id);
         Place {
@@ -85,7 +87,10 @@ impl Drags<'_, '_, '_> {
                 mates: [mates(i, self.meshes), Vec::new()],
                 count: if revolves { mesh.count } else { 1.0 },
             },
-            part: Arc::new(part(self.entry, body(gear, i, mesh), None)),
+            part: (self.build).part_again(
+                &format!("gears.{}", gear.id),
+                part(self.entry, body(gear, i, mesh), None),
+            ),
             common: Common {
                 lubricant: written.lubricant.clone(),
                 temperature_offset: written.temperature_offset,
@@ -96,7 +101,7 @@ impl Drags<'_, '_, '_> {
         }
     }
 
-    fn on_mesh(&self, number: usize, mesh: &MeshSeat, common: Common) -> Place {
+    fn on_mesh(&mut self, number: usize, mesh: &MeshSeat, common: Common) -> Place {
         let [a, b] = mesh.gears;
         let factor = |gear: usize| self.entry.gears.0[gear].1.loss_factor;
         let mate = body(&self.gears[b], b, mesh);
@@ -111,7 +116,10 @@ impl Drags<'_, '_, '_> {
                 mates: [mates(a, self.meshes), mates(b, self.meshes)],
                 count: mesh.count,
             },
-            part: Arc::new(part(self.entry, body(&self.gears[a], a, mesh), Some(mate))),
+            part: (self.build).part_again(
+                &format!("{} drag", mesh.path),
+                part(self.entry, body(&self.gears[a], a, mesh), Some(mate)),
+            ),
             common: Common {
                 // Braking of both gears at the mesh is their drag, not the loss of the mesh.
                 loss_factor: 0.5 * (factor(a) + factor(b)),

@@ -16,7 +16,7 @@ use crate::mechanism::Mechanism;
 use crate::mechanism::NamedSlots;
 use crate::mechanism::gear_drag::GearDrag;
 use crate::mechanism::gear_mesh::GearMesh;
-use crate::registry::Registry;
+use crate::registry::{Memory, Registry};
 
 /// Default roughness, that of ground flanks: Ra 0.4 um. \[m\]
 const USUAL_RA: f64 = 0.4e-6;
@@ -26,10 +26,11 @@ pub fn gearing(
     registry: &Registry,
     entry: &GearboxEntry,
     members: &Members,
+    memory: &mut Memory,
     found: &mut Vec<Diagnostic>,
     warnings: &mut Vec<Diagnostic>,
 ) -> (Vec<GearSeat>, Vec<MeshSeat>) {
-    let mut gearing = Gearing::new(registry, entry, members, found, warnings);
+    let mut gearing = Gearing::new(registry, entry, members, memory, found, warnings);
     gearing.check_gears();
     let (meshes, orbits): (Vec<MeshSeat>, Vec<Orbit>) = entry
         .meshes
@@ -57,6 +58,7 @@ struct Gearing<'a> {
     tips: Vec<Option<f64>>,
     /// Base pitches, each with the mesh that gives it. \[m\]
     pitches: Vec<Option<(f64, String)>>,
+    memory: &'a mut Memory,
     found: &'a mut Vec<Diagnostic>,
     warnings: &'a mut Vec<Diagnostic>,
 }
@@ -66,6 +68,7 @@ impl<'a> Gearing<'a> {
         registry: &'a Registry,
         entry: &'a GearboxEntry,
         members: &'a Members,
+        memory: &'a mut Memory,
         found: &'a mut Vec<Diagnostic>,
         warnings: &'a mut Vec<Diagnostic>,
     ) -> Self {
@@ -93,6 +96,7 @@ impl<'a> Gearing<'a> {
             hands: gears().map(hand).collect(),
             tips: gears().map(|g| g.tip_diameter).collect(),
             pitches: vec![None; members.of_gear.len()],
+            memory,
             found,
             warnings,
         }
@@ -295,7 +299,7 @@ impl<'a> Gearing<'a> {
 
     /// The geometry of a pair; pitch circles only if no model uses impossible teeth.
     fn pair(&mut self, path: &str, spec: &PairSpec, second: usize, schematic: bool) -> Option<Pair> {
-        let pair = match Pair::new(spec) {
+        let pair = match self.memory.repeat(path, *spec, Pair::new) {
             Ok(pair) => pair,
             Err(faults) if schematic && faults.iter().all(PairFault::is_of_teeth) => {
                 self.warnings.extend(plausible::no_involute(path, &faults));

@@ -12,6 +12,7 @@ use crate::immersion::upward;
 use crate::lubricant::Lubricant;
 use crate::mechanism::gear_mesh::MeshOil;
 use crate::real::Points;
+use crate::registry::Memory;
 use crate::table::clamped;
 
 /// Oil height of the sump above its datum while rotating.
@@ -104,13 +105,28 @@ pub struct OilNumbers<'a> {
 }
 
 impl<'a> OilNumbers<'a> {
-    pub fn new(entry: &'a GearboxEntry, members: &Members, meshes: &[MeshSeat], nodes: &'a NodeNames) -> Self {
+    pub fn new(
+        entry: &'a GearboxEntry,
+        members: &Members,
+        meshes: &[MeshSeat],
+        nodes: &'a NodeNames,
+        memory: &mut Memory,
+    ) -> Self {
         let mut findings = Vec::new();
         let names: Vec<&str> = entry.lubricants.ids().collect();
         let mut lubricants = Vec::new();
         for (id, lubricant) in entry.lubricants.iter() {
+            let path = format!("lubricants.{id}");
+            if let Some(known) = memory.get::<Arc<Lubricant>>(&path).filter(|_| memory.is_same(&path)) {
+                lubricants.push(Arc::clone(known));
+                continue;
+            }
             match Lubricant::new(lubricant) {
-                Ok(lubricant) => lubricants.push(Arc::new(lubricant)),
+                Ok(lubricant) => {
+                    let lubricant = Arc::new(lubricant);
+                    memory.keep(&path, Arc::clone(&lubricant));
+                    lubricants.push(lubricant);
+                }
                 Err((key, message, help)) => {
                     findings.push(Diagnostic::error(format!("lubricants.{id}.{key}"), message).help(help));
                 }

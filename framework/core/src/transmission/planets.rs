@@ -187,7 +187,7 @@ pub fn models(
             })
             .collect();
         let oil = entry.housing.oil.as_ref();
-        let part = Arc::new(PlanetaryPart {
+        let part = PlanetaryPart {
             count: set.count,
             orbit: orbit(*first, members, meshes).unwrap_or(0.0),
             bodies: bodies.len() as u32,
@@ -196,7 +196,8 @@ pub fn models(
             ratio: set.ratio,
             oil_volume: oil.and_then(|o| o.volume),
             has_level: oil.is_some_and(|o| o.level.is_some() || o.running_level.is_some()),
-        });
+        };
+        let part = build.part_again(&path, part);
         let common = Common {
             lubricant: set.lubricant.clone(),
             temperature_offset: set.temperature_offset,

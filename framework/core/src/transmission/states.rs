@@ -1,5 +1,8 @@
 //! Gear states: constraint rows, degrees of freedom, and the ports that may prescribe speeds.
 
+use std::sync::Arc;
+
+use super::case::Cases;
 use super::members::Members;
 use super::seats::MeshSeat;
 use crate::attach::{SeatedClearance, dangling};
@@ -8,6 +11,7 @@ use crate::description::GearboxEntry;
 use crate::document::Diagnostic;
 use crate::flow::{MeshRow, Share};
 use crate::kinematics::{Fault, Motion, Row, Train};
+use crate::registry::Memory;
 
 /// Origin of a row, for messages.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,7 +25,7 @@ pub enum RowName {
 }
 
 /// One gear state.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct GearState {
     /// Name.
     pub name: String,
@@ -42,6 +46,22 @@ pub struct GearState {
     pub freedom: usize,
 }
 
+/// Everything that determines the gear states.
+#[derive(PartialEq)]
+struct Plan {
+    /// Meshes, differentials and wheels.
+    base: GearState,
+    /// Name, engaged couplings and members at standstill of each.
+    written: Vec<(String, Vec<String>, Vec<String>)>,
+    members: Vec<String>,
+    clearances: Vec<SeatedClearance>,
+    ports: Vec<super::Port>,
+    has_wheels: bool,
+}
+
+/// Gear states with their cases, and what is wrong with them.
+type Planned = (Arc<Vec<GearState>>, Arc<Cases>, Vec<Diagnostic>);
+
 /// Builds and checks every gear state of a description without faults so far.
 pub fn states(
     entry: &GearboxEntry,
@@ -49,13 +69,14 @@ pub fn states(
     meshes: &[MeshSeat],
     clearances: &[SeatedClearance],
     (ports, wheels): (&[super::Port], &[super::Port]),
+    memory: &mut Memory,
     found: &mut Vec<Diagnostic>,
-) -> Vec<GearState> {
+) -> (Arc<Vec<GearState>>, Arc<Cases>) {
     if !found.is_empty() {
-        return Vec::new();
+        return Default::default();
     }
     let base = all_open(entry, members, meshes, wheels, found);
-    let written: Vec<(String, Vec<String>, Vec<String>)> = if entry.gear_states.is_empty() {
+    let written = if entry.gear_states.is_empty() {
         vec![("only".to_owned(), Vec::new(), Vec::new())]
     } else {
         entry
@@ -64,18 +85,42 @@ pub fn states(
             .map(|(name, s)| (name.to_owned(), s.engaged().to_vec(), s.standstill().to_vec()))
             .collect()
     };
-    let ids: Vec<&str> = members.names.iter().map(String::as_str).collect();
+    let plan = Plan {
+        base,
+        written,
+        members: members.names.clone(),
+        clearances: clearances.to_vec(),
+        ports: ports.to_vec(),
+        has_wheels: !wheels.is_empty(),
+    };
+    let (states, cases, more) = memory.repeat("gear states", plan, planned);
+    found.extend(more);
+    (states, cases)
+}
+
+/// The gear states of a plan.
+fn planned(plan: &Plan) -> Planned {
+    let mut found = Vec::new();
+    let Plan {
+        base,
+        written,
+        members,
+        clearances,
+        ports,
+        has_wheels,
+    } = plan;
+    let ids: Vec<&str> = members.iter().map(String::as_str).collect();
     let closable: Vec<&str> = clearances.iter().map(|c| c.id.as_str()).collect();
     let mut states = Vec::new();
     for (name, engaged, standstill) in written {
         let path = format!("gear_states.{name}");
         let before = found.len();
         let mut state = GearState {
-            name,
+            name: name.clone(),
             engaged: engaged.clone(),
             ..base.clone()
         };
-        for id in &engaged {
+        for id in engaged {
             match clearances.iter().find(|c| c.id == *id) {
                 Some(clearance) => {
                     let [a, b] = clearance.between.map(|m| m.map(usize::from));
@@ -85,13 +130,13 @@ pub fn states(
                 None => found.push(dangling(&path, "coupling, clutch or brake", id, &closable)),
             }
         }
-        for id in &standstill {
+        for id in standstill {
             match ids.iter().position(|m| m == id) {
                 Some(member) => state.standing.push(member),
                 None => found.push(dangling(&format!("{path}.standstill"), "shaft or idler gear", id, &ids)),
             }
         }
-        if !wheels.is_empty() {
+        if *has_wheels {
             // Wheels with equal speed make the rule of some differentials redundant.
             let freedom = Motion::freedom(&state.train);
             state.equal.retain(|difference| {
@@ -101,11 +146,11 @@ pub fn states(
             });
         }
         if found.len() == before {
-            choose_ports(&mut state, ports, members, &path, found);
+            choose_ports(&mut state, ports, members, &path, &mut found);
         }
         states.push(state);
     }
-    states
+    (Arc::new(states), Arc::default(), found)
 }
 
 /// What all gear states have in common: meshes, differentials and wheels, without any engaged coupling.
@@ -203,7 +248,7 @@ fn add_differentials(state: &mut GearState, entry: &GearboxEntry, members: &Memb
 fn choose_ports(
     state: &mut GearState,
     ports: &[super::Port],
-    members: &Members,
+    members: &[String],
     path: &str,
     found: &mut Vec<Diagnostic>,
 ) {
@@ -242,8 +287,7 @@ fn choose_ports(
         }
     }
     if let Some(list) = faults {
-        let names: Vec<String> = members.names.clone();
-        found.extend(list.iter().map(|fault| explain(fault, state, &names, ports, path)));
+        found.extend(list.iter().map(|fault| explain(fault, state, members, ports, path)));
     }
     state.freedom = count;
     state.speed_ports = chosen;

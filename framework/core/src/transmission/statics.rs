@@ -1,6 +1,7 @@
 //! From placed supports and meshes to shaft loads; load factors and imported loads.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use super::members::Members;
 use super::seats::{MeshSeat, orbit};
@@ -11,6 +12,7 @@ use crate::document::Diagnostic;
 use crate::loads::{
     Layout, LoadFault, MemberLayout, MeshLayout, PlanetBody, Section, ShaftLoads, SupportLayout, SupportLoad,
 };
+use crate::registry::Memory;
 use crate::table::clamped;
 
 /// Gravity. \[m/s2\]
@@ -77,9 +79,10 @@ pub fn shaft_loads(
     members: &Members,
     meshes: &[MeshSeat],
     supports: &[SeatedSupport],
+    memory: &mut Memory,
     found: &mut Vec<Diagnostic>,
     warnings: &mut Vec<Diagnostic>,
-) -> Option<ShaftLoads> {
+) -> Option<Arc<ShaftLoads>> {
     let layout = Layout {
         members: (0..members.names.len())
             .map(|i| member_layout(i, entry, members, meshes, found))
@@ -91,7 +94,7 @@ pub fn shaft_loads(
         meshes: meshes.iter().map(|mesh| mesh_layout(mesh, entry, members)).collect(),
     };
     unsupported(entry, members, &layout, found, warnings);
-    match ShaftLoads::new(&layout) {
+    match memory.repeat("shaft loads", layout, |layout| ShaftLoads::new(layout).map(Arc::new)) {
         Ok(loads) => Some(loads),
         Err(faults) => {
             let path = |s: &usize| supports[*s].path.clone();

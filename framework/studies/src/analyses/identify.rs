@@ -19,6 +19,7 @@ mod values;
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::gearbox::Gearbox;
+use gearloss_framework::variants::Variants;
 use gearloss_numerics::inference::{Accuracy, Fold};
 use gearloss_numerics::least_squares::{self, Fault, Loss, OneSearch};
 
@@ -208,7 +209,8 @@ fn stated<'s>(
     let rows = |measured| -> Rows<'s> { cx.study.rows(measured, &entry.bind, entry.gear.as_deref(), false) };
     let choice = cx.study.choice(b.set());
     let gearbox: &'s Gearbox = b.gearbox;
-    cx.rows_fit(&rows(points.measured), gearbox, &choice)?;
+    let variants = Variants::new(cx.language, gearbox, choice.clone());
+    cx.rows_fit(&rows(points.measured), gearbox, &variants)?;
     let made = Identification::new(
         cx.language,
         gearbox,

@@ -6,6 +6,7 @@ mod solve;
 
 use gearloss_framework::description::Ordered;
 use gearloss_framework::resolve::matches;
+use gearloss_framework::variants::Variants;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::Value;
@@ -95,7 +96,8 @@ impl Analysis for RmsSurfaceEntry {
         let mut sets = Vec::new();
         for built in cx.built(cx.gearbox(self.gearbox.as_ref())?, &self.against)? {
             let axes = self.axes(cx, &measured, &built)?;
-            cx.rows_fit(&rows, built.gearbox, &cx.study.choice(built.set()))?;
+            let variants = Variants::new(cx.language, built.gearbox, cx.study.choice(built.set()));
+            cx.rows_fit(&rows, built.gearbox, &variants)?;
             sets.push((built, axes));
         }
         cx.begin()?;

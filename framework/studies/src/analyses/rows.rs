@@ -1,12 +1,14 @@
 //! Reads points of a file and solves them with model sets.
 
 use crate::measured::{Measured, MeasuredEntry, PortSpeeds};
-use crate::points::{BuiltFrom, Note, OnRig, PointResult, Rows, notes};
+use crate::points::{Note, OnRig, PointResult, Rows, notes};
 use crate::study::Data;
 use gearloss_framework::description::Ordered;
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::gearbox::Gearbox;
-use gearloss_framework::resolve::{Choice, OWN_MODELS};
+use gearloss_framework::resolve::OWN_MODELS;
+use gearloss_framework::transmission::Transmission;
+use gearloss_framework::variants::Variants;
 use serde_json::Value;
 
 use super::trial::{Left, Trial, left, why};
@@ -83,13 +85,14 @@ impl Context<'_> {
             };
             let name = set.map_or(OWN_MODELS, String::as_str);
             let choice = self.study.choice(choice);
-            let transmissions = self.rows_fit(&rows, gearbox, &choice)?;
+            let variants = Variants::new(self.language, gearbox, choice);
+            let transmissions = self.rows_fit(&rows, gearbox, &variants)?;
             if self.only_checks {
                 return Ok(None);
             }
             let running = self.running(measured.rows.len(), name);
             let going = |n: usize| running.advance(n);
-            let solve = |transmissions: Vec<BuiltFrom>, on: Option<OnRig<'_>>| {
+            let solve = |transmissions: Vec<Transmission>, on: Option<OnRig<'_>>| {
                 let solved = rows.solve(transmissions, on, &going);
                 let solved = solved.map_err(|list| Stopped::from(gearbox.findings(list)))?;
                 solved.ok_or(Stopped::Interrupted)
@@ -99,10 +102,11 @@ impl Context<'_> {
                 let speeds = rows.speeds(&solved, measured.rig.at_out());
                 let speeds = speeds.map_err(|error| self.found(vec![error]))?;
                 let (rig, speeds) = (measured.rig, &speeds[..]);
-                let transmissions = rows.build(self.language, gearbox, &choice)?;
-                solved = solve(transmissions, Some(OnRig { rig, speeds }))?;
+                solved = solve(solved.transmissions, Some(OnRig { rig, speeds }))?;
             }
-            let built = solved.transmissions.into_iter().map(|(resolved, transmission)| Built {
+            let resolved = rows.resolved(&variants)?;
+            let built = resolved.into_iter().zip(solved.transmissions);
+            let built = built.map(|(resolved, transmission)| Built {
                 name: name.to_owned(),
                 gearbox,
                 resolved,
@@ -124,8 +128,13 @@ impl Context<'_> {
     }
 
     /// The transmissions of rows; rows with invalid bound values, gears or ports are errors.
-    pub fn rows_fit(&self, rows: &Rows<'_>, gearbox: &Gearbox, choice: &Choice) -> Result<Vec<BuiltFrom>, Stopped> {
-        let transmissions = rows.build(self.language, gearbox, choice).map_err(|findings| {
+    pub fn rows_fit(
+        &self,
+        rows: &Rows<'_>,
+        gearbox: &Gearbox,
+        variants: &Variants<'_>,
+    ) -> Result<Vec<Transmission>, Stopped> {
+        let transmissions = rows.build(variants, &[]).map_err(|findings| {
             // Errors without a key of the gearbox belong to the analysis.
             if findings.list.iter().any(|error| !error.path.is_empty()) {
                 return findings;
@@ -139,7 +148,7 @@ impl Context<'_> {
                 .findings(findings.list.into_iter().map(at_analysis).collect())
         })?;
         for (place, points) in rows.kinds(&transmissions) {
-            self.case(gearbox, &transmissions[place].1, &points)?;
+            self.case(gearbox, &transmissions[place], &points)?;
         }
         Ok(transmissions)
     }
@@ -171,12 +180,9 @@ impl Trial<'_> {
         let rig = rows.measured.rig;
         let on = (!rig.is_silent()).then_some(OnRig { rig, speeds });
         let solved = self.solved_rows(rows, overrides, on)?;
-        seen.extend(left(&solved.transmissions[0].1, &solved.seen));
+        seen.extend(left(&solved.transmissions[0], &solved.seen));
         let row = |(place, _, point): (usize, String, PointResult)| {
-            let why = point
-                .loss
-                .is_none()
-                .then(|| why(&solved.transmissions[place].1, &point));
+            let why = point.loss.is_none().then(|| why(&solved.transmissions[place], &point));
             (point, why)
         };
         Ok(solved.rows.into_iter().map(row).collect())

@@ -3,10 +3,9 @@
 use std::collections::BTreeSet;
 
 use crate::points::{GridResult, OilTemperature, OnRig, PointResult, Points, Rows, SolvedRows, notes, run_grid};
-use gearloss_framework::gearbox::Gearbox;
-use gearloss_framework::language::Language;
 use gearloss_framework::loss::Extent;
 use gearloss_framework::transmission::Transmission;
+use gearloss_framework::variants::Variants;
 use serde_json::Value;
 
 use super::{Built, Context};
@@ -18,10 +17,8 @@ pub type Left = BTreeSet<(String, String)>;
 /// Data for rebuilding.
 pub struct Trial<'a> {
     cx: &'a Context<'a>,
-    language: &'a Language,
     study: &'a Study,
-    gearbox: &'a Gearbox,
-    set: Option<&'a str>,
+    variants: Variants<'a>,
 }
 
 impl<'a> Trial<'a> {
@@ -29,24 +26,15 @@ impl<'a> Trial<'a> {
     pub fn new(cx: &'a Context<'a>, built: &'a Built<'_>) -> Self {
         Self {
             cx,
-            language: cx.language,
             study: cx.study,
-            gearbox: built.gearbox,
-            set: built.set(),
+            variants: Variants::new(cx.language, built.gearbox, cx.study.choice(built.set())),
         }
     }
 
     /// The transmission with overrides, or its first error.
     pub fn build(&self, overrides: impl IntoIterator<Item = (String, Value)>) -> Result<Transmission, String> {
-        let mut choice = self.study.choice(self.set);
-        choice.overrides.extend(overrides);
-        let resolved = self
-            .gearbox
-            .resolve(self.language, &choice)
-            .map_err(|findings| findings.first())?;
-        self.gearbox
-            .build(self.language, &resolved)
-            .map_err(|findings| findings.first())
+        let overrides: Vec<(String, Value)> = overrides.into_iter().collect();
+        self.variants.build(&overrides).map_err(|findings| findings.first())
     }
 
     /// Solves all points. Their temperature follows the overrides unless given otherwise.
@@ -67,10 +55,8 @@ impl<'a> Trial<'a> {
         overrides: &[(String, Value)],
         on: Option<OnRig<'_>>,
     ) -> Result<SolvedRows, String> {
-        let mut choice = self.study.choice(self.set);
-        choice.overrides.extend_from_slice(overrides);
         let built = rows
-            .build(self.language, self.gearbox, &choice)
+            .build(&self.variants, overrides)
             .map_err(|findings| findings.first())?;
         let solved = rows.solve(built, on, &|_| self.cx.should_continue());
         let solved = solved.map_err(|list| list.first().map_or_else(String::new, |d| d.message.clone()))?;

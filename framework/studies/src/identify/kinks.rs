@@ -89,12 +89,12 @@ impl Identification<'_> {
                 if bent <= LEAST * loss {
                     continue;
                 }
-                let transmission = &middle.solved.transmissions[*number].1;
+                let transmission = &middle.solved.transmissions[*number];
                 let info = &transmission.parts()[part];
                 let taken = [0, 1].map(|k| {
                     let beside = &sides[k].solved;
                     self.rows
-                        .branches(&beside.transmissions[*number].1, gear, sides[k].point(row), part)
+                        .branches(&beside.transmissions[*number], gear, sides[k].point(row), part)
                 });
                 let regimes = changed(&taken);
                 let change = bent / own.abs().max(f64::MIN_POSITIVE);

@@ -1,5 +1,7 @@
 //! The least-squares problem of an identification: measured points, and the gearbox with given parameters.
 
+use std::sync::Arc;
+
 use crate::codes;
 use crate::measured::{Measured, PortSpeeds, Rig, Seen};
 use crate::points::{OnRig, PointResult, Rows, SolvedRows};
@@ -8,6 +10,7 @@ use gearloss_framework::document::Diagnostic;
 use gearloss_framework::gearbox::{Findings, Gearbox};
 use gearloss_framework::language::Language;
 use gearloss_framework::resolve::Choice;
+use gearloss_framework::variants::Variants;
 use gearloss_numerics::inference::Accuracy;
 use gearloss_numerics::least_squares::Problem;
 
@@ -59,9 +62,7 @@ impl Calculated {
 
 /// Measured points, a gearbox with one choice of models, and parameters.
 pub struct Identification<'a> {
-    pub(super) language: &'a Language,
-    pub(super) gearbox: &'a Gearbox,
-    pub(super) choice: Choice,
+    pub(super) variants: Arc<Variants<'a>>,
     pub(super) rows: Rows<'a>,
     pub(super) parameters: Vec<Identified>,
     pub(super) speeds: Vec<PortSpeeds>,
@@ -84,11 +85,13 @@ impl<'a> Identification<'a> {
         entries: impl IntoIterator<Item = (&'e str, &'e IdentifiedEntry)>,
         residuals: &[Quantity],
     ) -> Result<Self, Faults> {
-        let built = rows.build(language, gearbox, &choice)?;
+        let variants = Arc::new(Variants::new(language, gearbox, choice));
+        let built = rows.build(&variants, &[])?;
+        let resolved = rows.resolved(&variants)?;
         let mut found = Vec::new();
         let mut parameters = Vec::new();
         for (name, entry) in entries {
-            match Identified::from_entry(name, entry, &rows.measured.rig, (language, &built[0].0)) {
+            match Identified::from_entry(name, entry, &rows.measured.rig, (language, &resolved[0])) {
                 Ok(list) => parameters.extend(list),
                 Err(error) => found.push(error),
             }
@@ -101,7 +104,7 @@ impl<'a> Identification<'a> {
         }
         for parameter in &parameters {
             if let Target::Over { port, .. } = &parameter.target
-                && let Err(error) = built[0].1.port(port)
+                && let Err(error) = built[0].port(port)
             {
                 let path = format!("parameters.{}.over.port", parameter.base_name());
                 found.push(Diagnostic { path, ..error });
@@ -112,9 +115,7 @@ impl<'a> Identification<'a> {
             return Err(Faults::Study(found));
         }
         let mut identification = Self {
-            language,
-            gearbox,
-            choice,
+            variants,
             rows,
             parameters,
             speeds: Vec::new(),
@@ -152,16 +153,12 @@ impl<'a> Identification<'a> {
             measured,
             ..self.rows.clone()
         };
-        let built = rows
-            .build(self.language, self.gearbox, &self.choice)
-            .map_err(|findings| findings.first())?;
+        let built = rows.build(&self.variants, &[]).map_err(|findings| findings.first())?;
         let solved = rows.solve(built, None, &|_| true);
         let solved = solved.map_err(|list| list.first().map_or_else(String::new, |d| d.message.clone()))?;
         let speeds = solved.map_or(Ok(Vec::new()), |solved| rows.speeds(&solved, false));
         Ok(Identification {
-            language: self.language,
-            gearbox: self.gearbox,
-            choice: self.choice.clone(),
+            variants: Arc::clone(&self.variants) as Arc<Variants<'b>>,
             parameters: self.parameters.clone(),
             speeds: speeds.map_err(|d| d.message)?,
             observations,
@@ -209,11 +206,10 @@ impl<'a> Identification<'a> {
     /// # Errors
     /// If it cannot be built with them.
     pub fn calculate(&self, theta: &[f64]) -> Result<Calculated, String> {
-        let mut choice = self.choice.clone();
-        choice.overrides.extend(Identified::overrides(&self.parameters, theta));
+        let overrides = Identified::overrides(&self.parameters, theta);
         let built = self
             .rows
-            .build(self.language, self.gearbox, &choice)
+            .build(&self.variants, &overrides)
             .map_err(|findings| findings.first())?;
         let rig = Identified::rig(&self.parameters, theta, &self.rows.measured.rig);
         let on = OnRig {

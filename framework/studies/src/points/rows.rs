@@ -8,11 +8,11 @@ use crate::measured::{Measured, PortSpeeds, Rig, Row, sense};
 use gearloss_framework::description::ThermalMode;
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::evaluate::{Point, PowerFlow};
-use gearloss_framework::gearbox::{Findings, Gearbox};
-use gearloss_framework::language::Language;
+use gearloss_framework::gearbox::Findings;
 use gearloss_framework::loss::{Extent, Step};
-use gearloss_framework::resolve::{Choice, Resolved};
+use gearloss_framework::resolve::Resolved;
 use gearloss_framework::transmission::Transmission;
+use gearloss_framework::variants::Variants;
 
 /// Rows of a file and their prescription.
 #[derive(Debug, Clone)]
@@ -44,13 +44,10 @@ pub struct OnRig<'a> {
     pub speeds: &'a [PortSpeeds],
 }
 
-/// A transmission with its resolved description.
-pub type BuiltFrom = (Resolved, Transmission);
-
 /// Solved rows.
 pub struct SolvedRows {
     /// One transmission for each combination of bound values, in order of first occurrence.
-    pub transmissions: Vec<BuiltFrom>,
+    pub transmissions: Vec<Transmission>,
     /// For each row the index of its transmission, its gear and its point.
     pub rows: Vec<(usize, String, PointResult)>,
     /// Observed limits and quantities over all rows.
@@ -58,24 +55,34 @@ pub struct SolvedRows {
 }
 
 impl Rows<'_> {
-    /// The transmissions of a choice: one for each combination of bound values.
+    /// The transmissions of a gearbox with overrides: one for each combination of bound values.
     ///
     /// # Errors
     /// All errors of resolving and building.
-    pub fn build(&self, language: &Language, gearbox: &Gearbox, choice: &Choice) -> Result<Vec<BuiltFrom>, Findings> {
+    pub fn build(&self, variants: &Variants<'_>, overrides: &[(String, Value)]) -> Result<Vec<Transmission>, Findings> {
         let of = |bound: &&Vec<String>| {
-            let mut choice = choice.clone();
-            let values = self.bind.iter().zip(bound.iter());
-            choice
-                .overrides
-                .extend(values.map(|(path, text)| ((*path).to_owned(), bound_value(text))));
-            let resolved = gearbox.resolve(language, &choice)?;
-            let transmission = gearbox.build(language, &resolved)?;
+            let transmission = variants.build(&self.with_bound(overrides, bound))?;
             self.ports_fit(&transmission)
                 .map_err(|error| Findings::from(vec![error]))?;
-            Ok((resolved, transmission))
+            Ok(transmission)
         };
         self.combinations().iter().map(of).collect()
+    }
+
+    /// The resolved descriptions of the transmissions without further overrides.
+    ///
+    /// # Errors
+    /// All errors of resolving.
+    pub fn resolved(&self, variants: &Variants<'_>) -> Result<Vec<Resolved>, Findings> {
+        let of = |bound: &&Vec<String>| variants.resolve(&self.with_bound(&[], bound));
+        self.combinations().iter().map(of).collect()
+    }
+
+    /// Overrides, followed by bound values.
+    fn with_bound(&self, overrides: &[(String, Value)], bound: &[String]) -> Vec<(String, Value)> {
+        let values = self.bind.iter().zip(bound);
+        let values = values.map(|(path, text)| ((*path).to_owned(), bound_value(text)));
+        overrides.iter().cloned().chain(values).collect()
     }
 
     fn combinations(&self) -> Vec<&Vec<String>> {
@@ -83,25 +90,25 @@ impl Rows<'_> {
     }
 
     /// The points of each gear of each transmission, with the index of the latter; without torques and speeds.
-    pub fn kinds(&self, transmissions: &[BuiltFrom]) -> Vec<(usize, Points)> {
+    pub fn kinds(&self, transmissions: &[Transmission]) -> Vec<(usize, Points)> {
         let mut kinds: Vec<(usize, Points)> = Vec::new();
         for (place, gear) in self.keys(transmissions) {
             if !kinds
                 .iter()
                 .any(|(own, points)| (*own, points.gear.as_str()) == (place, gear))
             {
-                kinds.push((place, self.points(gear, &transmissions[place].1, Vec::new())));
+                kinds.push((place, self.points(gear, &transmissions[place], Vec::new())));
             }
         }
         kinds
     }
 
     /// Index of the transmission and gear of each row.
-    fn keys<'s>(&'s self, transmissions: &'s [BuiltFrom]) -> Vec<(usize, &'s str)> {
+    fn keys<'s>(&'s self, transmissions: &'s [Transmission]) -> Vec<(usize, &'s str)> {
         let combinations = self.combinations();
         let key = |row: &'s Row| {
             let place = combinations.iter().position(|c| **c == row.bound).unwrap_or(0);
-            (place, self.state(row, &transmissions[place].1))
+            (place, self.state(row, &transmissions[place]))
         };
         self.measured.rows.iter().map(key).collect()
     }
@@ -173,7 +180,7 @@ impl Rows<'_> {
     /// If the gear of a row or the ports are invalid.
     pub fn solve(
         &self,
-        transmissions: Vec<BuiltFrom>,
+        transmissions: Vec<Transmission>,
         rig: Option<OnRig<'_>>,
         progress: &(dyn Fn(usize) -> bool + Sync),
     ) -> Result<Option<SolvedRows>, Vec<Diagnostic>> {
@@ -186,7 +193,7 @@ impl Rows<'_> {
                 continue;
             }
             let own: Vec<usize> = (i..keys.len()).filter(|k| keys[*k] == *key).collect();
-            let transmission = &transmissions[key.0].1;
+            let transmission = &transmissions[key.0];
             let signs = self.signs(key.1, transmission);
             let list = own.iter().map(|k| self.given(*k, transmission, signs, rig)).collect();
             let points = self.points(key.1, transmission, list);

@@ -146,7 +146,7 @@ impl Found {
             let help = "hold out rows with measured values of the fitted quantity, at which the gearbox has a value";
             cx.wrong_as(codes::HOLD_OUT, &format!("{path}.hold_out"), reason, help)
         })?;
-        let transmission = &after.solved.transmissions[0].1;
+        let transmission = &after.solved.transmissions[0];
         let mut seen = after.solved.seen.clone();
         let held_out = held_out.map(|(held_out, there)| {
             merge(&mut seen, &there);
@@ -223,7 +223,7 @@ fn rows(there: &Calculated, measured: &Measured, mechanisms: &[&'static str]) ->
     let solved = there.solved.rows.iter().zip(&measured.rows);
     let row = |((number, gear, point), row): (&(usize, String, _), _)| {
         let point: &crate::points::PointResult = point;
-        let parts = there.solved.transmissions[*number].1.parts();
+        let parts = there.solved.transmissions[*number].parts();
         let of_mechanism = |mechanism: &&str| {
             let own = parts
                 .iter()
