@@ -342,21 +342,41 @@ fn texts_of_tables_are_no_formulas() {
 }
 
 #[test]
-fn analyses_that_hold_their_points_refuse_too_many_of_them() {
+fn analyses_that_hold_their_points_or_samples_refuse_too_many_of_them() {
     let folder = folder("many");
     let span = |unit: &str| format!("{{ from: 1 {unit}, to: 90000 {unit}, step: 1 {unit} }}");
     let wide = format!("torque: {}, speed: {}", span("Nm"), span("rpm"));
     let grid = "torque: { from: 1 Nm, to: 100 Nm, step: 1 Nm }, speed: { from: 10 rpm, to: 1000 rpm, step: 10 rpm }";
     let inputs = "[{ path: lubricants.oil.viscosity.kv40, percent: 5 }]";
-    for analysis in [
-        "{ type: compare, grid: wide, base: mine, against: [mine] }".to_owned(),
-        format!("{{ type: uncertainty, grid: field, samples: 65536, inputs: {inputs} }}"),
-        format!("{{ type: sensitivity, grid: field, methods: [sobol], samples: 65536, parameters: {inputs} }}"),
-        format!("{{ type: sweep, path: seals.front.diameter, values: [20 mm, 21 mm], {wide} }}"),
-        format!("{{ type: breakdown, {wide} }}"),
-        format!("{{ type: temperature_sweep, oil_temperature: [20 degC], {wide} }}"),
-        format!(
-            "{{ type: component_compare, component: seals.front, models: {{ own: {{ type: iso14179_2 }} }}, {wide} }}"
+    let many_points = ["more points", "than the maximum of 2000000", "analyses"];
+    let many_samples = ["samples need", "GB of memory, more than 4 GB", "analyses"];
+    for (words, analysis) in [
+        (
+            many_samples,
+            format!("{{ type: uncertainty, grid: field, samples: 65536, inputs: {inputs} }}"),
+        ),
+        (
+            many_samples,
+            format!("{{ type: sensitivity, grid: field, methods: [sobol], samples: 16777216, parameters: {inputs} }}"),
+        ),
+        (
+            many_points,
+            "{ type: compare, grid: wide, base: mine, against: [mine] }".to_owned(),
+        ),
+        (
+            many_points,
+            format!("{{ type: sweep, path: seals.front.diameter, values: [20 mm, 21 mm], {wide} }}"),
+        ),
+        (many_points, format!("{{ type: breakdown, {wide} }}")),
+        (
+            many_points,
+            format!("{{ type: temperature_sweep, oil_temperature: [20 degC], {wide} }}"),
+        ),
+        (
+            many_points,
+            format!(
+                "{{ type: component_compare, component: seals.front, models: {{ own: {{ type: iso14179_2 }} }}, {wide} }}"
+            ),
         ),
     ] {
         let study = format!(
@@ -364,10 +384,6 @@ fn analyses_that_hold_their_points_refuse_too_many_of_them() {
              speed: {{ from: 1 rpm, to: 4000 rpm, step: 1 rpm }} }} }}\nanalyses: {{ many: {analysis} }}\n"
         );
         fs::write(folder.join("study.yaml"), study).unwrap();
-        refused(
-            &folder,
-            &["run", "study.yaml"],
-            &["more points", "than the maximum of 2000000", "analyses"],
-        );
+        refused(&folder, &["run", "study.yaml"], &words);
     }
 }

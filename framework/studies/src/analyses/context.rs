@@ -78,6 +78,9 @@ impl Built<'_> {
 /// Maximum number of points in memory, samples included; with derived data they need a few gigabytes. Maps over grids store none.
 const MOST_POINTS: usize = 2_000_000;
 
+/// Maximum memory for the numbers that an analysis keeps of its samples. \[bytes\]
+const MOST_MEMORY: usize = 4_000_000_000;
+
 /// Files read by an analysis, and the notes of their entries.
 #[derive(Debug, Default)]
 struct Record {
@@ -550,6 +553,20 @@ impl<'a> Context<'a> {
     /// Findings about the study.
     pub fn found(&self, list: Vec<Diagnostic>) -> Stopped {
         self.study.findings(list).into()
+    }
+
+    /// Rejects more samples than fit into memory, each with so many bytes of results.
+    ///
+    /// # Errors
+    /// There.
+    pub fn fit_in_memory(&self, path: &str, samples: usize, bytes: usize) -> Result<(), Stopped> {
+        let needed = samples.saturating_mul(bytes);
+        if needed <= MOST_MEMORY {
+            return Ok(());
+        }
+        let [needed, most] = [needed, MOST_MEMORY].map(|bytes| bytes as f64 / 1e9);
+        let message = format!("the results of {samples} samples need {needed:.1} GB of memory, more than {most} GB");
+        Err(self.wrong_as(codes::TOO_LARGE, path, message, "use fewer samples or points"))
     }
 
     /// Rejects too many points in memory: `times` times `points`.

@@ -29,6 +29,8 @@ use crate::study::{Grid, NameOr, ParameterKey, RangeEntry, Uses, Write};
 
 /// Relative noise of a mean loss. A point is solved until the remaining change is below 1e-9 of its power.
 const NOISE: f64 = 1e-9;
+/// Memory of a run without its outputs, roughly.
+const BYTES: usize = 192;
 /// Number of resamples for the intervals of shares.
 const RESAMPLES: usize = 200;
 
@@ -59,7 +61,7 @@ pub struct SensitivityEntry {
     pub trajectories: u32,
     /// Number of samples of `sobol`, a power of two; each needs two runs more than there are parameters. [-]
     #[serde(default = "samples")]
-    #[schemars(range(min = 8, max = 65536))]
+    #[schemars(range(min = 8, max = 16_777_216))]
     pub samples: u32,
     /// Formats to write; default: CSV, JSON and SVG.
     #[serde(default = "Write::every_format")]
@@ -263,7 +265,8 @@ impl SensitivityEntry {
         };
         let runs = self.runs(ranges.len());
         let count: usize = [runs.local, runs.morris, runs.sobol].into_iter().flatten().sum();
-        cx.holds(&cx.path(), points.field.len(), count)?;
+        let kept = BYTES + Outputs::most(&built.transmission) * std::mem::size_of::<f64>();
+        cx.fit_in_memory(&cx.path(), count, kept)?;
         if cx.checked(built, points)? {
             return Ok(None);
         }

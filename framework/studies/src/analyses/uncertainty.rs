@@ -32,7 +32,7 @@ pub struct UncertaintyEntry {
     pub inputs: Vec<ToleranceEntry>,
     /// Number of samples; powers of two fill the ranges most evenly. [-]
     #[serde(default = "samples")]
-    #[schemars(range(min = 8, max = 65536))]
+    #[schemars(range(min = 8, max = 16_777_216))]
     pub samples: u32,
     /// Formats to write; default: CSV, JSON and SVG.
     #[serde(default = "Write::every_format")]
@@ -178,7 +178,8 @@ impl Analysis for UncertaintyEntry {
         for (i, b) in built.iter().enumerate() {
             let (torques, speeds) = grid_axes(cx, &self.grid, grid, &b.transmission)?;
             let points = cx.points(&b.transmission, &gear, torques.clone(), speeds.clone());
-            cx.holds(&format!("{path}.samples"), points.field.len(), self.samples as usize)?;
+            let kept = points.field.len().saturating_mul(samples::BYTES);
+            cx.fit_in_memory(&format!("{path}.samples"), self.samples as usize, kept)?;
             let inputs = Input::all(cx, &path, &self.inputs, b)?;
             if cx.checked(b, &points)? {
                 continue;

@@ -107,6 +107,12 @@ impl Outputs {
         }
     }
 
+    /// Maximum number of outputs of a transmission.
+    pub fn most(t: &Transmission) -> usize {
+        let names = [By::Mechanism, By::Term].map(|by| together(std::iter::once(t), by).len());
+        3 + names.iter().sum::<usize>()
+    }
+
     /// Values of the outputs at solved points.
     ///
     /// # Errors

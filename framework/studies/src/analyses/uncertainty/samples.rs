@@ -13,31 +13,43 @@ use crate::points::{PointResult, Points, correlation, quantile};
 /// Probabilities of the ends and the middle of a band.
 pub const SHARES: [f64; 3] = [0.025, 0.5, 0.975];
 
+/// Memory of a point of a sample.
+pub const BYTES: usize = std::mem::size_of::<PointOfSample>();
+
 /// Values of the inputs, the solved points, and the stated ranges outside which the sample lies.
 type Sample = (Vec<f64>, Vec<PointOfSample>, Left);
 
-/// A solved point of a sample.
+/// The quantities of a solved point that are kept for all samples, so they are numbers alone: not a number where there is no value.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 pub struct PointOfSample {
     /// Power out over power in. \[-\]
-    efficiency: Option<f64>,
+    efficiency: f64,
     /// Sum of all losses. \[W\]
-    loss: Option<f64>,
+    loss: f64,
     /// Loss over the speed of the reference port. \[Nm\]
-    loss_torque: Option<f64>,
+    loss_torque: f64,
     /// Temperature of the oil. \[°C\]
-    oil: Option<f64>,
+    oil: f64,
 }
 
 impl From<&PointResult> for PointOfSample {
     fn from(point: &PointResult) -> Self {
+        let number = |x: Option<f64>| x.unwrap_or(f64::NAN);
         Self {
-            efficiency: point.efficiency,
-            loss: point.loss,
-            loss_torque: point.loss_torque,
-            oil: point.oil,
+            efficiency: number(point.efficiency),
+            loss: number(point.loss),
+            loss_torque: number(point.loss_torque),
+            oil: number(point.oil),
         }
     }
+}
+
+/// A quantity of a kept point.
+type Read = fn(&PointOfSample) -> f64;
+
+/// A kept number, if there is one.
+fn known(x: f64) -> Option<f64> {
+    (!x.is_nan()).then_some(x)
 }
 
 /// All samples of one set.
@@ -99,11 +111,11 @@ impl Samples {
     pub fn points(&self, nominal: &[PointResult]) -> Vec<PointOfBand> {
         let point = |(i, p): (usize, &PointResult)| {
             let nominal = PointOfSample::from(p);
-            let quantity = |read: fn(&PointOfSample) -> Option<f64>| QuantityBand {
-                nominal: read(&nominal),
+            let quantity = |read: Read| QuantityBand {
+                nominal: known(read(&nominal)),
                 band: self.band(i, read),
             };
-            let efficiency_percent = quantity(|p| p.efficiency.map(|e| 100.0 * e));
+            let efficiency_percent = quantity(|p| 100.0 * p.efficiency);
             PointOfBand {
                 torque_nm: p.torque,
                 speed_rpm: tidy(p.speed * RPM),
@@ -119,17 +131,17 @@ impl Samples {
     }
 
     /// Ends and middle of the band of a quantity at a point; absent where fewer than half of the samples have a value.
-    fn band(&self, point: usize, read: fn(&PointOfSample) -> Option<f64>) -> Option<[f64; 3]> {
+    fn band(&self, point: usize, read: Read) -> Option<[f64; 3]> {
         let all = self.solved.iter();
-        let mut values: Vec<f64> = all.filter_map(|(_, points)| read(&points[point])).collect();
-        values.sort_by(f64::total_cmp);
+        let mut values: Vec<f64> = all.filter_map(|(_, points)| known(read(&points[point]))).collect();
+        values.sort_unstable_by(f64::total_cmp);
         (2 * values.len() > self.solved.len()).then(|| SHARES.map(|share| quantile(&values, share)))
     }
 
     /// The inputs with their correlation with the mean loss over the grid, the strongest first.
     pub fn ranked(&self, inputs: &[Input]) -> Vec<UncertainInput> {
         let mean = |points: &Vec<PointOfSample>| {
-            let losses: Vec<f64> = points.iter().filter_map(|p| p.loss).collect();
+            let losses: Vec<f64> = points.iter().filter_map(|p| known(p.loss)).collect();
             (!losses.is_empty()).then(|| losses.iter().sum::<f64>() / losses.len() as f64)
         };
         // A sample without any loss has no mean.
