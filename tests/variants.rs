@@ -8,6 +8,7 @@ use gearloss_framework::resolve::{Choice, Resolved};
 use gearloss_framework::transmission::Transmission;
 use gearloss_framework::variants::Variants;
 use gearloss_numerics::sampling::Generator;
+use gearloss_studies::study::Study;
 use serde_json::Value;
 use std::path::PathBuf;
 
@@ -42,7 +43,10 @@ fn quantities(language: &Language, resolved: &Resolved) -> Vec<Quantity> {
         };
         match at {
             Value::Object(map) => map.iter().for_each(|(key, value)| visit(key, value)),
-            Value::Array(list) => list.iter().enumerate().for_each(|(i, value)| visit(&i.to_string(), value)),
+            Value::Array(list) => list
+                .iter()
+                .enumerate()
+                .for_each(|(i, value)| visit(&i.to_string(), value)),
             Value::Number(number) => {
                 let known = language.number_at(root, path).zip(number.as_f64());
                 found.extend(known.map(|((unit, least, greatest), si)| Quantity {
@@ -55,7 +59,13 @@ fn quantities(language: &Language, resolved: &Resolved) -> Vec<Quantity> {
         }
     }
     let mut found = Vec::new();
-    descend(language, &resolved.value, &resolved.value, &mut String::new(), &mut found);
+    descend(
+        language,
+        &resolved.value,
+        &resolved.value,
+        &mut String::new(),
+        &mut found,
+    );
     found
 }
 
@@ -66,7 +76,10 @@ fn seen(t: &Transmission) -> (Vec<String>, Vec<u64>) {
         words.push(format!("{part:?}"));
     }
     for instance in t.instances() {
-        words.push(format!("{} {} {:?}", instance.path, instance.entry.name, instance.notes));
+        words.push(format!(
+            "{} {} {:?}",
+            instance.path, instance.entry.name, instance.notes
+        ));
     }
     let mut bits = Vec::new();
     for state in t.states() {
@@ -88,7 +101,7 @@ fn seen(t: &Transmission) -> (Vec<String>, Vec<u64>) {
             let temperatures = vec![70.0; t.nodes()];
             let solution = t.evaluate(&case, &point, &temperatures, &mut scratch);
             bits.extend(solution.watts().iter().map(|x| x.to_bits()));
-            bits.extend(solution.extents().map(|extent| u64::from(extent.outside > 0)));
+            bits.extend(solution.extents().iter().map(|extent| u64::from(extent.outside > 0)));
             if t.nodes() == 1 {
                 let balance = t.equilibrium(&case, &point, &mut scratch);
                 bits.push(balance.oil().unwrap_or(-1.0).to_bits());
@@ -115,11 +128,23 @@ fn drawn(generator: &mut Generator, quantity: &Quantity) -> f64 {
     }
 }
 
-fn gearboxes(language: &Language) -> Vec<(PathBuf, Gearbox)> {
-    let of_cases = cases().into_iter().map(|folder| folder.join("input.yaml"));
-    let all = EXAMPLES.iter().map(|path| file(path)).chain(of_cases);
-    all.filter_map(|path| Gearbox::read(language, &path).ok().map(|gearbox| (path, gearbox)))
-        .collect()
+/// Gearboxes with choices of models, and how many lists of paths are overridden in each.
+fn gearboxes(language: &Language) -> Vec<(PathBuf, Gearbox, Choice, usize)> {
+    let examples = EXAMPLES.iter().map(|path| (file(path), 12));
+    let of_cases = cases().into_iter().map(|folder| (folder.join("input.yaml"), 1));
+    let mut all: Vec<(PathBuf, Gearbox, Choice, usize)> = Vec::new();
+    for (path, rounds) in examples.chain(of_cases) {
+        if let Ok(gearbox) = Gearbox::read(language, &path) {
+            all.push((path, gearbox, Choice::default(), rounds));
+        }
+    }
+    let path = file(EXAMPLES[0]);
+    let study = Study::read(language, &path.with_file_name("study.yaml")).unwrap();
+    for set in ["iso", "joint", "complete"] {
+        let gearbox = Gearbox::read(language, &path).unwrap();
+        all.push((path.clone(), gearbox, study.choice(Some(set)), 12));
+    }
+    all
 }
 
 #[test]
@@ -127,17 +152,17 @@ fn other_numbers_in_place_are_those_of_a_new_build() {
     let language = language();
     let mut generator = Generator::new(7);
     let (mut equal, mut refused) = (0, 0);
-    for (path, gearbox) in gearboxes(&language) {
-        let choice = Choice::default();
+    for (path, gearbox, choice, rounds) in gearboxes(&language) {
         let Ok(resolved) = gearbox.resolve(&language, &choice) else {
             continue;
         };
         let all = quantities(&language, &resolved);
         let variants = Variants::new(&language, &gearbox, choice.clone());
-        let rounds = if EXAMPLES.iter().any(|example| path.ends_with(example)) { 12 } else { 1 };
         for _ in 0..rounds {
             // The same paths several times, with other numbers, some of which stay.
-            let own: Vec<&Quantity> = (0..=generator.below(5)).map(|_| &all[generator.below(all.len())]).collect();
+            let own: Vec<&Quantity> = (0..=generator.below(5))
+                .map(|_| &all[generator.below(all.len())])
+                .collect();
             let mut overrides: Vec<(String, Value)> = Vec::new();
             for _ in 0..4 {
                 let draw = |quantity: &&Quantity| (quantity.path.clone(), Value::from(drawn(&mut generator, quantity)));
@@ -148,7 +173,7 @@ fn other_numbers_in_place_are_those_of_a_new_build() {
                     _ => new,
                 };
                 let whole = Choice {
-                    overrides: overrides.clone(),
+                    overrides: [&choice.overrides[..], &overrides].concat(),
                     ..choice.clone()
                 };
                 let expected = outcome(gearbox.transmission(&language, &whole));
@@ -173,18 +198,36 @@ fn overrides_of_any_kind_follow_each_other() {
     let choices = [Choice::default(), choice];
     let lists: Vec<Vec<(&str, Value)>> = vec![
         vec![],
-        vec![("bearings.*.radial_factor", 1.2.into()), ("gears.*.surface.rq", 0.5.into())],
-        vec![("bearings.*.radial_factor", 0.9.into()), ("gears.*.surface.rq", 0.5.into())],
+        vec![
+            ("bearings.*.radial_factor", 1.2.into()),
+            ("gears.*.surface.rq", 0.5.into()),
+        ],
+        vec![
+            ("bearings.*.radial_factor", 0.9.into()),
+            ("gears.*.surface.rq", 0.5.into()),
+        ],
         vec![("housing.oil.volume", "1.1 l".into())],
         vec![("bearings.B1.designation", "6304".into())],
-        vec![("bearings.B1.designation", "6304".into()), ("bearings.B1.bore", 21.0.into())],
+        vec![
+            ("bearings.B1.designation", "6304".into()),
+            ("bearings.B1.bore", 21.0.into()),
+        ],
         vec![("lubricants.sump.viscosity.kv40", 32.0.into())],
-        vec![("lubricants.sump.viscosity.kv100", 7.0.into()), ("lubricants.sump.viscosity.vi", 120.0.into())],
-        vec![("lubricants.sump.viscosity.kv100", 8.0.into()), ("lubricants.sump.viscosity.vi", 120.0.into())],
+        vec![
+            ("lubricants.sump.viscosity.kv100", 7.0.into()),
+            ("lubricants.sump.viscosity.vi", 120.0.into()),
+        ],
+        vec![
+            ("lubricants.sump.viscosity.kv100", 8.0.into()),
+            ("lubricants.sump.viscosity.vi", 120.0.into()),
+        ],
         vec![("gears.G1.z", 17.into())],
         vec![("gears.G1.level", 3.0.into()), ("gears.*.level", 4.0.into())],
         vec![("gears.G1.level", 2.0.into()), ("gears.*.level", 5.0.into())],
-        vec![("bearings.B3.model", serde_json::json!({ "type": "skf" })), ("bearings.B3.model.mu_bl", 0.2.into())],
+        vec![
+            ("bearings.B3.model", serde_json::json!({ "type": "skf" })),
+            ("bearings.B3.model.mu_bl", 0.2.into()),
+        ],
         vec![("bearings.B3.model.mu_bl", 0.2.into())],
         vec![("bearings.no.bore", 1.0.into())],
         vec![("meshes.M1.centre_distance", 70.0.into())],
@@ -197,8 +240,10 @@ fn overrides_of_any_kind_follow_each_other() {
     for choice in choices {
         let variants = Variants::new(&language, &gearbox, choice.clone());
         for list in lists.iter().chain(lists.iter().rev()) {
-            let overrides: Vec<(String, Value)> =
-                list.iter().map(|(path, value)| ((*path).to_owned(), value.clone())).collect();
+            let overrides: Vec<(String, Value)> = list
+                .iter()
+                .map(|(path, value)| ((*path).to_owned(), value.clone()))
+                .collect();
             let whole = Choice {
                 overrides: overrides.clone(),
                 ..choice.clone()
@@ -206,9 +251,14 @@ fn overrides_of_any_kind_follow_each_other() {
             let expected = outcome(gearbox.transmission(&language, &whole));
             assert_eq!(outcome(variants.build(&overrides)), expected, "{overrides:?}");
             let resolved = |result: Result<Resolved, Findings>| {
-                result.map(|resolved| (resolved.value, resolved.sources)).map_err(|f| f.render())
+                result
+                    .map(|resolved| (resolved.value, resolved.sources))
+                    .map_err(|f| f.render())
             };
-            assert_eq!(resolved(variants.resolve(&overrides)), resolved(gearbox.resolve(&language, &whole)));
+            assert_eq!(
+                resolved(variants.resolve(&overrides)),
+                resolved(gearbox.resolve(&language, &whole))
+            );
         }
     }
 }

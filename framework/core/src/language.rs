@@ -4,12 +4,16 @@ mod compose;
 mod readable;
 
 use std::collections::BTreeMap;
+use std::sync::OnceLock;
 
+use schemars::SchemaGenerator;
 use serde_json::Value;
 
 use crate::codes;
 use crate::coefficients::COEFFICIENTS;
-use crate::document::{Diagnostic, Node, Schema, Shape, Unit, Walked, classify, read_yaml, walk, walk_at, walk_shape};
+use crate::document::{
+    Diagnostic, Node, Places, Schema, Shape, Unit, Walked, classify, read_yaml, walk, walk_at, walk_shape,
+};
 use crate::mechanism::Mechanism;
 use crate::mechanism::gear_drag::{GearDrag, Scope};
 use crate::mechanism::gear_mesh::GearMesh;
@@ -35,8 +39,6 @@ pub const NAMED: [&str; 2] = [DRAGS, HEAT];
 /// Section of the oils, which has catalogues like the sections of components.
 pub const LUBRICANTS: &str = "lubricants";
 
-/// Name of the schema of a gearbox.
-const GEARBOX: &str = "gearbox";
 /// Name of the schema of a study, under which the crate of studies registers it.
 pub const STUDY: &str = "study";
 
@@ -54,29 +56,62 @@ pub enum Kind {
 /// Registry, schemas and catalogues of one program. Built once; all readers of documents borrow it.
 pub struct Language {
     registry: Registry,
-    published: BTreeMap<&'static str, Value>,
-    /// Schemas of the documents by name.
-    documents: BTreeMap<&'static str, Schema>,
+    gearbox: Document,
+    /// Documents of other crates by name. Each is composed when it is first needed, because a gearbox alone needs none of them.
+    others: BTreeMap<&'static str, Other>,
     catalogues: BTreeMap<&'static str, CatalogueTable>,
     sets: BTreeMap<String, Value>,
+}
+
+/// The schema of a kind of document, published and compiled.
+struct Document {
+    published: Value,
+    schema: Schema,
+}
+
+impl Document {
+    /// # Errors
+    /// Every construct of the schema that cannot be checked.
+    fn new(published: Value) -> Result<Self, Vec<Diagnostic>> {
+        let mut found = Vec::new();
+        match compiled(&published, &mut found) {
+            Some(schema) => Ok(Self { published, schema }),
+            None => {
+                classify(&mut found, codes::REGISTRATION);
+                Err(found)
+            }
+        }
+    }
+}
+
+/// A document of another crate.
+struct Other {
+    schema: fn(&mut SchemaGenerator) -> schemars::Schema,
+    composed: OnceLock<Result<Document, Vec<Diagnostic>>>,
 }
 
 impl Language {
     /// The language of a registry.
     ///
     /// # Errors
-    /// Every construct of a schema that cannot be checked, with mechanism, model and field; every fault of a linked
+    /// Every construct of the schema of a gearbox that cannot be checked, with mechanism, model and field; every fault of a linked
     /// catalogue or set.
     pub fn new(registry: Registry) -> Result<Self, Vec<Diagnostic>> {
         let mut found = Vec::new();
-        let mut published = BTreeMap::from([(GEARBOX, compose::gearbox(&registry))]);
-        for kind in inventory::iter::<DocumentKind> {
-            published.insert(kind.name, compose::document(&registry, kind.schema));
-        }
-        let documents: BTreeMap<&'static str, Schema> = published
-            .iter()
-            .filter_map(|(name, schema)| Some((*name, compiled(schema, &mut found)?)))
-            .collect();
+        let gearbox = match Document::new(compose::gearbox(&registry)) {
+            Ok(gearbox) => Some(gearbox),
+            Err(faults) => {
+                found.extend(faults);
+                None
+            }
+        };
+        let other = |kind: &DocumentKind| {
+            let other = Other {
+                schema: kind.schema,
+                composed: OnceLock::new(),
+            };
+            (kind.name, other)
+        };
         let mut catalogues: BTreeMap<&'static str, CatalogueTable> = BTreeMap::new();
         for section in registry.sections().map(|(_, s)| s.name).chain([LUBRICANTS]) {
             for catalogue in registry.catalogues(section) {
@@ -100,13 +135,13 @@ impl Language {
             }
         }
         classify(&mut found, codes::REGISTRATION);
-        if documents.len() < published.len() {
+        let Some(gearbox) = gearbox else {
             return Err(found);
-        }
+        };
         let mut language = Self {
             registry,
-            published,
-            documents,
+            gearbox,
+            others: inventory::iter::<DocumentKind>.into_iter().map(other).collect(),
             catalogues,
             sets: BTreeMap::new(),
         };
@@ -132,8 +167,8 @@ impl Language {
     /// The published JSON Schema (draft-07) of a kind of document; for `eval` of one mechanism.
     pub fn published(&self, kind: Kind) -> Value {
         match kind {
-            Kind::Gearbox => self.published[GEARBOX].clone(),
-            Kind::Study => self.published[STUDY].clone(),
+            Kind::Gearbox => self.gearbox.published.clone(),
+            Kind::Study => self.composed(&self.others[STUDY]),
             Kind::Eval => compose::eval(&self.registry),
         }
     }
@@ -148,11 +183,32 @@ impl Language {
     /// # Panics
     /// If the crate that registers this kind of document is not linked.
     pub fn walk_study(&self, node: &Node) -> Walked {
-        walk(node, &self.documents[STUDY])
+        match self.document(&self.others[STUDY]) {
+            Ok(study) => walk(node, &study.schema),
+            Err(faults) => Walked {
+                value: Value::Null,
+                findings: faults.clone(),
+                places: Places::default(),
+            },
+        }
+    }
+
+    /// The document of another crate.
+    ///
+    /// # Errors
+    /// Every construct of its schema that cannot be checked.
+    fn document<'a>(&'a self, other: &'a Other) -> Result<&'a Document, &'a Vec<Diagnostic>> {
+        let composed = other.composed.get_or_init(|| Document::new(self.composed(other)));
+        composed.as_ref()
+    }
+
+    /// The schema of the document of another crate.
+    fn composed(&self, other: &Other) -> Value {
+        compose::document(&self.registry, other.schema)
     }
 
     fn gearbox(&self) -> &Schema {
-        &self.documents[GEARBOX]
+        &self.gearbox.schema
     }
 
     /// Checks the input of `eval` for one mechanism: `model`, `part` and `at`.
