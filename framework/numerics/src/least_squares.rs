@@ -60,7 +60,7 @@ pub use bounded_linear::bounded_linear;
 pub use fault::{Fault, Finding};
 pub use fit::{Counts, Derivative, Fit, How, Iteration, Kink, Reason, Side, Status};
 pub use multistart::{Kinship, Minima, Minimum, multistart};
-pub use options::{Differences, Noise, OneSearch, Options, Searches, Steps, Subproblem, Tolerances};
+pub use options::{Differences, Known, Noise, OneSearch, Options, Searches, Steps, Subproblem, Tolerances};
 pub use points::{halton, spread};
 pub use problem::{Parameter, Prior, Problem, Scale};
 pub use robust::Loss;

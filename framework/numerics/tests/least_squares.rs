@@ -1,7 +1,7 @@
 //! Bounded least squares on a problem with the shape of a gearbox.
 
 use gearloss_numerics::least_squares::{
-    Differences, Loss, Options, Parameter, Problem, Side, Status, Subproblem, multistart, solve,
+    Differences, Known, Loss, Options, Parameter, Problem, Side, Status, Subproblem, multistart, solve,
 };
 
 use crate::loss_map::{
@@ -295,6 +295,55 @@ fn a_robust_loss_finds_its_scale_where_residuals_have_no_weights() {
         fit.loss_scale
     );
     assert!((fit.theta[1] - 1.143).abs() < 0.01);
+}
+
+/// With one parameter moved by its standard error, the others follow: derivatives at the optimum serve as those near it.
+#[test]
+fn known_derivatives_save_calls_and_find_the_same_minimum() {
+    let y = measured(1);
+    let best = solve(&problem(&y, parameters()), &Options::fit()).unwrap();
+    let jacobian = &best.derivative.as_ref().unwrap().jacobian;
+    for (k, share) in [(0, 1.02), (1, 0.97), (3, 1.05)] {
+        let mut moved = parameters();
+        for (parameter, theta) in moved.iter_mut().zip(&best.theta) {
+            parameter.start = *theta;
+        }
+        let held = share * best.theta[k];
+        moved[k] = moved[k].clone().within(held, held);
+        let with = |known: Option<Known<'_>>| {
+            let options = Options {
+                known,
+                ..Options::fit()
+            };
+            solve(&problem(&y, moved.clone()), &options).unwrap()
+        };
+        let alone = with(None);
+        for sufficient in [true, false] {
+            let fit = with(Some(Known { jacobian, sufficient }));
+            assert!(fit.converged() && fit.derivative.is_some(), "{:?}", fit.reason);
+            // Twice the cost in squares of a standard error.
+            assert!((fit.cost - alone.cost).abs() < 1e-3, "{} {}", fit.cost, alone.cost);
+            // Differences that confirm the end are half of the calls that are left.
+            let most = alone.counts.evaluations / if sufficient { 2 } else { 1 };
+            let calls = fit.counts.evaluations;
+            assert!(calls < most, "{sufficient} {calls} {most}");
+        }
+    }
+}
+
+#[test]
+fn known_derivatives_of_another_problem_are_refused() {
+    let y = measured(1);
+    let jacobian = &nalgebra::DMatrix::zeros(3, 8);
+    let options = Options {
+        known: Some(Known {
+            jacobian,
+            sufficient: true,
+        }),
+        ..Options::fit()
+    };
+    let fault = solve(&problem(&y, parameters()), &options).unwrap_err().to_string();
+    assert!(fault.contains("3 rows and 8 columns for 440 rows"), "{fault}");
 }
 
 #[test]

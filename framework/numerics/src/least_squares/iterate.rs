@@ -50,6 +50,10 @@ struct Run<'a> {
     trusted: usize,
     noise: CostNoise,
     unseen: Vec<bool>,
+    /// Derivatives at the point that are not from differences.
+    known: Option<DMatrix<f64>>,
+    /// Whether the run may end with them.
+    trusts: bool,
 }
 
 /// Consequence of a trial step.
@@ -75,8 +79,24 @@ pub(super) fn run(context: &Context<'_>, start: Point, steps: Steps, attempt: us
         trusted: 0,
         noise: CostNoise::stated(context.noise),
         unseen: vec![true; n],
+        known: known(context),
+        trusts: context.options.known.is_some_and(|known| known.sufficient),
     };
     run.finish(record)
+}
+
+/// The known derivatives by the free parameters, with the rows of priors.
+fn known(context: &Context<'_>) -> Option<DMatrix<f64>> {
+    let (evaluator, space) = (context.evaluator, context.evaluator.space);
+    let known = context.options.known?.jacobian;
+    let priors: Vec<(usize, f64)> = space.slopes_of_priors().collect();
+    let mut jacobian = known
+        .select_columns(&space.free)
+        .resize_vertically(evaluator.rows + priors.len(), 0.0);
+    for (row, (j, slope)) in priors.into_iter().enumerate() {
+        jacobian[(evaluator.rows + row, j)] = slope;
+    }
+    Some(jacobian)
 }
 
 impl Run<'_> {
@@ -91,22 +111,23 @@ impl Run<'_> {
         );
         let mut switched = false;
         loop {
-            let differences = Differences {
-                evaluator,
-                noise: context.rough,
-                central: self.central,
-            };
-            let jacobian = match differences.jacobian(&self.point.u, &self.point.r) {
+            let known = self.known.take();
+            let by_differences = known.is_none();
+            let jacobian = match known.map_or_else(|| self.differences(), Ok) {
                 Ok(jacobian) => jacobian,
                 Err(NoDerivative::Interrupted) => return self.end(Reason::Interrupted, None, None),
                 Err(NoDerivative::NotFinite(why)) => return self.end(Reason::DerivativeNotFinite, Some(why), None),
             };
+            self.trusts |= by_differences;
             for (unseen, column) in self.unseen.iter_mut().zip(jacobian.column_iter()) {
                 *unseen &= column.norm() == 0.0;
             }
             let (space, memory) = (evaluator.space, self.steps.memory);
             let local = Linearised::about(&self.point, jacobian, &context.robust, space, &mut self.scale, memory);
             let mut stop = self.optimal(&local).map(|reason| (reason, false));
+            if stop.is_some() && !self.trusts {
+                continue;
+            }
             if stop.is_none() {
                 self.start_radius(&local, switched);
                 switched = false;
@@ -117,9 +138,21 @@ impl Run<'_> {
                     if evaluator.evaluations() >= limits.1 {
                         return self.end(Reason::EvaluationLimit, None, Some(local));
                     }
-                    match self.trial(&local, record) {
+                    let (before, radius) = (self.point.clone(), self.radius);
+                    let verdict = self.trial(&local, record);
+                    let moved = matches!(verdict, Ok(Verdict::Moved | Verdict::Stop(_, true)));
+                    if moved && context.options.known.is_some() {
+                        self.known = Some(self.corrected(&local.jacobian, &before));
+                    }
+                    match verdict {
+                        // Derivatives by differences come before a smaller ball.
+                        Ok(Verdict::Again | Verdict::Stop(_, false)) if !by_differences => {
+                            self.radius = radius;
+                            break None;
+                        }
                         Ok(Verdict::Again) => {}
                         Ok(Verdict::Moved) => break None,
+                        Ok(Verdict::Stop(_, true)) if !self.trusts => break None,
                         Ok(Verdict::Stop(reason, moved)) => break Some((reason, moved)),
                         Err(_) => break Some((Reason::Interrupted, false)),
                     }
@@ -132,6 +165,7 @@ impl Run<'_> {
                 // A run that stops with one-sided differences continues with central ones.
                 Some(_) => {
                     self.central = true;
+                    self.known = None;
                     switched = true;
                 }
             }
@@ -149,8 +183,37 @@ impl Run<'_> {
             point: self.point,
             reason,
             detail,
-            jacobian: local.filter(|_| self.central).map(|local| local.jacobian),
+            jacobian: match local {
+                Some(local) if self.central || self.context.options.known.is_some() => Some(local.jacobian),
+                _ => self.known,
+            },
             unseen: self.unseen,
+        }
+    }
+
+    /// Derivatives by differences at the point.
+    fn differences(&self) -> Result<DMatrix<f64>, NoDerivative> {
+        let differences = Differences {
+            evaluator: self.context.evaluator,
+            noise: self.context.rough,
+            central: self.central,
+        };
+        differences.jacobian(&self.point.u, &self.point.r)
+    }
+
+    /// The derivatives at another point, corrected by the residuals on the way from there: the smallest change in the metric of the
+    /// column norms with which they give the change of the residuals.
+    fn corrected(&self, jacobian: &DMatrix<f64>, before: &Point) -> DMatrix<f64> {
+        let n = before.u.len();
+        let step = DVector::from_fn(n, |j, _| self.point.u[j] - before.u[j]);
+        let metric = DVector::from_fn(n, |j, _| self.scale[j] * self.scale[j] * step[j]);
+        let length = metric.dot(&step);
+        let miss = &self.point.r - &before.r - jacobian * &step;
+        let corrected = jacobian + miss * (metric / length).transpose();
+        if corrected.iter().all(|x| x.is_finite()) {
+            corrected
+        } else {
+            jacobian.clone()
         }
     }
 

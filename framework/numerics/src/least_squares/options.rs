@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use nalgebra::DMatrix;
+
 use super::evaluate::Interrupt;
 use super::fault::{Fault, Finding};
 use super::fit::Fit;
@@ -100,6 +102,18 @@ pub struct Options<'a> {
     pub interrupt: Option<Interrupt<'a>>,
     /// Who runs the searches of several starts; absent, the threads of this process.
     pub searches: Option<&'a Searches<'a>>,
+    /// Derivatives that are known from a point near the start; absent, differences.
+    pub known: Option<Known<'a>>,
+}
+
+/// Derivatives from a point nearby. The search corrects them with the residuals of its own steps (Broyden, Math. Comput. 19 (1965)
+/// 577-593) and returns them as they are at its end; it takes differences where a step fails.
+#[derive(Clone, Copy)]
+pub struct Known<'a> {
+    /// Derivative of the rows of data, without those of priors, by the coordinates of all parameters.
+    pub jacobian: &'a DMatrix<f64>,
+    /// Whether the search may end before it has taken differences at any point.
+    pub sufficient: bool,
 }
 
 /// Runs the searches of so many starts and gives their fits in the order of the starts.
@@ -153,6 +167,7 @@ impl Options<'_> {
             evaluations: 100_000,
             interrupt: None,
             searches: None,
+            known: None,
         }
     }
 

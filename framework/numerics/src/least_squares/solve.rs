@@ -43,6 +43,15 @@ pub fn solve(problem: &Problem<'_>, options: &Options<'_>) -> Result<Fit, Fault>
 pub(super) fn search(problem: &Problem<'_>, options: &Options<'_>, space: &Space<'_>) -> Result<Fit, Fault> {
     options.check()?;
     let (evaluator, r) = Evaluator::start(problem, space, options.interrupt)?;
+    let shape = (evaluator.rows, space.parameters.len());
+    if let Some(known) = options.known.filter(|known| known.jacobian.shape() != shape) {
+        let (rows, columns) = known.jacobian.shape();
+        let message = format!(
+            "{rows} rows and {columns} columns for {} rows of data and {} parameters",
+            shape.0, shape.1
+        );
+        return Err(Finding::new("option known", message, "give a row for each residual without priors").into());
+    }
     let start = Point {
         u: space.start.clone(),
         r,

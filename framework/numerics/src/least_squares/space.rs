@@ -129,6 +129,15 @@ impl<'p> Space<'p> {
         rows.flatten()
     }
 
+    /// Derivatives of the rows of priors: free parameter and slope of each.
+    pub fn slopes_of_priors(&self) -> impl Iterator<Item = (usize, f64)> {
+        let slopes = self.free.iter().enumerate().map(|(j, i)| {
+            let prior = self.parameters[*i].prior;
+            prior.map(|prior| (j, 1.0 / prior.deviation))
+        });
+        slopes.flatten()
+    }
+
     /// The scale of difference steps. For noisy residuals it is at least the typical size, because the step of an offset near zero would
     /// otherwise be too small.
     pub fn reach(&self, j: usize, u: f64, noise: f64) -> f64 {

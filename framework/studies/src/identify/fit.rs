@@ -1,5 +1,6 @@
 //! The fit of an identification, with statistics, profiles and cross-validation.
 
+use nalgebra::DMatrix;
 use rayon::prelude::*;
 
 use super::{Identification, ModelKink};
@@ -7,8 +8,8 @@ use crate::distinct::distinct;
 use crate::study::Quantity;
 use gearloss_numerics::inference::{self, Fold, ProfileFault, ProfileInterval, Refit, RobustRows, Validation};
 use gearloss_numerics::least_squares::{
-    Differences, Fault, Loss, Minima, Minimum, Noise, Options, Problem, Scale, Searches, Status, UNTOLD, multistart,
-    solve,
+    Differences, Fault, Known, Loss, Minima, Minimum, Noise, Options, Problem, Scale, Searches, Status, UNTOLD,
+    multistart, solve,
 };
 
 /// Confidence of profile intervals.
@@ -97,10 +98,21 @@ impl Fitted {
         Some((minimum.fit.u[parameter] - self.fit().u[parameter]) / deviation)
     }
 
+    /// Derivatives of the residuals of data by the coordinates.
+    fn derivatives(&self) -> Option<DMatrix<f64>> {
+        of_data(self.fit())
+    }
+
     /// Values of the parameters, each in the unit of its path.
     pub fn theta(&self) -> &[f64] {
         &self.fit().theta
     }
+}
+
+/// Derivatives at the end of a fit, without the rows of priors.
+fn of_data(fit: &gearloss_numerics::least_squares::Fit) -> Option<DMatrix<f64>> {
+    let derivative = fit.derivative.as_ref()?;
+    Some(derivative.jacobian.rows(0, fit.rows).into_owned())
 }
 
 /// A profile interval, or why there is none.
@@ -276,7 +288,12 @@ impl Identification<'_> {
         let of = |k: usize| {
             let mut profile = fitted.inference.to_profile(k, CONFIDENCE)?;
             profile.found = FOUND;
-            let refit = |k: usize, v: f64, from: &[f64]| self.refit(fitted, (k, v), from, interrupt);
+            // The first fit on a side starts with the derivatives at the optimum, the others with those of the fit before them.
+            let mut known: [Option<DMatrix<f64>>; 2] = [None, None];
+            let refit = |k: usize, v: f64, from: &[f64]| {
+                let side = usize::from(v > fitted.fit().u[k]);
+                self.refit(fitted, (k, v), from, &mut known[side], interrupt)
+            };
             let found = fitted.inference.profiled(&profile, CONFIDENCE, refit);
             Some(found.map_err(|fault| match fault {
                 ProfileFault::BetterOptimum(found) => {
@@ -295,12 +312,14 @@ impl Identification<'_> {
             .collect()
     }
 
-    /// The optimum of the others with one parameter fixed at a coordinate, starting from coordinates of all.
+    /// The optimum of the others with one parameter fixed at a coordinate, starting from coordinates of all, and from known derivatives
+    /// near them; gives those at its end.
     pub(super) fn refit(
         &self,
         fitted: &Fitted,
         (k, v): (usize, f64),
         from: &[f64],
+        known: &mut Option<DMatrix<f64>>,
         interrupt: Interrupt<'_>,
     ) -> Result<Refit, String> {
         // The others start at the prediction of the linearised fit.
@@ -322,17 +341,25 @@ impl Identification<'_> {
                 value.clamp(parameter.bounds[0], parameter.bounds[1])
             })
             .collect();
-        let options = Options {
+        // Derivatives on the other side of a kink are of no use.
+        let smooth = fitted.kinks.is_empty();
+        let at_optimum = fitted.derivatives().filter(|_| smooth);
+        let sufficient = known.is_some();
+        let nearest = known.take().or(at_optimum);
+        let mut options = Options {
             // It starts near its end, and a hundredth of a standard error increases the misfit by at most a thousandth.
             differences: Differences::Forward,
             noise: Noise::Known(NOISE),
             jumps: JUMPS,
             // Kinks at the minimum also occur at the ends of these searches.
-            polish: !fitted.kinks.is_empty(),
+            polish: !smooth,
             attempts: false,
             interrupt,
+            known: nearest.as_ref().map(|jacobian| Known { jacobian, sufficient }),
             ..Options::fit()
         };
+        // A second call for each step is worth as much as a second step there.
+        options.steps.second_order = !smooth;
         let fit = solve(&self.problem_from(&theta, Some(k)), &options).map_err(|fault| fault.to_string())?;
         if fit.status == Status::Interrupted {
             return Err("interrupted".to_owned());
@@ -345,12 +372,13 @@ impl Identification<'_> {
             };
             row * row
         });
+        *known = of_data(&fit).filter(|_| smooth);
         let mut u = fit.u;
         u[k] = v;
         let mut objective = 2.0 * fit.cost + own;
         // Near a kink the minimum is one of many indistinguishable ones: a slightly lower value is not a better optimum.
         let least = fitted.inference.objective();
-        if !fitted.kinks.is_empty() && least - objective <= UNTOLD * fitted.fit().scatter() {
+        if !smooth && least - objective <= UNTOLD * fitted.fit().scatter() {
             objective = objective.max(least);
         }
         Ok(Refit { objective, u })
@@ -370,7 +398,17 @@ impl Identification<'_> {
                 Ok(others.iter().map(|i| all[*i]).collect())
             };
             let partial = Problem::new(partial, problem.parameters().to_vec());
-            let options = settings.options(self.accuracy);
+            let known = fitted
+                .derivatives()
+                .filter(|_| settings.loss == Loss::Linear && fitted.kinks.is_empty());
+            let known = known.map(|jacobian| jacobian.select_rows(&others));
+            let options = Options {
+                known: known.as_ref().map(|jacobian| Known {
+                    jacobian,
+                    sufficient: false,
+                }),
+                ..settings.options(self.accuracy)
+            };
             let fit = solve(&partial, &options).map_err(|fault| fault.to_string())?;
             if fit.status == Status::Interrupted {
                 return Err("interrupted".to_owned());

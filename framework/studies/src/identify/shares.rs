@@ -39,7 +39,7 @@ impl Identification<'_> {
         profiles: &[Option<Result<ProfileInterval, String>>],
     ) -> Result<ShareBands, String> {
         let at_optimum = self.calculate(fitted.theta())?;
-        let with_loss = at_optimum.solved.transmissions.iter().flat_map(|(_, t)| {
+        let with_loss = at_optimum.solved.transmissions.iter().flat_map(|t| {
             let has_loss = |part: &&PartInfo| t.instances()[part.notes.instance()].entry.name != "none";
             t.parts().iter().filter(has_loss).map(|part| part.mechanism)
         });
@@ -49,7 +49,7 @@ impl Identification<'_> {
             let mut all = Vec::with_capacity(rows.len() * width);
             for row in rows {
                 let (number, _, point) = &calculated.solved.rows[*row];
-                let places = places(&calculated.solved.transmissions[*number].1, &mechanisms);
+                let places = places(&calculated.solved.transmissions[*number], &mechanisms);
                 let mut sums = vec![0.0; width];
                 for (place, watts) in places.iter().zip(&point.parts) {
                     if let Some(place) = place {
@@ -106,7 +106,7 @@ impl Identification<'_> {
             let far = interval.ends.iter().find(|end| end.reach == Reach::Limit);
             let Some(far) = far else { continue };
             let from: Vec<f64> = fitted.inference.parameters().iter().map(|p| p.u).collect();
-            let there = self.refit(fitted, (k, far.u), &from, None)?;
+            let there = self.refit(fitted, (k, far.u), &from, &mut None, None)?;
             let parameters = fitted.inference.parameters().iter();
             ends.push(parameters.zip(&there.u).map(|(p, u)| p.scale.theta(*u)).collect());
         }
