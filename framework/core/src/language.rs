@@ -74,13 +74,11 @@ impl Document {
     /// Every construct of the schema that cannot be checked.
     fn new(published: Value) -> Result<Self, Vec<Diagnostic>> {
         let mut found = Vec::new();
-        match compiled(&published, &mut found) {
-            Some(schema) => Ok(Self { published, schema }),
-            None => {
-                classify(&mut found, codes::REGISTRATION);
-                Err(found)
-            }
+        if let Some(schema) = compiled(&published, &mut found) {
+            return Ok(Self { published, schema });
         }
+        classify(&mut found, codes::REGISTRATION);
+        Err(found)
     }
 }
 

@@ -76,17 +76,15 @@ impl Transmission {
             files,
         };
         let mut network = Network::new(entry, &around, &mut build, &mut found);
-        let laid_out = *resolved.source_of("thermal.network") == ValueSource::Network;
-        check_network(entry, laid_out, &models.parts, &mut found, &mut warnings);
+        check_network(entry, resolved, &models.parts, &mut found, &mut warnings);
         classify(&mut found, codes::NETWORK);
-        let ends = (&ports[..], &frame.wheels[..]);
         let mut memory = std::mem::take(&mut build.memory);
         let (states, cases) = states(
             entry,
             members,
             &frame.meshes,
             &models.clearances,
-            ends,
+            (ports, &frame.wheels),
             &mut memory,
             &mut found,
         );
@@ -332,11 +330,12 @@ fn give_bodies(models: &mut [MeshModel], gears: &[GearSeat], nodes: &NodeNames, 
 /// Checks that a network which balances the temperatures is stated and heated by parts that exist.
 fn check_network(
     entry: &GearboxEntry,
-    laid_out: bool,
+    resolved: &Resolved,
     parts: &[PartInfo],
     found: &mut Vec<Diagnostic>,
     warnings: &mut Vec<Diagnostic>,
 ) {
+    let laid_out = *resolved.source_of("thermal.network") == ValueSource::Network;
     let balances = entry.thermal.mode == ThermalMode::Network;
     if let Some(NetworkChoice::Written(written)) = &entry.thermal.network {
         let paths: Vec<&str> = parts.iter().map(|p| p.path.as_str()).collect();
