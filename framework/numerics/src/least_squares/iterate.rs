@@ -165,7 +165,6 @@ impl Run<'_> {
                 // A run that stops with one-sided differences continues with central ones.
                 Some(_) => {
                     self.central = true;
-                    self.known = None;
                     switched = true;
                 }
             }
@@ -174,7 +173,9 @@ impl Run<'_> {
 
     /// Whether a stop ends the run.
     fn ends(&self, reason: Reason) -> bool {
-        let last = self.context.options.differences == options::Differences::Forward || self.context.noisy;
+        let options = self.context.options;
+        let forward = options.differences == options::Differences::Forward || options.known.is_some();
+        let last = forward || self.context.noisy;
         self.central || last || matches!(reason, Reason::ZeroResidual | Reason::Interrupted)
     }
 
