@@ -274,6 +274,18 @@ impl<R: Real> Loss<R> {
     }
 }
 
+impl<R: Real> Loss<R> {
+    /// The result whose numbers follow from those of other results: `number` is given the access to one of them.
+    pub(crate) fn gather(measure: Measure, number: impl Fn(&dyn Fn(&Loss) -> f64) -> R) -> Self {
+        Self {
+            measure,
+            values: std::array::from_fn(|term| number(&|loss| loss.values[term])),
+            first_share: number(&|loss| loss.first_share),
+            first_heat: number(&|loss| loss.first_heat),
+        }
+    }
+}
+
 impl<R: Points> Loss<R> {
     /// The result of one point.
     #[inline]
