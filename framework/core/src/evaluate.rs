@@ -1,12 +1,14 @@
 //! One point: speeds, torques, loads, losses. Pure; allocates nothing; never iterates on temperature.
 
 mod batch;
+mod derive;
 mod grip;
 mod readings;
 mod scratch;
 mod solution;
 
 pub use batch::{Batch, BatchScratch, Block};
+pub use derive::{Given, NoSlopes, Slope, Slopes};
 pub(crate) use readings::readings;
 pub use readings::{MemberTorques, Reading};
 use scratch::Models;

@@ -574,7 +574,7 @@ impl Step {
 }
 
 /// Collects the steps of one explained evaluation.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub struct Trace {
     steps: RefCell<Vec<Step>>,
 }
