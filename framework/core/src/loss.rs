@@ -284,18 +284,24 @@ impl<R: Real> Loss<R> {
             first_heat: number(&|loss| loss.first_heat),
         }
     }
+
+    /// The result of one point whose numbers follow from these.
+    #[inline]
+    pub(crate) fn map(&self, number: impl Fn(R) -> f64) -> Loss {
+        Loss {
+            measure: self.measure,
+            values: self.values.map(&number),
+            first_share: number(self.first_share),
+            first_heat: number(self.first_heat),
+        }
+    }
 }
 
 impl<R: Points> Loss<R> {
     /// The result of one point.
     #[inline]
     pub fn at_point(&self, point: usize) -> Loss {
-        Loss {
-            measure: self.measure,
-            values: self.values.map(|value| value.at_point(point)),
-            first_share: self.first_share.at_point(point),
-            first_heat: self.first_heat.at_point(point),
-        }
+        self.map(|value| value.at_point(point))
     }
 
     /// The result of several points from that of each, which are all in the same measure.

@@ -144,10 +144,15 @@ pub trait Inputs<'a, M: Mechanism, R: Real>: Copy {
     {
         self.map(self.notes().at_point(point), |x| x.at_point(point))
     }
+    /// The context whose quantities follow from those of others: `number` is given the access to one quantity.
+    fn gather(part: &'a M::Part, notes: Notes<'a, R>, number: impl Fn(&dyn Fn(&M::At<'a, f64>) -> f64) -> R) -> Self;
     /// The context of several points, from that of each.
     fn together(part: &'a M::Part, notes: Notes<'a, R>, each: impl Fn(usize) -> M::At<'a, f64>) -> Self
     where
-        R: Points;
+        R: Points,
+    {
+        Self::gather(part, notes, |quantity| R::each(|point| quantity(&each(point))))
+    }
 }
 
 /// A mechanism whose parts have their own section in the document.
@@ -187,8 +192,12 @@ pub trait Answer: sealed::Sealed + Copy + Send + Sync {
     fn alone(self) -> Self::Of<f64>;
     /// The results of the points of some bits, evaluated one by one; NaN where one is undefined.
     fn one_by_one<R: Points>(points: u32, evaluate: impl FnMut(usize) -> Result<Self, Undefined>) -> Self::Of<R>;
+    /// The result of one point whose numbers follow from these.
+    fn map<R: Real>(all: &Self::Of<R>, number: impl Fn(R) -> f64) -> Self;
     /// The result of one of the points.
-    fn at_point<R: Points>(all: &Self::Of<R>, point: usize) -> Self;
+    fn at_point<R: Points>(all: &Self::Of<R>, point: usize) -> Self {
+        Self::map(all, |x: R| x.at_point(point))
+    }
     /// The result whose numbers follow from those of others of the same model: `number` is given the access to one of them.
     fn gather<R: Real>(&self, number: impl Fn(&dyn Fn(&Self) -> f64) -> R) -> Self::Of<R>;
     /// The named values of the result at a relative speed: for a loss, the power of each term. \[W or the unit of the result\]
@@ -211,8 +220,8 @@ impl Answer for Loss {
     fn one_by_one<R: Points>(points: u32, evaluate: impl FnMut(usize) -> Result<Self, Undefined>) -> Loss<R> {
         Loss::one_by_one(points, evaluate)
     }
-    fn at_point<R: Points>(all: &Loss<R>, point: usize) -> Self {
-        all.at_point(point)
+    fn map<R: Real>(all: &Loss<R>, number: impl Fn(R) -> f64) -> Self {
+        all.map(number)
     }
     fn gather<R: Real>(&self, number: impl Fn(&dyn Fn(&Self) -> f64) -> R) -> Loss<R> {
         Loss::gather(self.measure(), number)
@@ -245,8 +254,8 @@ impl Answer for f64 {
             _ => 0.0,
         })
     }
-    fn at_point<R: Points>(all: &R, point: usize) -> Self {
-        all.at_point(point)
+    fn map<R: Real>(all: &R, number: impl Fn(R) -> f64) -> Self {
+        number(*all)
     }
     fn gather<R: Real>(&self, number: impl Fn(&dyn Fn(&Self) -> f64) -> R) -> R {
         number(&|result| *result)
@@ -392,15 +401,12 @@ macro_rules! context {
                 $At { part: self.part, $($name: number(self.$name),)+ notes }
             }
 
-            fn together(
+            fn gather(
                 part: &'a <$M as $crate::mechanism::Mechanism>::Part,
                 notes: $crate::loss::Notes<'a, R>,
-                each: impl Fn(usize) -> $At<'a>,
-            ) -> Self
-            where
-                R: $crate::real::Points,
-            {
-                Self { part, $($name: R::each(|point| each(point).$name),)+ notes }
+                number: impl Fn(&dyn Fn(&$At<'a>) -> f64) -> R,
+            ) -> Self {
+                Self { part, $($name: number(&|at| at.$name),)+ notes }
             }
         }
 

@@ -20,7 +20,7 @@ const TEMPERATURES: f64 = 30.0;
 ///
 /// # Errors
 /// If the model is undefined there or close to it.
-pub(super) fn answer<M: Mechanism>(
+pub(crate) fn answer<M: Mechanism>(
     model: &M::Model,
     at: &M::At<'_, Dual>,
 ) -> Result<<M::Answer as Answer>::Of<Dual>, Undefined> {
