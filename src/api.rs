@@ -55,7 +55,7 @@ use std::path::Path;
 
 pub use gearloss_document::files::{Disk, FileSource, InMemory, SharedSource};
 pub use gearloss_document::{Code, Diagnostic, FilePlace, PlacedDiagnostic, RelatedPlace, Severity, Sources};
-pub use gearloss_framework::evaluate::{Point, PowerFlow, Scratch, Slope, Slopes, Solution};
+pub use gearloss_framework::evaluate::{GivenQuantity, Point, PowerFlow, Scratch, Slope, Slopes, Solution};
 pub use gearloss_framework::gearbox::{Findings, Gearbox};
 pub use gearloss_framework::language::Language;
 pub use gearloss_framework::resolve::{Choice, Resolved};

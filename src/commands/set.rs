@@ -98,11 +98,11 @@ fn point_at_options(
     findings
 }
 
-/// Shows the text of an option as the place of findings that have none.
+/// Shows the text of an option as the place of findings.
 pub fn at_option(option: &str, text: &str, mut findings: Findings) -> Findings {
     let source = findings.sources.add(option, text);
-    for finding in findings.list.iter_mut().filter(|finding| finding.spans.is_empty()) {
-        finding.spans.push((span(source, 0, text.len()), String::new()));
+    for finding in &mut findings.list {
+        finding.spans.insert(0, (span(source, 0, text.len()), String::new()));
     }
     findings
 }

@@ -8,7 +8,7 @@ mod scratch;
 mod solution;
 
 pub use batch::{Batch, BatchScratch, Block};
-pub use derive::{Given, NoSlopes, Slope, Slopes};
+pub use derive::{GivenQuantity, NoSlopes, Slope, Slopes};
 pub(crate) use readings::readings;
 pub use readings::{MemberTorques, Reading};
 use scratch::Models;

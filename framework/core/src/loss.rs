@@ -304,7 +304,7 @@ impl<R: Points> Loss<R> {
         self.map(|value| value.at_point(point))
     }
 
-    /// The result of several points from that of each, which are all in the same measure.
+    /// The result of several points, without derivatives, from that of each, which are all in the same measure.
     pub(crate) fn of_points(loss: impl Fn(usize) -> Loss) -> Self {
         Self {
             measure: loss(0).measure,
@@ -314,7 +314,7 @@ impl<R: Points> Loss<R> {
         }
     }
 
-    /// The results of the points of some bits, evaluated one by one; NaN where there is none, or none in the same measure as that of
+    /// The results of the points of some bits, without derivatives, evaluated one by one; NaN where there is none, or none in the same measure as that of
     /// the first point.
     pub fn one_by_one(points: u32, mut evaluate: impl FnMut(usize) -> Result<Loss, Undefined>) -> Self {
         let mut all: Option<Self> = None;

@@ -24,7 +24,7 @@ pub(super) fn faults<M: Mechanism>(model: &M::Model, part: &M::Part) -> Vec<Stri
         let directions: [M::At<'_, f64>; DIRECTIONS] = std::array::from_fn(|_| direction::<M>(&own, part, &mut random));
         let at = M::At::gather(part, Notebook::CLOSED.notes(NoteBase::default()), |quantity| Dual {
             value: quantity(&own),
-            slopes: directions.each_ref().map(|direction| quantity(direction)),
+            slopes: directions.each_ref().map(quantity),
         });
         let Some(answer) = M::answer_with_derivatives(model, &at) else {
             return faults;

@@ -1,8 +1,8 @@
 //! Derivatives of a point: of its losses, powers and balanced temperature, over what is given.
 //!
 //! The point is solved first. Its flow is then continued over numbers with derivatives ([`Flow::derive`](crate::flow::Flow::derive)).
-//! The oil temperature always is the second variable, so that a balanced temperature follows from the implicit function theorem: with
-//! losses Q(p, T) and dissipated heat W(T), dT/dp = (dQ/dp) / (dW/dT - dQ/dT).
+//! A balanced oil temperature is a second variable, whose derivative follows from the implicit function theorem: with losses Q(p, T)
+//! and dissipated heat W(T), dT/dp = (dQ/dp) / (dW/dT - dQ/dT).
 
 use std::collections::BTreeSet;
 
@@ -26,7 +26,7 @@ const ROUNDING: f64 = 1e-13;
 
 /// A given quantity of a point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Given {
+pub enum GivenQuantity {
     /// A speed, by position among those of the point. \[rad/s\]
     Speed(usize),
     /// A torque, by position among those of the point. \[Nm\]
@@ -88,7 +88,7 @@ impl Transmission {
         point: &Point<'_>,
         temperature: f64,
         is_balanced: bool,
-        given: Given,
+        given: GivenQuantity,
         solved: &mut Scratch,
     ) -> Result<Slopes, NoSlopes> {
         let point = &Point {
@@ -100,7 +100,7 @@ impl Transmission {
         };
         self.try_point(case, point, &[temperature], solved, Noting::Muted)
             .map_err(NoSlopes::Undefined)?;
-        let (s, by_differences) = self.derive(case, point, temperature, given, solved)?;
+        let (s, by_differences) = self.derive(case, point, temperature, is_balanced, given, solved)?;
         let warming = if is_balanced {
             Some(self.warming(temperature, s.sum)?)
         } else {
@@ -132,7 +132,8 @@ impl Transmission {
         case: &Case,
         point: &Point<'_>,
         temperature: f64,
-        given: Given,
+        is_balanced: bool,
+        given: GivenQuantity,
         solved: &Scratch,
     ) -> Result<(Scratch<Dual>, Vec<usize>), NoSlopes> {
         let mut s: Scratch<Dual> = Scratch::new(self, case);
@@ -144,12 +145,16 @@ impl Transmission {
             }
         };
         for (i, speed) in point.speeds.iter().enumerate() {
-            s.prescribed[i] = varied(*speed, given == Given::Speed(i));
+            s.prescribed[i] = varied(*speed, given == GivenQuantity::Speed(i));
         }
         for (i, torque) in point.torques.iter().enumerate() {
-            s.work.given[i] = varied(*torque, given == Given::Torque(i));
+            s.work.given[i] = varied(*torque, given == GivenQuantity::Torque(i));
         }
-        let temperature = varied(temperature, given == Given::OilTemperature) + Dual::variable(0.0, TEMPERATURE);
+        let temperature = if is_balanced {
+            Dual::variable(temperature, TEMPERATURE)
+        } else {
+            varied(temperature, given == GivenQuantity::OilTemperature)
+        };
         s.models.conditions.temperatures.push(temperature);
         s.models.conditions.trace = Some(Trace::default());
         self.settle_prescribed(case, &mut s, Noting::Muted);

@@ -47,7 +47,13 @@ impl Dual {
 
     /// The factor on the step of differences along a direction.
     pub fn step_factor(direction: usize) -> f64 {
-        if direction % 2 == 0 { 1.0 } else { 2.0 }
+        if direction.is_multiple_of(2) { 1.0 } else { 2.0 }
+    }
+
+    /// The derivatives of a product.
+    #[inline]
+    fn product_rule(self, other: Self) -> [f64; DIRECTIONS] {
+        std::array::from_fn(|i| self.slopes[i] * other.value + self.value * other.slopes[i])
     }
 
     /// A function of the number with its derivative.
@@ -101,7 +107,7 @@ impl Mul for Dual {
     fn mul(self, other: Self) -> Self {
         Self {
             value: self.value * other.value,
-            slopes: std::array::from_fn(|i| self.slopes[i] * other.value + self.value * other.slopes[i]),
+            slopes: self.product_rule(other),
         }
     }
 }

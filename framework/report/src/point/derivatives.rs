@@ -11,7 +11,11 @@ pub fn derivatives_text(found: &Derivatives) -> String {
         let (value, error) = match (own.value, own.kink) {
             (Some(value), _) => (scientific(value), own.error.map_or("-".to_owned(), scientific)),
             (None, Some([below, above])) => (
-                format!("kink: {} below, {} above", significant(below), significant(above)),
+                format!(
+                    "kink or jump: {} below, {} above",
+                    significant(below),
+                    significant(above)
+                ),
                 "-".to_owned(),
             ),
             (None, None) => ("-".to_owned(), "-".to_owned()),

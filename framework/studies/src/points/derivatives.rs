@@ -10,12 +10,12 @@ use std::fmt;
 
 use gearloss_framework::codes;
 use gearloss_framework::document::{Diagnostic, Unit, did_you_mean};
-use gearloss_framework::evaluate::{self, NoSlopes, Noting, Point, Scratch, Slopes};
+use gearloss_framework::evaluate::{GivenQuantity, NoSlopes, Noting, Point, Scratch, Slope, Slopes};
 use gearloss_framework::flow::Tolerance;
 use gearloss_framework::gearbox::{Findings, Gearbox};
 use gearloss_framework::language::Language;
 use gearloss_framework::resolve::{Choice, Resolved};
-use gearloss_framework::thermal::Unbalanced;
+use gearloss_framework::thermal::{Equilibrium, Step, Unbalanced};
 use gearloss_framework::transmission::{Case, Transmission};
 
 use self::differences::{Around, Difference};
@@ -95,7 +95,7 @@ pub struct Derivative {
     pub value: Option<f64>,
     /// Its estimated error.
     pub error: Option<f64>,
-    /// At a kink: the derivatives below and above.
+    /// At a kink: the derivatives below and above; at a jump they depend on the step.
     pub kink: Option<[f64; 2]>,
 }
 
@@ -144,19 +144,19 @@ impl Derived<'_> {
         found.map_err(|error| self.gearbox.findings(vec![error.code(codes::GIVEN)]))
     }
 
-    fn given_torque(&self, port: &str) -> Result<evaluate::Given, Diagnostic> {
+    fn given_torque(&self, port: &str) -> Result<GivenQuantity, Diagnostic> {
         let ports = &self.prepared.case.torque_ports;
-        self.position("torque", port, ports).map(evaluate::Given::Torque)
+        self.position("torque", port, ports).map(GivenQuantity::Torque)
     }
 
-    fn given_speed(&self, port: &str) -> Result<evaluate::Given, Diagnostic> {
+    fn given_speed(&self, port: &str) -> Result<GivenQuantity, Diagnostic> {
         let ports = &self.prepared.case.speed_ports;
-        self.position("speed", port, ports).map(evaluate::Given::Speed)
+        self.position("speed", port, ports).map(GivenQuantity::Speed)
     }
 
-    fn given_temperature(&self) -> Result<evaluate::Given, Diagnostic> {
+    fn given_temperature(&self) -> Result<GivenQuantity, Diagnostic> {
         match self.prepared.oil {
-            OilTemperature::Fixed(_) => Ok(evaluate::Given::OilTemperature),
+            OilTemperature::Fixed(_) => Ok(GivenQuantity::OilTemperature),
             OilTemperature::Balance | OilTemperature::Network => Err(Diagnostic::error(
                 "",
                 "the oil temperature is not given: it follows from the heat balance",
@@ -189,13 +189,13 @@ impl Derived<'_> {
     fn over_given(
         &self,
         variable: &Variable,
-        given: Result<evaluate::Given, Diagnostic>,
+        given: Result<GivenQuantity, Diagnostic>,
     ) -> Result<Derivatives, Diagnostic> {
         let given = given?;
         let unit = match given {
-            evaluate::Given::Torque(_) => "Nm",
-            evaluate::Given::Speed(_) => "rpm",
-            evaluate::Given::OilTemperature => "K",
+            GivenQuantity::Torque(_) => "Nm",
+            GivenQuantity::Speed(_) => "rpm",
+            GivenQuantity::OilTemperature => "K",
         };
         if self.prepared.oil == OilTemperature::Network {
             return self.through_network(variable, given, unit);
@@ -220,7 +220,7 @@ impl Derived<'_> {
     }
 
     fn of_slopes(&self, variable: &Variable, slopes: &Slopes, factor: f64, unit: &str) -> Derivatives {
-        let one = |of: &str, own: &str, slope: evaluate::Slope| Derivative {
+        let one = |of: &str, own: &str, slope: Slope| Derivative {
             of: of.to_owned(),
             unit: over(own, unit),
             value: Some(slope.value * factor),
@@ -276,14 +276,14 @@ impl Derived<'_> {
     fn through_network(
         &self,
         variable: &Variable,
-        given: evaluate::Given,
+        given: GivenQuantity,
         unit: &str,
     ) -> Result<Derivatives, Diagnostic> {
         let prepared = self.prepared;
         let value = match given {
-            evaluate::Given::Torque(i) => prepared.torques[i],
-            evaluate::Given::Speed(i) => prepared.speeds[i],
-            evaluate::Given::OilTemperature => return Err(Diagnostic::error("", "the oil temperature is not given")),
+            GivenQuantity::Torque(i) => prepared.torques[i],
+            GivenQuantity::Speed(i) => prepared.speeds[i],
+            GivenQuantity::OilTemperature => return Err(Diagnostic::error("", "the oil temperature is not given")),
         };
         let around = Around {
             value,
@@ -293,9 +293,9 @@ impl Derived<'_> {
         let differences = around.differentiate(|value| {
             let (mut speeds, mut torques) = (prepared.speeds.clone(), prepared.torques.clone());
             match given {
-                evaluate::Given::Torque(i) => torques[i] = value,
-                evaluate::Given::Speed(i) => speeds[i] = value,
-                evaluate::Given::OilTemperature => {}
+                GivenQuantity::Torque(i) => torques[i] = value,
+                GivenQuantity::Speed(i) => speeds[i] = value,
+                GivenQuantity::OilTemperature => {}
             }
             let point = Point {
                 speeds: &speeds,
@@ -333,7 +333,7 @@ impl Derived<'_> {
             },
             range: varied.range,
         };
-        let differences = around.differentiate(|value| {
+        let differences: Result<_, Findings> = around.differentiate(|value| {
             let mut choice = self.choice.clone();
             choice.overrides.extend(varied.overrides(value));
             let transmission = self.gearbox.transmission(self.language, &choice)?;
@@ -344,7 +344,7 @@ impl Derived<'_> {
         } else {
             varied.unit.symbol
         };
-        let differences = differences.map_err(|error: Findings| error)?;
+        let differences = differences?;
         Ok(self.of_differences(&Variable::Path(path.to_owned()), &differences, 1.0, unit))
     }
 
@@ -410,10 +410,15 @@ const OIL: (&str, &str) = ("oil_temperature", "K");
 fn over(of: &str, variable: &str) -> String {
     match (of, variable) {
         (of, "-") => of.to_owned(),
-        ("-", variable) => format!("1/{variable}"),
         (of, variable) if of == variable => "-".to_owned(),
-        (of, variable) if variable.contains(['/', ' ']) => format!("{of}/({variable})"),
-        (of, variable) => format!("{of}/{variable}"),
+        (of, variable) => {
+            let of = if of == "-" { "1" } else { of };
+            if variable.contains(['/', ' ']) {
+                format!("{of}/({variable})")
+            } else {
+                format!("{of}/{variable}")
+            }
+        }
     }
 }
 
@@ -441,10 +446,25 @@ fn solved(
     if !found.is_sound() {
         return Err(Unbalanced::Network);
     }
-    transmission.try_point(case, &point, found.temperatures(), &mut scratch, Noting::Muted)?;
-    let solution = transmission.evaluate(case, &point, found.temperatures(), &mut scratch);
-    let temperature = found.outcome().map(|_| found.oil);
+    let balanced = found.balance.as_ref().and_then(sharpened);
+    let temperatures = balanced.as_ref().map_or(found.temperatures(), std::slice::from_ref);
+    transmission.try_point(case, &point, temperatures, &mut scratch, Noting::Muted)?;
+    let solution = transmission.evaluate(case, &point, temperatures, &mut scratch);
+    let temperature = found.outcome().map(|_| balanced.unwrap_or(found.oil));
     let mut results = vec![solution.loss(), solution.efficiency(), temperature];
     results.extend(solution.watts().iter().map(|watts| Some(*watts)));
     Ok(results)
+}
+
+/// A balanced temperature after one more secant step: the search ends at a residual of 1e-10 of the loss, which differences amplify.
+fn sharpened(found: &Equilibrium) -> Option<f64> {
+    /// Minimum distance of the other step, so that rounding does not determine the slope. \[K\]
+    const APART: f64 = 1e-4;
+    let root = found.stable.first().filter(|root| root.beyond.is_none())?;
+    let distance = |step: &Step| (step.temperature - root.temperature).abs();
+    let others = found.history.iter().filter(|step| distance(step) >= APART);
+    let other = others.min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
+    let slope = (other.residual() - root.step.residual()) / (other.temperature - root.temperature);
+    let better = root.temperature - root.step.residual() / slope;
+    Some(better).filter(|better| better.is_finite())
 }

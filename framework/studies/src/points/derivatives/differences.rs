@@ -98,9 +98,10 @@ fn difference(here: f64, below: [f64; 3], above: [f64; 3], step: f64) -> Differe
     let apart = (sides[1] - sides[0]).abs();
     let largest = sides[0].abs().max(sides[1].abs());
     Difference {
-        // The error of both decreases with the fourth power of the step.
+        // The error of both decreases with the fourth power of the step. What remains after the extrapolation is less than their
+        // difference, which also shows the scatter of solved points.
         value: narrow + (narrow - wide) / 15.0,
-        error: (narrow - wide).abs() / 15.0 + rounding,
+        error: (narrow - wide).abs() + rounding,
         kink: (apart > KINK * largest && apart > CLEAR * rounding).then_some(sides),
     }
 }
