@@ -168,7 +168,8 @@ fn derivatives_of_the_two_speed_example_agree_with_differences_of_solves() {
 
 #[test]
 fn derivatives_through_the_heat_balance_agree_with_differences_of_balances() {
-    let rig = Rig::new("planetary-reducer", Choice::default(), "reducing", 20.0, 3000.0, None);
+    // Between the nodes of the drag table, where its slope is not smooth.
+    let rig = Rig::new("planetary-reducer", Choice::default(), "reducing", 20.0, 2700.0, None);
     for variable in ["torque:input", "speed:input"] {
         let found = rig.compare(variable, 1e-8);
         let warming = found
@@ -186,7 +187,7 @@ fn derivatives_through_the_heat_balance_agree_with_differences_of_balances() {
         Choice::default(),
         "reducing",
         20.0,
-        3000.0,
+        2700.0,
         Some(60.0),
     );
     for variable in ["torque:input", "speed:input", "oil_temperature"] {
