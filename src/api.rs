@@ -55,7 +55,7 @@ use std::path::Path;
 
 pub use gearloss_document::files::{Disk, FileSource, InMemory, SharedSource};
 pub use gearloss_document::{Code, Diagnostic, FilePlace, PlacedDiagnostic, RelatedPlace, Severity, Sources};
-pub use gearloss_framework::evaluate::{Point, PowerFlow, Scratch, Solution};
+pub use gearloss_framework::evaluate::{GivenQuantity, Point, PowerFlow, Scratch, Slope, Slopes, Solution};
 pub use gearloss_framework::gearbox::{Findings, Gearbox};
 pub use gearloss_framework::language::Language;
 pub use gearloss_framework::resolve::{Choice, Resolved};
@@ -64,6 +64,7 @@ pub use gearloss_framework::transmission::{Case, Transmission};
 pub use gearloss_studies::analyses;
 pub use gearloss_studies::analyses::progress::{Progress, Silent, Steps};
 pub use gearloss_studies::analyses::{Context, Outcome, Stopped};
+pub use gearloss_studies::points::{Derivative, Derivatives, Derived, Method, Variable};
 pub use gearloss_studies::points::{Field, Given, GridResult, OilTemperature, PointResult, Points};
 pub use gearloss_studies::run::StudyRun;
 pub use gearloss_studies::study::Study;

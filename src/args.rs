@@ -291,6 +291,10 @@ pub struct SolveArgs {
     /// Output format.
     #[arg(long, value_enum, default_value_t = Format::Table)]
     pub format: Format,
+    /// Prints derivatives of losses, efficiency and balanced temperature over `torque:PORT`, `speed:PORT`, `oil_temperature` or a number
+    /// of the resolved document; may be repeated.
+    #[arg(long, value_name = "VARIABLE")]
+    pub derivative: Vec<String>,
     /// Exit with code 1 if a model is used outside its range (`extrapolation`), or if the result depends on evidence of the given grade or
     /// lower.
     #[arg(long, value_name = "WHAT")]

@@ -14,6 +14,7 @@ mod conformance;
 mod counts;
 mod coverage;
 mod cycle;
+mod derivatives;
 mod editor;
 mod ehl_mixed;
 mod electric_drive_unit;

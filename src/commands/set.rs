@@ -98,6 +98,15 @@ fn point_at_options(
     findings
 }
 
+/// Shows the text of an option as the place of findings.
+pub fn at_option(option: &str, text: &str, mut findings: Findings) -> Findings {
+    let source = findings.sources.add(option, text);
+    for finding in &mut findings.list {
+        finding.spans.insert(0, (span(source, 0, text.len()), String::new()));
+    }
+    findings
+}
+
 /// Whether a finding at a path concerns the override of a pattern: at a match or below it.
 fn reaches(pattern: &str, path: &str) -> bool {
     let mut keys = path.split('.');

@@ -1,9 +1,9 @@
-//! `solve`: one operating point with the loss of each component, sums and efficiency.
+//! `solve`: one operating point with the loss of each component, sums and efficiency, and their derivatives.
 
 use gearloss_framework::coefficients::changed_from_source;
 use gearloss_framework::gearbox::Gearbox;
-use gearloss_report::point::{point_json, point_text, remarks};
-use gearloss_studies::points::evidence;
+use gearloss_report::point::{derivatives_text, point_json, point_text, remarks};
+use gearloss_studies::points::{Derived, Variable, evidence};
 use serde_json::json;
 
 use super::check::grade;
@@ -23,6 +23,21 @@ pub fn run(args: &SolveArgs, out: &mut Out) -> Result<End, Failure> {
     let solved = prepared.solve(&transmission, &mut scratch);
     let known = evidence(&transmission, &resolved, &|path| gearbox.places.is_written(path));
     let changed = changed_from_source(&transmission, &resolved);
+    let choice = set::choice(&args.choice)?;
+    let derived = Derived {
+        language,
+        gearbox: &gearbox,
+        choice: &choice,
+        resolved: &resolved,
+        transmission: &transmission,
+        prepared: &prepared,
+    };
+    let mut derivatives = Vec::new();
+    for text in &args.derivative {
+        let variable = Variable::from(text.as_str());
+        let found = derived.over(&variable);
+        derivatives.push(found.map_err(|findings| set::at_option("--derivative", text, findings))?);
+    }
     match args.format {
         Format::Json => {
             let packages = language.registry().packages();
@@ -30,10 +45,16 @@ pub fn run(args: &SolveArgs, out: &mut Out) -> Result<End, Failure> {
             value["evidence"] = json!(known);
             value["unreached"] = json!(resolved.unreached);
             value["changed_from_source"] = json!(changed);
+            if !derivatives.is_empty() {
+                value["derivatives"] = json!(derivatives);
+            }
             out.line(serde_json::to_string_pretty(&value).unwrap_or_default())?;
         }
         Format::Table => {
             out.text(&point_text(&transmission, &prepared, &solved))?;
+            for derivatives in &derivatives {
+                out.text(&derivatives_text(derivatives))?;
+            }
             for line in remarks(&resolved, &changed, &known) {
                 out.line(line)?;
             }

@@ -79,30 +79,52 @@ pub struct Oil<R = f64> {
     pub x_l: R,
 }
 
-impl<R: Points> Oil<R> {
-    /// The oil at several points from that at each.
-    pub(crate) fn of_points(oil: impl Fn(usize) -> Oil) -> Self {
-        let mut all = Self::default();
-        for point in 0..R::COUNT {
-            let own = oil(point);
-            let pairs = [
-                (&mut all.temperature, own.temperature),
-                (&mut all.nu, own.nu),
-                (&mut all.rho, own.rho),
-                (&mut all.eta, own.eta),
-                (&mut all.nu40, own.nu40),
-                (&mut all.alpha, own.alpha),
-                (&mut all.beta, own.beta),
-                (&mut all.conductivity, own.conductivity),
-                (&mut all.mu_bl, own.mu_bl),
-                (&mut all.mu_ehl, own.mu_ehl),
-                (&mut all.x_l, own.x_l),
-            ];
-            for (all, own) in pairs {
-                all.set(point, own);
-            }
+impl<R: Copy> Oil<R> {
+    /// All properties, in a fixed order.
+    pub(crate) fn properties(&self) -> [R; 11] {
+        [
+            self.temperature,
+            self.nu,
+            self.rho,
+            self.eta,
+            self.nu40,
+            self.alpha,
+            self.beta,
+            self.conductivity,
+            self.mu_bl,
+            self.mu_ehl,
+            self.x_l,
+        ]
+    }
+
+    /// The oil with these properties, in the order of [`Oil::properties`].
+    pub(crate) fn of_properties(properties: [R; 11]) -> Self {
+        let [
+            temperature,
+            nu,
+            rho,
+            eta,
+            nu40,
+            alpha,
+            beta,
+            conductivity,
+            mu_bl,
+            mu_ehl,
+            x_l,
+        ] = properties;
+        Self {
+            temperature,
+            nu,
+            rho,
+            eta,
+            nu40,
+            alpha,
+            beta,
+            conductivity,
+            mu_bl,
+            mu_ehl,
+            x_l,
         }
-        all
     }
 }
 

@@ -2,6 +2,8 @@
 //!
 //! It serves built-in models and those of other crates: a crate calls [`check_all`] in one test, which covers every linked model.
 
+mod derivatives;
+
 use std::cell::Cell;
 use std::sync::Arc;
 
@@ -10,7 +12,7 @@ use serde_json::Value;
 use crate::language::Language;
 use crate::loss::{Kept, NoteBase, Notebook, Notes, Seen, Undefined};
 use crate::mechanism::{Answer, Inputs as _, Mechanism, Quantity};
-use crate::real::{LANES, Lane};
+use crate::real::{Dual, LANES, Lane, Real as _};
 use crate::registry::{Build, Entry, Evidence, Files, Graded, Registry, from_resolved};
 
 /// Checks every linked model on its mechanism's example part. Returns one line for each fault.
@@ -149,10 +151,22 @@ pub fn conform<M: Mechanism>(
     if !entry.evidence.iter().any(stated) {
         faults.extend(rest_and_reversal::<M>(&slot, &usual));
     }
+    faults.extend(derivatives::faults::<M>(&slot, &part));
     faults.extend(keeping::<M>(&slot, &part, slot.notes, (instances.len(), cells)));
     faults.dedup();
     faults.truncate(12);
     faults
+}
+
+/// Whether the law of a model answers for several points at once and has exact derivatives; otherwise it is evaluated point by point,
+/// and its derivatives are differences. `None` if it cannot be built from its example alone.
+pub fn is_generic<M: Mechanism>(registry: &Registry, files: &Files, model: &Value, part: &Value) -> Option<bool> {
+    let part: Arc<M::Part> = Arc::new(from_resolved(part).ok()?);
+    let slot = Build::new(registry, files).slot_at::<M>("model", &part, model).ok()?;
+    let at = M::At::gather(&part, Notebook::CLOSED.notes(slot.notes), |quantity| {
+        Dual::constant(quantity(&M::usual(&part, Notes::MUTED)))
+    });
+    Some(M::answer_with_derivatives(&slot, &at).is_some())
 }
 
 /// Checks the loss at standstill and for the opposite direction of rotation: zero power, and equal power.

@@ -1,12 +1,14 @@
 //! One point: speeds, torques, loads, losses. Pure; allocates nothing; never iterates on temperature.
 
 mod batch;
+mod derive;
 mod grip;
 mod readings;
 mod scratch;
 mod solution;
 
 pub use batch::{Batch, BatchScratch, Block};
+pub use derive::{GivenQuantity, NoSlopes, Slope, Slopes};
 pub(crate) use readings::readings;
 pub use readings::{MemberTorques, Reading};
 use scratch::Models;
@@ -485,19 +487,17 @@ impl Transmission {
     }
 
     fn correct_loads<R: Points>(&self, case: &Case, ports: &[R], loads: &mut [SupportLoad<R>]) {
-        let torque = |port: usize, point: usize| ports[self.ports[port].member].at_point(point);
+        let torque = |port: usize| ports[self.ports[port].member];
         if let Some(imported) = &self.imported {
             for (i, load) in loads.iter_mut().enumerate() {
-                for point in 0..R::COUNT {
-                    if let Some(own) = imported.load(case.state, i, torque(imported.port, point)) {
-                        load.set(point, own);
-                    }
+                if let Some(own) = imported.load(case.state, i, torque(imported.port)) {
+                    *load = own;
                 }
             }
         }
         for (load, factors) in loads.iter_mut().zip(&self.load_factors) {
-            load.radial = load.radial * R::each(|point| factors.radial.value_at(|port| torque(port, point)));
-            load.axial = load.axial * R::each(|point| factors.axial.value_at(|port| torque(port, point)));
+            load.radial = load.radial * factors.radial.value_at(torque);
+            load.axial = load.axial * factors.axial.value_at(torque);
         }
     }
 

@@ -4,6 +4,7 @@
 //! driven gear in the carrier's frame, and the carrier takes the reaction. The power balance therefore holds to rounding for any
 //! multipliers that solve the linear system.
 
+mod derive;
 mod equilibrium;
 mod linear;
 mod solve;

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crate::real::Points;
+use crate::real::Real;
 
 /// Oil height above a stationary or orbiting axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -13,11 +13,11 @@ pub struct Height<R = f64> {
     pub orbit: f64,
 }
 
-impl<R: Points> Height<R> {
+impl<R: Real> Height<R> {
     /// Immersion depth of a circle's lowest point, averaged over the orbit. \[m\]
     #[inline]
     pub fn dip(self, radius: f64) -> R {
-        self.level.map(|level| {
+        self.level.lift(|level| {
             if self.orbit > 0.0 {
                 orbiting_dip(level, radius, self.orbit)
             } else {
@@ -29,7 +29,7 @@ impl<R: Points> Height<R> {
     /// Oil height over the lowest point of a circle, zero if it is above the oil, averaged over the orbit. \[m\]
     #[inline]
     pub fn over_bottom(self, radius: f64) -> R {
-        self.level.map(|level| {
+        self.level.lift(|level| {
             if self.orbit > 0.0 {
                 mean_height(level + radius, self.orbit)
             } else {

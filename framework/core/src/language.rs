@@ -19,7 +19,7 @@ use crate::mechanism::gear_drag::{GearDrag, Scope};
 use crate::mechanism::gear_mesh::GearMesh;
 use crate::mechanism::heat_dissipation::HeatDissipation;
 use crate::mechanism::planetary_drag::PlanetaryDrag;
-use crate::registry::{DocumentKind, Entry, Registry, inventory};
+use crate::registry::{DocumentKind, Entry, Files, Registry, inventory};
 use crate::resolve::CatalogueTable;
 
 /// Key of the mechanism of mesh models.
@@ -320,6 +320,19 @@ impl Language {
         }
         let value = fine(self.walk_eval(entry.mechanism, &read.node)?)?;
         Ok((value["model"].clone(), value["part"].clone()))
+    }
+
+    /// Whether the law of a model is written for any number: then it answers for several points at once and has exact derivatives.
+    /// Other laws are evaluated point by point and differentiated by differences.
+    pub fn is_generic(&self, entry: &Entry) -> bool {
+        let files = Files::default();
+        files.put_all(entry.files);
+        let example = self
+            .example_of(entry)
+            .ok()
+            .zip(self.registry.mechanism(entry.mechanism));
+        example.and_then(|((model, part), mechanism)| (mechanism.is_generic)(&self.registry, &files, &model, &part))
+            == Some(true)
     }
 
     /// Sections whose entries have one model each, with the key of the mechanism.

@@ -41,14 +41,6 @@ impl<R: Points> SupportLoad<R> {
             untaken: self.untaken.at_point(point),
         }
     }
-
-    /// Replaces the load at one of the points.
-    pub(crate) fn set(&mut self, point: usize, load: SupportLoad) {
-        self.radial.set(point, load.radial);
-        self.axial.set(point, load.axial);
-        self.tilting.set(point, load.tilting);
-        self.untaken.set(point, load.untaken);
-    }
 }
 
 #[cfg(test)]

@@ -274,19 +274,37 @@ impl<R: Real> Loss<R> {
     }
 }
 
+impl<R: Real> Loss<R> {
+    /// The result whose numbers follow from those of other results: `number` is given the access to one of them.
+    pub(crate) fn gather(measure: Measure, number: impl Fn(&dyn Fn(&Loss) -> f64) -> R) -> Self {
+        Self {
+            measure,
+            values: std::array::from_fn(|term| number(&|loss| loss.values[term])),
+            first_share: number(&|loss| loss.first_share),
+            first_heat: number(&|loss| loss.first_heat),
+        }
+    }
+
+    /// The result of one point whose numbers follow from these.
+    #[inline]
+    pub(crate) fn map(&self, number: impl Fn(R) -> f64) -> Loss {
+        Loss {
+            measure: self.measure,
+            values: self.values.map(&number),
+            first_share: number(self.first_share),
+            first_heat: number(self.first_heat),
+        }
+    }
+}
+
 impl<R: Points> Loss<R> {
     /// The result of one point.
     #[inline]
     pub fn at_point(&self, point: usize) -> Loss {
-        Loss {
-            measure: self.measure,
-            values: self.values.map(|value| value.at_point(point)),
-            first_share: self.first_share.at_point(point),
-            first_heat: self.first_heat.at_point(point),
-        }
+        self.map(|value| value.at_point(point))
     }
 
-    /// The result of several points from that of each, which are all in the same measure.
+    /// The result of several points, without derivatives, from that of each, which are all in the same measure.
     pub(crate) fn of_points(loss: impl Fn(usize) -> Loss) -> Self {
         Self {
             measure: loss(0).measure,
@@ -296,7 +314,7 @@ impl<R: Points> Loss<R> {
         }
     }
 
-    /// The results of the points of some bits, evaluated one by one; NaN where there is none, or none in the same measure as that of
+    /// The results of the points of some bits, without derivatives, evaluated one by one; NaN where there is none, or none in the same measure as that of
     /// the first point.
     pub fn one_by_one(points: u32, mut evaluate: impl FnMut(usize) -> Result<Loss, Undefined>) -> Self {
         let mut all: Option<Self> = None;
@@ -562,7 +580,7 @@ impl Step {
 }
 
 /// Collects the steps of one explained evaluation.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub struct Trace {
     steps: RefCell<Vec<Step>>,
 }

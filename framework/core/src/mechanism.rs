@@ -7,6 +7,7 @@ mod answers;
 pub mod auxiliary;
 pub mod bearing;
 pub mod clutch;
+pub(crate) mod differences;
 pub mod gear_drag;
 pub mod gear_mesh;
 pub mod heat_dissipation;
@@ -34,7 +35,7 @@ use crate::attach::Attach;
 use crate::document::Unit;
 use crate::loads::StaticRating;
 use crate::loss::{Loss, Notes, Term, Undefined};
-use crate::real::{Lane, Points, Real};
+use crate::real::{Dual, Lane, Points, Real};
 
 /// A physical cause of loss. Implemented by an empty marker type, once per mechanism.
 pub trait Mechanism: Sized + 'static {
@@ -93,6 +94,14 @@ pub trait Mechanism: Sized + 'static {
     ) -> Result<<Self::Answer as Answer>::Of<Lane>, Undefined> {
         Err(Undefined::DISAGREED)
     }
+    /// The result of a model with its derivatives; `None` if its law is not written over [`Real`] and must be differentiated by
+    /// differences.
+    fn answer_with_derivatives(
+        _model: &Self::Model,
+        _at: &Self::At<'_, Dual>,
+    ) -> Option<Result<<Self::Answer as Answer>::Of<Dual>, Undefined>> {
+        None
+    }
     /// The adapter through which `none`, `constant`, `formula` and `table` serve this mechanism; written by
     /// [`answered_by!`](crate::answered_by).
     fn scalar(law: Scalar<Self>) -> Arc<Self::Model>;
@@ -125,14 +134,25 @@ pub trait Inputs<'a, M: Mechanism, R: Real>: Copy {
     fn notes(&self) -> Notes<'a, R>;
     /// The same with another target.
     fn with_notes(&self, notes: Notes<'a, R>) -> Self;
+    /// A context of one point, whose quantities follow from these.
+    fn map(&self, notes: Notes<'a>, number: impl Fn(R) -> f64) -> M::At<'a, f64>;
     /// The context of one of the points.
+    #[inline(always)]
     fn at_point(&self, point: usize) -> M::At<'a, f64>
     where
-        R: Points;
+        R: Points,
+    {
+        self.map(self.notes().at_point(point), |x| x.at_point(point))
+    }
+    /// The context whose quantities follow from those of others: `number` is given the access to one quantity.
+    fn gather(part: &'a M::Part, notes: Notes<'a, R>, number: impl Fn(&dyn Fn(&M::At<'a, f64>) -> f64) -> R) -> Self;
     /// The context of several points, from that of each.
     fn together(part: &'a M::Part, notes: Notes<'a, R>, each: impl Fn(usize) -> M::At<'a, f64>) -> Self
     where
-        R: Points;
+        R: Points,
+    {
+        Self::gather(part, notes, |quantity| R::each(|point| quantity(&each(point))))
+    }
 }
 
 /// A mechanism whose parts have their own section in the document.
@@ -172,8 +192,14 @@ pub trait Answer: sealed::Sealed + Copy + Send + Sync {
     fn alone(self) -> Self::Of<f64>;
     /// The results of the points of some bits, evaluated one by one; NaN where one is undefined.
     fn one_by_one<R: Points>(points: u32, evaluate: impl FnMut(usize) -> Result<Self, Undefined>) -> Self::Of<R>;
+    /// The result of one point whose numbers follow from these.
+    fn map<R: Real>(all: &Self::Of<R>, number: impl Fn(R) -> f64) -> Self;
     /// The result of one of the points.
-    fn at_point<R: Points>(all: &Self::Of<R>, point: usize) -> Self;
+    fn at_point<R: Points>(all: &Self::Of<R>, point: usize) -> Self {
+        Self::map(all, |x: R| x.at_point(point))
+    }
+    /// The result whose numbers follow from those of others of the same model: `number` is given the access to one of them.
+    fn gather<R: Real>(&self, number: impl Fn(&dyn Fn(&Self) -> f64) -> R) -> Self::Of<R>;
     /// The named values of the result at a relative speed: for a loss, the power of each term. \[W or the unit of the result\]
     fn values(&self, terms: &'static [Term], speed: f64) -> Vec<(&'static str, f64)>;
     /// True if the result is finite and not negative.
@@ -194,8 +220,11 @@ impl Answer for Loss {
     fn one_by_one<R: Points>(points: u32, evaluate: impl FnMut(usize) -> Result<Self, Undefined>) -> Loss<R> {
         Loss::one_by_one(points, evaluate)
     }
-    fn at_point<R: Points>(all: &Loss<R>, point: usize) -> Self {
-        all.at_point(point)
+    fn map<R: Real>(all: &Loss<R>, number: impl Fn(R) -> f64) -> Self {
+        all.map(number)
+    }
+    fn gather<R: Real>(&self, number: impl Fn(&dyn Fn(&Self) -> f64) -> R) -> Loss<R> {
+        Loss::gather(self.measure(), number)
     }
     fn values(&self, terms: &'static [Term], speed: f64) -> Vec<(&'static str, f64)> {
         terms.iter().map(|t| (t.name, self.watts(t.index, speed))).collect()
@@ -225,8 +254,11 @@ impl Answer for f64 {
             _ => 0.0,
         })
     }
-    fn at_point<R: Points>(all: &R, point: usize) -> Self {
-        all.at_point(point)
+    fn map<R: Real>(all: &R, number: impl Fn(R) -> f64) -> Self {
+        number(*all)
+    }
+    fn gather<R: Real>(&self, number: impl Fn(&dyn Fn(&Self) -> f64) -> R) -> R {
+        number(&|result| *result)
     }
     fn values(&self, _terms: &'static [Term], _speed: f64) -> Vec<(&'static str, f64)> {
         vec![("value", *self)]
@@ -365,22 +397,16 @@ macro_rules! context {
             }
 
             #[inline(always)]
-            fn at_point(&self, point: usize) -> $At<'a>
-            where
-                R: $crate::real::Points,
-            {
-                $At { part: self.part, $($name: self.$name.at_point(point),)+ notes: self.notes.at_point(point) }
+            fn map(&self, notes: $crate::loss::Notes<'a>, number: impl Fn(R) -> f64) -> $At<'a> {
+                $At { part: self.part, $($name: number(self.$name),)+ notes }
             }
 
-            fn together(
+            fn gather(
                 part: &'a <$M as $crate::mechanism::Mechanism>::Part,
                 notes: $crate::loss::Notes<'a, R>,
-                each: impl Fn(usize) -> $At<'a>,
-            ) -> Self
-            where
-                R: $crate::real::Points,
-            {
-                Self { part, $($name: R::each(|point| each(point).$name),)+ notes }
+                number: impl Fn(&dyn Fn(&$At<'a>) -> f64) -> R,
+            ) -> Self {
+                Self { part, $($name: number(&|at| at.$name),)+ notes }
             }
         }
 

@@ -1,18 +1,22 @@
 //! Arithmetic of laws: one text for one point and for several points at once.
 //!
-//! A law that is written over [`Real`] serves `f64`, one point, and [`Lane`], several points of a batch, with the same operations in
-//! the same order, so that a point has the same bits wherever it is evaluated. Where points may take different branches, the law
+//! A law that is written over [`Real`] serves `f64`, one point, [`Lane`], several points of a batch, and [`Dual`], one point with
+//! derivatives, with the same operations in the same order, so that a point has the same bits wherever it is evaluated. Where points may take different branches, the law
 //! selects by a [`Mask`]; where they seldom do, it asks whether they [agree](Mask::agreed), and the framework evaluates points that
 //! do not one by one.
 
+mod dual;
 mod elementary;
 mod lane;
+mod stencil;
 
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, Neg, Not, Sub, SubAssign};
 
+pub use dual::{DIRECTIONS, Dual};
 pub use elementary::{cube_root, exp, ln, sine};
 pub use lane::{LANES, Lane, LaneMask};
+pub use stencil::Stencil;
 
 use crate::loss::Undefined;
 
@@ -21,6 +25,7 @@ mod sealed {
     pub trait Sealed {}
     impl Sealed for f64 {}
     impl Sealed for super::Lane {}
+    impl Sealed for super::Dual {}
     impl Sealed for bool {}
     impl Sealed for super::LaneMask {}
 }
@@ -89,8 +94,11 @@ pub trait Real:
     fn logarithm(self) -> Self;
     /// The sine for angles up to a quarter turn.
     fn sine(self) -> Self;
-    /// A function of each number that is not written over [`Real`], such as one read from a table.
+    /// A function of each number that is not written over [`Real`], such as one read from a table. Its derivatives are found by
+    /// differences.
     fn lift(self, function: impl Fn(f64) -> f64) -> Self;
+    /// The same for several results of one function, such as the properties of an oil at a temperature.
+    fn lift_all<const N: usize>(self, function: impl Fn(f64) -> [f64; N]) -> [Self; N];
     /// A power of a number that is not negative; zero of zero for a positive exponent.
     #[inline(always)]
     fn power(self, exponent: f64) -> Self {
@@ -150,16 +158,14 @@ pub trait Mask:
 pub trait Points: Real {
     /// How many.
     const COUNT: usize;
-    /// The numbers of all points from those of each.
+    /// The numbers of all points from those of each; they have no derivatives.
     fn each(number: impl FnMut(usize) -> f64) -> Self;
     /// The conditions of all points from those of each.
     fn mask(holds: impl FnMut(usize) -> bool) -> Self::Mask;
     /// The number of one point.
     fn at_point(&self, point: usize) -> f64;
-    /// Changes the number of one point.
+    /// Changes the number of one point, to one without derivatives.
     fn set(&mut self, point: usize, x: f64);
-    /// A function of each number.
-    fn map(self, number: impl FnMut(f64) -> f64) -> Self;
     /// True where a condition on each number holds.
     fn test(self, holds: impl FnMut(f64) -> bool) -> Self::Mask;
     /// One bit for each point where a condition holds.
@@ -251,6 +257,10 @@ impl Real for f64 {
     fn lift(self, function: impl Fn(f64) -> f64) -> Self {
         function(self)
     }
+    #[inline(always)]
+    fn lift_all<const N: usize>(self, function: impl Fn(f64) -> [f64; N]) -> [Self; N] {
+        function(self)
+    }
 }
 
 impl Points for f64 {
@@ -270,10 +280,6 @@ impl Points for f64 {
     #[inline(always)]
     fn set(&mut self, _point: usize, x: f64) {
         *self = x;
-    }
-    #[inline(always)]
-    fn map(self, mut number: impl FnMut(f64) -> f64) -> Self {
-        number(self)
     }
     #[inline(always)]
     fn test(self, mut holds: impl FnMut(f64) -> bool) -> bool {

@@ -24,6 +24,7 @@ impl MechanismEntry {
             part: |generator| <M::Part as schemars::JsonSchema>::json_schema(generator),
             eval: eval::eval::<M>,
             conform: conformance::conform::<M>,
+            is_generic: conformance::is_generic::<M>,
         }
     }
 

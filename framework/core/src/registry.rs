@@ -265,6 +265,8 @@ pub struct MechanismEntry {
     pub eval: fn(&Registry, &Files, &Value, &Value, &Map<String, Value>) -> Result<Evaluated, Diagnostic>,
     /// Faults of a model on a part, from the conformance suite.
     pub conform: fn(&Registry, &Files, &Entry, &Value, &Value) -> Vec<String>,
+    /// Whether the law of a model on a part is generic; see [`Language::is_generic`](crate::language::Language::is_generic).
+    pub is_generic: fn(&Registry, &Files, &Value, &Value) -> Option<bool>,
 }
 
 inventory::collect!(MechanismEntry);

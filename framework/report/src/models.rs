@@ -24,10 +24,19 @@ fn parameters(entry: &Entry, schema: &Value) -> Vec<(String, Value)> {
         .collect()
 }
 
+/// How a model whose law is written for any number is evaluated and differentiated, and how the others are.
+const GENERIC: &str = "generic";
+const PLAIN: &str = "plain";
+
+/// [`GENERIC`] or [`PLAIN`].
+fn evaluation(language: &Language, entry: &Entry) -> &'static str {
+    if language.is_generic(entry) { GENERIC } else { PLAIN }
+}
+
 /// All models by mechanism, the model sets, and the crates with models.
 pub fn models_text(language: &Language) -> String {
     let mut out = Lines::default();
-    let mut table = TextTable::new(&["mechanism", "model", "crate", "evidence", "description"]);
+    let mut table = TextTable::new(&["mechanism", "model", "crate", "evidence", "evaluation", "description"]);
     for mechanism in language.registry().mechanisms() {
         for model in language.registry().models(mechanism.key) {
             let grade = model
@@ -40,12 +49,14 @@ pub fn models_text(language: &Language) -> String {
                 model.name.to_owned(),
                 model.origin.package.name.to_owned(),
                 grade.to_owned(),
+                evaluation(language, model).to_owned(),
                 model.meaning(),
             ]);
         }
     }
     out.text(&table.render());
     out.line("");
+    out.line("generic: several points at once, exact derivatives; plain: point by point, derivatives by differences");
     for set in language.registry().shipped_sets() {
         out.line(format!(
             "set {}: {} ({})",
@@ -99,6 +110,10 @@ pub fn model_text(language: &Language, entry: &Entry) -> String {
     out.line(format!("source: {}", entry.source));
     out.line(format!("registered at {}", entry.origin));
     out.line(format!("example: {}", entry.example));
+    out.line(match evaluation(language, entry) {
+        GENERIC => "evaluation: generic: several points at once, exact derivatives",
+        _ => "evaluation: plain: point by point, derivatives by differences",
+    });
     let schema = language.published(Kind::Gearbox);
     let fields = parameters(entry, &schema);
     let mut table = TextTable::new(&["parameter", "default", "range", "description"]);

@@ -1,5 +1,6 @@
 //! One solved point: text and record.
 
+mod derivatives;
 mod explain;
 mod network;
 
@@ -15,6 +16,7 @@ use gearloss_studies::points::{Found, PreparedPoint, SUMS, SelfLocking, SolvedPo
 use serde::Serialize;
 use serde_json::{Value, json};
 
+pub use derivatives::derivatives_text;
 pub use explain::{explain_heat_path, explain_part};
 use network::{network_json, network_text};
 

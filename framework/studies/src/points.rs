@@ -2,6 +2,7 @@
 
 mod bits;
 mod cycle;
+mod derivatives;
 mod grid;
 mod locking;
 mod notes;
@@ -14,6 +15,7 @@ mod temperature;
 
 pub use bits::Bits;
 pub use cycle::{Driven, Ride, Stretch, can_drive, drive};
+pub use derivatives::{Derivative, Derivatives, Derived, Method, Variable};
 pub use gearloss_numerics::statistics::{Statistics, bands, correlation, histogram, levels, quantile};
 pub use grid::{Field, Given, GridResult, PointResult, Points, merge, run_grid};
 pub use locking::{SelfLocking, self_locking};

@@ -205,7 +205,7 @@ impl Scratch<Lane> {
         c.temperatures.resize(common.temperatures.len(), Lane::ZERO);
         spread(&mut c.temperatures, &common.temperatures);
         for (own, oil) in c.oils.iter_mut().zip(&common.oils) {
-            *own = Oil::of_points(|_| *oil);
+            *own = Oil::of_properties(oil.properties().map(Lane::constant));
         }
         c.surface = Lane::constant(common.surface);
         c.common = true;

@@ -5,7 +5,7 @@ use std::cell::Cell;
 use crate::attach::{Oil, State};
 use crate::flow::{Balance, Status, Work};
 use crate::loads::SupportLoad;
-use crate::loss::{Extent, Kept, Loss, Notebook, Seen, Undefined};
+use crate::loss::{Extent, Kept, Loss, Notebook, Seen, Trace, Undefined};
 use crate::real::{Mask as _, Points};
 use crate::transmission::{Case, Transmission};
 
@@ -26,6 +26,8 @@ pub(super) struct Conditions<R: Points> {
     /// The same for points that are evaluated one by one.
     pub kept_alone: Vec<Cell<Kept<f64>>>,
     pub cells: Vec<Cell<Seen>>,
+    /// Target of the steps of models, if they are recorded.
+    pub trace: Option<Trace>,
     /// Loss model evaluations for the points.
     pub calls: Cell<usize>,
 }
@@ -47,7 +49,7 @@ impl<R: Points> Conditions<R> {
             points: R::bits(self.live),
             kept: &self.kept,
             kept_alone: if self.common { &self.kept_alone } else { &[] },
-            trace: None,
+            trace: self.trace.as_ref(),
         };
         (state, book)
     }
@@ -176,6 +178,7 @@ impl<R: Points> Scratch<R> {
                     kept: vec![Cell::new(None); instances],
                     kept_alone: vec![Cell::new(None); instances],
                     cells: vec![Cell::new(Seen::NOTHING); transmission.cells],
+                    trace: None,
                     calls: Cell::new(0),
                 },
                 uneven_loads: [(); 2].map(|()| vec![SupportLoad::default(); uneven(supports)]),

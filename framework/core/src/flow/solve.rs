@@ -179,7 +179,7 @@ impl Flow {
 
     /// Power per unit of each entry of the losses.
     #[inline(always)]
-    fn weigh<R: Points>(&self, work: &mut Work<R>) {
+    pub(super) fn weigh<R: Points>(&self, work: &mut Work<R>) {
         let meshes = self.meshes.len();
         for (weight, rolling) in work.weights.iter_mut().zip(&work.rolling) {
             *weight = rolling.magnitude();
@@ -306,7 +306,10 @@ enum End {
 }
 
 /// Evaluates the losses of the models at the present torques. Returns where all of them are finite.
-fn evaluate_losses<R: Points>(work: &mut Work<R>, losses: &mut impl FnMut(&mut FlowState<'_, R>)) -> R::Mask {
+pub(super) fn evaluate_losses<R: Points>(
+    work: &mut Work<R>,
+    losses: &mut impl FnMut(&mut FlowState<'_, R>),
+) -> R::Mask {
     R::wide(
         #[inline(always)]
         || {

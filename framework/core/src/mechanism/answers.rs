@@ -1,15 +1,16 @@
-//! How models answer for one point, and for several together.
+//! How models answer for one point, for several together, and with derivatives.
 
 use super::tooth_friction::{Along, PathAt, ToothFrictionModel};
-use super::{Answer, Inputs, Mechanism};
+use super::{Answer, Inputs, Mechanism, differences};
 use crate::attach::State;
 use crate::contact::path::with_space;
 use crate::loss::{Loss, Notebook, Undefined};
-use crate::real::{Lane, Points};
+use crate::real::{Dual, Lane, Points};
 use crate::registry::Placed;
 
-/// Numbers for which models answer: one point, or several. Several are answered together by a law that is written for any
-/// [`Real`](crate::real::Real), one by one by others and where their branches differ.
+/// Numbers for which models answer: one point, with or without derivatives, or several. Several are answered together by a law that
+/// is written for any [`Real`](crate::real::Real), one by one by others and where their branches differ. Derivatives follow from such
+/// a law; those of others are found by differences.
 pub trait Answers: Points {
     /// The result of a model; NaN at points where it is undefined, unless there is one only.
     ///
@@ -103,5 +104,31 @@ impl Answers for Lane {
             }
         });
         Ok(all)
+    }
+}
+
+impl Answers for Dual {
+    fn answer<M: Mechanism>(
+        model: &M::Model,
+        at: &M::At<'_, Dual>,
+    ) -> Result<<M::Answer as Answer>::Of<Dual>, Undefined> {
+        M::answer_with_derivatives(model, at).unwrap_or_else(|| differences::answer::<M>(model, at))
+    }
+
+    fn placed(
+        placed: &dyn Placed,
+        state: &State<'_, Dual>,
+        book: &Notebook<'_, Dual>,
+    ) -> Result<Loss<Dual>, Undefined> {
+        placed.loss_with_derivatives(state, book)
+    }
+
+    fn along(
+        model: &dyn ToothFrictionModel,
+        path: &PathAt<'_, Dual>,
+        mu: &mut [Dual],
+    ) -> Result<Along<Dual>, Undefined> {
+        let along = model.along_with_derivatives(path, mu);
+        along.unwrap_or_else(|| differences::along(model, path, mu))
     }
 }

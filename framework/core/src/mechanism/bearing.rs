@@ -7,7 +7,7 @@ use crate::attach::{Support, SupportSite};
 use crate::loads::{StaticFactors, StaticRating};
 use crate::loss::{Loss, Notes, Term, Undefined};
 use crate::mechanism::{Component, Mechanism, Scalar};
-use crate::real::{Lane, Points, Real};
+use crate::real::{Dual, Lane, Points, Real};
 use crate::{answered_by, context};
 
 /// Marker of the mechanism; never constructed.
@@ -29,6 +29,11 @@ pub trait BearingModel: Send + Sync {
     fn losses(&self, _at: &BearingAt<'_, Lane>) -> Result<Loss<Lane>, Undefined> {
         Err(Undefined::DISAGREED)
     }
+
+    /// The loss with its derivatives; written by a [law](BearingLaw). `None` has them found by differences.
+    fn loss_with_derivatives(&self, _at: &BearingAt<'_, Dual>) -> Option<Result<Loss<Dual>, Undefined>> {
+        None
+    }
 }
 
 /// A model of bearings that is written once for one point and for several; mark `loss` as `#[inline(always)]`, so that it uses wide
@@ -48,6 +53,10 @@ impl<L: BearingLaw> BearingModel for L {
             #[inline(always)]
             || BearingLaw::loss(self, at),
         )
+    }
+
+    fn loss_with_derivatives(&self, at: &BearingAt<'_, Dual>) -> Option<Result<Loss<Dual>, Undefined>> {
+        Some(BearingLaw::loss(self, at))
     }
 }
 
@@ -330,6 +339,10 @@ impl Mechanism for Bearing {
 
     fn answer_together(model: &Self::Model, at: &BearingAt<'_, Lane>) -> Result<Loss<Lane>, Undefined> {
         model.losses(at)
+    }
+
+    fn answer_with_derivatives(model: &Self::Model, at: &BearingAt<'_, Dual>) -> Option<Result<Loss<Dual>, Undefined>> {
+        model.loss_with_derivatives(at)
     }
 }
 

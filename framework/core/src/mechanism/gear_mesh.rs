@@ -10,7 +10,7 @@ use crate::geometry::{Pair, PairFault, PairSpec};
 use crate::loss::{Loss, Term, Undefined};
 use crate::lubricant::Lubricant;
 use crate::mechanism::{Answers, Mechanism, Scalar};
-use crate::real::{Lane, Mask as _, Points as _, Real};
+use crate::real::{Dual, Lane, Mask as _, Points as _, Real};
 use crate::{answered_by, context};
 
 /// Marker of the mechanism; never constructed.
@@ -31,6 +31,11 @@ pub trait GearMeshModel: Send + Sync {
     fn losses(&self, _at: &GearMeshAt<'_, Lane>) -> Result<Loss<Lane>, Undefined> {
         Err(Undefined::DISAGREED)
     }
+
+    /// The loss with its derivatives; written by a [law](GearMeshLaw). `None` has them found by differences.
+    fn loss_with_derivatives(&self, _at: &GearMeshAt<'_, Dual>) -> Option<Result<Loss<Dual>, Undefined>> {
+        None
+    }
 }
 
 /// A model of gear meshes that is written once for one point and for several; mark `loss` as `#[inline(always)]`, so that it uses
@@ -50,6 +55,10 @@ impl<L: GearMeshLaw> GearMeshModel for L {
             #[inline(always)]
             || GearMeshLaw::loss(self, at),
         )
+    }
+
+    fn loss_with_derivatives(&self, at: &GearMeshAt<'_, Dual>) -> Option<Result<Loss<Dual>, Undefined>> {
+        Some(GearMeshLaw::loss(self, at))
     }
 }
 
@@ -300,6 +309,13 @@ facewidth: 14 mm, tip_diameter: [82.636 mm, 118.544 mm], ra: [0.4 um, 0.4 um], r
 
     fn answer_together(model: &Self::Model, at: &GearMeshAt<'_, Lane>) -> Result<Loss<Lane>, Undefined> {
         model.losses(at)
+    }
+
+    fn answer_with_derivatives(
+        model: &Self::Model,
+        at: &GearMeshAt<'_, Dual>,
+    ) -> Option<Result<Loss<Dual>, Undefined>> {
+        model.loss_with_derivatives(at)
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::loss::{Notes, Undefined};
 use crate::mechanism::gear_mesh::{GearMeshAt, MeshPart};
 use crate::mechanism::{Answers, Mechanism, Scalar};
-use crate::real::{Lane, Points as _, Real};
+use crate::real::{Dual, Lane, Points as _, Real};
 use crate::{answered_by, context};
 
 /// Marker of the mechanism; never constructed.
@@ -23,6 +23,11 @@ pub trait MeanFrictionModel: Send + Sync {
     /// As [`Mechanism::answer_together`].
     fn mu_together(&self, _at: &MeanFrictionAt<'_, Lane>) -> Result<Lane, Undefined> {
         Err(Undefined::DISAGREED)
+    }
+
+    /// The coefficient with its derivatives; written by a [law](MeanFrictionLaw). `None` has them found by differences.
+    fn mu_with_derivatives(&self, _at: &MeanFrictionAt<'_, Dual>) -> Option<Result<Dual, Undefined>> {
+        None
     }
 }
 
@@ -44,6 +49,10 @@ impl<L: MeanFrictionLaw> MeanFrictionModel for L {
             #[inline(always)]
             || MeanFrictionLaw::mu(self, at),
         )
+    }
+
+    fn mu_with_derivatives(&self, at: &MeanFrictionAt<'_, Dual>) -> Option<Result<Dual, Undefined>> {
+        Some(MeanFrictionLaw::mu(self, at))
     }
 }
 
@@ -181,6 +190,10 @@ impl Mechanism for MeanFriction {
 
     fn answer_together(model: &Self::Model, at: &MeanFrictionAt<'_, Lane>) -> Result<Lane, Undefined> {
         model.mu_together(at)
+    }
+
+    fn answer_with_derivatives(model: &Self::Model, at: &MeanFrictionAt<'_, Dual>) -> Option<Result<Dual, Undefined>> {
+        model.mu_with_derivatives(at)
     }
 }
 

@@ -5,7 +5,7 @@ use crate::mechanism::Scalar;
 use crate::mechanism::Slot;
 use crate::mechanism::mean_friction::{MeanFrictionAt, hertz, load_at, modulus_at, radius_at};
 use crate::mechanism::{Answers, Inputs as _, Mechanism, NoPart};
-use crate::real::{Lane, Points, Real};
+use crate::real::{Dual, Lane, Points, Real};
 use crate::{answered_by, context};
 
 /// Marker of the mechanism; never constructed.
@@ -43,12 +43,26 @@ pub trait ToothFrictionModel: Send + Sync {
         Err(Undefined::DISAGREED)
     }
 
+    /// The coefficient with its derivatives; written by a [law](ToothFrictionLaw). `None` has them found by differences.
+    fn mu_with_derivatives(&self, _at: &ContactAt<'_, Dual>) -> Option<Result<Dual, Undefined>> {
+        None
+    }
+
     /// The same at all nodes of a path.
     ///
     /// # Errors
     /// As [`Mechanism::answer_together`].
     fn along_together(&self, _path: &PathAt<'_, Lane>, _mu: &mut [Lane]) -> Result<Along<Lane>, Undefined> {
         Err(Undefined::DISAGREED)
+    }
+
+    /// The same at all nodes of a path with derivatives.
+    fn along_with_derivatives(
+        &self,
+        _path: &PathAt<'_, Dual>,
+        _mu: &mut [Dual],
+    ) -> Option<Result<Along<Dual>, Undefined>> {
+        None
     }
 }
 
@@ -96,11 +110,23 @@ impl<L: ToothFrictionLaw> ToothFrictionModel for L {
         )
     }
 
+    fn mu_with_derivatives(&self, at: &ContactAt<'_, Dual>) -> Option<Result<Dual, Undefined>> {
+        Some(ToothFrictionLaw::mu(self, at))
+    }
+
     fn along_together(&self, path: &PathAt<'_, Lane>, mu: &mut [Lane]) -> Result<Along<Lane>, Undefined> {
         Lane::wide(
             #[inline(always)]
             || ToothFrictionLaw::along(self, path, mu),
         )
+    }
+
+    fn along_with_derivatives(
+        &self,
+        path: &PathAt<'_, Dual>,
+        mu: &mut [Dual],
+    ) -> Option<Result<Along<Dual>, Undefined>> {
+        Some(ToothFrictionLaw::along(self, path, mu))
     }
 }
 
@@ -396,31 +422,44 @@ impl<'a, R: Real> PathAt<'a, R> {
     }
 }
 
-impl<R: Points> PathAt<'_, R> {
-    /// Runs a function with the path at one of the points.
-    pub fn at_point<T>(&self, point: usize, run: impl FnOnce(&PathAt<'_>) -> T) -> T {
-        let mean = self.mean.at_point(point);
+impl<R: Real> PathAt<'_, R> {
+    /// Runs a function with a path at one point, whose quantities follow from these.
+    pub(crate) fn map<T>(
+        &self,
+        [mean, own]: [Notes<'_>; 2],
+        number: impl Fn(R) -> f64,
+        run: impl FnOnce(&PathAt<'_>) -> T,
+    ) -> T {
+        let mean = self.mean.map(mean, &number);
         run(&PathAt {
             nodes: self.nodes,
             extent: self.extent,
-            speed: self.speed.at_point(point),
-            line_load: self.line_load.at_point(point),
+            speed: number(self.speed),
+            line_load: number(self.line_load),
             modulus: self.modulus,
             length: self.length,
-            ra: self.ra.at_point(point),
-            rq: self.rq.at_point(point),
-            temperature: self.temperature.at_point(point),
-            nu: self.nu.at_point(point),
-            eta: self.eta.at_point(point),
-            rho: self.rho.at_point(point),
-            alpha: self.alpha.at_point(point),
-            beta: self.beta.at_point(point),
-            conductivity: self.conductivity.at_point(point),
-            x_l: self.x_l.at_point(point),
-            bodies: self.bodies.map(|bodies| bodies.map(|body| body.at_point(point))),
+            ra: number(self.ra),
+            rq: number(self.rq),
+            temperature: number(self.temperature),
+            nu: number(self.nu),
+            eta: number(self.eta),
+            rho: number(self.rho),
+            alpha: number(self.alpha),
+            beta: number(self.beta),
+            conductivity: number(self.conductivity),
+            x_l: number(self.x_l),
+            bodies: self.bodies.map(|bodies| bodies.map(&number)),
             mean: &mean,
-            notes: self.notes.at_point(point),
+            notes: own,
         })
+    }
+}
+
+impl<R: Points> PathAt<'_, R> {
+    /// Runs a function with the path at one of the points.
+    pub fn at_point<T>(&self, point: usize, run: impl FnOnce(&PathAt<'_>) -> T) -> T {
+        let notes = [self.mean.notes, self.notes].map(|notes| notes.at_point(point));
+        self.map(notes, |x| x.at_point(point), run)
     }
 }
 
@@ -438,6 +477,10 @@ impl Mechanism for ToothFriction {
 
     fn answer_together(model: &Self::Model, at: &ContactAt<'_, Lane>) -> Result<Lane, Undefined> {
         model.mu_together(at)
+    }
+
+    fn answer_with_derivatives(model: &Self::Model, at: &ContactAt<'_, Dual>) -> Option<Result<Dual, Undefined>> {
+        model.mu_with_derivatives(at)
     }
 }
 

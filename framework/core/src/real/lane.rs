@@ -36,6 +36,15 @@ impl Default for Lane {
 }
 
 impl Lane {
+    /// A function of each number.
+    #[inline(always)]
+    pub fn map(mut self, mut number: impl FnMut(f64) -> f64) -> Self {
+        for own in &mut self.0 {
+            *own = number(*own);
+        }
+        self
+    }
+
     /// A number from two.
     #[inline(always)]
     fn with(mut self, other: Self, number: impl Fn(f64, f64) -> f64) -> Self {
@@ -218,6 +227,16 @@ impl Real for Lane {
     fn lift(self, function: impl Fn(f64) -> f64) -> Self {
         self.map(function)
     }
+    #[inline(always)]
+    fn lift_all<const N: usize>(self, function: impl Fn(f64) -> [f64; N]) -> [Self; N] {
+        let mut all = [Self::ZERO; N];
+        for point in 0..LANES {
+            for (own, result) in all.iter_mut().zip(function(self.0[point])) {
+                own.0[point] = result;
+            }
+        }
+        all
+    }
 }
 
 impl Points for Lane {
@@ -245,13 +264,6 @@ impl Points for Lane {
     #[inline(always)]
     fn set(&mut self, point: usize, x: f64) {
         self.0[point] = x;
-    }
-    #[inline(always)]
-    fn map(mut self, mut number: impl FnMut(f64) -> f64) -> Self {
-        for own in &mut self.0 {
-            *own = number(*own);
-        }
-        self
     }
     #[inline(always)]
     fn test(self, mut holds: impl FnMut(f64) -> bool) -> LaneMask {

@@ -13,7 +13,7 @@ use crate::evaluate::{Reading, readings};
 use crate::loads::StaticRating;
 use crate::loss::{Loss, NoteBase, Notebook, Notes, Undefined};
 use crate::mechanism::{Answers, Component, Slot};
-use crate::real::{Lane, Points as _};
+use crate::real::{Dual, Lane, Points as _};
 
 /// Seals [`Placed`] within the framework.
 pub(crate) mod sealed {
@@ -26,6 +26,12 @@ pub trait Placed: sealed::Sealed + Send + Sync {
     fn loss(&self, state: &State<'_>, book: &Notebook<'_>) -> Result<Loss, Undefined>;
     /// The same at several points; NaN where it is undefined.
     fn losses(&self, state: &State<'_, Lane>, book: &Notebook<'_, Lane>) -> Loss<Lane>;
+    /// The same with derivatives.
+    fn loss_with_derivatives(
+        &self,
+        state: &State<'_, Dual>,
+        book: &Notebook<'_, Dual>,
+    ) -> Result<Loss<Dual>, Undefined>;
     /// The context of the model at a state, one copy.
     fn readings(&self, state: &State<'_>) -> Vec<Reading>;
     /// The two members that take the reaction; `None` for the housing.
@@ -75,6 +81,13 @@ impl<C: Component> Placed for PlacedAs<C> {
         );
         // Undefined points are NaN.
         answer.unwrap_or(Loss::POWERS)
+    }
+    fn loss_with_derivatives(
+        &self,
+        state: &State<'_, Dual>,
+        book: &Notebook<'_, Dual>,
+    ) -> Result<Loss<Dual>, Undefined> {
+        self.answer(state, book)
     }
     fn readings(&self, state: &State<'_>) -> Vec<Reading> {
         let site = C::Attachment::site(self.seat, &self.spot, state);

@@ -4,6 +4,7 @@ use super::balance::{Balance, Outcome, Root, Step, balance, balance_all};
 use super::housing::SumpOil;
 use crate::evaluate::{BatchScratch, Point, Scratch};
 use crate::loss::{Trace, Undefined};
+use crate::real::Stencil;
 use crate::transmission::{Case, Transmission};
 
 /// Why losses or heat are undefined at a temperature.
@@ -115,6 +116,19 @@ impl Transmission {
             heat: flow.from_oil,
             scale: loss + housing.into_oil + flow.scale,
         })
+    }
+
+    /// Increase of the dissipated heat with the oil temperature, by differences with a step and with twice the step. \[W/K\]
+    pub(crate) fn dissipation_slope(&self, temperature: f64) -> Result<[f64; 2], Unbalanced> {
+        /// Wide enough for heat flows whose surface temperature is itself balanced. \[K\]
+        const STEP: f64 = 0.5;
+        let heat = |distance: f64| {
+            let flow = self.housing().flow(&self.sump(temperature + distance));
+            flow.map(|flow| flow.from_oil)
+                .map_err(|(way, e)| Unbalanced::Way(way, e))
+        };
+        let slope = |step: f64| Ok(Stencil::new(step, heat)?.slope(|heat| *heat));
+        Ok([slope(STEP)?, slope(2.0 * STEP)?])
     }
 
     /// A finished balance with the heat flows at its temperature, which are noted.

@@ -11,7 +11,7 @@ use crate::document::Diagnostic;
 use crate::immersion::upward;
 use crate::lubricant::Lubricant;
 use crate::mechanism::gear_mesh::MeshOil;
-use crate::real::Points;
+use crate::real::Real;
 use crate::registry::Memory;
 use crate::table::clamped;
 
@@ -45,7 +45,7 @@ pub struct Oils {
 
 impl Oils {
     /// Oil height above the datum at given speeds. \[m\]
-    pub fn surface<R: Points>(&self, speeds: &[R]) -> R {
+    pub fn surface<R: Real>(&self, speeds: &[R]) -> R {
         match &self.surface {
             Surface::Dry => R::constant(f64::NEG_INFINITY),
             Surface::Fixed(height) => R::constant(*height),
@@ -53,15 +53,17 @@ impl Oils {
                 member,
                 speeds: at,
                 levels,
-            } => speeds[*member].map(|speed| clamped(at, levels, speed.abs())),
+            } => speeds[*member].lift(|speed| clamped(at, levels, speed.abs())),
         }
     }
 
     /// Writes the state of all oils at the temperatures of the nodes, or at one for all nodes. \[degC\]
-    pub fn write_states<R: Points>(&self, temperatures: &[R], oils: &mut [Oil<R>]) {
+    pub fn write_states<R: Real>(&self, temperatures: &[R], oils: &mut [Oil<R>]) {
         for ((lubricant, node, offset), oil) in self.spots.iter().zip(oils) {
             let temperature = temperatures.get(*node).unwrap_or(&temperatures[0]);
-            *oil = Oil::of_points(|point| self.lubricants[*lubricant].oil_at(temperature.at_point(point) + offset));
+            let lubricant = &self.lubricants[*lubricant];
+            let properties = (*temperature + *offset).lift_all(|t| lubricant.oil_at(t).properties());
+            *oil = Oil::of_properties(properties);
         }
     }
 

@@ -15,7 +15,7 @@ use crate::mechanism::Answers;
 use crate::mechanism::gear_drag::Covers;
 use crate::mechanism::planetary_drag::{PlanetaryDrag, PlanetaryDragAt, PlanetaryPart};
 use crate::mechanism::{ModelRef, Slot};
-use crate::real::{Lane, Points};
+use crate::real::{Dual, Lane, Points};
 use crate::registry::{Build, Placed, Sealed};
 
 /// Unequal load sharing among the planets of a set.
@@ -118,6 +118,13 @@ impl Placed for PlacedDrag {
     fn losses(&self, state: &State<'_, Lane>, book: &Notebook<'_, Lane>) -> Loss<Lane> {
         // Undefined points are NaN.
         self.answer(state, book).unwrap_or(Loss::POWERS)
+    }
+    fn loss_with_derivatives(
+        &self,
+        state: &State<'_, Dual>,
+        book: &Notebook<'_, Dual>,
+    ) -> Result<Loss<Dual>, Undefined> {
+        self.answer(state, book)
     }
     fn readings(&self, state: &State<'_>) -> Vec<Reading> {
         readings::<PlanetaryDrag>(&self.context(state, Notes::MUTED))

@@ -12,6 +12,7 @@ use crate::document::Diagnostic;
 use crate::loads::{
     Layout, LoadFault, MemberLayout, MeshLayout, PlanetBody, Section, ShaftLoads, SupportLayout, SupportLoad,
 };
+use crate::real::Real;
 use crate::registry::Memory;
 use crate::table::clamped;
 
@@ -38,10 +39,12 @@ pub struct LoadFactors {
 
 impl LoadFactor {
     /// The factor at the torques of all ports, by number.
-    pub fn value_at(&self, torque: impl Fn(usize) -> f64) -> f64 {
+    pub fn value_at<R: Real>(&self, torque: impl Fn(usize) -> R) -> R {
         match self {
-            Self::Constant(factor) => *factor,
-            Self::Over { port, torques, factors } => clamped(torques, factors, torque(*port).abs()),
+            Self::Constant(factor) => R::constant(*factor),
+            Self::Over { port, torques, factors } => {
+                torque(*port).lift(|torque| clamped(torques, factors, torque.abs()))
+            }
         }
     }
 }
@@ -56,19 +59,19 @@ pub struct Imported {
 
 impl Imported {
     /// Replaces the load of a support if the file has it.
-    pub fn load(&self, state: usize, support: usize, torque: f64) -> Option<SupportLoad> {
+    pub fn load<R: Real>(&self, state: usize, support: usize, torque: R) -> Option<SupportLoad<R>> {
         let rows = self.tables[state][support].as_ref()?;
-        let value = |k: usize| {
+        let [radial, axial, tilting] = torque.lift_all(|torque| {
             let i = rows.partition_point(|r| r.0 <= torque).clamp(1, rows.len() - 1);
             let ((a, low), (b, high)) = (rows[i - 1], rows[i]);
             let t = ((torque - a) / (b - a)).clamp(0.0, 1.0);
-            low[k] + t * (high[k] - low[k])
-        };
+            std::array::from_fn(|k| low[k] + t * (high[k] - low[k]))
+        });
         Some(SupportLoad {
-            radial: value(0),
-            axial: value(1),
-            tilting: value(2),
-            untaken: 0.0,
+            radial,
+            axial,
+            tilting,
+            untaken: R::ZERO,
         })
     }
 }

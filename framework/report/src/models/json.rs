@@ -6,7 +6,7 @@ use gearloss_framework::mechanism::QuantityDoc;
 use gearloss_framework::registry::{Entry, MechanismEntry};
 use serde_json::{Value, json};
 
-use super::parameters;
+use super::{evaluation, parameters};
 
 /// Mechanisms with their models in the format `gearloss-models/1`; all of them, or the selected ones.
 pub fn models_json(language: &Language, mechanism: Option<&MechanismEntry>, model: Option<&Entry>) -> Value {
@@ -20,7 +20,7 @@ pub fn models_json(language: &Language, mechanism: Option<&MechanismEntry>, mode
             let models: Vec<Value> = registry
                 .models(own.key)
                 .filter(|entry| model.is_none_or(|only| only.name == entry.name))
-                .map(|entry| of_model(entry, &schema))
+                .map(|entry| of_model(language, entry, &schema))
                 .collect();
             json!({
                 "mechanism": own.key,
@@ -70,7 +70,7 @@ fn quantity(quantity: &QuantityDoc) -> Value {
     })
 }
 
-fn of_model(entry: &Entry, schema: &Value) -> Value {
+fn of_model(language: &Language, entry: &Entry, schema: &Value) -> Value {
     let parameters: Vec<Value> = parameters(entry, schema)
         .iter()
         .map(|(name, field)| {
@@ -102,6 +102,7 @@ fn of_model(entry: &Entry, schema: &Value) -> Value {
         "source": entry.source,
         "package": entry.origin.package.name,
         "example": entry.example,
+        "evaluation": evaluation(language, entry),
         "parameters": parameters,
         "coefficients": entry.coefficients(),
         "terms": entry.terms.iter().map(|t| json!({ "name": t.name, "load_dependent": t.load_dependent })).collect::<Vec<_>>(),
