@@ -18,7 +18,7 @@
 //! whose film grows without bound where the load ramp starts, is within 2e-3.
 
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::geometry::LoadSharing;
+use gearloss_framework::geometry::{LoadSharing, PathPoint};
 use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::Answers;
 use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt, GearMeshLaw};
@@ -30,7 +30,7 @@ use gearloss_framework::{observed, register, terms};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use gearloss_framework::contact::path::Path;
+use gearloss_framework::contact::path::FrictionPath;
 use gearloss_framework::contact::{dowson_higginson, thermal_factor};
 
 terms! {
@@ -105,12 +105,8 @@ fn yes() -> bool {
 
 /// The path of one mesh, prepared.
 struct Integral {
-    path: Path,
-    /// Sliding power per friction, normal force and speed of the first gear, at each node. \[m\]
-    weights: Vec<f64>,
-    /// Their sum.
-    weight: f64,
-    /// Weight of the rolling power at each node.
+    path: FrictionPath,
+    /// Weight of the rolling power at each node of the path with few points.
     rolling_weights: Vec<f64>,
     loss_factor: f64,
     friction: Slot<ToothFriction>,
@@ -123,26 +119,15 @@ fn prepare(params: PathIntegral, cx: &mut Build<'_>) -> Result<Integral, Diagnos
     let friction = cx.slot("tooth_friction", &params.tooth_friction)?;
     let part = cx.own_part::<GearMesh>()?;
     let pair = &part.pair;
-    let path = Path::new(pair, params.load_sharing, friction.order()).map_err(|fault| cx.error(fault))?;
+    let path = FrictionPath::new(pair, params.load_sharing, &*friction).map_err(|fault| cx.error(fault))?;
     let [start, .., end] = pair.points;
-    let rolling_weights: Vec<f64> = path
-        .points()
-        .iter()
-        .map(|p| match params.average {
-            Average::BasePitch => p.weight / pair.base_pitch,
-            Average::ToothTravel => p.weight * p.pairs as f64 / (end - start),
-        })
-        .collect();
-    let weights: Vec<f64> = rolling_weights
-        .iter()
-        .zip(path.points())
-        .zip(path.nodes())
-        .map(|((w, p), n)| w * p.share * n.sliding)
-        .collect();
+    let weight = |p: &PathPoint| match params.average {
+        Average::BasePitch => p.weight / pair.base_pitch,
+        Average::ToothTravel => p.weight * p.pairs as f64 / (end - start),
+    };
+    let path = path.weighted(weight);
     Ok(Integral {
-        rolling_weights,
-        weight: weights.iter().sum(),
-        weights,
+        rolling_weights: path.few().points().iter().map(weight).collect(),
         loss_factor: pair.loss_factor_local(params.load_sharing),
         path,
         friction,
@@ -196,26 +181,17 @@ impl GearMeshLaw for Integral {
         let bodies = at.bodies()?;
         let path = self
             .path
+            .few()
             .at_operating_point(&mean, at.notes.nested_at_same_state(self.friction.notes))
             .with(|to| to.bodies = bodies);
         at.show("F_bn/b", "N/m", path.line_load);
-        let (sum, along) = self.path.with_space(
-            #[inline(always)]
-            |mu| {
-                let along = R::along(&*self.friction, &path, mu)?;
-                let mut sum = R::ZERO;
-                for (weight, mu) in self.weights.iter().zip(&*mu) {
-                    sum += *mu * *weight;
-                }
-                Ok((sum, along))
-            },
-        )?;
-        at.observe(&MU_MEAN, sum / self.weight);
+        let friction = self.path.friction(&*self.friction, &path)?;
+        at.observe(&MU_MEAN, friction.mean);
         at.observe(&LOSS_FACTOR, R::constant(self.loss_factor));
-        let watts = at.show("P_s", "W", sum * normal * speed);
+        let watts = at.show("P_s", "W", friction.sliding * normal * speed);
         let loss = Loss::POWERS
             .with(&SLIDING, R::select(idle, R::ZERO, watts))
-            .heats_first(along.first_heat);
+            .heats_first(friction.first_heat);
         if self.rolling == Rolling::None {
             return Ok(loss);
         }
@@ -230,7 +206,7 @@ impl Integral {
     fn rolling_power<R: Real>(&self, at: &GearMeshAt<'_, R>, path: &PathAt<'_, R>) -> R {
         let modulus = at.part.modulus;
         let mut sum = R::ZERO;
-        for (node, weight) in self.path.nodes().iter().zip(&self.rolling_weights) {
+        for (node, weight) in self.path.few().nodes().iter().zip(&self.rolling_weights) {
             if node.share <= 0.0 {
                 continue;
             }
