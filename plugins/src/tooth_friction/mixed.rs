@@ -181,7 +181,8 @@ impl ToothFrictionLaw for Mixed {
             Weight::Matsumoto => Some(CUT_OFF),
             Weight::Diab | Weight::OlverSpikes => None,
         };
-        own.max(self.boundary.cut_off_order()).max(self.fluid.cut_off_order())
+        let most = own.max(self.boundary.cut_off_order()).max(self.fluid.cut_off_order());
+        most.map(|order| order.max(self.order()))
     }
 
     #[inline(always)]
