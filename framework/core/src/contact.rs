@@ -37,11 +37,30 @@ pub fn hamrock_dowson<R: Real>(u: R, g: R, w: R) -> R {
 /// Reduction factor of the film by inlet heating, from p_H/E', slide-to-roll ratio and L = eta beta v_e^2/k.
 #[inline(always)]
 pub fn thermal_factor<R: Real>(pressure: R, slide_roll: R, l: R) -> R {
-    let one = R::constant(1.0);
-    let slides = slide_roll.power(0.83) * 2.23 + one;
-    let thinned = (one - pressure * 13.2 * l.power(0.42)) / (slides * 0.213 * l.power(0.64) + one);
+    thinned(thermal_terms(pressure, slide_roll, l))
+}
+
+/// The terms of pressure and of sliding in the reduction factor; each grows with its own power of L.
+#[inline(always)]
+pub fn thermal_terms<R: Real>(pressure: R, slide_roll: R, l: R) -> [R; 2] {
+    let slides = slide_roll.power(0.83) * 2.23 + 1.0;
+    let [pressed, slid] = heating(l);
+    [pressure * 13.2 * pressed, slides * 0.213 * slid]
+}
+
+/// The powers of L in the terms of pressure and of sliding.
+#[inline(always)]
+pub fn heating<R: Real>(l: R) -> [R; 2] {
+    [l.power(0.42), l.power(0.64)]
+}
+
+/// The reduction factor from both terms.
+#[inline(always)]
+pub fn thinned<R: Real>([pressure, sliding]: [R; 2]) -> R {
     // Beyond the fit the numerator is negative; the film stays positive.
-    thinned.at_least(0.05).at_most(1.0)
+    ((R::constant(1.0) - pressure) / (sliding + 1.0))
+        .at_least(0.05)
+        .at_most(1.0)
 }
 
 /// Film thickness in a contact, optionally with inlet heating; zero at standstill. \[m\]

@@ -244,19 +244,51 @@ impl Transmission {
 
     /// Losses of all models at the torques of one iteration.
     fn lose<R: Answers>(&self, case: &Case, flow: &mut FlowState<'_, R>, m: &mut Models<R>, notes: bool) {
-        let c = &mut m.conditions;
         R::wide(
             #[inline(always)]
             || {
-                // Meshes are the first rows, in the same order.
-                let forces = self.meshes.iter().zip(&mut m.tangential).zip(flow.multipliers);
-                for ((mesh, tangential), multiplier) in forces {
-                    *tangential = *multiplier * mesh.force_per_multiplier;
+                self.load(case, flow, m);
+                m.conditions.live = *flow.live;
+                let (state, book) = m.conditions.open(notes);
+                flow.drags.copy_from_slice(flow.steady);
+                for &i in &m.braking {
+                    let (component, speed) = (&self.components[i], m.relative[i]);
+                    let loss = loaded_loss(component, &state, &m.uneven_loads, &book, flow.live);
+                    let moment = moment(&loss, speed) * self.copies(i, state.speeds);
+                    brake(component.between, speed, moment, flow.drags);
+                    m.component_losses[i] = loss;
                 }
-                self.loads
-                    .evaluate(&m.tangential, &c.speeds, &mut m.passed, &mut c.loads);
+                for (i, loss) in m.mesh_losses.iter_mut().enumerate() {
+                    let mesh = &self.meshes[i];
+                    if mesh.model.off {
+                        continue;
+                    }
+                    let answer = self.mesh(i, m.tangential[i], flow.drives[i], &state, &book, flow.live);
+                    let speed = self.mesh_speed(i, state.speeds);
+                    flow.mesh_loss[i] = match &answer {
+                        Ok(loss) => {
+                            let watts = loss.total_watts(speed) * mesh.seat.count * mesh.loss_factor;
+                            R::select(speed.is_zero(), R::ZERO, watts * self.mesh_grip(i, state.speeds))
+                        }
+                        Err(_) => R::ZERO,
+                    };
+                    *loss = answer;
+                }
             },
         );
+    }
+
+    /// Tangential forces of the meshes and loads of the supports at the torques of one iteration.
+    #[inline(always)]
+    fn load<R: Points>(&self, case: &Case, flow: &FlowState<'_, R>, m: &mut Models<R>) {
+        let c = &mut m.conditions;
+        // Meshes are the first rows, in the same order.
+        let forces = self.meshes.iter().zip(&mut m.tangential).zip(flow.multipliers);
+        for ((mesh, tangential), multiplier) in forces {
+            *tangential = *multiplier * mesh.force_per_multiplier;
+        }
+        self.loads
+            .evaluate(&m.tangential, &c.speeds, &mut m.passed, &mut c.loads);
         self.correct_loads(case, flow.ports, &mut c.loads);
         if self.uneven {
             for (which, loads) in m.uneven_loads.iter_mut().enumerate() {
@@ -266,43 +298,6 @@ impl Transmission {
                 self.loads.evaluate(&m.uneven_forces, &c.speeds, &mut m.passed, loads);
                 self.correct_loads(case, flow.ports, loads);
             }
-        }
-        c.live = *flow.live;
-        let (state, book) = c.open(notes);
-        flow.drags.copy_from_slice(flow.steady);
-        for &i in &m.braking {
-            let (component, speed) = (&self.components[i], m.relative[i]);
-            // Kept when all of it has been read: a copy waits for values that were just written.
-            let loss = loaded_loss(component, &state, &m.uneven_loads, &book, flow.live);
-            R::wide(
-                #[inline(always)]
-                || {
-                    let moment = moment(&loss, speed) * self.copies(i, state.speeds);
-                    brake(component.between, speed, moment, flow.drags);
-                },
-            );
-            m.component_losses[i] = loss;
-        }
-        for (i, loss) in m.mesh_losses.iter_mut().enumerate() {
-            let mesh = &self.meshes[i];
-            if mesh.model.off {
-                continue;
-            }
-            let answer = self.mesh(i, m.tangential[i], flow.drives[i], &state, &book, flow.live);
-            R::wide(
-                #[inline(always)]
-                || {
-                    let speed = self.mesh_speed(i, state.speeds);
-                    flow.mesh_loss[i] = match &answer {
-                        Ok(loss) => {
-                            let watts = loss.total_watts(speed) * mesh.seat.count * mesh.loss_factor;
-                            R::select(speed.is_zero(), R::ZERO, watts * self.mesh_grip(i, state.speeds))
-                        }
-                        Err(_) => R::ZERO,
-                    };
-                },
-            );
-            *loss = answer;
         }
     }
 
@@ -399,6 +394,7 @@ impl Transmission {
     }
 
     /// Loss of one mesh, one copy; the mean over the copies if their loads differ.
+    #[inline(always)]
     fn mesh<R: Answers>(
         &self,
         index: usize,
@@ -410,15 +406,29 @@ impl Transmission {
     ) -> Result<Loss<R>, Undefined> {
         let mesh = &self.meshes[index];
         book.clear(mesh.model.notes);
-        let mut one = |factor: f64| {
-            state.count_call(*live);
-            let at = self.mesh_at(index, tangential * factor, drives, state, book);
-            accepted(R::answer::<GearMesh>(&*mesh.model, &at), R::ZERO, live)
-        };
         match mesh.sharing {
-            None => one(1.0),
-            Some(sharing) => over_planets(sharing, book, mesh.model.notes, |which| one(sharing.factors()[which])),
+            None => self.one_mesh(index, tangential, drives, state, book, live),
+            Some(sharing) => over_planets(sharing, book, mesh.model.notes, |which| {
+                let tangential = tangential * sharing.factors()[which];
+                self.one_mesh(index, tangential, drives, state, book, live)
+            }),
         }
+    }
+
+    /// Loss of one copy of a mesh at its own load.
+    #[inline(always)]
+    fn one_mesh<R: Answers>(
+        &self,
+        index: usize,
+        tangential: R,
+        drives: Drive,
+        state: &State<'_, R>,
+        book: &Notebook<'_, R>,
+        live: &mut R::Mask,
+    ) -> Result<Loss<R>, Undefined> {
+        state.count_call(*live);
+        let at = self.mesh_at(index, tangential, drives, state, book);
+        accepted(R::answer::<GearMesh>(&*self.meshes[index].model, &at), R::ZERO, live)
     }
 
     /// The context of a mesh model, one copy.
@@ -503,15 +513,20 @@ impl Transmission {
 
     fn finish<R: Points>(&self, outcome: Outcome, s: &mut Scratch<R>) {
         let mut undefined = None;
-        let mut sum = R::ZERO;
-        for (place, part) in self.parts.iter().enumerate() {
-            s.watts[place] = self.part_watts(part, s).unwrap_or_else(|reason| {
-                undefined.get_or_insert((place, reason));
-                R::ZERO
-            });
-            sum += s.watts[place];
-        }
-        s.sum = sum;
+        s.sum = R::wide(
+            #[inline(always)]
+            || {
+                let mut sum = R::ZERO;
+                for (place, part) in self.parts.iter().enumerate() {
+                    s.watts[place] = self.part_watts(part, s).unwrap_or_else(|reason| {
+                        undefined.get_or_insert((place, reason));
+                        R::ZERO
+                    });
+                    sum += s.watts[place];
+                }
+                sum
+            },
+        );
         // Without a power flow no load is defined, and no loss has its own reason.
         s.undefined = undefined.filter(|_| matches!(outcome, Outcome::Converged { .. }));
         s.passes = match outcome {
@@ -529,7 +544,9 @@ impl Transmission {
                 Outcome::NoConvergence => Status::NoConvergence,
                 Outcome::Converged { .. } if undefined.is_some() => Status::Undefined,
                 Outcome::Converged { .. } if s.standing => Status::Standstill,
-                Outcome::Converged { .. } if s.ideal && balance.input > 0.0 && sum.at_point(point) > balance.input => {
+                Outcome::Converged { .. }
+                    if s.ideal && balance.input > 0.0 && s.sum.at_point(point) > balance.input =>
+                {
                     Status::LossAboveInput
                 }
                 Outcome::Converged { .. } => Status::from_powers(powers, self.reference_port()),
@@ -540,7 +557,7 @@ impl Transmission {
 
 /// Loss of one copy of a component. If no bearing of the shaft takes its thrust, the load of its bearings is unknown and so is
 /// their loss, unless it was switched off.
-#[inline]
+#[inline(always)]
 fn component_loss<R: Answers>(
     component: &Component,
     state: &State<'_, R>,
@@ -596,10 +613,7 @@ fn accepted<R: Points>(
     live: &mut R::Mask,
 ) -> Result<Loss<R>, Undefined> {
     let loss = answer?;
-    let (sound, taken) = R::wide(
-        #[inline(always)]
-        || (loss.is_sound(), untaken.is_zero() | !loss.sum().is_above(R::ZERO)),
-    );
+    let (sound, taken) = (loss.is_sound(), untaken.is_zero() | !loss.sum().is_above(R::ZERO));
     if (sound & taken).all() {
         return Ok(loss);
     }

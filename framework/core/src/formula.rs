@@ -5,6 +5,7 @@
 
 use crate::document::{did_you_mean, number_length};
 use crate::loss::Undefined;
+use crate::real::Points;
 
 /// The deepest stack that a formula may need.
 const DEEPEST: usize = 32;
@@ -34,8 +35,8 @@ enum Op {
     Greater,
     LessEqual,
     GreaterEqual,
-    Call1(fn(f64) -> f64),
-    Call2(fn(f64, f64) -> f64),
+    Call1(&'static str, fn(f64) -> f64),
+    Call2(&'static str, fn(f64, f64) -> f64),
     If,
 }
 
@@ -103,6 +104,16 @@ impl Formula {
         Ok(formula)
     }
 
+    /// True if the value has neither kinks nor jumps where it is defined.
+    pub fn is_smooth(&self) -> bool {
+        self.program.iter().all(|op| match op {
+            Op::Less | Op::Greater | Op::LessEqual | Op::GreaterEqual | Op::If => false,
+            Op::Call1(name, _) => !["abs", "floor", "sign"].contains(name),
+            Op::Call2(name, _) => !["min", "max"].contains(name),
+            _ => true,
+        })
+    }
+
     /// True if the value may depend on a quantity, given by its position among the names.
     pub fn uses(&self, input: usize) -> bool {
         let is_it = |op: &Op| matches!(op, Op::Input(i) if usize::from(*i) == input);
@@ -114,7 +125,7 @@ impl Formula {
         for op in &self.program {
             match op {
                 Op::Number(_) | Op::Input(_) => now += 1,
-                Op::Negate | Op::Call1(_) => {}
+                Op::Negate | Op::Call1(..) => {}
                 Op::If => now -= 2,
                 _ => now -= 1,
             }
@@ -123,53 +134,12 @@ impl Formula {
         most
     }
 
-    /// The value at the named quantities, in the order of the names.
+    /// The value at the named quantities, each by its position among the names.
     ///
     /// # Errors
     /// If the value is not a finite number.
-    pub fn value(&self, inputs: &[f64]) -> Result<f64, Undefined> {
-        let mut stack = [0.0_f64; DEEPEST];
-        let mut top = 0;
-        for op in &self.program {
-            match *op {
-                Op::Number(x) => {
-                    stack[top] = x;
-                    top += 1;
-                }
-                Op::Input(i) => {
-                    stack[top] = inputs[i as usize];
-                    top += 1;
-                }
-                Op::Negate => stack[top - 1] = -stack[top - 1],
-                Op::Call1(f) => stack[top - 1] = f(stack[top - 1]),
-                Op::If => {
-                    top -= 2;
-                    stack[top - 1] = if stack[top - 1] == 0.0 {
-                        stack[top + 1]
-                    } else {
-                        stack[top]
-                    };
-                }
-                two => {
-                    top -= 1;
-                    let (a, b) = (stack[top - 1], stack[top]);
-                    stack[top - 1] = match two {
-                        Op::Add => a + b,
-                        Op::Subtract => a - b,
-                        Op::Multiply => a * b,
-                        Op::Divide => a / b,
-                        Op::Power => a.powf(b),
-                        Op::Less => f64::from(u8::from(a < b)),
-                        Op::Greater => f64::from(u8::from(a > b)),
-                        Op::LessEqual => f64::from(u8::from(a <= b)),
-                        Op::GreaterEqual => f64::from(u8::from(a >= b)),
-                        Op::Call2(f) => f(a, b),
-                        _ => a,
-                    };
-                }
-            }
-        }
-        let value = stack[0];
+    pub fn value(&self, input: impl Fn(usize) -> f64) -> Result<f64, Undefined> {
+        let value = self.evaluate(input);
         if value.is_finite() {
             Ok(value)
         } else {
@@ -178,6 +148,52 @@ impl Formula {
                 value,
             })
         }
+    }
+
+    /// The value at one point or at several, from that of each quantity by its position among the names; where it is undefined, it is
+    /// not a finite number.
+    #[inline(always)]
+    pub fn evaluate<R: Points>(&self, input: impl Fn(usize) -> R) -> R {
+        let mut stack = [R::ZERO; DEEPEST];
+        let mut top = 0;
+        for op in &self.program {
+            match *op {
+                Op::Number(x) => {
+                    stack[top] = R::constant(x);
+                    top += 1;
+                }
+                Op::Input(i) => {
+                    stack[top] = input(usize::from(i));
+                    top += 1;
+                }
+                Op::Negate => stack[top - 1] = -stack[top - 1],
+                Op::Call1(_, f) => stack[top - 1] = stack[top - 1].lift(f),
+                Op::If => {
+                    top -= 2;
+                    stack[top - 1] = R::select(stack[top - 1].is_zero(), stack[top + 1], stack[top]);
+                }
+                two => {
+                    top -= 1;
+                    let (a, b) = (stack[top - 1], stack[top]);
+                    let each = |f: fn(f64, f64) -> f64| R::each(|point| f(a.at_point(point), b.at_point(point)));
+                    let one_where = |holds| R::select(holds, R::constant(1.0), R::ZERO);
+                    stack[top - 1] = match two {
+                        Op::Add => a + b,
+                        Op::Subtract => a - b,
+                        Op::Multiply => a * b,
+                        Op::Divide => a / b,
+                        Op::Power => each(f64::powf),
+                        Op::Less => one_where(a.is_below(b)),
+                        Op::Greater => one_where(a.is_above(b)),
+                        Op::LessEqual => one_where(a.is_below(b) | a.is_equal(b)),
+                        Op::GreaterEqual => one_where(a.is_above(b) | a.is_equal(b)),
+                        Op::Call2(_, f) => each(f),
+                        _ => a,
+                    };
+                }
+            }
+        }
+        stack[0]
     }
 }
 
@@ -353,10 +369,10 @@ impl Parser<'_> {
     }
 
     fn call(&mut self, name: &str, start: usize) -> Result<(), FormulaFault> {
-        let (count, op) = if let Some((_, f)) = ONE.iter().find(|(n, _)| *n == name) {
-            (1, Op::Call1(*f))
-        } else if let Some((_, f)) = TWO.iter().find(|(n, _)| *n == name) {
-            (2, Op::Call2(*f))
+        let (count, op) = if let Some((known, f)) = ONE.iter().find(|(n, _)| *n == name) {
+            (1, Op::Call1(known, *f))
+        } else if let Some((known, f)) = TWO.iter().find(|(n, _)| *n == name) {
+            (2, Op::Call2(known, *f))
         } else if name == "if" {
             (3, Op::If)
         } else {
@@ -391,12 +407,13 @@ impl Parser<'_> {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
+    use crate::real::Lane;
     use proptest::prelude::*;
 
     fn value(text: &str) -> f64 {
         Formula::compile(text, &["speed", "nu"])
             .unwrap()
-            .value(&[3.0, 10.0])
+            .value(|input| [3.0, 10.0][input])
             .unwrap()
     }
 
@@ -438,7 +455,41 @@ mod tests {
     #[test]
     fn what_has_no_value_is_undefined() {
         for text in ["ln(0)", "sqrt(-1)", "1/0", "(-1)^0.5"] {
-            assert!(Formula::compile(text, &[]).unwrap().value(&[]).is_err(), "{text}");
+            assert!(Formula::compile(text, &[]).unwrap().value(|_| 0.0).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn several_points_together_have_the_bits_of_each_alone() {
+        for text in [
+            "-2^speed + nu / 3 * speed - 1",
+            "if(speed > 0, sqrt(nu), abs(speed))",
+            "(speed <= 0) + (speed >= 0) + (nu < 10) + sign(speed)",
+            "max(speed, min(nu, 3)) + floor(nu) + pow(nu, 0.3) + tanh(speed)",
+        ] {
+            let formula = Formula::compile(text, &["speed", "nu"]).unwrap();
+            let inputs = |point: usize| [point as f64 - 7.0, 1.5 * point as f64];
+            let all: Lane = formula.evaluate(|input| Lane::each(|point| inputs(point)[input]));
+            for point in 0..Lane::COUNT {
+                let alone: f64 = formula.evaluate(|input| inputs(point)[input]);
+                assert_eq!(all[point].to_bits(), alone.to_bits(), "{text} at point {point}");
+            }
+        }
+    }
+
+    #[test]
+    fn kinks_and_jumps_are_known() {
+        let smooth = |text: &str| Formula::compile(text, &["speed"]).unwrap().is_smooth();
+        assert!(smooth("0.05 + 0.1 * exp(-speed / 3) + sqrt(speed)^1.5 + pow(speed, 2)"));
+        for text in [
+            "abs(speed)",
+            "max(speed, 1)",
+            "min(1, speed)",
+            "speed > 1",
+            "if(1, 2, 3)",
+            "floor(speed)",
+        ] {
+            assert!(!smooth(text), "{text}");
         }
     }
 
@@ -446,7 +497,7 @@ mod tests {
         #[test]
         fn no_text_makes_it_panic(text in "[-+*/^()<>=,. 0-9a-z]{0,40}") {
             if let Ok(formula) = Formula::compile(&text, &["a", "b"]) {
-                let _ = formula.value(&[1.0, 2.0]);
+                let _ = formula.value(|input| [1.0, 2.0][input]);
             }
         }
     }

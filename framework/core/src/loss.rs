@@ -298,20 +298,21 @@ impl<R: Real> Loss<R> {
 }
 
 impl<R: Points> Loss<R> {
+    /// The same result at each point.
+    #[inline(always)]
+    pub(crate) fn everywhere(loss: &Loss) -> Self {
+        Self {
+            measure: loss.measure,
+            values: loss.values.map(R::constant),
+            first_share: R::constant(loss.first_share),
+            first_heat: R::constant(loss.first_heat),
+        }
+    }
+
     /// The result of one point.
     #[inline]
     pub fn at_point(&self, point: usize) -> Loss {
         self.map(|value| value.at_point(point))
-    }
-
-    /// The result of several points, without derivatives, from that of each, which are all in the same measure.
-    pub(crate) fn of_points(loss: impl Fn(usize) -> Loss) -> Self {
-        Self {
-            measure: loss(0).measure,
-            values: std::array::from_fn(|term| R::each(|point| loss(point).values[term])),
-            first_share: R::each(|point| loss(point).first_share),
-            first_heat: R::each(|point| loss(point).first_heat),
-        }
     }
 
     /// The results of the points of some bits, without derivatives, evaluated one by one; NaN where there is none, or none in the same measure as that of

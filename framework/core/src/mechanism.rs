@@ -293,6 +293,8 @@ pub struct Quantity<M: Mechanism> {
     pub from: &'static str,
     /// Reads the value, SI.
     pub get: for<'a, 'b> fn(&'b M::At<'a, f64>) -> f64,
+    /// Reads the values of several points, SI.
+    pub get_together: for<'a, 'b> fn(&'b M::At<'a, Lane>) -> Lane,
     /// Sets the value, SI.
     pub set: for<'a, 'b> fn(&'b mut M::At<'a, f64>, f64),
 }
@@ -364,7 +366,7 @@ macro_rules! context {
         impl<'a, R: $crate::real::Real> $crate::mechanism::Inputs<'a, $M, R> for $At<'a, R> {
             const QUANTITIES: &'static [$crate::mechanism::Quantity<$M>] = &[$($crate::mechanism::Quantity {
                 name: stringify!($name), doc: concat!($($doc),+), usual: $usual, least: $least, greatest: $greatest, from: $from,
-                get: |at| at.$name, set: |at, si| at.$name = si,
+                get: |at| at.$name, get_together: |at| at.$name, set: |at, si| at.$name = si,
             }),+];
 
             const LAWS: &'static [$crate::mechanism::Law<$M>] = &[$($($crate::mechanism::Law {
@@ -417,7 +419,7 @@ macro_rules! context {
             }
 
             /// The same with some quantities changed.
-            #[inline]
+            #[inline(always)]
             pub fn with(mut self, change: impl FnOnce(&mut Self)) -> Self {
                 change(&mut self);
                 self

@@ -130,6 +130,8 @@ pub trait Real:
 pub trait Mask:
     sealed::Sealed + Copy + Debug + Send + Sync + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output = Self>
 {
+    /// It holds at no point.
+    const NEVER: Self;
     /// True if it holds at any point.
     fn any(self) -> bool;
     /// True if it holds at every point.
@@ -178,6 +180,7 @@ pub trait Points: Real {
 }
 
 impl Mask for bool {
+    const NEVER: Self = false;
     #[inline(always)]
     fn any(self) -> bool {
         self

@@ -75,7 +75,7 @@ impl GearDragModel for Dimensional {
             b / diameter,
             self.volume.unwrap_or(0.0) / diameter.powi(3),
         ];
-        let c_m = self.c_m.value(&inputs[..if self.volume.is_some() { 5 } else { 4 }])?;
+        let c_m = self.c_m.value(|input| inputs[input])?;
         if c_m < 0.0 {
             return Err(Undefined {
                 what: "dimensionless torque C_m, which is negative",

@@ -18,20 +18,20 @@
 //! whose film grows without bound where the load ramp starts, is within 2e-3.
 
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::geometry::LoadSharing;
+use gearloss_framework::geometry::{LoadSharing, PathPoint};
 use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::Answers;
-use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt, GearMeshLaw};
+use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt, GearMeshLaw, MeshPart};
 use gearloss_framework::mechanism::mean_friction::MeanFrictionAt;
-use gearloss_framework::mechanism::tooth_friction::{PathAt, ToothFriction};
+use gearloss_framework::mechanism::tooth_friction::{PathAt, PathNode, ToothFriction};
 use gearloss_framework::real::{Mask as _, Real};
 use gearloss_framework::registry::{Build, Evidence, ModelRef, Slot, default_of, formula};
 use gearloss_framework::{observed, register, terms};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use gearloss_framework::contact::path::Path;
-use gearloss_framework::contact::{dowson_higginson, thermal_factor};
+use gearloss_framework::contact::path::FrictionPath;
+use gearloss_framework::contact::{dowson_higginson, heating, thermal_terms, thinned};
 
 terms! {
     SLIDING = load("sliding");
@@ -105,80 +105,126 @@ fn yes() -> bool {
 
 /// The path of one mesh, prepared.
 struct Integral {
-    path: Path,
-    /// Sliding power per friction, normal force and speed of the first gear, at each node. \[m\]
-    weights: Vec<f64>,
-    /// Their sum.
-    weight: f64,
-    /// Weight of the rolling power at each node.
-    rolling_weights: Vec<f64>,
+    path: FrictionPath,
     loss_factor: f64,
     friction: Slot<ToothFriction>,
-    rolling: Rolling,
-    rolling_thermal: bool,
-    rolling_speed: f64,
+    rolling: Option<RollingPath>,
 }
 
 fn prepare(params: PathIntegral, cx: &mut Build<'_>) -> Result<Integral, Diagnostic> {
     let friction = cx.slot("tooth_friction", &params.tooth_friction)?;
     let part = cx.own_part::<GearMesh>()?;
     let pair = &part.pair;
-    let path = Path::new(pair, params.load_sharing, friction.order()).map_err(|fault| cx.error(fault))?;
+    let path = FrictionPath::new(pair, params.load_sharing, &*friction).map_err(|fault| cx.error(fault))?;
     let [start, .., end] = pair.points;
-    let rolling_weights: Vec<f64> = path
-        .points()
-        .iter()
-        .map(|p| match params.average {
-            Average::BasePitch => p.weight / pair.base_pitch,
-            Average::ToothTravel => p.weight * p.pairs as f64 / (end - start),
-        })
-        .collect();
-    let weights: Vec<f64> = rolling_weights
-        .iter()
-        .zip(path.points())
-        .zip(path.nodes())
-        .map(|((w, p), n)| w * p.share * n.sliding)
-        .collect();
+    let weight = |p: &PathPoint| match params.average {
+        Average::BasePitch => p.weight / pair.base_pitch,
+        Average::ToothTravel => p.weight * p.pairs as f64 / (end - start),
+    };
+    let path = path.weighted(weight);
+    let weights: Vec<f64> = path.few().points().iter().map(weight).collect();
     Ok(Integral {
-        rolling_weights,
-        weight: weights.iter().sum(),
-        weights,
+        rolling: RollingPath::new(&params, part, path.few().nodes(), &weights),
         loss_factor: pair.loss_factor_local(params.load_sharing),
         path,
         friction,
-        rolling: params.rolling_friction,
-        rolling_thermal: params.rolling_thermal,
-        rolling_speed: if params.rolling_speed == RollingSpeed::Sum {
-            1.0
-        } else {
-            0.5
-        },
     })
 }
 
-/// Rolling force per face width. \[N/m\] Line load in N/m, radius in m, viscosity in Pa s, mean rolling speed in m/s,
-/// pressure-viscosity coefficient in 1/Pa, reduced modulus in Pa.
-#[inline(always)]
-fn goksem_hargreaves<R: Real>(line_load: R, radius: f64, eta: R, rolling: R, alpha: R, modulus: f64) -> R {
+/// Exponents of viscosity times speed, of the line load and of the pressure-viscosity coefficient in the rolling force of Goksem and
+/// Hargreaves, and in that of Crook with the film of Dowson and Higginson.
+const GOKSEM_HARGREAVES: [f64; 3] = [0.658, 0.0126, 0.658 - 1.0];
+const CROOK: [f64; 3] = [0.7, -0.13, 0.54];
+
+/// Rolling force per face width from the line load in N/m, radius of relative curvature in m, viscosity in Pa s, mean rolling speed
+/// in m/s, pressure-viscosity coefficient in 1/Pa, reduced modulus in Pa. \[N/m\]
+fn goksem_hargreaves(line_load: f64, radius: f64, eta: f64, rolling: f64, alpha: f64, modulus: f64) -> f64 {
     let (g, u, w) = (
         alpha * modulus,
         eta * rolling / (modulus * radius),
         line_load / (modulus * radius),
     );
-    (g * u).power(0.658) * 4.318 * w.power(0.0126) * radius / alpha
-}
-
-/// Factor on the rolling force for a Hertz pressure in Pa, a slide-roll ratio and a mean rolling speed in m/s.
-#[inline(always)]
-fn inlet_heating<R: Real>(at: &GearMeshAt<'_, R>, pressure: R, slide_roll: f64, rolling: R) -> R {
-    let load = at.eta * at.beta * rolling * rolling / at.conductivity;
-    thermal_factor(pressure / at.part.modulus, R::constant(slide_roll), load)
+    4.318 * (g * u).power(0.658) * w.power(0.0126) * radius / alpha
 }
 
 /// Rolling force per face width from the film. \[N/m\]
-#[inline(always)]
-fn crook<R: Real>(film: R) -> R {
+fn crook(film: f64) -> f64 {
     film * 9.0e7
+}
+
+/// Rolling friction along a path. Both laws are products of powers, so that each node contributes a constant.
+struct RollingPath {
+    /// Exponents of viscosity times speed, line load and pressure-viscosity coefficient.
+    exponents: [f64; 3],
+    /// Power of each node for one of each of these, and for a speed of one. \[W\]
+    powers: Vec<f64>,
+    /// Their sum.
+    power: f64,
+    /// The terms of heating at the inlet for a pressure and a speed of one, unless it is neglected.
+    heating: Option<Vec<[f64; 2]>>,
+}
+
+impl RollingPath {
+    /// Prepares the law at nodes with their weights; none if there is no rolling friction.
+    fn new(params: &PathIntegral, part: &MeshPart, nodes: &[PathNode], weights: &[f64]) -> Option<Self> {
+        let modulus = part.modulus;
+        let force = |node: &PathNode| {
+            let rolling = 0.5 * node.sum_speed;
+            match params.rolling_friction {
+                _ if node.share <= 0.0 => 0.0,
+                Rolling::None => 0.0,
+                Rolling::GoksemHargreaves => goksem_hargreaves(node.share, node.radius, 1.0, rolling, 1.0, modulus),
+                Rolling::Crook => {
+                    let scale = modulus * node.radius;
+                    let film = dowson_higginson(rolling / scale, modulus, node.share / scale) * node.radius;
+                    match params.rolling_speed {
+                        RollingSpeed::Sum => crook(film),
+                        RollingSpeed::Mean => 0.5 * crook(film),
+                    }
+                }
+            }
+        };
+        let exponents = match params.rolling_friction {
+            Rolling::None => return None,
+            Rolling::GoksemHargreaves => GOKSEM_HARGREAVES,
+            Rolling::Crook => CROOK,
+        };
+        let power = |(node, weight): (&PathNode, &f64)| force(node) * node.sum_speed * weight * part.pair.facewidth;
+        let powers: Vec<f64> = nodes.iter().zip(weights).map(power).collect();
+        let heats = params.rolling_thermal && params.rolling_friction == Rolling::GoksemHargreaves;
+        let terms = |node: &PathNode| {
+            let rolling = 0.5 * node.sum_speed;
+            thermal_terms(node.root_load, node.slide_roll, rolling * rolling)
+        };
+        Some(Self {
+            exponents,
+            power: powers.iter().sum(),
+            powers,
+            heating: heats.then(|| nodes.iter().map(terms).collect()),
+        })
+    }
+
+    /// Power of rolling friction. \[W\]
+    #[inline(always)]
+    fn power<R: Real>(&self, at: &GearMeshAt<'_, R>, path: &PathAt<'_, R>) -> R {
+        let [speed, load, alpha] = self.exponents;
+        let powers = (at.eta * path.speed).logarithm() * speed
+            + path.line_load.logarithm() * load
+            + at.alpha.logarithm() * alpha;
+        let sum = match &self.heating {
+            None => R::constant(self.power),
+            Some(nodes) => {
+                let [pressed, slid] = heating(at.eta * at.beta * path.speed * path.speed / at.conductivity);
+                let pressed = path.unit_pressure() / at.part.modulus * pressed;
+                let mut sum = R::ZERO;
+                for (power, terms) in self.powers.iter().zip(nodes) {
+                    sum += thinned([pressed * terms[0], slid * terms[1]]) * *power;
+                }
+                sum
+            }
+        };
+        sum * powers.exponential() * path.speed
+    }
 }
 
 impl GearMeshLaw for Integral {
@@ -196,63 +242,22 @@ impl GearMeshLaw for Integral {
         let bodies = at.bodies()?;
         let path = self
             .path
+            .few()
             .at_operating_point(&mean, at.notes.nested_at_same_state(self.friction.notes))
             .with(|to| to.bodies = bodies);
         at.show("F_bn/b", "N/m", path.line_load);
-        let (sum, along) = self.path.with_space(
-            #[inline(always)]
-            |mu| {
-                let along = R::along(&*self.friction, &path, mu)?;
-                let mut sum = R::ZERO;
-                for (weight, mu) in self.weights.iter().zip(&*mu) {
-                    sum += *mu * *weight;
-                }
-                Ok((sum, along))
-            },
-        )?;
-        at.observe(&MU_MEAN, sum / self.weight);
+        let friction = self.path.friction(&*self.friction, &path)?;
+        at.observe(&MU_MEAN, friction.mean);
         at.observe(&LOSS_FACTOR, R::constant(self.loss_factor));
-        let watts = at.show("P_s", "W", sum * normal * speed);
+        let watts = at.show("P_s", "W", friction.sliding * normal * speed);
         let loss = Loss::POWERS
             .with(&SLIDING, R::select(idle, R::ZERO, watts))
-            .heats_first(along.first_heat);
-        if self.rolling == Rolling::None {
+            .heats_first(friction.first_heat);
+        let Some(rolling) = &self.rolling else {
             return Ok(loss);
-        }
-        let rolling = at.show("P_r", "W", self.rolling_power(at, &path));
+        };
+        let rolling = at.show("P_r", "W", rolling.power(at, &path));
         Ok(loss.with(&ROLLING, R::select(idle, R::ZERO, rolling)))
-    }
-}
-
-impl Integral {
-    /// Power of rolling friction. \[W\]
-    #[inline(always)]
-    fn rolling_power<R: Real>(&self, at: &GearMeshAt<'_, R>, path: &PathAt<'_, R>) -> R {
-        let modulus = at.part.modulus;
-        let mut sum = R::ZERO;
-        for (node, weight) in self.path.nodes().iter().zip(&self.rolling_weights) {
-            if node.share <= 0.0 {
-                continue;
-            }
-            let sum_speed = path.speed * node.sum_speed;
-            let rolling = sum_speed * 0.5;
-            let line_load = path.line_load * node.share;
-            let power = if self.rolling == Rolling::Crook {
-                let u = at.eta * rolling / (modulus * node.radius);
-                let film = dowson_higginson(u, at.alpha * modulus, line_load / (modulus * node.radius));
-                crook(film * node.radius) * sum_speed * self.rolling_speed
-            } else {
-                let force = goksem_hargreaves(line_load, node.radius, at.eta, rolling, at.alpha, modulus);
-                if self.rolling_thermal {
-                    let pressure = path.unit_pressure() * node.root_load;
-                    inlet_heating(at, pressure, node.slide_roll, rolling) * force * sum_speed
-                } else {
-                    force * sum_speed
-                }
-            };
-            sum += power * *weight * at.part.pair.facewidth;
-        }
-        sum
     }
 }
 

@@ -16,7 +16,7 @@ use gearloss_framework::{observed, register};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use gearloss_framework::contact::path::Path;
+use gearloss_framework::contact::path::FrictionPath;
 
 use crate::tooth_friction::finite;
 
@@ -58,7 +58,7 @@ pub struct Params {
 
 struct Local {
     at: Where,
-    path: Path,
+    path: FrictionPath,
     friction: Slot<ToothFriction>,
 }
 
@@ -73,7 +73,7 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Local, Diagnostic> {
             .help("write `at: path`, or choose a law of mixed friction"));
     }
     let part = cx.own_part::<MeanFriction>()?;
-    let path = Path::new(&part.pair, params.load_sharing, friction.order()).map_err(|fault| cx.error(fault))?;
+    let path = FrictionPath::new(&part.pair, params.load_sharing, &*friction).map_err(|fault| cx.error(fault))?;
     Ok(Local {
         at: params.at,
         path,
@@ -92,10 +92,10 @@ impl MeanFrictionLaw for Local {
         }
         let notes = at.notes.nested(self.friction.notes);
         let mu = match self.at {
-            Where::Path => self.path.with_space(|mu| {
-                R::along(&*self.friction, &self.path.at_operating_point(at, notes), mu)?;
-                Ok(self.path.average(mu))
-            })?,
+            Where::Path => {
+                let path = self.path.few().at_operating_point(at, notes);
+                self.path.friction(&*self.friction, &path)?.mean
+            }
             Where::PitchPoint => R::answer::<ToothFriction>(
                 &*self.friction,
                 &ContactAt::usual(&NoPart {}, notes).with(|to| {

@@ -9,7 +9,7 @@ use std::f64::consts::LOG10_E;
 
 use gearloss_framework::loss::Undefined;
 use gearloss_framework::mechanism::ShopUnits;
-use gearloss_framework::mechanism::tooth_friction::{CUT_OFF, ContactAt, ToothFriction, ToothFrictionLaw};
+use gearloss_framework::mechanism::tooth_friction::{ContactAt, ToothFriction, ToothFrictionLaw};
 use gearloss_framework::real::{Mask as _, Real};
 use gearloss_framework::registry::{Evidence, default_of, formula};
 use gearloss_framework::{coefficients, limits, observed, register};
@@ -83,9 +83,8 @@ impl ToothFrictionLaw for BenedictKelley {
         Ok(at.observe(&MU, R::select(unloaded, R::ZERO, held)))
     }
 
-    /// Friction is cut off where it reaches its limits.
-    fn order(&self) -> usize {
-        CUT_OFF
+    fn limits(&self) -> Option<[f64; 2]> {
+        Some([0.0, self.greatest])
     }
 }
 

@@ -374,7 +374,10 @@ impl ToothFrictionModel for EhlMixed {
         let (_, first_heat) = self.settle(path, mu, |place, settled| {
             note(path.notes, place, settled);
         });
-        super::finite(mu.iter().sum::<f64>()).map(|_| Along { first_heat })
+        super::finite(mu.iter().sum::<f64>()).map(|_| Along {
+            first_heat,
+            ..Along::default()
+        })
     }
 }
 

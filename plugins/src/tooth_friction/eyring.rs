@@ -9,7 +9,7 @@
 use gearloss_framework::loss::Undefined;
 use gearloss_framework::lubricant::pressure::roelands;
 use gearloss_framework::mechanism::ShopUnits;
-use gearloss_framework::mechanism::tooth_friction::{CUT_OFF, ContactAt, ToothFriction, ToothFrictionLaw};
+use gearloss_framework::mechanism::tooth_friction::{ContactAt, ToothFriction, ToothFrictionLaw};
 use gearloss_framework::real::{Mask as _, Real};
 use gearloss_framework::registry::{Evidence, default_of, formula};
 use gearloss_framework::{limits, observed, register};
@@ -94,9 +94,13 @@ impl ToothFrictionLaw for Eyring {
         Ok(at.observe(&MU, R::select(idle, R::ZERO, mu)))
     }
 
-    /// Friction is cut off where it reaches its limits.
+    /// Near the pitch point the stress rises steeply.
     fn order(&self) -> usize {
-        CUT_OFF
+        10
+    }
+
+    fn limits(&self) -> Option<[f64; 2]> {
+        Some([0.0, self.limiting_slope])
     }
 }
 

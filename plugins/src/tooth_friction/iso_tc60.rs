@@ -5,7 +5,7 @@
 
 use gearloss_framework::loss::Undefined;
 use gearloss_framework::mechanism::ShopUnits;
-use gearloss_framework::mechanism::tooth_friction::{CUT_OFF, ContactAt, ToothFriction, ToothFrictionLaw};
+use gearloss_framework::mechanism::tooth_friction::{ContactAt, ToothFriction, ToothFrictionLaw};
 use gearloss_framework::real::Real;
 use gearloss_framework::registry::{Evidence, default_of, formula};
 use gearloss_framework::{coefficients, limits, observed, register};
@@ -49,9 +49,8 @@ impl ToothFrictionLaw for IsoTc60 {
         Ok(at.observe(&MU, (ratio.power(c.exponent) * c.factor).at_most(self.greatest)))
     }
 
-    /// Friction is cut off where it reaches its limit.
-    fn order(&self) -> usize {
-        CUT_OFF
+    fn limits(&self) -> Option<[f64; 2]> {
+        Some([0.0, self.greatest])
     }
 }
 

@@ -6,7 +6,7 @@
 
 use gearloss_framework::loss::Undefined;
 use gearloss_framework::mechanism::ShopUnits;
-use gearloss_framework::mechanism::tooth_friction::{CUT_OFF, ContactAt, ToothFriction, ToothFrictionLaw};
+use gearloss_framework::mechanism::tooth_friction::{ContactAt, ToothFriction, ToothFrictionLaw};
 use gearloss_framework::real::Real;
 use gearloss_framework::registry::{Evidence, default_of, formula};
 use gearloss_framework::{coefficients, limits, observed, register};
@@ -69,9 +69,12 @@ impl ToothFrictionLaw for Misharin {
         Ok(at.observe(&MU, mu))
     }
 
-    /// Friction is cut off where it reaches its limits.
-    fn order(&self) -> usize {
-        CUT_OFF
+    fn limits(&self) -> Option<[f64; 2]> {
+        Some(if self.held {
+            [self.coefficients.least_friction, self.coefficients.greatest_friction]
+        } else {
+            [0.0, self.greatest]
+        })
     }
 }
 

@@ -15,7 +15,7 @@ use std::f64::consts::{FRAC_1_SQRT_2, LOG10_E};
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::Undefined;
 use gearloss_framework::mechanism::tooth_friction::{
-    Along, CUT_OFF, ContactAt, PathAt, SMOOTH, ToothFriction, ToothFrictionLaw,
+    Along, CUT_OFF, ContactAt, PathAt, Range, SMOOTH, ToothFriction, ToothFrictionLaw,
 };
 use gearloss_framework::mechanism::{Answers, ShopUnits};
 use gearloss_framework::real::{Mask as _, Real};
@@ -24,6 +24,7 @@ use gearloss_framework::{limits, observed, register};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use gearloss_framework::contact::path::with_space;
 use gearloss_framework::contact::{self, Film};
 
 use super::finite;
@@ -151,9 +152,6 @@ impl Mixed {
     }
 }
 
-/// Number of points evaluated together along a path.
-const CHUNK: usize = 96;
-
 impl ToothFrictionLaw for Mixed {
     #[inline(always)]
     fn mu<R: Answers>(&self, at: &ContactAt<'_, R>) -> Result<R, Undefined> {
@@ -172,33 +170,43 @@ impl ToothFrictionLaw for Mixed {
         Ok(at.observe(&MU, finite(mu)?))
     }
 
-    /// The share of boundary friction vanishes at a film ratio of two, for Matsumoto with a kink.
     fn order(&self) -> usize {
+        self.boundary.order().max(self.fluid.order())
+    }
+
+    /// The share of boundary friction vanishes at a film ratio of two, for Matsumoto with a kink.
+    fn cut_off_order(&self) -> Option<usize> {
         let own = match self.params.weight {
-            Weight::Doleschel => 2 * SMOOTH,
-            Weight::Matsumoto => CUT_OFF,
-            Weight::Diab | Weight::OlverSpikes => SMOOTH,
+            Weight::Doleschel => Some(2 * SMOOTH),
+            Weight::Matsumoto => Some(CUT_OFF),
+            Weight::Diab | Weight::OlverSpikes => None,
         };
-        own.max(self.boundary.order()).max(self.fluid.order())
+        let most = own.max(self.boundary.cut_off_order()).max(self.fluid.cut_off_order());
+        most.map(|order| order.max(self.order()))
     }
 
     #[inline(always)]
     fn along<R: Answers>(&self, path: &PathAt<'_, R>, mu: &mut [R]) -> Result<Along<R>, Undefined> {
-        for (nodes, mu) in path.nodes.chunks(CHUNK).zip(mu.chunks_mut(CHUNK)) {
-            let mut fluid = [R::ZERO; CHUNK];
-            let fluid = &mut fluid[..nodes.len()];
-            let part = |slot: &Slot<ToothFriction>, mu: &mut [R]| {
-                R::along(&**slot, &path.nested(slot).with(|to| to.nodes = nodes), mu)
-            };
-            part(&self.boundary, mu)?;
-            part(&self.fluid, fluid)?;
-            for ((node, mu), fluid) in nodes.iter().zip(mu).zip(fluid) {
-                let at = path.contact(node);
-                let xi = self.share(&at);
-                *mu = at.observe(&MU, xi * *mu + (R::constant(1.0) - xi) * *fluid);
-            }
-        }
-        Ok(Along::default())
+        let boundary = R::along(&*self.boundary, &path.nested(&self.boundary), mu)?;
+        let mut shares = Range::default();
+        let fluid = with_space(
+            path.nodes.len(),
+            #[inline(always)]
+            |fluid| {
+                let along = R::along(&*self.fluid, &path.nested(&self.fluid), fluid)?;
+                for ((node, mu), fluid) in path.nodes.iter().zip(mu).zip(fluid) {
+                    let at = path.contact(node);
+                    let xi = self.share(&at);
+                    shares.extend(node, xi);
+                    *mu = at.observe(&MU, xi * *mu + (R::constant(1.0) - xi) * *fluid);
+                }
+                Ok(along)
+            },
+        )?;
+        Ok(Along {
+            cut_off: boundary.cut_off | fluid.cut_off | shares.is_cut_off([0.0, 1.0]),
+            ..Along::default()
+        })
     }
 }
 

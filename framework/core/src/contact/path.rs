@@ -1,10 +1,11 @@
 //! The path of contact of one mesh, prepared for local friction laws.
 
 use crate::geometry::{LoadSharing, Pair, PathPoint};
-use crate::loss::Notes;
+use crate::loss::{Notes, Undefined};
+use crate::mechanism::Answers;
 use crate::mechanism::mean_friction::MeanFrictionAt;
-use crate::mechanism::tooth_friction::{CUT_OFF, PathAt, PathExtent, PathNode, SMOOTH};
-use crate::real::Real;
+use crate::mechanism::tooth_friction::{CUT_OFF, PathAt, PathExtent, PathNode, SMOOTH, ToothFrictionModel};
+use crate::real::{Mask as _, Real};
 
 /// Points of most paths: four sections for a smooth law.
 const FEW: usize = 4 * SMOOTH;
@@ -15,7 +16,7 @@ const MANY: usize = 16 * FEW;
 /// Runs a function with space for some numbers. Most paths need little, and zeroing more costs time; only paths of more than 448 nodes
 /// allocate.
 #[inline(always)]
-pub(crate) fn with_space<R: Real, T>(len: usize, run: impl FnOnce(&mut [R]) -> T) -> T {
+pub fn with_space<R: Real, T>(len: usize, run: impl FnOnce(&mut [R]) -> T) -> T {
     if len <= FEW {
         run(&mut [R::ZERO; FEW][..len])
     } else if len <= MANY {
@@ -32,6 +33,8 @@ pub struct Path {
     points: Vec<PathPoint>,
     /// Sliding power per friction, normal force and speed of the first gear, by node. \[m\]
     weights: Vec<f64>,
+    /// Their sum.
+    weight: f64,
     length: f64,
 }
 
@@ -70,18 +73,23 @@ impl Path {
                 )
             })
             .collect();
-        let weights = points
-            .iter()
-            .zip(&nodes)
-            .map(|(p, n)| p.weight / pair.base_pitch * p.share * n.sliding)
-            .collect();
-        Self {
+        let path = Self {
             extent: PathExtent::from_nodes(&nodes),
             nodes,
             points,
-            weights,
+            weights: Vec::new(),
+            weight: 0.0,
             length: pair.facewidth / pair.base_helix.cos(),
-        }
+        };
+        path.weighted(|point| point.weight / pair.base_pitch)
+    }
+
+    /// The same with another average: the weight of each point, instead of the part of a base pitch that it represents.
+    pub fn weighted(mut self, weight: impl Fn(&PathPoint) -> f64) -> Self {
+        let places = self.points.iter().zip(&self.nodes);
+        self.weights = places.map(|(p, n)| weight(p) * p.share * n.sliding).collect();
+        self.weight = self.weights.iter().sum();
+        self
     }
 
     /// Equidistant points over the whole path, including its ends; for display, not for integrals.
@@ -139,9 +147,95 @@ impl Path {
         nodes.fold(R::ZERO, |sum, (weight, mu)| sum + *mu * *weight)
     }
 
-    /// Friction weighted by load and sliding velocity.
+    /// The friction of a law over the path at an operating point.
     #[inline(always)]
-    pub fn average<R: Real>(&self, mu: &[R]) -> R {
-        self.sliding(mu) / self.weights.iter().sum::<f64>()
+    fn friction<R: Answers>(
+        &self,
+        law: &dyn ToothFrictionModel,
+        at: &PathAt<'_, R>,
+    ) -> Result<(PathFriction<R>, R::Mask), Undefined> {
+        let (sliding, along) = self.with_space(
+            #[inline(always)]
+            |mu| {
+                let along = R::along(law, at, mu)?;
+                Ok((self.sliding(mu), along))
+            },
+        )?;
+        let friction = PathFriction {
+            sliding,
+            mean: sliding / self.weight,
+            first_heat: along.first_heat,
+        };
+        Ok((friction, along.cut_off))
+    }
+}
+
+/// Friction over a whole path.
+#[derive(Debug, Clone, Copy)]
+pub struct PathFriction<R = f64> {
+    /// Sliding power per normal force and speed of the first gear. \[m\]
+    pub sliding: R,
+    /// Friction weighted by load and sliding velocity. \[-\]
+    pub mean: R,
+    /// Share of the heat that enters the body of the first gear. \[-\]
+    pub first_heat: R,
+}
+
+/// The path of one mesh with as many points as its friction law requires: few, and many where the law is cut off.
+pub struct FrictionPath {
+    few: Path,
+    many: Option<Path>,
+}
+
+impl FrictionPath {
+    /// The path of a pair with its load sharing for a friction law.
+    ///
+    /// # Errors
+    /// As [`Path::new`].
+    pub fn new(pair: &Pair, sharing: LoadSharing, law: &dyn ToothFrictionModel) -> Result<Self, String> {
+        let many = law.cut_off_order().map(|order| Path::new(pair, sharing, order));
+        Ok(Self {
+            few: Path::new(pair, sharing, law.order())?,
+            many: many.transpose()?,
+        })
+    }
+
+    /// As [`Path::weighted`].
+    pub fn weighted(self, weight: impl Fn(&PathPoint) -> f64) -> Self {
+        Self {
+            few: self.few.weighted(&weight),
+            many: self.many.map(|path| path.weighted(&weight)),
+        }
+    }
+
+    /// The path with few points.
+    pub fn few(&self) -> &Path {
+        &self.few
+    }
+
+    /// The friction of the law at an operating point of the path with few points.
+    ///
+    /// # Errors
+    /// If the law is undefined.
+    #[inline(always)]
+    pub fn friction<R: Answers>(
+        &self,
+        law: &dyn ToothFrictionModel,
+        at: &PathAt<'_, R>,
+    ) -> Result<PathFriction<R>, Undefined> {
+        let (few, cut_off) = self.few.friction(law, at)?;
+        let Some(path) = self.many.as_ref().filter(|_| cut_off.any()) else {
+            return Ok(few);
+        };
+        let at = at.with(|to| {
+            (to.nodes, to.extent) = (&path.nodes, &path.extent);
+            to.notes = to.notes.among(cut_off);
+        });
+        let (many, _) = path.friction(law, &at)?;
+        Ok(PathFriction {
+            sliding: R::select(cut_off, many.sliding, few.sliding),
+            mean: R::select(cut_off, many.mean, few.mean),
+            first_heat: R::select(cut_off, many.first_heat, few.first_heat),
+        })
     }
 }

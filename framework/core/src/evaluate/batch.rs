@@ -196,7 +196,7 @@ impl Scratch<Lane> {
         }
         fn losses(own: &mut [Result<Loss<Lane>, Undefined>], settled: &[Result<Loss, Undefined>]) {
             for (own, settled) in own.iter_mut().zip(settled) {
-                *own = settled.map(|loss| Loss::of_points(|_| loss));
+                *own = settled.as_ref().map(Loss::everywhere).map_err(|reason| *reason);
             }
         }
         let (own, from) = (&mut self.models, &settled.models);

@@ -205,11 +205,9 @@ impl<R: Points> Work<R> {
     /// Change of a value in the last step, and of the result.
     #[inline(always)]
     pub(super) fn changes(&self, entry: usize) -> (R, R) {
-        let change = |now: &Losses<R>, before: &Losses<R>| (now.values[entry] - before.values[entry]).magnitude();
-        (
-            change(&self.used, &self.used_before),
-            change(&self.answer, &self.answer_before),
-        )
+        let used = self.used.values[entry] - self.used_before.values[entry];
+        let answer = self.answer.values[entry] - self.answer_before.values[entry];
+        (used.magnitude(), answer.magnitude())
     }
 
     /// Lists the entries of the losses in which anything changes; the others change no sum.

@@ -91,6 +91,7 @@ impl Answers for Lane {
             return Ok(along);
         }
         let mut all = Along::<Lane>::default();
+        let mut cut_off = [false; Lane::COUNT];
         let points = path.notes.points();
         with_space(mu.len(), |own: &mut [f64]| {
             for point in (0..Lane::COUNT).filter(|point| points >> point & 1 == 1) {
@@ -100,9 +101,11 @@ impl Answers for Lane {
                 }
                 if let Ok(along) = along {
                     all.first_heat.set(point, along.first_heat);
+                    cut_off[point] = along.cut_off;
                 }
             }
         });
+        all.cut_off = Lane::mask(|point| cut_off[point]);
         Ok(all)
     }
 }

@@ -385,6 +385,10 @@ impl BearingModel for Scalar<Bearing> {
     fn loss(&self, at: &BearingAt<'_>) -> Result<Loss, Undefined> {
         self.moment(at)
     }
+
+    fn losses(&self, at: &BearingAt<'_, Lane>) -> Result<Loss<Lane>, Undefined> {
+        Ok(Loss::MOMENTS.with(&Bearing::TOTAL, self.values(at)?))
+    }
 }
 
 crate::register_component!(Bearing);

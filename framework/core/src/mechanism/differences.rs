@@ -53,9 +53,9 @@ pub(super) fn along(
     let evaluate = |number: &dyn Fn(Dual) -> f64| {
         let mut own = vec![0.0; path.nodes.len()];
         let along = path.map([Notes::MUTED; 2], number, |path| model.along(path, &mut own))?;
-        Ok((own, along.first_heat))
+        Ok((own, along))
     };
-    let (values, first_heat) = evaluate(&|x| x.value)?;
+    let (values, own) = evaluate(&|x| x.value)?;
     for (mu, value) in mu.iter_mut().zip(values) {
         *mu = Dual {
             value,
@@ -64,9 +64,10 @@ pub(super) fn along(
     }
     let mut along = Along {
         first_heat: Dual {
-            value: first_heat,
+            value: own.first_heat,
             ..Dual::default()
         },
+        cut_off: own.cut_off,
     };
     let Some(node) = path.nodes.first() else {
         return Ok(along);
@@ -81,7 +82,7 @@ pub(super) fn along(
         for (k, mu) in mu.iter_mut().enumerate() {
             mu.slopes[direction] = stencil.slope(|(own, _)| own[k]);
         }
-        along.first_heat.slopes[direction] = stencil.slope(|(_, first_heat)| *first_heat);
+        along.first_heat.slopes[direction] = stencil.slope(|(_, along)| along.first_heat);
         path.notes.branch(BY_DIFFERENCES);
     }
     Ok(along)

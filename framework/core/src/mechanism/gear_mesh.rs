@@ -323,6 +323,10 @@ impl GearMeshModel for Scalar<GearMesh> {
     fn loss(&self, at: &GearMeshAt<'_>) -> Result<Loss, Undefined> {
         self.power(at)
     }
+
+    fn losses(&self, at: &GearMeshAt<'_, Lane>) -> Result<Loss<Lane>, Undefined> {
+        Ok(Loss::POWERS.with(&GearMesh::TOTAL, self.values(at)?))
+    }
 }
 
 crate::register_mechanism!(GearMesh);

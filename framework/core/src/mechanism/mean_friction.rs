@@ -157,6 +157,7 @@ impl<'a, R: Real> MeanFrictionAt<'a, R> {
 }
 
 /// Hertz pressure of a line contact from line load in N/m, reduced modulus in Pa and radius in m. \[Pa\]
+#[inline(always)]
 pub fn hertz<R: Real>(line_load: R, modulus: R, radius: R) -> R {
     (line_load * modulus / (radius * (2.0 * std::f64::consts::PI))).root()
 }
@@ -200,6 +201,10 @@ impl Mechanism for MeanFriction {
 impl MeanFrictionModel for Scalar<MeanFriction> {
     fn mu(&self, at: &MeanFrictionAt<'_>) -> Result<f64, Undefined> {
         self.value(at)
+    }
+
+    fn mu_together(&self, at: &MeanFrictionAt<'_, Lane>) -> Result<Lane, Undefined> {
+        self.values(at)
     }
 }
 

@@ -7,10 +7,8 @@ use crate::formula::Formula;
 use crate::limits;
 use crate::loss::{Loss, Undefined};
 use crate::mechanism::{Inputs, Mechanism, Quantity};
+use crate::real::{Lane, Mask as _, Points as _, Real as _};
 use crate::table::Table;
-
-/// Maximum number of quantities of a context, for the inputs of a formula.
-const MOST_QUANTITIES: usize = 24;
 
 /// A law with a single result: a coefficient, a moment or a power.
 pub struct Scalar<M: Mechanism> {
@@ -23,7 +21,7 @@ pub(crate) enum ScalarLaw<M: Mechanism> {
     None,
     /// In SI.
     Constant(f64),
-    /// With the inputs of the formula, in its order.
+    /// With all quantities of the context, in the order of the names of the formula.
     Formula(Formula, Vec<Input<M>>),
     Table(Lookup<M>),
 }
@@ -47,6 +45,12 @@ impl<M: Mechanism> Input<M> {
     fn value(&self, at: &M::At<'_, f64>) -> f64 {
         self.unit.from_si((self.quantity.get)(at))
     }
+
+    /// The same at several points.
+    #[inline(always)]
+    fn values(&self, at: &M::At<'_, Lane>) -> Lane {
+        (self.quantity.get_together)(at).map(|si| self.unit.from_si(si))
+    }
 }
 
 impl<M: Mechanism> Scalar<M> {
@@ -58,13 +62,7 @@ impl<M: Mechanism> Scalar<M> {
         let value = match &self.law {
             ScalarLaw::None => return Ok(0.0),
             ScalarLaw::Constant(value) => return Ok(*value),
-            ScalarLaw::Formula(formula, inputs) => {
-                let mut values = [0.0; MOST_QUANTITIES];
-                for (value, input) in values.iter_mut().zip(inputs) {
-                    *value = input.value(at);
-                }
-                formula.value(&values[..inputs.len()])?
-            }
+            ScalarLaw::Formula(formula, inputs) => formula.value(|input| inputs[input].value(at))?,
             ScalarLaw::Table(lookup) => {
                 let (value, place) = lookup.value(at)?;
                 at.notes().check(&PLACE, place);
@@ -80,9 +78,50 @@ impl<M: Mechanism> Scalar<M> {
         Ok(self.unit.to_si(value))
     }
 
+    /// The values at several points, SI.
+    ///
+    /// # Errors
+    /// If one of them is undefined, or the law is a table: the points are then evaluated one by one.
+    pub fn values(&self, at: &M::At<'_, Lane>) -> Result<Lane, Undefined> {
+        Lane::wide(
+            #[inline(always)]
+            || self.inlined_values(at),
+        )
+    }
+
+    /// The same, inlined into code that uses wide instructions.
+    #[inline(always)]
+    pub(crate) fn inlined_values(&self, at: &M::At<'_, Lane>) -> Result<Lane, Undefined> {
+        match &self.law {
+            ScalarLaw::None => Ok(Lane::ZERO),
+            ScalarLaw::Constant(value) => Ok(Lane::constant(*value)),
+            ScalarLaw::Formula(formula, inputs) => {
+                let values: Lane = formula.evaluate(
+                    #[inline(always)]
+                    |input| inputs[input].values(at),
+                );
+                if values.is_within(0.0, f64::MAX).all() {
+                    Ok(values.map(|value| self.unit.to_si(value)))
+                } else {
+                    Err(Undefined::DISAGREED)
+                }
+            }
+            ScalarLaw::Table(_) => Err(Undefined::DISAGREED),
+        }
+    }
+
     /// True if the law has the same value at every context.
     pub fn is_constant(&self) -> bool {
         matches!(self.law, ScalarLaw::None | ScalarLaw::Constant(_))
+    }
+
+    /// True if the law has neither kinks nor jumps.
+    pub fn is_smooth(&self) -> bool {
+        match &self.law {
+            ScalarLaw::None | ScalarLaw::Constant(_) => true,
+            ScalarLaw::Formula(formula, _) => formula.is_smooth(),
+            ScalarLaw::Table(_) => false,
+        }
     }
 
     /// The value as a moment.

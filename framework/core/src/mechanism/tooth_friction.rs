@@ -5,7 +5,7 @@ use crate::mechanism::Scalar;
 use crate::mechanism::Slot;
 use crate::mechanism::mean_friction::{MeanFrictionAt, hertz, load_at, modulus_at, radius_at};
 use crate::mechanism::{Answers, Inputs as _, Mechanism, NoPart};
-use crate::real::{Dual, Lane, Points, Real};
+use crate::real::{Dual, Lane, Mask as _, Points, Real};
 use crate::{answered_by, context};
 
 /// Marker of the mechanism; never constructed.
@@ -20,11 +20,16 @@ pub trait ToothFrictionModel: Send + Sync {
     /// Coefficient of friction at one contact. \[-\] Pure; must not allocate.
     fn mu(&self, at: &ContactAt<'_>) -> Result<f64, Undefined>;
 
-    /// Number of nodes on each smooth section of a path for an error of the loss below 1e-4, or of the mean friction below 1e-6.
-    /// Seven are enough for a law that is smooth inside the sections, for any power of sliding and load at their ends; [`CUT_OFF`]
-    /// for one that is cut off anywhere, as by `min` or `max`.
+    /// Number of nodes on each smooth section of a path for an error of the loss below 1e-4, or of the mean friction below 1e-6,
+    /// unless the law is [cut off](Along::cut_off). [`SMOOTH`] is enough for a law that is smooth inside the sections, for any power
+    /// of sliding and load at their ends; [`CUT_OFF`] for one with unknown kinks.
     fn order(&self) -> usize {
         SMOOTH
+    }
+
+    /// The same where the law is cut off, as by `min` or `max`; none if it never is.
+    fn cut_off_order(&self) -> Option<usize> {
+        None
     }
 
     /// Coefficients of friction at all nodes of a path, into a slice of the length of the path. Pure; must not allocate.
@@ -77,13 +82,64 @@ pub trait ToothFrictionLaw: Send + Sync {
         SMOOTH
     }
 
+    /// The minimum and maximum coefficient of a law that is cut off there.
+    fn limits(&self) -> Option<[f64; 2]> {
+        None
+    }
+
+    /// As [`ToothFrictionModel::cut_off_order`].
+    fn cut_off_order(&self) -> Option<usize> {
+        self.limits().map(|_| CUT_OFF)
+    }
+
     /// As [`ToothFrictionModel::along`].
     #[inline(always)]
     fn along<R: Answers>(&self, path: &PathAt<'_, R>, mu: &mut [R]) -> Result<Along<R>, Undefined> {
+        let mut range = Range::default();
         for (node, mu) in path.nodes.iter().zip(mu) {
             *mu = self.mu(&path.contact(node))?;
+            range.extend(node, *mu);
         }
-        Ok(Along::default())
+        Ok(Along {
+            cut_off: self.limits().map_or(R::Mask::NEVER, |limits| range.is_cut_off(limits)),
+            ..Along::default()
+        })
+    }
+}
+
+/// The range of a quantity over the nodes that carry load.
+#[derive(Debug, Clone, Copy)]
+pub struct Range<R> {
+    least: R,
+    greatest: R,
+}
+
+impl<R: Real> Default for Range<R> {
+    /// No node.
+    fn default() -> Self {
+        Self {
+            least: R::constant(f64::INFINITY),
+            greatest: R::constant(f64::NEG_INFINITY),
+        }
+    }
+}
+
+impl<R: Real> Range<R> {
+    /// Extends the range to the value at a node.
+    #[inline(always)]
+    pub fn extend(&mut self, node: &PathNode, value: R) {
+        if node.share > 0.0 {
+            self.least = self.least.smaller(value);
+            self.greatest = self.greatest.larger(value);
+        }
+    }
+
+    /// Where the quantity is at one of its limits at some nodes, but not at the same one at all of them: it has a kink between nodes.
+    #[inline(always)]
+    pub fn is_cut_off(&self, [least, greatest]: [f64; 2]) -> R::Mask {
+        let (least, greatest) = (R::constant(least), R::constant(greatest));
+        let reaches = !self.least.is_above(least) | !self.greatest.is_below(greatest);
+        reaches & self.least.is_below(self.greatest)
     }
 }
 
@@ -94,6 +150,10 @@ impl<L: ToothFrictionLaw> ToothFrictionModel for L {
 
     fn order(&self) -> usize {
         ToothFrictionLaw::order(self)
+    }
+
+    fn cut_off_order(&self) -> Option<usize> {
+        ToothFrictionLaw::cut_off_order(self)
     }
 
     fn along(&self, path: &PathAt<'_>, mu: &mut [f64]) -> Result<Along, Undefined> {
@@ -137,16 +197,21 @@ pub const SMOOTH: usize = 7;
 pub const CUT_OFF: usize = 64;
 
 /// Results of a law for a whole path in addition to its coefficients.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Along<R = f64> {
+#[derive(Debug, Clone, Copy)]
+pub struct Along<R: Real = f64> {
     /// Share of the friction heat that enters the body of the first gear. \[-\]
     pub first_heat: R,
+    /// Where the law is cut off within the path, so that it needs [more nodes](ToothFrictionModel::cut_off_order).
+    pub cut_off: R::Mask,
 }
 
 impl<R: Real> Default for Along<R> {
-    /// Half of the heat for each body.
+    /// Half of the heat for each body, and no cut-off.
     fn default() -> Self {
-        Self { first_heat: R::HALF }
+        Self {
+            first_heat: R::HALF,
+            cut_off: R::Mask::NEVER,
+        }
     }
 }
 
@@ -345,6 +410,7 @@ pub struct PathAt<'a, R: Real = f64> {
 
 impl<'a, R: Real> PathAt<'a, R> {
     /// The path of a mesh: its points, their extent and the length of the line of contact of one pair. \[m\]
+    #[inline(always)]
     pub fn new(
         nodes: &'a [PathNode],
         extent: &'a PathExtent,
@@ -376,7 +442,7 @@ impl<'a, R: Real> PathAt<'a, R> {
     }
 
     /// The same with some quantities changed.
-    #[inline]
+    #[inline(always)]
     pub fn with(mut self, change: impl FnOnce(&mut Self)) -> Self {
         change(&mut self);
         self
@@ -392,6 +458,16 @@ impl<'a, R: Real> PathAt<'a, R> {
     #[inline(always)]
     pub fn unit_pressure(&self) -> R {
         (self.line_load * self.modulus / (2.0 * std::f64::consts::PI)).root()
+    }
+
+    /// Moves a contact of the path to another point, where the unit pressure is known.
+    #[inline(always)]
+    fn move_to(&self, at: &mut ContactAt<'_, R>, node: &PathNode, unit_pressure: R) {
+        at.sliding = self.speed * node.sliding;
+        at.sum_speed = self.speed * node.sum_speed;
+        at.radius = R::constant(node.radius);
+        at.line_load = self.line_load * node.share;
+        at.pressure = unit_pressure * node.root_load;
     }
 
     /// One point of the path as a contact.
@@ -489,8 +565,35 @@ impl ToothFrictionModel for Scalar<ToothFriction> {
         self.value(at)
     }
 
+    /// A formula may be steep, if it has no kinks.
     fn order(&self) -> usize {
-        if self.is_constant() { SMOOTH } else { CUT_OFF }
+        match (self.is_constant(), self.is_smooth()) {
+            (true, _) => SMOOTH,
+            (false, true) => 2 * SMOOTH,
+            (false, false) => CUT_OFF,
+        }
+    }
+
+    fn mu_together(&self, at: &ContactAt<'_, Lane>) -> Result<Lane, Undefined> {
+        self.values(at)
+    }
+
+    fn along_together(&self, path: &PathAt<'_, Lane>, mu: &mut [Lane]) -> Result<Along<Lane>, Undefined> {
+        Lane::wide(
+            #[inline(always)]
+            || {
+                let Some(first) = path.nodes.first() else {
+                    return Ok(Along::default());
+                };
+                let mut at = path.contact(first);
+                let unit_pressure = path.unit_pressure();
+                for (node, mu) in path.nodes.iter().zip(mu) {
+                    path.move_to(&mut at, node, unit_pressure);
+                    *mu = self.inlined_values(&at)?;
+                }
+                Ok(Along::default())
+            },
+        )
     }
 }
 

@@ -140,6 +140,7 @@ impl Not for LaneMask {
 }
 
 impl Mask for LaneMask {
+    const NEVER: Self = Self([0; LANES]);
     #[inline(always)]
     fn any(self) -> bool {
         self.0.iter().fold(0, |all, own| all | own) != 0
