@@ -321,7 +321,7 @@ pub struct RunArgs {
     pub study: PathBuf,
     /// Computes only part K of N, for `merge`; skips pieces that are already complete. Results are written to -o [default: `shards/K-of-N`
     /// next to the study].
-    #[arg(long, value_name = "K/N", conflicts_with_all = ["template", "force", "deny"])]
+    #[arg(long, value_name = "K/N", conflicts_with_all = ["template", "force", "deny", "verbose", "quiet", "open"])]
     pub shard: Option<Shard>,
     #[command(flatten)]
     pub results: ResultArgs,
@@ -353,6 +353,22 @@ pub struct ResultArgs {
     /// `extrapolation`: exit with code 1 if a model is used outside its range at any point.
     #[arg(long, value_name = "WHAT")]
     pub deny: Vec<String>,
+    #[command(flatten)]
+    pub shown: ShownArgs,
+}
+
+/// What `run` prints and opens.
+#[derive(Debug, Clone, Copy, ClapArgs)]
+pub struct ShownArgs {
+    /// Prints all tables and notes.
+    #[arg(short, long, conflicts_with = "quiet")]
+    pub verbose: bool,
+    /// Prints only errors, warnings and the path of the report.
+    #[arg(short, long)]
+    pub quiet: bool,
+    /// Opens the report in the browser.
+    #[arg(long)]
+    pub open: bool,
 }
 
 /// Arguments of `models`.

@@ -340,7 +340,7 @@ fn run(name: &str, analyses: &str, csv: &str) -> (std::path::PathBuf, String) {
     );
     std::fs::write(folder.join("study.yaml"), study).unwrap();
     std::fs::write(folder.join("rig.csv"), csv).unwrap();
-    let (fine, text) = program(&["run", &folder.join("study.yaml").display().to_string()]);
+    let (fine, text) = program(&["run", "--verbose", &folder.join("study.yaml").display().to_string()]);
     assert!(fine, "{text}");
     (folder.join("results"), text)
 }

@@ -49,6 +49,7 @@ mod repeat;
 mod report;
 mod results;
 mod rig;
+mod savings;
 mod schema;
 mod schematic;
 mod selection;
@@ -59,6 +60,7 @@ mod surface;
 mod temperature;
 mod topologies;
 mod variants;
+mod web;
 mod wheels;
 
 /// A file that no `mod` line names would never be compiled, and its tests would never fail.

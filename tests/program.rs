@@ -337,6 +337,54 @@ fn eval_reads_its_input() {
     std::fs::remove_dir_all(&folder).unwrap();
 }
 
+/// One line for each analysis, what to be careful about, the path of the report: at most forty lines. Quiet: the path alone.
+#[test]
+fn run_prints_the_result_of_each_analysis_in_one_line() {
+    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("console");
+    let study = common::file("examples/planetary-reducer/study.yaml");
+    let run = |more: &[&str]| {
+        let _ = std::fs::remove_dir_all(&folder);
+        let output = gearloss(&[&["run", study.to_str().unwrap(), "-o", folder.to_str().unwrap()], more].concat());
+        assert!(output.status.success());
+        [output.stdout, output.stderr].map(|text| String::from_utf8(text).unwrap())
+    };
+    let [text, notes] = run(&[]);
+    for name in [
+        "tests",
+        "loaded",
+        "unloaded",
+        "limit",
+        "fastest",
+        "convergence",
+        "careful",
+    ] {
+        let own = text
+            .lines()
+            .filter(|line| line.trim_start().starts_with(&format!("{name} ")));
+        assert_eq!(own.count(), 1, "{name}: {text}");
+    }
+    assert!(
+        text.contains("12 points, 20.6 to 72.5 W, oil 29.5 to 53.6 °C"),
+        "{text}"
+    );
+    assert!(text.lines().count() + notes.lines().count() <= 40, "{text}{notes}");
+    let [quiet, notes] = run(&["--quiet"]);
+    assert!(
+        quiet.starts_with("report: ") && quiet.lines().count() == 1 && notes.is_empty(),
+        "{quiet}{notes}"
+    );
+    let [all, _] = run(&["--verbose"]);
+    assert!(
+        all.contains("oil degC  speed rpm  torque Nm") && all.lines().count() > 100,
+        "{all}"
+    );
+    assert!(
+        !gearloss(&["run", study.to_str().unwrap(), "--quiet", "--verbose"])
+            .status
+            .success()
+    );
+}
+
 #[test]
 fn run_writes_csv_and_json_and_prints_tables() {
     let common::StudyRun { folder, text, .. } = common::study_run("examples/two-speed-ev/study.yaml");

@@ -1,7 +1,6 @@
-//! The report of a study, also in a real browser where one is at hand.
+//! The report of a study. `web.rs` opens it in a browser.
 
 use crate::common;
-use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -18,7 +17,7 @@ fn the_report_holds_everything_and_needs_no_network() {
             "examples/two-speed-ev/study.yaml",
             [
                 "rig_fit",
-                "loss torque in Nm",
+                "\"loss torque\"",
                 "alpha_wt",
                 "only the centre distances are printed",
             ],
@@ -27,7 +26,7 @@ fn the_report_holds_everything_and_needs_no_network() {
             "examples/planetary-reducer/study.yaml",
             [
                 "twelve tests",
-                "oil temperature in degC",
+                "\"oil temperature\"",
                 "planet_ring",
                 "placeholder generated with the model",
             ],
@@ -37,11 +36,12 @@ fn the_report_holds_everything_and_needs_no_network() {
         for word in words {
             assert!(page.contains(word), "{study}: {word}");
         }
-        // The plotting library names addresses in its text; nothing of the page loads one.
-        assert!(!page.contains("<script src") && !page.contains("<link"), "{study}");
+        // Nothing of the page loads anything.
+        let linked = page.replace("<link rel=\"icon\" href=\"data:,\">", "");
+        assert!(!page.contains("<script src") && !linked.contains("<link"), "{study}");
         assert!(page.contains("gearloss: study") && page.contains("Resolved description"));
-        let figures = page.matches("class=\"figure\"").count();
-        assert!(figures >= 10, "{study}: {figures} pictures");
+        let pictures = page.matches("data-picture=").count();
+        assert!(pictures >= 10, "{study}: {pictures} pictures");
     }
 }
 
@@ -90,48 +90,4 @@ fn a_template_of_the_user_makes_the_page() {
         std::fs::read_to_string(folder.join("report.html")).unwrap(),
         "[tests][loaded][unloaded][limit][fastest][convergence]"
     );
-}
-
-/// In a headless Chromium, with the network switched off: every picture is drawn and nothing complains on the console.
-#[test]
-fn a_browser_draws_every_picture_without_complaint() {
-    let names = ["chromium", "chromium-browser", "google-chrome"];
-    let Some(browser) = names.iter().find(|n| Command::new(n).arg("--version").output().is_ok()) else {
-        // Past the capture of the test runner, so that everybody sees it.
-        let words = "SKIPPED: no browser is installed; on Debian `apt-get install chromium` brings one";
-        writeln!(std::io::stderr(), "{words}").unwrap();
-        return;
-    };
-    let page = report("examples/two-speed-ev/study.yaml");
-    let output = Command::new(browser)
-        .args([
-            "--headless",
-            "--no-sandbox",
-            "--disable-gpu",
-            "--host-resolver-rules=MAP * ~NOTFOUND",
-            "--enable-logging=stderr",
-            "--virtual-time-budget=30000",
-            "--dump-dom",
-        ])
-        .arg(format!("file://{}", page.display()))
-        .output()
-        .unwrap();
-    let (dom, log) = (
-        String::from_utf8_lossy(&output.stdout),
-        String::from_utf8_lossy(&output.stderr),
-    );
-    let source = std::fs::read_to_string(&page).unwrap();
-    let wanted = source.matches("class=\"figure\"").count();
-    // Plotly marks what it has drawn.
-    assert_eq!(
-        dom.matches("js-plotly-plot").count().min(wanted),
-        wanted,
-        "{} of {wanted} drawn",
-        dom.matches("js-plotly-plot").count()
-    );
-    let complaints: Vec<&str> = log
-        .lines()
-        .filter(|l| l.contains("CONSOLE") && !l.contains("INFO:CONSOLE:0"))
-        .collect();
-    assert!(complaints.is_empty(), "{complaints:?}");
 }

@@ -28,7 +28,7 @@ const RARE: [&str; 2] = ["KinkOfModel", "BrokenOff"];
 const OPEN: [&str; 5] = ["bound", "set", "terms_w", "value", "model"];
 
 /// Keys that some records have and others have not.
-const OPTIONAL: [&str; 3] = ["data", "turned_at", "file"];
+const OPTIONAL: [&str; 4] = ["data", "turned_at", "file", "derivatives"];
 
 /// One file of results with the type of its analysis.
 struct Written {
@@ -81,6 +81,18 @@ fn points() -> Vec<Value> {
         ),
         solve(car, &["--gear", "first"]),
         solve(car, &["--gear", "second", "--models", "joint"]),
+        // The path lies at a kink.
+        solve(
+            car,
+            &[
+                "--gear",
+                "first",
+                "--derivative",
+                "torque:input",
+                "--derivative",
+                "lubricants.sump.viscosity.kv100",
+            ],
+        ),
         solve(
             car,
             &[

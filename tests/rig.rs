@@ -118,7 +118,7 @@ fn what_a_comparison_lacks_is_reported() {
     for (analysis, said) in [
         (
             format!("against: [ours/own], grid: g, {DATA}"),
-            "needs either `grid` and `base`, or `data`",
+            "needs `base` with `grid` or with `drive`, or else `data`",
         ),
         (
             "against: [ours/own], data: { file: nowhere.csv }".to_owned(),

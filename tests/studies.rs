@@ -734,7 +734,7 @@ fn an_interruption_keeps_what_is_finished() {
     assert_eq!(output.status.code(), Some(130), "{text}");
     assert!(text.contains("1 of 2 analyses are finished and kept"), "{text}");
     let report = std::fs::read_to_string(folder.join("results/report.html")).unwrap();
-    assert!(report.contains("id=\"quick\"") && !report.contains("id=\"long\""));
+    assert!(report.contains("id=\"analysis-quick\"") && !report.contains("id=\"analysis-long\""));
 }
 
 /// Points of a map as a file of measured losses.

@@ -1,7 +1,9 @@
 //! `run`: the analyses of a study; tables on the terminal, CSV and JSON in files.
 
+mod console;
 mod folder;
 mod manifest;
+mod open;
 mod result_files;
 mod runner;
 mod shard;
@@ -13,15 +15,19 @@ mod write;
 pub(super) use shard::gather;
 pub(super) use shard_tasks::ShardTasks;
 
+use self::console::Shown;
 use self::folder::Held;
 use self::runner::Run;
 
 use std::path::{Path, PathBuf};
+use std::time::Instant;
 
 use gearloss_framework::coefficients::changed_from_source;
 use gearloss_framework::files::LONGEST_TEXT;
 use gearloss_framework::gearbox::Findings;
 use gearloss_framework::language::Language;
+use gearloss_report::page::Block;
+use gearloss_studies::distinct::distinct;
 use gearloss_studies::study::Study;
 
 use super::read_file;
@@ -189,22 +195,11 @@ pub(super) fn all(
     let template = template.map(|file| read_file(file, LONGEST_TEXT, "give a template with --template"));
     let template = template.transpose()?;
     let names: Vec<&str> = study.entry.analyses.ids().collect();
-    let held = claim(&folder, &names, args.force, out)?;
-    let runner = Run::new(language, study, folder, tasks);
-    if let Some(title) = &study.entry.title {
-        out.line(title)?;
-        out.line("")?;
-    }
-    overridden(study, out)?;
-    let (warnings, notes) = warnings(language, study);
-    for findings in &warnings {
-        for warning in &findings.list {
-            Out::error().line(format!("{}\n", findings.sources.render(warning)))?;
-        }
-    }
-    for note in notes {
-        Out::error().line(format!("note: {note}"))?;
-    }
+    let shown = Shown::new(args.shown);
+    let held = claim(&folder, &names, args.force, shown, out)?;
+    let runner = Run::new(language, study, folder, tasks, shown);
+    head(language, study, shown, out)?;
+    let width = Shown::width(&names);
     // Errors in files of points are printed once, not by every analysis that uses them.
     let mut reported = Reported::default();
     let wrong_data = study.data_findings();
@@ -215,8 +210,12 @@ pub(super) fn all(
     interrupt::listen();
     let (mut failed, mut done_so_far, mut finished) = (0, 0, None);
     for (name, analysis) in study.entry.analyses.iter() {
+        let start = Instant::now();
         match runner.attempt(name, analysis, out) {
-            Ok(()) => {}
+            Ok(()) => {
+                let result = runner.in_section(|section| section.result());
+                shown.headline(width, name, &result.unwrap_or_default(), start, out)?;
+            }
             Err(failure) => {
                 let Some(text) = failure.text() else {
                     runner.report.borrow_mut().sections.pop();
@@ -226,8 +225,11 @@ pub(super) fn all(
                 // Finished analyses are kept.
                 failed += 1;
                 write::remove(&runner, name);
-                out.line(format!("{name}: failed"))?;
-                runner.in_section(|section| section.text.push_str(&format!("failed\n{text}")));
+                shown.headline(width, name, "failed", start, out)?;
+                runner.in_section(|section| {
+                    section.failed = text.lines().next().map(str::to_owned);
+                    section.blocks.push(Block::Text(text));
+                });
                 if let Some(text) = reported.unreported(failure).and_then(|rest| rest.text()) {
                     Out::error().text(&text)?;
                 }
@@ -235,19 +237,17 @@ pub(super) fn all(
         }
         done_so_far += 1;
     }
-    let outside = runner.stated_ranges.borrow().lines();
-    for line in &outside {
-        out.line(line)?;
-    }
-    if !outside.is_empty() {
-        out.line("")?;
-    }
+    shown.outside(width, &runner.stated_ranges.borrow(), out)?;
     write::report(&runner, template.as_deref())?;
     held.finish();
-    out.line(format!(
-        "results in {}, report in report.html",
-        runner.files.folder.display()
-    ))?;
+    let report = runner.files.folder.join(write::REPORT);
+    shown.report(&report, out)?;
+    // The results are there even if nothing can open them.
+    if args.shown.open
+        && let Some(text) = open::report(&report).err().and_then(|failure| failure.text())
+    {
+        Out::error().text(&text)?;
+    }
     if let Some(finished) = finished {
         let all = study.entry.analyses.len();
         Out::error().line(format!("{finished} of {all} analyses are finished and kept"))?;
@@ -275,6 +275,29 @@ pub(super) fn all(
     }
 }
 
+/// Title and question of a study, and what its gearboxes and conditions give cause to say.
+fn head(language: &Language, study: &Study, shown: Shown, out: &mut Out) -> Result<(), Failure> {
+    if shown.has_headlines() {
+        let texts = [&study.entry.title, &study.entry.question];
+        for text in texts.into_iter().flatten() {
+            out.line(text)?;
+        }
+        overridden(study, out)?;
+    }
+    let (warnings, notes) = warnings(language, study);
+    // Gearboxes that extend the same file have its warnings in common.
+    let rendered = warnings
+        .iter()
+        .flat_map(|findings| findings.list.iter().map(|warning| findings.sources.render(warning)));
+    for warning in distinct(rendered) {
+        Out::error().line(format!("{warning}\n"))?;
+    }
+    for note in notes.iter().filter(|_| shown.has_headlines()) {
+        Out::error().line(format!("note: {note}"))?;
+    }
+    Ok(())
+}
+
 /// Notes that the conditions replace a temperature of a gearbox.
 fn overridden(study: &Study, out: &mut Out) -> Result<(), Failure> {
     let Some(oil) = study.entry.conditions.oil_temperature else {
@@ -298,7 +321,7 @@ fn overridden(study: &Study, out: &mut Out) -> Result<(), Failure> {
 /// Claims the result folder before computation. A folder with other files than earlier results needs `--force`; earlier results are
 /// replaced with a note. Results are files of the formats of this program, and files of any format with the name of an analysis
 /// before a dot or a hyphen: those of exports in other crates.
-fn claim(folder: &Path, analyses: &[&str], force: bool, out: &mut Out) -> Result<Held, Failure> {
+fn claim(folder: &Path, analyses: &[&str], force: bool, shown: Shown, out: &mut Out) -> Result<Held, Failure> {
     let files: Vec<PathBuf> = std::fs::read_dir(folder)
         .into_iter()
         .flatten()
@@ -311,6 +334,7 @@ fn claim(folder: &Path, analyses: &[&str], force: bool, out: &mut Out) -> Result
         "svg",
         "html",
         "parquet",
+        "xlsx",
         "vtlm",
         "m",
         "mo",
@@ -338,6 +362,9 @@ fn claim(folder: &Path, analyses: &[&str], force: bool, out: &mut Out) -> Result
         ));
     }
     let (held, broken_off) = Held::take(folder)?;
+    if !shown.has_headlines() {
+        return Ok(held);
+    }
     if broken_off {
         out.line(format!(
             "an earlier run into {} was interrupted; its files are replaced",

@@ -90,7 +90,7 @@ pub fn study_run(study: &'static str) -> &'static StudyRun {
         lock.lock().unwrap();
         let _ = std::fs::remove_dir_all(&folder);
         let output = Command::new(env!("CARGO_BIN_EXE_gearloss"))
-            .arg("run")
+            .args(["run", "--verbose"])
             .arg(file(study))
             .arg("-o")
             .arg(&folder)

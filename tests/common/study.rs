@@ -10,7 +10,7 @@ use gearloss::api::{
     Disk, FileSource, Findings, InMemory, Outcome, SharedSource, Stopped, Study, StudyRun, read_study,
 };
 use gearloss::report::csv::CsvTable;
-use gearloss::report::page::{Page, Text};
+use gearloss::report::page::{Block, Page};
 use gearloss::studies::study::Write;
 use serde_json::Value;
 
@@ -98,9 +98,14 @@ impl Ran {
     /// Adds what an analysis prints and wants to be written, and its outcome.
     fn keep(&mut self, study: &Study, name: &str, outcome: Box<dyn Outcome>) {
         let page = Page::from_outcome(outcome.as_ref());
-        for text in &page.text {
-            let (Text::Everywhere(text) | Text::InReport(text)) = text;
-            self.text.push_str(text);
+        for block in &page.blocks {
+            match block {
+                Block::Text(text) => self.text.push_str(text),
+                Block::Table(table) => self.text.push_str(&table.render()),
+            }
+        }
+        for line in &page.outside {
+            self.text.push_str(&format!("{line}\n"));
         }
         let texts = outcome.files().into_iter().map(|file| (file.name, file.text));
         self.files.extend(texts);

@@ -1,6 +1,6 @@
 //! What an engineer sees in an editor: the language server of VS Code's YAML extension with the published schemas.
 
-mod install;
+pub mod install;
 mod language_server;
 
 use std::fs::File;

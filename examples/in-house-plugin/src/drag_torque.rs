@@ -153,15 +153,18 @@ register_view!(DragTorqueOutcome, show);
 
 fn show(outcome: &DragTorqueOutcome, page: &mut Page) {
     page.tables(&outcome.tables());
+    // The result in one sentence, for the terminal and the first screen of the report, and the number to remember.
     for set in &outcome.sets {
         if let Some(ratio) = set.cold_over_warm {
-            let name = &outcome.head.analysis;
-            page.verdict(format!(
-                "{name}: models {}: cold oil takes {ratio:.2} times the torque",
-                set.model_set
-            ));
+            let models = &set.model_set;
+            page.headline = Some(format!("cold oil takes {ratio:.2} times the torque, models {models}"));
+            page.key_figure(
+                "torque of cold over warm oil",
+                format!("{ratio:.2}"),
+                "",
+                models.as_str(),
+            );
         }
-        page.outside(&set.notes);
     }
 }
 

@@ -144,7 +144,15 @@ fn a_law_of_a_mesh_is_no_law_of_a_gear() {
 #[test]
 fn the_study_runs_and_identifies_a_parameter() {
     let folder = common::folder("study");
-    let text = program(&["run", "study.yaml", "--force", "-o", folder.to_str().unwrap()]).fine();
+    let text = program(&[
+        "run",
+        "study.yaml",
+        "--verbose",
+        "--force",
+        "-o",
+        folder.to_str().unwrap(),
+    ])
+    .fine();
     let line = text
         .lines()
         .find(|l| l.starts_with("loaded  "))
@@ -183,7 +191,10 @@ fn an_analysis_of_this_crate_runs_like_any_other() {
     assert!(results.contains("Torque at the first temperature over that at the last."));
     let folder = common::folder("drag");
     let printed = program(&["run", "study.yaml", "--force", "-o", folder.to_str().unwrap()]).fine();
-    assert!(printed.contains("drag: models own: cold oil takes"), "{printed}");
+    assert!(
+        printed.contains("cold oil takes 2.99 times the torque, models own"),
+        "{printed}"
+    );
     let rows = std::fs::read_to_string(folder.join("drag.csv")).unwrap();
     assert!(
         rows.starts_with("model_set,oil_temperature_degc,torque_nm\n") && rows.lines().count() == 5,

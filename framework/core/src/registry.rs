@@ -308,6 +308,8 @@ pub struct ShippedCycle {
     pub name: &'static str,
     /// CSV text: `time [s],speed [km/h]`, the vehicle's speed.
     pub csv: &'static str,
+    /// Names of its phases with the time at which each ends; empty if it has none. \[s\]
+    pub phases: &'static [(&'static str, f64)],
     /// Its source.
     pub source: &'static str,
     /// Where it is registered.

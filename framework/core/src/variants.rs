@@ -2,7 +2,7 @@
 //!
 //! The result is the same to the bit as that of resolving and building with all overrides, and so is every error. Two things are not
 //! repeated. If the same paths are overridden as before, and all values are numbers, they are written into the document that was resolved
-//! before. And a step of building whose input is the same gives the result of the last build ([`Memory`]).
+//! before. And a step of building whose input is the same gives the result of the last build (`Memory`).
 
 use std::sync::{Mutex, PoisonError};
 

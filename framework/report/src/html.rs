@@ -8,6 +8,7 @@ use gearloss_framework::description::AssumedEntry;
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::evaluate::PowerFlow;
 use gearloss_framework::language::Language;
+use gearloss_studies::analyses::head::{hash, inputs};
 use gearloss_studies::study::Study;
 use minijinja::value::Serde;
 use minijinja::{AutoEscape, Environment, ErrorKind, Value as Filled};
@@ -17,11 +18,16 @@ use serde_json::Value;
 
 pub use gearbox::gearbox_page;
 
-use crate::Figure;
-use crate::page::{Page, Text};
+use crate::page::{Block, KeyFigure, Page};
+use crate::picture::Picture;
+use crate::text::{TextTable, capitalised};
 
 /// The built-in template.
 const TEMPLATE: &str = include_str!("html/template.html");
+
+/// The library that draws pictures, and the style of the page; built from `web/`.
+const SCRIPT: &str = include_str!("html/report.js");
+const STYLE: &str = include_str!("html/report.css");
 
 /// Maximum number of steps of a template. A large study needs some ten thousand; this limit takes seconds.
 const MOST_STEPS: u64 = 10_000_000;
@@ -31,49 +37,96 @@ const MOST_STEPS: u64 = 10_000_000;
 pub struct Report {
     /// Analyses in their order.
     pub sections: Vec<Section>,
+    /// Analyses that answer the question of the study, by name.
+    pub answers: Vec<String>,
+    /// Quantities outside their stated ranges over all analyses.
+    pub outside: Option<TextTable>,
+    /// The same in short, the worst first.
+    pub worst: Vec<String>,
     /// Gearboxes in their order.
     pub gearboxes: Vec<GearboxPage>,
 }
 
 /// One analysis.
-#[derive(Debug, Default)]
+#[derive(Debug, Default, Serialize)]
 pub struct Section {
     /// Name of the analysis.
     pub name: String,
+    /// Title; the name if the study gives none.
+    pub title: String,
     /// Description of the analysis as a sentence.
     pub about: String,
+    /// Note of the study on the analysis.
+    pub note: Option<String>,
+    /// Why the analysis failed, in one line; absent if it did not.
+    pub failed: Option<String>,
+    /// The result in one sentence.
+    pub headline: Option<String>,
+    /// The numbers to remember.
+    pub key_figures: Vec<KeyFigure>,
+    /// What a reader has to be careful about.
+    pub careful: Vec<String>,
     /// Main conclusions.
     pub verdicts: Vec<String>,
-    /// Tables and notes as printed.
-    pub text: String,
-    /// Pictures.
-    pub figures: Vec<Figure>,
+    /// Quantities outside their stated ranges, a line for each; the page counts them, and its table names them.
+    pub outside: Vec<String>,
+    /// Text and tables.
+    pub blocks: Vec<Block>,
+    /// Pictures, the first one shows the result best.
+    #[serde(skip)]
+    pub pictures: Vec<Picture>,
 }
 
 impl Section {
-    /// Adds text and verdicts of an outcome; its pictures are taken from the page one by one.
-    pub fn add_text(&mut self, page: &Page) {
-        for text in &page.text {
-            let (Text::Everywhere(text) | Text::InReport(text)) = text;
-            self.text.push_str(text);
-        }
-        self.verdicts.extend(page.verdicts.iter().cloned());
+    /// The result in one sentence: the headline, or the first conclusion.
+    pub fn result(&self) -> String {
+        let first = self.headline.as_ref().or(self.verdicts.first());
+        first.map_or_else(|| "done".to_owned(), String::clone)
+    }
+
+    /// Adds the page of an outcome.
+    pub fn add(&mut self, page: Page) {
+        self.headline = page.headline;
+        self.key_figures = page.key_figures;
+        self.careful = page.careful;
+        self.outside = page.outside;
+        self.blocks.extend(page.blocks);
+        self.verdicts.extend(page.verdicts);
+        // The name of the analysis is the heading above its pictures.
+        let prefix = format!("{}: ", self.name);
+        self.pictures.extend(page.pictures.into_iter().map(|mut picture| {
+            if let Some(rest) = picture.title().strip_prefix(&prefix) {
+                *picture.title_mut() = capitalised(rest);
+            }
+            picture
+        }));
     }
 }
 
-/// A section for templates.
-#[derive(Serialize)]
-struct SectionOfPage<'a> {
-    name: &'a str,
-    about: &'a str,
-    verdicts: &'a [String],
-    text: &'a str,
-    figures: Vec<FigureOfPage<'a>>,
+/// Rounds all numbers to the digits that a picture can show, which makes the page several times smaller.
+fn shorten(value: &mut Value) {
+    match value {
+        Value::Number(number) if number.is_f64() => {
+            let rounded = number.as_f64().and_then(|x| format!("{x:.5e}").parse::<f64>().ok());
+            *value = rounded.map_or(Value::Null, Value::from);
+        }
+        Value::Array(list) => list.iter_mut().for_each(shorten),
+        Value::Object(map) => map.values_mut().for_each(shorten),
+        _ => {}
+    }
 }
 
-/// A figure for templates; its data are in `figures`.
+/// A section or a gearbox for templates, with its pictures.
 #[derive(Serialize)]
-struct FigureOfPage<'a> {
+struct WithPictures<'a, T> {
+    #[serde(flatten)]
+    own: &'a T,
+    pictures: Vec<PictureOfPage<'a>>,
+}
+
+/// A picture for templates; its data are in `pictures`.
+#[derive(Serialize)]
+struct PictureOfPage<'a> {
     id: String,
     title: &'a str,
 }
@@ -93,6 +146,13 @@ pub struct GearboxPage {
     pub tables: Vec<PageTable>,
     /// An operating point as text; empty if there is none.
     pub point: String,
+    /// Torque and speed of that point as text.
+    pub place: String,
+    /// Losses of the parts of the drawing at that point, with the first model set, as JSON: pairs of path and W.
+    pub losses: String,
+    /// Pictures of that point.
+    #[serde(skip)]
+    pub pictures: Vec<Picture>,
     /// Loads, balances and shares at that point.
     pub point_tables: Vec<PageTable>,
     /// Assumptions with their reasons.
@@ -123,6 +183,8 @@ pub struct Frame {
     pub conditions: String,
     /// Version of the program.
     pub version: String,
+    /// Hash of the study, its gearboxes and their files.
+    pub inputs: String,
     /// Crates with models.
     pub packages: Vec<String>,
     /// The study as written.
@@ -138,6 +200,13 @@ impl Frame {
             question: study.entry.question.clone().unwrap_or_default(),
             conditions: conditions(study),
             version: version.to_owned(),
+            inputs: hash(
+                inputs(study)
+                    .iter()
+                    .flat_map(|file| file.fnv1a_64.bytes())
+                    .collect::<Vec<u8>>()
+                    .as_slice(),
+            ),
             packages: packages.iter().map(ToString::to_string).collect(),
             study: study.text.clone(),
         }
@@ -184,61 +253,64 @@ impl Report {
         self.filled(frame, template).map_err(template_fault)
     }
 
-    fn filled(&self, frame: &Frame, template: Option<&str>) -> Result<String, minijinja::Error> {
+    fn filled<'a>(&'a self, frame: &Frame, template: Option<&str>) -> Result<String, minijinja::Error> {
         let mut environment = Environment::new();
         environment.set_auto_escape_callback(|_| AutoEscape::Html);
         environment.set_fuel(Some(MOST_STEPS));
         // The environment has no named templates, so a template cannot include any, not even itself.
         let page = environment.template_from_named_str("report", template.unwrap_or(TEMPLATE))?;
-        let all: Vec<&Figure> = self.sections.iter().flat_map(|section| &section.figures).collect();
-        let id = |number: usize| format!("figure-{number}");
-        let datum = |(number, shown): (usize, &&Figure)| {
-            let [id, title] = [id(number), shown.title().to_owned()].map(Value::from);
-            let json = format!(r#"{{"id":{id},"title":{title},"spec":{}}}"#, shown.plotly());
-            // A text in the data must neither end the enclosing script nor start a comment or script in it.
-            json.replace('<', "\\u003c")
+        let id = |number: usize| format!("picture-{number}");
+        let mut all: Vec<&Picture> = Vec::new();
+        let mut placed = |pictures: &'a [Picture]| -> Vec<PictureOfPage<'a>> {
+            let pictures = pictures.iter().map(|picture| {
+                all.push(picture);
+                PictureOfPage {
+                    id: id(all.len() - 1),
+                    title: picture.title(),
+                }
+            });
+            pictures.collect()
         };
-        let data = || all.par_iter().enumerate().map(datum).collect::<Vec<String>>();
-        let (data, script) = rayon::join(data, script);
-        let mut sections = Vec::new();
-        let mut numbers = 0..;
-        for section in &self.sections {
-            let figures = section.figures.iter().zip(numbers.by_ref());
-            let figures = figures.map(|(shown, number)| FigureOfPage {
-                id: id(number),
-                title: shown.title(),
+        let sections = self.sections.iter().map(|own| WithPictures {
+            own,
+            pictures: placed(&own.pictures),
+        });
+        let sections: Vec<_> = sections.collect();
+        let gearboxes = self.gearboxes.iter().map(|own| WithPictures {
+            own,
+            pictures: placed(&own.pictures),
+        });
+        let gearboxes: Vec<_> = gearboxes.collect();
+        let datum = |(number, picture): (usize, &&Picture)| {
+            let json = serde_json::to_value(picture).map(|mut value| {
+                shorten(&mut value);
+                value.to_string()
             });
-            sections.push(SectionOfPage {
-                name: &section.name,
-                about: &section.about,
-                verdicts: &section.verdicts,
-                text: &section.text,
-                figures: figures.collect(),
-            });
-        }
+            let json = json.unwrap_or_default();
+            // A text in the data must neither end the enclosing script nor start a comment or script in it.
+            format!("\"{}\":{}", id(number), json.replace('<', "\\u003c"))
+        };
+        let data: Vec<String> = all.par_iter().enumerate().map(datum).collect();
         let filled = minijinja::context! {
             frame => Filled::from(Serde(frame)),
             sections => Filled::from(Serde(&sections)),
-            gearboxes => Filled::from(Serde(&self.gearboxes)),
-            plotly => Filled::from_safe_string(script),
-            figures => Filled::from_safe_string(format!("[{}]", data.join(","))),
+            gearboxes => Filled::from(Serde(&gearboxes)),
+            answers => Filled::from(Serde(&self.answers)),
+            outside => Filled::from(Serde(&self.outside)),
+            worst => Filled::from(Serde(&self.worst)),
+            script => Filled::from_safe_string(SCRIPT.to_owned()),
+            style => Filled::from_safe_string(STYLE.to_owned()),
+            pictures => Filled::from_safe_string(format!("{{{}}}", data.join(","))),
         };
         page.render(filled)
     }
-}
-
-/// The plotting library as a script element. The crate also contains a library for formulas, which is not needed.
-fn script() -> String {
-    let mut both = plotly::Plot::offline_js_sources();
-    let end = both.find("</script>").map_or(both.len(), |at| at + "</script>".len());
-    both.truncate(end);
-    both
 }
 
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
+    use crate::Figure;
     use crate::plot::Line;
 
     fn report() -> Report {
@@ -250,13 +322,13 @@ mod tests {
         };
         let section = Section {
             name: "limit".to_owned(),
-            text: "a < b".to_owned(),
-            figures: vec![figure],
+            blocks: vec![Block::Text("a < b".to_owned())],
+            pictures: vec![Picture::Figure(figure)],
             ..Section::default()
         };
         Report {
             sections: vec![section],
-            gearboxes: Vec::new(),
+            ..Report::default()
         }
     }
 
@@ -266,6 +338,7 @@ mod tests {
             question: String::new(),
             conditions: String::new(),
             version: "0".to_owned(),
+            inputs: String::new(),
             packages: Vec::new(),
             study: String::new(),
         }
@@ -279,8 +352,8 @@ mod tests {
     fn texts_cannot_break_the_page() {
         let page = page(&report(), None).unwrap();
         assert!(page.contains("A &amp; B") && page.contains("a &lt; b"));
-        let data = page.split_once("const figures = ").unwrap().1;
-        let data = data.split_once(";\n").unwrap().0;
+        let data = page.split_once("id=\"pictures\">").unwrap().1;
+        let data = data.split_once("</script>").unwrap().0;
         assert!(
             !data.contains('<'),
             "a title ends the script, or hides what follows it: {data}"
@@ -290,7 +363,7 @@ mod tests {
 
     #[test]
     fn a_template_of_the_user_takes_the_place_and_its_faults_are_reported() {
-        let own = "{{ frame.title }}: {% for s in sections %}{{ s.name }} {{ s.figures | length }}{% endfor %}";
+        let own = "{{ frame.title }}: {% for s in sections %}{{ s.name }} {{ s.pictures | length }}{% endfor %}";
         assert_eq!(page(&report(), Some(own)).unwrap(), "A &amp; B: limit 1");
         let fault = page(&report(), Some("{% for %}")).unwrap_err();
         assert!(

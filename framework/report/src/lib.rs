@@ -20,6 +20,7 @@ mod views;
 mod contours;
 mod deviations;
 pub mod figure;
+pub mod picture;
 pub mod plot;
 mod schematic;
 
@@ -27,6 +28,7 @@ mod schematic;
 pub mod csv;
 pub mod exports;
 pub mod parquet;
+pub mod xlsx;
 
 pub use figure::{Cloud, Figure, Map};
 pub use schematic::schematic;

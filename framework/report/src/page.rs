@@ -11,24 +11,49 @@ use gearloss_studies::analyses::Outcome;
 use gearloss_studies::analyses::ranges::PublishedCoefficient;
 use gearloss_studies::points::Note;
 use gearloss_studies::table::Table;
+use serde::Serialize;
 
 use crate::Figure;
+use crate::picture::{Picture, Screen};
 use crate::stated_ranges::StatedRanges;
 use crate::text::{TextTable, significant};
 
 /// The presentation of an outcome, in reading order.
 #[derive(Debug, Default)]
 pub struct Page {
-    /// Text for terminal and report.
-    pub text: Vec<Text>,
-    /// Main conclusions; the report begins with them.
+    /// The result in one sentence with its numbers.
+    pub headline: Option<String>,
+    /// The numbers that a reader remembers, three to five.
+    pub key_figures: Vec<KeyFigure>,
+    /// What a reader has to be careful about, the worst first.
+    pub careful: Vec<String>,
+    /// Text and tables, for the details of the report and for `--verbose`.
+    pub blocks: Vec<Block>,
+    /// Quantities outside their stated ranges, a line for each.
+    pub outside: Vec<String>,
+    /// Main conclusions; the section of the report begins with them.
     pub verdicts: Vec<String>,
-    /// Pictures.
+    /// Figures as files, if they are requested.
     pub figures: Vec<NamedFigure>,
+    /// Pictures of the report; the first one shows the result best.
+    pub pictures: Vec<Picture>,
     /// Files for other programs.
     pub files: Vec<NamedFile>,
     /// Reasons for missing files for other programs.
     pub faults: Vec<Diagnostic>,
+}
+
+/// A number with its name.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
+pub struct KeyFigure {
+    /// What it is.
+    pub label: String,
+    /// The number, with sensible digits.
+    pub value: String,
+    /// Its unit.
+    pub unit: String,
+    /// Where, between which limits, or compared with what; may be empty.
+    pub detail: String,
 }
 
 /// A file for another program.
@@ -40,13 +65,14 @@ pub struct NamedFile {
     pub bytes: Vec<u8>,
 }
 
-/// A piece of text.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Text {
-    /// For terminal and report.
-    Everywhere(String),
-    /// For the report alone.
-    InReport(String),
+/// A piece of the details of an outcome.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Block {
+    /// Lines of text.
+    Text(String),
+    /// A table.
+    Table(TextTable),
 }
 
 /// A figure with the name of its file.
@@ -61,32 +87,33 @@ pub struct NamedFigure {
 impl Page {
     /// Adds a line.
     pub fn line(&mut self, text: impl AsRef<str>) {
-        self.text.push(Text::Everywhere(format!("{}\n", text.as_ref())));
+        self.blocks.push(Block::Text(format!("{}\n", text.as_ref())));
     }
 
     /// Adds lines unchanged.
     pub fn lines(&mut self, text: String) {
-        self.text.push(Text::Everywhere(text));
+        self.blocks.push(Block::Text(text));
     }
 
-    /// Adds a main conclusion, which is also shown at the top of the report.
+    /// Adds a table.
+    pub fn table(&mut self, table: TextTable) {
+        self.blocks.push(Block::Table(table));
+    }
+
+    /// Adds a key figure: its name, value, unit and detail.
+    pub fn key_figure(&mut self, label: &str, value: impl Into<String>, unit: &str, detail: impl Into<String>) {
+        self.key_figures.push(KeyFigure {
+            label: label.to_owned(),
+            value: value.into(),
+            unit: unit.to_owned(),
+            detail: detail.into(),
+        });
+    }
+
+    /// Adds a main conclusion, which is also shown at the top of its section.
     pub fn verdict(&mut self, sentence: String) {
         self.line(&sentence);
         self.verdicts.push(sentence);
-    }
-
-    /// Adds quantities outside their stated ranges. The terminal shows them once, at the end of a run.
-    pub fn outside(&mut self, notes: &[Note]) {
-        self.text.push(Text::InReport(outside(notes)));
-    }
-
-    /// Adds quantities (path, name) that are outside their stated ranges in some samples. The terminal shows them once, at the end of a
-    /// run.
-    pub fn outside_at_samples(&mut self, left: &[&(String, String)]) {
-        for (path, name) in left {
-            let text = format!("outside: {path}: {name} is outside its validity range in some samples\n");
-            self.text.push(Text::InReport(text));
-        }
     }
 
     /// Adds the published values of varied quantities that are coefficients of formulas.
@@ -99,10 +126,26 @@ impl Page {
         }
     }
 
-    /// Adds a figure.
+    /// Adds a figure to the report and to the files.
     pub fn figure(&mut self, name: impl Into<String>, figure: Figure) {
+        self.pictures.push(Picture::Figure(figure.clone()));
+        self.file_figure(name, figure);
+    }
+
+    /// Adds a figure to the files alone, because a picture of the report shows the same.
+    pub fn file_figure(&mut self, name: impl Into<String>, figure: Figure) {
         let name = name.into();
         self.figures.push(NamedFigure { name, figure });
+    }
+
+    /// Adds a figure to the report alone.
+    pub fn report_figure(&mut self, figure: Figure) {
+        self.pictures.push(Picture::Figure(figure));
+    }
+
+    /// Adds a picture for the screen.
+    pub fn screen(&mut self, picture: Screen) {
+        self.pictures.push(Picture::Screen(picture));
     }
 
     /// Adds a file for another program.
@@ -126,6 +169,9 @@ impl Page {
             Some(view) => (view.show)(own, &mut page),
             None => page.tables(&outcome.tables()),
         }
+        let mut ranges = StatedRanges::default();
+        ranges.add_outcome(&outcome.head().analysis, outcome);
+        page.outside = ranges.lines();
         page
     }
 
@@ -142,8 +188,7 @@ impl Page {
                 });
                 text.row(cells.collect());
             }
-            self.line(&table.name);
-            self.lines(text.render());
+            self.table(text.titled(&table.name));
             if table.len() > MOST_ROWS {
                 self.line(format!("... and {} more rows", table.len() - MOST_ROWS));
             }

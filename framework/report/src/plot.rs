@@ -10,6 +10,7 @@ use plotters::coord::Shift;
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
+use serde::Serialize;
 
 /// Colours that are distinguishable for every kind of colour vision (Okabe and Ito 2008).
 pub(super) const COLOURS: [RGBColor; 8] = [
@@ -46,7 +47,7 @@ pub use intervals::Interval;
 pub(super) use intervals::intervals;
 
 /// One bar of a stack.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Bar {
     /// Below the bar.
     pub label: String,
@@ -61,7 +62,7 @@ pub struct Bar {
 }
 
 /// One line.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Line {
     /// Name in the legend.
     pub name: String,
@@ -72,7 +73,8 @@ pub struct Line {
 }
 
 /// How a line is drawn.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Stroke {
     /// As a line.
     #[default]

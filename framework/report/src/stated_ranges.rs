@@ -1,10 +1,12 @@
 //! Quantities outside their stated ranges in all analyses of a run, for the end of its output.
 
+use std::collections::BTreeMap;
+
 use gearloss_studies::analyses::Outcome;
 use gearloss_studies::distinct::distinct;
 use gearloss_studies::points::Note;
 
-use crate::text::{beyond, significant};
+use crate::text::{TextTable, beyond, number, short, significant};
 
 /// Start of each line.
 const OUTSIDE: &str = "outside: ";
@@ -19,10 +21,12 @@ struct Values {
     unit: String,
     /// Both ends as text, because JSON has no infinite numbers, and their origin.
     range: (String, String),
+    /// Share of the components in the loss of each analysis that knows it.
+    loss_shares: BTreeMap<String, f64>,
 }
 
 impl Values {
-    fn from_note(note: &Note) -> Option<Self> {
+    fn from_note(note: &Note, analysis: Option<&str>) -> Option<Self> {
         let stated = note.range.filter(|_| note.outside > 0)?;
         Some(Self {
             least: note.least,
@@ -31,6 +35,11 @@ impl Values {
             outside: note.outside.into(),
             unit: note.unit.to_owned(),
             range: (beyond(stated.least, stated.greatest), stated.origin.to_owned()),
+            loss_shares: note
+                .loss_share
+                .map(|share| (analysis.unwrap_or_default().to_owned(), share))
+                .into_iter()
+                .collect(),
         })
     }
 
@@ -39,6 +48,15 @@ impl Values {
         self.greatest = self.greatest.max(other.greatest);
         self.points += other.points;
         self.outside += other.outside;
+    }
+
+    /// Largest share in the loss of an analysis; absent if no analysis knows it.
+    fn loss_share(&self) -> Option<f64> {
+        self.loss_shares.values().copied().reduce(f64::max)
+    }
+
+    fn share_of_points(&self) -> f64 {
+        self.outside as f64 / self.points.max(1) as f64
     }
 }
 
@@ -60,7 +78,7 @@ impl Left {
         Self {
             path: note.path.clone(),
             name: note.name.to_owned(),
-            values: Values::from_note(note),
+            values: Values::from_note(note, analyses.first().map(String::as_str)),
             analyses,
         }
     }
@@ -99,7 +117,14 @@ impl StatedRanges {
             return;
         };
         match (&mut own.values, other.values) {
-            (Some(values), Some(more)) => values.add(&more),
+            (Some(values), Some(more)) => {
+                values.add(&more);
+                // The same component with another model set.
+                for (analysis, share) in more.loss_shares {
+                    let own = values.loss_shares.entry(analysis).or_default();
+                    *own = own.max(share);
+                }
+            }
             (None, more) => own.values = more,
             (Some(_), None) => {}
         }
@@ -110,8 +135,8 @@ impl StatedRanges {
         }
     }
 
-    /// A line for each quantity and range, with all its models.
-    pub fn lines(&self) -> Vec<String> {
+    /// Quantities with the same range, the one that concerns most of the loss first.
+    fn groups(&self) -> Vec<Group> {
         let mut groups: Vec<Vec<&Left>> = Vec::new();
         for left in &self.0 {
             let range = |left: &Left| left.values.as_ref().map(|values| values.range.clone());
@@ -121,40 +146,145 @@ impl StatedRanges {
                 None => groups.push(vec![left]),
             }
         }
-        groups.iter().map(|group| line(group)).collect()
+        let mut groups: Vec<Group> = groups.iter().map(|group| Group::new(group)).collect();
+        groups.sort_by(|a, b| b.weight().total_cmp(&a.weight()));
+        groups
+    }
+
+    /// A line for each quantity and range, with all its models.
+    pub fn lines(&self) -> Vec<String> {
+        self.groups().iter().map(Group::line).collect()
+    }
+
+    /// The quantities that concern most of the loss, in short, the worst first.
+    pub fn worst(&self) -> Vec<String> {
+        self.groups().iter().map(Group::short).collect()
+    }
+
+    /// All of them as a table; absent if there are none.
+    pub fn table(&self) -> Option<TextTable> {
+        let mut table = TextTable::new(&[
+            "models",
+            "quantity",
+            "stated range",
+            "from",
+            "to",
+            "unit",
+            "points outside %",
+            "share of the loss %",
+            "source of the range",
+            "analyses",
+        ]);
+        let groups = self.groups();
+        for group in &groups {
+            let values = group.values.as_ref();
+            let percent = |share: Option<f64>| number(share.map(|share| 100.0 * share), 1);
+            table.row(vec![
+                group.paths.join(", "),
+                group.name.clone(),
+                values.map_or_else(|| "left in some samples".to_owned(), |v| v.range.0.clone()),
+                values.map_or_else(String::new, |v| significant(v.least)),
+                values.map_or_else(String::new, |v| significant(v.greatest)),
+                values.map_or_else(String::new, |v| v.unit.clone()),
+                percent(values.map(Values::share_of_points)),
+                percent(values.and_then(Values::loss_share)),
+                values.map_or_else(String::new, |v| v.range.1.clone()),
+                group.analyses.join(", "),
+            ]);
+        }
+        (!groups.is_empty()).then_some(table)
     }
 }
 
-/// One line for the models outside the same range.
-fn line(group: &[&Left]) -> String {
-    let paths: Vec<&str> = group.iter().map(|left| left.path.as_str()).collect();
-    let analyses = distinct(group.iter().flat_map(|left| &left.analyses).map(String::as_str));
-    let analyses = match &analyses[..] {
-        [] => String::new(),
-        list => format!("; in {}", list.join(", ")),
-    };
-    let (paths, name) = (paths.join(", "), &group[0].name);
-    let mut values = group.iter().filter_map(|left| left.values.clone());
-    let Some(first) = values.next() else {
-        return format!("{OUTSIDE}{paths}: {name} is outside its validity range in some samples{analyses}");
-    };
-    let all = values.fold(first, |mut all, values| {
-        all.add(&values);
-        all
-    });
-    let unit = if all.unit == "-" {
+/// Models outside the same range of a quantity.
+struct Group {
+    paths: Vec<String>,
+    name: String,
+    /// Of all of them; absent if samples record only that they were out of range.
+    values: Option<Values>,
+    analyses: Vec<String>,
+}
+
+impl Group {
+    fn new(group: &[&Left]) -> Self {
+        let mut values = group.iter().filter_map(|left| left.values.clone());
+        let first = values.next();
+        let all = first.map(|first| {
+            values.fold(first, |mut all, values| {
+                all.add(&values);
+                // Different components of one analysis: their shares of its loss add up.
+                for (analysis, share) in values.loss_shares {
+                    let own = all.loss_shares.entry(analysis).or_default();
+                    *own = (*own + share).min(1.0);
+                }
+                all
+            })
+        });
+        Self {
+            paths: group.iter().map(|left| left.path.clone()).collect(),
+            name: group[0].name.clone(),
+            values: all,
+            analyses: distinct(group.iter().flat_map(|left| &left.analyses).cloned()),
+        }
+    }
+
+    /// How much of the results it concerns.
+    fn weight(&self) -> f64 {
+        let of = |values: &Values| values.share_of_points() * values.loss_share().unwrap_or(0.1);
+        self.values.as_ref().map_or(0.0, of)
+    }
+
+    fn line(&self) -> String {
+        let analyses = match &self.analyses[..] {
+            [] => String::new(),
+            list => format!("; in {}", list.join(", ")),
+        };
+        let (paths, name) = (self.paths.join(", "), &self.name);
+        let Some(all) = &self.values else {
+            return format!("{OUTSIDE}{paths}: {name} is outside its validity range in some samples{analyses}");
+        };
+        let (range, origin) = &all.range;
+        format!(
+            "{OUTSIDE}{paths}: {name} {} to {}{} is {range} at {} of {} points ({origin}){analyses}",
+            significant(all.least),
+            significant(all.greatest),
+            unit(&all.unit),
+            all.outside,
+            all.points
+        )
+    }
+
+    fn short(&self) -> String {
+        let first = self.paths[0].trim_end_matches(".model");
+        let paths = match self.paths.len() {
+            1 => first.to_owned(),
+            count => format!("{first} and {} more", count - 1),
+        };
+        let name = &self.name;
+        let Some(all) = &self.values else {
+            return format!("{paths}: {name} leaves its range in some samples");
+        };
+        let share = all
+            .loss_share()
+            .map_or_else(String::new, |share| format!(", {} % of the loss", short(100.0 * share)));
+        format!(
+            "{paths}: {name} of {} to {}{} leaves its range ({}) at {} % of the points{share}",
+            short(all.least),
+            short(all.greatest),
+            unit(&all.unit),
+            all.range.0,
+            short(100.0 * all.share_of_points())
+        )
+    }
+}
+
+/// A unit behind a number.
+fn unit(symbol: &str) -> String {
+    if symbol == "-" {
         String::new()
     } else {
-        format!(" {}", all.unit)
-    };
-    let (range, origin) = &all.range;
-    format!(
-        "{OUTSIDE}{paths}: {name} {} to {}{unit} is {range} at {} of {} points ({origin}){analyses}",
-        significant(all.least),
-        significant(all.greatest),
-        all.outside,
-        all.points
-    )
+        format!(" {symbol}")
+    }
 }
 
 #[cfg(test)]
@@ -172,6 +302,7 @@ mod tests {
                 outside: 4,
                 unit: "-".to_owned(),
                 range: ("outside 0 to 5".to_owned(), "catalogue".to_owned()),
+                loss_shares: BTreeMap::from([(analysis.to_owned(), 0.25)]),
             }),
             analyses: vec![analysis.to_owned()],
         }
@@ -190,5 +321,7 @@ mod tests {
               (catalogue); in map, city"
             ]
         );
+        let short = "bearings.B1 and 1 more: n_dm of 1 to 9 leaves its range (outside 0 to 5) at 40 % of the points, 50 % of the loss";
+        assert_eq!(ranges.worst(), [short]);
     }
 }

@@ -5,6 +5,9 @@ pub use gearloss_studies::analyses::numbers::spread_over;
 
 use std::fmt::Write as _;
 
+use gearloss_framework::resolve::OWN_MODELS;
+use serde::Serialize;
+
 pub use gearloss_studies::analyses::numbers::{beyond, figures, fixed, significant};
 
 /// Text that grows line by line.
@@ -30,7 +33,11 @@ impl Lines {
 }
 
 /// A table of texts; columns of numbers are right-aligned.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
 pub struct TextTable {
+    /// Title; may be empty.
+    title: String,
+    /// Cells, the first row is the head.
     rows: Vec<Vec<String>>,
 }
 
@@ -38,7 +45,16 @@ impl TextTable {
     /// A table with its header.
     pub fn new(head: &[&str]) -> Self {
         Self {
+            title: String::new(),
             rows: vec![head.iter().map(|h| (*h).to_owned()).collect()],
+        }
+    }
+
+    /// The table with a title.
+    pub fn titled(self, title: impl Into<String>) -> Self {
+        Self {
+            title: title.into(),
+            ..self
         }
     }
 
@@ -47,7 +63,7 @@ impl TextTable {
         self.rows.push(cells);
     }
 
-    /// The table as text.
+    /// The table as text, below its title.
     pub fn render(&self) -> String {
         let columns = self.rows.iter().map(Vec::len).max().unwrap_or(0);
         let width = |i: usize| {
@@ -69,6 +85,9 @@ impl TextTable {
         };
         let right: Vec<bool> = (0..columns).map(numeric).collect();
         let mut text = String::new();
+        if !self.title.is_empty() {
+            text = format!("{}\n", self.title);
+        }
         for (n, row) in self.rows.iter().enumerate() {
             let mut line = String::new();
             for (i, cell) in row.iter().enumerate() {
@@ -92,6 +111,82 @@ impl TextTable {
     }
 }
 
+/// A number with three significant digits for a sentence; thousands are separated by narrow spaces.
+pub fn short(x: f64) -> String {
+    // Digits before the decimal point are all kept.
+    let digits = if x.abs() >= 1000.0 { 6 } else { 3 };
+    let x = if x.abs() >= 1000.0 { x.round() } else { x };
+    spaced(&figures(x, digits))
+}
+
+/// A difference with its sign and three significant digits.
+pub fn signed(x: f64) -> String {
+    let sign = if x > 0.0 { "+" } else { "" };
+    format!("{sign}{}", short(x))
+}
+
+/// The digits of a number in groups of three from ten thousand, as engineers write it.
+pub fn spaced(number: &str) -> String {
+    let (sign, rest) = number.strip_prefix('-').map_or(("", number), |rest| ("-", rest));
+    let (whole, decimals) = rest.find('.').map_or((rest, ""), |at| rest.split_at(at));
+    if whole.len() < 5 || !whole.bytes().all(|digit| digit.is_ascii_digit()) {
+        return number.to_owned();
+    }
+    let first = whole.len() % 3;
+    let mut groups: Vec<&str> = Vec::new();
+    if first > 0 {
+        groups.push(&whole[..first]);
+    }
+    groups.extend((first..whole.len()).step_by(3).map(|i| &whole[i..i + 3]));
+    format!("{sign}{}{decimals}", groups.join("\u{202f}"))
+}
+
+/// A text with a capital letter at its start.
+pub fn capitalised(text: &str) -> String {
+    let mut letters = text.chars();
+    letters
+        .next()
+        .map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}
+
+/// The unit of a difference in a sentence, where it is clear that points are percentage points.
+pub fn brief(unit: &str) -> &str {
+    if unit == "percentage points" { "points" } else { unit }
+}
+
+/// The name of a model set in front of its result; nothing if there are only the models of the gearbox.
+pub fn of_set(set: &str, sets: usize) -> String {
+    if set == OWN_MODELS && sets == 1 {
+        String::new()
+    } else {
+        format!("{set}: ")
+    }
+}
+
+/// An operating point in words, torque in Nm, speed in rpm.
+pub fn place(torque: f64, speed: f64) -> String {
+    format!("{} Nm, {} rpm", short(torque), short(speed))
+}
+
+/// Two numbers as a range with the fewest decimals that distinguish them, at least `digits`.
+pub fn range(low: f64, high: f64, digits: usize) -> String {
+    let words = |digits: usize| [low, high].map(|x| spaced(&fixed(x, digits)));
+    let own = (digits..digits + 3).map(words).find(|[low, high]| low != high);
+    let [low, high] = own.unwrap_or_else(|| words(digits));
+    if low == high { low } else { format!("{low} to {high}") }
+}
+
+/// Minimum and maximum with what they belong to.
+pub fn extremes<T: Copy>(values: impl Iterator<Item = (f64, T)>) -> Option<[(f64, T); 2]> {
+    values.fold(None, |ends, new| match ends {
+        None => Some([new, new]),
+        Some([low, high]) => Some([
+            if new.0 < low.0 { new } else { low },
+            if new.0 > high.0 { new } else { high },
+        ]),
+    })
+}
+
 /// A number with `digits` decimals; a dash if absent.
 pub fn number(value: Option<f64>, digits: usize) -> String {
     value.map_or_else(|| "-".to_owned(), |x| fixed(x, digits))
@@ -104,7 +199,19 @@ pub fn spread(count: usize) -> Vec<usize> {
 
 #[cfg(test)]
 mod tests {
-    use super::{fixed, number};
+    use super::{fixed, number, range, short, signed};
+
+    #[test]
+    fn numbers_of_sentences_are_short() {
+        assert_eq!(short(98.7654), "98.8");
+        assert_eq!(short(-0.012_345), "-0.0123");
+        assert_eq!(short(8000.4), "8000");
+        assert_eq!(short(22_000.0), "22\u{202f}000");
+        assert_eq!(short(-1_234_567.8), "-1.23457e6");
+        assert_eq!(signed(0.5), "+0.5");
+        assert_eq!(range(98.1234, 98.1299, 1), "98.12 to 98.13");
+        assert_eq!(range(50.0, 50.0, 1), "50.0");
+    }
 
     #[test]
     fn huge_numbers_are_short() {

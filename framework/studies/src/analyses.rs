@@ -251,6 +251,10 @@ macro_rules! register_analysis {
 /// An analysis as an entry of a study.
 #[derive(Clone)]
 pub struct AnalysisEntry {
+    /// Title in the report; absent: the name of the analysis.
+    pub title: Option<String>,
+    /// Note in the report.
+    pub note: Option<String>,
     kind: &'static AnalysisKind,
     written: Arc<Written>,
 }
@@ -299,8 +303,13 @@ impl AnalysisEntry {
 impl<'de> Deserialize<'de> for AnalysisEntry {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let mut value = Value::deserialize(deserializer)?;
-        let name = value.as_object_mut().and_then(|record| record.shift_remove("type"));
-        let name = name.as_ref().and_then(Value::as_str).unwrap_or_default();
+        let mut text = |key: &str| match value.as_object_mut().and_then(|record| record.shift_remove(key)) {
+            Some(Value::String(text)) => Some(text),
+            _ => None,
+        };
+        let [name, title, note] = ["type", "title", "note"].map(&mut text);
+        let name = name.unwrap_or_default();
+        let name = name.as_str();
         let kinds = AnalysisKind::linked();
         let Some(kind) = kinds.iter().copied().find(|kind| kind.name == name) else {
             let close = did_you_mean(name, kinds.iter().map(|kind| kind.name));
@@ -308,7 +317,12 @@ impl<'de> Deserialize<'de> for AnalysisEntry {
             return Err(D::Error::custom(format!("there is no analysis `{name}`{help}")));
         };
         let written = (kind.read)(value).map_err(D::Error::custom)?;
-        Ok(Self { kind, written })
+        Ok(Self {
+            title,
+            note,
+            kind,
+            written,
+        })
     }
 }
 
@@ -324,7 +338,11 @@ impl JsonSchema for AnalysisEntry {
             variant.insert("type".to_owned(), "object".into());
             variant.insert(
                 "properties".to_owned(),
-                serde_json::json!({ "type": { "type": "string", "const": kind.name } }),
+                serde_json::json!({
+                    "type": { "type": "string", "const": kind.name },
+                    "title": { "type": "string", "description": "Title in the report; default: the name of the analysis." },
+                    "note": { "type": "string", "description": "Note in the report." },
+                }),
             );
             variant.insert("required".to_owned(), serde_json::json!(["type"]));
             variant.to_value()

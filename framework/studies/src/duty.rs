@@ -8,7 +8,7 @@ mod spectrum;
 mod trace;
 mod vehicle;
 
-pub use cycle::{CycleEntry, Duty, FileCycleEntry, ShippedCycleEntry, SpectrumCycleEntry};
+pub use cycle::{CycleEntry, Duty, FileCycleEntry, PhaseEntry, ShippedCycleEntry, SpectrumCycleEntry};
 pub use spectrum::{Spectrum, SpectrumFile, SpectrumPoint};
 pub use trace::{Sample, Trace};
 pub use vehicle::{

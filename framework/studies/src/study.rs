@@ -22,7 +22,7 @@ pub use axes::{AxisError, Envelope, OfRating, PowerAxis, Shares, Span, SpeedAxis
 pub use by::By;
 pub use compare::{Difference, Quantity};
 pub use data::Data;
-pub use drive::DriveEntry;
+pub use drive::{DriveEntry, RideEntry};
 pub use files::Study;
 pub use identify::{
     FoldsBy, FoldsEntry, HoldOutEntry, HoldOutRows, IdentifiedEntry, OverEntry, PriorEntry, ScaleEntry,
@@ -53,6 +53,9 @@ pub struct StudyEntry {
     pub title: Option<String>,
     /// The question of the study, shown at the top of the report.
     pub question: Option<String>,
+    /// Analyses whose results answer the question, the most important first; default: the first three with a result in one sentence.
+    #[serde(default)]
+    pub answered_by: Vec<String>,
     /// Operating point for forces, power balance and evidence of losses in the report; default: maximum torque and speed of the first grid.
     pub report_at: Option<ReportAt>,
     /// Gearbox files by name, relative to the study.
@@ -262,10 +265,18 @@ impl<'a> Uses<'a> {
     }
 
     pub(crate) fn driving(drive: &'a DriveEntry) -> Self {
+        Self::new(drive.gearbox.as_ref(), &drive.model_sets)
+            .in_gears(&drive.gear)
+            .riding(Some(&drive.ride))
+    }
+
+    /// With cycles and a vehicle.
+    pub(crate) fn riding(self, ride: Option<&'a RideEntry>) -> Self {
+        let Some(ride) = ride else { return self };
         Self {
-            cycles: &drive.cycles,
-            vehicle: drive.vehicle.as_ref(),
-            ..Self::new(drive.gearbox.as_ref(), &drive.model_sets).in_gears(&drive.gear)
+            cycles: &ride.cycles,
+            vehicle: ride.vehicle.as_ref(),
+            ..self
         }
     }
 

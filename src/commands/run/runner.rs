@@ -6,8 +6,9 @@ use std::path::PathBuf;
 
 use gearloss_framework::language::Language;
 use gearloss_report::html::{Report, Section};
-use gearloss_report::page::{Page, Text};
+use gearloss_report::page::Page;
 use gearloss_report::stated_ranges::StatedRanges;
+use gearloss_report::text::capitalised;
 use gearloss_studies::analyses::progress::{Progress, Steps};
 use gearloss_studies::analyses::{AnalysisEntry, Context, Outcome, Stopped};
 use gearloss_studies::run::StudyRun;
@@ -15,6 +16,7 @@ use gearloss_studies::study::{Study, Write};
 use gearloss_studies::tasks::TaskResults;
 use indicatif::{ProgressBar, ProgressStyle};
 
+use super::console::Shown;
 use super::result_files::Files;
 use super::shard_tasks::ShardTasks;
 use super::table::Tables;
@@ -37,6 +39,8 @@ pub struct Run<'a> {
     pub(super) analyses: StudyRun<'a>,
     /// Task results of shards.
     pub(super) tasks: Option<ShardTasks>,
+    /// What is printed.
+    pub(super) shown: Shown,
     /// True for `check`: an analysis stops before it computes and reports its errors.
     only_checks: bool,
 }
@@ -100,8 +104,15 @@ impl Drop for Bar {
 }
 
 impl<'a> Run<'a> {
-    pub(super) fn new(language: &'a Language, study: &'a Study, folder: PathBuf, tasks: Option<ShardTasks>) -> Self {
+    pub(super) fn new(
+        language: &'a Language,
+        study: &'a Study,
+        folder: PathBuf,
+        tasks: Option<ShardTasks>,
+        shown: Shown,
+    ) -> Self {
         Self {
+            shown,
             language,
             study,
             analyses: StudyRun::new(language, study),
@@ -122,7 +133,7 @@ impl<'a> Run<'a> {
         Self {
             bars: Bars { shown: false },
             only_checks: true,
-            ..Self::new(language, study, PathBuf::new(), None)
+            ..Self::new(language, study, PathBuf::new(), None, Shown::Nothing)
         }
     }
 
@@ -137,7 +148,9 @@ impl<'a> Run<'a> {
     pub(super) fn attempt(&self, name: &str, analysis: &AnalysisEntry, out: &mut Out) -> Result<(), Failure> {
         self.report.borrow_mut().sections.push(Section {
             name: name.to_owned(),
+            title: analysis.title.clone().unwrap_or_else(|| title(name)),
             about: analysis.kind().meaning(),
+            note: analysis.note.clone(),
             ..Section::default()
         });
         let tables = Tables::new(&self.files, analysis.formats());
@@ -150,8 +163,12 @@ impl<'a> Run<'a> {
             Ok(outcome) => {
                 let shown = runner.present(analysis, outcome.as_ref(), out);
                 drop(runner);
-                let written = tables.finish(&outcome.tables()).map_err(Failure::from);
-                shown.and(written)
+                let tables = tables.finish(&outcome.tables())?;
+                shown?;
+                if analysis.formats().contains(&Write::Xlsx) {
+                    write::workbook(self, name, &tables)?;
+                }
+                Ok(())
             }
             Err(Stopped::Checked) => Ok(()),
             Err(stopped) => Err(stopped.into()),
@@ -159,11 +176,14 @@ impl<'a> Run<'a> {
     }
 
     /// Changes the section of the present analysis.
-    pub(super) fn in_section(&self, change: impl FnOnce(&mut Section)) {
-        if let Some(section) = self.report.borrow_mut().sections.last_mut() {
-            change(section);
-        }
+    pub(super) fn in_section<T>(&self, change: impl FnOnce(&mut Section) -> T) -> Option<T> {
+        self.report.borrow_mut().sections.last_mut().map(change)
     }
+}
+
+/// The name of an analysis as a title: `rig_fit` becomes `Rig fit`.
+fn title(name: &str) -> String {
+    capitalised(&name.replace('_', " "))
 }
 
 impl Runner<'_> {
@@ -173,13 +193,8 @@ impl Runner<'_> {
         let left = outside + outcome.left_at_samples().len() + outcome.unlisted();
         self.run.left.set(self.run.left.get() + left);
         self.run.stated_ranges.borrow_mut().add_outcome(self.name, outcome);
-        let page = Page::from_outcome(outcome);
-        self.run.in_section(|section| section.add_text(&page));
-        for text in &page.text {
-            if let Text::Everywhere(text) = text {
-                out.text(text)?;
-            }
-        }
+        let mut page = Page::from_outcome(outcome);
+        self.run.shown.page(&page, out)?;
         let formats = analysis.formats();
         for file in outcome.files() {
             write::keep(self.run, &file.name, Ok(file.text.into_bytes()))?;
@@ -187,14 +202,18 @@ impl Runner<'_> {
         if formats.contains(&Write::Json) {
             write::outcome(self, outcome)?;
         }
-        for file in page.files {
+        for file in std::mem::take(&mut page.files) {
             write::keep(self.run, &file.name, Ok(file.bytes))?;
         }
-        for named in page.figures {
-            write::picture(self, &named.name, named.figure, formats)?;
+        if formats.contains(&Write::Svg) {
+            for named in &page.figures {
+                write::picture(self.run, &named.name, &named.figure)?;
+            }
         }
-        if !page.faults.is_empty() {
-            return Err(self.found(page.faults).into());
+        let faults = std::mem::take(&mut page.faults);
+        self.run.in_section(|section| section.add(page));
+        if !faults.is_empty() {
+            return Err(self.found(faults).into());
         }
         match outcome.failures() {
             [] => Ok(()),

@@ -8,6 +8,7 @@ use gearloss_studies::analyses::Stopped;
 use gearloss_studies::study::Study;
 use gearloss_studies::table::{RowSink, Table};
 
+use super::console::Shown;
 use super::manifest::{MANIFEST, Manifest};
 use super::runner::Run;
 use super::shard_tasks::ShardTasks;
@@ -32,7 +33,7 @@ pub fn run(language: &Language, study: &Study, shard: Shard, args: &RunArgs, out
     others.retain(|other| *other != folder && manifest.is_of_splitting(other));
     interrupt::listen();
     let tasks = ShardTasks::of_shard(study, shard, &folder, &others)?;
-    let run = Run::new(language, study, folder.clone(), Some(tasks));
+    let run = Run::new(language, study, folder.clone(), Some(tasks), Shown::Nothing);
     let failed = compute(&run);
     // The same command continues an interrupted run.
     held.finish();

@@ -17,6 +17,8 @@ use super::result_files::{Files, Place};
 pub struct TableFiles {
     csv: Option<(Place, CsvTable<BufWriter<fs::File>>)>,
     parquet: Option<(Place, ParquetTable<BufWriter<fs::File>>)>,
+    /// All rows for a workbook.
+    whole: Option<Table>,
 }
 
 impl TableFiles {
@@ -25,6 +27,7 @@ impl TableFiles {
         let mut table = Self {
             csv: None,
             parquet: None,
+            whole: formats.contains(&Write::Xlsx).then(|| header.header()),
         };
         if formats.contains(&Write::Csv) {
             let (place, file) = Place::new(files, &format!("{}.csv", header.name))?;
@@ -47,17 +50,21 @@ impl TableFiles {
         if let Some((place, parquet)) = &mut self.parquet {
             parquet.rows(rows).map_err(|e| place.cannot_write(e))?;
         }
+        if let Some(whole) = &mut self.whole {
+            whole.extend(std::slice::from_ref(rows), &[(0, 0..rows.len())]);
+        }
         Ok(())
     }
 
-    pub fn finish(self) -> Result<(), StorageError> {
+    /// Completes the files; the whole table if a workbook is requested.
+    pub fn finish(self) -> Result<Option<Table>, StorageError> {
         if let Some((place, csv)) = self.csv {
             place.done(csv.finish())?;
         }
         if let Some((place, parquet)) = self.parquet {
             place.done(parquet.finish().map_err(io::Error::from))?;
         }
-        Ok(())
+        Ok(self.whole)
     }
 }
 
@@ -77,8 +84,10 @@ impl<'r> Tables<'r> {
         }
     }
 
-    /// Writes the tables of an outcome and completes those written in batches.
-    pub fn finish(self, tables: &[Table]) -> Result<(), StorageError> {
+    /// Writes the tables of an outcome and completes those written in batches. Returns the whole tables for a workbook, if one is
+    /// requested.
+    pub fn finish(self, tables: &[Table]) -> Result<Vec<Table>, StorageError> {
+        let mut whole = Vec::new();
         let mut begun = self.begun.into_inner().unwrap_or_else(PoisonError::into_inner);
         for table in tables {
             let file = if let Some(own) = begun.iter().position(|(name, _)| *name == table.name) {
@@ -88,9 +97,9 @@ impl<'r> Tables<'r> {
                 file.rows(table)?;
                 file
             };
-            file.finish()?;
+            whole.extend(file.finish()?);
         }
-        Ok(())
+        Ok(whole)
     }
 }
 

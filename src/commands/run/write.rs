@@ -7,9 +7,10 @@ use std::path::Path;
 use gearloss_framework::files::open_regular;
 use gearloss_report::Figure;
 use gearloss_report::html::{Frame, gearbox_page};
+use gearloss_report::xlsx;
 use gearloss_studies::analyses::Outcome;
 use gearloss_studies::analyses::head::{FNV_BASIS, fnv1a_from, hexadecimal};
-use gearloss_studies::study::Write;
+use gearloss_studies::table::Table;
 
 use super::result_files::Place;
 use super::runner::{Run, Runner};
@@ -23,6 +24,14 @@ pub fn outcome(runner: &Runner<'_>, outcome: &dyn Outcome) -> Result<(), Failure
     Ok(place.done(written)?)
 }
 
+/// Writes the tables of an outcome as a workbook.
+pub fn workbook(run: &Run<'_>, name: &str, tables: &[Table]) -> Result<(), Failure> {
+    let book = run.in_section(|section| xlsx::workbook(section, tables));
+    let Some(book) = book else { return Ok(()) };
+    let bytes = book.map_err(|error| Failure::input(error, "write Parquet, or use a coarser grid"))?;
+    keep(run, &format!("{name}.xlsx"), Ok(bytes))
+}
+
 /// Name of the report.
 pub const REPORT: &str = "report.html";
 
@@ -34,6 +43,9 @@ pub fn report(run: &Run<'_>, template: Option<&str>) -> Result<(), Failure> {
     for (name, gearbox) in &study.gearboxes {
         report.gearboxes.push(gearbox_page(&context, name, gearbox)?);
     }
+    report.answers.clone_from(&run.study.entry.answered_by);
+    report.outside = run.stated_ranges.borrow().table();
+    report.worst = run.stated_ranges.borrow().worst();
     let frame = Frame::new(run.study, run.language, env!("CARGO_PKG_VERSION"));
     keep(run, REPORT, Ok(report.html(&frame, template)?.into_bytes()))
 }
@@ -41,7 +53,7 @@ pub fn report(run: &Run<'_>, template: Option<&str>) -> Result<(), Failure> {
 /// Removes files of an earlier run of an analysis, which could be mistaken for current results. Files of this run are kept: an analysis may
 /// fail in part.
 pub fn remove(runner: &Run<'_>, name: &str) {
-    for kind in ["csv", "json", "parquet"] {
+    for kind in ["csv", "json", "parquet", "xlsx"] {
         let file = format!("{name}.{kind}");
         if !runner.files.has(&file) {
             let _ = fs::remove_file(runner.files.folder.join(file));
@@ -49,19 +61,15 @@ pub fn remove(runner: &Run<'_>, name: &str) {
     }
 }
 
-/// Adds a figure to the report, and writes it as a file if requested.
-pub fn picture(runner: &Runner<'_>, name: &str, figure: Figure, formats: &[Write]) -> Result<(), Failure> {
-    if formats.contains(&Write::Svg) {
-        // A product precedes its set with a slash.
-        let file = format!("{}.svg", name.replace('/', "-"));
-        keep(
-            runner.run,
-            &file,
-            figure.svg().map(String::into_bytes).map_err(io::Error::other),
-        )?;
-    }
-    runner.run.in_section(|section| section.figures.push(figure));
-    Ok(())
+/// Writes a figure as SVG.
+pub fn picture(run: &Run<'_>, name: &str, figure: &Figure) -> Result<(), Failure> {
+    // A product precedes its set with a slash.
+    let file = format!("{}.svg", name.replace('/', "-"));
+    keep(
+        run,
+        &file,
+        figure.svg().map(String::into_bytes).map_err(io::Error::other),
+    )
 }
 
 /// Writes a result file completely, or reports an error.

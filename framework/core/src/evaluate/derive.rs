@@ -189,7 +189,7 @@ impl Transmission {
         let mut warming = [0.0; 2];
         for (k, own) in warming.iter_mut().enumerate() {
             let rise = dissipation[k] - loss.slopes[2 * TEMPERATURE + k];
-            if rise <= 0.0 {
+            if rise.is_nan() || rise <= 0.0 {
                 return Err(NoSlopes::Unstable);
             }
             *own = loss.slopes[2 * GIVEN + k] / rise;

@@ -39,6 +39,9 @@ impl Flow {
             self.weigh(work);
             let (change, size) = follow(work);
             // Rounding is reached where the derivatives no longer approach their limit.
+            if !(change + size).is_finite() {
+                return false;
+            }
             let least = change <= ROUNDING * size || change >= change_before && change <= ENOUGH * size;
             if least || pass == MOST {
                 work.drags.clone_from_slice(work.used.drags());
@@ -50,15 +53,16 @@ impl Flow {
     }
 }
 
-/// Takes over the derivatives of the results of the models. Returns their largest change and their largest size, as powers.
+/// Takes over the derivatives of the results of the models. Returns the sums of their changes and of their sizes, as powers.
 fn follow(work: &mut Work<Dual>) -> (f64, f64) {
     let (mut change, mut size) = (0.0_f64, 0.0_f64);
     let pairs = work.used.values.iter_mut().zip(&work.answer.values);
     for ((used, answer), weight) in pairs.zip(&work.weights) {
         for direction in 0..DIRECTIONS {
             let (before, now) = (used.slopes[direction], answer.slopes[direction]);
-            change = change.max((now - before).abs() * weight.value);
-            size = size.max(now.abs() * weight.value);
+            // Sums keep what is not a number, maxima lose it.
+            change += (now - before).abs() * weight.value;
+            size += now.abs() * weight.value;
         }
         used.slopes = answer.slopes;
     }

@@ -105,8 +105,12 @@ impl Mul for Dual {
     type Output = Self;
     #[inline]
     fn mul(self, other: Self) -> Self {
+        let value = self.value * other.value;
+        if !value.is_finite() {
+            return Self::constant(value);
+        }
         Self {
-            value: self.value * other.value,
+            value,
             slopes: self.product_rule(other),
         }
     }

@@ -46,6 +46,11 @@ pub fn gearbox_page(cx: &Context<'_>, name: &str, gearbox: &Gearbox) -> Result<G
     Ok(GearboxPage {
         name: name.to_owned(),
         point: point.as_ref().map(|p| p.words.clone()).unwrap_or_default(),
+        place: point.as_ref().map(|p| p.place.clone()).unwrap_or_default(),
+        losses: point
+            .as_ref()
+            .map_or_else(String::new, |p| serde_json::to_string(&p.losses).unwrap_or_default()),
+        pictures: point.iter().flat_map(|p| p.pictures.clone()).collect(),
         point_tables: point.map(|p| p.tables).unwrap_or_default(),
         title: text("title"),
         source: text("source"),

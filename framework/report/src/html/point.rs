@@ -13,6 +13,7 @@ use gearloss_studies::points::{Given, OilTemperature, evidence};
 
 use super::PageTable;
 use super::gearbox::table;
+use crate::picture::{Picture, Screen, Waterfall};
 use crate::text::{fixed, number};
 
 /// The point of the report: from the study, or the largest torque and speed of its first grid.
@@ -42,13 +43,20 @@ pub struct Page {
     pub words: String,
     /// Loads and balance with the first set, evidence of the losses with every set.
     pub tables: Vec<PageTable>,
+    /// Torque and speed as text.
+    pub place: String,
+    /// Loss of each part of the drawing with the first set. \[W\]
+    pub losses: Vec<(String, f64)>,
+    /// From the input power to the output power with every set.
+    pub pictures: Vec<Picture>,
 }
 
 /// Solves the point with every set.
 pub fn page(runner: &Context<'_>, sets: &[Built<'_>], assumed: &[AssumedEntry]) -> Option<Page> {
     let first = sets.first()?;
     let (gear, given) = place(runner, &first.transmission)?;
-    let (mut tables, mut rests, mut words) = (Vec::new(), Vec::new(), String::new());
+    let (mut tables, mut pictures, mut rests, mut words) = (Vec::new(), Vec::new(), Vec::new(), String::new());
+    let mut losses = Vec::new();
     for (i, b) in sets.iter().enumerate() {
         let t = &b.transmission;
         let points = runner.listed(t, &gear, vec![given]);
@@ -80,6 +88,7 @@ pub fn page(runner: &Context<'_>, sets: &[Built<'_>], assumed: &[AssumedEntry]) 
                 b.name
             );
             if solution.has_flow() {
+                losses = losses_of_parts(t, &solution);
                 tables.push(bearings(b, &solution));
                 tables.push(dips(t, &solution));
                 tables.push(ports(t, &solution));
@@ -90,6 +99,7 @@ pub fn page(runner: &Context<'_>, sets: &[Built<'_>], assumed: &[AssumedEntry]) 
         }
         if solution.has_flow() {
             rests.push(rest_on(b, &solution, assumed));
+            pictures.extend(waterfall(b, &solution));
         }
     }
     tables.push(table(
@@ -106,7 +116,52 @@ pub fn page(runner: &Context<'_>, sets: &[Built<'_>], assumed: &[AssumedEntry]) 
         rests,
     ));
     tables.retain(|t: &PageTable| !t.rows.is_empty());
-    Some(Page { words, tables })
+    Some(Page {
+        words,
+        tables,
+        place: crate::text::place(given.torque, given.speed * RPM),
+        losses,
+        pictures,
+    })
+}
+
+/// Losses by the parts of the drawing: those of a mesh and its drags belong to both of its gears in equal parts.
+fn losses_of_parts(t: &Transmission, solution: &Solution<'_>) -> Vec<(String, f64)> {
+    let mut list: Vec<(String, f64)> = Vec::new();
+    let mut add = |path: &str, watts: f64| match list.iter_mut().find(|(own, _)| own == path) {
+        Some((_, sum)) => *sum += watts,
+        None => list.push((path.to_owned(), watts)),
+    };
+    for (i, (part, loss)) in solution.parts().enumerate() {
+        let watts = loss.watts();
+        if !watts.is_finite() {
+            continue;
+        }
+        let path = part.path.split(".drag.").next().unwrap_or(&part.path);
+        let gears = gears_of(t, i);
+        if gears.is_empty() {
+            add(path, watts);
+        }
+        for gear in &gears {
+            add(gear, watts / gears.len() as f64);
+        }
+    }
+    list
+}
+
+/// The losses of all components between the input and the output.
+fn waterfall(b: &Built<'_>, solution: &Solution<'_>) -> Option<Picture> {
+    let ends = [("input", solution.input_power()?), ("output", solution.output_power()?)];
+    let losses = solution.parts().filter_map(|(part, loss)| {
+        let watts = loss.watts();
+        (watts.is_finite() && watts > 0.0).then(|| (part.path.clone(), part.mechanism.to_owned(), watts))
+    });
+    Some(Picture::Screen(Screen::Waterfall(Waterfall {
+        title: format!("From the input to the output, {}", b.name),
+        unit: "W".to_owned(),
+        ends: ends.map(|(name, power)| (name.to_owned(), power)),
+        losses: losses.collect(),
+    })))
 }
 
 fn read(readings: &[Reading], name: &str) -> Option<f64> {

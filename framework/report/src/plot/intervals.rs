@@ -6,7 +6,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 use super::{PlotError, SIZE, TEXT, colour, drawn, fault, range};
 
 /// One interval with its value.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, serde::Serialize)]
 pub struct Interval {
     /// Label.
     pub name: String,

@@ -1,5 +1,7 @@
 //! A heat balance: its result; losses and heat over temperature; temperature and residual over the steps.
 
+mod summary;
+
 use gearloss_framework::thermal::Outcome;
 use gearloss_studies::analyses::balance::{BalanceOfPoint, BalanceOutcome, BalanceStep};
 
@@ -12,11 +14,11 @@ use crate::text::significant;
 register_view!(BalanceOutcome, show);
 
 fn show(outcome: &BalanceOutcome, page: &mut Page) {
+    summary::add(outcome, page);
     let name = &outcome.head.analysis;
     for of_set in &outcome.balances {
         page.line(format!("{name}: models {}", of_set.model_set));
         page.lines(balance_text(&of_set.balance, false));
-        page.outside(&of_set.notes);
         page.line("");
         figures(&format!("{name}-{}", of_set.model_set), &of_set.balance, page);
     }

@@ -1,5 +1,7 @@
 //! A breakdown of losses: a table and a figure of stacked bars for each row.
 
+mod summary;
+
 use gearloss_studies::analyses::breakdown::{Along, As, BreakdownOfSet, BreakdownOutcome, Common, PointOfBreakdown};
 
 use crate::Figure;
@@ -11,6 +13,7 @@ use crate::text::{TextTable, fixed, number, spread};
 register_view!(BreakdownOutcome, show);
 
 fn show(outcome: &BreakdownOutcome, page: &mut Page) {
+    summary::add(outcome, page);
     let name = &outcome.head.analysis;
     for note in &outcome.measured_notes {
         page.line(format!("{name}: measured: {note}"));
@@ -32,7 +35,6 @@ fn show(outcome: &BreakdownOutcome, page: &mut Page) {
             shown.figure(page);
             shown.table(page);
         }
-        page.outside(&of_set.notes);
         page.line("");
     }
 }
@@ -112,7 +114,7 @@ impl Row<'_> {
         if self.points.iter().any(|point| point.losses.measured().is_some()) {
             line("measured", &|point| point.losses.measured());
         }
-        page.lines(table.render());
+        page.table(table);
         page.line("");
     }
 }

@@ -1,5 +1,7 @@
 //! Models of one component: tables of losses over speed by torque and term; figures of losses over speed with measured points.
 
+mod summary;
+
 use gearloss_studies::analyses::component_compare::{
     ComponentCompareOutcome, ComponentComparison, LossOfComponent, MeasuredLoss, ModelOfComponent,
 };
@@ -15,11 +17,12 @@ use crate::text::{TextTable, fixed, number, spread};
 register_view!(ComponentCompareOutcome, show);
 
 fn show(outcome: &ComponentCompareOutcome, page: &mut Page) {
+    summary::add(outcome, page);
     let name = &outcome.head.analysis;
     let comparison = &outcome.component_comparison;
     for (i, torque) in comparison.torques.iter().enumerate() {
         page.line(format!("{name}: loss in W of {}, {torque} Nm", comparison.component));
-        page.lines(losses(comparison, i));
+        page.table(losses(comparison, i));
         page.line("");
         page.figure(format!("{name}-{torque}Nm"), figure(name, comparison, (i, *torque)));
     }
@@ -39,7 +42,7 @@ fn show(outcome: &ComponentCompareOutcome, page: &mut Page) {
 }
 
 /// Losses at one torque over speed by model and term.
-fn losses(comparison: &ComponentComparison, torque: usize) -> String {
+fn losses(comparison: &ComponentComparison, torque: usize) -> TextTable {
     let speeds = &comparison.speeds;
     let shown = spread(speeds.len());
     let mut titles = vec!["model".to_owned(), "term".to_owned()];
@@ -57,7 +60,7 @@ fn losses(comparison: &ComponentComparison, torque: usize) -> String {
             row("", term, &|point| point.terms_w.0[i].1);
         }
     }
-    table.render()
+    table
 }
 
 /// Loss over speed at one torque with measured points.

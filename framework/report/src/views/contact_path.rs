@@ -1,5 +1,7 @@
 //! Paths of contact: a table along the path; each quantity over the distance from the pitch point.
 
+mod summary;
+
 use gearloss_studies::analyses::contact_path::{ContactPath, ContactPathOutcome, PlaceOnPath};
 
 use crate::Figure;
@@ -11,6 +13,7 @@ use crate::text::{TextTable, number, spread};
 register_view!(ContactPathOutcome, show);
 
 fn show(outcome: &ContactPathOutcome, page: &mut Page) {
+    summary::add(outcome, page);
     let name = &outcome.head.analysis;
     for path in &outcome.paths {
         text(name, path, page);
@@ -50,7 +53,7 @@ fn text(name: &str, path: &ContactPath, page: &mut Page) {
             number(p.sliding_loss_w, 2),
         ]);
     }
-    page.lines(table.render());
+    page.table(table);
     if let Some(why) = &path.no_friction {
         page.line(format!("no friction of {}: {why}", path.mesh));
     }

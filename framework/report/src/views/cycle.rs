@@ -1,6 +1,8 @@
 //! Cycles: tables of losses, energy and temperatures; figures of stacked losses, temperatures, torque and speed over time.
 
-use gearloss_studies::analyses::Outcome;
+mod pictures;
+mod summary;
+
 use gearloss_studies::analyses::cycle::{BandOfDuty, CycleOutcome, DutyOfSet, HeatOfDuty, IntervalOfDuty};
 
 use crate::Figure;
@@ -12,12 +14,13 @@ use crate::text::{TextTable, number, significant};
 register_view!(CycleOutcome, show);
 
 fn show(outcome: &CycleOutcome, page: &mut Page) {
+    summary::add(outcome, page);
     let name = &outcome.head.analysis;
-    page.outside_at_samples(&outcome.left_at_samples());
     for duty in &outcome.cycles {
         text(name, duty, page);
         figures(name, duty, page);
     }
+    pictures::draw(outcome, page);
 }
 
 fn text(name: &str, duty: &DutyOfSet, page: &mut Page) {
@@ -53,7 +56,7 @@ fn text(name: &str, duty: &DutyOfSet, page: &mut Page) {
             format!("{:.1}", if loss > 0.0 { 100.0 * joule / loss } else { 0.0 }),
         ]);
     }
-    page.lines(table.render());
+    page.table(table);
     if let Some(band) = &duty.bands {
         band_text(duty, band, page);
     }
@@ -63,6 +66,23 @@ fn text(name: &str, duty: &DutyOfSet, page: &mut Page) {
         significant(1e-3 * energy.output_j),
         energy.residual_share
     ));
+    let efficiencies = [
+        ("drive", energy.drive_efficiency),
+        ("recuperation", energy.recuperation_efficiency),
+    ];
+    for (what, efficiency) in efficiencies {
+        if let Some(share) = efficiency {
+            page.line(format!("  efficiency in {what}: {:.2} %", 100.0 * share));
+        }
+    }
+    if let Some(per) = &duty.per_distance {
+        page.line(format!(
+            "  over {} km: {} Wh/km, {} kWh/100 km",
+            significant(per.distance_km),
+            significant(per.loss_wh_per_km),
+            significant(per.loss_kwh_per_100_km)
+        ));
+    }
     if energy.brakes_j > 0.0 {
         page.line(format!(
             "  dissipated in brakes: {} kJ",
@@ -79,7 +99,6 @@ fn text(name: &str, duty: &DutyOfSet, page: &mut Page) {
         "  {} intervals, {} steps, {} evaluations",
         duty.intervals, duty.steps, duty.evaluations
     ));
-    page.outside(&duty.notes);
     page.line("");
 }
 
@@ -108,12 +127,12 @@ fn band_text(duty: &DutyOfSet, band: &BandOfDuty, page: &mut Page) {
         row.extend(band.iter().map(|x| format!("{x:.2}")));
         table.row(row);
     }
-    page.lines(table.render());
+    page.table(table);
     let mut table = TextTable::new(&["input", "correlation with the mean loss"]);
     for input in &band.inputs {
         table.row(vec![input.input.clone(), number(input.correlation_with_mean_loss, 3)]);
     }
-    page.lines(table.render());
+    page.table(table);
 }
 
 /// Heat and temperatures.
@@ -165,7 +184,7 @@ fn heat_text(duty: &DutyOfSet, heat: &HeatOfDuty, page: &mut Page) {
         }
         table.row(row);
     }
-    page.lines(table.render());
+    page.table(table);
 }
 
 /// Reads a quantity of an interval.
@@ -174,6 +193,7 @@ type Read = fn(&IntervalOfDuty) -> f64;
 /// Maximum number of points of one line: more cannot be distinguished and enlarge the page.
 const MOST: usize = 2400;
 
+/// Figures of one cycle for the files.
 fn figures(name: &str, duty: &DutyOfSet, page: &mut Page) {
     let (set, cycle) = (&duty.model_set, &duty.cycle);
     let series = &duty.series;
@@ -193,7 +213,7 @@ fn figures(name: &str, duty: &DutyOfSet, page: &mut Page) {
             .map(|chunk| mean_losses(chunk, duty.shares.len()))
             .collect(),
     };
-    page.figure(format!("{file}-loss"), losses);
+    page.file_figure(format!("{file}-loss"), losses);
     let over_time: [(&str, &str, Read); 2] = [("torque", "Nm", |i| i.torque_nm), ("speed", "rpm", |i| i.speed_rpm)];
     for (what, unit, read) in over_time {
         let figure = Figure::Lines {
@@ -202,7 +222,7 @@ fn figures(name: &str, duty: &DutyOfSet, page: &mut Page) {
             y: format!("{what} in {unit}"),
             lines: vec![line(series, every, what, &|i| (i.time_s, read(i)))],
         };
-        page.figure(format!("{file}-{what}"), figure);
+        page.file_figure(format!("{file}-{what}"), figure);
     }
     if duty.heat.is_none() {
         return;
@@ -213,7 +233,7 @@ fn figures(name: &str, duty: &DutyOfSet, page: &mut Page) {
         y: "temperature in degC".to_owned(),
         lines: temperatures(duty, every),
     };
-    page.figure(format!("{file}-temperatures"), figure);
+    page.file_figure(format!("{file}-temperatures"), figure);
 }
 
 fn line(series: &[IntervalOfDuty], every: usize, name: &str, read: &dyn Fn(&IntervalOfDuty) -> (f64, f64)) -> Line {

@@ -1,6 +1,7 @@
 //! Mean losses over one property of an oil: a table; figures, absolute and relative to the minimum of each cycle.
 
-use gearloss_studies::analyses::Outcome;
+mod summary;
+
 use gearloss_studies::analyses::fluid_sweep::{FluidSweepOutcome, FluidsOfDuty, FluidsOfSet, LossOfFluid};
 
 use crate::Figure;
@@ -12,8 +13,8 @@ use crate::text::{TextTable, significant};
 register_view!(FluidSweepOutcome, show);
 
 fn show(outcome: &FluidSweepOutcome, page: &mut Page) {
+    summary::add(outcome, page);
     let name = &outcome.head.analysis;
-    page.outside_at_samples(&outcome.left_at_samples());
     for set in &outcome.fluid_sweep {
         text(name, set, page);
     }
@@ -51,7 +52,7 @@ fn text(name: &str, set: &FluidsOfSet, page: &mut Page) {
         row.extend(listed(duty).map(|fluid| format!("{:.2}", fluid.mean_loss_w)));
         table.row(row);
     }
-    page.lines(table.render());
+    page.table(table);
     if all.iter().any(|fluid| fluid.beyond_definition) {
         page.line(
             "  * below 2 mm2/s the viscosity index is not defined; its law for 2 mm2/s and above is extrapolated",

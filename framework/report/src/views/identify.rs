@@ -8,6 +8,7 @@ mod pictures;
 mod posterior;
 mod search;
 mod stacks;
+mod summary;
 
 use gearloss_numerics::inference::Verdict;
 use gearloss_studies::analyses::identify::{IdentificationOfSet, IdentifyOutcome};
@@ -25,6 +26,7 @@ const CONDITION: [f64; 2] = [30.0, 1000.0];
 const ROUNDING: f64 = 1e-6;
 
 fn show(outcome: &IdentifyOutcome, page: &mut Page) {
+    summary::add(outcome, page);
     let name = &outcome.head.analysis;
     for note in &outcome.data.notes {
         page.line(format!("{name}: {}: {note}", outcome.data.file));
@@ -97,7 +99,6 @@ fn show_set(outcome: &IdentifyOutcome, o: &IdentificationOfSet, page: &mut Page)
         page.line(format!("no uncertainty bands of the losses: {reason}"));
     }
     next::show(name, o, page);
-    page.outside(&o.outside);
     page.line("");
 }
 

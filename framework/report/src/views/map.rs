@@ -1,7 +1,9 @@
 //! Maps: a table of the efficiency over torque and speed, tables for other programs, figures.
 
 mod over_bound;
+mod panels;
 mod pictures;
+mod summary;
 
 use gearloss_studies::analyses::map::{MapOfSet, MapOutcome, ShownGrid, ShownPoint};
 use gearloss_studies::analyses::numbers::{RPM, tidy};
@@ -15,6 +17,7 @@ use crate::text::{TextTable, fixed, number, spread};
 register_view!(MapOutcome, show);
 
 fn show(outcome: &MapOutcome, page: &mut Page) {
+    summary::add(outcome, page);
     let name = &outcome.head.analysis;
     for note in &outcome.about_points {
         page.line(format!("{name}: {note}"));
@@ -43,10 +46,10 @@ fn show_map(name: &str, map: &MapOfSet, page: &mut Page) {
     ));
     let percent = |p: &ShownPoint| p.efficiency.map(|e| 100.0 * e);
     if let Some(grid) = &map.shown.grid {
-        page.lines(table(map, grid, &percent));
+        page.table(table(map, grid, &percent));
         if map.oil == OilTemperature::Balance {
             page.line("oil temperature in degC");
-            page.lines(table(map, grid, &|p| p.oil));
+            page.table(table(map, grid, &|p| p.oil));
         }
     } else {
         let mut table = TextTable::new(&["torque Nm", "speed rpm", "oil degC", "efficiency %", "loss W"]);
@@ -60,12 +63,11 @@ fn show_map(name: &str, map: &MapOfSet, page: &mut Page) {
                 number(p.loss, 2),
             ]);
         }
-        page.lines(table.render());
+        page.table(table);
     }
     if let Some(thinned) = thinned(map) {
         page.line(thinned);
     }
-    page.outside(&map.notes);
     page.line("");
 }
 
@@ -76,7 +78,7 @@ fn thinned(map: &MapOfSet) -> Option<String> {
     (shown < torques * speeds).then(|| format!("shown: {shown} of {} points; the files contain all", torques * speeds))
 }
 
-fn table(map: &MapOfSet, grid: &ShownGrid, quantity: &dyn Fn(&ShownPoint) -> Option<f64>) -> String {
+fn table(map: &MapOfSet, grid: &ShownGrid, quantity: &dyn Fn(&ShownPoint) -> Option<f64>) -> TextTable {
     let ShownGrid { axes, places } = grid;
     let shown = spread(axes.speeds.len());
     let mut head = vec!["torque Nm".to_owned()];
@@ -88,5 +90,5 @@ fn table(map: &MapOfSet, grid: &ShownGrid, quantity: &dyn Fn(&ShownPoint) -> Opt
         row.extend(shown.iter().map(|i| number(cell(i), 2)));
         table.row(row);
     }
-    table.render()
+    table
 }

@@ -1,5 +1,7 @@
 //! Operating points: a table of losses with measured values; losses as stacked bars.
 
+mod summary;
+
 use gearloss_studies::analyses::measurable::{is_measurable, note};
 use gearloss_studies::analyses::numbers::RPM;
 use gearloss_studies::analyses::operating_points::{OperatingPoint, OperatingPointsOutcome, PointsOfSet};
@@ -13,6 +15,7 @@ use crate::text::{TextTable, fixed, number};
 register_view!(OperatingPointsOutcome, show);
 
 fn show(outcome: &OperatingPointsOutcome, page: &mut Page) {
+    summary::add(outcome, page);
     let name = &outcome.head.analysis;
     for note in &outcome.file_notes {
         page.line(format!("{name}: {}: {note}", outcome.file));
@@ -20,9 +23,8 @@ fn show(outcome: &OperatingPointsOutcome, page: &mut Page) {
     for of_set in &outcome.operating_points {
         let set = &of_set.model_set;
         page.line(format!("{name}: losses in W, models {set}"));
-        page.lines(losses(&outcome.bound, of_set));
+        page.table(losses(&outcome.bound, of_set));
         differences(&of_set.points, page);
-        page.outside(&of_set.notes);
         page.line("");
         let figure = Figure::Bars {
             title: format!("{name}: losses, models {set}, oil temperature above each bar"),
@@ -36,7 +38,7 @@ fn show(outcome: &OperatingPointsOutcome, page: &mut Page) {
 }
 
 /// Losses by share with measured values.
-fn losses(bound: &[String], of_set: &PointsOfSet) -> String {
+fn losses(bound: &[String], of_set: &PointsOfSet) -> TextTable {
     let (shares, points) = (&of_set.shares, &of_set.points);
     let mut head: Vec<&str> = vec!["point"];
     head.extend(bound.iter().map(String::as_str));
@@ -68,7 +70,7 @@ fn losses(bound: &[String], of_set: &PointsOfSet) -> String {
         }
         table.row(cells);
     }
-    table.render()
+    table
 }
 
 /// Mean and maximum differences from measured values.

@@ -1,7 +1,8 @@
 //! Surfaces of the difference from a measurement: a table, a map and the minimum.
 
+mod summary;
+
 use gearloss_numerics::inference::Side;
-use gearloss_studies::analyses::Outcome;
 use gearloss_studies::analyses::rms_surface::{AxisOfSurface, Flat, RmsSurfaceOutcome, SurfaceOfSet};
 
 use crate::page::Page;
@@ -15,12 +16,12 @@ register_view!(RmsSurfaceOutcome, show);
 const NAMED: usize = 5;
 
 fn show(outcome: &RmsSurfaceOutcome, page: &mut Page) {
+    summary::add(outcome, page);
     let name = &outcome.head.analysis;
     if let Some(first) = outcome.surfaces.first() {
         for note in &outcome.measured_notes {
             page.line(format!("{name}: {}: {note}", first.file));
         }
-        page.outside_at_samples(&outcome.left_at_samples());
         left_out(name, outcome.measured_points, first, page);
     }
     for surface in &outcome.surfaces {
@@ -68,7 +69,7 @@ fn table(title: &str, surface: &SurfaceOfSet, page: &mut Page) {
         row.extend(shown.iter().map(|i| number(pairs[j * x.values.len() + i].rms, 3)));
         table.row(row);
     }
-    page.lines(table.render());
+    page.table(table);
     let without = pairs
         .iter()
         .enumerate()

@@ -1,9 +1,9 @@
 //! Sensitivity: for each method a table of the mean loss and of the relative change of the loss at the points, verdicts and figures.
 
 mod pictures;
+mod summary;
 
 use gearloss_numerics::sensitivity::{Estimate, Influence};
-use gearloss_studies::analyses::Outcome as _;
 use gearloss_studies::analyses::ranges::published;
 use gearloss_studies::analyses::sensitivity::{
     EffectOfParameter, OutputKind, OutputSensitivity, SensitivityOfSet, SensitivityOutcome, SharesOfVariance,
@@ -19,7 +19,7 @@ const SMALL: f64 = 0.05;
 register_view!(SensitivityOutcome, show);
 
 fn show(outcome: &SensitivityOutcome, page: &mut Page) {
-    page.outside_at_samples(&outcome.left_at_samples());
+    summary::add(outcome, page);
     let name = &outcome.head.analysis;
     for set in &outcome.sensitivities {
         let Some(loss) = set.outputs.first() else { continue };
@@ -74,7 +74,7 @@ fn slopes(name: &str, set: &SensitivityOfSet, loss: &OutputSensitivity, page: &m
             number(slope.elasticity, 4),
         ]);
     }
-    page.lines(table.render());
+    page.table(table);
     page.line("");
 }
 
@@ -102,7 +102,7 @@ fn effects(name: &str, set: &SensitivityOfSet, loss: &OutputSensitivity, page: &
             },
         ]);
     }
-    page.lines(table.render());
+    page.table(table);
     page.verdict(effects_in_words(name, set, effects, at_points));
     page.line("");
 }
@@ -185,7 +185,7 @@ fn shares(name: &str, set: &SensitivityOfSet, loss: &OutputSensitivity, page: &m
         row.extend([there(|s| &s.first), there(|s| &s.total)]);
         table.row(row);
     }
-    page.lines(table.render());
+    page.table(table);
     let mut sentence = format!("{name}: `{}`: {}", set.model_set, together(set, shares));
     if let Some(there) = at_points.filter(|there| there.variance > 0.0) {
         let moves = |k: &usize| shares.total[*k].value < SMALL && there.total[*k].value >= SMALL;

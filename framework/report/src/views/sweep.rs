@@ -1,5 +1,7 @@
 //! A sweep: tables of the loss; figures of loss and efficiency over the values as lines or maps.
 
+mod summary;
+
 use gearloss_studies::analyses::numbers::word;
 use gearloss_studies::analyses::sweep::{PointOfSweep, SweepOfValue, SweepOutcome};
 
@@ -12,6 +14,7 @@ use crate::{Figure, Map};
 register_view!(SweepOutcome, show);
 
 fn show(outcome: &SweepOutcome, page: &mut Page) {
+    summary::add(outcome, page);
     page.published(&outcome.published);
     let Some(sweep) = Sweep::new(outcome) else {
         return;
@@ -20,7 +23,6 @@ fn show(outcome: &SweepOutcome, page: &mut Page) {
         for second in 0..sweep.second_words.len().max(1) {
             sweep.table(&of_set.model_set, second, page);
         }
-        page.outside(&of_set.notes);
         page.line("");
     }
     sweep.figures(page);
@@ -95,7 +97,7 @@ impl<'a> Sweep<'a> {
             row.extend(own.iter().map(|value| number(value.points[i].loss_w, 2)));
             table.row(row);
         }
-        page.lines(table.render());
+        page.table(table);
     }
 
     /// Loss and efficiency over the values.

@@ -1,5 +1,7 @@
 //! Thermal limits: a table for each model set; figures of the limit and the output power over speed or torque.
 
+mod summary;
+
 use gearloss_framework::thermal::Limit;
 use gearloss_studies::analyses::thermal_limit::{Find, ThermalLimit, ThermalLimitOutcome, ThermalLimitsOfSet};
 use gearloss_studies::distinct::distinct;
@@ -13,10 +15,10 @@ use crate::text::{TextTable, number};
 register_view!(ThermalLimitOutcome, show);
 
 fn show(outcome: &ThermalLimitOutcome, page: &mut Page) {
+    summary::add(outcome, page);
     for of_set in &outcome.thermal_limits {
         page.line(format!("{}: models {}", outcome.head.analysis, of_set.model_set));
         table(of_set, page);
-        page.outside(&of_set.notes);
         page.line("");
     }
     figures(outcome, page);
@@ -35,7 +37,7 @@ fn table(of_set: &ThermalLimitsOfSet, page: &mut Page) {
             number(limit.output_w, 1),
         ]);
     }
-    page.lines(table.render());
+    page.table(table);
     // If losses increase with temperature, a lower steady temperature may exist.
     let is_lower = |limit: &&ThermalLimit| limit.lowest_balance_degc.is_some_and(|t| t < limit.limit_degc - 0.01);
     let lower = of_set.limits.iter().filter(is_lower).count();

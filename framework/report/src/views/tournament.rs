@@ -3,6 +3,7 @@
 mod pictures;
 mod ranking;
 mod spread;
+mod summary;
 mod verdict;
 
 use gearloss_studies::analyses::tournament::{MechanismOfTournament, Tournament, TournamentOutcome};
@@ -14,6 +15,7 @@ use crate::text::{TextTable, number};
 register_view!(TournamentOutcome, show);
 
 fn show(outcome: &TournamentOutcome, page: &mut Page) {
+    summary::add(outcome, page);
     let name = &outcome.head.analysis;
     match &outcome.tournament {
         Tournament::Ranking(found) => {
@@ -62,6 +64,6 @@ fn candidates(name: &str, mechanisms: &[MechanismOfTournament], left_out: &[Stri
             ]);
         }
     }
-    page.lines(table.render());
+    page.table(table);
     page.line("");
 }

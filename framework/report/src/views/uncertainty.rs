@@ -1,6 +1,7 @@
 //! Uncertainty bands: correlations with the inputs, width of the bands over the grid, and the bands over speed.
 
-use gearloss_studies::analyses::Outcome;
+mod summary;
+
 use gearloss_studies::analyses::numbers::tidy;
 use gearloss_studies::analyses::uncertainty::{BandsOfSet, PointOfBand, QuantityBand, UncertaintyOutcome};
 
@@ -25,8 +26,8 @@ const QUANTITIES: [Quantity; 4] = [
 ];
 
 fn show(outcome: &UncertaintyOutcome, page: &mut Page) {
+    summary::add(outcome, page);
     let name = &outcome.head.analysis;
-    page.outside_at_samples(&outcome.left_at_samples());
     for set in &outcome.bands {
         inputs(name, set, page);
         widths(set, page);
@@ -48,7 +49,7 @@ fn inputs(name: &str, set: &BandsOfSet, page: &mut Page) {
         let correlation = number(input.correlation_with_mean_loss, 3);
         table.row(vec![input.path.clone(), from, to, correlation]);
     }
-    page.lines(table.render());
+    page.table(table);
     page.line("");
 }
 
@@ -66,7 +67,7 @@ fn widths(set: &BandsOfSet, page: &mut Page) {
         row.extend(shown.iter().map(width));
         table.row(row);
     }
-    page.lines(table.render());
+    page.table(table);
     page.line("");
 }
 

@@ -1,30 +1,38 @@
 //! Differences between model sets and products over a grid, or from a measurement.
 
+mod cases;
 mod on_grid;
+mod over_cycles;
 mod with_data;
 
 use gearloss_framework::description::Ordered;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
 pub use on_grid::{DifferenceAt, GridComparison, GridDifference};
+pub use over_cycles::{CycleComparison, DifferenceOfPhase, DifferenceOfShare};
 pub use with_data::{Band, ComparedPoint, DataComparison, DataOfComparison, Ranking, ranking};
 
 use super::measurable::countable;
 use super::{Analysis, Context, Head, Outcome, Stopped};
 use crate::points::Note;
 use crate::register_analysis;
-use crate::study::{Data, Difference, Quantity, Uses, Write};
+use crate::study::{By, Data, Difference, Quantity, RideEntry, Uses, Write};
 use crate::table::Table;
 
-/// Difference between model sets and products over a grid, or from a measurement.
+/// Difference between model sets, products and variants over a grid or over cycles, or from a measurement.
+///
+/// Over cycles the differences of the mean loss are split by share and by phase of the cycle.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct CompareEntry {
     /// Gearbox of sets without a product; default: the first.
     pub gearbox: Option<String>,
-    /// Grid; not with `data`.
+    /// Grid; not with `data` or `drive`.
     pub grid: Option<String>,
-    /// Base of the comparison; not with `data`. `PRODUCT/SET` selects another gearbox, `PRODUCT/own` its default models.
+    /// Cycles; not with `data` or `grid`.
+    pub drive: Option<RideEntry>,
+    /// Base of the comparison; not with `data`. `PRODUCT/SET` selects another gearbox, `own` or `PRODUCT/own` its default models.
     pub base: Option<String>,
     /// Measured points that the sets are compared with.
     pub data: Option<Data>,
@@ -34,9 +42,15 @@ pub struct CompareEntry {
     /// Gear of the data without a column `gear`; default: the first.
     pub gear: Option<String>,
     /// Model sets to compare; `PRODUCT/SET` selects another gearbox.
-    #[schemars(length(min = 1))]
+    #[serde(default)]
     pub against: Vec<String>,
-    /// Compared quantity.
+    /// Variants of the base to compare, each with its changed values: resolved path to value. Not with `data`.
+    #[serde(default)]
+    pub variants: Ordered<Ordered<Value>>,
+    /// Grouping of the losses of cycles.
+    #[serde(default)]
+    pub by: By,
+    /// Compared quantity; not with `drive`.
     #[serde(default)]
     pub quantity: Quantity,
     /// Accuracy of a measurement, in the unit of the difference: maps mark differences below it. [-]
@@ -80,6 +94,8 @@ pub struct CompareOutcome {
 pub enum Comparisons {
     /// From a base over a grid.
     OnGrid(Vec<GridComparison>),
+    /// From a base over cycles.
+    OverCycles(Vec<CycleComparison>),
     /// From a measurement.
     WithData(Vec<DataComparison>),
 }
@@ -95,29 +111,61 @@ impl Analysis for CompareEntry {
                 .in_gears(&self.gear)
                 .bind(&self.bind)
                 .with("data", self.data.as_ref())
+                .riding(self.drive.as_ref())
         }
     }
 
     fn run(&self, cx: &Context<'_>) -> Result<CompareOutcome, Stopped> {
         let path = cx.path();
         countable(cx, &path, self.quantity, self.difference)?;
-        let (head, data, comparisons) = match (&self.grid, &self.base, &self.data) {
-            (None, None, Some(data)) => {
+        if self.against.is_empty() && self.variants.is_empty() {
+            let help = "write `against: [...]` with model sets, or `variants: { name: { path: value } }`";
+            return Err(cx.wrong(&path, "nothing is compared with the base", help));
+        }
+        if self.by != By::default() && self.drive.is_none() {
+            return Err(cx.wrong(
+                &format!("{path}.by"),
+                "`by` groups the losses of cycles",
+                "delete it, or write `drive: ...`",
+            ));
+        }
+        let counted = (self.quantity, self.difference, self.accuracy);
+        if self.drive.is_some() && counted != (Quantity::default(), Difference::default(), None) {
+            let message = "over cycles the mean losses are compared, in W and in percent";
+            return Err(cx.wrong(&path, message, "delete `quantity`, `difference` and `accuracy`"));
+        }
+        let (head, data, comparisons) = match (&self.grid, &self.drive, &self.base, &self.data) {
+            (None, None, None, Some(_)) if !self.variants.is_empty() => {
+                let message = "a comparison with a measurement has no variants";
+                return Err(cx.wrong(
+                    &format!("{path}.variants"),
+                    message,
+                    "write them as model sets or gearboxes",
+                ));
+            }
+            (None, None, None, Some(data)) => {
                 let (head, data, comparisons) = with_data::compare(cx, self, data)?;
                 (head, Some(data), Comparisons::WithData(comparisons))
             }
-            (Some(_), Some(_), None) if !self.bind.is_empty() || self.gear.is_some() => {
-                return Err(cx.wrong(&path, "`bind` and `gear` belong to `data`", "state them in the grid"));
+            (.., None) if !self.bind.is_empty() => {
+                return Err(cx.wrong(&path, "`bind` belongs to `data`", "state it in the grid"));
             }
-            (Some(grid), Some(base), None) => {
+            (Some(_), None, Some(_), None) if self.gear.is_some() => {
+                return Err(cx.wrong(&path, "`gear` belongs to `data` or `drive`", "state it in the grid"));
+            }
+            (Some(grid), None, Some(base), None) => {
                 let (head, comparisons) = on_grid::compare(cx, self, grid, base)?;
                 (head, None, Comparisons::OnGrid(comparisons))
+            }
+            (None, Some(ride), Some(base), None) => {
+                let (head, comparisons) = over_cycles::compare(cx, self, ride, base)?;
+                (head, None, Comparisons::OverCycles(comparisons))
             }
             _ => {
                 return Err(cx.wrong(
                     &path,
-                    "a comparison needs either `grid` and `base`, or `data`",
-                    "write `grid: ..., base: ...` to compare sets, or `data: { file: ... }` to compare with a measurement",
+                    "a comparison needs `base` with `grid` or with `drive`, or else `data`",
+                    "write `base: ...` with `grid: ...` or `drive: { cycles: [...] }` to compare sets, or `data: { file: ... }` to compare with a measurement",
                 ));
             }
         };
@@ -144,15 +192,17 @@ impl Outcome for CompareOutcome {
     fn tables(&self) -> Vec<Table> {
         let name = &self.head.analysis;
         let counted = (self.quantity, self.difference);
-        vec![match &self.comparisons {
-            Comparisons::OnGrid(all) => on_grid::table(name, counted, all),
-            Comparisons::WithData(all) => with_data::table(name, counted, all),
-        }]
+        match &self.comparisons {
+            Comparisons::OnGrid(all) => vec![on_grid::table(name, counted, all)],
+            Comparisons::OverCycles(all) => vec![over_cycles::table(name, all), over_cycles::phase_table(name, all)],
+            Comparisons::WithData(all) => vec![with_data::table(name, counted, all)],
+        }
     }
 
     fn notes(&self) -> Vec<&Note> {
         match &self.comparisons {
             Comparisons::OnGrid(all) => all.iter().flat_map(|c| &c.notes).collect(),
+            Comparisons::OverCycles(all) => all.iter().flat_map(|c| &c.notes).collect(),
             Comparisons::WithData(all) => all.iter().flat_map(|c| &c.notes).collect(),
         }
     }
@@ -161,6 +211,7 @@ impl Outcome for CompareOutcome {
     fn unlisted(&self) -> usize {
         match &self.comparisons {
             Comparisons::OnGrid(all) => all.first().map_or(0, |c| c.ranges_left_by_base),
+            Comparisons::OverCycles(all) => all.first().map_or(0, |c| c.ranges_left_by_base),
             Comparisons::WithData(_) => 0,
         }
     }

@@ -2,7 +2,7 @@
 
 mod bands;
 mod outcome;
-mod results;
+pub(super) mod results;
 
 use gearloss_framework::attach::dangling;
 use gearloss_framework::description::Ordered;
@@ -24,8 +24,8 @@ use crate::study::{By, DriveEntry, ToleranceEntry, Uses, Write};
 use crate::table::Table;
 
 pub use outcome::{
-    BandOfDuty, BrokenOff, CycleOutcome, DutyOfSet, EnergyOfDuty, HeatOfDuty, HeatOfExchanger, HeatOfMotor, HeatOfNode,
-    InputOfBand, IntervalOfDuty, ReferenceOfDuty, TemperatureOfNode,
+    BandOfDuty, BrokenOff, CycleOutcome, DutyOfSet, EnergyOfDuty, EnergyPerDistance, HeatOfDuty, HeatOfExchanger,
+    HeatOfMotor, HeatOfNode, InputOfBand, IntervalOfDuty, ReferenceOfDuty, TemperatureOfNode,
 };
 
 /// Cycle losses, energy and temperatures, for driving cycles or load spectra.
@@ -81,7 +81,7 @@ impl Analysis for CycleAnalysisEntry {
         let gearbox = cx.gearbox(self.drive.gearbox.as_ref())?;
         let built = cx.built(gearbox, &self.drive.model_sets)?;
         sums_energies(cx, &path, self.by)?;
-        let duties = Duties::new(cx, &path, &self.drive)?;
+        let duties = Duties::new(cx, &path, &self.drive.ride, self.drive.gear.as_ref())?;
         self.check_reference(cx, &path, &duties)?;
         let names = together(built.iter().map(|b| &b.transmission), self.by);
         for b in &built {

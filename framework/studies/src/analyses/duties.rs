@@ -3,7 +3,7 @@
 use crate::codes;
 use crate::duty::{Demand, Duty, Given, Interval, Vehicle};
 use crate::points::{Driven, OilTemperature, Ride, can_drive, drive};
-use crate::study::{By, Conditions, DriveEntry};
+use crate::study::{By, Conditions, RideEntry};
 use gearloss_framework::document::{Diagnostic, classify};
 use gearloss_framework::thermal::network::{Network, StepSize};
 use gearloss_framework::transmission::Transmission;
@@ -25,6 +25,8 @@ pub struct Read {
     port: Option<String>,
     /// Notes on its file.
     pub about: Option<String>,
+    /// Names of its phases with the time at which each ends. \[s\]
+    pub phases: Vec<(String, f64)>,
 }
 
 /// Cycles of an analysis with the settings of the simulation. It can be shared among threads.
@@ -32,13 +34,15 @@ pub struct Duties<'a> {
     /// The cycles.
     pub list: Vec<Read>,
     vehicle: Option<Vehicle>,
-    entry: &'a DriveEntry,
+    entry: &'a RideEntry,
+    /// Gear of cycles without one.
+    gear: Option<&'a str>,
     conditions: &'a Conditions,
 }
 
 impl<'a> Duties<'a> {
     /// Reads the cycles of an analysis at a path.
-    pub fn new(cx: &Context<'a>, path: &str, entry: &'a DriveEntry) -> Result<Self, Stopped> {
+    pub fn new(cx: &Context<'a>, path: &str, entry: &'a RideEntry, gear: Option<&'a String>) -> Result<Self, Stopped> {
         let study = &cx.study.entry;
         if entry.step.is_some() && entry.tolerance.is_some() {
             let message = "both `step` and `tolerance` are given";
@@ -86,6 +90,7 @@ impl<'a> Duties<'a> {
                     intervals,
                     port: cycle.port().map(str::to_owned),
                     about: cycle.about().map(str::to_owned),
+                    phases: cycle.phases(cx.language.registry()),
                 }),
                 Err(fault) => found.push(Diagnostic::error(&at, fault.message).help(fault.help).code(codes::DUTY)),
             }
@@ -98,6 +103,7 @@ impl<'a> Duties<'a> {
             list,
             vehicle,
             entry,
+            gear: gear.map(String::as_str),
             conditions: &study.conditions,
         })
     }
@@ -218,7 +224,7 @@ impl<'a> Duties<'a> {
                 .filter(|_| of_port)
                 .unwrap_or(&t.ports()[t.reference_port()].name),
             vehicle: self.vehicle.as_ref(),
-            gear: gear_of(self.entry.gear.as_deref(), t),
+            gear: gear_of(self.gear, t),
             oil: OilTemperature::from_conditions(t, self.conditions.oil_temperature),
             spectrum: matches!(read.duty, Duty::Spectrum(_)),
             start: self.entry.start,

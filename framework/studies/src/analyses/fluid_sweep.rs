@@ -150,7 +150,7 @@ impl Analysis for FluidSweepEntry {
         let gearbox = cx.gearbox(self.drive.gearbox.as_ref())?;
         sums_energies(cx, &path, self.by)?;
         self.check_keys(cx, &path)?;
-        let duties = Duties::new(cx, &path, &self.drive)?;
+        let duties = Duties::new(cx, &path, &self.drive.ride, self.drive.gear.as_ref())?;
         let built = cx.built(gearbox, &self.drive.model_sets)?;
         let names = together(built.iter().map(|b| &b.transmission), self.by);
         let (mut sets, mut all_left) = (Vec::new(), Vec::new());

@@ -29,7 +29,9 @@ use self::shown::Selection;
 use super::{Analysis, Built, Context, Stopped};
 use crate::distinct::distinct;
 use crate::measured::Measured;
-use crate::points::{Field, Note, Numbered, OilTemperature, Piece, PointResult, SUMS, evidence, merge, notes};
+use crate::points::{
+    Field, LostByPart, Note, Numbered, OilTemperature, Piece, PointResult, SUMS, evidence, merge, notes_with_shares,
+};
 use crate::register_analysis;
 use crate::study::{Data, Uses, Write};
 use crate::table::Table;
@@ -97,7 +99,7 @@ impl MapEntry {
             if cx.part(number, solve)?.is_none() {
                 continue;
             }
-            map.notes = notes(&plan.built.transmission, &map.seen);
+            map.notes = notes_with_shares(&plan.built.transmission, &map.seen, &map.lost);
             maps.push(map);
         }
         cx.complete()?;
@@ -265,6 +267,7 @@ struct Map<'a> {
     oil: OilTemperature,
     shown: ShownMap,
     seen: Vec<Extent>,
+    lost: LostByPart,
     notes: Vec<Note>,
     passes: usize,
     undefined: Vec<UndefinedLoss>,
@@ -289,6 +292,7 @@ impl<'a> Map<'a> {
             oil,
             shown: ShownMap::new(None, false),
             seen: Vec::new(),
+            lost: LostByPart::default(),
             notes: Vec::new(),
             passes: 0,
             undefined: Vec::new(),
@@ -304,6 +308,7 @@ impl<'a> Map<'a> {
         let (mut tables, mut picked, mut undefined) = (Vec::new(), Vec::new(), Vec::new());
         drop(piece.map(|taken| {
             self.passes += taken.passes;
+            self.lost.merge(&taken.lost);
             tables.push(taken.rows);
             picked.push(taken.picked);
             undefined.extend(taken.undefined);
@@ -366,12 +371,16 @@ fn notes_of_sets(maps: &[Map<'_>]) -> Option<Vec<NotesOfSet>> {
     let of_set = |name: &str| {
         let mut all = Vec::new();
         let own = || maps.iter().filter(|map| map.built.name == name);
-        own().for_each(|map| merge(&mut all, &map.seen));
+        let mut lost = LostByPart::default();
+        for map in own() {
+            merge(&mut all, &map.seen);
+            lost.merge(&map.lost);
+        }
         NotesOfSet {
             model_set: name.to_owned(),
             notes: own()
                 .next()
-                .map_or_else(Vec::new, |map| notes(&map.built.transmission, &all)),
+                .map_or_else(Vec::new, |map| notes_with_shares(&map.built.transmission, &all, &lost)),
         }
     };
     Some(names.into_iter().map(of_set).collect())

@@ -65,6 +65,9 @@ pub struct FileCycleEntry {
     pub decimal: Option<Decimal>,
     /// Encoding; default: UTF-8, or Latin-1 if that fails.
     pub encoding: Option<Encoding>,
+    /// Phases of the cycle by name, in order, for comparisons.
+    #[serde(default)]
+    pub phases: Ordered<PhaseEntry>,
     /// Number of repetitions. [-]
     #[serde(default = "one_time")]
     #[schemars(range(min = 1, max = 1000))]
@@ -85,6 +88,14 @@ pub struct FileCycleEntry {
     /// Maximum plausible rate of change of the port speed; default: unlimited. [rpm/s]
     #[schemars(range(min = 1.0, max = 1e9))]
     pub most_speed_change: Option<f64>,
+}
+
+/// A phase of a cycle.
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+pub struct PhaseEntry {
+    /// Its end after the start of the cycle. [s]
+    #[schemars(range(min = 0.0, max = 1e9))]
+    pub end: f64,
 }
 
 /// Load cases with their shares of the time.
@@ -138,7 +149,10 @@ impl CycleEntry {
             |file: &str| bytes(file).map_err(|reason| vec![fault(reason, "file names are relative to the study")]);
         match self {
             Self::Shipped(entry) => entry.read(registry).map(Duty::Trace),
-            Self::File(entry) => Trace::read(entry, &bytes(&entry.file)?).map(Duty::Trace),
+            Self::File(entry) => {
+                entry.check_phases()?;
+                Trace::read(entry, &bytes(&entry.file)?).map(Duty::Trace)
+            }
             Self::Spectrum(entry) => {
                 let intervals = match &entry.spectrum {
                     Spectrum::Loads(loads) => super::spectrum::intervals(loads, entry.duration),
@@ -161,6 +175,22 @@ impl CycleEntry {
                 Spectrum::Loads(_) => None,
                 Spectrum::File(file) => file.about.as_deref(),
             },
+        }
+    }
+
+    /// Names of its phases with the time at which each ends. A repeated or shortened cycle, and a spectrum, have none. \[s\]
+    pub fn phases(&self, registry: &Registry) -> Vec<(String, f64)> {
+        match self {
+            Self::Shipped(entry) if entry.repeat == 1 && entry.start.is_none() && entry.end.is_none() => {
+                let phases = registry.cycle(&entry.shipped).map_or(&[][..], |cycle| cycle.phases);
+                phases.iter().map(|(name, end)| ((*name).to_owned(), *end)).collect()
+            }
+            Self::File(entry) => entry
+                .phases
+                .iter()
+                .map(|(name, phase)| (name.to_owned(), phase.end))
+                .collect(),
+            Self::Shipped(_) | Self::Spectrum(_) => Vec::new(),
         }
     }
 
@@ -196,6 +226,32 @@ impl ShippedCycleEntry {
 }
 
 impl FileCycleEntry {
+    /// Phases of a cycle that is used once and as a whole, each ending after the one before.
+    fn check_phases(&self) -> Result<(), Vec<MeasuredFault>> {
+        if self.phases.iter().next().is_none() {
+            return Ok(());
+        }
+        if self.repeat > 1 || self.start.is_some() || self.end.is_some() {
+            let help = "delete `phases`, or `repeat`, `start` and `end`";
+            return Err(vec![fault(
+                "a repeated or shortened cycle has no phases".to_owned(),
+                help,
+            )]);
+        }
+        let mut before = 0.0;
+        for (name, phase) in self.phases.iter() {
+            if phase.end <= before {
+                let message = format!("the phase `{name}` ends at {} s, not after {before} s", phase.end);
+                return Err(vec![fault(
+                    message,
+                    "write the phases in their order, each with its end",
+                )]);
+            }
+            before = phase.end;
+        }
+        Ok(())
+    }
+
     /// An entry with only a file.
     pub fn named(file: &str) -> Self {
         Self {
@@ -208,6 +264,7 @@ impl FileCycleEntry {
             separator: None,
             decimal: None,
             encoding: None,
+            phases: Ordered::default(),
             repeat: one_time(),
             start: None,
             end: None,

@@ -1,5 +1,6 @@
 //! Notes on limits and observed quantities with the paths of their models, and evidence of models.
 
+use super::PointResult;
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
@@ -34,6 +35,64 @@ pub struct Note {
     pub outside: u32,
     /// The stated range; absent for an observed quantity.
     pub range: Option<Stated>,
+    /// Share of its component in the loss of all points; absent if it is not known. [-]
+    pub loss_share: Option<f64>,
+}
+
+/// Losses of all components, summed over points in whole numbers of nanowatts, so that no sum depends on the order of the points.
+#[derive(Debug, Clone, Default)]
+pub struct LostByPart(Vec<i128>);
+
+impl LostByPart {
+    /// One nanowatt. \[W\]
+    const UNIT: f64 = 1e-9;
+
+    /// Of some points.
+    pub fn of<'p>(points: impl IntoIterator<Item = &'p PointResult>) -> Self {
+        let mut lost = Self::default();
+        for point in points {
+            let watts = point.parts.iter().map(|watts| (watts / Self::UNIT) as i128);
+            lost.add(watts.collect());
+        }
+        lost
+    }
+
+    /// Adds further points.
+    pub fn merge(&mut self, other: &Self) {
+        self.add(other.0.clone());
+    }
+
+    fn add(&mut self, losses: Vec<i128>) {
+        self.0.resize(self.0.len().max(losses.len()), 0);
+        for (sum, loss) in self.0.iter_mut().zip(losses) {
+            *sum = sum.saturating_add(loss);
+        }
+    }
+
+    /// The share of the components that use a model, by its path.
+    fn share(&self, transmission: &Transmission, path: &str) -> Option<f64> {
+        let sum = |losses: &mut dyn Iterator<Item = &i128>| {
+            losses.fold(0, |sum: i128, loss| sum.saturating_add(*loss)) as f64
+        };
+        let all = sum(&mut self.0.iter());
+        let uses = |model: &str| path == model || path.strip_prefix(model).is_some_and(|rest| rest.starts_with('.'));
+        let parts = transmission.parts().iter().zip(&self.0);
+        let own = parts.filter(|(part, _)| {
+            let model = &transmission.instances()[part.notes.instance()].path;
+            uses(model) || part.path == path
+        });
+        let mut own = own.map(|(_, loss)| loss).peekable();
+        (all > 0.0 && own.peek().is_some()).then(|| sum(&mut own) / all)
+    }
+}
+
+/// As [`notes`], with the share of each component in the loss.
+pub fn notes_with_shares(transmission: &Transmission, seen: &[Extent], lost: &LostByPart) -> Vec<Note> {
+    let mut notes = notes(transmission, seen);
+    for note in &mut notes {
+        note.loss_share = lost.share(transmission, &note.path);
+    }
+    notes
 }
 
 /// The stated range of a model, in the unit of the note.
@@ -87,6 +146,7 @@ pub fn notes(transmission: &Transmission, seen: &[Extent]) -> Vec<Note> {
             greatest: f64::INFINITY,
             origin: "static safety, ISO 76",
         }),
+        loss_share: None,
     }));
     notes
 }
@@ -107,6 +167,7 @@ fn note(
         points: extent.seen,
         outside: extent.outside,
         range,
+        loss_share: None,
     })
 }
 

@@ -5,7 +5,7 @@ use serde::Deserialize;
 
 use gearloss_framework::thermal::network::Scheme;
 
-/// Cycles and settings of the simulation.
+/// Gearbox, model sets, cycles and settings of the simulation.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct DriveEntry {
     /// Gearbox; default: the first.
@@ -15,6 +15,14 @@ pub struct DriveEntry {
     /// Model sets; default: the models of the gearbox. `PRODUCT/SET` selects another gearbox, `PRODUCT/own` its default models.
     #[serde(default)]
     pub model_sets: Vec<String>,
+    /// Cycles and settings of the simulation.
+    #[serde(flatten)]
+    pub ride: RideEntry,
+}
+
+/// Cycles and settings of the simulation.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+pub struct RideEntry {
     /// Names under `cycles` of the study.
     #[schemars(length(min = 1))]
     pub cycles: Vec<String>,

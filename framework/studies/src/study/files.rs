@@ -400,6 +400,12 @@ impl Study {
     pub fn check(&self, language: &Language) -> Result<(), Findings> {
         let mut found: Vec<Diagnostic> = Vec::new();
         found.extend(called_own(self.sets.keys()));
+        let analyses: Vec<&str> = self.entry.analyses.ids().collect();
+        for (i, name) in self.entry.answered_by.iter().enumerate() {
+            if !analyses.contains(&name.as_str()) {
+                found.push(dangling(&format!("answered_by.{i}"), "analysis", name, &analyses));
+            }
+        }
         for (_, gearbox) in &self.gearboxes {
             gearbox.check_sets(language)?;
             let at_hand = sets_of(language, &gearbox.value, &self.sets);

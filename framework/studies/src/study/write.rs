@@ -15,6 +15,8 @@ pub enum Write {
     Parquet,
     /// Figures, one file each.
     Svg,
+    /// A workbook with the result and all tables, for spreadsheets.
+    Xlsx,
 }
 
 impl Write {

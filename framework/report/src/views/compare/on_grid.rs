@@ -5,6 +5,7 @@ use gearloss_studies::analyses::numbers::{RPM, tidy};
 
 use crate::deviations::{histograms, parity};
 use crate::page::Page;
+use crate::picture::{PanelQuantity, Panels, Screen};
 use crate::text::{TextTable, fixed, number, spread};
 use crate::{Figure, Map};
 
@@ -16,7 +17,7 @@ pub fn show(outcome: &CompareOutcome, all: &[GridComparison], page: &mut Page) {
             "{name}: {words} of {} minus {} in {label}, gear {}",
             c.model_set, c.base, c.gear
         ));
-        page.lines(differences(c));
+        page.table(differences(c));
         page.verdict(format!(
             "{} minus {}, {words} in {label}: {}",
             c.model_set,
@@ -24,12 +25,19 @@ pub fn show(outcome: &CompareOutcome, all: &[GridComparison], page: &mut Page) {
             figures(c)
         ));
         page.line("");
-        page.outside(&c.notes);
         page.line("");
     }
+    let panels = panels(all, (words, label));
     for c in all {
         let title = format!("{name}: {words} of {} minus {} in {label}", c.model_set, c.base);
-        page.figure(format!("{name}-{}", c.model_set), map(title, c, outcome.accuracy));
+        let (file, figure) = (format!("{name}-{}", c.model_set), map(title, c, outcome.accuracy));
+        match &panels {
+            Some(_) => page.file_figure(file, figure),
+            None => page.figure(file, figure),
+        }
+    }
+    if let Some(panels) = panels {
+        page.screen(Screen::Panels(Box::new(panels)));
     }
     let known = |c: &GridComparison| c.points.iter().filter_map(|p| p.difference).collect();
     let lists = all.iter().map(|c| (c.model_set.clone(), known(c))).collect();
@@ -42,7 +50,7 @@ pub fn show(outcome: &CompareOutcome, all: &[GridComparison], page: &mut Page) {
 }
 
 /// A selection of differences as a table of torque and speed.
-fn differences(c: &GridComparison) -> String {
+fn differences(c: &GridComparison) -> TextTable {
     let shown = spread(c.speeds.len());
     let mut titles = vec!["torque Nm".to_owned()];
     titles.extend(shown.iter().map(|i| format!("{} rpm", fixed(c.speeds[*i] * RPM, 0))));
@@ -53,7 +61,7 @@ fn differences(c: &GridComparison) -> String {
         row.extend(shown.iter().map(|i| number(difference(i), 2)));
         table.row(row);
     }
-    table.render()
+    table
 }
 
 /// Extremes, mean and root mean square as text.
@@ -77,6 +85,52 @@ fn figures(c: &GridComparison) -> String {
         number(of_loss.map(|s| s.mean), 2),
         number(of_loss.map(|s| s.rms), 2)
     )
+}
+
+/// All differences side by side with one scale, if their axes are the same.
+fn panels(all: &[GridComparison], (words, label): (&str, &str)) -> Option<Panels> {
+    let first = all.first()?;
+    let same = |c: &GridComparison| c.torques == first.torques && c.speeds == first.speeds && c.gear == first.gear;
+    if !all.iter().all(same) || first.torques.len() < 2 || first.speeds.len() < 2 {
+        return None;
+    }
+    Some(Panels {
+        title: format!("Difference of the {words}, gear {}", first.gear),
+        rows: vec![String::new()],
+        columns: all
+            .iter()
+            .map(|c| format!("{} minus {}", c.model_set, c.base))
+            .collect(),
+        x: (
+            "speed in rpm".to_owned(),
+            first.speeds.iter().map(|w| tidy(w * RPM)).collect(),
+        ),
+        y: (
+            "torque in Nm".to_owned(),
+            first.torques.iter().map(|t| tidy(*t)).collect(),
+        ),
+        quantities: vec![PanelQuantity {
+            name: format!("difference of the {words}"),
+            unit: label.to_owned(),
+            diverging: true,
+            best: None,
+            panels: all
+                .iter()
+                .map(|c| Some(c.points.iter().map(|p| p.difference).collect()))
+                .collect(),
+        }],
+        outside: all
+            .iter()
+            .map(|c| {
+                if c.outside.contains(&true) {
+                    c.outside.clone()
+                } else {
+                    Vec::new()
+                }
+            })
+            .collect(),
+        ..Panels::default()
+    })
 }
 
 fn map(title: String, c: &GridComparison, accuracy: Option<f64>) -> Figure {

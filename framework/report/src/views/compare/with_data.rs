@@ -20,12 +20,11 @@ pub fn show(outcome: &CompareOutcome, all: &[DataComparison], page: &mut Page) {
     let (words, label) = outcome.quantity.words(outcome.difference);
     for c in all {
         page.line(format!("{name}: {} minus measurement, {words} in {label}", c.model_set));
-        page.lines(statistics(c));
+        page.table(statistics(c));
         let omitted = c.points.iter().filter(|p| p.omitted).count();
         if omitted > 0 {
             page.line(note(omitted, "the difference"));
         }
-        page.outside(&c.notes);
         page.line("");
     }
     if let Some(sentence) = best(outcome, all) {
@@ -36,7 +35,7 @@ pub fn show(outcome: &CompareOutcome, all: &[DataComparison], page: &mut Page) {
 }
 
 /// Statistics over all points and in bands as a table.
-fn statistics(c: &DataComparison) -> String {
+fn statistics(c: &DataComparison) -> TextTable {
     let mut table = TextTable::new(&["over", "points", "min", "max", "mean", "rms"]);
     let mut line = |over: String, statistics: Option<Statistics>| {
         let mut row = vec![over, statistics.map_or(0, |s| s.count).to_string()];
@@ -51,7 +50,7 @@ fn statistics(c: &DataComparison) -> String {
     for band in &c.bands {
         line(range(band), band.difference);
     }
-    table.render()
+    table
 }
 
 /// A band as text; equal ends as one value.

@@ -12,7 +12,7 @@ pub(super) fn show(name: &str, compared: &ComparisonOfSets, page: &mut Page) {
             "{name}: comparison of the model sets; wins and ratio are those of `{}` against the set of the row",
             first.model_set
         ));
-        page.lines(table(compared).render());
+        page.table(table(compared));
     }
     page.verdict(format!("{name}: {}", compared.sentence));
     page.line("");

@@ -22,9 +22,9 @@ pub(super) fn show(name: &str, o: &IdentificationOfSet, page: &mut Page) {
         page.line(format!(
             "errors of the {what} in fitted and in held-out rows, in {unit}:"
         ));
-        page.lines(summaries(&own.errors));
+        page.table(summaries(&own.errors));
         if own.regions.iter().any(|r| r.held_out.is_some()) {
-            page.lines(by_region(&own.errors));
+            page.table(by_region(&own.errors));
         }
         if let Some(sentence) = &own.sentence {
             page.verdict(format!("{name}: {sentence}"));
@@ -47,7 +47,7 @@ pub(super) fn show(name: &str, o: &IdentificationOfSet, page: &mut Page) {
     }
 }
 
-fn summaries(own: &ErrorsOfQuantity) -> String {
+fn summaries(own: &ErrorsOfQuantity) -> TextTable {
     let both = [("fitted", &own.fitted), ("held out", &own.held_out)];
     let all = |has: &dyn Fn(&ErrorSummary) -> bool| both.iter().all(|(_, summary)| summary.as_ref().is_none_or(has));
     let in_percent = own.is_relative() && all(&|s| s.in_percent.is_some());
@@ -78,10 +78,10 @@ fn summaries(own: &ErrorsOfQuantity) -> String {
         cells.extend(further.into_iter().flatten().flatten().map(short));
         table.row(cells);
     }
-    table.render()
+    table
 }
 
-fn by_region(own: &ErrorsOfQuantity) -> String {
+fn by_region(own: &ErrorsOfQuantity) -> TextTable {
     let mut table = TextTable::new(&["region", "held out", "rms", "bias", "fitted", "rms", "bias"]);
     for region in own.regions.iter().filter(|r| r.held_out.is_some()) {
         let cells = |summary: &Option<ErrorSummary>| match summary {
@@ -96,7 +96,7 @@ fn by_region(own: &ErrorsOfQuantity) -> String {
         row.extend(cells(&region.fitted));
         table.row(row);
     }
-    table.render()
+    table
 }
 
 /// Errors of fitted and held-out rows over torque and over speed, with the bands of held-out rows.

@@ -32,7 +32,7 @@ pub(super) fn show(name: &str, o: &IdentificationOfSet, page: &mut Page) {
         "proposed measurements in gear `{}`, chosen to reduce {rule}:",
         next.gear
     ));
-    page.lines(table(next).render());
+    page.table(table(next));
     if let (Some((before, was)), Some((after, will))) = (worst(&plan.before.deviations), worst(&plan.after.deviations))
     {
         let half = |deviation: f64| short(100.0 * 1.96 * deviation);

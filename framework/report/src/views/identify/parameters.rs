@@ -52,7 +52,7 @@ pub(super) fn misfit(name: &str, o: &IdentificationOfSet, page: &mut Page) {
 
 /// A table of the parameters with notes.
 pub(super) fn show(o: &IdentificationOfSet, page: &mut Page) {
-    page.lines(table(o).render());
+    page.table(table(o));
     for (parameter, theta) in o.found.parameters.iter().zip(o.found.fitted.theta()) {
         if let Some(words) = parameter.changed_from_source(*theta) {
             page.line(format!("`{}`: coefficient {words}", parameter.name));

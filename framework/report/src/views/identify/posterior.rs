@@ -38,7 +38,7 @@ pub(super) fn show(name: &str, o: &IdentificationOfSet, page: &mut Page) {
         posterior.steps,
         100.0 * posterior.acceptance
     ));
-    page.lines(table.render());
+    page.table(table);
     if !posterior.is_settled {
         let all = posterior.parameters.iter();
         let least = all.clone().map(|p| p.independent_draws).fold(f64::INFINITY, f64::min);

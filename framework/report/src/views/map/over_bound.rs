@@ -13,7 +13,7 @@ type Quantity = (&'static str, fn(&ShownPoint) -> Option<f64>);
 /// The loss, and with a heat balance the temperature, over speed and the values of one bound path.
 pub fn show(outcome: &MapOutcome, sets: &[NotesOfSet], page: &mut Page) {
     let name = &outcome.head.analysis;
-    for NotesOfSet { model_set, notes } in sets {
+    for NotesOfSet { model_set, .. } in sets {
         let own: Vec<&MapOfSet> = outcome.maps.iter().filter(|m| m.model_set == *model_set).collect();
         let points = &own[0].shown.points;
         let shown = spread(points.len());
@@ -37,9 +37,8 @@ pub fn show(outcome: &MapOutcome, sets: &[NotesOfSet], page: &mut Page) {
                 row.extend(shown.iter().map(|i| number(quantity(&map.shown.points[*i]), 2)));
                 table.row(row);
             }
-            page.lines(table.render());
+            page.table(table);
         }
-        page.outside(notes);
         page.line("");
     }
 }

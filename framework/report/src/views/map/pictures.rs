@@ -4,7 +4,9 @@ use gearloss_studies::analyses::map::{Axes, MapOfSet, MapOutcome, Mark, ShownGri
 use gearloss_studies::analyses::numbers::{RPM, tidy, word};
 use gearloss_studies::points::OilTemperature;
 
+use super::panels::panels;
 use crate::page::Page;
+use crate::picture::Screen;
 use crate::{Cloud, Figure, Map};
 
 /// A quantity of the figures.
@@ -34,6 +36,12 @@ fn quantities(outcome: &MapOutcome) -> Vec<Quantity> {
 pub fn draw(outcome: &MapOutcome, page: &mut Page) {
     let name = &outcome.head.analysis;
     let axes = AxisNames::new(outcome);
+    // Side by side for the report; each on its own for the files.
+    let panels = panels(outcome, &axes);
+    let mut put = |name: String, figure: Figure| match &panels {
+        Some(_) => page.file_figure(name, figure),
+        None => page.figure(name, figure),
+    };
     for set in outcome.set_names() {
         let own: Vec<&MapOfSet> = outcome.maps.iter().filter(|m| m.model_set == set).collect();
         for quantity in quantities(outcome) {
@@ -52,7 +60,7 @@ pub fn draw(outcome: &MapOutcome, page: &mut Page) {
             });
             let file = format!("{name}-{set}-{}", quantity.short);
             if let (true, Some(grid)) = (outcome.notes_of_sets.is_some(), &own[0].shown.grid) {
-                page.figure(file, over_bound(name, &quantity, &own, grid, &axes, ends));
+                put(file, over_bound(name, &quantity, &own, grid, &axes, ends));
                 continue;
             }
             for (i, map) in own.iter().enumerate() {
@@ -72,10 +80,13 @@ pub fn draw(outcome: &MapOutcome, page: &mut Page) {
                     map.bound_words()
                 );
                 for (side, figure) in over_torque(map, &title, &quantity, &axes, &outcome.marks, ends) {
-                    page.figure(format!("{file}{number}{side}"), figure);
+                    put(format!("{file}{number}{side}"), figure);
                 }
             }
         }
+    }
+    if let Some(panels) = panels {
+        page.screen(Screen::Panels(Box::new(panels)));
     }
 }
 
@@ -107,7 +118,7 @@ fn over_bound(
 }
 
 /// Names of the axes with the ports of torque and speed.
-struct AxisNames {
+pub struct AxisNames {
     speed: String,
     torque: String,
 }
@@ -119,6 +130,18 @@ impl AxisNames {
             speed: format!("speed at {} in rpm", conditions.speed_at),
             torque: format!("torque at {} in Nm", conditions.torque_at),
         }
+    }
+
+    /// Name of the axis of speeds.
+    pub fn over_speed(&self, axes: &Axes) -> String {
+        let own = axes.shares[0].map_or(self.speed.as_str(), |_| "speed / rated speed");
+        own.to_owned()
+    }
+
+    /// Name of the axis of torques.
+    pub fn over_torque(&self, axes: &Axes) -> String {
+        let own = axes.shares[1].map_or(self.torque.as_str(), |_| "torque / rated torque");
+        own.to_owned()
     }
 }
 
@@ -179,33 +202,23 @@ fn over_torque(
 }
 
 /// A speed in the unit of the axis.
-fn speed(axes: &Axes, speed: f64) -> f64 {
+pub fn speed(axes: &Axes, speed: f64) -> f64 {
     tidy(axes.shares[0].map_or(speed * RPM, |rating| speed / rating))
 }
 
 /// A torque in the unit of the axis.
-fn torque(axes: &Axes, torque: f64) -> f64 {
+pub fn torque(axes: &Axes, torque: f64) -> f64 {
     tidy(axes.shares[1].map_or(torque, |rating| torque / rating))
 }
 
 /// Name and values of the axis of speeds.
 fn over_speed(axes: &Axes, names: &AxisNames) -> (String, Vec<String>) {
-    let name = if axes.shares[0].is_some() {
-        "speed / rated speed"
-    } else {
-        &names.speed
-    };
     let values = axes.speeds.iter().map(|w| format!("{}", speed(axes, *w)));
-    (name.to_owned(), values.collect())
+    (names.over_speed(axes), values.collect())
 }
 
 /// Name and values of the axis of torques.
 fn torque_axis(axes: &Axes, names: &AxisNames) -> (String, Vec<String>) {
-    let name = if axes.shares[1].is_some() {
-        "torque / rated torque"
-    } else {
-        &names.torque
-    };
     let values = axes.torques.iter().map(|t| format!("{}", torque(axes, *t)));
-    (name.to_owned(), values.collect())
+    (names.over_torque(axes), values.collect())
 }

@@ -5,6 +5,7 @@ use gearloss_studies::analyses::sensitivity::{OutputKind, OutputSensitivity, Sen
 use super::descending;
 use crate::Figure;
 use crate::page::Page;
+use crate::picture::{Screen, Tornado, TornadoBar};
 use crate::plot::{Bar, Line, Stroke};
 
 /// Maximum number of letters of a name in a legend, and of a line below a bar.
@@ -12,6 +13,9 @@ const NAME: usize = 21;
 const LINE: usize = 14;
 
 pub fn draw(name: &str, set: &SensitivityOfSet, page: &mut Page) {
+    if let Some(tornado) = tornado(set) {
+        page.screen(Screen::Tornado(tornado));
+    }
     let list = [
         ("effects", effects(name, set)),
         ("morris", morris(name, set)),
@@ -22,6 +26,30 @@ pub fn draw(name: &str, set: &SensitivityOfSet, page: &mut Page) {
             page.figure(format!("{name}-{}-{what}", set.model_set), figure);
         }
     }
+}
+
+/// The mean loss at both ends of each parameter by its slope; absent without slopes.
+fn tornado(set: &SensitivityOfSet) -> Option<Tornado> {
+    let loss = set.outputs.first()?;
+    let slopes = loss.local.as_ref()?;
+    let bars = set.parameters.iter().zip(slopes).filter_map(|(parameter, slope)| {
+        let start = parameter.start?;
+        let ends = [parameter.from, parameter.to];
+        Some(TornadoBar {
+            name: short(&parameter.path),
+            results: ends.map(|end| loss.mean + slope.slope * (end - start)),
+            ends: ends.map(|end| parameter.varied.words(end)),
+        })
+    });
+    let mut bars: Vec<TornadoBar> = bars.collect();
+    let size = |bar: &TornadoBar| (bar.results[1] - bar.results[0]).abs();
+    bars.sort_by(|a, b| size(b).total_cmp(&size(a)));
+    Some(Tornado {
+        title: format!("Mean loss at the ends of each range, by the slopes, {}", set.model_set),
+        x: "mean loss in W".to_owned(),
+        base: loss.mean,
+        bars,
+    })
 }
 
 /// A bar for each parameter, the largest first: effect on the mean loss, otherwise share of the variance, otherwise slope.

@@ -57,7 +57,7 @@ fn table(name: &str, ranking: &Ranking, page: &mut Page) {
     for i in &shown {
         table.row(row(ranking, *i));
     }
-    page.lines(table.render());
+    page.table(table);
     for line in distinct(shown.iter().flat_map(|i| &ranking.ranking[*i].marks)) {
         page.line(format!("mark: {line}"));
     }

@@ -16,7 +16,7 @@ pub fn show(name: &str, spread: &Spread, page: &mut Page) {
             number(own.share.map(|share| 100.0 * share), 1),
         ]);
     }
-    page.lines(table.render());
+    page.table(table);
     let halves = spread
         .points
         .iter()

@@ -3,11 +3,12 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use super::cases::{cases, names};
 use super::{CompareEntry, unit};
 use crate::analyses::axes::grid_axes;
 use crate::analyses::numbers::{RPM, tidy};
 use crate::analyses::{Built, Context, Head, Stopped};
-use crate::points::{GridResult, Note, PointResult, Statistics, notes};
+use crate::points::{GridResult, LostByPart, Note, PointResult, Statistics, notes, notes_with_shares};
 use crate::study::{Difference, Grid, Quantity};
 use crate::table::Table;
 
@@ -101,9 +102,8 @@ pub(super) fn compare(
     let gearbox = cx.gearbox(entry.gearbox.as_ref())?;
     let grid = cx.study.grid(&path, grid_name)?;
     check_grid(cx, grid_name, grid)?;
-    let sets = std::iter::once(base.to_owned()).chain(entry.against.iter().cloned());
-    let sets: Vec<String> = sets.collect();
-    let built = cx.built(gearbox, &sets)?;
+    let sets = names(entry, base);
+    let built = cases(cx, entry, gearbox, &sets)?;
     let gear = cx.one_gear(&path, grid, &built[0].transmission)?;
     let mut solved: Vec<GridResult> = Vec::new();
     // Axes in fractions of a rating have different values for each product; tables and figures show those of the base.
@@ -194,7 +194,7 @@ fn comparison(entry: &CompareEntry, base: &Base<'_>, built: &Built<'_>, other: &
         mean: (!known.is_empty()).then(|| known.iter().sum::<f64>() / known.len() as f64),
         difference: Statistics::from_values(known),
         loss_difference_percent_of_loss: Statistics::from_values(pairs().filter_map(of_loss)),
-        notes: notes(&built.transmission, &other.seen),
+        notes: notes_with_shares(&built.transmission, &other.seen, &LostByPart::of(&other.points)),
         outside: pairs().map(|(a, b)| a.outside || b.outside).collect(),
         points,
         torques: base.torques.to_vec(),

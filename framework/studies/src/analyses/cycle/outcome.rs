@@ -43,6 +43,8 @@ pub struct DutyOfSet {
     pub mean_losses_w: Vec<f64>,
     /// Energy balance.
     pub energy: EnergyOfDuty,
+    /// Energy over the distance; absent without a vehicle.
+    pub per_distance: Option<EnergyPerDistance>,
     /// Heat balance; absent without a thermal network.
     pub heat: Option<HeatOfDuty>,
     /// Losses of the motors of the thermal network.
@@ -95,6 +97,21 @@ pub struct EnergyOfDuty {
     pub brakes_j: f64,
     /// Energy balance error relative to the input. [-]
     pub residual_share: f64,
+    /// Output over input energy while power enters at the reference port; absent if it never does. [-]
+    pub drive_efficiency: Option<f64>,
+    /// Output over input energy while power leaves at the reference port; absent if it never does. [-]
+    pub recuperation_efficiency: Option<f64>,
+}
+
+/// Energy of a cycle over the distance of the vehicle.
+#[derive(Debug, Clone, Copy, Serialize, JsonSchema)]
+pub struct EnergyPerDistance {
+    /// Distance. [km]
+    pub distance_km: f64,
+    /// Loss of the transmission. [Wh/km]
+    pub loss_wh_per_km: f64,
+    /// The same in the unit of consumption. [kWh/100 km]
+    pub loss_kwh_per_100_km: f64,
 }
 
 /// Heat balance of a cycle.

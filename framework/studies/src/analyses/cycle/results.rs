@@ -4,8 +4,8 @@ use gearloss_framework::transmission::Transmission;
 
 use super::ReferenceLoss;
 use super::outcome::{
-    BrokenOff, DutyOfSet, EnergyOfDuty, HeatOfDuty, HeatOfExchanger, HeatOfMotor, HeatOfNode, IntervalOfDuty,
-    ReferenceOfDuty, TemperatureOfNode,
+    BrokenOff, DutyOfSet, EnergyOfDuty, EnergyPerDistance, HeatOfDuty, HeatOfExchanger, HeatOfMotor, HeatOfNode,
+    IntervalOfDuty, ReferenceOfDuty, TemperatureOfNode,
 };
 use crate::analyses::Built;
 use crate::analyses::balance::reason;
@@ -41,6 +41,7 @@ pub fn duty(
         shares: shares.names.clone(),
         mean_losses_w: energies.iter().map(|joule| mean(*joule)).collect(),
         energy,
+        per_distance: per_distance(driven),
         heat: heat(t, driven),
         motors: motors(t, driven),
         motors_beyond_map: driven.total.beyond_map,
@@ -85,7 +86,32 @@ fn energy(driven: &Driven) -> EnergyOfDuty {
         motors_j: (!total.motors.is_empty()).then(|| total.motors.iter().flatten().sum()),
         brakes_j: driven.brakes,
         residual_share: (total.input - total.output - loss).abs() / total.input.abs().max(1e-300),
+        drive_efficiency: efficiency(driven, |power| power > 0.0),
+        recuperation_efficiency: efficiency(driven, |power| power < 0.0),
     }
+}
+
+/// Output over input energy of the intervals whose power into the reference port meets a condition; absent without input.
+fn efficiency(driven: &Driven, holds: fn(f64) -> bool) -> Option<f64> {
+    let own = driven.stretches.iter().filter(|s| holds(s.torque * s.speed));
+    let sum = |sum: [f64; 2], s: &Stretch| [sum[0] + s.heats.input, sum[1] + s.heats.output];
+    let [input, output] = own.fold([0.0, 0.0], sum);
+    (input > 0.0).then(|| output / input)
+}
+
+/// Energy over the distance of the vehicle.
+pub fn per_distance(driven: &Driven) -> Option<EnergyPerDistance> {
+    let distances = driven
+        .stretches
+        .iter()
+        .map(|s| Some(s.vehicle_speed? * s.heats.duration));
+    let distance = distances.sum::<Option<f64>>().filter(|distance| *distance > 0.0)?;
+    let (km, wh) = (1e-3 * distance, driven.total.parts.iter().sum::<f64>() / 3600.0);
+    Some(EnergyPerDistance {
+        distance_km: km,
+        loss_wh_per_km: wh / km,
+        loss_kwh_per_100_km: 0.1 * wh / km,
+    })
 }
 
 /// Heat, if losses and temperatures depend on each other.

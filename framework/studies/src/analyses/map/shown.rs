@@ -28,6 +28,8 @@ pub struct ShownPoint {
     pub loss: Option<f64>,
     /// Loss over the speed of the reference port. \[Nm\]
     pub loss_torque: Option<f64>,
+    /// The usual sums of losses. \[W\]
+    pub sums: [f64; 6],
     /// True if a model is outside its stated range.
     pub outside: bool,
 }
@@ -41,6 +43,7 @@ impl From<&PointResult> for ShownPoint {
             efficiency: point.efficiency,
             loss: point.loss,
             loss_torque: point.loss_torque,
+            sums: point.sums,
             outside: point.outside,
         }
     }

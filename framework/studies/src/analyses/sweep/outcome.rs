@@ -199,6 +199,7 @@ mod tests {
             points: 3,
             outside,
             range: None,
+            loss_share: None,
         }
     }
 

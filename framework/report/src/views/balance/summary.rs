@@ -1,0 +1,36 @@
+//! The temperature at which losses and heat balance, in one sentence.
+
+use gearloss_studies::analyses::balance::BalanceOutcome;
+
+use crate::page::Page;
+use crate::text::{of_set, short};
+
+pub fn add(outcome: &BalanceOutcome, page: &mut Page) {
+    let mut words = Vec::new();
+    for own in &outcome.balances {
+        let balance = &own.balance;
+        let set = &own.model_set;
+        let loss = balance.history.iter().find(|step| {
+            let oil = balance.oil_temperature_degc;
+            oil.is_some_and(|oil| (step.oil_temperature_degc - oil).abs() < 1e-6)
+        });
+        if let Some(oil) = balance.oil_temperature_degc {
+            let loss = loss.map_or_else(String::new, |step| format!(" at {} W", short(step.loss_w)));
+            words.push(format!(
+                "{}oil {} °C{loss}",
+                of_set(set, outcome.balances.len()),
+                short(oil)
+            ));
+            page.key_figure("oil temperature", short(oil), "°C", set);
+        } else {
+            let why = balance.outcome.name();
+            words.push(format!("{}{why}", of_set(set, outcome.balances.len())));
+            page.careful.push(format!("{set}: no heat balance was found: {why}"));
+        }
+        if balance.stable.len() > 1 {
+            page.careful
+                .push(format!("{set}: several temperatures are stable; the lowest is used"));
+        }
+    }
+    page.headline = Some(words.join("; "));
+}

@@ -1,0 +1,91 @@
+//! Differences of mean losses over cycles: a table of shares and phases, and bars of both.
+
+use gearloss_studies::analyses::compare::CycleComparison;
+use gearloss_studies::distinct::distinct;
+
+use crate::Figure;
+use crate::page::Page;
+use crate::plot::Bar;
+use crate::text::{TextTable, number, signed};
+
+pub fn show(name: &str, all: &[CycleComparison], page: &mut Page) {
+    for cycle in distinct(all.iter().map(|c| c.cycle.as_str())) {
+        let own: Vec<&CycleComparison> = all.iter().filter(|c| c.cycle == cycle).collect();
+        page.table(shares(&own));
+        if own.iter().any(|c| !c.phases.is_empty()) {
+            page.table(phases(&own));
+        }
+        page.line("");
+        page.figure(format!("{name}-{cycle}"), bars(name, cycle, &own));
+    }
+}
+
+/// Mean losses of base and cases by share, with their differences.
+fn shares(own: &[&CycleComparison]) -> TextTable {
+    let first = own[0];
+    let mut head = vec!["share".to_owned(), format!("{} W", first.base)];
+    head.extend(own.iter().map(|c| format!("{} W", c.model_set)));
+    head.extend(own.iter().map(|c| format!("{} minus {} W", c.model_set, c.base)));
+    let mut table = TextTable::new(&head.iter().map(String::as_str).collect::<Vec<_>>())
+        .titled(format!("mean loss over {} by share", first.cycle));
+    for (i, share) in first.shares.iter().enumerate() {
+        let mut row = vec![share.share.clone(), number(Some(share.base_mean_loss_w), 3)];
+        row.extend(own.iter().map(|c| number(Some(c.shares[i].mean_loss_w), 3)));
+        row.extend(own.iter().map(|c| signed(c.shares[i].difference_w)));
+        table.row(row);
+    }
+    let mut row = vec!["sum".to_owned(), number(Some(first.base_mean_loss_w), 3)];
+    row.extend(own.iter().map(|c| number(Some(c.mean_loss_w), 3)));
+    row.extend(own.iter().map(|c| signed(c.difference_w)));
+    table.row(row);
+    table
+}
+
+/// Mean losses by phase of the cycle.
+fn phases(own: &[&CycleComparison]) -> TextTable {
+    let first = own[0];
+    let mut head = vec![
+        "phase".to_owned(),
+        "from s".to_owned(),
+        "to s".to_owned(),
+        format!("{} W", first.base),
+    ];
+    head.extend(own.iter().map(|c| format!("{} minus {} W", c.model_set, c.base)));
+    let mut table = TextTable::new(&head.iter().map(String::as_str).collect::<Vec<_>>())
+        .titled(format!("mean loss by phase of {}", first.cycle));
+    for (i, phase) in first.phases.iter().enumerate() {
+        let mut row = vec![
+            phase.phase.clone(),
+            number(Some(phase.from_s), 0),
+            number(Some(phase.to_s), 0),
+            number(Some(phase.base_mean_loss_w), 3),
+        ];
+        row.extend(own.iter().map(|c| signed(c.phases[i].difference_w)));
+        table.row(row);
+    }
+    table
+}
+
+/// The base and every case as bars of their shares.
+fn bars(name: &str, cycle: &str, own: &[&CycleComparison]) -> Figure {
+    let first = own[0];
+    let base = Bar {
+        label: first.base.clone(),
+        shares: first.shares.iter().map(|share| share.base_mean_loss_w).collect(),
+        above: format!("{:.1} W", first.base_mean_loss_w),
+        ..Bar::default()
+    };
+    let case = |c: &&CycleComparison| Bar {
+        label: c.model_set.clone(),
+        shares: c.shares.iter().map(|share| share.mean_loss_w).collect(),
+        above: format!("{:.1} W ({})", c.mean_loss_w, signed(c.difference_w)),
+        ..Bar::default()
+    };
+    Figure::Bars {
+        title: format!("{name}: mean loss over {cycle} by share"),
+        over: String::new(),
+        height: "mean loss in W".to_owned(),
+        names: first.shares.iter().map(|share| share.share.clone()).collect(),
+        bars: std::iter::once(base).chain(own.iter().map(case)).collect(),
+    }
+}

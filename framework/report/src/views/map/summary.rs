@@ -1,0 +1,64 @@
+//! The range of efficiency and loss over all maps, in one sentence.
+
+use gearloss_studies::analyses::map::{MapOfSet, MapOutcome, ShownPoint};
+use gearloss_studies::analyses::numbers::RPM;
+
+use crate::page::Page;
+use crate::text::{extremes, place, range, short};
+
+type Found<'a> = (&'a MapOfSet, &'a ShownPoint);
+
+pub fn add(outcome: &MapOutcome, page: &mut Page) {
+    let points = || {
+        outcome
+            .maps
+            .iter()
+            .flat_map(|map| map.shown.points.iter().map(move |point| (map, point)))
+    };
+    let of = |value: fn(&ShownPoint) -> Option<f64>| {
+        extremes(points().filter_map(move |(map, point)| Some((value(point)?, (map, point)))))
+    };
+    let sets = outcome.set_names();
+    let at = |(map, point): Found<'_>| {
+        let set = if sets.len() > 1 {
+            format!(", {}", map.model_set)
+        } else {
+            String::new()
+        };
+        format!("{}{set}", place(point.torque, point.speed * RPM))
+    };
+    let mut words = Vec::new();
+    if let Some([low, high]) = of(|point| {
+        point
+            .efficiency
+            .filter(|_| point.torque != 0.0)
+            .map(|share| 100.0 * share)
+    }) {
+        words.push(format!(
+            "efficiency {} %, highest at {}",
+            range(low.0, high.0, 1),
+            at(high.1)
+        ));
+        page.key_figure("highest efficiency", short(high.0), "%", at(high.1));
+        page.key_figure("lowest efficiency", short(low.0), "%", at(low.1));
+    }
+    if let Some([low, high]) = of(|point| point.loss) {
+        words.push(format!("loss {} W", range(low.0, high.0, 0)));
+        page.key_figure("largest loss", short(high.0), "W", at(high.1));
+    }
+    if let Some([low, high]) = of(|point| point.oil).filter(|ends| ends[1].0 - ends[0].0 > 0.05) {
+        words.push(format!("oil {} °C", range(low.0, high.0, 0)));
+        page.key_figure("highest oil temperature", short(high.0), "°C", at(high.1));
+    }
+    let missing = points().filter(|(_, point)| point.loss.is_none()).count();
+    if missing > 0 {
+        page.careful.push(format!(
+            "{missing} points of the maps have no power flow or no defined loss"
+        ));
+    }
+    let count = match sets.len() {
+        1 => String::new(),
+        sets => format!("{sets} model sets: "),
+    };
+    page.headline = (!words.is_empty()).then(|| format!("{count}{}", words.join("; ")));
+}

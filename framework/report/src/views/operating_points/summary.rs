@@ -1,0 +1,64 @@
+//! Losses and temperatures of all points in one sentence.
+
+use gearloss_studies::analyses::measurable::is_measurable;
+use gearloss_studies::analyses::operating_points::{OperatingPoint, OperatingPointsOutcome};
+
+use crate::page::Page;
+use crate::text::{extremes, of_set, range, short, signed};
+
+pub fn add(outcome: &OperatingPointsOutcome, page: &mut Page) {
+    let mut words = Vec::new();
+    for points_of_set in &outcome.operating_points {
+        let (set, points) = (&points_of_set.model_set, &points_of_set.points);
+        let ends = |value: fn(&OperatingPoint) -> Option<f64>| {
+            extremes(points.iter().filter_map(move |point| Some((value(point)?, point))))
+        };
+        let mut own = Vec::new();
+        if let Some([low, high]) = ends(|point| point.loss_w) {
+            own.push(format!("{} W", range(low.0, high.0, 1)));
+            page.key_figure("largest loss", short(high.0), "W", format!("point {}", high.1.name));
+        }
+        if let Some([low, high]) = ends(|point| point.oil_temperature_degc) {
+            own.push(format!("oil {} °C", range(low.0, high.0, 1)));
+            page.key_figure(
+                "highest oil temperature",
+                short(high.0),
+                "°C",
+                format!("point {}", high.1.name),
+            );
+        }
+        let deviation = |point: &OperatingPoint| {
+            let (loss, seen) = (point.loss_w?, point.measured.loss_w?);
+            is_measurable(seen, loss).then(|| 100.0 * (loss / seen - 1.0))
+        };
+        let deviations: Vec<f64> = points.iter().filter_map(deviation).collect();
+        if !deviations.is_empty() {
+            let count = deviations.len() as f64;
+            let mean = deviations.iter().sum::<f64>() / count;
+            let rms = (deviations.iter().map(|x| x * x).sum::<f64>() / count).sqrt();
+            own.push(format!(
+                "{} % to the measured loss on average, {} % rms",
+                signed(mean),
+                short(rms)
+            ));
+            page.key_figure(
+                "deviation from the measured loss",
+                short(rms),
+                "%",
+                format!("rms; mean {} %, {set}", signed(mean)),
+            );
+        }
+        words.push(format!(
+            "{}{} points, {}",
+            of_set(set, outcome.operating_points.len()),
+            points.len(),
+            own.join(", ")
+        ));
+        let missing = points.iter().filter(|point| point.loss_w.is_none()).count();
+        if missing > 0 {
+            page.careful
+                .push(format!("{set}: {missing} points have no defined loss"));
+        }
+    }
+    page.headline = (!words.is_empty()).then(|| words.join("; "));
+}

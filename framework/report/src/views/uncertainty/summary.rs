@@ -1,0 +1,64 @@
+//! The width of the bands and the strongest input, in one sentence.
+
+use gearloss_studies::analyses::numbers::tidy;
+use gearloss_studies::analyses::uncertainty::{PointOfBand, UncertaintyOutcome};
+
+use crate::page::Page;
+use crate::text::{extremes, of_set, place, range, short};
+
+pub fn add(outcome: &UncertaintyOutcome, page: &mut Page) {
+    let mut words = Vec::new();
+    for set in &outcome.bands {
+        let half = |value: fn(&PointOfBand) -> Option<f64>| {
+            extremes(set.points.iter().filter_map(move |point| Some((value(point)?, point))))
+        };
+        let mut own = Vec::new();
+        let at = |point: &PointOfBand| place(tidy(point.torque_nm), tidy(point.speed_rpm));
+        if let Some([low, high]) = half(|point| point.efficiency_percent.half_width()) {
+            own.push(format!(
+                "efficiency +-{} points, widest at {}",
+                range(low.0, high.0, 2),
+                at(high.1)
+            ));
+            page.key_figure(
+                "widest band of the efficiency",
+                format!("±{}", short(high.0)),
+                "points",
+                at(high.1),
+            );
+        }
+        if let Some([low, high]) = half(|point| point.loss_w.half_width()) {
+            own.push(format!("loss +-{} W", range(low.0, high.0, 1)));
+            page.key_figure(
+                "widest band of the loss",
+                format!("±{}", short(high.0)),
+                "W",
+                at(high.1),
+            );
+        }
+        if let Some((input, strength)) = set
+            .inputs
+            .first()
+            .and_then(|i| Some((i, i.correlation_with_mean_loss?)))
+        {
+            let name = input.path.rsplit('.').next().unwrap_or(&input.path);
+            own.push(format!("most by {name}"));
+            page.key_figure(
+                "strongest input",
+                name,
+                "",
+                format!("correlation {} with the mean loss", short(strength)),
+            );
+        }
+        if set.failed > 0 {
+            page.careful
+                .push(format!("{}: {} samples have no value", set.model_set, set.failed));
+        }
+        words.push(format!(
+            "{}{}",
+            of_set(&set.model_set, outcome.bands.len()),
+            own.join("; ")
+        ));
+    }
+    page.headline = (!words.is_empty()).then(|| format!("95 % bands, {}", words.join("; ")));
+}

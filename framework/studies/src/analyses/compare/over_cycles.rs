@@ -1,0 +1,239 @@
+//! Differences of mean losses over cycles: by share and by phase.
+
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use super::CompareEntry;
+use super::cases::{cases, names};
+use crate::analyses::cycle::results::per_distance;
+use crate::analyses::duties::{Duties, Read, sums_energies};
+use crate::analyses::shares::{Shares, together};
+use crate::analyses::{Built, Context, Head, Stopped};
+use crate::points::{Driven, Note, notes};
+use crate::study::RideEntry;
+use crate::table::Table;
+
+/// Differences of one set or variant from the base over one cycle.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct CycleComparison {
+    /// Name of the set or of the variant.
+    pub model_set: String,
+    /// Name of the base.
+    pub base: String,
+    /// Name of the cycle.
+    pub cycle: String,
+    /// Simulated time. [s]
+    pub duration_s: f64,
+    /// Mean loss of the base. [W]
+    pub base_mean_loss_w: f64,
+    /// Mean loss. [W]
+    pub mean_loss_w: f64,
+    /// Difference of the mean losses. [W]
+    pub difference_w: f64,
+    /// The same relative to the base; absent if it has no loss. [%]
+    pub difference_percent: Option<f64>,
+    /// The same as energy per distance; absent without a vehicle. [Wh/km]
+    pub difference_wh_per_km: Option<f64>,
+    /// Differences by share of the loss.
+    pub shares: Vec<DifferenceOfShare>,
+    /// Differences by phase of the cycle; empty if it has none.
+    pub phases: Vec<DifferenceOfPhase>,
+    /// Notes of models.
+    pub notes: Vec<Note>,
+    /// Number of quantities outside their stated ranges with the base.
+    #[serde(skip)]
+    pub ranges_left_by_base: usize,
+}
+
+/// Difference of one share of the loss.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct DifferenceOfShare {
+    /// Name of the share.
+    pub share: String,
+    /// Mean loss of the base. [W]
+    pub base_mean_loss_w: f64,
+    /// Mean loss. [W]
+    pub mean_loss_w: f64,
+    /// Difference. [W]
+    pub difference_w: f64,
+}
+
+/// Difference in one phase of a cycle.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct DifferenceOfPhase {
+    /// Name of the phase.
+    pub phase: String,
+    /// Its start. [s]
+    pub from_s: f64,
+    /// Its end. [s]
+    pub to_s: f64,
+    /// Mean loss of the base. [W]
+    pub base_mean_loss_w: f64,
+    /// Mean loss. [W]
+    pub mean_loss_w: f64,
+    /// Difference. [W]
+    pub difference_w: f64,
+}
+
+pub(super) fn compare(
+    cx: &Context<'_>,
+    entry: &CompareEntry,
+    ride: &RideEntry,
+    base: &str,
+) -> Result<(Head, Vec<CycleComparison>), Stopped> {
+    let path = cx.path();
+    let gearbox = cx.gearbox(entry.gearbox.as_ref())?;
+    sums_energies(cx, &path, entry.by)?;
+    let duties = Duties::new(cx, &format!("{path}.drive"), ride, entry.gear.as_ref())?;
+    let sets = names(entry, base);
+    let built = cases(cx, entry, gearbox, &sets)?;
+    for b in &built {
+        duties.check(cx, &path, b)?;
+    }
+    cx.begin()?;
+    cx.undivided()?;
+    let share_names = together(built.iter().map(|b| &b.transmission), entry.by);
+    let driven: Vec<Vec<Driven>> = built.iter().map(|b| drive(cx, &duties, b)).collect::<Result<_, _>>()?;
+    let (Some((base, others)), Some((of_base, of_others))) = (built.split_first(), driven.split_first()) else {
+        return Ok((cx.head(&[]), Vec::new()));
+    };
+    let mut comparisons = Vec::new();
+    for (b, own) in others.iter().zip(of_others) {
+        for ((read, driven), of_base) in duties.list.iter().zip(own).zip(of_base) {
+            let shares = [base, b].map(|b| Shares::new(&b.transmission, entry.by).under(&share_names));
+            comparisons.push(comparison(read, [(base, of_base), (b, driven)], &shares));
+        }
+    }
+    Ok((cx.head(&built.iter().collect::<Vec<_>>()), comparisons))
+}
+
+/// All cycles with one case; each must reach its end.
+fn drive(cx: &Context<'_>, duties: &Duties<'_>, b: &Built<'_>) -> Result<Vec<Driven>, Stopped> {
+    let running = cx.running(duties.intervals(), &b.name);
+    let mut all = Vec::new();
+    for read in &duties.list {
+        let driven = duties.drive(&b.transmission, read, &|n| running.advance(n));
+        let driven = driven.map_err(|list| Stopped::from(b.gearbox.findings(list)))?;
+        let driven = driven.ok_or(Stopped::Interrupted)?;
+        if let Some((time, why)) = &driven.broken {
+            let why = crate::analyses::balance::reason(&b.transmission, why);
+            let message = format!(
+                "`{}` could not be simulated with `{}` beyond {time} s: {why}",
+                read.name, b.name
+            );
+            return Err(cx.wrong_as(
+                crate::codes::BROKEN_OFF,
+                &cx.path(),
+                message,
+                "examine the point with `explain`",
+            ));
+        }
+        all.push(driven);
+    }
+    Ok(all)
+}
+
+/// Base and case over one cycle.
+fn comparison(read: &Read, pair: [(&Built<'_>, &Driven); 2], shares: &[Shares; 2]) -> CycleComparison {
+    let [(base, of_base), (b, driven)] = pair;
+    // A cycle without time has no energy.
+    let duration = driven.total.duration.max(f64::MIN_POSITIVE);
+    let both = [of_base, driven];
+    let losses = [0, 1].map(|k| both[k].total.parts.iter().sum::<f64>() / duration);
+    let difference = losses[1] - losses[0];
+    let sums = [0, 1].map(|k| shares[k].sums(&both[k].total.parts));
+    let share = |(i, name): (usize, &String)| {
+        let [before, now] = [0, 1].map(|k| sums[k][i] / duration);
+        DifferenceOfShare {
+            share: name.clone(),
+            base_mean_loss_w: before,
+            mean_loss_w: now,
+            difference_w: now - before,
+        }
+    };
+    let km = per_distance(driven).map(|per| per.distance_km);
+    CycleComparison {
+        model_set: b.name.clone(),
+        base: base.name.clone(),
+        cycle: read.name.clone(),
+        duration_s: duration,
+        base_mean_loss_w: losses[0],
+        mean_loss_w: losses[1],
+        difference_w: difference,
+        difference_percent: (losses[0] > 0.0).then(|| 100.0 * difference / losses[0]),
+        difference_wh_per_km: km.map(|km| difference * duration / 3600.0 / km),
+        shares: shares[0].names.iter().enumerate().map(share).collect(),
+        phases: phases(read, both),
+        notes: notes(&b.transmission, &driven.seen),
+        ranges_left_by_base: notes(&base.transmission, &of_base.seen)
+            .iter()
+            .filter(|note| note.outside > 0)
+            .count(),
+    }
+}
+
+/// Mean losses in each phase.
+fn phases(read: &Read, both: [&Driven; 2]) -> Vec<DifferenceOfPhase> {
+    let mut from = 0.0;
+    let phase = |(name, end): &(String, f64)| {
+        let start = std::mem::replace(&mut from, *end);
+        let mean = |driven: &Driven| {
+            let (mut joule, mut time) = (0.0, 0.0);
+            for s in &driven.stretches {
+                // An interval belongs to the phase in which its middle lies.
+                let middle = s.start + 0.5 * s.heats.duration;
+                if middle >= start && middle < *end {
+                    joule += s.heats.parts.iter().sum::<f64>();
+                    time += s.heats.duration;
+                }
+            }
+            if time > 0.0 { joule / time } else { 0.0 }
+        };
+        let [before, now] = both.map(mean);
+        DifferenceOfPhase {
+            phase: name.clone(),
+            from_s: start,
+            to_s: *end,
+            base_mean_loss_w: before,
+            mean_loss_w: now,
+            difference_w: now - before,
+        }
+    };
+    read.phases.iter().map(phase).collect()
+}
+
+/// A row for each share of the loss.
+pub(super) fn table(name: &str, all: &[CycleComparison]) -> Table {
+    Table::of_each(name, all, |c| &c.shares)
+        .text("model_set", "Model set or variant", |(c, _)| &c.model_set)
+        .text("base", "Base", |(c, _)| &c.base)
+        .text("cycle", "Duty cycle", |(c, _)| &c.cycle)
+        .text("share", "Share of the loss", |(_, share)| &share.share)
+        .number("base_mean_loss_w", "W", "Mean loss of the base", |(_, share)| {
+            share.base_mean_loss_w
+        })
+        .number("mean_loss_w", "W", "Mean loss", |(_, share)| share.mean_loss_w)
+        .number("difference_w", "W", "Difference of the mean losses", |(_, share)| {
+            share.difference_w
+        })
+        .finish()
+}
+
+/// A row for each phase of the cycles.
+pub(super) fn phase_table(name: &str, all: &[CycleComparison]) -> Table {
+    Table::of_each(format!("{name}-phases"), all, |c| &c.phases)
+        .text("model_set", "Model set or variant", |(c, _)| &c.model_set)
+        .text("base", "Base", |(c, _)| &c.base)
+        .text("cycle", "Duty cycle", |(c, _)| &c.cycle)
+        .text("phase", "Phase of the cycle", |(_, phase)| &phase.phase)
+        .number("from_s", "s", "Start of the phase", |(_, phase)| phase.from_s)
+        .number("to_s", "s", "End of the phase", |(_, phase)| phase.to_s)
+        .number("base_mean_loss_w", "W", "Mean loss of the base", |(_, phase)| {
+            phase.base_mean_loss_w
+        })
+        .number("mean_loss_w", "W", "Mean loss", |(_, phase)| phase.mean_loss_w)
+        .number("difference_w", "W", "Difference of the mean losses", |(_, phase)| {
+            phase.difference_w
+        })
+        .finish()
+}

@@ -1,0 +1,106 @@
+//! Reports in a browser, and the library that draws their pictures: its tests, its types, its bundles.
+
+use crate::common;
+use crate::editor::install::packages;
+use serde_json::Value;
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use std::sync::OnceLock;
+
+fn web() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("web")
+}
+
+/// The tools of `web/`; installed once.
+fn tools() -> Result<(), String> {
+    static TOOLS: OnceLock<Result<(), String>> = OnceLock::new();
+    TOOLS.get_or_init(|| packages(&web())).clone()
+}
+
+/// Says past the capture of the test runner, so that everybody sees it, what was not tested.
+fn skipped(what: &str) {
+    let words = format!("SKIPPED: {what}\n");
+    std::io::stderr().write_all(words.as_bytes()).unwrap();
+}
+
+fn node(arguments: &[&str], browser: Option<&str>) -> Output {
+    let mut command = Command::new("node");
+    command.args(arguments).current_dir(web());
+    if let Some(browser) = browser {
+        command.env("BROWSER", browser);
+    }
+    command.output().unwrap()
+}
+
+/// Path of a browser; `None` if there is none.
+fn browser() -> Option<String> {
+    let names = ["chromium", "chromium-browser", "google-chrome"];
+    let path = std::env::var_os("PATH")?;
+    let places = std::env::split_paths(&path).flat_map(|folder| names.map(|name| folder.join(name)));
+    places
+        .into_iter()
+        .find(|file| file.is_file())
+        .map(|file| file.display().to_string())
+}
+
+/// Every picture is drawn; tabs, slider, sorting, tooltips and dark colours work; nothing is requested, nothing complained about; axe finds
+/// nothing serious; the page fits 500 px. `web/test/page.mjs` says what fails.
+#[test]
+fn reports_work_in_a_browser() {
+    if let Err(reason) = tools() {
+        return skipped(&format!("no report was opened: {reason}"));
+    }
+    let Some(browser) = browser() else {
+        return skipped("no report was opened: no browser; on Debian `apt-get install chromium` brings one");
+    };
+    // Most pages on A4.
+    for (study, pages) in [
+        ("examples/planetary-reducer/study.yaml", 6),
+        ("examples/two-products/study.yaml", 6),
+        ("examples/two-speed-ev/study.yaml", 26),
+    ] {
+        let report = common::study_run(study).folder.join("report.html");
+        let output = node(&["test/page.mjs", report.to_str().unwrap()], Some(&browser));
+        let (text, errors) = (
+            String::from_utf8_lossy(&output.stdout),
+            String::from_utf8_lossy(&output.stderr),
+        );
+        assert!(output.status.success(), "{study}: {text}{errors}");
+        let figures: Value = serde_json::from_str(text.lines().last().unwrap_or_default()).unwrap();
+        let number = |key: &str| figures[key].as_u64().unwrap_or(u64::MAX);
+        assert!(number("bytes") < 2_000_000, "{study}: {figures}");
+        assert!(number("pages") <= pages, "{study}: {figures}");
+    }
+}
+
+/// The committed bundles are those of the sources, whose types and tests hold.
+#[test]
+fn the_bundles_are_made_from_their_sources() {
+    if let Err(reason) = tools() {
+        return skipped(&format!("the library of pictures was not built: {reason}"));
+    }
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("web");
+    std::fs::create_dir_all(&folder).unwrap();
+    let to = format!("{}/", folder.display());
+    for arguments in [
+        &["build.mjs", &to][..],
+        &["node_modules/.bin/tsc", "--noEmit"],
+        &["--test", "test/unit/"],
+    ] {
+        let output = node(arguments, None);
+        let (text, errors) = (
+            String::from_utf8_lossy(&output.stdout),
+            String::from_utf8_lossy(&output.stderr),
+        );
+        assert!(output.status.success(), "{arguments:?}: {text}{errors}");
+    }
+    for name in ["report.js", "report.css"] {
+        let made = std::fs::read(folder.join(name)).unwrap();
+        let committed = std::fs::read(web().join("../framework/report/src/html").join(name)).unwrap();
+        assert!(
+            made == committed,
+            "{name} differs from its sources; run `npm run build` in web/"
+        );
+    }
+}

@@ -1,0 +1,261 @@
+// The report page: draws its pictures when they come into view, equips its tables, follows the navigation, prepares printing.
+
+import { Drawn, Picture, colourBooks, draw } from "./draw.ts";
+import { colourByLoss } from "./drawing.ts";
+import { significant, words } from "./format.ts";
+import { equip } from "./table.ts";
+
+const data: Record<string, Picture> = JSON.parse(document.getElementById("pictures")?.textContent || "{}");
+const books = colourBooks(Object.values(data));
+
+const drawn = new Map<HTMLElement, Drawn>();
+const hosts = [...document.querySelectorAll<HTMLElement>("[data-picture]")];
+
+function show(host: HTMLElement, width?: number, height?: number): void {
+  const picture = data[host.dataset.picture ?? ""];
+  if (!picture || drawn.has(host)) return;
+  host.replaceChildren();
+  const own = host.dataset.height ? host.clientHeight || undefined : undefined;
+  try {
+    drawn.set(host, draw(host, picture, { ...books, width, height: height ?? own }));
+    host.dataset.drawn = "";
+  } catch (fault) {
+    host.textContent = "This picture cannot be drawn.";
+    console.error(fault);
+  }
+}
+
+/** True while the page is prepared for paper. */
+let onPaper = false;
+
+/** Plot height of the picture on the first screen, whose box has a given size. */
+function fit(host: HTMLElement): void {
+  const room = host.clientHeight;
+  const picture = drawn.get(host);
+  if (!picture || room < 120 || onPaper) return;
+  // Controls and legends take a part of the height, which is known after drawing.
+  for (let round = 0; round < 3; round++) {
+    const used = host.firstElementChild?.getBoundingClientRect().height ?? room;
+    if (used <= room && used > room - 24) return;
+    const before = Number(host.dataset.plot ?? room);
+    const next = Math.max(160, before - (used - room));
+    host.dataset.plot = String(next);
+    picture.redraw({ height: next });
+  }
+}
+
+function lazily(): void {
+  const watcher = new IntersectionObserver(
+    (entries) => {
+      for (const entry of entries) {
+        if (!entry.isIntersecting) continue;
+        const host = entry.target as HTMLElement;
+        watcher.unobserve(host);
+        show(host);
+        if (host.dataset.height) fit(host);
+      }
+    },
+    { rootMargin: "600px 0px" },
+  );
+  for (const host of hosts) watcher.observe(host);
+  addEventListener("resize", () => {
+    for (const host of hosts) if (host.dataset.height) fit(host);
+  });
+}
+
+function tables(): void {
+  for (const table of document.querySelectorAll<HTMLTableElement>(".table table")) {
+    const name = table.caption?.textContent?.trim() || table.closest("section")?.querySelector("h2")?.textContent?.trim() || "table";
+    equip(table, name);
+  }
+}
+
+function theme(): void {
+  const button = document.getElementById("theme");
+  const dark = matchMedia("(prefers-color-scheme: dark)");
+  const remembered = () => {
+    try {
+      return localStorage.getItem("gearloss-theme");
+    } catch {
+      return null;
+    }
+  };
+  const apply = (name: string | null) => {
+    if (name) document.documentElement.dataset.theme = name;
+    else delete document.documentElement.dataset.theme;
+    const is = name ? name === "dark" : dark.matches;
+    if (!button) return;
+    button.dataset.next = is ? "light" : "dark";
+    button.textContent = is ? "Light" : "Dark";
+    button.setAttribute("aria-label", `${button.textContent} colours`);
+  };
+  apply(remembered());
+  dark.addEventListener("change", () => apply(remembered()));
+  button?.addEventListener("click", () => {
+    const next = button.dataset.next ?? "dark";
+    try {
+      localStorage.setItem("gearloss-theme", next);
+    } catch {
+      // A page without storage forgets it.
+    }
+    apply(next);
+  });
+}
+
+function navigation(): void {
+  const links = new Map([...document.querySelectorAll<HTMLAnchorElement>("nav a[href^='#']")].map((a) => [decodeURIComponent(a.hash.slice(1)), a]));
+  const visible = new Set<string>();
+  const watcher = new IntersectionObserver(
+    (entries) => {
+      for (const { target, isIntersecting } of entries) {
+        if (isIntersecting) visible.add(target.id);
+        else visible.delete(target.id);
+      }
+      const current = [...links.keys()].find((id) => visible.has(id));
+      if (!current && scrollY < innerHeight / 2) [...links.values()][0]?.closest("ol")?.scrollTo(0, 0);
+      for (const [id, link] of links) {
+        if (id !== current) link.removeAttribute("aria-current");
+        else if (!link.hasAttribute("aria-current")) {
+          link.setAttribute("aria-current", "true");
+          // Only the bar itself moves, not the page.
+          const bar = link.closest("ol");
+          if (bar) bar.scrollLeft = link.offsetLeft - bar.clientWidth / 2 + link.offsetWidth / 2;
+        }
+      }
+    },
+    { rootMargin: "-80px 0px -70% 0px" },
+  );
+  for (const id of links.keys()) {
+    const section = document.getElementById(id);
+    if (section) watcher.observe(section);
+  }
+  // A link to something in folded details opens them.
+  const open = () => {
+    const target = document.getElementById(decodeURIComponent(location.hash.slice(1)));
+    for (let e = target?.parentElement; e; e = e.parentElement) if (e instanceof HTMLDetailsElement) e.open = true;
+  };
+  addEventListener("hashchange", open);
+  if (location.hash) open();
+}
+
+/** Width of one of two columns on A4 in pixels; paper shows pictures at 80 % of their size. */
+const COLUMN = 430;
+/** Width of the first picture beside the drawing. */
+const LEAD = 525;
+
+/** Height of the plots on paper; rows have their usual height. */
+function paperHeight(picture: Picture): number | undefined {
+  switch (picture?.kind) {
+    case "panels":
+      return 205 * Math.ceil((picture.rows.length * picture.columns.length) / 3);
+    case "panes":
+      return 75 * picture.panes.length;
+    case "map":
+    case "cloud":
+    case "lines":
+    case "areas":
+    case "bars":
+    case "waterfall":
+      return 235;
+    default:
+      return undefined;
+  }
+}
+
+function printing(): void {
+  let closed: HTMLDetailsElement[] = [];
+  const before = () => {
+    if (onPaper) return;
+    onPaper = true;
+    for (const host of hosts) {
+      const wide = host.closest(".spread, .first") !== null;
+      const [lead, picture] = [host.dataset.height !== undefined, data[host.dataset.picture ?? ""]];
+      const width = lead && document.querySelector(".lead:not(.one)") ? LEAD : wide ? 2 * COLUMN + 15 : COLUMN;
+      const height = lead ? 225 : paperHeight(picture);
+      if (drawn.has(host)) drawn.get(host)!.redraw({ width, height });
+      else show(host, width, height);
+    }
+    closed = [...document.querySelectorAll<HTMLDetailsElement>("details:not([open])")].filter((d) => !d.classList.contains("source"));
+    for (const details of closed) details.open = true;
+  };
+  const after = () => {
+    if (!onPaper) return;
+    onPaper = false;
+    for (const details of closed) details.open = false;
+    for (const [host, picture] of drawn) {
+      picture.redraw({ width: undefined, height: host.dataset.height ? Number(host.dataset.plot ?? host.clientHeight) || undefined : undefined });
+      if (host.dataset.height) fit(host);
+    }
+  };
+  addEventListener("beforeprint", before);
+  addEventListener("afterprint", after);
+  document.getElementById("print")?.addEventListener("click", () => print());
+}
+
+/** Words of the data in the field's typography: units, and names between backticks. */
+function typography(): void {
+  for (const element of document.querySelectorAll("[data-words], td, th, figcaption")) {
+    // Copies and files keep the text as it was.
+    if (element instanceof HTMLTableCellElement) element.dataset.text = element.textContent?.trim() ?? "";
+    for (const node of [...element.childNodes]) {
+      if (node.nodeType !== Node.TEXT_NODE || !node.nodeValue) continue;
+      const parts = words(node.nodeValue).split(/`([^`\n]+)`/);
+      if (parts.length === 1) {
+        if (parts[0] !== node.nodeValue) node.nodeValue = parts[0];
+        continue;
+      }
+      const pieces = parts.map((part, k) => {
+        if (k % 2 === 0) return part;
+        const code = document.createElement("code");
+        code.textContent = part;
+        return code;
+      });
+      (node as ChildNode).replaceWith(...pieces);
+    }
+  }
+}
+
+/** Pictures in two columns: wide ones over both, and no gap beside a single one. */
+function arrange(): void {
+  for (const group of document.querySelectorAll(".pictures")) {
+    const figures = [...group.querySelectorAll<HTMLElement>(":scope > figure")];
+    let run: HTMLElement[] = [];
+    const close = () => {
+      if (run.length % 2) run[0].classList.add("wide");
+      run = [];
+    };
+    for (const figure of figures) {
+      const picture = data[figure.querySelector<HTMLElement>("[data-picture]")?.dataset.picture ?? ""];
+      const own = picture?.kind === "panes" || (picture?.kind === "panels" && picture.rows.length * picture.columns.length > 1);
+      figure.classList.toggle("wide", own);
+      figure.classList.toggle("spread", own);
+      if (own) close();
+      else run.push(figure);
+    }
+    close();
+    const own = figures.filter((f) => !f.classList.contains("again"));
+    group.closest("section")?.classList.toggle("single", own.length === 1 && !own[0].classList.contains("spread"));
+  }
+}
+
+/** Drawings of gearboxes, coloured by the losses at the point of the report. */
+function drawings(): void {
+  for (const drawing of document.querySelectorAll<HTMLElement>(".drawing[data-losses]")) {
+    const losses = JSON.parse(drawing.dataset.losses || "[]");
+    const most = colourByLoss(drawing, losses);
+    const note = drawing.parentElement?.querySelector(".loss-note");
+    if (!most || !note) continue;
+    const name = most[0].split(".").slice(1).join(".") || most[0];
+    note.textContent = `Colour: loss at ${words(drawing.dataset.at ?? "")}, that of a mesh in equal parts in its gears; darkest: ${name}, ${significant(most[1], 3)} W.`;
+  }
+}
+
+document.documentElement.classList.add("script");
+theme();
+typography();
+tables();
+arrange();
+drawings();
+navigation();
+printing();
+lazily();
