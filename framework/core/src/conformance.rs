@@ -158,8 +158,8 @@ pub fn conform<M: Mechanism>(
     faults
 }
 
-/// Whether the law of a model answers for several points at once and has exact derivatives; otherwise it is evaluated point by point,
-/// and its derivatives are differences. `None` if it cannot be built from its example alone.
+/// Whether the law of a model answers for several points at once and has exact derivatives; otherwise its
+/// derivatives are differences. `None` if it cannot be built from its example alone.
 pub fn is_generic<M: Mechanism>(registry: &Registry, files: &Files, model: &Value, part: &Value) -> Option<bool> {
     let part: Arc<M::Part> = Arc::new(from_resolved(part).ok()?);
     let slot = Build::new(registry, files).slot_at::<M>("model", &part, model).ok()?;

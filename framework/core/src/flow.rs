@@ -12,33 +12,38 @@ mod sparse;
 mod system;
 mod work;
 
+use crate::real::Points;
+
 pub use system::{Flow, FlowFault, MeshRow, Share};
 pub use work::{Drive, FlowState, Outcome, Tolerance, Work};
 
 /// Powers and status of one solved point.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Balance {
+pub struct Balance<R = f64> {
     /// Input power over the ports. \[W\]
-    pub input: f64,
+    pub input: R,
     /// Output power over the ports. \[W\]
-    pub output: f64,
+    pub output: R,
 }
 
-impl Balance {
-    /// Power in and out over ports; powers below 1e-12 of the input count as zero.
-    pub fn from_powers(powers: impl Iterator<Item = f64> + Clone) -> Self {
-        let most = powers.clone().fold(0.0_f64, f64::max);
-        let (mut input, mut output) = (0.0, 0.0);
+impl<R: Points> Balance<R> {
+    /// Power in and out over ports at one point; powers below 1e-12 of the input count as zero.
+    pub fn from_powers(powers: impl Iterator<Item = R> + Clone) -> Self {
+        let most = powers.clone().fold(0.0_f64, |most, power| most.max(power.at_point(0)));
+        let (mut input, mut output) = (R::ZERO, R::ZERO);
         for power in powers {
-            if power > 1e-12 * most {
+            let watts = power.at_point(0);
+            if watts > 1e-12 * most {
                 input += power;
-            } else if power < -1e-12 * most {
+            } else if watts < -1e-12 * most {
                 output -= power;
             }
         }
         Self { input, output }
     }
+}
 
+impl Balance {
     /// Output power over input power; `None` if the output is zero.
     pub fn efficiency(&self) -> Option<f64> {
         // Without losses the quotient may exceed one by rounding.

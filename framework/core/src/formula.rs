@@ -35,27 +35,35 @@ enum Op {
     Greater,
     LessEqual,
     GreaterEqual,
-    Call1(&'static str, fn(f64) -> f64),
-    Call2(&'static str, fn(f64, f64) -> f64),
+    Call1(Function1),
+    Call2(Function2),
     If,
 }
 
-const ONE: [(&str, fn(f64) -> f64); 12] = [
-    ("sqrt", f64::sqrt),
-    ("exp", f64::exp),
-    ("ln", f64::ln),
-    ("log10", f64::log10),
-    ("abs", f64::abs),
-    ("sin", f64::sin),
-    ("cos", f64::cos),
-    ("tan", f64::tan),
-    ("tanh", f64::tanh),
-    ("atan", f64::atan),
-    ("floor", f64::floor),
-    ("sign", sign),
+/// Functions of one and of two numbers, with whether they have neither kinks nor jumps.
+type Function1 = (fn(f64) -> f64, bool);
+type Function2 = (fn(f64, f64) -> f64, bool);
+
+const ONE: [(&str, Function1); 12] = [
+    ("sqrt", (f64::sqrt, true)),
+    ("exp", (f64::exp, true)),
+    ("ln", (f64::ln, true)),
+    ("log10", (f64::log10, true)),
+    ("abs", (f64::abs, false)),
+    ("sin", (f64::sin, true)),
+    ("cos", (f64::cos, true)),
+    ("tan", (f64::tan, true)),
+    ("tanh", (f64::tanh, true)),
+    ("atan", (f64::atan, true)),
+    ("floor", (f64::floor, false)),
+    ("sign", (sign, false)),
 ];
 
-const TWO: [(&str, fn(f64, f64) -> f64); 3] = [("min", f64::min), ("max", f64::max), ("pow", f64::powf)];
+const TWO: [(&str, Function2); 3] = [
+    ("min", (f64::min, false)),
+    ("max", (f64::max, false)),
+    ("pow", (f64::powf, true)),
+];
 
 fn sign(x: f64) -> f64 {
     if x > 0.0 {
@@ -108,8 +116,7 @@ impl Formula {
     pub fn is_smooth(&self) -> bool {
         self.program.iter().all(|op| match op {
             Op::Less | Op::Greater | Op::LessEqual | Op::GreaterEqual | Op::If => false,
-            Op::Call1(name, _) => !["abs", "floor", "sign"].contains(name),
-            Op::Call2(name, _) => !["min", "max"].contains(name),
+            Op::Call1((_, smooth)) | Op::Call2((_, smooth)) => *smooth,
             _ => true,
         })
     }
@@ -151,7 +158,7 @@ impl Formula {
     }
 
     /// The value at one point or at several, from that of each quantity by its position among the names; where it is undefined, it is
-    /// not a finite number.
+    /// not a finite number. Powers and functions of two numbers have no derivatives.
     #[inline(always)]
     pub fn evaluate<R: Points>(&self, input: impl Fn(usize) -> R) -> R {
         let mut stack = [R::ZERO; DEEPEST];
@@ -167,7 +174,7 @@ impl Formula {
                     top += 1;
                 }
                 Op::Negate => stack[top - 1] = -stack[top - 1],
-                Op::Call1(_, f) => stack[top - 1] = stack[top - 1].lift(f),
+                Op::Call1((f, _)) => stack[top - 1] = stack[top - 1].lift(f),
                 Op::If => {
                     top -= 2;
                     stack[top - 1] = R::select(stack[top - 1].is_zero(), stack[top + 1], stack[top]);
@@ -187,7 +194,7 @@ impl Formula {
                         Op::Greater => one_where(a.is_above(b)),
                         Op::LessEqual => one_where(a.is_below(b) | a.is_equal(b)),
                         Op::GreaterEqual => one_where(a.is_above(b) | a.is_equal(b)),
-                        Op::Call2(_, f) => each(f),
+                        Op::Call2((f, _)) => each(f),
                         _ => a,
                     };
                 }
@@ -369,10 +376,10 @@ impl Parser<'_> {
     }
 
     fn call(&mut self, name: &str, start: usize) -> Result<(), FormulaFault> {
-        let (count, op) = if let Some((known, f)) = ONE.iter().find(|(n, _)| *n == name) {
-            (1, Op::Call1(known, *f))
-        } else if let Some((known, f)) = TWO.iter().find(|(n, _)| *n == name) {
-            (2, Op::Call2(known, *f))
+        let (count, op) = if let Some((_, function)) = ONE.iter().find(|(n, _)| *n == name) {
+            (1, Op::Call1(*function))
+        } else if let Some((_, function)) = TWO.iter().find(|(n, _)| *n == name) {
+            (2, Op::Call2(*function))
         } else if name == "if" {
             (3, Op::If)
         } else {

@@ -323,7 +323,7 @@ impl Language {
     }
 
     /// Whether the law of a model is written for any number: then it answers for several points at once and has exact derivatives.
-    /// Other laws are evaluated point by point and differentiated by differences.
+    /// Other laws are differentiated by differences.
     pub fn is_generic(&self, entry: &Entry) -> bool {
         let files = Files::default();
         files.put_all(entry.files);

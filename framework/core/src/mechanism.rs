@@ -107,9 +107,26 @@ pub trait Mechanism: Sized + 'static {
     fn scalar(law: Scalar<Self>) -> Arc<Self::Model>;
 }
 
-/// Writes how a [`Mechanism`] calls its models, by the method of their trait: `answered_by!(loss);` in its `impl`.
+/// Writes how a [`Mechanism`] calls its models, by the method of their trait: `answered_by!(loss);` in its `impl`. A trait for laws that
+/// are written over [`Real`] names the methods for several points and for derivatives, too.
 #[macro_export]
 macro_rules! answered_by {
+    ($method:ident, $together:ident, $with_derivatives:ident) => {
+        $crate::answered_by!($method);
+        fn answer_together(
+            model: &Self::Model,
+            at: &Self::At<'_, $crate::real::Lane>,
+        ) -> Result<<Self::Answer as $crate::mechanism::Answer>::Of<$crate::real::Lane>, $crate::loss::Undefined> {
+            model.$together(at)
+        }
+        fn answer_with_derivatives(
+            model: &Self::Model,
+            at: &Self::At<'_, $crate::real::Dual>,
+        ) -> Option<Result<<Self::Answer as $crate::mechanism::Answer>::Of<$crate::real::Dual>, $crate::loss::Undefined>>
+        {
+            model.$with_derivatives(at)
+        }
+    };
     ($method:ident) => {
         fn answer(model: &Self::Model, at: &Self::At<'_, f64>) -> Result<Self::Answer, $crate::loss::Undefined> {
             model.$method(at)

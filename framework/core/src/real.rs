@@ -92,13 +92,14 @@ pub trait Real:
     fn exponential(self) -> Self;
     /// The natural logarithm; minus infinity at zero.
     fn logarithm(self) -> Self;
-    /// The sine for angles up to a quarter turn.
+    /// The sine for angles of at most 45 degrees to either side.
     fn sine(self) -> Self;
     /// A function of each number that is not written over [`Real`], such as one read from a table. Its derivatives are found by
     /// differences.
     fn lift(self, function: impl Fn(f64) -> f64) -> Self;
     /// The same for several results of one function, such as the properties of an oil at a temperature.
-    fn lift_all<const N: usize>(self, function: impl Fn(f64) -> [f64; N]) -> [Self; N];
+    /// `least_step` is the step of the differences at zero.
+    fn lift_all<const N: usize>(self, least_step: f64, function: impl Fn(f64) -> [f64; N]) -> [Self; N];
     /// A power of a number that is not negative; zero of zero for a positive exponent.
     #[inline(always)]
     fn power(self, exponent: f64) -> Self {
@@ -261,7 +262,7 @@ impl Real for f64 {
         function(self)
     }
     #[inline(always)]
-    fn lift_all<const N: usize>(self, function: impl Fn(f64) -> [f64; N]) -> [Self; N] {
+    fn lift_all<const N: usize>(self, _least_step: f64, function: impl Fn(f64) -> [f64; N]) -> [Self; N] {
         function(self)
     }
 }

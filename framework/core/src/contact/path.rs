@@ -10,20 +10,31 @@ use crate::real::{Mask as _, Real};
 /// Points of most paths: four sections for a smooth law.
 const FEW: usize = 4 * SMOOTH;
 
-/// Points of most paths for a law with a cut-off, and of their like.
+/// Points of a smooth law that needs more of them, or of a path with more sections.
+const MORE: usize = 4 * FEW;
+
+/// Points of most paths for a law with a cut-off.
 const MANY: usize = 16 * FEW;
 
 /// Runs a function with space for some numbers. Most paths need little, and zeroing more costs time; only paths of more than 448 nodes
 /// allocate.
 #[inline(always)]
 pub fn with_space<R: Real, T>(len: usize, run: impl FnOnce(&mut [R]) -> T) -> T {
-    if len <= FEW {
-        run(&mut [R::ZERO; FEW][..len])
+    let (mut few, mut more, mut many, mut any);
+    let space: &mut [R] = if len <= FEW {
+        few = [R::ZERO; FEW];
+        &mut few
+    } else if len <= MORE {
+        more = [R::ZERO; MORE];
+        &mut more
     } else if len <= MANY {
-        run(&mut [R::ZERO; MANY][..len])
+        many = [R::ZERO; MANY];
+        &mut many
     } else {
-        run(&mut vec![R::ZERO; len])
-    }
+        any = vec![R::ZERO; len];
+        &mut any
+    };
+    run(&mut space[..len])
 }
 
 /// The path of one mesh, prepared.
@@ -134,12 +145,6 @@ impl Path {
         PathAt::new(&self.nodes, &self.extent, self.length, mean, notes)
     }
 
-    /// Runs a function with space for friction at each node.
-    #[inline(always)]
-    pub fn with_space<R: Real, T>(&self, run: impl FnOnce(&mut [R]) -> T) -> T {
-        with_space(self.len(), run)
-    }
-
     /// Sliding power per normal force and speed of the first gear, for friction at each point. \[m\]
     #[inline(always)]
     pub fn sliding<R: Real>(&self, mu: &[R]) -> R {
@@ -154,7 +159,8 @@ impl Path {
         law: &dyn ToothFrictionModel,
         at: &PathAt<'_, R>,
     ) -> Result<(PathFriction<R>, R::Mask), Undefined> {
-        let (sliding, along) = self.with_space(
+        let (sliding, along) = with_space(
+            self.len(),
             #[inline(always)]
             |mu| {
                 let along = R::along(law, at, mu)?;
@@ -224,7 +230,9 @@ impl FrictionPath {
         at: &PathAt<'_, R>,
     ) -> Result<PathFriction<R>, Undefined> {
         let (few, cut_off) = self.few.friction(law, at)?;
-        let Some(path) = self.many.as_ref().filter(|_| cut_off.any()) else {
+        // Not for points that have left the batch or are at rest.
+        let is_cut_off = cut_off.bits() & at.notes.points() != 0;
+        let Some(path) = self.many.as_ref().filter(|_| is_cut_off) else {
             return Ok(few);
         };
         let at = at.with(|to| {

@@ -7,21 +7,21 @@
 use std::collections::BTreeSet;
 
 use super::{Noting, Point, PowerFlow, Scratch};
-use crate::flow::Tolerance;
+use crate::flow::{Balance, Tolerance};
 use crate::loss::{Step, Trace};
 use crate::mechanism::differences::BY_DIFFERENCES;
 use crate::real::{Dual, Real as _};
 use crate::thermal::Unbalanced;
 use crate::transmission::{Case, Transmission};
 
-/// Tolerance of the point whose derivatives are computed.
+/// Tolerance of the point whose derivatives are computed: they are those of the last iterate, so its error is theirs.
 const TIGHT: f64 = 1e-12;
 
 /// Pair of directions of the given quantity, and of the oil temperature.
 const GIVEN: usize = 0;
 const TEMPERATURE: usize = 1;
 
-/// Change of the derivatives of a flow that has converged, over their size.
+/// Relative rounding error of a sum of derivatives, after some hundred operations.
 const ROUNDING: f64 = 1e-13;
 
 /// A given quantity of a point.
@@ -100,7 +100,7 @@ impl Transmission {
         };
         self.try_point(case, point, &[temperature], solved, Noting::Muted)
             .map_err(NoSlopes::Undefined)?;
-        let (s, by_differences) = self.derive(case, point, temperature, is_balanced, given, solved)?;
+        let (s, by_differences, change) = self.derive(case, point, temperature, is_balanced, given, solved)?;
         let warming = if is_balanced {
             Some(self.warming(temperature, s.sum)?)
         } else {
@@ -110,23 +110,36 @@ impl Transmission {
         let total = |x: Dual| {
             let along =
                 |k: usize| x.slopes[2 * GIVEN + k] + warming.map_or(0.0, |w| w[k] * x.slopes[2 * TEMPERATURE + k]);
-            slope([along(0), along(1)])
+            [along(0), along(1)]
         };
-        let (input, output) = self.powers(&s, point.flow);
-        let has_output = solved.output_power(0).filter(|power| *power > 0.0 && input.value > 0.0);
+        let error = change.max(ROUNDING);
+        let slope = |x: Dual| slope(total(x), error * total(x)[0].abs());
+        let ports = self.ports.iter();
+        let powers = ports.map(|p| s.work.ports[p.member] * s.models.conditions.speeds[p.member]);
+        let Balance { input, mut output } = Balance::from_powers(powers);
+        if point.flow == PowerFlow::Ideal {
+            output = input - s.sum;
+        }
+        let has_output = solved.output_power(0).is_some_and(|power| power > 0.0) && input.value > 0.0;
+        let efficiency = || {
+            // The derivatives of both powers nearly cancel.
+            let [of_input, of_output] = [input, output].map(|power| total(power)[0].abs());
+            let size = (of_output + of_input * output.value / input.value) / input.value;
+            self::slope(total(output / input), error * size)
+        };
         Ok(Slopes {
-            loss: total(s.sum),
-            parts: s.watts.iter().map(|watts| total(*watts)).collect(),
-            input_power: total(input),
-            output_power: solved.output_power(0).map(|_| total(output)),
-            efficiency: has_output.map(|_| total(output / input)),
-            oil_temperature: warming.map(slope),
+            loss: slope(s.sum),
+            parts: s.watts.iter().map(|watts| slope(*watts)).collect(),
+            input_power: slope(input),
+            output_power: solved.output_power(0).map(|_| slope(output)),
+            efficiency: has_output.then(efficiency),
+            oil_temperature: warming.map(|pair| self::slope(pair, error * pair[0].abs())),
             by_differences,
         })
     }
 
-    /// Continues a solved point over numbers with derivatives. Returns the workspace, and the instances of models that were
-    /// differentiated by differences.
+    /// Continues a solved point over numbers with derivatives. Returns the workspace, the instances of models that were
+    /// differentiated by differences, and the last relative change of the derivatives of the flow.
     fn derive(
         &self,
         case: &Case,
@@ -135,7 +148,7 @@ impl Transmission {
         is_balanced: bool,
         given: GivenQuantity,
         solved: &Scratch,
-    ) -> Result<(Scratch<Dual>, Vec<usize>), NoSlopes> {
+    ) -> Result<(Scratch<Dual>, Vec<usize>, f64), NoSlopes> {
         let mut s: Scratch<Dual> = Scratch::new(self, case);
         let varied = |x: f64, own: bool| {
             if own {
@@ -166,20 +179,22 @@ impl Transmission {
             self.lose(case, flow, models, false);
             plain.extend(by_differences(&mut models.conditions.trace));
         };
-        let converged = if point.flow == PowerFlow::Real && !s.standing {
+        let change = if point.flow == PowerFlow::Real && !s.standing {
             case.flow.derive(&solved.work, work, &mut losses)
         } else {
             case.flow.ideal(work);
             work.once(&mut losses);
-            true
+            Some(0.0)
         };
         s.ideal = point.flow == PowerFlow::Ideal;
+        s.models.conditions.trace = Some(Trace::default());
         self.rest(&mut s.models, true);
+        plain.extend(by_differences(&mut s.models.conditions.trace));
         self.finish(crate::flow::Outcome::Converged { passes: 1 }, &mut s);
-        match s.undefined {
-            Some((part, reason)) => Err(NoSlopes::Undefined(Unbalanced::Part(part, reason))),
-            None if !converged => Err(NoSlopes::NoConvergence),
-            None => Ok((s, plain.into_iter().collect())),
+        match (s.undefined, change) {
+            (Some((part, reason)), _) => Err(NoSlopes::Undefined(Unbalanced::Part(part, reason))),
+            (None, None) => Err(NoSlopes::NoConvergence),
+            (None, Some(change)) => Ok((s, plain.into_iter().collect(), change)),
         }
     }
 
@@ -196,33 +211,13 @@ impl Transmission {
         }
         Ok(warming)
     }
-
-    /// Input and output power, as [`Balance::from_powers`](crate::flow::Balance::from_powers) and
-    /// [`Solution::output_power`](super::Solution::output_power).
-    fn powers(&self, s: &Scratch<Dual>, flow: PowerFlow) -> (Dual, Dual) {
-        let ports = self.ports.iter();
-        let powers = ports.map(|p| s.work.ports[p.member] * s.models.conditions.speeds[p.member]);
-        let most = powers.clone().fold(0.0_f64, |most, power| most.max(power.value));
-        let (mut input, mut output) = (Dual::ZERO, Dual::ZERO);
-        for power in powers {
-            if power.value > 1e-12 * most {
-                input += power;
-            } else if power.value < -1e-12 * most {
-                output -= power;
-            }
-        }
-        match flow {
-            PowerFlow::Real => (input, output),
-            PowerFlow::Ideal => (input, input - s.sum),
-        }
-    }
 }
 
-/// The derivative from those along both directions of a pair, which differ by the error of differences.
-fn slope([value, coarse]: [f64; 2]) -> Slope {
+/// The derivative from those along both directions of a pair, which differ by the error of differences, with a further error.
+fn slope([value, coarse]: [f64; 2], further: f64) -> Slope {
     Slope {
         value,
-        error: (value - coarse).abs() + ROUNDING * value.abs(),
+        error: (value - coarse).abs() + further,
     }
 }
 

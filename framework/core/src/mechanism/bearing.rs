@@ -335,15 +335,7 @@ impl Mechanism for Bearing {
     type Answer = Loss;
     type Model = dyn BearingModel;
 
-    answered_by!(loss);
-
-    fn answer_together(model: &Self::Model, at: &BearingAt<'_, Lane>) -> Result<Loss<Lane>, Undefined> {
-        model.losses(at)
-    }
-
-    fn answer_with_derivatives(model: &Self::Model, at: &BearingAt<'_, Dual>) -> Option<Result<Loss<Dual>, Undefined>> {
-        model.loss_with_derivatives(at)
-    }
+    answered_by!(loss, losses, loss_with_derivatives);
 }
 
 impl Component for Bearing {
@@ -388,6 +380,11 @@ impl BearingModel for Scalar<Bearing> {
 
     fn losses(&self, at: &BearingAt<'_, Lane>) -> Result<Loss<Lane>, Undefined> {
         Ok(Loss::MOMENTS.with(&Bearing::TOTAL, self.values(at)?))
+    }
+
+    fn loss_with_derivatives(&self, _at: &BearingAt<'_, Dual>) -> Option<Result<Loss<Dual>, Undefined>> {
+        let value = self.constant()?;
+        Some(Ok(Loss::MOMENTS.with(&Bearing::TOTAL, Dual::constant(value))))
     }
 }
 

@@ -3,7 +3,6 @@
 
 use super::tooth_friction::{Along, PathAt, ToothFriction, ToothFrictionModel};
 use super::{Answer, Inputs as _, Mechanism};
-use crate::document::Unit;
 use crate::loss::{Notes, Undefined};
 use crate::real::{DIRECTIONS, Dual, Stencil};
 
@@ -12,6 +11,9 @@ pub(crate) const BY_DIFFERENCES: &str = "derivatives by differences";
 
 /// Step over the size of the quantity that changes most. Where the model is smooth, the error of a derivative is about 1e-12.
 const STEP: f64 = 4e-4;
+
+/// Least size of a quantity over its usual value: less is a rounding residue of zero.
+const LEAST: f64 = 1e-6;
 
 /// Size of temperatures, whose zero has no meaning. \[K\]
 const TEMPERATURES: f64 = 30.0;
@@ -101,16 +103,12 @@ fn step<M: Mechanism>(at: &M::At<'_, Dual>, direction: usize) -> Option<f64> {
     for q in M::QUANTITIES {
         let change = (q.get)(&change);
         if change != 0.0 {
-            let value = (q.get)(&own);
-            let unit = Unit::of_doc(q.doc).unwrap_or(Unit::ONE);
+            let unit = q.unit();
             let size = if unit.symbol == "degC" {
                 TEMPERATURES
-            } else if value != 0.0 {
-                value
-            } else if q.usual != 0.0 {
-                unit.to_si(q.usual)
             } else {
-                unit.to_si(q.greatest)
+                let usual = if q.usual == 0.0 { q.greatest } else { q.usual };
+                (q.get)(&own).abs().max(LEAST * unit.to_si(usual).abs())
             };
             most = most.max((change / size).abs());
         }

@@ -305,18 +305,7 @@ facewidth: 14 mm, tip_diameter: [82.636 mm, 118.544 mm], ra: [0.4 um, 0.4 um], r
     type Answer = Loss;
     type Model = dyn GearMeshModel;
 
-    answered_by!(loss);
-
-    fn answer_together(model: &Self::Model, at: &GearMeshAt<'_, Lane>) -> Result<Loss<Lane>, Undefined> {
-        model.losses(at)
-    }
-
-    fn answer_with_derivatives(
-        model: &Self::Model,
-        at: &GearMeshAt<'_, Dual>,
-    ) -> Option<Result<Loss<Dual>, Undefined>> {
-        model.loss_with_derivatives(at)
-    }
+    answered_by!(loss, losses, loss_with_derivatives);
 }
 
 impl GearMeshModel for Scalar<GearMesh> {
@@ -326,6 +315,11 @@ impl GearMeshModel for Scalar<GearMesh> {
 
     fn losses(&self, at: &GearMeshAt<'_, Lane>) -> Result<Loss<Lane>, Undefined> {
         Ok(Loss::POWERS.with(&GearMesh::TOTAL, self.values(at)?))
+    }
+
+    fn loss_with_derivatives(&self, _at: &GearMeshAt<'_, Dual>) -> Option<Result<Loss<Dual>, Undefined>> {
+        let value = self.constant()?;
+        Some(Ok(Loss::POWERS.with(&GearMesh::TOTAL, Dual::constant(value))))
     }
 }
 

@@ -187,15 +187,7 @@ impl Mechanism for MeanFriction {
     type Answer = f64;
     type Model = dyn MeanFrictionModel;
 
-    answered_by!(mu);
-
-    fn answer_together(model: &Self::Model, at: &MeanFrictionAt<'_, Lane>) -> Result<Lane, Undefined> {
-        model.mu_together(at)
-    }
-
-    fn answer_with_derivatives(model: &Self::Model, at: &MeanFrictionAt<'_, Dual>) -> Option<Result<Dual, Undefined>> {
-        model.mu_with_derivatives(at)
-    }
+    answered_by!(mu, mu_together, mu_with_derivatives);
 }
 
 impl MeanFrictionModel for Scalar<MeanFriction> {
@@ -205,6 +197,10 @@ impl MeanFrictionModel for Scalar<MeanFriction> {
 
     fn mu_together(&self, at: &MeanFrictionAt<'_, Lane>) -> Result<Lane, Undefined> {
         self.values(at)
+    }
+
+    fn mu_with_derivatives(&self, _at: &MeanFrictionAt<'_, Dual>) -> Option<Result<Dual, Undefined>> {
+        self.constant().map(|value| Ok(Dual::constant(value)))
     }
 }
 

@@ -7,7 +7,7 @@ use crate::formula::Formula;
 use crate::limits;
 use crate::loss::{Loss, Undefined};
 use crate::mechanism::{Inputs, Mechanism, Quantity};
-use crate::real::{Lane, Mask as _, Points as _, Real as _};
+use crate::real::{Lane, Points as _, Real as _};
 use crate::table::Table;
 
 /// A law with a single result: a coefficient, a moment or a power.
@@ -100,7 +100,9 @@ impl<M: Mechanism> Scalar<M> {
                     #[inline(always)]
                     |input| inputs[input].values(at),
                 );
-                if values.is_within(0.0, f64::MAX).all() {
+                // Points that have left the batch, or are at rest, are not asked.
+                let points = at.notes().points();
+                if points & !Lane::bits(values.is_within(0.0, f64::MAX)) == 0 {
                     Ok(values.map(|value| self.unit.to_si(value)))
                 } else {
                     Err(Undefined::DISAGREED)
@@ -112,7 +114,16 @@ impl<M: Mechanism> Scalar<M> {
 
     /// True if the law has the same value at every context.
     pub fn is_constant(&self) -> bool {
-        matches!(self.law, ScalarLaw::None | ScalarLaw::Constant(_))
+        self.constant().is_some()
+    }
+
+    /// The value of a law that has the same at every context, SI.
+    pub fn constant(&self) -> Option<f64> {
+        match self.law {
+            ScalarLaw::None => Some(0.0),
+            ScalarLaw::Constant(value) => Some(value),
+            ScalarLaw::Formula(..) | ScalarLaw::Table(_) => None,
+        }
     }
 
     /// True if the law has neither kinks nor jumps.

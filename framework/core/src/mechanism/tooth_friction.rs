@@ -473,13 +473,13 @@ impl<'a, R: Real> PathAt<'a, R> {
     /// One point of the path as a contact.
     #[inline(always)]
     pub fn contact(&self, node: &PathNode) -> ContactAt<'a, R> {
-        ContactAt {
+        let mut at = ContactAt {
             part: &NoPart {},
-            sliding: self.speed * node.sliding,
-            sum_speed: self.speed * node.sum_speed,
-            radius: R::constant(node.radius),
-            line_load: self.line_load * node.share,
-            pressure: self.unit_pressure() * node.root_load,
+            sliding: R::ZERO,
+            sum_speed: R::ZERO,
+            radius: R::ZERO,
+            line_load: R::ZERO,
+            pressure: R::ZERO,
             modulus: R::constant(self.modulus),
             length: R::constant(self.length),
             ra: self.ra,
@@ -494,7 +494,9 @@ impl<'a, R: Real> PathAt<'a, R> {
             x_l: self.x_l,
             // Each point has its own velocities.
             notes: self.notes.forgetting(),
-        }
+        };
+        self.move_to(&mut at, node, self.unit_pressure());
+        at
     }
 }
 
@@ -549,15 +551,7 @@ impl Mechanism for ToothFriction {
     type Answer = f64;
     type Model = dyn ToothFrictionModel;
 
-    answered_by!(mu);
-
-    fn answer_together(model: &Self::Model, at: &ContactAt<'_, Lane>) -> Result<Lane, Undefined> {
-        model.mu_together(at)
-    }
-
-    fn answer_with_derivatives(model: &Self::Model, at: &ContactAt<'_, Dual>) -> Option<Result<Dual, Undefined>> {
-        model.mu_with_derivatives(at)
-    }
+    answered_by!(mu, mu_together, mu_with_derivatives);
 }
 
 impl ToothFrictionModel for Scalar<ToothFriction> {
@@ -578,7 +572,24 @@ impl ToothFrictionModel for Scalar<ToothFriction> {
         self.values(at)
     }
 
+    fn mu_with_derivatives(&self, _at: &ContactAt<'_, Dual>) -> Option<Result<Dual, Undefined>> {
+        self.constant().map(|value| Ok(Dual::constant(value)))
+    }
+
+    fn along_with_derivatives(
+        &self,
+        _path: &PathAt<'_, Dual>,
+        mu: &mut [Dual],
+    ) -> Option<Result<Along<Dual>, Undefined>> {
+        mu.fill(Dual::constant(self.constant()?));
+        Some(Ok(Along::default()))
+    }
+
     fn along_together(&self, path: &PathAt<'_, Lane>, mu: &mut [Lane]) -> Result<Along<Lane>, Undefined> {
+        if let Some(value) = self.constant() {
+            mu.fill(Lane::constant(value));
+            return Ok(Along::default());
+        }
         Lane::wide(
             #[inline(always)]
             || {

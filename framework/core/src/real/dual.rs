@@ -19,7 +19,7 @@ pub const DIRECTIONS: usize = 4;
 
 /// A number with its derivatives along some directions.
 ///
-/// Where the value is not finite, and at the infinite slope of a root, power or logarithm at zero, derivatives are zero, so that a
+/// Where the value of a product, quotient or function is not finite, and at the infinite slope of a root, power or logarithm at zero, derivatives are zero, so that a
 /// value that does not depend on that number has no undefined derivative. The derivative of the magnitude at zero is the mean of both
 /// sides, zero. Where a law selects, the derivative is that of the selected branch.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -264,7 +264,7 @@ impl Real for Dual {
     #[inline(never)]
     fn sine(self) -> Self {
         let sine = self.value.sine();
-        // The angle is at most a quarter of a half turn, where the cosine is far from zero.
+        // The angle is at most 45 degrees, where the cosine is far from zero.
         self.follow(sine, (1.0 - sine * sine).root())
     }
     #[inline(never)]
@@ -280,17 +280,19 @@ impl Real for Dual {
         self.follow(value, derivative)
     }
     fn lift(self, function: impl Fn(f64) -> f64) -> Self {
-        let [lifted] = self.lift_all(|x| [function(x)]);
+        /// Lengths and torques in SI are larger, or close to a zero that is a kink.
+        const LEAST_STEP: f64 = 1e-6;
+        let [lifted] = self.lift_all(LEAST_STEP, |x| [function(x)]);
         lifted
     }
-    fn lift_all<const N: usize>(self, function: impl Fn(f64) -> [f64; N]) -> [Self; N] {
-        /// Of the number, and at least.
-        const STEP: (f64, f64) = (1e-4, 1e-6);
+    fn lift_all<const N: usize>(self, least_step: f64, function: impl Fn(f64) -> [f64; N]) -> [Self; N] {
+        /// Of the number: the truncation error of five points and the rounding of their differences are both about 1e-12.
+        const STEP: f64 = 1e-4;
         let mut all = function(self.value).map(Self::constant);
         if self.is_constant() {
             return all;
         }
-        let step = self.value.abs() * STEP.0 + STEP.1;
+        let step = self.value.abs() * STEP + least_step;
         for factor in [1.0, 2.0] {
             let Ok(stencil) = Stencil::new(step * factor, |distance| {
                 Ok::<_, Infallible>(function(self.value + distance))

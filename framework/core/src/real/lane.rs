@@ -229,7 +229,7 @@ impl Real for Lane {
         self.map(function)
     }
     #[inline(always)]
-    fn lift_all<const N: usize>(self, function: impl Fn(f64) -> [f64; N]) -> [Self; N] {
+    fn lift_all<const N: usize>(self, _least_step: f64, function: impl Fn(f64) -> [f64; N]) -> [Self; N] {
         let mut all = [Self::ZERO; N];
         for point in 0..LANES {
             for (own, result) in all.iter_mut().zip(function(self.0[point])) {

@@ -59,10 +59,12 @@ impl Oils {
 
     /// Writes the state of all oils at the temperatures of the nodes, or at one for all nodes. \[degC\]
     pub fn write_states<R: Real>(&self, temperatures: &[R], oils: &mut [Oil<R>]) {
+        /// Least step of the derivatives: 1e-4 of the absolute temperature, because zero in degC has no meaning. \[K\]
+        const STEP: f64 = 0.03;
         for ((lubricant, node, offset), oil) in self.spots.iter().zip(oils) {
             let temperature = temperatures.get(*node).unwrap_or(&temperatures[0]);
             let lubricant = &self.lubricants[*lubricant];
-            let properties = (*temperature + *offset).lift_all(|t| lubricant.oil_at(t).properties());
+            let properties = (*temperature + *offset).lift_all(STEP, |t| lubricant.oil_at(t).properties());
             *oil = Oil::of_properties(properties);
         }
     }
