@@ -5,7 +5,7 @@ use serde_json::Value;
 
 const GEARBOX: &str = "examples/two-speed-ev/gearbox.yaml";
 const SPEED: &str = "time [s],vehicle_speed [km/h]\n0,0\n1,8\n2,16\n3,24\n4,32\n5,40\n6,48\n7,48\n8,48\n";
-const CYCLES: &str = "cycles: { town: { file: speed.csv, phases: { start: { end: 4 s }, rest: { end: 8 s } } }, odd: { file: speed.csv, phases: { early: { end: 4 s }, late: { end: 2 s } } } }\n\
+const CYCLES: &str = "cycles: { town: { file: speed.csv, phases: { start: { end: 4 s }, rest: { end: 8 s } } }, odd: { file: speed.csv, phases: { early: { end: 4 s }, late: { end: 2 s } } }, long: { file: speed.csv, phases: { all: { end: 9 s } } } }\n\
     vehicles: { car: { mass: 1200 kg, drag_area: 0.6 m2, rolling_resistance: 0.01, tyre_radius: 0.3 m, regeneration: none } }\n";
 
 fn run(analyses: &str) -> crate::common::study::Ran {
@@ -58,6 +58,30 @@ fn shares_and_phases_add_up_to_the_difference_of_two_runs() {
     );
 }
 
+/// The first row of a recording is the start of the first phase, whatever its clock says.
+#[test]
+fn phases_count_from_the_first_row() {
+    let later = SPEED
+        .lines()
+        .enumerate()
+        .map(|(i, line)| match line.split_once(',').filter(|_| i > 0) {
+            Some((time, speed)) => format!("{},{speed}\n", time.parse::<u32>().unwrap() + 1000),
+            None => format!("{line}\n"),
+        });
+    let study = of_gearbox(
+        GEARBOX,
+        &format!(
+            "{CYCLES}analyses:\n  both: {{ type: compare, drive: {{ cycles: [town] }}, base: own, variants: {{ thin: {{ \
+             lubricants.sump.viscosity.factor: 0.5 }} }} }}\n"
+        ),
+    );
+    let [ran, moved] =
+        [SPEED.to_owned(), later.collect::<String>()].map(|speed| run_texts(&study, &[("speed.csv", &speed)]));
+    assert!(moved.succeeded, "{}", moved.text);
+    assert!(number(&moved.json("both")["comparisons"][0]["phases"][0]["mean_loss_w"]) > 0.0);
+    assert_eq!(ran.json("both")["comparisons"], moved.json("both")["comparisons"]);
+}
+
 /// Without brakes every interval drives or coasts: all input is in one of both efficiencies.
 #[test]
 fn a_cycle_states_its_efficiency_in_drive() {
@@ -79,6 +103,14 @@ fn what_a_comparison_over_cycles_lacks_is_reported() {
         (
             "drive: { cycles: [town] }, base: own",
             "nothing is compared with the base",
+        ),
+        (
+            "drive: { cycles: [odd] }, base: own, variants: { a: { surface.ra: 1 um } }",
+            "the phase `late` ends at 2 s, not after 4 s",
+        ),
+        (
+            "drive: { cycles: [long] }, base: own, variants: { a: { surface.ra: 1 um } }",
+            "the phase `all` ends at 9 s, after the cycle, which lasts 8 s",
         ),
         (
             "drive: { cycles: [tow] }, base: own, variants: { a: { surface.ra: 1 um } }",

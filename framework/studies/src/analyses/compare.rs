@@ -207,11 +207,14 @@ impl Outcome for CompareOutcome {
         }
     }
 
-    /// Those of the base, once.
+    /// Those of the base, once for each cycle.
     fn unlisted(&self) -> usize {
         match &self.comparisons {
             Comparisons::OnGrid(all) => all.first().map_or(0, |c| c.ranges_left_by_base),
-            Comparisons::OverCycles(all) => all.first().map_or(0, |c| c.ranges_left_by_base),
+            Comparisons::OverCycles(all) => {
+                let of_one_case = all.iter().take_while(|c| c.model_set == all[0].model_set);
+                of_one_case.map(|c| c.ranges_left_by_base).sum()
+            }
             Comparisons::WithData(_) => 0,
         }
     }

@@ -25,7 +25,7 @@ pub struct Read {
     port: Option<String>,
     /// Notes on its file.
     pub about: Option<String>,
-    /// Names of its phases with the time at which each ends. \[s\]
+    /// Names of its phases with the time from the start of the cycle at which each ends. \[s\]
     pub phases: Vec<(String, f64)>,
 }
 

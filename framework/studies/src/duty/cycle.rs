@@ -151,7 +151,9 @@ impl CycleEntry {
             Self::Shipped(entry) => entry.read(registry).map(Duty::Trace),
             Self::File(entry) => {
                 entry.check_phases()?;
-                Trace::read(entry, &bytes(&entry.file)?).map(Duty::Trace)
+                let trace = Trace::read(entry, &bytes(&entry.file)?)?;
+                entry.check_last_phase(trace.duration())?;
+                Ok(Duty::Trace(trace))
             }
             Self::Spectrum(entry) => {
                 let intervals = match &entry.spectrum {
@@ -178,7 +180,8 @@ impl CycleEntry {
         }
     }
 
-    /// Names of its phases with the time at which each ends. A repeated or shortened cycle, and a spectrum, have none. \[s\]
+    /// Names of its phases with the time from the start of the cycle at which each ends. A repeated or shortened cycle, and a spectrum, have
+    /// none. \[s\]
     pub fn phases(&self, registry: &Registry) -> Vec<(String, f64)> {
         match self {
             Self::Shipped(entry) if entry.repeat == 1 && entry.start.is_none() && entry.end.is_none() => {
@@ -250,6 +253,20 @@ impl FileCycleEntry {
             before = phase.end;
         }
         Ok(())
+    }
+
+    /// Phases within the time of the file.
+    fn check_last_phase(&self, duration: f64) -> Result<(), Vec<MeasuredFault>> {
+        match self.phases.iter().last().filter(|(_, phase)| phase.end > duration) {
+            None => Ok(()),
+            Some((name, phase)) => Err(vec![fault(
+                format!(
+                    "the phase `{name}` ends at {} s, after the cycle, which lasts {duration} s",
+                    phase.end
+                ),
+                "count the time of phases from the first row of the file",
+            )]),
+        }
     }
 
     /// An entry with only a file.

@@ -179,9 +179,10 @@ fn phases(read: &Read, both: [&Driven; 2]) -> Vec<DifferenceOfPhase> {
         let start = std::mem::replace(&mut from, *end);
         let mean = |driven: &Driven| {
             let (mut joule, mut time) = (0.0, 0.0);
+            let first = driven.stretches.first().map_or(0.0, |s| s.start);
             for s in &driven.stretches {
                 // An interval belongs to the phase in which its middle lies.
-                let middle = s.start + 0.5 * s.heats.duration;
+                let middle = s.start - first + 0.5 * s.heats.duration;
                 if middle >= start && middle < *end {
                     joule += s.heats.parts.iter().sum::<f64>();
                     time += s.heats.duration;
