@@ -1,4 +1,4 @@
-// Writes docs/gallery.md with a picture of every kind of analysis: node gallery.mjs, after the examples have been run.
+// Writes docs/gallery.md with a picture of most kinds of analysis: node gallery.mjs, after the examples have been run.
 
 import { mkdir, readFile, writeFile } from "node:fs/promises";
 import { pathToFileURL } from "node:url";

@@ -1,10 +1,9 @@
 // Stacked bars, upright if their labels fit, otherwise one below the other.
 
 import { PALETTE } from "./colours.ts";
-import { grouped, significant, unitOf, withUnit, words } from "./format.ts";
+import { axisNumbers, grouped, significant, unitOf, withUnit, words } from "./format.ts";
 import { ticks } from "./levels.ts";
-import { axisNumbers } from "./format.ts";
-import { Entry, Stage, Tooltip, canvas, fitted, hatching, leftMargin, legend, fittingTicks, scale, svg, textWidth } from "./svg.ts";
+import { Entry, Stage, Tooltip, canvas, fitted, hatching, leftMargin, legend, rowAxis, scale, svg, textWidth } from "./svg.ts";
 import type { Bars } from "./types.ts";
 
 export function drawBars(stage: Stage, data: Bars): void {
@@ -86,15 +85,7 @@ export function drawBars(stage: Stage, data: Bars): void {
     const bottom = top + line * bars.length;
     const height = bottom + 40;
     const element = canvas(stage, height, data.title);
-    const [low, high] = [lowest, 1.03 * highest];
-    const sx = scale(low, high, left, right);
-    const marks = fittingTicks(low, high, right - left);
-    axisNumbers(marks).forEach((text, k) => {
-      const x = sx(marks[k]);
-      svg(element, "line", { x1: x, x2: x, y1: top, y2: bottom, class: marks[k] === 0 ? "gl-zero" : "gl-grid" });
-      svg(element, "text", { x, y: bottom + 16, "text-anchor": "middle" }, text);
-    });
-    svg(element, "text", { x: 0.5 * (left + right), y: bottom + 34, "text-anchor": "middle", class: "gl-name" }, words(data.height));
+    const sx = rowAxis(element, lowest, 1.03 * highest, left, right, top, bottom, data.height);
     if (data.over) svg(element, "text", { x: 2, y: 12, class: "gl-name" }, words(data.over));
     bars.forEach((bar, k) => {
       const y = top + k * line;
@@ -121,7 +112,7 @@ export function drawBars(stage: Stage, data: Bars): void {
   const entries = used.map((name): Entry => ({ name, colour: component(name), mark: "box", pattern: names.length > 1 && stage.components.repeated(name) }));
   if (entries.length === 1 && words(data.height).toLowerCase().includes(entries[0].name.toLowerCase())) entries.pop();
   if (measured) entries.push({ name: "measured or reference, with accuracy", mark: "outline" });
-  legend(stage.root, entries, (name) => stage.root.querySelectorAll<SVGElement>("[data-line]").forEach((e) => e.classList.toggle("gl-dim", name !== null && e.dataset.line !== name)));
+  legend(stage.root, entries, stage.root);
 }
 
 const sum = (list: number[]) => list.reduce((a, b) => a + b, 0);

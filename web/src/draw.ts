@@ -22,7 +22,7 @@ export interface Drawn {
 }
 
 /** Names of the components of a picture, so that all pictures of a document can agree on their colours. */
-export function componentsOf(picture: Picture): string[] {
+function componentsOf(picture: Picture): string[] {
   switch (picture.kind) {
     case "bars":
       return picture.names.length > 1 ? picture.names : [];

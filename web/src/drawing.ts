@@ -3,7 +3,7 @@
 import { significant } from "./format.ts";
 
 /** Path of a part and its loss in W. */
-export type PartLoss = [path: string, watts: number];
+type PartLoss = [path: string, watts: number];
 
 /** Ends of the colour scale: nearly no loss, and the largest loss. */
 const [PALE, STRONG] = [

@@ -4,20 +4,15 @@ import { ColourScale, luminance } from "./colours.ts";
 import { Grid, Label, Point, isolines, isCell, labels, refine, region } from "./contours.ts";
 import { short, significant } from "./format.ts";
 import { evenLevels, levels, extent } from "./levels.ts";
-import { Frame, Scale, TEXT, clip, hatching, star, svg, textWidth, unique } from "./svg.ts";
+import { Frame, Scale, TEXT, canvas, clip, hatching, star, svg, textWidth, unique } from "./svg.ts";
 import type { Best } from "./types.ts";
 
 /** The scale of a quantity over all its maps. */
 export function fieldScale(values: (number | null)[], diverging: boolean, best: Best | null, ends: [number, number] | null = null): ColourScale {
   const known = values.filter((v): v is number => v !== null && Number.isFinite(v));
-  let [low, high] = ends ?? [Infinity, -Infinity];
-  if (!ends)
-    for (const v of known) {
-      low = Math.min(low, v);
-      high = Math.max(high, v);
-    }
+  let [low, high] = ends ?? extent(known);
   if (!(low <= high)) [low, high] = [0, 1];
-  const found = diverging || best === null ? evenLevels([low, high, ...known], 10) : levels(ends ? [...known, ...ends] : known, best);
+  const found = diverging || best === null ? evenLevels([low, high, ...known]) : levels(ends ? [...known, ...ends] : known, best);
   return new ColourScale(low, high, found, diverging, true);
 }
 
@@ -27,23 +22,23 @@ export function pointScale(values: (number | null)[], diverging: boolean, ends: 
   return new ColourScale(low, high, evenLevels([low, high], 6), diverging, false);
 }
 
-export interface FieldLook {
+interface FieldLook {
   sx: Scale;
   sy: Scale;
   colours: ColourScale;
   best: Best | null;
   outside?: boolean[];
-  marks?: [x: number, y: number, weight: number][];
+  marks?: [x: number, y: number][];
   powers?: number[];
   /** Levels of additional dashed lines. */
   dashed?: number[];
   crossed?: number;
 }
 
-/** The grid of a quantity. That of an efficiency has a gap between drive and coast, where it jumps. */
-export function gridOf(xs: number[], ys: number[], values: (number | null)[], name: string): Grid {
+/** The grid of a quantity. If it jumps, there is a gap where a coordinate changes its sign. */
+export function gridOf(xs: number[], ys: number[], values: (number | null)[], jumps: boolean): Grid {
   const crossing = (list: number[], i: number) => list[i] < 0 && list[i + 1] > 0;
-  if (!/efficiency/i.test(name)) return { xs, ys, values };
+  if (!jumps) return { xs, ys, values };
   return { xs, ys, values, cut: (i, j) => crossing(xs, i) || crossing(ys, j) };
 }
 
@@ -114,7 +109,7 @@ export function drawField(frame: Frame, grid: Grid, look: FieldLook): { hatched:
 
   const taken: { x: number; y: number; radius: number }[] = [];
   const at = bestCell(values, look.best);
-  if (at >= 0 && isNear(fine, grid, at)) {
+  if (at >= 0) {
     const [x, y] = [sx(xs[at % xs.length]), sy(ys[Math.floor(at / xs.length)])];
     const text = significant(values[at], look.best === "highest" ? 4 : 3);
     const w = textWidth(text, TEXT, 600);
@@ -142,10 +137,6 @@ export function drawField(frame: Frame, grid: Grid, look: FieldLook): { hatched:
       transform: Math.abs(label.angle) < 0.5 ? undefined : `rotate(${label.angle.toFixed(1)} ${label.x.toFixed(1)} ${label.y.toFixed(1)})`,
     });
   return { ...hatch, powers };
-}
-
-function isNear(fine: Grid, grid: Grid, at: number): boolean {
-  return fine.values.length > 0 && grid.values[at] !== null;
 }
 
 /** A text that is legible on a ground of any colour. */
@@ -191,10 +182,8 @@ function hatched(frame: Frame, g: Element, { xs, ys, values }: Grid, look: Field
 
 function marks(g: Element, look: FieldLook, taken: { x: number; y: number; radius: number }[]): void {
   const list = look.marks ?? [];
-  // Equal weights say nothing: then all marks are small.
-  const weighted = list.some((mark) => mark[2] !== list[0][2]);
-  for (const [x, y, weight] of list) {
-    const r = weighted ? 2.6 + 5 * Math.sqrt(Math.max(0, Math.min(1, weight))) : 3.2;
+  const r = 3.2;
+  for (const [x, y] of list) {
     const [cx, cy] = [look.sx(x), look.sy(y)];
     svg(g, "circle", { cx, cy, r, fill: "none", stroke: "#fff", "stroke-width": 2.8 });
     svg(g, "circle", { cx, cy, r, fill: "none", stroke: "#000", "stroke-width": 1.3, class: "gl-mark" });
@@ -243,7 +232,8 @@ function constantPower(frame: Frame, g: Element, look: FieldLook, taken: { x: nu
 export function colourBar(parent: Element, colours: ColourScale, unit: string, width: number): void {
   const size = Math.min(width, 560);
   const label = unit ? ` ${unit}` : "";
-  const element = svg(parent, "svg", { viewBox: `0 0 ${size} 34`, width: size, height: 34, style: `--w: ${size}px`, class: "gl-svg gl-bar", role: "img", "aria-label": `colours from ${significant(colours.low)} to ${significant(colours.high)}${label}` });
+  const element = canvas({ root: parent, width: size }, 34, `colours from ${significant(colours.low)} to ${significant(colours.high)}${label}`);
+  element.classList.add("gl-bar");
   const room = unit ? textWidth(unit) + 10 : 4;
   const [left, right] = [textWidth(significant(colours.low, 4)) / 2 + 2, size - room - 22];
   // One value only: it is the label.

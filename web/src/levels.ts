@@ -2,9 +2,6 @@
 
 import type { Best } from "./types.ts";
 
-const SERIES = [1, 2, 5];
-
-/** The smallest of 1, 2, 5 (and 2.5 if allowed) times a power of ten that is not below `raw`. */
 /** Minimum and maximum of any number of values; spreading them into arguments fails for many. */
 export function extent(values: number[]): [number, number] {
   let [low, high] = [Infinity, -Infinity];
@@ -15,10 +12,11 @@ export function extent(values: number[]): [number, number] {
   return [low, high];
 }
 
-export function roundStep(raw: number, steps: number[] = [1, 2, 2.5, 5]): number {
+/** The smallest of 1, 2, 5 times a power of ten that is not below `raw`. */
+function roundStep(raw: number): number {
   if (!(raw > 0) || !Number.isFinite(raw)) return 1;
   const decade = 10 ** Math.floor(Math.log10(raw) + 1e-9);
-  for (const s of [...steps, 10]) if (s * decade >= raw * (1 - 1e-9)) return s * decade;
+  for (const s of [1, 2, 5, 10]) if (s * decade >= raw * (1 - 1e-9)) return s * decade;
   return 10 * decade;
 }
 
@@ -33,7 +31,7 @@ function multiples(low: number, high: number, step: number): number[] {
 /** Ticks of an axis, at most about `most`. */
 export function ticks(low: number, high: number, most: number): number[] {
   if (!(high > low)) return Number.isFinite(low) ? [low] : [];
-  return multiples(low, high, roundStep((high - low) / Math.max(1, most), SERIES));
+  return multiples(low, high, roundStep((high - low) / Math.max(1, most)));
 }
 
 /** Ends of an axis at round numbers if they are near. */
@@ -42,7 +40,7 @@ export function nice(low: number, high: number, most: number): [number, number] 
     const half = Math.abs(low) * 0.05 || 1;
     return [low - half, high + half];
   }
-  const step = roundStep((high - low) / Math.max(1, most), SERIES);
+  const step = roundStep((high - low) / Math.max(1, most));
   return [Math.floor(low / step + 1e-9) * step, Math.ceil(high / step - 1e-9) * step];
 }
 
@@ -66,7 +64,8 @@ export function evenLevels(values: Iterable<number | null>, about = 10): number[
 }
 
 /**
- * Levels of contours: 8 to 14 round values. Towards the good end their steps become smaller, and all bands cover similar areas.
+ * Levels of contours, all round: about ten even ones, or if one end is good 9 to 13 as far as possible. Their steps become smaller towards
+ * that end, and all bands cover similar areas.
  */
 export function levels(values: Iterable<number | null>, best: Best | null): number[] {
   const list = finite(values);
@@ -111,7 +110,7 @@ function denser(sorted: number[], count: number): number[] {
     passed = Math.max(passed + part, behind + 0.5 * part);
     const wanted = Math.max(quantile(Math.min(1, passed)) - at, 1e-9 * Math.abs(at), (last - sorted[0]) / 200);
     let next = seriesBelow(1.3 * wanted);
-    if (step > 0) next = Math.min(Math.max(next, step), roundStep(1.01 * step, SERIES));
+    if (step > 0) next = Math.min(Math.max(next, step), roundStep(1.01 * step));
     step = next;
     const before = at;
     at = Math.floor(at / step + 1e-6) * step + step;
@@ -126,8 +125,8 @@ function denser(sorted: number[], count: number): number[] {
 
 /** The largest of 1, 2, 5 times a power of ten that is not above `raw`. */
 function seriesBelow(raw: number): number {
-  const up = roundStep(raw, SERIES);
-  return up > raw * (1 + 1e-9) ? roundStep(0.39 * up, SERIES) : up;
+  const up = roundStep(raw);
+  return up > raw * (1 + 1e-9) ? roundStep(0.39 * up) : up;
 }
 
 function lowerBound(sorted: number[], v: number): number {

@@ -95,7 +95,7 @@ function panes(stage: Stage, title: string, xName: string, given: Pane[], severa
         const line = all.find((l) => l.name === name)!;
         return { name, colour: colours.get(name)!, mark: line.stroke === "dots" ? "dot" : "line" };
       }),
-      (name) => element.querySelectorAll<SVGElement>("[data-line]").forEach((e) => e.classList.toggle("gl-dim", name !== null && e.dataset.line !== name)),
+      element,
     );
   cursor(stage, element, drawn, xName, colours, x, zoom !== undefined);
 }
@@ -288,7 +288,6 @@ export function drawAreas(stage: Stage, areas: Areas): void {
   const { sx, sy } = axes(frame, { low: zoom[0], high: zoom[1], name: areas.x }, { low: y[0], high: y[1], name: areas.y });
   const g = svg(element, "g", { "clip-path": clip(frame) });
   const base = places.map(() => 0);
-  // Few values stand for the time up to the next one only if there are many of them; then steps and slopes look the same.
   names.forEach((name, k) => {
     const upper = base.map((b, i) => b + (stacks[i]?.[k] ?? 0));
     const there = places.map((p, i) => `${sx(p).toFixed(1)},${sy(upper[i]).toFixed(1)}`);
@@ -298,7 +297,7 @@ export function drawAreas(stage: Stage, areas: Areas): void {
   });
   // The largest on top of the legend's list, as in the picture.
   const entries = [...names].reverse().map((name): Entry => ({ name, colour: stage.components.colour(name), mark: "box", pattern: stage.components.repeated(name) }));
-  legend(stage.root, entries, (name) => element.querySelectorAll<SVGElement>("[data-line]").forEach((e) => e.classList.toggle("gl-dim", name !== null && e.dataset.line !== name)));
+  legend(stage.root, entries, element);
   const lines = [...names].reverse().map((name): Line => {
     const k = names.indexOf(name);
     return { name, stroke: "line", points: places.map((p, i) => [p, stacks[i]?.[k] ?? 0]) };

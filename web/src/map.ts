@@ -49,23 +49,19 @@ function contourMap(stage: Stage, map: FieldMap, x: number[], y: number[]): void
   const outside = flipped(map.hatched, x.length, turnX, turnY);
   const at = map.crossed ? [map.crossed[0] % x.length, Math.floor(map.crossed[0] / x.length)] : null;
   const crossed = at ? (turnY ? y.length - 1 - at[1] : at[1]) * x.length + (turnX ? x.length - 1 - at[0] : at[0]) : undefined;
-  // A map tells by its title alone which end is good.
-  const best = !map.diverging && /efficiency/i.test(map.title) && !/width|rms|uncertain|standard/i.test(map.title) ? "highest" : null;
-  const colours = fieldScale(values, map.diverging, best, map.ends);
-  const unit = unitOfTitle(map.title);
+  const colours = fieldScale(values, map.diverging, map.best, map.ends);
   const height = stage.height ?? Math.round(Math.min(0.6 * stage.width, Math.max(420, 0.4 * stage.width)));
   const element = canvas(stage, height, map.title);
   const frame: Frame = { svg: element, left: leftMargin(ys[0], ys[ys.length - 1], height - 70), top: 26, right: stage.width - 22, bottom: height - 42 };
   const { sx, sy } = axes(frame, { low: xs[0], high: xs[xs.length - 1], name: axisName(map.x[0], map.x[1]) }, { low: ys[0], high: ys[ys.length - 1], name: axisName(map.y[0], map.y[1]) }, { grid: false });
-  const grid = gridOf(xs, ys, values, map.title);
-  const marks = map.marks.map(([a, b]): [number, number, number] => [a, b, 0.08]);
+  const grid = gridOf(xs, ys, values, map.jumps);
   const dashed = map.unseen && map.unseen > 0 ? [-map.unseen, map.unseen] : [];
-  const shown = drawField(frame, grid, { sx, sy, colours, best, outside, marks, dashed, crossed });
+  const shown = drawField(frame, grid, { sx, sy, colours, best: map.best, outside, marks: map.marks, dashed, crossed });
   const key = html(stage.root, "div", { class: "gl-key" });
-  colourBar(key, colours, unit, Math.min(stage.width, 480));
+  colourBar(key, colours, words(map.unit), Math.min(stage.width, 480));
   const entries: Entry[] = [];
-  if (best) entries.push({ name: "best point", mark: "star", colour: "#fff" });
-  if (marks.length) entries.push({ name: map.marked || "measured", mark: "ring" });
+  if (map.best) entries.push({ name: "best point", mark: "star", colour: "#fff" });
+  if (map.marks.length) entries.push({ name: map.marked || "measured", mark: "ring" });
   if (map.crossed) entries.push({ name: map.crossed[1], mark: "cross" });
   if (dashed.length) entries.push({ name: `accuracy of the instrument, ${significant(map.unseen, 2)}`, mark: "dashed" });
   if (shown.hatched) entries.push({ name: "outside a validity range", mark: "hatch" });
@@ -77,7 +73,7 @@ function contourMap(stage: Stage, map: FieldMap, x: number[], y: number[]): void
     const [px, py] = pointer(element, event);
     if (px < frame.left || px > frame.right || py < frame.top || py > frame.bottom) return tip.hide();
     const [vx, vy] = [sx.invert(px), sy.invert(py)];
-    const rows = [place(nameX, vx), place(nameY, vy), { name: "value", value: withUnit(resolved(valueAt(grid, vx, vy), map.values), unit), strong: true }];
+    const rows = [place(nameX, vx), place(nameY, vy), { name: "value", value: withUnit(resolved(valueAt(grid, vx, vy), map.values), map.unit), strong: true }];
     tip.show({ head: "", rows }, event.clientX, event.clientY);
   });
   element.addEventListener("pointerleave", () => tip.hide());
@@ -92,12 +88,6 @@ export function resolved(value: number | null, all: (number | null)[]): string {
 
 export function place(name: string, value: number): { name: string; value: string } {
   return { name: nameOf(name), value: withUnit(significant(value, 3), unitOf(name)) };
-}
-
-/** Unit in a title such as "maps: efficiency in %, models iso". */
-function unitOfTitle(title: string): string {
-  const found = / in (percentage points|%|W|Nm|degC|K|rpm|mm2\/s|GPa|MPa|kW)(?=[\s,;:(]|$)/.exec(title);
-  return found ? words(found[1]) : "";
 }
 
 export function note(stage: Stage, text: string): void {
@@ -150,7 +140,7 @@ function cells(stage: Stage, map: FieldMap): void {
     svg(element, "rect", { x: left + i * w + 1.5, y: top + (ny - 1 - j) * h + 1.5, width: w - 3, height: h - 3, fill: "none", stroke: "var(--gl-ink)", "stroke-width": 3 });
   }
   const key = html(stage.root, "div", { class: "gl-key" });
-  colourBar(key, colours, unitOfTitle(map.title), Math.min(stage.width, 480));
+  colourBar(key, colours, words(map.unit), Math.min(stage.width, 480));
   const entries: Entry[] = [];
   if (map.crossed) entries.push({ name: map.crossed[1], mark: "outline" });
   if (hatch) entries.push({ name: "outside a validity range", mark: "hatch" });
@@ -183,7 +173,7 @@ export function drawCloud(stage: Stage, cloud: Cloud): void {
   const { sx, sy } = axes(frame, { low: x[0], high: x[1], name: cloud.axes[0] }, { low: y[0], high: y[1], name: cloud.axes[1] });
   const r = points.length > 400 ? 3.5 : 5;
   for (const [a, b, v] of points) svg(element, "circle", { cx: sx(a), cy: sy(b), r, fill: colours.at(v), class: "gl-point" });
-  colourBar(stage.root, colours, unitOfTitle(cloud.title), Math.min(stage.width, 480));
+  colourBar(stage.root, colours, words(cloud.unit), Math.min(stage.width, 480));
   const tip = new Tooltip(stage.root);
   const ring = svg(element, "circle", { r: r + 3, class: "gl-ring", visibility: "hidden" });
   element.addEventListener("pointermove", (event) => {
@@ -202,7 +192,7 @@ export function drawCloud(stage: Stage, cloud: Cloud): void {
     ring.setAttribute("cx", String(sx(a)));
     ring.setAttribute("cy", String(sy(b)));
     ring.setAttribute("visibility", "visible");
-    tip.show({ head: "", rows: [place(cloud.axes[0], a), place(cloud.axes[1], b), { name: "value", value: withUnit(significant(v, 4), unitOfTitle(cloud.title)), strong: true }] }, ...onScreen(element, sx(a), sy(b)));
+    tip.show({ head: "", rows: [place(cloud.axes[0], a), place(cloud.axes[1], b), { name: "value", value: withUnit(significant(v, 4), cloud.unit), strong: true }] }, ...onScreen(element, sx(a), sy(b)));
   });
   element.addEventListener("pointerleave", () => {
     tip.hide();

@@ -4,11 +4,11 @@ import { Grid, valueAt } from "./contours.ts";
 import { significant, withUnit, words } from "./format.ts";
 import { colourBar, drawField, fieldScale, gridOf } from "./field.ts";
 import { note, place, resolved } from "./map.ts";
-import { Entry, Frame, Scale, Stage, TEXT, Tooltip, axes, fitted, html, leftMargin, legend, onScreen, pointer, svg, textWidth, unique } from "./svg.ts";
+import { Entry, Frame, Scale, Stage, TEXT, Tooltip, axes, canvas, fitted, html, leftMargin, legend, onScreen, pointer, svg, textWidth, unique } from "./svg.ts";
 import type { PanelQuantity, Panels } from "./types.ts";
 
 /** Title of a quantity with its unit. */
-export const quantityName = (q: PanelQuantity) => (q.unit ? `${q.name} in ${q.unit}` : q.name);
+const quantityName = (q: PanelQuantity) => (q.unit ? `${q.name} in ${q.unit}` : q.name);
 
 interface Shown {
   index: number;
@@ -53,7 +53,7 @@ export function drawPanels(stage: Stage, panels: Panels): void {
 
   const grid = html(body, "div", { class: "gl-panels", role: "group", "aria-label": `${panels.title}, ${quantityName(quantity)}` });
   const shown: Shown[] = [];
-  const explained = { hatched: false, allOutside: 0, powers: false, drawn: 0 };
+  const explained = { hatched: false, allOutside: 0, powers: false };
   for (let k = 0; k < count; k++) {
     const index = slide * count + k;
     const [row, column] = [panels.rows[Math.floor(k / panels.columns.length)], panels.columns[k % panels.columns.length]];
@@ -64,7 +64,7 @@ export function drawPanels(stage: Stage, panels: Panels): void {
     const full = left + width + ((k + 1) % across === 0 ? 12 : gap);
     const top = k === 0 ? 44 : 26;
     const total = height + top + (lastRow ? 42 : 12);
-    const element = svg(grid, "svg", { viewBox: `0 0 ${full} ${total}`, width: full, height: total, style: `--w: ${full}px`, class: "gl-svg", role: "img", "aria-label": `${name}: ${quantityName(quantity)}` });
+    const element = canvas({ root: grid, width: full }, total, `${name}: ${quantityName(quantity)}`);
     // Panels of the first row begin at the same height.
     if (k > 0 && k < across) element.classList.add("gl-lower");
     const frame: Frame = { svg: element, left, top, right: left + width, bottom: top + height };
@@ -81,13 +81,10 @@ export function drawPanels(stage: Stage, panels: Panels): void {
     if (!values || values.every((v) => v === null)) {
       svg(element, "text", { x: left + width / 2, y: top + height / 2, "text-anchor": "middle", class: "gl-name" }, "no map");
     } else {
-      const look = drawField(frame, gridOf(xs, ys, values, quantity.name), { sx, sy, colours, best, outside: panels.outside[index], marks: panels.marks, powers: panels.powers });
-      explained.drawn++;
+      const look = drawField(frame, gridOf(xs, ys, values, quantity.jumps), { sx, sy, colours, best, outside: panels.outside[index], marks: panels.marks, powers: panels.powers });
       explained.hatched ||= look.hatched;
       explained.powers ||= look.powers;
-      if (look.allOutside) {
-        explained.allOutside++;
-      }
+      if (look.allOutside) explained.allOutside++;
     }
     const cross = svg(element, "path", { class: "gl-cross", d: "" });
     shown.push({ index, name, svg: element, frame, sx, sy, readout, cross });
@@ -156,7 +153,7 @@ function follow(stage: Stage, panels: Panels, quantity: PanelQuantity, shown: Sh
     const key = `${q.name} ${index}`;
     let grid = grids.get(key);
     const values = q.panels[index];
-    if (!grid && values) grids.set(key, (grid = gridOf(xs, ys, values, q.name)));
+    if (!grid && values) grids.set(key, (grid = gridOf(xs, ys, values, q.jumps)));
     return grid ? valueAt(grid, x, y) : null;
   };
   const ranges = new Map(panels.quantities.map((q): [PanelQuantity, number[]] => [q, [q.panels.reduce<number>((most, p) => (p ?? []).reduce<number>((m, v) => Math.max(m, Math.abs(v ?? 0)), most), 0)]]));
@@ -241,7 +238,7 @@ function losses(stage: Stage, panels: Panels, own: Shown, i: number, j: number, 
   const room = Math.min(Math.max(...parts.map((p) => textWidth(words(p.name)))) + 10, 0.4 * width);
   const line = 21;
   const height = parts.length * line + 4;
-  const element = svg(detail, "svg", { viewBox: `0 0 ${width} ${height}`, width, height, style: `--w: ${width}px`, class: "gl-svg", role: "img", "aria-label": `losses at ${where}` });
+  const element = canvas({ root: detail, width }, height, `losses at ${where}`);
   const longest = Math.max(...parts.map((p) => p.value));
   parts.forEach((part, k) => {
     const y = 2 + k * line;

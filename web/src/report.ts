@@ -138,12 +138,13 @@ function navigation(): void {
   if (location.hash) open();
 }
 
-/** Width of one of two columns on A4 in pixels; paper shows pictures at 80 % of their size. */
+/** Width of one of two columns in pixels: paper shows pictures at 80 % of their size, and A4 has 703 pixels between its margins. */
 const COLUMN = 430;
-/** Width of the first picture beside the drawing. */
+/** Width of the first picture beside the drawing: the style sheet gives it 420 pixels on paper. */
 const LEAD = 525;
 
-/** Height of the plots on paper; rows have their usual height. */
+/** Height of the plots on paper, so that four rows of pictures fit on a page, and a pane or a row of three panels is still legible; rows of
+ * names have their usual height. */
 function paperHeight(picture: Picture): number | undefined {
   switch (picture?.kind) {
     case "panels":

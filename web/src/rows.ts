@@ -3,7 +3,7 @@
 import { PALETTE } from "./colours.ts";
 import { axisNumbers, nameOf, significant, unitOf, withUnit, words } from "./format.ts";
 import { ticks } from "./levels.ts";
-import { Entry, Stage, Tooltip, canvas, fitted, fittingTicks, legend, leftMargin, scale, svg, textWidth } from "./svg.ts";
+import { Entry, Stage, Tooltip, canvas, fitted, legend, leftMargin, rowAxis, scale, svg, textWidth } from "./svg.ts";
 import type { Intervals, Tornado, Waterfall } from "./types.ts";
 
 /** Room for the names of rows. */
@@ -14,18 +14,6 @@ function room(stage: Stage, names: string[]): number {
 /** Height of a row; the rows fill a given height. */
 function rowHeight(stage: Stage, count: number, usual: number): number {
   return stage.height ? Math.max(20, Math.min(52, (stage.height - 64) / Math.max(1, count))) : usual;
-}
-
-function rowAxis(element: SVGSVGElement, low: number, high: number, left: number, right: number, top: number, bottom: number, name: string) {
-  const sx = scale(low, high, left, right);
-  const marks = fittingTicks(low, high, right - left);
-  axisNumbers(marks).forEach((text, k) => {
-    const x = sx(marks[k]);
-    svg(element, "line", { x1: x, x2: x, y1: top, y2: bottom, class: marks[k] === 0 ? "gl-zero" : "gl-grid" });
-    svg(element, "text", { x, y: bottom + 16, "text-anchor": "middle" }, text);
-  });
-  svg(element, "text", { x: 0.5 * (left + right), y: bottom + 34, "text-anchor": "middle", class: "gl-name" }, words(name));
-  return sx;
 }
 
 export function drawIntervals(stage: Stage, given: Intervals): void {
@@ -211,7 +199,7 @@ export function drawWaterfall(stage: Stage, data: Waterfall): void {
   legend(
     stage.root,
     groups.map((g): Entry => ({ name: g, colour: stage.components.colour(g), mark: "box", pattern: stage.components.repeated(g) })),
-    (name) => element.querySelectorAll<SVGElement>("[data-line]").forEach((e) => e.classList.toggle("gl-dim", name !== null && e.dataset.line !== name)),
+    element,
   );
 }
 

@@ -4,7 +4,7 @@ import { ColourBook } from "./colours.ts";
 import { axisNumbers, words } from "./format.ts";
 import { ticks } from "./levels.ts";
 
-export type Attributes = Record<string, string | number | undefined>;
+type Attributes = Record<string, string | number | undefined>;
 
 const SVG = "http://www.w3.org/2000/svg";
 
@@ -113,10 +113,9 @@ export function scale(low: number, high: number, from: number, to: number): Scal
   return Object.assign(f, { invert: (pixel: number) => low + ((pixel - from) / (to - from || 1)) * span, low, high });
 }
 
-/** An SVG element of the stage's width. */
-export function canvas(stage: Stage, height: number, label: string, parent: Element = stage.root): SVGSVGElement {
-  const width = stage.width;
-  return svg(parent, "svg", { viewBox: `0 0 ${width} ${height}`, width, height, style: `--w: ${width}px`, class: "gl-svg", role: "img", "aria-label": label });
+/** An SVG element of a width; the label describes it to those who cannot see it. */
+export function canvas({ root, width }: { root: Element; width: number }, height: number, label: string): SVGSVGElement {
+  return svg(root, "svg", { viewBox: `0 0 ${width} ${height}`, width, height, style: `--w: ${width}px`, class: "gl-svg", role: "img", "aria-label": label });
 }
 
 /** Draws both axes and returns the scales. */
@@ -156,8 +155,21 @@ export function axes(
   return { sx, sy };
 }
 
+/** Draws the horizontal axis of rows and bars, and returns its scale. */
+export function rowAxis(element: SVGSVGElement, low: number, high: number, left: number, right: number, top: number, bottom: number, name: string): Scale {
+  const sx = scale(low, high, left, right);
+  const marks = fittingTicks(low, high, right - left);
+  axisNumbers(marks).forEach((text, k) => {
+    const x = sx(marks[k]);
+    svg(element, "line", { x1: x, x2: x, y1: top, y2: bottom, class: marks[k] === 0 ? "gl-zero" : "gl-grid" });
+    svg(element, "text", { x, y: bottom + 16, "text-anchor": "middle" }, text);
+  });
+  svg(element, "text", { x: 0.5 * (left + right), y: bottom + 34, "text-anchor": "middle", class: "gl-name" }, words(name));
+  return sx;
+}
+
 /** Ticks whose numbers do not touch. */
-export function fittingTicks(low: number, high: number, width: number): number[] {
+function fittingTicks(low: number, high: number, width: number): number[] {
   for (let most = Math.max(2, width / 60); most >= 1; most *= 0.75) {
     const found = ticks(low, high, most);
     const widest = Math.max(...axisNumbers(found).map((n) => textWidth(n)), 0);
@@ -167,7 +179,7 @@ export function fittingTicks(low: number, high: number, width: number): number[]
 }
 
 /** Width of the numbers of a vertical axis. */
-export function yLabelWidth(low: number, high: number, height: number): number {
+function yLabelWidth(low: number, high: number, height: number): number {
   const list = axisNumbers(ticks(low, high, Math.max(2, height / 36)));
   return Math.max(0, ...list.map((n) => textWidth(n)));
 }
@@ -185,9 +197,10 @@ export interface Entry {
   pattern?: boolean;
 }
 
-/** A legend in the text flow. */
-export function legend(parent: Element, entries: Entry[], lit?: (name: string | null) => void): void {
+/** A legend in the text flow. While the pointer is on an entry, the lines of all others fade in `picture`. */
+export function legend(parent: Element, entries: Entry[], picture?: Element): void {
   if (entries.length === 0) return;
+  const light = (name: string | null) => picture?.querySelectorAll<SVGElement>("[data-line]").forEach((e) => e.classList.toggle("gl-dim", name !== null && e.dataset.line !== name));
   const list = html(parent, "ul", { class: "gl-legend" });
   for (const entry of entries) {
     const item = html(list, "li");
@@ -232,10 +245,8 @@ export function legend(parent: Element, entries: Entry[], lit?: (name: string | 
         break;
     }
     html(item, "span", {}, words(entry.name));
-    if (lit) {
-      item.addEventListener("pointerenter", () => lit(entry.name));
-      item.addEventListener("pointerleave", () => lit(null));
-    }
+    item.addEventListener("pointerenter", () => light(entry.name));
+    item.addEventListener("pointerleave", () => light(null));
   }
 }
 
@@ -249,7 +260,7 @@ export function star(x: number, y: number, r: number): string {
 }
 
 /** Rows of a tooltip. */
-export interface Tip {
+interface Tip {
   head: string;
   rows: { name: string; value: string; colour?: string; strong?: boolean }[];
 }

@@ -28,6 +28,9 @@ export interface FieldMap {
   x: Coordinate<string>;
   y: Coordinate<string>;
   values: (number | null)[];
+  unit: string;
+  best: Best | null;
+  jumps: boolean;
   diverging: boolean;
   ends: [number, number] | null;
   hatched: boolean[];
@@ -42,6 +45,7 @@ export interface Cloud {
   title: string;
   axes: [string, string];
   points: [x: number, y: number, value: number][];
+  unit: string;
   diverging: boolean;
 }
 
@@ -89,6 +93,7 @@ export interface PanelQuantity {
   unit: string;
   diverging: boolean;
   best: Best | null;
+  jumps: boolean;
   panels: ((number | null)[] | null)[];
 }
 
@@ -102,7 +107,7 @@ export interface Panels {
   slider: Coordinate<string> | null;
   quantities: PanelQuantity[];
   outside: boolean[][];
-  marks: [x: number, y: number, weight: number][];
+  marks: [x: number, y: number][];
   marked: string;
   powers: number[];
   breakdown: { names: string[]; panels: (number[] | null)[] } | null;

@@ -47,10 +47,10 @@ function panels() {
   const oils = [40, 70, 100];
   const sets = ["iso", "joint", "complete"];
   const quantities = [
-    { name: "efficiency", unit: "%", diverging: false, best: "highest", panels: [] },
-    { name: "loss", unit: "W", diverging: false, best: "lowest", panels: [] },
-    { name: "loss torque", unit: "Nm", diverging: false, best: "lowest", panels: [] },
-    { name: "efficiency minus iso", unit: "percentage points", diverging: true, best: null, panels: [] },
+    { name: "efficiency", unit: "%", diverging: false, best: "highest", jumps: true, panels: [] },
+    { name: "loss", unit: "W", diverging: false, best: "lowest", jumps: false, panels: [] },
+    { name: "loss torque", unit: "Nm", diverging: false, best: "lowest", jumps: false, panels: [] },
+    { name: "efficiency minus iso", unit: "percentage points", diverging: true, best: null, jumps: true, panels: [] },
   ];
   const breakdown = { names: COMPONENTS, panels: [] };
   const outside = [];
@@ -76,7 +76,7 @@ function panels() {
   return {
     kind: "panels", title: "Efficiency of the three model sets, gear first", rows: sets, columns: [""],
     x: ["speed in rpm", speeds], y: ["torque in Nm", torques], slider: ["oil temperature", oils.map((o) => `${o} degC`)],
-    quantities, outside, marks: [[2500, 9, 1], [6000, 6, 0.6], [9500, 4, 0.3], [12000, -5, 0.5]], marked: "time share in the WLTC", powers: [1000, 5000, 15000], breakdown,
+    quantities, outside, marks: [[2500, 9], [6000, 6], [9500, 4], [12000, -5]], marked: "measured", powers: [1000, 5000, 15000], breakdown,
   };
 }
 
@@ -96,15 +96,15 @@ function pictures() {
   return {
     leader: panels(),
     gap: {
-      kind: "map", title: "gap: efficiency of joint minus iso in percentage points", x: ["speed rpm", text(fine)], y: ["torque Nm", text(drive)],
+      kind: "map", unit: "percentage points", best: null, jumps: true, title: "gap: efficiency of joint minus iso in percentage points", x: ["speed rpm", text(fine)], y: ["torque Nm", text(drive)],
       values: grid((n, t) => 2.4 * Math.exp(-t / 6) * Math.exp(-n / 9000) * 1.8 - 0.35 * (n / 22000) ** 2 + 0.12, fine, drive), diverging: true, ends: null,
       hatched: grid((n, t) => t < 5 && n > 12000, fine, drive), marks: range(24, (k) => [1500 + (k % 6) * 3500, 4 + Math.floor(k / 6) * 4.5]), marked: "", crossed: [8, "largest difference"], unseen: 0.2,
     },
     map: {
-      kind: "map", title: "loaded: efficiency in %, models own, gear reducing", x: ["speed rpm", text(range(14, (k) => 500 + 250 * k))], y: ["oil volume", text([60, 75, 90, 120, 150, 200], " ml")],
+      kind: "map", unit: "%", best: "highest", jumps: true, title: "loaded: efficiency in %, models own, gear reducing", x: ["speed rpm", text(range(14, (k) => 500 + 250 * k))], y: ["oil volume", text([60, 75, 90, 120, 150, 200], " ml")],
       values: grid((n, v) => 97.9 - 0.0006 * v - 0.35 * (n / 3000) ** 2 * (v / 100) - 260 / n, range(14, (k) => 500 + 250 * k), [60, 75, 90, 120, 150, 200]), diverging: false, ends: null, hatched: [], marks: [], marked: "", crossed: null, unseen: null,
     },
-    rig: { kind: "cloud", title: "rig_fit: efficiency of iso minus measurement in percentage points", axes: ["speed in rpm", "torque in Nm"], points: range(140, () => { const [n, t] = [1000 + 21000 * random(), 3 + 17 * random()]; return [n, t, 1.6 * Math.exp(-t / 5) - 0.5 + 0.12 * normal()]; }), diverging: true },
+    rig: { kind: "cloud", unit: "percentage points", title: "rig_fit: efficiency of iso minus measurement in percentage points", axes: ["speed in rpm", "torque in Nm"], points: range(140, () => { const [n, t] = [1000 + 21000 * random(), 3 + 17 * random()]; return [n, t, 1.6 * Math.exp(-t / 5) - 0.5 + 0.12 * normal()]; }), diverging: true },
     tests: {
       kind: "bars", title: "tests: losses, models own, oil temperature above each bar", over: "", height: "loss in W", names: ["mesh", "mesh drag", "bearings", "seals", "churning"],
       bars: range(12, (k) => ({ label: `${k + 1}\n${k % 2 ? "loaded" : "free"}`, shares: [k % 2 ? 9 + 2.2 * k : 0.4, 2 + 0.3 * k, 6 + 0.8 * k, 7.5, 4 + 0.6 * k], above: `${(29.5 + 2.1 * k).toFixed(1)} degC`, measured: k % 3 === 0 ? null : [(k % 2 ? 29 + 3.9 * k : 20 + 1.7 * k), 1.4], above_measured: "" })),
@@ -123,7 +123,7 @@ function pictures() {
     lines: { kind: "lines", title: "limit: torque at which the oil reaches a temperature", x: "speed in rpm", y: "torque in Nm", lines: [60, 75, 90].map((limit, k) => ({ name: `${limit} degC`, stroke: "marked", points: range(14, (i) => (k === 0 && i === 9 ? null : [500 + 250 * i, Math.max(2, (limit - 30) * 3 - 0.03 * (500 + 250 * i) * (1 - 0.12 * k))])) })) },
     parity: { kind: "lines", title: "gap: parity of efficiency", x: "efficiency of iso in %", y: "efficiency of the other set in %", lines: [...["joint", "complete"].map((name, k) => ({ name, stroke: "dots", points: range(150, () => { const e = 95 + 3.6 * random(); return [e, e + 0.5 * (k ? 0.4 : 1) + 0.15 * normal()]; }) })), { name: "equal", stroke: "line", points: [[95, 95], [98.8, 98.8]] }] },
     intervals: { kind: "intervals", title: "identify: parameters of complete between their bounds", x: "place between the bounds", marks: [0, 1], list: ["oil.viscosity_100degc", "gears.*.roughness_um", "models.mesh.friction_factor", "bearings.*.preload_n", "models.seal.factor", "models.churning.level_mm", "bearings.B1.clearance_um", "housing.heat_transfer"].map((name, k) => ({ name, at: 0.2 + 0.08 * k, ends: k === 7 ? null : [0.2 + 0.08 * k - 0.02 * (k + 1), 0.2 + 0.08 * k + 0.024 * (k + 1)], before: k % 3 === 2 ? null : 0.5 })) },
-    correlations: (() => { const names = ["viscosity", "roughness", "friction factor", "preload", "seal factor", "oil level", "clearance", "heat transfer"]; return { kind: "map", title: "identify: correlations of the parameters of complete", x: ["", names], y: ["", names], values: grid((a, b) => (a === b ? 1 : a === 7 || b === 7 ? null : Math.cos(1.7 * a + 1.7 * b + a * b) * 0.92), range(8, (k) => k), range(8, (k) => k)), diverging: true, ends: [-1, 1], hatched: [], marks: [], marked: "", crossed: null, unseen: null }; })(),
+    correlations: (() => { const names = ["viscosity", "roughness", "friction factor", "preload", "seal factor", "oil level", "clearance", "heat transfer"]; return { kind: "map", unit: "", best: null, jumps: false, title: "identify: correlations of the parameters of complete", x: ["", names], y: ["", names], values: grid((a, b) => (a === b ? 1 : a === 7 || b === 7 ? null : Math.cos(1.7 * a + 1.7 * b + a * b) * 0.92), range(8, (k) => k), range(8, (k) => k)), diverging: true, ends: [-1, 1], hatched: [], marks: [], marked: "", crossed: null, unseen: null }; })(),
     waterfall: (() => { const l = losses(2, 0, 70, 10, 10000); const input = (10 * 10000 * Math.PI) / 30; return { kind: "waterfall", title: "where: losses at 10 Nm, 10 000 rpm, gear first, oil at 70 °C, models complete", unit: "W", ends: [["input", input], ["output", input - l.reduce((a, b) => a + b, 0)]], losses: COMPONENTS.map((name, k) => [name, ["mesh", "mesh", "mesh drag", "mesh drag", "bearings", "bearings", "bearings", "bearings", "seals", "seals", "churning", "churning", "synchroniser"][k], l[k]]) }; })(),
     tornado: { kind: "tornado", title: "what_matters: mean loss of complete between the ends of each input", x: "mean loss in W", base: 175.3, bars: [["gears.*.roughness_um", 152, 214, "0.2", "0.8"], ["oil.viscosity_100degc", 160, 196, "4 mm2/s", "9 mm2/s"], ["bearings.*.preload_n", 163, 190, "50 N", "200 N"], ["models.mesh.friction_factor", 168, 183, "0.9", "1.1"], ["models.churning.level_mm", 170, 178, "-10", "+10"], ["models.seal.factor", 173, 177.6, "0.8", "1.2"], ["oil.density", 176.1, 177, "820", "880"]].map(([name, a, b, p, q]) => ({ name, results: [a, b], ends: [p, q] })) },
     effects: { kind: "lines", title: "what_matters: effects on the mean loss, mean and standard deviation, models complete", x: "mean of the absolute effect in W", y: "standard deviation in W", lines: ["roughness", "viscosity", "preload", "friction factor"].map((name, k) => ({ name, stroke: "dots", points: [[60 / (k + 1), 9 / (k + 0.6)]] })) },

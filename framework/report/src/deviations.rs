@@ -2,15 +2,22 @@
 
 use gearloss_studies::points::{histogram, levels};
 
+use crate::figure::jumps;
 use crate::plot::{Line, Stroke};
 use crate::{Cloud, Figure, Map};
 
 /// A difference at a torque in Nm and a speed in rpm.
 pub type Deviation = (f64, f64, Option<f64>);
 
-/// A map if the points lie on a grid apart from the scatter of a rig, otherwise dots. `unseen` is the accuracy of the measurement; `ends`
-/// is the colour range if several figures share it.
-pub fn picture(title: String, points: &[Deviation], unseen: Option<f64>, ends: Option<(f64, f64)>) -> Figure {
+/// A map of a quantity with its unit if the points lie on a grid apart from the scatter of a rig, otherwise dots. `unseen` is the accuracy
+/// of the measurement; `ends` is the colour range if several figures share it.
+pub fn picture(
+    title: String,
+    (what, unit): (&str, &str),
+    points: &[Deviation],
+    unseen: Option<f64>,
+    ends: Option<(f64, f64)>,
+) -> Figure {
     let (torques, speeds) = lines(points);
     let mut values = vec![None; torques.len() * speeds.len()];
     let on_grid = torques.len() > 1 && speeds.len() > 1 && values.len() == points.len();
@@ -27,6 +34,7 @@ pub fn picture(title: String, points: &[Deviation], unseen: Option<f64>, ends: O
             title,
             axes,
             points: points.iter().filter_map(of).collect(),
+            unit: unit.to_owned(),
             diverging: true,
         });
     }
@@ -39,6 +47,8 @@ pub fn picture(title: String, points: &[Deviation], unseen: Option<f64>, ends: O
         x: (axes.0, mean(&speeds, |p| p.1)),
         y: (axes.1, mean(&torques, |p| p.0)),
         values,
+        unit: unit.to_owned(),
+        jumps: jumps(what),
         diverging: true,
         unseen,
         ends,
@@ -146,7 +156,7 @@ mod tests {
             (torques, speeds),
             (vec![vec![0, 3], vec![1, 2]], vec![vec![0, 1], vec![2, 3]])
         );
-        let Figure::Map(map) = picture(String::new(), &points, None, None) else {
+        let Figure::Map(map) = picture(String::new(), ("", ""), &points, None, None) else {
             panic!("a grid is a map");
         };
         assert_eq!(map.values, [Some(2.0), Some(2.0), Some(4.0), Some(4.0)]);
@@ -160,7 +170,10 @@ mod tests {
             vec![at(2.0, 1000.0), at(4.0, 1000.0), at(4.0, 9000.0), at(6.0, 9000.0)],
             vec![],
         ] {
-            assert!(matches!(picture(String::new(), &points, None, None), Figure::Cloud(_)));
+            assert!(matches!(
+                picture(String::new(), ("", ""), &points, None, None),
+                Figure::Cloud(_)
+            ));
         }
     }
 }

@@ -64,6 +64,21 @@ pub enum Figure {
     },
 }
 
+/// Which end of a quantity is good.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Best {
+    /// As an efficiency.
+    Highest,
+    /// As a loss.
+    Lowest,
+}
+
+/// True for a quantity that jumps where the torque or the speed changes its sign: its maps have no contours between drive and coast.
+pub fn jumps(quantity: &str) -> bool {
+    quantity == "efficiency"
+}
+
 /// A value over two coordinates, one cell for each pair.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Map {
@@ -75,6 +90,12 @@ pub struct Map {
     pub y: (String, Vec<String>),
     /// Values; the first coordinate varies fastest.
     pub values: Vec<Option<f64>>,
+    /// Unit of the values; may be empty.
+    pub unit: String,
+    /// Which end is good, for the best point and for closer levels towards it.
+    pub best: Option<Best>,
+    /// True if the value [jumps] where a coordinate changes its sign.
+    pub jumps: bool,
     /// Differences: zero is the middle of the colour scale.
     pub diverging: bool,
     /// Ends of the colour scale if several maps share it; absent: minimum and maximum of the values.
@@ -100,6 +121,8 @@ pub struct Cloud {
     pub axes: (String, String),
     /// Coordinates and value of each point.
     pub points: Vec<(f64, f64, f64)>,
+    /// Unit of the values; may be empty.
+    pub unit: String,
     /// Differences: zero is the middle of the colour scale.
     pub diverging: bool,
 }

@@ -24,7 +24,7 @@ fn parameters(entry: &Entry, schema: &Value) -> Vec<(String, Value)> {
         .collect()
 }
 
-/// How a model whose law is written for any number is evaluated and differentiated, and how the others are.
+/// A model whose law is written for any number, and any other.
 const GENERIC: &str = "generic";
 const PLAIN: &str = "plain";
 
@@ -56,7 +56,7 @@ pub fn models_text(language: &Language) -> String {
     }
     out.text(&table.render());
     out.line("");
-    out.line("generic: several points at once, exact derivatives; plain: point by point, derivatives by differences");
+    out.line("generic: several points at once, exact derivatives; plain: derivatives by differences");
     for set in language.registry().shipped_sets() {
         out.line(format!(
             "set {}: {} ({})",
@@ -112,7 +112,7 @@ pub fn model_text(language: &Language, entry: &Entry) -> String {
     out.line(format!("example: {}", entry.example));
     out.line(match evaluation(language, entry) {
         GENERIC => "evaluation: generic: several points at once, exact derivatives",
-        _ => "evaluation: plain: point by point, derivatives by differences",
+        _ => "evaluation: plain: derivatives by differences",
     });
     let schema = language.published(Kind::Gearbox);
     let fields = parameters(entry, &schema);

@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use crate::Figure;
+use crate::figure::Best;
 
 /// A picture of the report, drawn in the browser.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -71,8 +72,8 @@ pub struct Panels {
     pub quantities: Vec<PanelQuantity>,
     /// Cells outside a model's stated range, by panel in the order of [`PanelQuantity::panels`]; an empty list: none.
     pub outside: Vec<Vec<bool>>,
-    /// Points that are marked, with a weight from 0 to 1 for the size of the mark.
-    pub marks: Vec<(f64, f64, f64)>,
+    /// Points that are marked.
+    pub marks: Vec<(f64, f64)>,
     /// Legend of the marks.
     pub marked: String,
     /// Powers for which lines are drawn. \[W\]
@@ -92,19 +93,11 @@ pub struct PanelQuantity {
     pub diverging: bool,
     /// Which end is good, for the best point and for closer levels towards it.
     pub best: Option<Best>,
+    /// True if the value [jumps](crate::figure::jumps) where a coordinate changes its sign.
+    pub jumps: bool,
     /// Values of each panel, absent where there is no map: for each value of the slider row by row of panels, within a panel the horizontal
     /// coordinate varies fastest.
     pub panels: Vec<Option<Vec<Option<f64>>>>,
-}
-
-/// Which end of a quantity is good.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Best {
-    /// As an efficiency.
-    Highest,
-    /// As a loss.
-    Lowest,
 }
 
 /// Losses by share in all cells.

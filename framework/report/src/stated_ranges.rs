@@ -228,7 +228,7 @@ impl Group {
         }
     }
 
-    /// How much of the results it concerns.
+    /// How much of the results it concerns. A component of unknown share counts as one of ten equal ones.
     fn weight(&self) -> f64 {
         let of = |values: &Values| values.share_of_points() * values.loss_share().unwrap_or(0.1);
         self.values.as_ref().map_or(0.0, of)

@@ -163,6 +163,11 @@ pub fn of_set(set: &str, sets: usize) -> String {
     }
 }
 
+/// The last key of a path.
+pub fn last_key(path: &str) -> &str {
+    path.rsplit('.').next().unwrap_or(path)
+}
+
 /// An operating point in words, torque in Nm, speed in rpm.
 pub fn place(torque: f64, speed: f64) -> String {
     format!("{} Nm, {} rpm", short(torque), short(speed))

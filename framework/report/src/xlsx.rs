@@ -8,8 +8,8 @@ use gearloss_studies::table::{Column, Table, Values};
 
 use crate::html::Section;
 
-/// Maximum number of rows of a sheet, with its head.
-const MOST_ROWS: usize = 1_048_576;
+/// Maximum number of rows of a table: those of a sheet without its head.
+pub const MOST_ROWS: usize = 1_048_576 - HEAD as usize;
 /// A name that no sheet may have.
 const RESERVED: &str = "history";
 /// Rows above the numbers: names, units, meanings.
@@ -21,12 +21,10 @@ const CHART: (usize, u32) = (4, 500);
 #[derive(Debug, thiserror::Error)]
 pub enum WorkbookError {
     /// A table has more rows than a sheet holds.
-    #[error("the table `{name}` has {rows} rows; a sheet of a workbook holds {}", MOST_ROWS - HEAD as usize)]
+    #[error("the table `{name}` has more than {MOST_ROWS} rows, which a sheet of a workbook cannot hold")]
     TooLong {
         /// Name of the table.
         name: String,
-        /// Its rows.
-        rows: usize,
     },
     /// The library cannot write it.
     #[error("the workbook cannot be written: {0}")]
@@ -46,10 +44,9 @@ pub fn workbook(section: &Section, tables: &[Table]) -> Result<Vec<u8>, Workbook
     about(workbook.add_worksheet().set_name("result")?, section)?;
     let mut names = vec!["result".to_owned(), RESERVED.to_owned()];
     for (i, table) in tables.iter().enumerate() {
-        if table.len() + HEAD as usize > MOST_ROWS {
+        if table.len() > MOST_ROWS {
             return Err(WorkbookError::TooLong {
                 name: table.name.clone(),
-                rows: table.len(),
             });
         }
         let name = sheet_name(&table.name, &names);
@@ -200,7 +197,7 @@ mod tests {
         // A workbook is a zip archive.
         assert!(bytes.starts_with(b"PK"));
         assert!(matches!(
-            workbook(&section, &[table(MOST_ROWS)]),
+            workbook(&section, &[table(MOST_ROWS + 1)]),
             Err(WorkbookError::TooLong { .. })
         ));
     }

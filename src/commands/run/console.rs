@@ -18,7 +18,7 @@ const WORST: usize = 3;
 pub enum Shown {
     /// Nothing, for `check`.
     Nothing,
-    /// Errors and the path of the report.
+    /// Errors, warnings and the path of the report.
     Path,
     /// A line for each analysis.
     Headlines,

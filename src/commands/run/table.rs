@@ -6,6 +6,7 @@ use std::sync::{Mutex, PoisonError};
 
 use gearloss_report::csv::CsvTable;
 use gearloss_report::parquet::ParquetTable;
+use gearloss_report::xlsx::MOST_ROWS;
 use gearloss_studies::analyses::Stopped;
 use gearloss_studies::study::Write;
 use gearloss_studies::table::{RowSink, Table};
@@ -50,7 +51,8 @@ impl TableFiles {
         if let Some((place, parquet)) = &mut self.parquet {
             parquet.rows(rows).map_err(|e| place.cannot_write(e))?;
         }
-        if let Some(whole) = &mut self.whole {
+        // A table that is too long for a workbook is refused in the end, and needs no further memory.
+        if let Some(whole) = self.whole.as_mut().filter(|whole| whole.len() <= MOST_ROWS) {
             whole.extend(std::slice::from_ref(rows), &[(0, 0..rows.len())]);
         }
         Ok(())

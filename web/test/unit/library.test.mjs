@@ -172,10 +172,10 @@ test("refinement keeps the values and adds no extremes", () => {
 
 test("an efficiency has no surface between coast and drive", () => {
   const ys = [-5, -2, 3, 6];
-  const grid = gridOf([1000, 2000], ys, new Array(8).fill(95), "efficiency");
+  const grid = gridOf([1000, 2000], ys, new Array(8).fill(95), true);
   assert.ok(Math.abs(area(region(grid, -Infinity)) - 6000) < 1e-6);
   assert.equal(valueAt(grid, 1500, 0), null);
-  const loss = gridOf([1000, 2000], ys, new Array(8).fill(95), "loss");
+  const loss = gridOf([1000, 2000], ys, new Array(8).fill(95), false);
   assert.equal(valueAt(loss, 1500, 0), 95);
   const fine = refine(grid, 3);
   assert.ok(Math.abs(area(region(fine, -Infinity)) - 6000) < 1e-6);

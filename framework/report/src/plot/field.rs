@@ -325,6 +325,7 @@ mod tests {
             axes: ("speed".to_owned(), "torque".to_owned()),
             points: vec![(1.0, 2.0, -0.5), (3.0, 4.0, 0.25)],
             diverging: true,
+            ..Cloud::default()
         })
         .unwrap();
         assert_eq!(svg.matches("<circle").count(), 4);

@@ -9,7 +9,7 @@ use crate::Figure;
 use crate::page::Page;
 use crate::plot::{Line, Stroke};
 use crate::register_view;
-use crate::text::{TextTable, number, significant};
+use crate::text::{TextTable, last_key, number, significant};
 
 register_view!(CycleOutcome, show);
 
@@ -151,7 +151,7 @@ fn heat_text(duty: &DutyOfSet, heat: &HeatOfDuty, page: &mut Page) {
     }
     for exchanger in &heat.exchangers {
         let path = &exchanger.exchanger;
-        let id = path.rsplit('.').next().unwrap_or(path);
+        let id = last_key(path);
         paths.push(format!("{id} {}", kj(exchanger.heat_j)));
     }
     if heat.carried_away_j.abs() > 1e-9 * heat.came_j.abs() {

@@ -34,7 +34,7 @@ fn show(outcome: &RmsSurfaceOutcome, page: &mut Page) {
         let set = &surface.model_set;
         page.verdict(format!("{name}: `{set}`: {}", verdict(surface, unit)));
         page.line("");
-        page.figure(format!("{name}-{set}"), map(title, surface));
+        page.figure(format!("{name}-{set}"), map(title, unit, surface));
     }
 }
 
@@ -146,7 +146,7 @@ fn range(axis: &AxisOfSurface, [low, high]: [usize; 2]) -> String {
     }
 }
 
-fn map(title: String, surface: &SurfaceOfSet) -> Figure {
+fn map(title: String, unit: &str, surface: &SurfaceOfSet) -> Figure {
     let SurfaceOfSet { x, y, pairs, .. } = surface;
     let least = &surface.least_place;
     Figure::Map(Map {
@@ -154,6 +154,7 @@ fn map(title: String, surface: &SurfaceOfSet) -> Figure {
         x: (x.path.clone(), x.words.clone()),
         y: (y.path.clone(), y.words.clone()),
         values: pairs.iter().map(|pair| pair.rms).collect(),
+        unit: unit.to_owned(),
         crossed: Some((
             least.place[1] * x.values.len() + least.place[0],
             format!("minimum, {:.3}", least.value),

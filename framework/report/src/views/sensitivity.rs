@@ -230,6 +230,40 @@ fn together(set: &SensitivityOfSet, shares: &SharesOfVariance) -> String {
     }
 }
 
+/// The influence of each parameter on the mean loss.
+struct Influences {
+    values: Vec<f64>,
+    unit: &'static str,
+    /// What the values are.
+    of: &'static str,
+}
+
+/// Influences by the best method that was run: shares of the variance, otherwise effects, otherwise slopes.
+fn influences(loss: &OutputSensitivity) -> Option<Influences> {
+    if let Some(shares) = loss.sobol.as_ref().filter(|shares| shares.variance > 0.0) {
+        return Some(Influences {
+            values: shares.total.iter().map(|share| 100.0 * share.value.max(0.0)).collect(),
+            unit: "%",
+            of: "share of the variance of the mean loss",
+        });
+    }
+    if let Some(effects) = &loss.morris {
+        return Some(Influences {
+            values: effects.iter().map(|effect| effect.mu_star).collect(),
+            unit: "W",
+            of: "change of the mean loss over the range",
+        });
+    }
+    let slopes = loss.local.as_ref()?.iter();
+    Some(Influences {
+        values: slopes
+            .map(|slope| slope.scaled.map_or(0.0, |s| 100.0 * s.abs()))
+            .collect(),
+        unit: "%",
+        of: "slope times range, of the mean loss",
+    })
+}
+
 /// Indices of values, the largest first.
 fn descending(values: &[f64]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..values.len()).collect();

@@ -5,6 +5,7 @@ mod summary;
 use gearloss_studies::analyses::numbers::word;
 use gearloss_studies::analyses::sweep::{PointOfSweep, SweepOfValue, SweepOutcome};
 
+use crate::figure::Best;
 use crate::page::Page;
 use crate::plot::{Line, Stroke};
 use crate::register_view;
@@ -39,12 +40,12 @@ struct Sweep<'a> {
     second_words: Vec<String>,
 }
 
-/// Short name, text and reader of a quantity.
-type Quantity = (&'static str, &'static str, fn(&PointOfSweep) -> Option<f64>);
+/// Name, unit, which end is good, and reader of a quantity.
+type Quantity = (&'static str, &'static str, Best, fn(&PointOfSweep) -> Option<f64>);
 
 const QUANTITIES: [Quantity; 2] = [
-    ("loss", "loss in W", |point| point.loss_w),
-    ("efficiency", "efficiency in %", |point| {
+    ("loss", "W", Best::Lowest, |point| point.loss_w),
+    ("efficiency", "%", Best::Highest, |point| {
         point.efficiency.map(|e| 100.0 * e)
     }),
 ];
@@ -102,20 +103,22 @@ impl<'a> Sweep<'a> {
 
     /// Loss and efficiency over the values.
     fn figures(&self, page: &mut Page) {
-        for (short, y, quantity) in QUANTITIES {
+        for quantity in QUANTITIES {
+            let (short, unit, _, read) = quantity;
+            let y = format!("{short} in {unit}");
             if let Some(second_path) = self.second_path {
-                for map in self.maps(second_path, y, quantity) {
+                for map in self.maps(second_path, quantity) {
                     let title = map.title.replace([' ', ',', ':'], "");
                     page.figure(format!("{}-{short}-{title}", self.name), Figure::Map(map));
                 }
                 continue;
             }
-            let lines = self.lines(quantity);
+            let lines = self.lines(read);
             if !lines.is_empty() {
                 let figure = Figure::Lines {
                     title: format!("{}: {y}", self.name),
                     x: self.axis().1,
-                    y: y.to_owned(),
+                    y,
                     lines,
                 };
                 page.figure(format!("{}-{short}", self.name), figure);
@@ -165,18 +168,24 @@ impl<'a> Sweep<'a> {
     }
 
     /// A map over both paths for each set, torque and speed.
-    fn maps(&self, second_path: &str, y: &str, quantity: fn(&PointOfSweep) -> Option<f64>) -> Vec<Map> {
+    fn maps(&self, second_path: &str, (quantity, unit, best, read): Quantity) -> Vec<Map> {
         let mut maps = Vec::new();
         for set in self.sets() {
             for (i, point) in self.row(set, 0)[0].points.iter().enumerate() {
                 let own = self.outcome.values_of_set(set);
-                let values: Vec<Option<f64>> = own.map(|value| quantity(&value.points[i])).collect();
+                let values: Vec<Option<f64>> = own.map(|value| read(&value.points[i])).collect();
                 if values.iter().any(Option::is_some) {
                     maps.push(Map {
-                        title: format!("{}: {y}, models {set}, {}", self.name, words_of_point(point)),
+                        title: format!(
+                            "{}: {quantity} in {unit}, models {set}, {}",
+                            self.name,
+                            words_of_point(point)
+                        ),
                         x: (self.path.to_owned(), self.words.clone()),
                         y: (second_path.to_owned(), self.second_words.clone()),
                         values,
+                        unit: unit.to_owned(),
+                        best: Some(best),
                         ..Map::default()
                     });
                 }

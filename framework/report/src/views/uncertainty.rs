@@ -5,6 +5,7 @@ mod summary;
 use gearloss_studies::analyses::numbers::tidy;
 use gearloss_studies::analyses::uncertainty::{BandsOfSet, PointOfBand, QuantityBand, UncertaintyOutcome};
 
+use crate::figure::jumps;
 use crate::page::Page;
 use crate::plot::{Line, Stroke};
 use crate::register_view;
@@ -13,14 +14,19 @@ use crate::{Figure, Map};
 
 register_view!(UncertaintyOutcome, show);
 
-/// A quantity: name in files, text, reader.
-type Quantity = (&'static str, &'static str, fn(&PointOfBand) -> &QuantityBand);
+/// A quantity: name in files, name, unit, reader.
+type Quantity = (
+    &'static str,
+    &'static str,
+    &'static str,
+    fn(&PointOfBand) -> &QuantityBand,
+);
 
 const QUANTITIES: [Quantity; 4] = [
-    ("efficiency", "efficiency in %", |p| &p.efficiency_percent),
-    ("loss_w", "loss in W", |p| &p.loss_w),
-    ("loss_torque_nm", "loss torque in Nm", |p| &p.loss_torque_nm),
-    ("oil_temperature_degc", "oil temperature in degC", |p| {
+    ("efficiency", "efficiency", "%", |p| &p.efficiency_percent),
+    ("loss_w", "loss", "W", |p| &p.loss_w),
+    ("loss_torque_nm", "loss torque", "Nm", |p| &p.loss_torque_nm),
+    ("oil_temperature_degc", "oil temperature", "degC", |p| {
         &p.oil_temperature_degc
     }),
 ];
@@ -72,9 +78,10 @@ fn widths(set: &BandsOfSet, page: &mut Page) {
 }
 
 /// A map of the width of the bands of a quantity, and the bands themselves over speed at a few torques.
-fn figures(name: &str, set: &BandsOfSet, (short, long, read): &Quantity, page: &mut Page) {
+fn figures(name: &str, set: &BandsOfSet, (short, quantity, unit, read): &Quantity, page: &mut Page) {
     let columns = set.speeds_rpm.len();
     let models = &set.model_set;
+    let long = format!("{quantity} in {unit}");
     let widths: Vec<Option<f64>> = set.points.iter().map(|p| read(p).half_width()).collect();
     // A given temperature has no band.
     if widths.iter().all(|width| width.is_none_or(|w| w == 0.0)) {
@@ -87,6 +94,8 @@ fn figures(name: &str, set: &BandsOfSet, (short, long, read): &Quantity, page: &
             x: ("speed rpm".to_owned(), words(&set.speeds_rpm)),
             y: ("torque Nm".to_owned(), words(&set.torques_nm)),
             values: widths,
+            unit: (*unit).to_owned(),
+            jumps: jumps(quantity),
             ..Map::default()
         });
         page.figure(format!("{name}-{models}-{short}-width"), figure);
@@ -103,7 +112,7 @@ fn figures(name: &str, set: &BandsOfSet, (short, long, read): &Quantity, page: &
         let figure = Figure::Lines {
             title: format!("{name}: {long} with its 95 % band, {torque} Nm, models {models}"),
             x: "speed in rpm".to_owned(),
-            y: (*long).to_owned(),
+            y: long.clone(),
             lines: vec![
                 line("nominal", Stroke::Marked, &|q| q.nominal),
                 line("median", Stroke::Line, &|q| q.band.map(|b| b[1])),

@@ -32,5 +32,5 @@ pub fn add(outcome: &BalanceOutcome, page: &mut Page) {
                 .push(format!("{set}: several temperatures are stable; the lowest is used"));
         }
     }
-    page.headline = Some(words.join("; "));
+    page.headline = (!words.is_empty()).then(|| words.join("; "));
 }

@@ -4,6 +4,7 @@ use gearloss_studies::analyses::compare::{CompareOutcome, DifferenceAt, GridComp
 use gearloss_studies::analyses::numbers::{RPM, tidy};
 
 use crate::deviations::{histograms, parity};
+use crate::figure::jumps;
 use crate::page::Page;
 use crate::picture::{PanelQuantity, Panels, Screen};
 use crate::text::{TextTable, fixed, number, spread};
@@ -30,7 +31,10 @@ pub fn show(outcome: &CompareOutcome, all: &[GridComparison], page: &mut Page) {
     let panels = panels(all, (words, label));
     for c in all {
         let title = format!("{name}: {words} of {} minus {} in {label}", c.model_set, c.base);
-        let (file, figure) = (format!("{name}-{}", c.model_set), map(title, c, outcome.accuracy));
+        let (file, figure) = (
+            format!("{name}-{}", c.model_set),
+            map(title, (words, label), c, outcome.accuracy),
+        );
         match &panels {
             Some(_) => page.file_figure(file, figure),
             None => page.figure(file, figure),
@@ -114,6 +118,7 @@ fn panels(all: &[GridComparison], (words, label): (&str, &str)) -> Option<Panels
             unit: label.to_owned(),
             diverging: true,
             best: None,
+            jumps: jumps(words),
             panels: all
                 .iter()
                 .map(|c| Some(c.points.iter().map(|p| p.difference).collect()))
@@ -133,13 +138,15 @@ fn panels(all: &[GridComparison], (words, label): (&str, &str)) -> Option<Panels
     })
 }
 
-fn map(title: String, c: &GridComparison, accuracy: Option<f64>) -> Figure {
+fn map(title: String, (words, unit): (&str, &str), c: &GridComparison, accuracy: Option<f64>) -> Figure {
     let mark = |x: f64| format!("{}", tidy(x));
     Figure::Map(Map {
         title,
         x: ("speed rpm".to_owned(), c.speeds.iter().map(|w| mark(w * RPM)).collect()),
         y: ("torque Nm".to_owned(), c.torques.iter().map(|t| mark(*t)).collect()),
         values: c.points.iter().map(|p| p.difference).collect(),
+        unit: unit.to_owned(),
+        jumps: jumps(words),
         diverging: true,
         hatched: c.outside.clone(),
         unseen: accuracy,

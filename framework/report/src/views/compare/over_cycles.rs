@@ -31,12 +31,12 @@ fn shares(own: &[&CycleComparison]) -> TextTable {
     for (i, share) in first.shares.iter().enumerate() {
         let mut row = vec![share.share.clone(), number(Some(share.base_mean_loss_w), 3)];
         row.extend(own.iter().map(|c| number(Some(c.shares[i].mean_loss_w), 3)));
-        row.extend(own.iter().map(|c| signed(c.shares[i].difference_w)));
+        row.extend(own.iter().map(|c| difference(c.shares[i].difference_w)));
         table.row(row);
     }
     let mut row = vec!["sum".to_owned(), number(Some(first.base_mean_loss_w), 3)];
     row.extend(own.iter().map(|c| number(Some(c.mean_loss_w), 3)));
-    row.extend(own.iter().map(|c| signed(c.difference_w)));
+    row.extend(own.iter().map(|c| difference(c.difference_w)));
     table.row(row);
     table
 }
@@ -60,10 +60,15 @@ fn phases(own: &[&CycleComparison]) -> TextTable {
             number(Some(phase.to_s), 0),
             number(Some(phase.base_mean_loss_w), 3),
         ];
-        row.extend(own.iter().map(|c| signed(c.phases[i].difference_w)));
+        row.extend(own.iter().map(|c| difference(c.phases[i].difference_w)));
         table.row(row);
     }
     table
+}
+
+/// A difference with its sign and as many decimals as the values beside it.
+fn difference(x: f64) -> String {
+    format!("{x:+.3}")
 }
 
 /// The base and every case as bars of their shares.

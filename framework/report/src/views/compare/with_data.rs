@@ -107,7 +107,7 @@ fn figures(outcome: &CompareOutcome, all: &[DataComparison], page: &mut Page) {
         let points: Vec<Deviation> = points.collect();
         page.figure(
             format!("{name}-{}", c.model_set),
-            picture(title, &points, c.accuracy, None),
+            picture(title, (what, unit), &points, c.accuracy, None),
         );
     }
     let values = |c: &DataComparison| c.points.iter().filter_map(|p| p.difference).collect();

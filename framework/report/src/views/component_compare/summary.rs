@@ -24,6 +24,9 @@ pub fn add(outcome: &ComponentCompareOutcome, page: &mut Page) {
             );
         }
     }
+    if words.is_empty() {
+        return;
+    }
     let mut headline = format!("loss of {} in W at {at}: {}", c.component, words.join(", "));
     let best = c
         .deviations

@@ -32,5 +32,5 @@ pub fn add(outcome: &ContactPathOutcome, page: &mut Page) {
         page.careful
             .push(format!("no friction along the path of {}: {why}", path.mesh));
     }
-    page.headline = Some(format!("{}, {}: {}", path.mesh, path.model_set, words.join(", ")));
+    page.headline = (!words.is_empty()).then(|| format!("{}, {}: {}", path.mesh, path.model_set, words.join(", ")));
 }

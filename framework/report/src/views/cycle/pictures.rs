@@ -9,8 +9,9 @@ use crate::plot::{Bar, Line, Stroke};
 use crate::text::{extremes, short};
 use crate::{Cloud, Figure};
 
-/// Cells of speed and of torque, and the least share of the energy that is shown, in %.
+/// Cells of speed and of torque: as many as squares of a readable size fill the picture.
 const CELLS: [usize; 2] = [28, 20];
+/// The least share of the energy that is shown: less is not visible beside the usual several percent. [%]
 const LEAST: f64 = 0.02;
 
 pub fn draw(outcome: &CycleOutcome, page: &mut Page) {
@@ -50,6 +51,7 @@ fn by_place(duty: &DutyOfSet) -> Cloud {
         title: format!("Where {} loses its energy with {}, in %", duty.cycle, duty.model_set),
         axes: ("speed in rpm".to_owned(), "torque in Nm".to_owned()),
         points: joules.iter().enumerate().filter_map(point).collect(),
+        unit: "%".to_owned(),
         diverging: false,
     }
 }
@@ -80,12 +82,17 @@ fn bars(outcome: &CycleOutcome, page: &mut Page) {
 /// Loss, cumulated energy, torque, speed and temperatures over time.
 fn over_time(duty: &DutyOfSet) -> Panes {
     let series = &duty.series;
+    // There are several pictures over time in one, each of a quarter of the height or less.
     let every = series.len().div_ceil(MOST / 4);
     let chunks = || series.chunks(every);
+    let means: Vec<(f64, Vec<f64>)> = chunks()
+        .map(|chunk| (chunk[0].time_s, mean_losses(chunk, duty.shares.len())))
+        .collect();
     let stack = |share: usize| Line {
         name: duty.shares[share].clone(),
-        points: chunks()
-            .map(|chunk| Some((chunk[0].time_s, mean_losses(chunk, duty.shares.len())[share])))
+        points: means
+            .iter()
+            .map(|(time, losses)| Some((*time, losses[share])))
             .collect(),
         stroke: Stroke::Line,
     };

@@ -111,7 +111,7 @@ fn maps(name: &str, o: &IdentificationOfSet, quantity: Quantity) -> Vec<(String,
                 format!("{name}: {what} of {} minus measurement in {unit}, {when}", o.model_set),
                 sheet,
             );
-            let figure = deviations::picture(title, list, unseen, Some((-most, most)));
+            let figure = deviations::picture(title, (what, unit), list, unseen, Some((-most, most)));
             figures.push((numbered(&format!("{}-{when}", slug(quantity)), o, number), figure));
         }
     }

@@ -3,156 +3,159 @@
 use gearloss_studies::analyses::map::{Axes, MapOfSet, MapOutcome, ShownPoint};
 use gearloss_studies::analyses::numbers::word;
 use gearloss_studies::distinct::distinct;
-use gearloss_studies::points::{OilTemperature, SUMS};
+use gearloss_studies::points::SUMS;
 
-use super::pictures::{AxisNames, speed, torque};
-use crate::picture::{Best, Breakdown, PanelQuantity, Panels};
+use super::pictures::{AxisNames, Quantity, quantities, speed, torque};
+use crate::figure::jumps;
+use crate::picture::{Breakdown, PanelQuantity, Panels};
+use crate::text::last_key;
 
-/// Panels side by side.
+/// Most panels side by side: a page that is 1440 pixels wide leaves each of them over 300, enough for labelled contours.
 const MOST_COLUMNS: usize = 4;
 
-/// Powers of the drawn lines as shares of the greatest.
+/// Powers of the drawn lines as shares of the greatest: near the axes, through the middle, and in the corner of the greatest.
 const POWERS: [f64; 4] = [0.05, 0.15, 0.4, 0.8];
 
-/// A quantity of the tabs: name, unit, which end is good, and its reader.
-type Quantity = (&'static str, &'static str, Option<Best>, fn(&ShownPoint) -> Option<f64>);
+/// Where the maps of an analysis stand.
+struct Layout<'a> {
+    rows: Vec<String>,
+    columns: Vec<String>,
+    slider: Option<(String, Vec<String>)>,
+    /// Name and values of the vertical coordinate.
+    y: (String, Vec<f64>),
+    /// Maps of each panel, one above the other; none where there is no map.
+    placed: Vec<Vec<&'a MapOfSet>>,
+}
 
 /// The panels; absent if a map is a list of points, or the maps have different axes.
 pub fn panels(outcome: &MapOutcome, names: &AxisNames) -> Option<Panels> {
-    if outcome.notes_of_sets.is_some() {
-        return over_bound(outcome, names);
-    }
-    let first = &outcome.maps.first()?.shown.grid.as_ref()?.axes;
-    let same = |map: &MapOfSet| {
-        let axes = map.shown.grid.as_ref().map(|grid| &grid.axes);
-        axes.is_some_and(|axes| axes.torques == first.torques && axes.speeds == first.speeds)
+    let axes = &outcome.maps.first()?.shown.grid.as_ref()?.axes;
+    let (layout, title) = match outcome.notes_of_sets {
+        Some(_) => (over_bound(outcome)?, "losses over speed and a value of the gearbox"),
+        None => (
+            over_torque(outcome, axes, names)?,
+            "efficiency and loss over torque and speed",
+        ),
     };
-    if !outcome.maps.iter().all(same) || first.torques.len() < 2 || first.speeds.len() < 2 {
+    let is_torque = outcome.notes_of_sets.is_none();
+    let marks = outcome
+        .marks
+        .iter()
+        .filter(|_| is_torque)
+        .map(|mark| [speed(axes, mark.speed), torque(axes, mark.torque)].map(f64::to_bits));
+    let marks = distinct(marks).into_iter().map(|place| place.map(f64::from_bits));
+    let placed = &layout.placed;
+    Some(Panels {
+        title: format!("{}: {title}", outcome.head.analysis),
+        x: (
+            names.over_speed(axes),
+            axes.speeds.iter().map(|x| speed(axes, *x)).collect(),
+        ),
+        quantities: quantities(outcome)
+            .into_iter()
+            .map(|quantity| PanelQuantity {
+                name: quantity.name.to_owned(),
+                unit: quantity.unit.to_owned(),
+                diverging: false,
+                best: Some(quantity.best),
+                jumps: jumps(quantity.name),
+                panels: placed
+                    .iter()
+                    .map(|maps| panel(maps, &|map| values(map, &quantity)))
+                    .collect(),
+            })
+            .filter(|quantity| quantity.panels.iter().flatten().flatten().any(Option::is_some))
+            .collect(),
+        outside: placed.iter().map(|maps| outside(maps)).collect(),
+        marks: marks.map(|[x, y]| (x, y)).collect(),
+        marked: "measured".to_owned(),
+        powers: if is_torque { powers(axes) } else { Vec::new() },
+        breakdown: Some(Breakdown {
+            names: SUMS.iter().map(|(_, meaning)| (*meaning).to_owned()).collect(),
+            panels: placed.iter().map(|maps| panel(maps, &losses)).collect(),
+        }),
+        rows: layout.rows,
+        columns: layout.columns,
+        slider: layout.slider,
+        y: layout.y,
+    })
+}
+
+/// One panel for each map, over torque and speed; absent if their axes differ.
+fn over_torque<'a>(outcome: &'a MapOutcome, axes: &Axes, names: &AxisNames) -> Option<Layout<'a>> {
+    let same = |map: &MapOfSet| {
+        let own = map.shown.grid.as_ref().map(|grid| &grid.axes);
+        own.is_some_and(|own| own.torques == axes.torques && own.speeds == axes.speeds)
+    };
+    if !outcome.maps.iter().all(same) || axes.torques.len() < 2 || axes.speeds.len() < 2 {
         return None;
     }
     let rows: Vec<String> = outcome.set_names().into_iter().map(str::to_owned).collect();
     let columns = distinct(outcome.maps.iter().map(|map| column(outcome, map)));
-    let find = |row: &String, own: &String| {
+    let find = |row: &String, own: &String| -> Vec<&MapOfSet> {
         let is_own = |map: &&MapOfSet| map.model_set == *row && column(outcome, map) == *own;
-        outcome.maps.iter().find(is_own)
+        outcome.maps.iter().find(is_own).into_iter().collect()
     };
+    let y = (
+        names.over_torque(axes),
+        axes.torques.iter().map(|x| torque(axes, *x)).collect(),
+    );
     // More columns than fit side by side are shown one after the other.
-    let slides = columns.len() > MOST_COLUMNS;
-    let placed: Vec<Option<&MapOfSet>> = if slides {
-        columns
+    if columns.len() > MOST_COLUMNS {
+        let placed = columns
             .iter()
-            .flat_map(|column| rows.iter().map(|row| find(row, column)).collect::<Vec<_>>())
-            .collect()
-    } else {
-        rows.iter()
-            .flat_map(|row| columns.iter().map(|column| find(row, column)).collect::<Vec<_>>())
-            .collect()
-    };
-    let (columns, slider) = if slides {
-        (vec![String::new()], Some(("shown".to_owned(), columns)))
-    } else {
-        (columns, None)
-    };
-    let marks = outcome
-        .marks
+            .flat_map(|column| rows.iter().map(|row| find(row, column)));
+        return Some(Layout {
+            placed: placed.collect(),
+            columns: vec![String::new()],
+            slider: Some(("shown".to_owned(), columns)),
+            rows,
+            y,
+        });
+    }
+    let placed = rows
         .iter()
-        .map(|mark| [speed(first, mark.speed), torque(first, mark.torque)].map(f64::to_bits));
-    let marks = distinct(marks).into_iter().map(|place| place.map(f64::from_bits));
-    Some(Panels {
-        title: format!("{}: efficiency and loss over torque and speed", outcome.head.analysis),
-        x: (
-            names.over_speed(first),
-            first.speeds.iter().map(|x| speed(first, *x)).collect(),
-        ),
-        y: (
-            names.over_torque(first),
-            first.torques.iter().map(|x| torque(first, *x)).collect(),
-        ),
-        slider,
-        quantities: quantities(outcome)
-            .into_iter()
-            .map(|(name, unit, best, read)| PanelQuantity {
-                name: name.to_owned(),
-                unit: unit.to_owned(),
-                diverging: false,
-                best,
-                panels: placed.iter().map(|map| map.map(|map| values(map, read))).collect(),
-            })
-            .filter(|quantity| quantity.panels.iter().flatten().flatten().any(Option::is_some))
-            .collect(),
-        outside: placed.iter().map(|map| map.map_or_else(Vec::new, outside)).collect(),
-        marks: marks.map(|[x, y]| (x, y, 1.0)).collect(),
-        marked: "measured".to_owned(),
-        powers: powers(first),
-        breakdown: Some(Breakdown {
-            names: SUMS.iter().map(|(_, meaning)| (*meaning).to_owned()).collect(),
-            panels: placed.iter().map(|map| map.map(losses)).collect(),
-        }),
-        rows,
+        .flat_map(|row| columns.iter().map(|column| find(row, column)));
+    Some(Layout {
+        placed: placed.collect(),
+        slider: None,
         columns,
+        rows,
+        y,
     })
 }
 
-/// Panels over speed and the values of one bound path, one for each set: the maps of a set are its rows.
-fn over_bound(outcome: &MapOutcome, names: &AxisNames) -> Option<Panels> {
+/// One panel for each set, over speed and the values of one bound path: the maps of a set are its rows. Absent if the values are no numbers.
+fn over_bound(outcome: &MapOutcome) -> Option<Layout<'_>> {
     let rows: Vec<String> = outcome.set_names().into_iter().map(str::to_owned).collect();
-    let of_set = |set: &String| -> Vec<&MapOfSet> {
-        let own = outcome.maps.iter().filter(|map| map.model_set == *set);
-        own.collect()
-    };
-    let axes = &outcome.maps.first()?.shown.grid.as_ref()?.axes;
-    let words: Vec<String> = of_set(&rows[0])
+    let placed: Vec<Vec<&MapOfSet>> = rows
+        .iter()
+        .map(|set| outcome.maps.iter().filter(|map| map.model_set == *set).collect())
+        .collect();
+    let first = outcome.maps.first()?;
+    let axes = &first.shown.grid.as_ref()?.axes;
+    let path = first.bound.keys().next()?;
+    let words: Vec<String> = placed
+        .first()?
         .iter()
         .flat_map(|map| map.bound.values().map(word))
         .collect();
     let bound: Option<Vec<f64>> = words.iter().map(|word| word.split(' ').next()?.parse().ok()).collect();
     let bound = bound.filter(|values| values.len() > 1 && axes.speeds.len() > 1)?;
-    let path = outcome.maps[0].bound.keys().next()?;
-    let unit = words[0]
-        .split_once(' ')
-        .map_or_else(String::new, |(_, unit)| format!(" in {unit}"));
-    let joined = |set: &String, read: &dyn Fn(&MapOfSet) -> Vec<Option<f64>>| {
-        Some(of_set(set).into_iter().flat_map(read).collect())
-    };
-    Some(Panels {
-        title: format!("{}: losses over speed and {path}", outcome.head.analysis),
-        columns: vec![format!("gear {}, {} Nm", outcome.maps[0].gear, axes.torques[0])],
-        x: (
-            names.over_speed(axes),
-            axes.speeds.iter().map(|x| speed(axes, *x)).collect(),
-        ),
-        y: (format!("{path}{unit}"), bound),
-        quantities: quantities(outcome)
-            .into_iter()
-            .map(|(name, unit, best, read)| PanelQuantity {
-                name: name.to_owned(),
-                unit: unit.to_owned(),
-                diverging: false,
-                best,
-                panels: rows.iter().map(|set| joined(set, &|map| values(map, read))).collect(),
-            })
-            .filter(|quantity| quantity.panels.iter().flatten().flatten().any(Option::is_some))
-            .collect(),
-        outside: rows
-            .iter()
-            .map(|set| {
-                let all: Vec<bool> = of_set(set)
-                    .into_iter()
-                    .flat_map(|map| cells(map, |point| point.is_some_and(|point| point.outside)))
-                    .collect();
-                if all.contains(&true) { all } else { Vec::new() }
-            })
-            .collect(),
-        breakdown: Some(Breakdown {
-            names: SUMS.iter().map(|(_, meaning)| (*meaning).to_owned()).collect(),
-            panels: rows
-                .iter()
-                .map(|set| Some(of_set(set).into_iter().flat_map(losses).collect()))
-                .collect(),
-        }),
+    let unit = words.first()?.split_once(' ');
+    let unit = unit.map_or_else(String::new, |(_, unit)| format!(" in {unit}"));
+    Some(Layout {
         rows,
-        ..Panels::default()
+        columns: vec![format!("gear {}, {} Nm", first.gear, axes.torques.first()?)],
+        slider: None,
+        y: (format!("{path}{unit}"), bound),
+        placed,
     })
+}
+
+/// The cells of the maps of a panel; absent where there is no map.
+fn panel<T>(maps: &[&MapOfSet], read: &dyn Fn(&MapOfSet) -> Vec<T>) -> Option<Vec<T>> {
+    (!maps.is_empty()).then(|| maps.iter().flat_map(|map| read(map)).collect())
 }
 
 /// What distinguishes a map from the others of its set.
@@ -169,7 +172,7 @@ fn column(outcome: &MapOutcome, map: &MapOfSet) -> String {
         words.push(format!("oil {oil} °C"));
     }
     words.extend(map.bound.iter().map(|(path, value)| {
-        let name = path.rsplit('.').next().unwrap_or(path);
+        let name = last_key(path);
         format!("{name} {}", word(value))
     }));
     if words.is_empty() {
@@ -178,34 +181,26 @@ fn column(outcome: &MapOutcome, map: &MapOfSet) -> String {
     words.join(", ")
 }
 
-fn quantities(outcome: &MapOutcome) -> Vec<Quantity> {
-    // Without torque the efficiency is zero, which says nothing and would fill the scale.
-    let efficiency: fn(&ShownPoint) -> Option<f64> = |p| p.efficiency.filter(|_| p.torque != 0.0).map(|e| 100.0 * e);
-    let mut all: Vec<Quantity> = vec![
-        ("efficiency", "%", Some(Best::Highest), efficiency),
-        ("loss", "W", Some(Best::Lowest), |p| p.loss),
-        ("loss torque", "Nm", Some(Best::Lowest), |p| p.loss_torque),
-    ];
-    if outcome.maps.iter().any(|map| map.oil == OilTemperature::Balance) {
-        all.push(("oil temperature", "°C", Some(Best::Lowest), |p| p.oil));
-    }
-    all
-}
-
 /// The cells of a map in the order of panels; absent outside the envelope.
 fn cells<'a, T>(map: &'a MapOfSet, read: impl Fn(Option<&'a ShownPoint>) -> T) -> Vec<T> {
     let places = map.shown.grid.iter().flat_map(|grid| &grid.places);
     places.map(|place| read(place.map(|i| &map.shown.points[i]))).collect()
 }
 
-fn values(map: &MapOfSet, read: fn(&ShownPoint) -> Option<f64>) -> Vec<Option<f64>> {
-    cells(map, |point| read(point?).filter(|x| x.is_finite()))
+fn values(map: &MapOfSet, quantity: &Quantity) -> Vec<Option<f64>> {
+    // Without torque the efficiency is zero, which says nothing and would fill the scale.
+    let says = |point: &&ShownPoint| point.torque != 0.0 || quantity.name != "efficiency";
+    cells(map, |point| {
+        (quantity.value)(point.filter(says)?).filter(|x| x.is_finite())
+    })
 }
 
 /// Cells outside a stated range; an empty list if there are none.
-fn outside(map: &MapOfSet) -> Vec<bool> {
-    let own = cells(map, |point| point.is_some_and(|point| point.outside));
-    if own.contains(&true) { own } else { Vec::new() }
+fn outside(maps: &[&MapOfSet]) -> Vec<bool> {
+    let own = panel(maps, &|map| {
+        cells(map, |point| point.is_some_and(|point| point.outside))
+    });
+    own.filter(|own| own.contains(&true)).unwrap_or_default()
 }
 
 fn losses(map: &MapOfSet) -> Vec<f32> {

@@ -5,29 +5,44 @@ use gearloss_studies::analyses::numbers::{RPM, tidy, word};
 use gearloss_studies::points::OilTemperature;
 
 use super::panels::panels;
+use crate::figure::{Best, jumps};
 use crate::page::Page;
 use crate::picture::Screen;
+use crate::text::extremes;
 use crate::{Cloud, Figure, Map};
 
-/// A quantity of the figures.
-struct Quantity {
+/// A quantity of the maps.
+pub struct Quantity {
     /// Short name for file names.
     short: &'static str,
-    /// In words.
-    long: &'static str,
-    value: fn(&ShownPoint) -> Option<f64>,
+    /// Name.
+    pub name: &'static str,
+    /// Unit.
+    pub unit: &'static str,
+    /// Which end is good.
+    pub best: Best,
+    /// Reads the value at a point.
+    pub value: fn(&ShownPoint) -> Option<f64>,
 }
 
 /// Efficiency, loss, loss torque, and with a heat balance the temperature.
-fn quantities(outcome: &MapOutcome) -> Vec<Quantity> {
-    let quantity = |short, long, value| Quantity { short, long, value };
+pub fn quantities(outcome: &MapOutcome) -> Vec<Quantity> {
+    let quantity = |(short, name, unit), best, value| Quantity {
+        short,
+        name,
+        unit,
+        best,
+        value,
+    };
+    let efficiency = |p: &ShownPoint| p.efficiency.map(|e| 100.0 * e);
     let mut all = vec![
-        quantity("efficiency", "efficiency in %", |p| p.efficiency.map(|e| 100.0 * e)),
-        quantity("loss", "loss in W", |p| p.loss),
-        quantity("loss-torque", "loss torque in Nm", |p| p.loss_torque),
+        quantity(("efficiency", "efficiency", "%"), Best::Highest, efficiency),
+        quantity(("loss", "loss", "W"), Best::Lowest, |p| p.loss),
+        quantity(("loss-torque", "loss torque", "Nm"), Best::Lowest, |p| p.loss_torque),
     ];
     if outcome.maps.iter().any(|m| m.oil == OilTemperature::Balance) {
-        all.push(quantity("temperature", "oil temperature in degC", |p| p.oil));
+        let names = ("temperature", "oil temperature", "degC");
+        all.push(quantity(names, Best::Lowest, |p| p.oil));
     }
     all
 }
@@ -55,9 +70,7 @@ pub fn draw(outcome: &MapOutcome, page: &mut Page) {
                 .maps
                 .iter()
                 .flat_map(|m| m.shown.points.iter().filter_map(quantity.value));
-            let ends = values.fold(None, |ends: Option<(f64, f64)>, x| {
-                Some(ends.map_or((x, x), |(low, high)| (low.min(x), high.max(x))))
-            });
+            let ends = extremes(values.map(|x| (x, ()))).map(|[low, high]| (low.0, high.0));
             let file = format!("{name}-{set}-{}", quantity.short);
             if let (true, Some(grid)) = (outcome.notes_of_sets.is_some(), &own[0].shown.grid) {
                 put(file, over_bound(name, &quantity, &own, grid, &axes, ends));
@@ -74,8 +87,9 @@ pub fn draw(outcome: &MapOutcome, page: &mut Page) {
                     .given()
                     .map_or_else(String::new, |oil| format!(", oil {oil} °C"));
                 let title = format!(
-                    "{name}: {}, models {set}, gear {}{oil}{}",
-                    quantity.long,
+                    "{name}: {} in {}, models {set}, gear {}{oil}{}",
+                    quantity.name,
+                    quantity.unit,
                     map.gear,
                     map.bound_words()
                 );
@@ -102,8 +116,8 @@ fn over_bound(
     let points = || maps.iter().flat_map(|m| &m.shown.points);
     Figure::Map(Map {
         title: format!(
-            "{name}: {}, models {}, gear {}, {} Nm",
-            quantity.long, maps[0].model_set, maps[0].gear, grid.axes.torques[0]
+            "{name}: {} in {}, models {}, gear {}, {} Nm",
+            quantity.name, quantity.unit, maps[0].model_set, maps[0].gear, grid.axes.torques[0]
         ),
         x: over_speed(&grid.axes, names),
         y: (
@@ -111,6 +125,9 @@ fn over_bound(
             maps.iter().flat_map(|m| m.bound.values().map(word)).collect(),
         ),
         values: points().map(quantity.value).collect(),
+        unit: quantity.unit.to_owned(),
+        best: Some(quantity.best),
+        jumps: jumps(quantity.name),
         hatched: points().map(|p| p.outside).collect(),
         ends,
         ..Map::default()
@@ -161,6 +178,7 @@ fn over_torque(
             title: title.to_owned(),
             axes: (names.speed.clone(), names.torque.clone()),
             points: map.shown.points.iter().filter_map(point).collect(),
+            unit: quantity.unit.to_owned(),
             diverging: false,
         };
         return vec![("", Figure::Cloud(cloud))];
@@ -191,6 +209,9 @@ fn over_torque(
             x: over_speed(axes, names),
             y,
             values: cells().map(|p| solved(p).and_then(value)).collect(),
+            unit: quantity.unit.to_owned(),
+            best: Some(quantity.best),
+            jumps: jumps(quantity.name),
             hatched: cells().map(|p| solved(p).is_some_and(|p| p.outside)).collect(),
             marks: marks.clone(),
             ends,

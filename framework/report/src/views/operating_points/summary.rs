@@ -48,12 +48,14 @@ pub fn add(outcome: &OperatingPointsOutcome, page: &mut Page) {
                 format!("rms; mean {} %, {set}", signed(mean)),
             );
         }
-        words.push(format!(
-            "{}{} points, {}",
-            of_set(set, outcome.operating_points.len()),
-            points.len(),
-            own.join(", ")
-        ));
+        if !own.is_empty() {
+            words.push(format!(
+                "{}{} points, {}",
+                of_set(set, outcome.operating_points.len()),
+                points.len(),
+                own.join(", ")
+            ));
+        }
         let missing = points.iter().filter(|point| point.loss_w.is_none()).count();
         if missing > 0 {
             page.careful

@@ -3,7 +3,7 @@
 use gearloss_studies::analyses::rms_surface::RmsSurfaceOutcome;
 
 use crate::page::Page;
-use crate::text::{brief, short};
+use crate::text::{brief, last_key, short};
 
 pub fn add(outcome: &RmsSurfaceOutcome, page: &mut Page) {
     let mut words = Vec::new();
@@ -14,7 +14,7 @@ pub fn add(outcome: &RmsSurfaceOutcome, page: &mut Page) {
         let place = &surface.least_place.place;
         let at = [(&surface.x, place[0], least.x_end), (&surface.y, place[1], least.y_end)];
         let at = at.map(|(axis, i, end)| {
-            let name = axis.path.rsplit('.').next().unwrap_or(&axis.path);
+            let name = last_key(&axis.path);
             let end = end.map_or_else(String::new, |end| format!(" ({end} end)"));
             format!("{name} {}{end}", axis.words[i])
         });

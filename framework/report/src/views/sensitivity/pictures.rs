@@ -2,7 +2,7 @@
 
 use gearloss_studies::analyses::sensitivity::{OutputKind, OutputSensitivity, SensitivityOfSet};
 
-use super::descending;
+use super::{Influences, descending, influences};
 use crate::Figure;
 use crate::page::Page;
 use crate::picture::{Screen, Tornado, TornadoBar};
@@ -52,27 +52,9 @@ fn tornado(set: &SensitivityOfSet) -> Option<Tornado> {
     })
 }
 
-/// A bar for each parameter, the largest first: effect on the mean loss, otherwise share of the variance, otherwise slope.
+/// A bar for each parameter, the largest first.
 fn effects(name: &str, set: &SensitivityOfSet) -> Option<Figure> {
-    let loss = set.outputs.first()?;
-    let (values, height): (Vec<f64>, &str) = match (&loss.morris, &loss.sobol, &loss.local) {
-        (Some(effects), ..) => (
-            effects.iter().map(|effect| effect.mu_star).collect(),
-            "mu* of the mean loss in W",
-        ),
-        (None, Some(shares), _) => (
-            shares.total.iter().map(|share| share.value.max(0.0)).collect(),
-            "total share of the variance",
-        ),
-        (None, None, Some(slopes)) => (
-            slopes
-                .iter()
-                .map(|slope| slope.scaled.map_or(0.0, |s| 100.0 * s.abs()))
-                .collect(),
-            "slope times range in % of the loss",
-        ),
-        (None, None, None) => return None,
-    };
+    let Influences { values, unit, of } = influences(set.outputs.first()?)?;
     let bar = |k: &usize| Bar {
         label: folded(&set.parameters[*k].path),
         shares: vec![values[*k]],
@@ -82,7 +64,7 @@ fn effects(name: &str, set: &SensitivityOfSet) -> Option<Figure> {
     Some(Figure::Bars {
         title: format!("{name}: sensitivity of the mean loss, models {}", set.model_set),
         over: String::new(),
-        height: height.to_owned(),
+        height: format!("{of} in {unit}"),
         names: vec!["mean loss".to_owned()],
         bars: descending(&values).iter().map(bar).collect(),
     })

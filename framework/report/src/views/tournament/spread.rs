@@ -46,6 +46,7 @@ pub fn show(name: &str, spread: &Spread, page: &mut Page) {
             spread.torques.iter().map(|t| format!("{}", tidy(*t))).collect(),
         ),
         values: spread.points.iter().map(|p| Some(p.deviation_w * p.scale)).collect(),
+        unit: spread.unit_in_words.to_owned(),
         ..Map::default()
     });
     page.figure(format!("{name}-spread"), figure);

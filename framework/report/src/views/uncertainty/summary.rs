@@ -4,7 +4,7 @@ use gearloss_studies::analyses::numbers::tidy;
 use gearloss_studies::analyses::uncertainty::{PointOfBand, UncertaintyOutcome};
 
 use crate::page::Page;
-use crate::text::{extremes, of_set, place, range, short};
+use crate::text::{extremes, last_key, of_set, place, range, short};
 
 pub fn add(outcome: &UncertaintyOutcome, page: &mut Page) {
     let mut words = Vec::new();
@@ -41,7 +41,7 @@ pub fn add(outcome: &UncertaintyOutcome, page: &mut Page) {
             .first()
             .and_then(|i| Some((i, i.correlation_with_mean_loss?)))
         {
-            let name = input.path.rsplit('.').next().unwrap_or(&input.path);
+            let name = last_key(&input.path);
             own.push(format!("most by {name}"));
             page.key_figure(
                 "strongest input",
