@@ -444,14 +444,3 @@ pub enum KindArg {
     /// Output of `models --format json`.
     Models,
 }
-
-impl AxisArg {
-    /// Name in tables.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::X => "x",
-            Self::Y => "y",
-            Self::Z => "z",
-        }
-    }
-}

@@ -22,13 +22,12 @@ use self::runner::Run;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use gearloss_framework::coefficients::changed_from_source;
 use gearloss_framework::files::LONGEST_TEXT;
 use gearloss_framework::gearbox::Findings;
 use gearloss_framework::language::Language;
 use gearloss_report::page::Block;
 use gearloss_studies::distinct::distinct;
-use gearloss_studies::study::Study;
+use gearloss_studies::study::{Cautions, Study};
 
 use super::read_file;
 use crate::args::{ResultArgs, RunArgs};
@@ -115,65 +114,12 @@ pub(super) fn look_over(language: &Language, file: &Path) -> Looked {
             }
         }
     }
-    let (warnings, notes) = warnings(language, &study);
+    let Cautions { warnings, notes } = study.cautions(language);
     Looked {
         refused,
         warnings,
         notes,
     }
-}
-
-/// Warnings and notes of the gearboxes of a study, under its conditions and with their own models.
-fn warnings(language: &Language, study: &Study) -> (Vec<Findings>, Vec<String>) {
-    let (mut warnings, mut notes) = (Vec::new(), Vec::new());
-    for (name, gearbox) in &study.gearboxes {
-        // Analyses that need an invalid gearbox report its errors.
-        let Ok((resolved, t)) = study.built(language, gearbox, &study.choice(None), &[]) else {
-            continue;
-        };
-        if !t.warnings.is_empty() {
-            warnings.push(Findings {
-                list: t.warnings,
-                sources: gearbox.sources.clone(),
-            });
-        }
-        notes.extend(
-            resolved
-                .unreached
-                .iter()
-                .chain(&resolved.without)
-                .map(|line| format!("{name}: {line}")),
-        );
-    }
-    notes.extend(changed_coefficients(language, study));
-    (warnings, notes)
-}
-
-/// A line for each coefficient with a value other than the published one, under the gearbox defaults or a model set of the analyses.
-fn changed_coefficients(language: &Language, study: &Study) -> Vec<String> {
-    let mut lines: Vec<String> = Vec::new();
-    for (name, gearbox) in &study.gearboxes {
-        let sets = study.sets_used_for(name);
-        let own_models = std::iter::once(None).chain(sets.iter().map(|set| {
-            let set = set.rsplit('/').next();
-            set.filter(|set| *set != "own")
-        }));
-        let mut told: Vec<String> = Vec::new();
-        for set in own_models {
-            // Analyses that need an invalid gearbox report its errors.
-            let Ok((resolved, t)) = study.built(language, gearbox, &study.choice(set), &[]) else {
-                continue;
-            };
-            let under = set.map_or_else(String::new, |set| format!(", models {set}"));
-            for changed in changed_from_source(&t, &resolved).iter().map(ToString::to_string) {
-                if !told.contains(&changed) {
-                    lines.push(format!("{name}{under}: {changed}"));
-                    told.push(changed);
-                }
-            }
-        }
-    }
-    lines
 }
 
 /// Runs all analyses and writes the report; uses the results of shards.
@@ -284,7 +230,7 @@ fn head(language: &Language, study: &Study, shown: Shown, out: &mut Out) -> Resu
         }
         overridden(study, out)?;
     }
-    let (warnings, notes) = warnings(language, study);
+    let Cautions { warnings, notes } = study.cautions(language);
     // Gearboxes that extend the same file have its warnings in common.
     let rendered = warnings
         .iter()

@@ -2,6 +2,7 @@
 
 mod axes;
 mod by;
+mod cautions;
 mod compare;
 mod data;
 mod drive;
@@ -20,6 +21,7 @@ use serde_json::Value;
 
 pub use axes::{AxisError, Envelope, OfRating, PowerAxis, Shares, Span, SpeedAxis, TemperatureAxis, TorqueAxis};
 pub use by::By;
+pub use cautions::Cautions;
 pub use compare::{Difference, Quantity};
 pub use data::Data;
 pub use drive::{DriveEntry, RideEntry};

@@ -1,6 +1,28 @@
 //! Output of OpenFOAM's `forces` function object: `forces.dat` (all releases until about 2016, and openfoam.org) and `moment.dat`
 //! (openfoam.com), with or without parentheses and porous parts.
 
+mod runs;
+
+pub use runs::{Run, Runs};
+
+/// Axis of the moment.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Axis {
+    /// First axis.
+    X,
+    /// Second axis.
+    Y,
+    /// Third axis.
+    Z,
+}
+
+impl Axis {
+    /// Name in tables.
+    pub fn name(self) -> &'static str {
+        ["x", "y", "z"][self as usize]
+    }
+}
+
 /// Why moments cannot be read or averaged.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum MomentsError {
@@ -72,7 +94,7 @@ impl Mean {
     ///
     /// # Errors
     /// [`MomentsError::TooFewSamples`].
-    pub fn over_time(samples: &[Sample], axis: usize, [from, to]: [f64; 2]) -> Result<Self, MomentsError> {
+    pub fn over_time(samples: &[Sample], axis: Axis, [from, to]: [f64; 2]) -> Result<Self, MomentsError> {
         let inside: Vec<&Sample> = samples.iter().filter(|s| s.time >= from && s.time <= to).collect();
         if inside.len() < 2 {
             let ends = samples.first().zip(samples.last());
@@ -81,6 +103,7 @@ impl Mean {
                 of: ends.map(|(first, last)| [first.time, last.time]),
             });
         }
+        let axis = axis as usize;
         let mean = |f: &dyn Fn(&Sample) -> f64| {
             let mut sum = 0.0;
             for pair in inside.windows(2) {
@@ -192,13 +215,13 @@ mod tests {
     fn means_weigh_by_time_and_faults_name_the_line() {
         let all =
             samples("0 0 0 0 9 0 0 0 0 0\n1 0 0 0 1 0 0 1 0 0\n2 0 0 0 1 0 0 1 0 0\n6 0 0 0 3 0 0 1 0 0\n").unwrap();
-        let mean = Mean::over_time(&all, 0, [1.0, f64::INFINITY]).unwrap();
+        let mean = Mean::over_time(&all, Axis::X, [1.0, f64::INFINITY]).unwrap();
         assert_eq!(
             (mean.pressure, mean.viscous, mean.samples),
             ((1.0 + 4.0 * 2.0) / 5.0, 1.0, 3)
         );
         assert!(mean.spread > 0.0 && mean.times(2.0).total() == 2.0 * mean.total());
-        let few = Mean::over_time(&all, 0, [3.0, 7.0]).unwrap_err().to_string();
+        let few = Mean::over_time(&all, Axis::X, [3.0, 7.0]).unwrap_err().to_string();
         assert_eq!(few, "1 samples in the averaging time; times are 0 to 6 s");
         let wrong = |text: &str| samples(text).unwrap_err().to_string();
         assert!(wrong("1 2 3\n").contains("line 1: 3 numbers"));
