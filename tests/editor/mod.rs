@@ -363,7 +363,7 @@ fn an_editor_with_the_schema_of_the_in_house_program() {
     let schema = folder.join("gearbox.schema.json");
     let program = install::target().join(format!("debug/in-house-plugin{}", std::env::consts::EXE_SUFFIX));
     if !program.is_file() {
-        skipped("the in-house program is not built; `CARGO_TARGET_DIR=target cargo test` with its Cargo.toml does it");
+        skipped("the in-house program is not built; `cargo test --workspace` builds it");
         return;
     }
     let mut program = Command::new(program);
