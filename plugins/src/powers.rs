@@ -1,4 +1,4 @@
-//! Powers whose published exponents are roots or whole numbers; at those values the results are exact to the bit.
+//! Functions that several laws share. Powers whose published exponents are roots or whole numbers; at those values the results are exact to the bit.
 
 use gearloss_framework::real::Real;
 
@@ -22,4 +22,33 @@ pub fn power<R: Real>(x: R, exponent: f64) -> R {
     } else {
         x.power(exponent)
     }
+}
+
+/// ln(1 + x), to the digits of x also where it is small.
+#[inline(always)]
+pub fn ln_1p<R: Real>(x: R) -> R {
+    // The rounding of 1 + x cancels.
+    let whole = x + 1.0;
+    R::select(
+        whole.is_equal(R::constant(1.0)),
+        x,
+        whole.logarithm() * x / (whole - 1.0),
+    )
+}
+
+/// exp(x) - 1 of a number that is not positive, to its digits also where it is small.
+#[inline(always)]
+pub fn exp_m1<R: Real>(x: R) -> R {
+    let whole = x.exponential();
+    let less = whole - 1.0;
+    let small = R::select(whole.is_equal(R::constant(1.0)), x, less * x / whole.logarithm());
+    R::select(x.is_below(R::constant(-1.0)), less, small)
+}
+
+/// Inverse hyperbolic sine of a number that is not negative.
+#[inline(always)]
+pub fn asinh<R: Real>(x: R) -> R {
+    let small = ln_1p(x + x * x / ((x * x + 1.0).root() + 1.0));
+    // Where one no longer counts, its square is not needed; it might overflow.
+    R::select(x.is_above(R::constant(1e8)), (x * 2.0).logarithm(), small)
 }

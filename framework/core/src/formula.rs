@@ -5,10 +5,12 @@
 
 use crate::document::{did_you_mean, number_length};
 use crate::loss::Undefined;
-use crate::real::Points;
+use crate::real::{Mask as _, Points};
 
 /// The deepest stack that a formula may need.
 const DEEPEST: usize = 32;
+/// That of most formulas.
+const SHALLOW: usize = 4;
 
 /// A fault of a formula.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -31,39 +33,45 @@ enum Op {
     Multiply,
     Divide,
     Power,
+    /// A power with a constant exponent.
+    PowerOf(f64),
     Less,
     Greater,
     LessEqual,
     GreaterEqual,
-    Call1(Function1),
-    Call2(Function2),
+    Call1(Function1, bool),
+    Least,
+    Greatest,
     If,
 }
 
-/// Functions of one and of two numbers, with whether they have neither kinks nor jumps.
-type Function1 = (fn(f64) -> f64, bool);
-type Function2 = (fn(f64, f64) -> f64, bool);
+/// Functions of one number: those of [`Real`], and others, which are called for each of several points.
+#[derive(Debug, Clone, Copy)]
+enum Function1 {
+    Root,
+    Exponential,
+    Logarithm,
+    Magnitude,
+    Each(fn(f64) -> f64),
+}
 
-const ONE: [(&str, Function1); 12] = [
-    ("sqrt", (f64::sqrt, true)),
-    ("exp", (f64::exp, true)),
-    ("ln", (f64::ln, true)),
-    ("log10", (f64::log10, true)),
-    ("abs", (f64::abs, false)),
-    ("sin", (f64::sin, true)),
-    ("cos", (f64::cos, true)),
-    ("tan", (f64::tan, true)),
-    ("tanh", (f64::tanh, true)),
-    ("atan", (f64::atan, true)),
-    ("floor", (f64::floor, false)),
-    ("sign", (sign, false)),
+/// Functions of one number, with whether they have neither kinks nor jumps.
+const ONE: [(&str, Function1, bool); 12] = [
+    ("sqrt", Function1::Root, true),
+    ("exp", Function1::Exponential, true),
+    ("ln", Function1::Logarithm, true),
+    ("log10", Function1::Each(f64::log10), true),
+    ("abs", Function1::Magnitude, false),
+    ("sin", Function1::Each(f64::sin), true),
+    ("cos", Function1::Each(f64::cos), true),
+    ("tan", Function1::Each(f64::tan), true),
+    ("tanh", Function1::Each(f64::tanh), true),
+    ("atan", Function1::Each(f64::atan), true),
+    ("floor", Function1::Each(f64::floor), false),
+    ("sign", Function1::Each(sign), false),
 ];
 
-const TWO: [(&str, Function2); 3] = [
-    ("min", (f64::min, false)),
-    ("max", (f64::max, false)),
-    ("pow", (f64::powf, true)),
-];
+const TWO: [(&str, Op); 3] = [("min", Op::Least), ("max", Op::Greatest), ("pow", Op::Power)];
 
 fn sign(x: f64) -> f64 {
     if x > 0.0 {
@@ -75,10 +83,44 @@ fn sign(x: f64) -> f64 {
     }
 }
 
+/// A power of a number. Exponents of engineers are exact; of a negative number only whole powers are defined.
+#[inline(always)]
+fn power<R: Points>(x: R, exponent: R) -> R {
+    let positive = x.is_above(R::ZERO);
+    let power = (x.logarithm() * exponent).exponential();
+    if positive.all() {
+        return power;
+    }
+    R::each(|point| {
+        if positive.at_point(point) {
+            power.at_point(point)
+        } else {
+            x.at_point(point).powf(exponent.at_point(point))
+        }
+    })
+}
+
+/// The same with an exponent that all points have in common; exact for a root and small whole numbers.
+#[inline(always)]
+fn power_of<R: Points>(x: R, exponent: f64) -> R {
+    if exponent == 2.0 {
+        x * x
+    } else if exponent == 3.0 {
+        x * x * x
+    } else if exponent == 0.5 {
+        x.root()
+    } else if exponent == -1.0 {
+        R::constant(1.0) / x
+    } else {
+        power(x, R::constant(exponent))
+    }
+}
+
 /// A compiled formula.
 #[derive(Debug, Clone)]
 pub struct Formula {
     program: Vec<Op>,
+    depth: usize,
 }
 
 impl Formula {
@@ -99,10 +141,12 @@ impl Formula {
         if parser.at < text.len() {
             return Err(parser.fault(format!("unexpected `{}` after the formula", parser.rest_word()), None));
         }
-        let formula = Self {
+        let mut formula = Self {
             program: parser.program,
+            depth: 0,
         };
-        if formula.depth() > DEEPEST {
+        formula.depth = formula.deepest();
+        if formula.depth > DEEPEST {
             return Err(FormulaFault {
                 column: 1,
                 message: "nested too deeply".to_owned(),
@@ -115,8 +159,8 @@ impl Formula {
     /// True if the value has neither kinks nor jumps where it is defined.
     pub fn is_smooth(&self) -> bool {
         self.program.iter().all(|op| match op {
-            Op::Less | Op::Greater | Op::LessEqual | Op::GreaterEqual | Op::If => false,
-            Op::Call1((_, smooth)) | Op::Call2((_, smooth)) => *smooth,
+            Op::Less | Op::Greater | Op::LessEqual | Op::GreaterEqual | Op::Least | Op::Greatest | Op::If => false,
+            Op::Call1(_, smooth) => *smooth,
             _ => true,
         })
     }
@@ -127,12 +171,12 @@ impl Formula {
         self.program.iter().any(is_it)
     }
 
-    fn depth(&self) -> usize {
+    fn deepest(&self) -> usize {
         let (mut now, mut most) = (0_usize, 0);
         for op in &self.program {
             match op {
                 Op::Number(_) | Op::Input(_) => now += 1,
-                Op::Negate | Op::Call1(..) => {}
+                Op::Negate | Op::PowerOf(_) | Op::Call1(..) => {}
                 Op::If => now -= 2,
                 _ => now -= 1,
             }
@@ -158,10 +202,21 @@ impl Formula {
     }
 
     /// The value at one point or at several, from that of each quantity by its position among the names; where it is undefined, it is
-    /// not a finite number. Powers and functions of two numbers have no derivatives.
+    /// not a finite number. Some powers have no derivatives.
     #[inline(always)]
     pub fn evaluate<R: Points>(&self, input: impl Fn(usize) -> R) -> R {
-        let mut stack = [R::ZERO; DEEPEST];
+        // Zeroing a stack that is not needed costs time.
+        if self.depth <= SHALLOW {
+            self.evaluate_within::<R, SHALLOW>(input)
+        } else {
+            self.evaluate_within::<R, DEEPEST>(input)
+        }
+    }
+
+    /// The same with a stack that is as deep as necessary.
+    #[inline(always)]
+    fn evaluate_within<R: Points, const DEPTH: usize>(&self, input: impl Fn(usize) -> R) -> R {
+        let mut stack = [R::ZERO; DEPTH];
         let mut top = 0;
         for op in &self.program {
             match *op {
@@ -174,7 +229,17 @@ impl Formula {
                     top += 1;
                 }
                 Op::Negate => stack[top - 1] = -stack[top - 1],
-                Op::Call1((f, _)) => stack[top - 1] = stack[top - 1].lift(f),
+                Op::PowerOf(exponent) => stack[top - 1] = power_of(stack[top - 1], exponent),
+                Op::Call1(function, _) => {
+                    let x = stack[top - 1];
+                    stack[top - 1] = match function {
+                        Function1::Root => x.root(),
+                        Function1::Exponential => x.exponential(),
+                        Function1::Logarithm => x.logarithm(),
+                        Function1::Magnitude => x.magnitude(),
+                        Function1::Each(f) => x.lift(f),
+                    };
+                }
                 Op::If => {
                     top -= 2;
                     stack[top - 1] = R::select(stack[top - 1].is_zero(), stack[top + 1], stack[top]);
@@ -182,19 +247,20 @@ impl Formula {
                 two => {
                     top -= 1;
                     let (a, b) = (stack[top - 1], stack[top]);
-                    let each = |f: fn(f64, f64) -> f64| R::each(|point| f(a.at_point(point), b.at_point(point)));
                     let one_where = |holds| R::select(holds, R::constant(1.0), R::ZERO);
                     stack[top - 1] = match two {
                         Op::Add => a + b,
                         Op::Subtract => a - b,
                         Op::Multiply => a * b,
                         Op::Divide => a / b,
-                        Op::Power => each(f64::powf),
+                        Op::Power => power(a, b),
+                        // The other one if one is not a number.
+                        Op::Least => R::select(a.is_equal(a), a.smaller(b), b),
+                        Op::Greatest => R::select(a.is_equal(a), a.larger(b), b),
                         Op::Less => one_where(a.is_below(b)),
                         Op::Greater => one_where(a.is_above(b)),
                         Op::LessEqual => one_where(a.is_below(b) | a.is_equal(b)),
                         Op::GreaterEqual => one_where(a.is_above(b) | a.is_equal(b)),
-                        Op::Call2((f, _)) => each(f),
                         _ => a,
                     };
                 }
@@ -320,11 +386,26 @@ impl Parser<'_> {
             }
             self.signed()?;
             self.nested -= 1;
-            self.program.push(Op::Power);
+            self.push_power();
         } else if self.rest().starts_with("**") {
             return Err(self.fault("`**` is not a power", Some("write `^`".to_owned())));
         }
         Ok(())
+    }
+
+    /// A power of the last two values; constant exponents are known before the formula is evaluated.
+    fn push_power(&mut self) {
+        match self.program[..] {
+            [.., Op::Number(x), Op::Number(exponent)] => {
+                self.program.truncate(self.program.len() - 2);
+                self.program.push(Op::Number(x.powf(exponent)));
+            }
+            [.., Op::Number(exponent)] => {
+                self.program.pop();
+                self.program.push(Op::PowerOf(exponent));
+            }
+            _ => self.program.push(Op::Power),
+        }
     }
 
     fn atom(&mut self) -> Result<(), FormulaFault> {
@@ -376,17 +457,17 @@ impl Parser<'_> {
     }
 
     fn call(&mut self, name: &str, start: usize) -> Result<(), FormulaFault> {
-        let (count, op) = if let Some((_, function)) = ONE.iter().find(|(n, _)| *n == name) {
-            (1, Op::Call1(*function))
-        } else if let Some((_, function)) = TWO.iter().find(|(n, _)| *n == name) {
-            (2, Op::Call2(*function))
+        let (count, op) = if let Some((_, function, smooth)) = ONE.iter().find(|(n, ..)| *n == name) {
+            (1, Op::Call1(*function, *smooth))
+        } else if let Some((_, op)) = TWO.iter().find(|(n, _)| *n == name) {
+            (2, *op)
         } else if name == "if" {
             (3, Op::If)
         } else {
             self.at = start;
             let known = ONE
                 .iter()
-                .map(|(n, _)| *n)
+                .map(|(n, ..)| *n)
                 .chain(TWO.iter().map(|(n, _)| *n))
                 .chain(["if"]);
             let help = did_you_mean(name, known.clone());
@@ -405,7 +486,10 @@ impl Parser<'_> {
                 return Err(self.fault(format!("`{name}` takes {count} argument{plural}"), None));
             }
         }
-        self.program.push(op);
+        match op {
+            Op::Power => self.push_power(),
+            op => self.program.push(op),
+        }
         Ok(())
     }
 }

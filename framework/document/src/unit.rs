@@ -308,6 +308,12 @@ impl Unit {
         x * self.factor + self.offset
     }
 
+    /// True if a number in this unit is the SI value.
+    #[inline]
+    pub fn is_si(&self) -> bool {
+        self.factor == 1.0 && self.offset == 0.0
+    }
+
     /// An SI value in this unit.
     #[inline]
     pub fn from_si(&self, si: f64) -> f64 {

@@ -38,6 +38,7 @@ use gearloss_framework::loss::{Notes, Observed, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::gear_mesh::{GearMesh, MeshPart};
 use gearloss_framework::mechanism::tooth_friction::{Along, ContactAt, PathAt, ToothFriction, ToothFrictionModel};
+use gearloss_framework::real::{Lane, Points};
 use gearloss_framework::registry::{Build, Evidence, default_of, formula};
 use gearloss_framework::{limits, observed, register};
 use schemars::JsonSchema;
@@ -234,26 +235,48 @@ impl EhlMixed {
     }
 
     /// Body temperatures or resistances at a speed of the first gear in rad/s.
-    fn warming(&self, oil: &Oil<'_>, speed: f64) -> Warming {
+    fn warming<R: Points>(&self, oil: &Oil<'_, R>, speed: R) -> Warming<R> {
         if let Some(known) = self.known {
-            return Warming::Known(known);
+            return Warming::Known(known.map(R::constant));
         }
-        let resistances = self.resistances.unwrap_or_else(|| {
-            let fluid = oil.fluid().mist(self.oil_fraction);
-            let speeds = [speed, speed / self.part.pair.ratio()];
-            [0, 1].map(|i| self.cooled[i].resistance(&fluid, speeds[i]))
-        });
+        let ratios = [1.0, self.part.pair.ratio()];
+        let cooled = |i: usize| {
+            R::each(|point| {
+                let fluid = oil.fluid(point).mist(self.oil_fraction);
+                self.cooled[i].resistance(&fluid, speed.at_point(point) / ratios[i])
+            })
+        };
+        let resistances = match self.resistances {
+            Some(stated) => stated.map(R::constant),
+            None => [0, 1].map(cooled),
+        };
         Warming::By(self.warmth, resistances)
+    }
+
+    /// The friction along a path, with its notes.
+    fn march_along<R: Points>(&self, path: &PathAt<'_, R>, mu: &mut [R]) -> Result<Along<R>, Undefined> {
+        let (_, first_heat) = self.settle(
+            path,
+            mu,
+            #[inline(always)]
+            |place, settled| {
+                note(path.notes, place, settled);
+            },
+        );
+        super::finite(mu.iter().fold(R::ZERO, |sum, mu| sum + *mu)).map(|_| Along {
+            first_heat,
+            ..Along::default()
+        })
     }
 
     /// Solves a path and writes its friction; shows each loaded point in order. Returns the iteration counts and the heat share of
     /// the first gear.
-    pub fn settle(
+    pub fn settle<R: Points>(
         &self,
-        path: &PathAt<'_>,
-        mu: &mut [f64],
-        mut seen: impl FnMut(&Place<'_>, &Settled),
-    ) -> (Tally, f64) {
+        path: &PathAt<'_, R>,
+        mu: &mut [R],
+        mut seen: impl FnMut(&Place<'_, R>, &Settled<R>),
+    ) -> (Tally, R) {
         let oil = self.fluid.for_supply(Supplied {
             temperature: path.temperature,
             nu: path.nu,
@@ -272,26 +295,29 @@ impl EhlMixed {
             _ => self.warming(&oil, path.speed),
         };
         let (bodies, mut tally) = march.settle(warming, mu);
-        let mut heats = [0.0; 2];
-        let conditions = march.conditions(bodies);
-        for (node, mu) in path.nodes.iter().zip(mu) {
-            if let Some(place) = march.place(node, &conditions) {
-                let settled = place.after(*mu);
-                tally.passes += 1;
-                *mu = settled.mu;
-                for (sum, heat) in heats.iter_mut().zip(settled.heats) {
-                    *sum += node.weight * heat;
+        let mut heats = [R::ZERO; 2];
+        R::wide(
+            #[inline(always)]
+            || {
+                let conditions = march.conditions(bodies);
+                for (node, mu) in path.nodes.iter().zip(&mut *mu) {
+                    if let Some(place) = march.place(node, &conditions) {
+                        let loaded = place.loaded();
+                        let settled = place.after(*mu);
+                        tally.passes += 1;
+                        *mu = R::select(loaded, settled.mu, R::ZERO);
+                        for (sum, heat) in heats.iter_mut().zip(settled.heats) {
+                            *sum += R::select(loaded, heat * node.weight, R::ZERO);
+                        }
+                        seen(&place, &settled);
+                    }
                 }
-                seen(&place, &settled);
-            }
-        }
+            },
+        );
         let [first, second] = heats;
-        let share = if first + second > 0.0 {
-            (first / (first + second)).clamp(LEAST_SHARE, 1.0 - LEAST_SHARE)
-        } else {
-            0.5
-        };
-        (tally, share)
+        let heat = first + second;
+        let share = (first / heat).at_least(LEAST_SHARE).at_most(1.0 - LEAST_SHARE);
+        (tally, R::select(heat.is_above(R::ZERO), share, R::HALF))
     }
 }
 
@@ -312,8 +338,10 @@ fn cooled(part: &MeshPart, hub: f64) -> [Body; 2] {
     })
 }
 
-/// Notes a converged contact; returns its friction.
-fn note(notes: Notes<'_>, place: &Place<'_>, settled: &Settled) -> f64 {
+/// Notes a converged contact where it carries load; returns its friction.
+#[inline(always)]
+fn note<R: Points>(notes: Notes<'_, R>, place: &Place<'_, R>, settled: &Settled<R>) -> R {
+    let notes = notes.among(place.loaded());
     notes.check(&PRESSURE, place.mean_pressure().gpa());
     notes.check(&PECLET, place.peclet());
     notes.observe(&T_BODY[0], settled.bodies[0]);
@@ -371,13 +399,11 @@ impl ToothFrictionModel for EhlMixed {
     }
 
     fn along(&self, path: &PathAt<'_>, mu: &mut [f64]) -> Result<Along, Undefined> {
-        let (_, first_heat) = self.settle(path, mu, |place, settled| {
-            note(path.notes, place, settled);
-        });
-        super::finite(mu.iter().sum::<f64>()).map(|_| Along {
-            first_heat,
-            ..Along::default()
-        })
+        self.march_along(path, mu)
+    }
+
+    fn along_together(&self, path: &PathAt<'_, Lane>, mu: &mut [Lane]) -> Result<Along<Lane>, Undefined> {
+        self.march_along(path, mu)
     }
 }
 

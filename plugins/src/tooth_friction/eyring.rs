@@ -16,6 +16,7 @@ use gearloss_framework::{limits, observed, register};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use crate::powers::asinh;
 use gearloss_framework::contact::{self, Film};
 
 limits! { SUM_SPEED = ("v_S", "m/s", 0.1, 100.0, "assumed, not stated by a source: speeds with a lubricant film"); }
@@ -54,21 +55,6 @@ fn yes() -> bool {
 fn mu<R: Real>(slope: f64, alpha: R, p_mean: R, eta_p: R, sliding: R, film: R) -> R {
     let argument = eta_p * alpha * sliding / (film * (2.0 * slope));
     (R::constant(2.0 * slope) / (alpha * p_mean) * asinh(argument)).at_most(slope)
-}
-
-/// Inverse hyperbolic sine of a number that is not negative.
-#[inline(always)]
-fn asinh<R: Real>(x: R) -> R {
-    // ln(1 + y): the rounding of 1 + y cancels, so that small numbers keep their digits.
-    let y = x + x * x / ((x * x + 1.0).root() + 1.0);
-    let whole = y + 1.0;
-    let small = R::select(
-        whole.is_equal(R::constant(1.0)),
-        y,
-        whole.logarithm() * y / (whole - 1.0),
-    );
-    // Where one no longer counts, its square is not needed; it might overflow.
-    R::select(x.is_above(R::constant(1e8)), (x * 2.0).logarithm(), small)
 }
 
 impl ToothFrictionLaw for Eyring {

@@ -4,6 +4,8 @@
 //! degC, eta_inf = 6.31e-5 Pa s, p_r = 1.96e8 Pa. A law fitted at 40 and 100 degC is within 2 % of ASTM D341 from 20 to 140 degC
 //! and 4.5 % at 0 degC. Above about 1 GPa the viscosity is too high.
 
+use crate::real::Real;
+
 /// Limit viscosity of all isotherms and isobars. \[Pa s\]
 pub const ETA_INF: f64 = 6.31e-5;
 /// Reference pressure of the law. \[Pa\]
@@ -19,23 +21,25 @@ const FARTHEST: f64 = 30.0;
 
 /// A fitted law.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Roelands {
+pub struct Roelands<R = f64> {
     /// ln(eta_r/eta_inf) at the reference temperature and zero pressure.
-    pub ln_ratio: f64,
+    pub ln_ratio: R,
     /// Reference temperature. \[degC\]
-    pub reference: f64,
+    pub reference: R,
     /// Slope index over temperature.
-    pub s0: f64,
+    pub s0: R,
     /// Exponent over pressure.
-    pub z: f64,
+    pub z: R,
 }
 
-fn ln_ratio(eta: f64) -> f64 {
-    (eta / ETA_INF).ln().max(LEAST)
+#[inline(always)]
+fn ln_ratio<R: Real>(eta: R) -> R {
+    (eta / ETA_INF).logarithm().at_least(LEAST)
 }
 
-fn above_zero(temperature: f64) -> f64 {
-    (temperature + ZERO).max(1.0)
+#[inline(always)]
+fn above_zero<R: Real>(temperature: R) -> R {
+    (temperature + ZERO).at_least(1.0)
 }
 
 impl Roelands {
@@ -50,9 +54,24 @@ impl Roelands {
         }
     }
 
+    /// The same law at each of several points.
+    #[inline(always)]
+    pub fn everywhere<R: Real>(&self) -> Roelands<R> {
+        let [ln_ratio, reference, s0, z] = [self.ln_ratio, self.reference, self.s0, self.z].map(R::constant);
+        Roelands {
+            ln_ratio,
+            reference,
+            s0,
+            z,
+        }
+    }
+}
+
+impl<R: Real> Roelands<R> {
     /// The law through one point of temperature in degC and viscosity in Pa s, with the relative decrease of viscosity there in
     /// 1/K.
-    pub fn tangent(temperature: f64, eta: f64, beta: f64, z: f64) -> Self {
+    #[inline(always)]
+    pub fn tangent(temperature: R, eta: R, beta: R, z: R) -> Self {
         let ratio = ln_ratio(eta);
         Self {
             ln_ratio: ratio,
@@ -63,47 +82,54 @@ impl Roelands {
     }
 
     /// The exponent that reproduces a pressure-viscosity coefficient in 1/Pa for an oil with a viscosity in Pa s.
-    pub fn exponent(alpha: f64, eta: f64) -> f64 {
+    #[inline(always)]
+    pub fn exponent(alpha: R, eta: R) -> R {
         alpha * P_R / ln_ratio(eta)
     }
 
     /// The pressure-viscosity coefficient from an exponent for an oil with a viscosity in Pa s; the inverse of
     /// [`exponent`](Self::exponent). \[1/Pa\]
-    pub fn coefficient(z: f64, eta: f64) -> f64 {
+    #[inline(always)]
+    pub fn coefficient(z: R, eta: R) -> R {
         z * ln_ratio(eta) / P_R
     }
 
     /// ln(eta/eta_inf) at a temperature in degC and zero pressure.
-    #[inline]
-    pub fn ln_ratio(&self, temperature: f64) -> f64 {
+    #[inline(always)]
+    pub fn ln_ratio(&self, temperature: R) -> R {
         let cooler = above_zero(self.reference) / above_zero(temperature);
-        self.ln_ratio * (self.s0 * cooler.ln()).clamp(-FARTHEST, FARTHEST).exp()
+        let change = (self.s0 * cooler.logarithm()).at_least(-FARTHEST).at_most(FARTHEST);
+        self.ln_ratio * change.exponential()
     }
 
     /// Factor of a pressure in Pa on [`ln_ratio`](Self::ln_ratio).
-    #[inline]
-    pub fn pressed(&self, pressure: f64) -> f64 {
-        (1.0 + pressure / P_R).powf(self.z)
+    #[inline(always)]
+    pub fn pressed(&self, pressure: R) -> R {
+        (self.z * (pressure / P_R + 1.0).logarithm()).exponential()
     }
 
     /// Viscosity at a temperature in degC under a pressure with this factor. \[Pa s\] At most 1e9 Pa s.
-    #[inline]
-    pub fn eta_pressed(&self, pressed: f64, temperature: f64) -> f64 {
-        (ETA_INF * (self.ln_ratio(temperature) * pressed).min(700.0).exp()).min(THICKEST)
+    #[inline(always)]
+    pub fn eta_pressed(&self, pressed: R, temperature: R) -> R {
+        let power = (self.ln_ratio(temperature) * pressed).at_most(700.0);
+        (power.exponential() * ETA_INF).at_most(THICKEST)
     }
 
     /// Viscosity at a pressure in Pa and a temperature in degC. \[Pa s\] At most 1e9 Pa s.
-    pub fn eta(&self, pressure: f64, temperature: f64) -> f64 {
+    #[inline(always)]
+    pub fn eta(&self, pressure: R, temperature: R) -> R {
         self.eta_pressed(self.pressed(pressure), temperature)
     }
 
     /// Pressure-viscosity coefficient at zero pressure and a temperature in degC. \[1/Pa\]
-    pub fn alpha(&self, temperature: f64) -> f64 {
+    #[inline(always)]
+    pub fn alpha(&self, temperature: R) -> R {
         self.z * self.ln_ratio(temperature) / P_R
     }
 
     /// Relative decrease of viscosity with temperature, at zero pressure and a temperature in degC. \[1/K\]
-    pub fn beta(&self, temperature: f64) -> f64 {
+    #[inline(always)]
+    pub fn beta(&self, temperature: R) -> R {
         self.s0 * self.ln_ratio(temperature) / above_zero(temperature)
     }
 }

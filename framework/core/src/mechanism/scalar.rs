@@ -7,7 +7,7 @@ use crate::formula::Formula;
 use crate::limits;
 use crate::loss::{Loss, Undefined};
 use crate::mechanism::{Inputs, Mechanism, Quantity};
-use crate::real::{Lane, Points as _, Real as _};
+use crate::real::{Lane, Mask as _, Points as _, Real as _};
 use crate::table::Table;
 
 /// A law with a single result: a coefficient, a moment or a power.
@@ -49,7 +49,11 @@ impl<M: Mechanism> Input<M> {
     /// The same at several points.
     #[inline(always)]
     fn values(&self, at: &M::At<'_, Lane>) -> Lane {
-        (self.quantity.get_together)(at).map(|si| self.unit.from_si(si))
+        let si = (self.quantity.get_together)(at);
+        if self.unit.is_si() {
+            return si;
+        }
+        si.map(|si| self.unit.from_si(si))
     }
 }
 
@@ -101,8 +105,8 @@ impl<M: Mechanism> Scalar<M> {
                     |input| inputs[input].values(at),
                 );
                 // Points that have left the batch, or are at rest, are not asked.
-                let points = at.notes().points();
-                if points & !Lane::bits(values.is_within(0.0, f64::MAX)) == 0 {
+                let sound = values.is_within(0.0, f64::MAX);
+                if sound.all() || at.notes().points() & !Lane::bits(sound) == 0 {
                     Ok(values.map(|value| self.unit.to_si(value)))
                 } else {
                     Err(Undefined::DISAGREED)

@@ -5,29 +5,32 @@
 
 use std::f64::consts::PI;
 
+use gearloss_framework::real::Real;
+
 /// A loaded line contact. SI.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Contact {
+pub struct Contact<R = f64> {
     /// Force per length of the line of contact. \[N/m\]
-    pub line_load: f64,
+    pub line_load: R,
     /// Radius of relative curvature. \[m\]
-    pub radius: f64,
+    pub radius: R,
     /// Reduced modulus. \[Pa\]
-    pub modulus: f64,
+    pub modulus: R,
     /// Length of the line of contact. \[m\]
-    pub length: f64,
+    pub length: R,
     /// Speeds of the surfaces of the first and of the second flank. \[m/s\]
-    pub speeds: [f64; 2],
+    pub speeds: [R; 2],
     /// Half of the width of the band of contact. \[m\]
-    pub half_width: f64,
+    pub half_width: R,
     /// Mean pressure. \[Pa\]
-    pub mean_pressure: f64,
+    pub mean_pressure: R,
 }
 
-impl Contact {
+impl<R: Real> Contact<R> {
     /// A contact from line load (N/m), radius (m), reduced modulus (Pa), length (m), surface speeds (m/s).
-    pub fn new(line_load: f64, radius: f64, modulus: f64, length: f64, speeds: [f64; 2]) -> Self {
-        let half_width = (8.0 * line_load * radius / (PI * modulus)).sqrt();
+    #[inline(always)]
+    pub fn new(line_load: R, radius: R, modulus: R, length: R, speeds: [R; 2]) -> Self {
+        let half_width = (line_load * 8.0 * radius / (modulus * PI)).root();
         Self {
             line_load,
             radius,
@@ -35,20 +38,22 @@ impl Contact {
             length,
             speeds,
             half_width,
-            mean_pressure: line_load / (2.0 * half_width),
+            mean_pressure: line_load / (half_width * 2.0),
         }
     }
 
     /// Surface speeds from their difference and their sum, for a first flank that is the faster one or not. If they are opposite,
     /// the slower one is used by magnitude. \[m/s\]
-    pub fn speeds(sliding: f64, sum: f64, first_faster: bool) -> [f64; 2] {
-        let (fast, slow) = (0.5 * (sum + sliding), (0.5 * (sum - sliding)).abs());
+    #[inline(always)]
+    pub fn speeds(sliding: R, sum: R, first_faster: bool) -> [R; 2] {
+        let (fast, slow) = ((sum + sliding) * 0.5, ((sum - sliding) * 0.5).magnitude());
         if first_faster { [fast, slow] } else { [slow, fast] }
     }
 
     /// Maximum pressure. \[Pa\]
-    pub fn pressure(&self) -> f64 {
-        4.0 / PI * self.mean_pressure
+    #[inline(always)]
+    pub fn pressure(&self) -> R {
+        self.mean_pressure * (4.0 / PI)
     }
 }
 

@@ -2,6 +2,10 @@
 
 use std::f64::consts::PI;
 
+use gearloss_framework::real::{Mask as _, Real};
+
+use crate::powers::ln_1p;
+
 /// B_2k/(2k + 1)! from k = 1; with |ln(1 - x)| below ln 2 the next term is below 1e-17.
 const SERIES: [f64; 8] = [
     1.0 / 36.0,
@@ -15,25 +19,28 @@ const SERIES: [f64; 8] = [
 ];
 
 /// The sum of x^n/n^2 and its continuation to minus infinity, for x up to one, to about 1e-15.
-pub fn dilogarithm(x: f64) -> f64 {
-    if x < -1.0 {
-        let ln = (-x).ln();
-        -PI * PI / 6.0 - 0.5 * ln * ln - near(1.0 / x)
-    } else if x > 0.5 {
-        let rest = (1.0 - x).max(0.0);
-        let mirrored = if rest > 0.0 { x.ln() * rest.ln() } else { 0.0 };
-        PI * PI / 6.0 - mirrored - near(rest)
-    } else {
-        near(x)
-    }
-}
-
-/// From minus one to one half, by Debye's series in -ln(1 - x).
-fn near(x: f64) -> f64 {
-    let u = -(-x).ln_1p();
+#[inline(always)]
+pub fn dilogarithm<R: Real>(x: R) -> R {
+    const WHOLE: f64 = PI * PI / 6.0;
+    let (far, mirrored) = (x.is_below(R::constant(-1.0)), x.is_above(R::HALF));
+    let rest = (R::constant(1.0) - x).at_least(0.0);
+    // Debye's series in u = -ln(1 - y), from minus one to one half.
+    let y = R::select(far, R::constant(1.0) / x, R::select(mirrored, rest, x));
+    let u = -ln_1p(-y);
     let u_2 = u * u;
-    let tail = SERIES.iter().rev().fold(0.0, |sum, term| sum * u_2 + term);
-    u - 0.25 * u_2 + u * u_2 * tail
+    let mut tail = R::ZERO;
+    for term in SERIES.iter().rev() {
+        tail = tail * u_2 + *term;
+    }
+    let near = u - u_2 * 0.25 + u * u_2 * tail;
+    if !(far | mirrored).any() {
+        return near;
+    }
+    let ln = R::select(far, -x, rest).logarithm();
+    // At one the product of both logarithms is zero.
+    let product = R::select(rest.is_zero(), R::ZERO, u * ln);
+    let beyond = R::select(far, -(ln * ln * 0.5) - WHOLE, product + WHOLE) - near;
+    R::select(far | mirrored, beyond, near)
 }
 
 #[cfg(test)]

@@ -6,6 +6,7 @@
 //! temperature rise is that mean times the contact ratio. The balance here uses the heat of the mesh.
 
 use gearloss_framework::mechanism::tooth_friction::{PathAt, PathNode};
+use gearloss_framework::real::{Mask as _, Points};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -29,11 +30,11 @@ pub enum Warmth {
 
 /// How the body temperatures are determined.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Warming {
+pub enum Warming<R = f64> {
     /// By friction heat through these resistances to the oil. \[K/W\]
-    By(Warmth, [f64; 2]),
+    By(Warmth, [R; 2]),
     /// They are prescribed. \[degC\]
-    Known([f64; 2]),
+    Known([R; 2]),
 }
 
 /// Iteration counts of a path.
@@ -53,61 +54,77 @@ const MOST_RUNS: u32 = 40;
 const USUAL_MU: f64 = 0.05;
 
 /// A path of contact with laws and oil.
-pub struct March<'a> {
+pub struct March<'a, R: Points = f64> {
     /// The path.
-    pub path: &'a PathAt<'a>,
+    pub path: &'a PathAt<'a, R>,
     /// Formulas.
     pub laws: &'a Laws,
     /// Oil.
-    pub oil: &'a Oil<'a>,
+    pub oil: &'a Oil<'a, R>,
 }
 
 /// Sums over a path, each point with its weight.
 #[derive(Debug, Clone, Copy, Default)]
-struct Sums {
-    weight: f64,
+struct Sums<R = f64> {
+    weight: R,
     /// Friction heat. \[W\]
-    heat: f64,
+    heat: R,
     /// Part of it that would enter the first body if both had the same temperature. \[W\]
-    first: f64,
+    first: R,
     /// Heat through the contacts per difference of the body temperatures. \[W/K\]
-    conductance: f64,
+    conductance: R,
     /// Body temperatures. \[degC\]
-    bodies: [f64; 2],
+    bodies: [R; 2],
 }
 
-impl Sums {
-    /// Adds a point with its friction and body temperatures.
-    fn add(&mut self, weight: f64, place: &Place<'_>, mu: f64, bodies: [f64; 2]) {
+impl<R: Points> Sums<R> {
+    /// Adds a point with its friction and body temperatures, where it carries load.
+    #[inline(always)]
+    fn add(&mut self, weight: f64, place: &Place<'_, R>, mu: R, bodies: [R; 2]) {
+        let weight = R::select(place.loaded(), R::constant(weight), R::ZERO);
         let heat = mu * place.heat_per_mu();
         let [b1, b2] = place.bands();
+        // Without load there is no contact, and nothing to weight.
+        let weighted = |x: R| R::select(weight.is_zero(), R::ZERO, weight * x);
         self.weight += weight;
-        self.heat += weight * heat;
-        self.first += weight * heat * b2 / (b1 + b2);
-        self.conductance += weight / (b1 + b2);
+        self.heat += weighted(heat);
+        self.first += weighted(heat * b2 / (b1 + b2));
+        self.conductance += weighted(R::constant(1.0) / (b1 + b2));
         for (sum, t) in self.bodies.iter_mut().zip(bodies) {
-            *sum += weight * t;
+            *sum += weighted(t);
         }
     }
 
     /// Rise of both body temperatures over the oil, from the resistances to it, for another heat with the same split. \[K\]
     ///
     /// Heat also flows from body to body through the contacts: H1 = first + conductance (T2 - T1), H2 = heat - H1, Ti = Mi Hi.
-    fn rise(&self, resistances: [f64; 2], heat: f64) -> [f64; 2] {
+    #[inline(always)]
+    fn rise(&self, resistances: [R; 2], heat: R) -> [R; 2] {
         let [m1, m2] = resistances;
-        let first = if self.heat > 0.0 {
-            heat * self.first / self.heat
-        } else {
-            0.0
-        };
-        let to_first = (first + self.conductance * m2 * heat) / (1.0 + self.conductance * (m1 + m2));
+        let heats = self.heat.is_above(R::ZERO);
+        let first = R::select(heats, heat * self.first / self.heat, R::ZERO);
+        let to_first = (first + self.conductance * m2 * heat) / (self.conductance * (m1 + m2) + 1.0);
         [m1 * to_first, m2 * (heat - to_first)]
+    }
+
+    /// These sums where a condition holds, others elsewhere.
+    #[inline(always)]
+    fn select(mask: R::Mask, then: Self, other: Self) -> Self {
+        let own = |of: fn(&Self) -> R| R::select(mask, of(&then), of(&other));
+        Self {
+            weight: own(|sums| sums.weight),
+            heat: own(|sums| sums.heat),
+            first: own(|sums| sums.first),
+            conductance: own(|sums| sums.conductance),
+            bodies: [own(|sums| sums.bodies[0]), own(|sums| sums.bodies[1])],
+        }
     }
 }
 
-impl March<'_> {
+impl<R: Points> March<'_, R> {
     /// Conditions that all points share at these body temperatures.
-    pub fn conditions(&self, bodies: Bodies) -> Conditions<'_> {
+    #[inline(always)]
+    pub fn conditions(&self, bodies: Bodies<R>) -> Conditions<'_, R> {
         Conditions::new(self.laws, self.oil, bodies)
     }
 
@@ -115,94 +132,119 @@ impl March<'_> {
     ///
     /// The line load is the force on the pair over the length of its line of contact, b/cos beta_b. The reference line load of a
     /// path is the normal force over the face width, which is larger for helical gears.
-    pub fn place<'b>(&self, node: &PathNode, conditions: &Conditions<'b>) -> Option<Place<'b>> {
+    #[inline(always)]
+    pub fn place<'b>(&self, node: &PathNode, conditions: &Conditions<'b, R>) -> Option<Place<'b, R>> {
         let path = self.path;
-        let line_load = node.force * path.line_load * path.mean.part.pair.cos_base_helix;
-        if line_load <= 0.0 {
+        let line_load = path.line_load * (node.force * path.mean.part.pair.cos_base_helix);
+        if !line_load.is_above(R::ZERO).any() {
             return None;
         }
         let speeds = Contact::speeds(
-            node.sliding * path.speed,
-            node.sum_speed * path.speed,
+            path.speed * node.sliding,
+            path.speed * node.sum_speed,
             node.first_faster,
         );
-        let contact = Contact::new(line_load, node.radius, path.modulus, path.length, speeds);
+        let contact = Contact::new(
+            line_load,
+            R::constant(node.radius),
+            R::constant(path.modulus),
+            R::constant(path.length),
+            speeds,
+        );
         Some(Place::new(conditions, contact, path.rq))
     }
 
-    /// One iteration along the path at given body temperatures; `mu` is the initial guess on entry and the friction on return.
-    fn run(&self, bodies: Bodies, mu: &mut [f64], tally: &mut Tally) -> Sums {
-        let mut sums = Sums::default();
-        let conditions = self.conditions(bodies);
-        let mut slope = first_slope();
+    /// One iteration along the path at given body temperatures, for the points that are not settled; `mu` is the initial guess on
+    /// entry and the friction on return.
+    fn run(&self, bodies: Bodies<R>, open: R::Mask, mu: &mut [R], tally: &mut Tally) -> Sums<R> {
         let first = tally.runs == 0;
         tally.runs += 1;
-        let mut before = USUAL_MU;
-        for (node, mu) in self.path.nodes.iter().zip(mu) {
-            let Some(place) = self.place(node, &conditions) else {
-                *mu = 0.0;
-                continue;
-            };
-            let guess = if first { before } else { *mu };
-            let settled = place.settle(guess, &mut slope, &mut tally.passes);
-            *mu = settled.mu;
-            before = settled.mu;
-            sums.add(node.weight, &place, settled.mu, settled.bodies);
-        }
-        sums
+        R::wide(
+            #[inline(always)]
+            || {
+                let mut sums = Sums::default();
+                let conditions = self.conditions(bodies);
+                let mut slope = R::constant(first_slope());
+                let mut before = R::constant(USUAL_MU);
+                for (node, mu) in self.path.nodes.iter().zip(&mut *mu) {
+                    let Some(place) = self.place(node, &conditions) else {
+                        *mu = R::ZERO;
+                        continue;
+                    };
+                    let guess = if first { before } else { *mu };
+                    let settled = place.settle(guess, &mut slope, &mut tally.passes);
+                    let found = R::select(place.loaded(), settled.mu, R::ZERO);
+                    *mu = R::select(open, found, *mu);
+                    before = R::select(place.loaded(), settled.mu, before);
+                    sums.add(node.weight, &place, settled.mu, settled.bodies);
+                }
+                sums
+            },
+        )
+    }
+
+    /// The sums if all points have the typical friction.
+    fn typical(&self, resistances: [R; 2]) -> Sums<R> {
+        R::wide(
+            #[inline(always)]
+            || {
+                let unknown = self.conditions(Bodies::Rising(resistances));
+                let mut sums = Sums::default();
+                for node in self.path.nodes {
+                    if let Some(place) = self.place(node, &unknown) {
+                        sums.add(node.weight, &place, R::constant(USUAL_MU), [R::ZERO; 2]);
+                    }
+                }
+                sums
+            },
+        )
     }
 
     /// Solves the whole path and writes its friction; returns the body temperatures and the iteration counts.
-    pub fn settle(&self, warming: Warming, mu: &mut [f64]) -> (Bodies, Tally) {
+    pub fn settle(&self, warming: Warming<R>, mu: &mut [R]) -> (Bodies<R>, Tally) {
         let mut tally = Tally::default();
+        let all = R::mask(|_| true);
         let oil = self.oil.supplied.temperature;
         let bodies = match warming {
             Warming::Known(temperatures) => Bodies::Held(temperatures),
             Warming::By(Warmth::Oil, _) => Bodies::Held([oil; 2]),
             Warming::By(..) if !self.laws.thermal => Bodies::Held([oil; 2]),
             Warming::By(Warmth::PathMean, resistances) => {
-                let sums = self.run(Bodies::Rising(resistances), mu, &mut tally);
-                let mean = |i: usize| {
-                    if sums.weight > 0.0 {
-                        sums.bodies[i] / sums.weight
-                    } else {
-                        oil
-                    }
-                };
-                Bodies::Split([mean(0), mean(1)], resistances)
+                let sums = self.run(Bodies::Rising(resistances), all, mu, &mut tally);
+                let loaded = sums.weight.is_above(R::ZERO);
+                let mean = sums.bodies.map(|sum| R::select(loaded, sum / sums.weight, oil));
+                Bodies::Split(mean, resistances)
             }
             Warming::By(Warmth::Balance, resistances) => return self.balance(resistances, mu),
         };
-        self.run(bodies, mu, &mut tally);
+        self.run(bodies, all, mu, &mut tally);
         (bodies, tally)
     }
 
     /// Solves for the body temperatures that balance the mean heat of the mesh.
-    fn balance(&self, resistances: [f64; 2], mu: &mut [f64]) -> (Bodies, Tally) {
+    fn balance(&self, resistances: [R; 2], mu: &mut [R]) -> (Bodies<R>, Tally) {
         let mut tally = Tally::default();
-        // Initially all points have the typical friction.
-        let unknown = self.conditions(Bodies::Rising(resistances));
-        let mut known = Sums::default();
-        for node in self.path.nodes {
-            if let Some(place) = self.place(node, &unknown) {
-                known.add(node.weight, &place, USUAL_MU, [0.0; 2]);
-            }
-        }
+        let mut known = self.typical(resistances);
         let rheology = self.oil.rheology;
         let most = known.heat / USUAL_MU * rheology.mu_b.max(rheology.limiting_slope);
-        let mut search = Search::new(most, 0.0);
+        let mut search = Search::new(most, R::ZERO);
         let mut heat = known.heat;
+        // What belongs to points that are settled stays.
+        let mut open = R::mask(|_| true);
         loop {
             let rise = known.rise(resistances, heat);
             let bodies = Bodies::Held(rise.map(|rise| self.oil.supplied.temperature + rise));
-            let found = self.run(bodies, mu, &mut tally);
+            let found = self.run(bodies, open, mu, &mut tally);
             let settled = found.rise(resistances, found.heat);
-            let off = (settled[0] - rise[0]).abs().max((settled[1] - rise[1]).abs());
-            if off <= SETTLED || tally.runs == MOST_RUNS {
+            let off = (settled[0] - rise[0])
+                .magnitude()
+                .larger((settled[1] - rise[1]).magnitude());
+            open = open & off.is_above(R::constant(SETTLED));
+            if !open.any() || tally.runs == MOST_RUNS {
                 return (bodies, tally);
             }
-            heat = search.next(heat, found.heat);
-            known = found;
+            heat = R::select(open, search.next(heat, found.heat), heat);
+            known = Sums::select(open, found, known);
         }
     }
 }

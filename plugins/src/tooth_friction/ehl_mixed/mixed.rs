@@ -3,20 +3,22 @@
 //! Source: Olver and Spikes, Proc. IMechE J 212 (1998) 321-336, with the exponent 2: mu = mu_f + (mu_b - mu_f)/(1 + Lambda)^m, Lambda
 //! the central film over the rms roughness of both flanks.
 
+use gearloss_framework::real::Real;
+
 /// Share of boundary friction at a film ratio.
-#[inline]
-pub fn boundary_share(lambda: f64, exponent: f64) -> f64 {
-    let above = 1.0 + lambda;
+#[inline(always)]
+pub fn boundary_share<R: Real>(lambda: R, exponent: f64) -> R {
+    let above = lambda + 1.0;
     if exponent == 2.0 {
-        1.0 / (above * above)
+        R::constant(1.0) / (above * above)
     } else {
-        above.powf(-exponent)
+        above.power(-exponent)
     }
 }
 
 /// Friction from that of the film and boundary friction. If the film friction is the larger one, the transition is reversed.
-#[inline]
-pub fn friction(film: f64, boundary: f64, share: f64) -> f64 {
+#[inline(always)]
+pub fn friction<R: Real>(film: R, boundary: R, share: R) -> R {
     film + (boundary - film) * share
 }
 

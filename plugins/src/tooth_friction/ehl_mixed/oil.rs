@@ -6,6 +6,7 @@ use gearloss_framework::document::Diagnostic;
 use gearloss_framework::lubricant::roelands::Roelands;
 use gearloss_framework::lubricant::{Lubricant, thermal};
 use gearloss_framework::mechanism::gear_mesh::MeshOil;
+use gearloss_framework::real::{Points, Real};
 use gearloss_framework::registry::Build;
 
 use crate::rotating::Fluid;
@@ -93,16 +94,17 @@ impl MeshFluid {
     }
 
     /// The oil at one operating point.
-    pub fn for_supply(&self, supplied: Supplied) -> Oil<'_> {
+    #[inline(always)]
+    pub fn for_supply<R: Real>(&self, supplied: Supplied<R>) -> Oil<'_, R> {
         let z = || {
             self.z
-                .unwrap_or_else(|| Roelands::exponent(supplied.alpha, supplied.eta))
+                .map_or_else(|| Roelands::exponent(supplied.alpha, supplied.eta), R::constant)
         };
         Oil {
             rheology: &self.rheology,
             lubricant: self.lubricant.as_ref().map(|(lubricant, _)| &**lubricant),
             law: match &self.lubricant {
-                Some((_, law)) => *law,
+                Some((_, law)) => law.everywhere(),
                 None => Roelands::tangent(supplied.temperature, supplied.eta, supplied.beta, z()),
             },
             supplied,
@@ -112,56 +114,70 @@ impl MeshFluid {
 
 /// The oil supplied to the mesh. SI, temperature in degC.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Supplied {
+pub struct Supplied<R = f64> {
     /// Temperature. \[degC\]
-    pub temperature: f64,
+    pub temperature: R,
     /// Kinematic viscosity. \[m2/s\]
-    pub nu: f64,
+    pub nu: R,
     /// Dynamic viscosity. \[Pa s\]
-    pub eta: f64,
+    pub eta: R,
     /// Pressure-viscosity coefficient. \[1/Pa\]
-    pub alpha: f64,
+    pub alpha: R,
     /// Relative decrease of the viscosity with temperature. \[1/K\]
-    pub beta: f64,
+    pub beta: R,
     /// Thermal conductivity. \[W/(m K)\]
-    pub conductivity: f64,
+    pub conductivity: R,
+}
+
+impl<R: Points> Supplied<R> {
+    fn at_point(&self, point: usize) -> Supplied {
+        Supplied {
+            temperature: self.temperature.at_point(point),
+            nu: self.nu.at_point(point),
+            eta: self.eta.at_point(point),
+            alpha: self.alpha.at_point(point),
+            beta: self.beta.at_point(point),
+            conductivity: self.conductivity.at_point(point),
+        }
+    }
 }
 
 /// The oil at one operating point. The inlet uses the oil's own viscosity law, if it has one; the film uses that of Roelands, for
 /// pressure and temperature together. The temperature slope is also that of Roelands: it enters only inlet heating, where its
 /// deviation of 1.4 % from ASTM D341 with density at 40 degC changes the film by 0.1 %.
 #[derive(Debug, Clone, Copy)]
-pub struct Oil<'a> {
+pub struct Oil<'a, R = f64> {
     /// Behaviour under shear.
     pub rheology: &'a Rheology,
     /// Viscosity in the film.
-    pub law: Roelands,
+    pub law: Roelands<R>,
     /// The supplied oil.
-    pub supplied: Supplied,
+    pub supplied: Supplied<R>,
     lubricant: Option<&'a Lubricant>,
 }
 
-impl Oil<'_> {
+impl<R: Points> Oil<'_, R> {
     /// Viscosity (Pa s), pressure-viscosity coefficient (1/Pa) and relative decrease with temperature (1/K) at the inlet, at zero
     /// pressure and a temperature in degC.
-    pub fn inlet(&self, temperature: f64) -> [f64; 3] {
-        let t = temperature.clamp(ASKED[0], ASKED[1]);
+    #[inline(always)]
+    pub fn inlet(&self, temperature: R) -> [R; 3] {
+        let t = temperature.at_least(ASKED[0]).at_most(ASKED[1]);
         let eta = match self.lubricant {
-            Some(lubricant) => lubricant.eta(t),
-            None => self.law.eta(0.0, t),
+            Some(lubricant) => t.lift(|t| lubricant.eta(t)),
+            None => self.law.eta(R::ZERO, t),
         };
         [eta, Roelands::coefficient(self.law.z, eta), self.law.beta(t)]
     }
 
-    /// The oil as a coolant of gears.
-    pub fn fluid(&self) -> Fluid {
+    /// The oil of one of the points as a coolant of gears.
+    pub fn fluid(&self, point: usize) -> Fluid {
         let Supplied {
             temperature,
             nu,
             eta,
             conductivity,
             ..
-        } = self.supplied;
+        } = self.supplied.at_point(point);
         let density = eta / nu;
         Fluid {
             conductivity,

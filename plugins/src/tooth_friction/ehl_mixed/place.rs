@@ -4,6 +4,8 @@
 //! the coefficient. The unknown is therefore one number between zero and the larger of boundary friction and the slope of the
 //! limiting stress. Common iterations on temperatures are the same loop with fixed relaxation.
 
+use gearloss_framework::real::{Mask as _, Points};
+
 use super::contact::Contact;
 use super::film::{Factor, Film, Inlet};
 use super::mixed::{boundary_share, friction};
@@ -33,32 +35,33 @@ pub struct Laws {
 
 /// Body temperatures of both gears. \[degC\]
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Bodies {
+pub enum Bodies<R = f64> {
     /// Each contact heats them by its own heat through these resistances. \[K/W\]
-    Rising([f64; 2]),
+    Rising([R; 2]),
     /// They are prescribed; the heat is split as in a contact that heats them through these resistances.
-    Split([f64; 2], [f64; 2]),
+    Split([R; 2], [R; 2]),
     /// They are prescribed, and both sides of a film have the same temperature.
-    Held([f64; 2]),
+    Held([R; 2]),
 }
 
 /// Conditions shared by all points of one iteration along the path: formulas, oil and bodies, and the oil at the inlet if the body
 /// temperatures are prescribed.
 #[derive(Clone, Copy)]
-pub struct Conditions<'a> {
+pub struct Conditions<'a, R = f64> {
     laws: &'a Laws,
-    oil: &'a Oil<'a>,
-    bodies: Bodies,
-    inlet: Option<[f64; 3]>,
+    oil: &'a Oil<'a, R>,
+    bodies: Bodies<R>,
+    inlet: Option<[R; 3]>,
 }
 
-impl<'a> Conditions<'a> {
+impl<'a, R: Points> Conditions<'a, R> {
     /// Conditions at these body temperatures.
-    pub fn new(laws: &'a Laws, oil: &'a Oil<'a>, bodies: Bodies) -> Self {
+    #[inline(always)]
+    pub fn new(laws: &'a Laws, oil: &'a Oil<'a, R>, bodies: Bodies<R>) -> Self {
         let enters = match bodies {
             _ if !laws.thermal => Some(oil.supplied.temperature),
             Bodies::Rising(_) => None,
-            Bodies::Split([t1, t2], _) | Bodies::Held([t1, t2]) => Some(0.5 * (t1 + t2)),
+            Bodies::Split([t1, t2], _) | Bodies::Held([t1, t2]) => Some((t1 + t2) * 0.5),
         };
         Self {
             laws,
@@ -82,57 +85,58 @@ const USUAL_SLOPE: f64 = -0.2;
 
 /// A converged contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Settled {
+pub struct Settled<R = f64> {
     /// Coefficient of friction.
-    pub mu: f64,
+    pub mu: R,
     /// Coefficient of friction of the film alone.
-    pub mu_film: f64,
+    pub mu_film: R,
     /// Film thickness over roughness.
-    pub lambda: f64,
+    pub lambda: R,
     /// Share of boundary friction.
-    pub boundary: f64,
+    pub boundary: R,
     /// Film thickness. \[m\]
-    pub film: f64,
+    pub film: R,
     /// Film temperature. \[degC\]
-    pub temperature: f64,
+    pub temperature: R,
     /// Body temperatures. \[degC\]
-    pub bodies: [f64; 2],
+    pub bodies: [R; 2],
     /// Heat into both bodies. \[W\]
-    pub heats: [f64; 2],
+    pub heats: [R; 2],
     /// Viscosity in the film. \[Pa s\]
-    pub eta: f64,
+    pub eta: R,
     /// Shear rate times viscosity over Eyring stress.
-    pub s: f64,
+    pub s: R,
     /// Relaxation of the oil relative to its transit.
-    pub d0: f64,
+    pub d0: R,
     /// Film temperature rise per coefficient of friction. \[K\]
-    warming: f64,
+    warming: R,
 }
 
-/// A point on the path: a loaded contact and its oil.
-pub struct Place<'a> {
+/// A point on the path: a contact and its oil.
+pub struct Place<'a, R: Points = f64> {
     laws: &'a Laws,
-    oil: &'a Oil<'a>,
-    bodies: Bodies,
-    contact: Contact,
+    oil: &'a Oil<'a, R>,
+    bodies: Bodies<R>,
+    contact: Contact<R>,
     /// Root mean square roughness of both flanks. \[m\]
-    rq: f64,
-    speed: f64,
-    sliding: f64,
-    slide_roll: f64,
+    rq: R,
+    speed: R,
+    sliding: R,
+    slide_roll: R,
     /// Heat per coefficient of friction. \[W\]
-    heat: f64,
-    bands: [f64; 2],
-    pressed: f64,
-    limit: f64,
+    heat: R,
+    bands: [R; 2],
+    pressed: R,
+    limit: R,
     most: f64,
     /// Film thickness if the body temperatures are prescribed. \[m\]
-    known_film: Option<f64>,
+    known_film: Option<R>,
 }
 
-impl<'a> Place<'a> {
-    /// A contact with its roughness (m). Load and mean speed are above zero.
-    pub fn new(conditions: &Conditions<'a>, contact: Contact, rq: f64) -> Self {
+impl<'a, R: Points> Place<'a, R> {
+    /// A contact with its roughness (m). Its mean speed is above zero; without load nothing of it is defined.
+    #[inline(always)]
+    pub fn new(conditions: &Conditions<'a, R>, contact: Contact<R>, rq: R) -> Self {
         let Conditions {
             laws,
             oil,
@@ -140,8 +144,9 @@ impl<'a> Place<'a> {
             inlet,
         } = *conditions;
         let [u1, u2] = contact.speeds;
-        let (speed, sliding) = (0.5 * (u1 + u2), (u1 - u2).abs());
+        let (speed, sliding) = ((u1 + u2) * 0.5, (u1 - u2).magnitude());
         let rheology = oil.rheology;
+        let resistance = |speed: R| laws.flank.resistance(contact.half_width, contact.length, speed);
         let mut place = Self {
             laws,
             oil,
@@ -152,21 +157,22 @@ impl<'a> Place<'a> {
             sliding,
             slide_roll: sliding / speed,
             heat: contact.line_load * contact.length * sliding,
-            bands: contact
-                .speeds
-                .map(|u| laws.flank.resistance(contact.half_width, contact.length, u)),
+            bands: [resistance(u1), resistance(u2)],
             pressed: oil.law.pressed(contact.mean_pressure),
-            limit: rheology.limiting_slope * contact.mean_pressure / rheology.tau0,
+            limit: contact.mean_pressure * (rheology.limiting_slope / rheology.tau0),
             most: rheology.mu_b.max(rheology.limiting_slope),
             known_film: None,
         };
-        place.known_film = inlet.map(|inlet| place.film(inlet));
+        if let Some(inlet) = inlet {
+            place.known_film = Some(place.film(inlet));
+        }
         place
     }
 
     /// Film thickness for inlet oil with a viscosity (Pa s), a pressure-viscosity coefficient (1/Pa) and a relative decrease of
     /// viscosity with temperature (1/K). \[m\]
-    fn film(&self, [eta, alpha, beta]: [f64; 3]) -> f64 {
+    #[inline(always)]
+    fn film(&self, [eta, alpha, beta]: [R; 3]) -> R {
         let Contact {
             line_load,
             radius,
@@ -184,40 +190,43 @@ impl<'a> Place<'a> {
             g,
             w,
         };
-        radius * self.laws.film.over_radius(u, g, w, length / radius) * (self.laws.inlet)(&inlet)
+        radius * self.laws.film.over_radius(u, g, w, length / radius) * self.laws.inlet.at(&inlet)
     }
 
     /// Evaluates the contact at a coefficient of friction; `mu` of the result is the resulting coefficient.
-    pub fn after(&self, mu: f64) -> Settled {
+    #[inline(always)]
+    pub fn after(&self, mu: R) -> Settled<R> {
         let supplied = &self.oil.supplied;
+        let one = R::constant(1.0);
         let heat = mu * self.heat;
+        let [b1, b2] = self.bands;
         let (bodies, first, sides) = match self.bodies {
             Bodies::Rising(m) => {
                 let share = first_share(self.bands, m);
-                let to = [share * heat, (1.0 - share) * heat];
-                let t = [0, 1].map(|i| supplied.temperature + m[i] * to[i]);
-                (t, to[0], share * (m[0] + self.bands[0]))
+                let to = [share * heat, (one - share) * heat];
+                let t = [supplied.temperature + m[0] * to[0], supplied.temperature + m[1] * to[1]];
+                (t, to[0], share * (m[0] + b1))
             }
             Bodies::Split(t, m) => {
                 let share = first_share(self.bands, m);
-                let sides = 0.5 * (share * self.bands[0] + (1.0 - share) * self.bands[1]);
+                let sides = (share * b1 + (one - share) * b2) * 0.5;
                 (t, share * heat, sides)
             }
-            Bodies::Held(t) => {
-                let [b1, b2] = self.bands;
-                (t, first_heat(heat, self.bands, t), b1 * b2 / (b1 + b2))
-            }
+            Bodies::Held(t) => (t, first_heat(heat, self.bands, t), b1 * b2 / (b1 + b2)),
         };
         let bodies = if self.laws.thermal {
             bodies
         } else {
             [supplied.temperature; 2]
         };
-        let inlet = 0.5 * (bodies[0] + bodies[1]);
-        let h = self.known_film.unwrap_or_else(|| self.film(self.oil.inlet(inlet)));
-        let area = 2.0 * self.contact.half_width * self.contact.length;
+        let inlet = (bodies[0] + bodies[1]) * 0.5;
+        let h = match self.known_film {
+            Some(film) => film,
+            None => self.film(self.oil.inlet(inlet)),
+        };
+        let area = self.contact.half_width * 2.0 * self.contact.length;
         let above = self.laws.film_heat.resistance(h, supplied.conductivity, area);
-        let surfaces = 0.5 * (bodies[0] + first * self.bands[0] + bodies[1] + (heat - first) * self.bands[1]);
+        let surfaces = (bodies[0] + first * b1 + bodies[1] + (heat - first) * b2) * 0.5;
         let temperature = if self.laws.thermal {
             surfaces + heat * above
         } else {
@@ -226,17 +235,14 @@ impl<'a> Place<'a> {
         let rheology = self.oil.rheology;
         let eta = self.oil.law.eta_pressed(self.pressed, temperature);
         let s = self.sliding / h * eta / rheology.tau0;
-        let d0 = eta * self.speed / (2.0 * self.contact.half_width * rheology.shear_modulus);
+        let d0 = eta * self.speed / (self.contact.half_width * (2.0 * rheology.shear_modulus));
         let stress = self.laws.transit.mean_stress(s, d0, self.limit);
-        let mu_film = rheology.tau0 * stress / self.contact.mean_pressure;
+        let mu_film = stress * rheology.tau0 / self.contact.mean_pressure;
         let lambda = h / self.rq;
-        let boundary = if self.slide_roll < ROLLING {
-            0.0
-        } else {
-            boundary_share(lambda, self.laws.exponent)
-        };
+        let rolls = self.slide_roll.is_below(R::constant(ROLLING));
+        let boundary = R::select(rolls, R::ZERO, boundary_share(lambda, self.laws.exponent));
         Settled {
-            mu: friction(mu_film, rheology.mu_b, boundary),
+            mu: friction(mu_film, R::constant(rheology.mu_b), boundary),
             mu_film,
             lambda,
             boundary,
@@ -250,47 +256,62 @@ impl<'a> Place<'a> {
             warming: if self.laws.thermal {
                 self.heat * (sides + above)
             } else {
-                0.0
+                R::ZERO
             },
         }
     }
 
     /// Heat per coefficient of friction. \[W\]
-    pub fn heat_per_mu(&self) -> f64 {
+    #[inline(always)]
+    pub fn heat_per_mu(&self) -> R {
         self.heat
     }
 
+    /// Where it carries load.
+    #[inline(always)]
+    pub fn loaded(&self) -> R::Mask {
+        self.contact.line_load.is_above(R::ZERO)
+    }
+
     /// Resistances of the contact bands on both flanks. \[K/W\]
-    pub fn bands(&self) -> [f64; 2] {
+    #[inline(always)]
+    pub fn bands(&self) -> [R; 2] {
         self.bands
     }
 
     /// Mean pressure. \[Pa\]
-    pub fn mean_pressure(&self) -> f64 {
+    #[inline(always)]
+    pub fn mean_pressure(&self) -> R {
         self.contact.mean_pressure
     }
 
     /// Smaller of the Peclet numbers of both flanks.
-    pub fn peclet(&self) -> f64 {
-        let slow = self.contact.speeds[0].min(self.contact.speeds[1]);
+    #[inline(always)]
+    pub fn peclet(&self) -> R {
+        let slow = self.contact.speeds[0].smaller(self.contact.speeds[1]);
         self.laws.flank.peclet(self.contact.half_width, slow)
     }
 
     /// Solves the contact from an initial guess of its friction; `slope` is the last estimate of the derivative of the friction
-    /// map. Counts iterations.
-    pub fn settle(&self, guess: f64, slope: &mut f64, passes: &mut u32) -> Settled {
-        let mut search = Search::new(self.most, *slope);
-        let mut mu = guess.clamp(0.0, self.most);
-        let mut found = self.after(mu);
-        let mut pass = 1;
-        while (found.mu - mu).abs() * found.warming > SETTLED && pass < MOST_PASSES {
-            mu = search.next(mu, found.mu);
-            found = self.after(mu);
+    /// map. Counts iterations. A point that has converged keeps its friction while others iterate.
+    #[inline(always)]
+    pub fn settle(&self, guess: R, slope: &mut R, passes: &mut u32) -> Settled<R> {
+        let mut search = Search::new(R::constant(self.most), *slope);
+        let mut mu = guess.at_least(0.0).at_most(self.most);
+        let mut running = self.loaded();
+        let mut pass = 0;
+        loop {
+            let found = self.after(mu);
             pass += 1;
+            let left = (found.mu - mu).magnitude() * found.warming;
+            running = running & left.is_above(R::constant(SETTLED));
+            if !running.any() || pass == MOST_PASSES {
+                *passes += pass;
+                return found;
+            }
+            mu = R::select(running, search.next(mu, found.mu), mu);
+            *slope = R::select(running, search.slope(), *slope);
         }
-        *slope = search.slope();
-        *passes += pass;
-        found
     }
 }
 

@@ -1,21 +1,23 @@
 //! Fixed point of a scalar function: the only kind of loop in this model.
 
+use gearloss_framework::real::Real;
+
 /// Finds x with phi(x) = x between zero and a maximum, where phi(0) is not below zero and phi(most) not above it, so that a
-/// solution exists. Uses secants, and bisection where they leave the bracket or converge slowly.
+/// solution exists. Uses secants, and bisection where they leave the bracket or converge slowly. Several points search side by side.
 #[derive(Debug, Clone, Copy)]
-pub struct Search {
-    bracket: [f64; 2],
-    last: Option<(f64, f64)>,
-    slope: f64,
+pub struct Search<R = f64> {
+    bracket: [R; 2],
+    last: Option<(R, R)>,
+    slope: R,
     tried: u32,
 }
 
-impl Search {
+impl<R: Real> Search<R> {
     /// A search up to a maximum, with an initial guess for the slope of phi.
-    #[inline]
-    pub fn new(most: f64, slope: f64) -> Self {
+    #[inline(always)]
+    pub fn new(most: R, slope: R) -> Self {
         Self {
-            bracket: [0.0, most],
+            bracket: [R::ZERO, most],
             last: None,
             slope,
             tried: 0,
@@ -23,30 +25,30 @@ impl Search {
     }
 
     /// The last estimate of the slope of phi.
-    #[inline]
-    pub fn slope(&self) -> f64 {
+    #[inline(always)]
+    pub fn slope(&self) -> R {
         self.slope
     }
 
     /// The next x, after phi has been evaluated at x.
-    #[inline]
-    pub fn next(&mut self, x: f64, phi: f64) -> f64 {
-        self.bracket[usize::from(phi <= x)] = x;
+    #[inline(always)]
+    pub fn next(&mut self, x: R, phi: R) -> R {
+        let falls = !phi.is_above(x);
+        let [low, high] = self.bracket;
+        let [low, high] = [R::select(falls, low, x), R::select(falls, x, high)];
+        self.bracket = [low, high];
         if let Some((x0, phi0)) = self.last {
             let slope = (phi - phi0) / (x - x0);
-            if slope.is_finite() {
-                self.slope = slope;
-            }
+            self.slope = R::select(slope.is_within(f64::MIN, f64::MAX), slope, self.slope);
         }
         self.last = Some((x, phi));
         self.tried += 1;
-        let [low, high] = self.bracket;
-        let secant = x + (phi - x) / (1.0 - self.slope);
-        if !self.tried.is_multiple_of(8) && secant > low && secant < high {
-            secant
-        } else {
-            0.5 * (low + high)
+        let middle = (low + high) * 0.5;
+        if self.tried.is_multiple_of(8) {
+            return middle;
         }
+        let secant = x + (phi - x) / (R::constant(1.0) - self.slope);
+        R::select(secant.is_above(low) & secant.is_below(high), secant, middle)
     }
 }
 

@@ -6,6 +6,7 @@
 
 use std::f64::consts::PI;
 
+use gearloss_framework::real::Real;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -33,18 +34,20 @@ impl Flank {
     }
 
     /// Peclet number of a band of this half width (m) at this speed (m/s).
-    pub fn peclet(&self, half_width: f64, speed: f64) -> f64 {
-        0.5 * speed * half_width / self.diffusivity()
+    #[inline(always)]
+    pub fn peclet<R: Real>(&self, half_width: R, speed: R) -> R {
+        speed * 0.5 * half_width / self.diffusivity()
     }
 
     /// Mean surface temperature rise of a flank over the contact band per heat that enters it, for one surface speed in m/s.
     /// \[K/W\] Uniform heat and a fast band; below [`FAST`] the value is that at the limit, so that a stationary flank has a finite
     /// resistance. The maximum rise, at the trailing edge, is one and a half times the mean.
-    pub fn resistance(&self, half_width: f64, length: f64, speed: f64) -> f64 {
-        let least = 2.0 * FAST * self.diffusivity() / half_width;
-        let swept = self.conductivity * self.density * self.heat_capacity * speed.max(least);
+    #[inline(always)]
+    pub fn resistance<R: Real>(&self, half_width: R, length: R, speed: R) -> R {
+        let least = R::constant(2.0 * FAST * self.diffusivity()) / half_width;
+        let swept = speed.larger(least) * (self.conductivity * self.density * self.heat_capacity);
         // Two thirds of 2 q''/k sqrt(chi 2a/(pi U)) on the area 2 a L.
-        2.0 / 3.0 * (2.0 / (PI * half_width * swept)).sqrt() / length
+        (R::constant(2.0) / (half_width * PI * swept)).root() * (2.0 / 3.0) / length
     }
 
     /// Mean rise under a uniformly heated circle at any speed according to Tian and Kennedy, from heat per area (W/m2), radius (m) and
@@ -75,27 +78,28 @@ pub enum FilmHeat {
 impl FilmHeat {
     /// Mean temperature rise of the film over its surfaces per heat, from film thickness (m), conductivity of the oil (W/(m K)) and
     /// area (m2). \[K/W\]
-    #[inline]
-    pub fn resistance(self, film: f64, conductivity: f64, area: f64) -> f64 {
+    #[inline(always)]
+    pub fn resistance<R: Real>(self, film: R, conductivity: R, area: R) -> R {
         let n = match self {
             Self::MidPlane => 8.0,
             Self::Even => 12.0,
         };
-        film / (n * conductivity * area)
+        film / (conductivity * n * area)
     }
 }
 
 /// Share of the heat that enters the first body if both sides of the film have the same temperature, from the steady resistances of
 /// the band and from body to oil.
-pub fn first_share(bands: [f64; 2], bodies: [f64; 2]) -> f64 {
+#[inline(always)]
+pub fn first_share<R: Real>(bands: [R; 2], bodies: [R; 2]) -> R {
     let own = [bands[0] + bodies[0], bands[1] + bodies[1]];
     own[1] / (own[0] + own[1])
 }
 
 /// Heat into the first body between bodies at given temperatures. \[W\] Without friction it is the heat from the warmer body to the
 /// other through the contact, so it may be negative or above the friction heat.
-#[inline]
-pub fn first_heat(heat: f64, bands: [f64; 2], bodies: [f64; 2]) -> f64 {
+#[inline(always)]
+pub fn first_heat<R: Real>(heat: R, bands: [R; 2], bodies: [R; 2]) -> R {
     (bands[1] * heat + bodies[1] - bodies[0]) / (bands[0] + bands[1])
 }
 

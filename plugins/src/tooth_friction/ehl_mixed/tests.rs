@@ -321,7 +321,11 @@ fn known_bodies_are_kept_and_a_factor_of_ones_own_thins_the_film() {
         };
         rig.solve(&rig.gauss(), 100.0, 2000.0, 40.0).places[5].film
     };
-    within(film(|_| 0.25), 0.25 * film(plain.inlet_heating.factor()), 1e-12);
+    within(
+        film(Factor::Own(|_| 0.25)),
+        0.25 * film(plain.inlet_heating.factor()),
+        1e-12,
+    );
 }
 
 #[test]

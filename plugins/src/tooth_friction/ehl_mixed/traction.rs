@@ -6,10 +6,12 @@
 //! The viscosity is that at the mean pressure and the film temperature: with the inlet viscosity S and D0 would be orders of
 //! magnitude too small for the flow law from which they are derived.
 
+use gearloss_framework::real::{Mask as _, Points, Real};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::dilogarithm::dilogarithm;
+use crate::powers::{asinh, exp_m1, ln_1p};
 
 /// Build-up of the stress over the transit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
@@ -26,12 +28,12 @@ pub enum Transit {
 
 impl Transit {
     /// Mean stress over the Eyring stress, from S, D0 and the limiting stress over the Eyring stress.
-    #[inline]
-    pub fn mean_stress(self, s: f64, d0: f64, limit: f64) -> f64 {
+    #[inline(always)]
+    pub fn mean_stress<R: Points>(self, s: R, d0: R, limit: R) -> R {
         match self {
             Self::Exact => exact(s, d0, limit),
-            Self::Chart => chart(s, d0, limit).0,
-            Self::Steady => s.asinh().min(limit),
+            Self::Chart => R::each(|point| chart(s.at_point(point), d0.at_point(point), limit.at_point(point)).0),
+            Self::Steady => asinh(s).smaller(limit),
         }
     }
 }
@@ -48,58 +50,69 @@ const STEADY: f64 = 45.0;
 
 /// Exact mean. With c = sqrt(1 + S^2), u = S + c and y = (u (u - 1)/(u + 1)) exp(-c theta/D0) the stress is ln u + ln(1 - y/u^2) -
 /// ln(1 + y), whose integral over theta is closed by dilogarithms; after it reaches the limit it stays there.
-pub fn exact(s: f64, d0: f64, limit: f64) -> f64 {
-    if s <= 0.0 {
-        return 0.0;
-    }
-    let c = if s < LARGE { (1.0 + s * s).sqrt() } else { s };
-    if s < LINEAR || d0 * LINEAR > c {
-        return maxwell(s, d0, limit);
-    }
+#[inline(always)]
+pub fn exact<R: Real>(s: R, d0: R, limit: R) -> R {
+    let one = R::constant(1.0);
+    let c = R::select(s.is_below(R::constant(LARGE)), (s * s + 1.0).root(), s);
+    let linear = s.is_below(R::constant(LINEAR)) | (d0 * LINEAR).is_above(c);
     let u = s + c;
-    let steady = u.ln();
+    let steady = u.logarithm();
     let pace = c / d0;
     let entry = u * ((u - 1.0) / (u + 1.0));
     // Leaves the contact at theta = 1, or reaches the limit before. In gears the flow is steady long before.
-    let exit = if pace < STEADY { entry * (-pace).exp() } else { 0.0 };
-    let (y, flowing) = if limit < steady {
-        let cap = limit.exp();
-        let y = (u - cap) / (cap + 1.0 / u);
-        if y > exit {
-            (y, (entry / y).ln() / pace)
-        } else {
-            (exit, 1.0)
-        }
+    let leaves = pace.is_below(R::constant(STEADY));
+    let mut y = R::ZERO;
+    if leaves.any() {
+        y = R::select(leaves, entry * (-pace).exponential(), y);
+    }
+    let mut flowing = one;
+    let plastic = limit.is_below(steady);
+    if plastic.any() {
+        let cap = limit.exponential();
+        let reached = (u - cap) / (cap + one / u);
+        let reaches = plastic & reached.is_above(y);
+        y = R::select(reaches, reached, y);
+        flowing = R::select(reaches, (entry / reached).logarithm() / pace, flowing);
+    }
+    let g = one / (u * u);
+    let mean = capped(steady * flowing + (part(entry, g) - part(y, g)) / pace, flowing, limit);
+    let mean = if linear.any() {
+        R::select(linear, maxwell(s, d0, limit), mean)
     } else {
-        (exit, 1.0)
+        mean
     };
-    let g = 1.0 / (u * u);
-    let part = |y: f64| {
-        if y > 0.0 {
-            dilogarithm(-y) - dilogarithm(g * y)
-        } else {
-            0.0
-        }
-    };
-    let rising = steady * flowing + (part(entry) - part(y)) / pace;
-    rising + if flowing < 1.0 { (1.0 - flowing) * limit } else { 0.0 }
+    R::select(s.is_above(R::ZERO), mean, R::ZERO)
+}
+
+/// The integral of the stress of y and g = 1/u^2 up to the end of the transit.
+#[inline(always)]
+fn part<R: Real>(y: R, g: R) -> R {
+    let some = y.is_above(R::ZERO);
+    if some.any() {
+        R::select(some, dilogarithm(-y) - dilogarithm(g * y), R::ZERO)
+    } else {
+        R::ZERO
+    }
+}
+
+/// Adds the part of the transit after the stress has reached its limit.
+#[inline(always)]
+fn capped<R: Real>(rising: R, flowing: R, limit: R) -> R {
+    let one = R::constant(1.0);
+    rising + R::select(flowing.is_below(one), (one - flowing) * limit, R::ZERO)
 }
 
 /// Mean for a linear viscoelastic oil.
-fn maxwell(s: f64, d0: f64, limit: f64) -> f64 {
-    let flowing = if limit < s {
-        (-d0 * (-limit / s).ln_1p()).min(1.0)
-    } else {
-        1.0
-    };
+#[inline(always)]
+fn maxwell<R: Real>(s: R, d0: R, limit: R) -> R {
+    let reaches = limit.is_below(s);
+    let yields = (-d0 * ln_1p(-limit / s)).at_most(1.0);
+    let flowing = R::select(reaches, yields, R::constant(1.0));
     let x = flowing / d0;
     // The difference in the exact form cancels for stiff oils; its series does not.
-    let rising = if x < 1e-3 {
-        0.5 * flowing * x * (1.0 - x / 3.0 + x * x / 12.0)
-    } else {
-        flowing + d0 * (-x).exp_m1()
-    };
-    s * rising + if flowing < 1.0 { (1.0 - flowing) * limit } else { 0.0 }
+    let series = flowing * 0.5 * x * (R::constant(1.0) - x / 3.0 + x * x / 12.0);
+    let rising = R::select(x.is_below(R::constant(1e-3)), series, flowing + d0 * exp_m1(-x));
+    capped(s * rising, flowing, limit)
 }
 
 /// Regime of the stress.
