@@ -17,12 +17,12 @@ use crate::transmission::{Case, Transmission};
 /// Minimum number of points that are solved together; fewer are faster one by one.
 const FEW: usize = 4;
 
-/// Workspace for the batches of one case; all of it is allocated once.
+/// Workspace for the points of one case, in batches and one by one; each part is allocated once, when it is needed.
 #[derive(Debug, Clone)]
 pub struct BatchScratch {
     /// Values that are common to the points of a batch.
-    settled: Scratch,
-    together: Scratch<Lane>,
+    settled: Option<Scratch>,
+    together: Option<Scratch<Lane>>,
     /// For points that are solved one by one.
     alone: Scratch,
 }
@@ -30,8 +30,13 @@ pub struct BatchScratch {
 impl BatchScratch {
     /// Observed extents of every limit and observed quantity since the last call, one count per point.
     pub fn take_totals(&mut self) -> Vec<Extent> {
-        let pairs = self.together.take_totals().into_iter().zip(self.alone.take_totals());
-        pairs.map(|(together, alone)| together.merge(alone)).collect()
+        let mut totals = self.alone.take_totals();
+        if let Some(together) = &mut self.together {
+            for (total, seen) in totals.iter_mut().zip(together.take_totals()) {
+                *total = seen.merge(*total);
+            }
+        }
+        totals
     }
 
     /// Workspace for points that are solved one by one.
@@ -41,7 +46,9 @@ impl BatchScratch {
 
     /// Number of loss model evaluations for all points so far.
     pub fn calls(&self) -> usize {
-        self.settled.all_calls() + self.together.all_calls() + self.alone.all_calls()
+        let settled = self.settled.as_ref().map_or(0, Scratch::all_calls);
+        let together = self.together.as_ref().map_or(0, Scratch::all_calls);
+        settled + together + self.alone.all_calls()
     }
 }
 
@@ -51,15 +58,17 @@ pub struct Batch<'a> {
     case: &'a Case,
     point: Point<'a>,
     temperatures: &'a [f64],
-    s: &'a mut BatchScratch,
+    settled: &'a mut Scratch,
+    together: &'a mut Scratch<Lane>,
+    alone: &'a mut Scratch,
 }
 
 impl Transmission {
     /// Workspace for evaluating the batches of a case; one per thread.
     pub fn batch_scratch(&self, case: &Case) -> BatchScratch {
         BatchScratch {
-            settled: self.scratch(case),
-            together: Scratch::new(self, case),
+            settled: None,
+            together: None,
             alone: self.scratch(case),
         }
     }
@@ -76,14 +85,23 @@ impl Transmission {
         scratch: &'a mut BatchScratch,
     ) -> Batch<'a> {
         assert!(!case.torque_ports.is_empty(), "a case that gives a torque");
-        self.settle(case, point, temperatures, &mut scratch.settled, Noting::Seen);
-        scratch.together.take_settled(&scratch.settled);
+        let BatchScratch {
+            settled,
+            together,
+            alone,
+        } = scratch;
+        let settled = settled.get_or_insert_with(|| self.scratch(case));
+        let together = together.get_or_insert_with(|| Scratch::new(self, case));
+        self.settle(case, point, temperatures, settled, Noting::Seen);
+        together.take_settled(settled);
         Batch {
             transmission: self,
             case,
             point: *point,
             temperatures,
-            s: scratch,
+            settled,
+            together,
+            alone,
         }
     }
 
@@ -101,7 +119,7 @@ impl Transmission {
         scratch: &'s mut BatchScratch,
     ) -> Block<'s> {
         assert!((1..=LANES).contains(&points.len()), "1 to {LANES} points");
-        let s = &mut scratch.together;
+        let s = scratch.together.get_or_insert_with(|| Scratch::new(self, case));
         // Lanes without a point repeat the last one and are not read.
         let own = |lane: usize| lane.min(points.len() - 1);
         // Ports beyond those of the case have speeds and torques added by rules, which are zero.
@@ -121,10 +139,7 @@ impl Transmission {
         c.live = Lane::mask(|lane| lane < points.len());
         self.settle_prescribed(case, s, noting);
         self.solve_settled(case, &points[0], s, noting);
-        Block {
-            transmission: self,
-            s: &scratch.together,
-        }
+        Block { transmission: self, s }
     }
 
     /// The losses of points by number at temperatures, as [`Transmission::probe`]. \[degC, W\]
@@ -163,11 +178,11 @@ impl Batch<'_> {
     /// If there are none or too many: a bug of the caller.
     pub fn solve(&mut self, torques: &[f64]) -> Block<'_> {
         assert!((1..=LANES).contains(&torques.len()), "1 to {LANES} torques");
-        let BatchScratch { settled, together, .. } = &mut *self.s;
+        let together = &mut *self.together;
         // Lanes without a point repeat the last one and are not read.
         let last = torques.len() - 1;
         together.work.given[0] = Lane::each(|point| torques[point.min(last)]);
-        together.begin_block(settled, torques.len());
+        together.begin_block(self.settled, torques.len());
         self.transmission
             .solve_settled(self.case, &self.point, together, Noting::Counted);
         Block {
@@ -178,11 +193,11 @@ impl Batch<'_> {
 
     /// Solves a single point of the batch.
     pub fn alone(&mut self, torque: f64) -> Solution<'_> {
-        let torques = &mut self.s.settled.work.given[..self.point.torques.len()];
+        let torques = &mut self.settled.work.given[..self.point.torques.len()];
         torques[0] = torque;
         let point = Point { torques, ..self.point };
         self.transmission
-            .evaluate(self.case, &point, self.temperatures, &mut self.s.alone)
+            .evaluate(self.case, &point, self.temperatures, self.alone)
     }
 }
 

@@ -66,8 +66,12 @@ impl<'a> Trial<'a> {
 
 /// The stated ranges that a solved trial left.
 pub fn left(transmission: &Transmission, seen: &[Extent]) -> impl Iterator<Item = (String, String)> {
-    let outside = notes(transmission, seen).into_iter().filter(|n| n.outside > 0);
-    outside.map(|n| (n.path, n.name.to_owned()))
+    let outside = seen.iter().copied();
+    let outside: Vec<Extent> = outside
+        .map(|seen| if seen.outside > 0 { seen } else { Extent::EMPTY })
+        .collect();
+    let left = notes(transmission, &outside).into_iter();
+    left.map(|n| (n.path, n.name.to_owned()))
 }
 
 /// Why a point has no loss.

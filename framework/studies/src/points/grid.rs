@@ -261,6 +261,7 @@ impl GridResult {
     pub fn add(&mut self, piece: Piece) {
         merge(&mut self.seen, &piece.seen);
         self.passes += piece.points().map(|p| p.passes).sum::<usize>();
+        self.points.reserve(piece.len());
         self.points.extend(piece.into_points());
     }
 }

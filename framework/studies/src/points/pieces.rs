@@ -208,10 +208,7 @@ pub fn solve_pieces<T: Send>(
         }
         let spare = spaces.lock().unwrap_or_else(PoisonError::into_inner).pop();
         let mut space = spare.unwrap_or_else(|| solver.space());
-        let solved = solver.solve(task, &mut space);
-        let mut points: Vec<(usize, &mut PointResult)> = task.iter().copied().zip(solved).collect();
-        // Stable sort: the runs are already sorted.
-        points.sort_by_key(|(number, _)| *number);
+        let mut points = solver.solve(task, &mut space);
         let made = make(&mut points);
         if !progress(task.len()) {
             going.store(false, Ordering::Relaxed);

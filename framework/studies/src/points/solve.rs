@@ -2,7 +2,7 @@
 
 use super::temperature::find_all;
 use super::{Given, OilTemperature, PointResult, Points, sums};
-use gearloss_framework::evaluate::{BatchScratch, Block, Noting, Point, PowerFlow, Scratch, Solution};
+use gearloss_framework::evaluate::{BatchScratch, Block, Noting, Point, PowerFlow, Solution};
 use gearloss_framework::loss::Extent;
 use gearloss_framework::real::{LANES, Lane, Real as _};
 use gearloss_framework::transmission::{Case, Transmission};
@@ -10,8 +10,12 @@ use gearloss_framework::transmission::{Case, Transmission};
 /// Points that are balanced and solved side by side.
 const GROUP: usize = 4 * LANES;
 
-/// Minimum size of a block; smaller blocks are slower than single points.
+/// Minimum number of points that are solved together; fewer are faster one by one.
 const FEW: usize = 6;
+
+/// Minimum number of points of one speed and temperature in a batch of their own; fewer are solved together with points of other speeds,
+/// because what they have in common costs less than lanes without a point.
+const MANY: usize = 12;
 
 /// Common data of all points of a field.
 pub(super) struct Solver<'a> {
@@ -29,8 +33,7 @@ pub(super) struct Solver<'a> {
 
 /// Working memory for one concurrent task.
 pub(super) struct Space {
-    single: Scratch,
-    rows: Option<BatchScratch>,
+    scratch: BatchScratch,
     results: Vec<PointResult>,
     /// Buffers for the components of points.
     spare: Vec<Vec<f64>>,
@@ -41,14 +44,7 @@ pub(super) struct Space {
 impl Space {
     /// Observations since the last call.
     pub fn take_seen(&mut self) -> Vec<Extent> {
-        let single = self.single.take_totals();
-        match &mut self.rows {
-            None => single,
-            Some(rows) => {
-                let pairs = rows.take_totals().into_iter().zip(single);
-                pairs.map(|(row, single)| row.merge(single)).collect()
-            }
-        }
+        self.scratch.take_totals()
     }
 }
 
@@ -79,8 +75,7 @@ impl<'a> Solver<'a> {
 
     pub fn space(&self) -> Space {
         Space {
-            single: self.transmission.scratch(self.case),
-            rows: None,
+            scratch: self.transmission.batch_scratch(self.case),
             results: Vec::new(),
             spare: Vec::new(),
             torques: vec![0.0; self.case.torque_ports.len()],
@@ -88,8 +83,9 @@ impl<'a> Solver<'a> {
         }
     }
 
-    /// Solves the points with the given indices, in order; neighbours with equal speed and temperature are solved together.
-    pub fn solve<'s>(&self, numbers: &[usize], space: &'s mut Space) -> &'s mut [PointResult] {
+    /// Solves the points with the given indices, and returns them with their indices in ascending order. Neighbours with equal speed and
+    /// temperature are a batch if they are many.
+    pub fn solve<'s>(&self, numbers: &[usize], space: &'s mut Space) -> Vec<(usize, &'s mut PointResult)> {
         let mut results = std::mem::take(&mut space.results);
         space.spare.clear();
         space.spare.extend(results.drain(..).map(|point| point.parts));
@@ -98,24 +94,35 @@ impl<'a> Solver<'a> {
             let (a, b) = (given(a), given(b));
             a.speed.to_bits() == b.speed.to_bits() && a.oil == b.oil
         };
-        let mut rest: Vec<usize> = Vec::new();
+        // Where torque or speed turn so do the drivers, which the points of a block have in common.
+        let sense = |number: &usize| [given(number).torque, given(number).speed].map(|x| x.partial_cmp(&0.0));
+        let like = |a: &usize, b: &usize| sense(a) == sense(b);
+        let (mut solved, mut rest): (Vec<usize>, Vec<usize>) = Default::default();
         for run in numbers.chunk_by(together) {
             let first = given(&run[0]);
-            let oil = self.oil_of(first);
-            match oil {
-                OilTemperature::Fixed(oil)
-                    if run.len() >= FEW && self.points.flow == PowerFlow::Real && self.at_torque.is_some() =>
-                {
-                    self.several(&rest, space, &mut results);
-                    rest.clear();
-                    self.row(run, first.speed, oil, space, &mut results);
+            match self.oil_of(first) {
+                OilTemperature::Fixed(oil) if self.points.flow == PowerFlow::Real && self.at_torque.is_some() => {
+                    let blocks = run.chunk_by(like).flat_map(|own| own.chunks(LANES));
+                    let (many, few): (Vec<&[usize]>, Vec<&[usize]>) = blocks.partition(|block| block.len() >= MANY);
+                    rest.extend(few.into_iter().flatten());
+                    if !many.is_empty() {
+                        self.row(&many, first.speed, oil, space, &mut results);
+                        solved.extend(many.into_iter().flatten());
+                    }
                 }
                 _ => rest.extend(run),
             }
         }
-        self.several(&rest, space, &mut results);
+        rest.sort_by_key(sense);
+        for own in rest.chunk_by(like).flat_map(|own| own.chunks(GROUP)) {
+            self.several(own, space, &mut results);
+        }
+        solved.extend(rest);
         space.results = results;
-        &mut space.results
+        let mut points: Vec<(usize, &mut PointResult)> = solved.into_iter().zip(&mut space.results).collect();
+        // Stable sort: the runs are already sorted.
+        points.sort_by_key(|(number, _)| *number);
+        points
     }
 
     /// Origin of the oil temperature of a point.
@@ -125,30 +132,27 @@ impl<'a> Solver<'a> {
 
     /// Points with speeds and temperatures of their own.
     fn several(&self, numbers: &[usize], space: &mut Space, results: &mut Vec<PointResult>) {
-        for group in numbers.chunks(GROUP) {
-            let given: Vec<Given> = group
-                .iter()
-                .map(|number| self.points.field.given_point(*number))
-                .collect();
-            let network = given.iter().any(|given| self.oil_of(*given) == OilTemperature::Network);
-            if given.len() < FEW || network {
-                results.extend(given.iter().map(|given| self.single(*given, space)));
-            } else {
-                self.group(&given, space, results);
-            }
+        let given: Vec<Given> = numbers
+            .iter()
+            .map(|number| self.points.field.given_point(*number))
+            .collect();
+        let network = given.iter().any(|given| self.oil_of(*given) == OilTemperature::Network);
+        if given.len() < FEW || network {
+            results.extend(given.iter().map(|given| self.single(*given, space)));
+        } else {
+            self.group(&given, space, results);
         }
     }
 
     /// The same, solved together.
     fn group(&self, given: &[Given], space: &mut Space, results: &mut Vec<PointResult>) {
         let Space {
-            rows,
+            scratch,
             torques,
             speeds,
             spare,
             ..
         } = space;
-        let batch = rows.get_or_insert_with(|| self.transmission.batch_scratch(self.case));
         let with_first = |template: &[f64], first: f64| {
             let mut own = template.to_vec();
             own.iter_mut().take(1).for_each(|own| *own = first);
@@ -167,29 +171,38 @@ impl<'a> Solver<'a> {
                 ..Point::default()
             })
             .collect();
-        let found = find_all(
-            self.transmission,
-            self.case,
-            &points,
-            |point| self.oil_of(given[point]),
-            batch,
-        );
+        let oil = |point: usize| self.oil_of(given[point]);
+        let found = find_all(self.transmission, self.case, &points, oil, scratch);
         let start = results.len();
         for first in (0..points.len()).step_by(LANES) {
-            let last = points.len().min(first + LANES);
-            let temperatures = |lane: usize| found[first + lane].temperatures();
-            let some = &points[first..last];
-            let block = self
-                .transmission
-                .evaluate_together(self.case, some, temperatures, Noting::Counted, batch);
-            let oil = |lane: usize| found[first + lane].oil;
-            self.of_block(&given[first..last], oil, &block, spare, results);
-            let alone: Vec<usize> = (0..some.len()).filter(|lane| block.is_alone(*lane)).collect();
-            for lane in alone {
+            let own = first..points.len().min(first + LANES);
+            let alone: Vec<usize> = if own.len() < FEW {
+                own.collect()
+            } else {
+                let temperatures = |lane: usize| found[first + lane].temperatures();
+                let some = &points[own.clone()];
+                let block =
+                    self.transmission
+                        .evaluate_together(self.case, some, temperatures, Noting::Counted, scratch);
+                self.of_block(
+                    &given[own.clone()],
+                    |lane| found[first + lane].oil,
+                    &block,
+                    spare,
+                    results,
+                );
+                own.filter(|point| block.is_alone(point - first)).collect()
+            };
+            for point in alone {
+                let temperatures = found[point].temperatures();
                 let solution = self
                     .transmission
-                    .evaluate(self.case, &some[lane], temperatures(lane), batch.alone());
-                results[start + first + lane] = self.of_solution(given[first + lane], oil(lane), &solution);
+                    .evaluate(self.case, &points[point], temperatures, scratch.alone());
+                let result = self.of_solution(given[point], found[point].oil, &solution);
+                match results.get_mut(start + point) {
+                    Some(placeholder) => *placeholder = result,
+                    None => results.push(result),
+                }
             }
         }
         for (result, found) in results[start..].iter_mut().zip(&found) {
@@ -199,11 +212,12 @@ impl<'a> Solver<'a> {
 
     fn single(&self, given: Given, space: &mut Space) -> PointResult {
         let Space {
-            single,
+            scratch,
             torques,
             speeds,
             ..
         } = space;
+        let single = scratch.alone();
         if let Some(first) = torques.first_mut() {
             *first = given.torque;
         }
@@ -225,9 +239,10 @@ impl<'a> Solver<'a> {
         result
     }
 
-    fn row(&self, run: &[usize], speed: f64, oil: f64, space: &mut Space, results: &mut Vec<PointResult>) {
+    /// Blocks of points of one speed.
+    fn row(&self, blocks: &[&[usize]], speed: f64, oil: f64, space: &mut Space, results: &mut Vec<PointResult>) {
         let Space {
-            rows,
+            scratch,
             torques,
             speeds,
             spare,
@@ -242,28 +257,12 @@ impl<'a> Solver<'a> {
             flow: self.points.flow,
             ..Point::default()
         };
-        let rows = rows.get_or_insert_with(|| self.transmission.batch_scratch(self.case));
         let temperature = [oil];
-        let mut row = self.transmission.batch(self.case, &point, &temperature, rows);
-        // Where the torque turns so do the drivers, which the points of a block have in common.
-        let torque = |number: &usize| self.points.field.given_point(*number).torque;
-        let blocks = run
-            .chunk_by(|a, b| torque(a) * torque(b) > 0.0)
-            .flat_map(|own| own.chunks(LANES));
+        let mut row = self.transmission.batch(self.case, &point, &temperature, scratch);
         for some in blocks {
-            if some.len() < FEW {
-                for torque in some.iter().map(torque) {
-                    let given = Given {
-                        torque,
-                        speed,
-                        oil: None,
-                    };
-                    results.push(self.of_solution(given, oil, &row.alone(torque)));
-                }
-                continue;
-            }
+            let torque = |number: &usize| self.points.field.given_point(*number).torque;
             let mut given = [0.0; LANES];
-            for (given, number) in given.iter_mut().zip(some) {
+            for (given, number) in given.iter_mut().zip(*some) {
                 *given = torque(number);
             }
             let start = results.len();

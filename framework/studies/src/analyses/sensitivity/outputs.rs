@@ -63,8 +63,8 @@ impl Output {
 /// loss over the points if requested.
 pub struct Outputs {
     pub list: Vec<Output>,
-    mechanisms: Vec<String>,
-    terms: Vec<String>,
+    /// By mechanism and by term; common to all transmissions that differ in numbers.
+    shares: [Shares; 2],
     /// Points with an efficiency at the values of the gearbox: all means are taken over these points.
     efficient: Vec<usize>,
     /// Losses at the values of the gearbox, of points with a loss; empty if the relative change is not requested.
@@ -86,6 +86,7 @@ impl Outputs {
         let mut list = vec![output(OutputKind::Loss, "loss")];
         list.extend(mechanisms.iter().map(|name| output(OutputKind::Mechanism, name)));
         list.extend(terms.iter().map(|name| output(OutputKind::Term, name)));
+        let shares = [(By::Mechanism, &mechanisms), (By::Term, &terms)];
         if !efficient.is_empty() {
             list.push(output(OutputKind::Efficiency, "efficiency"));
         }
@@ -100,8 +101,7 @@ impl Outputs {
         }
         Self {
             list,
-            mechanisms,
-            terms,
+            shares: shares.map(|(by, names)| Shares::new(t, by).under(names)),
             efficient,
             nominal,
         }
@@ -124,9 +124,8 @@ impl Outputs {
         let all: Vec<f64> = all.collect::<Result<_, _>>()?;
         let count = points.len().max(1) as f64;
         let mut values = vec![all.iter().sum::<f64>() / count];
-        for (by, names) in [(By::Mechanism, &self.mechanisms), (By::Term, &self.terms)] {
-            let shares = Shares::new(t, by).under(names);
-            let mut sums = vec![0.0; names.len()];
+        for shares in &self.shares {
+            let mut sums = vec![0.0; shares.names.len()];
             for point in points {
                 for (sum, watts) in sums.iter_mut().zip(shares.stack(point).unwrap_or_default()) {
                     *sum += watts;
