@@ -16,7 +16,7 @@ pub use scratch::Scratch;
 pub use solution::{PartLoss, Solution};
 
 use crate::attach::State;
-use crate::flow::{Balance, Drive, FlowState, Outcome, Status, Tolerance};
+use crate::flow::{Balance, Drive, FlowState, Outcome, Start, Status, Tolerance};
 use crate::loads::{LEAST_STATIC_SAFETY, SupportLoad};
 use crate::loss::{Loss, NoteBase, Notebook, Seen, Undefined};
 use crate::mechanism::Answers;
@@ -85,7 +85,7 @@ impl Transmission {
         temperatures: &[f64],
         scratch: &'s mut Scratch,
     ) -> Solution<'s> {
-        self.solve(case, point, temperatures, scratch, Noting::Counted);
+        self.solve(case, point, temperatures, Start::Lossless, scratch, Noting::Counted);
         Solution {
             transmission: self,
             case,
@@ -120,7 +120,20 @@ impl Transmission {
         scratch: &mut Scratch,
         noting: Noting,
     ) -> Result<(), Unbalanced> {
-        self.solve(case, point, temperatures, scratch, noting);
+        self.try_point_from(Start::Lossless, case, point, temperatures, scratch, noting)
+    }
+
+    /// As [`Transmission::try_point`], starting with other losses.
+    pub(crate) fn try_point_from(
+        &self,
+        start: Start,
+        case: &Case,
+        point: &Point<'_>,
+        temperatures: &[f64],
+        scratch: &mut Scratch,
+        noting: Noting,
+    ) -> Result<(), Unbalanced> {
+        self.solve(case, point, temperatures, start, scratch, noting);
         match (scratch.undefined, scratch.status()) {
             (Some((part, reason)), _) => Err(Unbalanced::Part(part, reason)),
             (None, status) if !status.has_flow() => Err(Unbalanced::Flow),
@@ -201,17 +214,36 @@ impl Transmission {
         s.work.speeds.copy_from_slice(&c.speeds);
     }
 
-    fn solve(&self, case: &Case, point: &Point<'_>, temperatures: &[f64], s: &mut Scratch, noting: Noting) {
+    fn solve(
+        &self,
+        case: &Case,
+        point: &Point<'_>,
+        temperatures: &[f64],
+        start: Start,
+        s: &mut Scratch,
+        noting: Noting,
+    ) {
         self.settle(case, point, temperatures, s, noting);
-        self.solve_settled(case, point, s, noting);
+        self.solve_settled(case, point, start, s, noting);
     }
 
     /// Solves the given torques at the settled speeds and oils.
-    fn solve_settled<R: Answers>(&self, case: &Case, point: &Point<'_>, s: &mut Scratch<R>, noting: Noting) {
+    fn solve_settled<R: Answers>(
+        &self,
+        case: &Case,
+        point: &Point<'_>,
+        start: Start,
+        s: &mut Scratch<R>,
+        noting: Noting,
+    ) {
         let quiet = noting == Noting::Muted;
         let iterates = point.flow == PowerFlow::Real && !s.standing;
         s.ideal = point.flow == PowerFlow::Ideal;
-        let silent = if iterates { SILENT } else { 0 };
+        let silent = if iterates && start == Start::Lossless {
+            SILENT
+        } else {
+            0
+        };
         let mut pass = 0;
         let (work, models) = (&mut s.work, &mut s.models);
         work.live = models.conditions.live;
@@ -221,7 +253,7 @@ impl Transmission {
             self.lose(case, flow, models, notes);
         };
         let outcome = if iterates {
-            case.flow.real(point.tolerance, work, losses)
+            case.flow.real(point.tolerance, start, work, losses)
         } else {
             case.flow.ideal(work);
             work.once(losses);

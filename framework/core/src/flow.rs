@@ -15,7 +15,7 @@ mod work;
 use crate::real::Points;
 
 pub use system::{Flow, FlowFault, MeshRow, Share};
-pub use work::{Drive, FlowState, Outcome, Tolerance, Work};
+pub use work::{Drive, FlowState, Outcome, Start, Tolerance, Work};
 
 /// Powers and status of one solved point.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -8,7 +8,7 @@ use std::cell::Cell;
 
 use super::{Noting, Point, Scratch, Solution};
 use crate::attach::Oil;
-use crate::flow::{Balance, Status};
+use crate::flow::{Balance, Start, Status};
 use crate::loss::{Extent, Loss, Undefined};
 use crate::real::{LANES, Lane, Mask as _, Points as _, Real as _};
 use crate::thermal::Unbalanced;
@@ -138,7 +138,7 @@ impl Transmission {
         c.common = false;
         c.live = Lane::mask(|lane| lane < points.len());
         self.settle_prescribed(case, s, noting);
-        self.solve_settled(case, &points[0], s, noting);
+        self.solve_settled(case, &points[0], Start::Lossless, s, noting);
         Block { transmission: self, s }
     }
 
@@ -184,7 +184,7 @@ impl Batch<'_> {
         together.work.given[0] = Lane::each(|point| torques[point.min(last)]);
         together.begin_block(self.settled, torques.len());
         self.transmission
-            .solve_settled(self.case, &self.point, together, Noting::Counted);
+            .solve_settled(self.case, &self.point, Start::Lossless, together, Noting::Counted);
         Block {
             transmission: self.transmission,
             s: together,

@@ -5,7 +5,7 @@
 //! are the same either way.
 
 use super::system::Flow;
-use super::work::{Drive, FlowState, Outcome, Tolerance, Work};
+use super::work::{Drive, FlowState, Outcome, Start, Tolerance, Work};
 use crate::real::{Mask as _, Points};
 
 /// Relative to the largest internal power, a rolling power below this has no direction.
@@ -66,25 +66,40 @@ impl Flow {
     }
 
     /// The power flow with losses that `losses` computes from the torques, at the speeds and given torques of the work. The losses in `work` are those of the accepted solve, so
-    /// the power balance holds to rounding for any tolerance. The first iteration is a guess, so there are at least two.
+    /// the power balance holds to rounding for any tolerance. Without losses the first iteration is a guess, so there are at least two.
     pub fn real<R: Points>(
         &self,
         tolerance: Tolerance,
+        start: Start,
         work: &mut Work<R>,
         mut losses: impl FnMut(&mut FlowState<'_, R>),
     ) -> Outcome {
-        for values in [&mut work.used, &mut work.used_before, &mut work.answer_before] {
+        for values in [&mut work.used_before, &mut work.answer_before] {
             values.values.fill(R::ZERO);
         }
-        work.used.drags_mut().copy_from_slice(&work.steady);
+        if start == Start::Lossless {
+            work.used.values.fill(R::ZERO);
+            work.used.drags_mut().copy_from_slice(&work.steady);
+        }
         R::wide(
             #[inline(always)]
-            || self.begin(work, R::mask(|_| false)),
+            || {
+                if start == Start::Lossless {
+                    self.begin(work, R::mask(|_| false));
+                } else {
+                    self.prepare(work);
+                    self.solve(work, R::mask(|_| false));
+                }
+            },
         );
         work.turned.fill(0);
         work.passes = R::ZERO;
         let mut passes = 0;
-        let end = match self.iterate(tolerance, work, &mut losses, &mut passes, false) {
+        let mut steps = Steps {
+            near: start == Start::Last,
+            ..Steps::default()
+        };
+        let end = match self.iterate(tolerance, work, &mut losses, &mut passes, &mut steps) {
             End::Turning => self.patterns(tolerance, work, &mut losses, &mut passes),
             End::Agreed => Outcome::Converged { passes },
             End::Open => Outcome::NoConvergence,
@@ -93,16 +108,15 @@ impl Flow {
         end
     }
 
-    /// Iterates models and equilibrium until they agree; `fixed` keeps the driving gears.
+    /// Iterates models and equilibrium until they agree.
     fn iterate<R: Points>(
         &self,
         tolerance: Tolerance,
         work: &mut Work<R>,
         losses: &mut impl FnMut(&mut FlowState<'_, R>),
         passes: &mut usize,
-        fixed: bool,
+        steps: &mut Steps<R>,
     ) -> End {
-        let mut steps = Steps::default();
         work.done = R::mask(|_| false);
         let most = if R::COUNT == 1 {
             tolerance.passes
@@ -118,15 +132,15 @@ impl Flow {
             }
             let found = R::wide(
                 #[inline(always)]
-                || self.follow(tolerance, work, &mut steps),
+                || self.follow(tolerance, work, steps),
             );
             work.keep(found);
             if R::COUNT == 1 && !found.all() {
-                return if fixed { End::Turning } else { End::Open };
+                return if steps.fixed { End::Turning } else { End::Open };
             }
-            if !fixed && turn(work) {
+            if !steps.fixed && turn(work) {
                 // The friction just used was on the wrong gear: this flow is invalid.
-                steps = Steps {
+                *steps = Steps {
                     slow: steps.slow,
                     damping: steps.damping,
                     ..Steps::default()
@@ -157,9 +171,12 @@ impl Flow {
             mismatch = mismatch.larger(work.difference(entry).magnitude());
         }
         work.mismatch = mismatch;
+        let enough = work.largest * (SAFETY * tolerance.power);
         steps.last = if steps.known {
-            let enough = work.largest * (SAFETY * tolerance.power);
             work.done | !remaining(work).is_above(enough)
+        } else if steps.near {
+            // Losses below half of the power decrease by more than half in a step, so all that follows is less than the mismatch.
+            work.done | !mismatch.is_above(enough)
         } else {
             work.done
         };
@@ -243,7 +260,11 @@ impl Flow {
                         };
                     }
                 }
-                let end = self.iterate(tolerance, work, losses, passes, true);
+                let mut steps = Steps {
+                    fixed: true,
+                    ..Steps::default()
+                };
+                let end = self.iterate(tolerance, work, losses, passes, &mut steps);
                 let agrees = |k: usize| {
                     let now = drive(work.rolling[k].at_point(0), work.largest.at_point(0));
                     now == Drive::Neither || now == work.drives[k]
@@ -259,6 +280,10 @@ impl Flow {
 
 /// The steps of one loop.
 struct Steps<R: Points> {
+    /// True if the driving gears are kept.
+    fixed: bool,
+    /// True if the losses at the start are close to the result.
+    near: bool,
     /// True once the values of two iterations are known.
     known: bool,
     /// Points for which the iteration is the last one.
@@ -273,6 +298,8 @@ struct Steps<R: Points> {
 impl<R: Points> Default for Steps<R> {
     fn default() -> Self {
         Self {
+            fixed: false,
+            near: false,
             known: false,
             last: R::mask(|_| false),
             least: f64::INFINITY,

@@ -5,7 +5,7 @@ mod properties;
 mod sharing;
 mod two_speed;
 
-use super::{Balance, Drive, Flow, FlowFault, FlowState, MeshRow, Outcome, Share, Status, Tolerance, Work};
+use super::{Balance, Drive, Flow, FlowFault, FlowState, MeshRow, Outcome, Share, Start, Status, Tolerance, Work};
 use crate::kinematics::{Motion, Row, Train};
 
 /// A train under test: columns, meshes with a constant share of loss, other rows.
@@ -118,7 +118,7 @@ fn solve_to(
     work.given = torque_ports.iter().map(|p| p.1).collect();
     work.speeds.clone_from(&speeds);
     let tolerance = Tolerance { power, passes: 60 };
-    let outcome = flow.real(tolerance, &mut work, |state: &mut FlowState<'_>| {
+    let outcome = flow.real(tolerance, Start::Lossless, &mut work, |state: &mut FlowState<'_>| {
         for (k, (mesh, _)) in rig.meshes.iter().enumerate() {
             let speed = |c: Option<usize>| c.map_or(0.0, |c| state.speeds[c]);
             let lambda = state.multipliers[mesh.row].abs();

@@ -33,6 +33,15 @@ impl Default for Tolerance {
     }
 }
 
+/// The losses with which the iteration between torque and loss starts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Start {
+    /// None in the meshes, and no drags that depend on torque.
+    Lossless,
+    /// Those of the last solve of the work, which converged, for the same speeds and given torques at other temperatures.
+    Last,
+}
+
 /// Torques in one iteration, and the target of the losses that follow from them.
 pub struct FlowState<'a, R: Points = f64> {
     /// Speeds of all columns. \[rad/s\]

@@ -4,6 +4,7 @@ use super::circuit::Circuit;
 use super::parts::{Network, Surroundings};
 use super::stepping::{Heated, Scheme, StepSize, Stepping};
 use crate::evaluate::{Noting, Point, Scratch};
+use crate::flow::{Start, Tolerance};
 use crate::thermal::Unbalanced;
 use crate::transmission::{Case, Transmission};
 
@@ -105,6 +106,32 @@ pub(super) struct Warm {
     pub beyond_map: bool,
 }
 
+/// How the losses at temperatures are found.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Search {
+    pub start: Start,
+    /// Minimum tolerance of the power flow; see [`Tolerance::power`].
+    pub least: f64,
+}
+
+impl Search {
+    /// The first of several for one point, roughly: its temperatures are a guess.
+    pub const FIRST: Self = Self {
+        start: Start::Lossless,
+        least: 1e-5,
+    };
+    /// Without another one before.
+    pub const ONLY: Self = Self {
+        start: Start::Lossless,
+        least: 0.0,
+    };
+    /// After another one for the same point.
+    pub const NEXT: Self = Self {
+        start: Start::Last,
+        least: 0.0,
+    };
+}
+
 /// Transient simulation of the node temperatures.
 pub struct March<'a> {
     transmission: &'a Transmission,
@@ -125,10 +152,23 @@ impl Transmission {
         network: &Network,
         moment: &Moment<'_>,
         temperatures: &[f64],
+        search: Search,
         scratch: &mut Scratch,
         warm: &mut Warm,
     ) -> Result<(), Unbalanced> {
-        self.try_point(moment.case, moment.point, temperatures, scratch, Noting::Seen)?;
+        let own = moment.point.tolerance;
+        let power = own.power.max(search.least);
+        let point = Point {
+            tolerance: Tolerance { power, ..own },
+            ..*moment.point
+        };
+        // The losses at the first guess are never those of the result.
+        let noting = if search == Search::FIRST {
+            Noting::Muted
+        } else {
+            Noting::Seen
+        };
+        self.try_point_from(search.start, moment.case, &point, temperatures, scratch, noting)?;
         warm.heat.clear();
         warm.heat.resize(network.names().len(), 0.0);
         network.add_parts(self, scratch, &mut warm.heat);
@@ -163,10 +203,10 @@ struct Loaded<'a, 'b> {
 }
 
 impl Heated for Loaded<'_, '_> {
-    fn warm(&mut self, temperatures: &[f64], warm: &mut Warm) -> Result<(), Unbalanced> {
+    fn warm(&mut self, temperatures: &[f64], search: Search, warm: &mut Warm) -> Result<(), Unbalanced> {
         *self.evaluations += 1;
         self.transmission
-            .warm(self.network, self.moment, temperatures, self.scratch, warm)
+            .warm(self.network, self.moment, temperatures, search, self.scratch, warm)
     }
 
     fn stepped(&mut self, taken: bool) {

@@ -6,7 +6,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::circuit::Leaving;
-use super::march::{Moment, Warm};
+use super::march::{Moment, Search, Warm};
 use super::stepping::farthest;
 use crate::evaluate::Scratch;
 use crate::thermal::{Outcome, Unbalanced};
@@ -14,6 +14,8 @@ use crate::transmission::Transmission;
 
 /// Convergence tolerance of the temperatures. \[K\]
 const SETTLED: f64 = 1e-8;
+/// Tolerance of the power flow over the last change of the temperatures: smaller changes need more exact losses. \[1/K\]
+const EXACTNESS: f64 = 1e-7;
 /// Maximum number of iterations.
 const MOST: usize = 200;
 /// Number of stored changes.
@@ -69,9 +71,10 @@ impl Transmission {
         };
         let mut memory = Memory::default();
         let mut hot = 0;
+        let mut search = Search::FIRST;
         while steady.evaluations < MOST {
             steady.evaluations += 1;
-            let warmed = self.warm(network, moment, &guess, scratch, &mut warm);
+            let warmed = self.warm(network, moment, &guess, search, scratch, &mut warm);
             let after = warmed.and_then(|()| warm.circuit.solve(&warm.heat, None).ok_or(Unbalanced::Network));
             let after = match after {
                 Ok(after) => after,
@@ -82,7 +85,8 @@ impl Transmission {
                     return Some(steady);
                 }
             };
-            if farthest(&after, &guess) <= SETTLED {
+            let change = farthest(&after, &guess);
+            if change <= SETTLED && search.least <= moment.point.tolerance.power {
                 steady.outcome = if after[network.oil()] > self.housing().maximum {
                     Outcome::NoneBelowMaximum
                 } else {
@@ -109,6 +113,10 @@ impl Transmission {
                 steady.temperatures = after;
                 return Some(steady);
             }
+            search = Search {
+                least: (EXACTNESS * change).min(Search::FIRST.least),
+                ..Search::NEXT
+            };
             guess = memory.next(&guess, &after);
             for t in &mut guess {
                 *t = t.clamp(ASKED[0], ASKED[1]);

@@ -12,7 +12,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::circuit::Leaving;
-use super::march::{Heats, Warm};
+use super::march::{Heats, Search, Warm};
 use crate::thermal::Unbalanced;
 
 /// Tolerance between the temperatures at the end of a step and those of its losses. \[K\]
@@ -49,7 +49,7 @@ pub enum StepSize {
 /// Heat and conductances of a network at any temperatures.
 pub(super) trait Heated {
     /// Losses, heat and conductances at node temperatures.
-    fn warm(&mut self, temperatures: &[f64], warm: &mut Warm) -> Result<(), Unbalanced>;
+    fn warm(&mut self, temperatures: &[f64], search: Search, warm: &mut Warm) -> Result<(), Unbalanced>;
     /// Called for every step, accepted or rejected.
     fn stepped(&mut self, taken: bool);
 }
@@ -180,7 +180,7 @@ impl Stepping {
         before: &[f64],
         length: f64,
     ) -> Result<(Vec<f64>, Leaving), Unbalanced> {
-        heated.warm(before, &mut self.warm)?;
+        heated.warm(before, Search::ONLY, &mut self.warm)?;
         let circuit = &mut self.warm.circuit;
         let exchangers = std::mem::take(&mut circuit.exchangers);
         for e in &exchangers {
@@ -208,13 +208,14 @@ impl Stepping {
     ) -> Result<(Vec<f64>, Leaving), Unbalanced> {
         let mut guess = before.to_vec();
         for pass in 1..=MOST_PASSES {
-            heated.warm(&guess, &mut self.warm)?;
+            let search = if pass == 1 { Search::FIRST } else { Search::NEXT };
+            heated.warm(&guess, search, &mut self.warm)?;
             let after = self
                 .warm
                 .circuit
                 .solve(&self.warm.heat, Some((length, before)))
                 .ok_or(Unbalanced::Network)?;
-            if farthest(&after, &guess) <= AGREED {
+            if pass > 1 && farthest(&after, &guess) <= AGREED {
                 let leaving = self.warm.circuit.leaving(&after, &self.warm.heat);
                 return Ok((after, leaving));
             }

@@ -140,7 +140,7 @@ fn dormand_prince(slopes: impl Fn(&[f64]) -> Vec<f64>, mut y: Vec<f64>, duration
 }
 
 impl Heated for Unit {
-    fn warm(&mut self, t: &[f64], warm: &mut Warm) -> Result<(), Unbalanced> {
+    fn warm(&mut self, t: &[f64], _: Search, warm: &mut Warm) -> Result<(), Unbalanced> {
         warm.circuit = self.circuit.clone();
         for (ends, g) in &mut warm.circuit.links {
             *g = self.conductance(*ends, *g, t);
@@ -240,7 +240,7 @@ fn a_long_march_ends_at_rest() {
         let mut warm = Warm::default();
         let mut rest = t.clone();
         for _ in 0..100 {
-            unit.warm(&rest, &mut warm).unwrap();
+            unit.warm(&rest, Search::ONLY, &mut warm).unwrap();
             rest = warm.circuit.solve(&warm.heat, None).unwrap();
         }
         // The losses of a step belong to its end within a hundredth of a kelvin.
@@ -276,7 +276,7 @@ fn u5k_lagged_steps_are_the_published_ones() {
 fn what_never_agrees_is_reported_and_changes_nothing() {
     struct Wild(bool);
     impl Heated for Wild {
-        fn warm(&mut self, _: &[f64], warm: &mut Warm) -> Result<(), Unbalanced> {
+        fn warm(&mut self, _: &[f64], _: Search, warm: &mut Warm) -> Result<(), Unbalanced> {
             // Two alternating results, far apart for any step length.
             self.0 = !self.0;
             warm.circuit = Circuit {
