@@ -56,7 +56,7 @@ pub struct Tested {
 }
 
 impl Tested {
-    /// Adds what an analysis measured or found.
+    /// Adds what an analysis tested or found.
     pub fn add_outcome(&mut self, analysis: &str, outcome: &dyn Outcome) {
         let own: &dyn Any = outcome;
         if let Some(listed) = own.downcast_ref::<OperatingPointsOutcome>() {
@@ -131,7 +131,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn limits_beyond_the_measured_points_are_counted() {
+    fn limits_beyond_the_tested_points_are_counted() {
         let mut tested = Tested::default();
         tested.limits.push(Limits {
             analysis: "limit".to_owned(),
@@ -140,7 +140,7 @@ mod tests {
             outside: 2,
         });
         let alone = tested.warnings();
-        assert!(alone[0].1.starts_with("the study has no measured points"), "{alone:?}");
+        assert!(alone[0].1.starts_with("the study has no tested points"), "{alone:?}");
         tested.add_point("first", -16.0, 500.0);
         tested.add_point("first", 0.0, 3000.0);
         let words =
