@@ -1,6 +1,6 @@
 //! The analyses of one component and of one path of contact agree with the whole transmission.
 
-use crate::common::study::{Ran, of_gearbox, run_texts};
+use crate::common::study::{Ran, number, of_gearbox, run_texts};
 
 /// Runs a study on the two-speed example; its results and what it prints.
 fn run(analyses: &str, files: &[(&str, &str)]) -> (Ran, String) {
@@ -103,4 +103,36 @@ fn wrong_names_and_files_say_what_to_write() {
     ] {
         assert!(text.contains(words), "{words} is missing:\n{text}");
     }
+}
+
+#[test]
+fn the_loss_outside_a_range_is_that_of_the_component_at_the_points_outside() {
+    let rest = "grids: { field: { gear: first, torque: [0 Nm, 8 Nm, 16 Nm], speed: { from: 2000 rpm, to: 20000 rpm, step: 2000 rpm } } }\n\
+                analyses: { maps: { type: map, grid: field, write: [json] } }";
+    let ran = run_texts(&of_gearbox("examples/two-speed-ev/gearbox.yaml", rest), &[]);
+    let result = ran.json("maps");
+    let map = &result["maps"][0];
+    let points = map["points"].as_array().unwrap();
+    let total: f64 = points.iter().map(|point| number(&point["loss_w"])).sum();
+    let parts = map["parts"].as_array().unwrap();
+    let mut torques: Vec<f64> = points.iter().map(|point| number(&point["torque_nm"])).collect();
+    torques.sort_by(f64::total_cmp);
+    let mut counts = Vec::new();
+    for note in map["notes"].as_array().unwrap() {
+        let outside = note["outside"].as_u64().unwrap() as usize;
+        if note["name"] != "F_bt/b" || outside == 0 {
+            continue;
+        }
+        // The line load grows with the torque, so the points with the smallest torques are below its range.
+        let path = note["path"].as_str().unwrap().trim_end_matches(".model");
+        let place = parts.iter().position(|part| part["part"] == path).unwrap();
+        let own = points
+            .iter()
+            .filter(|point| number(&point["torque_nm"]) <= torques[outside - 1]);
+        let lost: f64 = own.map(|point| number(&point["parts_w"][place])).sum();
+        let share = number(&note["loss_share"]);
+        assert!((share - lost / total).abs() < 1e-9, "{path}: {share} {}", lost / total);
+        counts.push(outside);
+    }
+    assert_eq!(counts, [30, 20, 30]);
 }

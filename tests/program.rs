@@ -364,7 +364,9 @@ fn run_prints_the_result_of_each_analysis_in_one_line() {
         assert_eq!(own.count(), 1, "{name}: {text}");
     }
     assert!(
-        text.contains("12 points, 20.6 to 72.5 W, oil 29.5 to 53.6 °C"),
+        text.contains(
+            "12 points: loss 20.6 to 72.5 W (at the highest bearings 42.2 %, seals 41.9 %), oil 29.5 to 53.6 °C"
+        ),
         "{text}"
     );
     assert!(text.lines().count() + notes.lines().count() <= 40, "{text}{notes}");

@@ -5,7 +5,7 @@ import { pathToFileURL } from "node:url";
 import puppeteer from "puppeteer-core";
 
 const root = new URL("../", import.meta.url);
-// Kind of analysis, example, name of the analysis in its study, and which of its pictures.
+// Kind of analysis, example, name of the analysis in its study, and which of its pictures (-1: the last).
 const shown = [
   ["map", "two-speed-ev", "maps", 0],
   ["compare", "two-speed-ev", "gap", 0],
@@ -18,6 +18,7 @@ const shown = [
   ["sensitivity", "two-speed-ev", "what_matters", 0],
   ["rms_surface", "two-speed-ev", "surface", 0],
   ["breakdown", "two-speed-ev", "stack", 1],
+  ["sweep", "two-speed-ev", "designs", -1],
   ["spin_loss", "two-speed-ev", "spin", 0],
   ["contact_path", "two-speed-ev", "contact", 1],
   ["component_compare", "two-speed-ev", "bearing_models", 1],
@@ -50,7 +51,7 @@ for (const [kind, example, name, picture] of shown) {
   if (open !== report.href) await page.goto(pathToFileURL(report.pathname).href, { waitUntil: "load" });
   open = report.href;
   await page.evaluate((id) => document.getElementById(id).scrollIntoView(), `analysis-${name}`);
-  const figure = (await page.$$(`section[id="analysis-${name}"] figure`))[picture];
+  const figure = (await page.$$(`section[id="analysis-${name}"] figure`)).at(picture);
   await figure.evaluate((e) => e.scrollIntoView({ block: "center" }));
   await new Promise((done) => setTimeout(done, 300));
   const file = `${kind}-${name}.png`.replaceAll("_", "-");

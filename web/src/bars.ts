@@ -60,7 +60,9 @@ export function drawBars(stage: Stage, data: Bars): void {
       stack(group, names, bar.shares, component, (a, b) => ({ x, width: own, y: Math.min(sy(a), sy(b)), height: Math.abs(sy(a) - sy(b)) }), stage, element);
       const topOf = sum(bar.shares.filter((s) => s > 0));
       const text = fitted(words(bar.above), w - 2);
-      if (text) svg(group, "text", { x: measured && !bar.above_measured ? middle : x + own / 2, y: sy(measured && bar.measured && !bar.above_measured ? Math.max(topOf, bar.measured[0] + bar.measured[1]) : topOf) - 5, "text-anchor": "middle" }, text);
+      // Beside a reference bar the text ends where its own bar ends, unless there is no room to the left.
+      const beside = bar.measured !== null && textWidth(text) > own && textWidth(text) < x + own - left;
+      if (text) svg(group, "text", { x: beside ? x + own : x + own / 2, y: sy(topOf) - 5, "text-anchor": beside ? "end" : "middle" }, text);
       if (bar.measured) {
         const [value, error] = bar.measured;
         const [mx, mw] = [x + own + 2, thick - own - 2];

@@ -55,9 +55,21 @@ export function axisNumbers(ticks: number[]): string[] {
   return ticks.map((t) => fixed(t, decimals));
 }
 
+/** Sections of a gearbox: one of its components. */
+const SECTIONS: Record<string, string> = { auxiliaries: "auxiliary", bearings: "bearing", clutches: "clutch", couplings: "coupling", gears: "gear", meshes: "mesh", planetary_sets: "planetary set", seals: "seal", shafts: "shaft", synchronizers: "synchronizer" };
+
+/** Mechanisms by their key. */
+const MECHANISMS: Record<string, string> = { auxiliary: "auxiliaries", bearing: "bearings", clutch: "clutches", gear_drag: "gear drag", gear_mesh: "gear meshes", planetary_drag: "planetary drag", seal: "seals", synchronizer: "synchronizers" };
+
+/** Mechanisms and components in words: `gear_mesh` is "gear meshes", `bearings.B2` is "bearing B2". */
+function named(text: string): string {
+  const component = /^([a-z_]+)\.([\w-]+)$/.exec(text);
+  return component && SECTIONS[component[1]] ? `${SECTIONS[component[1]]} ${component[2]}` : (MECHANISMS[text] ?? text);
+}
+
 /** Words of the data in the field's typography. */
 export function words(text: string): string {
-  return text
+  return named(text)
     .replace(/\bdeg ?C\b/g, "°C")
     .replace(/\bmm2\b/g, "mm²")
     .replace(/\bmm3\b/g, "mm³")

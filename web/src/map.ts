@@ -157,7 +157,12 @@ function cells(stage: Stage, map: FieldMap): void {
 }
 
 export function drawCloud(stage: Stage, cloud: Cloud): void {
-  const points = cloud.points.filter((p) => p.every((v) => v !== null));
+  const sized = cloud.sizes.length === cloud.points.length;
+  const radius = (k: number, usual: number) => (sized ? Math.max(1.5, 13 * Math.sqrt(cloud.sizes[k])) : usual);
+  // Large points first, so that they do not cover the others.
+  const order = cloud.points.map((_, k) => k).filter((k) => cloud.points[k].every((v) => v !== null));
+  if (sized) order.sort((a, b) => cloud.sizes[b] - cloud.sizes[a]);
+  const points = order.map((k) => cloud.points[k]);
   if (points.length === 0) return note(stage, "No values.");
   const colours: ColourScale = pointScale(points.map((p) => p[2]), cloud.diverging);
   const ends = (k: 0 | 1): [number, number] => {
@@ -172,7 +177,8 @@ export function drawCloud(stage: Stage, cloud: Cloud): void {
   const frame: Frame = { svg: element, left: leftMargin(...y, height - 70), top: 26, right: stage.width - 22, bottom: height - 42 };
   const { sx, sy } = axes(frame, { low: x[0], high: x[1], name: cloud.axes[0] }, { low: y[0], high: y[1], name: cloud.axes[1] });
   const r = points.length > 400 ? 3.5 : 5;
-  for (const [a, b, v] of points) svg(element, "circle", { cx: sx(a), cy: sy(b), r, fill: colours.at(v), class: "gl-point" });
+  points.forEach(([a, b, v], k) => svg(element, "circle", { cx: sx(a), cy: sy(b), r: radius(order[k], r), fill: colours.at(v), class: "gl-point" }));
+  if (cloud.sized) note(stage, words(cloud.sized));
   colourBar(stage.root, colours, words(cloud.unit), Math.min(stage.width, 480));
   const tip = new Tooltip(stage.root);
   const ring = svg(element, "circle", { r: r + 3, class: "gl-ring", visibility: "hidden" });

@@ -47,7 +47,7 @@ export function drawPanels(stage: Stage, panels: Panels): void {
   const fit = Math.max(1, Math.floor((stage.width - numberRoom + gap) / (least + gap)));
   const byRows = panels.columns.length > 1 && panels.columns.length <= fit;
   const across = byRows ? panels.columns.length : Math.max(1, Math.min(count, fit));
-  const width = Math.floor((stage.width - numberRoom - gap * (across - 1) - 14) / across);
+  const width = Math.floor((stage.width - numberRoom - gap * (across - 1) - 24) / across);
   const rowsOfPanels = Math.ceil(count / across);
   const height = stage.height && rowsOfPanels > 0 ? Math.max(150, stage.height / rowsOfPanels - 60) : Math.round(Math.max(150, Math.min(0.72 * width, across === 1 ? 440 : 330)));
 
@@ -61,7 +61,7 @@ export function drawPanels(stage: Stage, panels: Panels): void {
     const firstInRow = k % across === 0;
     const lastRow = k + across >= count;
     const left = firstInRow ? numberRoom : 0;
-    const full = left + width + ((k + 1) % across === 0 ? 12 : gap);
+    const full = left + width + ((k + 1) % across === 0 ? 22 : gap);
     const top = k === 0 ? 44 : 26;
     const total = height + top + (lastRow ? 42 : 12);
     const element = canvas({ root: grid, width: full }, total, `${name}: ${quantityName(quantity)}`);

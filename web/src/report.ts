@@ -1,8 +1,9 @@
 // The report page: draws its pictures when they come into view, equips its tables, follows the navigation, prepares printing.
 
 import { Drawn, Picture, colourBooks, draw } from "./draw.ts";
-import { colourByLoss } from "./drawing.ts";
+import { colourByLoss, heatScale, legible } from "./drawing.ts";
 import { significant, words } from "./format.ts";
+import { html } from "./svg.ts";
 import { equip } from "./table.ts";
 
 const data: Record<string, Picture> = JSON.parse(document.getElementById("pictures")?.textContent || "{}");
@@ -244,10 +245,12 @@ function drawings(): void {
   for (const drawing of document.querySelectorAll<HTMLElement>(".drawing[data-losses]")) {
     const losses = JSON.parse(drawing.dataset.losses || "[]");
     const most = colourByLoss(drawing, losses);
+    const own = drawing.querySelector("svg");
+    if (own) new ResizeObserver(() => legible(own)).observe(drawing);
     const note = drawing.parentElement?.querySelector(".loss-note");
     if (!most || !note) continue;
-    const name = most[0].split(".").slice(1).join(".") || most[0];
-    note.textContent = `Colour: loss at ${words(drawing.dataset.at ?? "")}, that of a mesh in equal parts in its gears; darkest: ${name}, ${significant(most[1], 3)} W.`;
+    heatScale(note, most[1]);
+    html(note, "p", {}, `Loss at ${words(drawing.dataset.at ?? "")}, that of a mesh in equal parts in its gears; largest: ${words(most[0])}, ${significant(most[1], 3)} W.`);
   }
 }
 

@@ -45,6 +45,8 @@ export interface Cloud {
   title: string;
   axes: [string, string];
   points: [x: number, y: number, value: number][];
+  sizes: number[];
+  sized: string;
   unit: string;
   diverging: boolean;
 }

@@ -104,7 +104,7 @@ function pictures() {
       kind: "map", unit: "%", best: "highest", jumps: true, title: "loaded: efficiency in %, models own, gear reducing", x: ["speed rpm", text(range(14, (k) => 500 + 250 * k))], y: ["oil volume", text([60, 75, 90, 120, 150, 200], " ml")],
       values: grid((n, v) => 97.9 - 0.0006 * v - 0.35 * (n / 3000) ** 2 * (v / 100) - 260 / n, range(14, (k) => 500 + 250 * k), [60, 75, 90, 120, 150, 200]), diverging: false, ends: null, hatched: [], marks: [], marked: "", crossed: null, unseen: null,
     },
-    rig: { kind: "cloud", unit: "percentage points", title: "rig_fit: efficiency of iso minus measurement in percentage points", axes: ["speed in rpm", "torque in Nm"], points: range(140, () => { const [n, t] = [1000 + 21000 * random(), 3 + 17 * random()]; return [n, t, 1.6 * Math.exp(-t / 5) - 0.5 + 0.12 * normal()]; }), diverging: true },
+    rig: { kind: "cloud", sizes: [], sized: "", unit: "percentage points", title: "rig_fit: efficiency of iso minus measurement in percentage points", axes: ["speed in rpm", "torque in Nm"], points: range(140, () => { const [n, t] = [1000 + 21000 * random(), 3 + 17 * random()]; return [n, t, 1.6 * Math.exp(-t / 5) - 0.5 + 0.12 * normal()]; }), diverging: true },
     tests: {
       kind: "bars", title: "tests: losses, models own, oil temperature above each bar", over: "", height: "loss in W", names: ["mesh", "mesh drag", "bearings", "seals", "churning"],
       bars: range(12, (k) => ({ label: `${k + 1}\n${k % 2 ? "loaded" : "free"}`, shares: [k % 2 ? 9 + 2.2 * k : 0.4, 2 + 0.3 * k, 6 + 0.8 * k, 7.5, 4 + 0.6 * k], above: `${(29.5 + 2.1 * k).toFixed(1)} degC`, measured: k % 3 === 0 ? null : [(k % 2 ? 29 + 3.9 * k : 20 + 1.7 * k), 1.4], above_measured: "" })),

@@ -438,6 +438,13 @@ pub struct Extent {
     pub seen: u32,
     /// Number of points outside the limit; NaN counts as outside.
     pub outside: u32,
+    /// Loss of the components that use the model, summed over the points outside the limit, in whole nanowatts ([`nanowatts`]).
+    pub lost_outside: i128,
+}
+
+/// A loss in whole nanowatts, whose sums do not depend on the order of the summands. \[nW\]
+pub fn nanowatts(watts: f64) -> i128 {
+    (watts * 1e9) as i128
 }
 
 impl Extent {
@@ -447,6 +454,7 @@ impl Extent {
         greatest: f64::NEG_INFINITY,
         seen: 0,
         outside: 0,
+        lost_outside: 0,
     };
 
     /// Both together.
@@ -455,6 +463,7 @@ impl Extent {
         Self {
             seen: self.seen.saturating_add(other.seen),
             outside: self.outside.saturating_add(other.outside),
+            lost_outside: self.lost_outside.saturating_add(other.lost_outside),
             ..self.spanning(other.least, other.greatest)
         }
     }
@@ -536,7 +545,7 @@ impl Seen {
         self.outside
     }
 
-    /// The observations with each point counted once.
+    /// The observations with each point counted once, without losses.
     #[inline]
     pub fn extent(self) -> Extent {
         Extent {
@@ -544,6 +553,7 @@ impl Seen {
             greatest: self.greatest,
             seen: self.points.count_ones(),
             outside: self.outside.count_ones(),
+            lost_outside: 0,
         }
     }
 }

@@ -172,6 +172,8 @@ pub struct Transmission {
     pub(crate) instances: Vec<Instance>,
     /// Cells of notes: those of the models, then the static safety of each rated support.
     pub(crate) cells: usize,
+    /// As [`Self::limited`].
+    pub(crate) limited: Arc<[(usize, usize)]>,
     /// Supports with a known static load rating.
     pub(crate) rated: Vec<RatedSupport>,
     pub(crate) oils: Oils,
@@ -232,6 +234,10 @@ impl Transmission {
     /// Cell of notes of the first rated support; the cells of models precede it.
     pub fn rated_cells(&self) -> usize {
         self.cells - self.rated.len()
+    }
+    /// Cells of notes of limits, each with a component that uses the model; those of a bearing's static safety with the bearing.
+    pub fn limited(&self) -> &[(usize, usize)] {
+        &self.limited
     }
     /// Supports with a known static load rating.
     pub fn rated(&self) -> &[RatedSupport] {

@@ -20,15 +20,16 @@ pub fn levels(low: f64, high: f64, about: usize) -> Vec<f64> {
     (first..=last).map(|k| k as f64 * step).collect()
 }
 
-/// The pieces of the contour of one value; cells with a missing corner have none. Values are stored row by row.
-pub fn pieces(values: &[Option<f64>], columns: usize, level: f64) -> Vec<Piece> {
+/// The pieces of the contour of one value; cells with a missing corner have none, nor those that are cut, given by column and row. Values are
+/// stored row by row.
+pub fn pieces(values: &[Option<f64>], columns: usize, level: f64, is_cut: &dyn Fn(usize, usize) -> bool) -> Vec<Piece> {
     let mut pieces = Vec::new();
     if columns < 2 {
         return pieces;
     }
     let rows = values.len() / columns;
     for j in 0..rows.saturating_sub(1) {
-        for i in 0..columns - 1 {
+        for i in (0..columns - 1).filter(|i| !is_cut(*i, j)) {
             let corner = |di: usize, dj: usize| values[(j + dj) * columns + i + di].map(|v| v - level);
             let (Some(a), Some(b), Some(c), Some(d)) = (corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)) else {
                 continue;
@@ -87,18 +88,21 @@ mod tests {
     fn a_plane_has_straight_lines_and_a_gap_breaks_them() {
         // Value x + y on three by three points.
         let plane: Vec<Option<f64>> = (0..9).map(|k| Some(f64::from(k % 3 + k / 3))).collect();
-        let line = pieces(&plane, 3, 1.5);
+        let line = pieces(&plane, 3, 1.5, &|_, _| false);
         assert_eq!(line.len(), 3);
         for (x, y) in line.iter().flatten() {
             assert!((x + y - 1.5).abs() < 1e-12);
         }
         let mut broken = plane;
         broken[4] = None;
-        assert!(pieces(&broken, 3, 1.5).is_empty());
+        assert!(pieces(&broken, 3, 1.5, &|_, _| false).is_empty());
     }
 
     #[test]
     fn a_saddle_has_two_pieces() {
-        assert_eq!(pieces(&[Some(1.0), Some(0.0), Some(0.0), Some(1.0)], 2, 0.4).len(), 2);
+        assert_eq!(
+            pieces(&[Some(1.0), Some(0.0), Some(0.0), Some(1.0)], 2, 0.4, &|_, _| false).len(),
+            2
+        );
     }
 }

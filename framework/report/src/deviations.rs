@@ -36,6 +36,7 @@ pub fn picture(
             points: points.iter().filter_map(of).collect(),
             unit: unit.to_owned(),
             diverging: true,
+            ..Cloud::default()
         });
     }
     let mean = |lines: &[Vec<usize>], f: fn(&Deviation) -> f64| -> Vec<String> {

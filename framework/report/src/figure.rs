@@ -121,6 +121,10 @@ pub struct Cloud {
     pub axes: (String, String),
     /// Coordinates and value of each point.
     pub points: Vec<(f64, f64, f64)>,
+    /// Area of each point as a share of the largest; empty: all are equal.
+    pub sizes: Vec<f64>,
+    /// Name of what the areas show, and the value of the largest.
+    pub sized: String,
     /// Unit of the values; may be empty.
     pub unit: String,
     /// Differences: zero is the middle of the colour scale.

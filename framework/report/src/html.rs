@@ -19,7 +19,7 @@ use serde_json::Value;
 pub use gearbox::gearbox_page;
 
 use crate::page::{Block, KeyFigure, Page};
-use crate::picture::Picture;
+use crate::picture::{Picture, Screen};
 use crate::text::{TextTable, capitalised};
 
 /// The built-in template.
@@ -70,6 +70,8 @@ pub struct Section {
     pub verdicts: Vec<String>,
     /// Quantities outside their stated ranges, a line for each; the page counts them, and its table names them.
     pub outside: Vec<String>,
+    /// Their rows in the table of the page, such as `1-3, 5`.
+    pub marks: String,
     /// Text and tables.
     pub blocks: Vec<Block>,
     /// Pictures, the first one shows the result best.
@@ -129,6 +131,8 @@ struct WithPictures<'a, T> {
 struct PictureOfPage<'a> {
     id: String,
     title: &'a str,
+    /// Whether it shows maps side by side.
+    panels: bool,
 }
 
 /// A gearbox and the basis of its results.
@@ -267,6 +271,7 @@ impl Report {
                 PictureOfPage {
                     id: id(all.len() - 1),
                     title: picture.title(),
+                    panels: matches!(picture, Picture::Screen(Screen::Panels(_))),
                 }
             });
             pictures.collect()

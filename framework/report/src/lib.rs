@@ -10,9 +10,11 @@ pub mod codes;
 pub mod eval;
 pub mod html;
 pub mod models;
+mod names;
 pub mod page;
 pub mod point;
 pub mod stated_ranges;
+pub mod tested;
 pub mod text;
 mod views;
 

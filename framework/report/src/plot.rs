@@ -99,7 +99,8 @@ fn drawn(
         draw(&root)?;
         root.present().map_err(fault)?;
     }
-    Ok(svg)
+    // The unit as readers write it.
+    Ok(svg.replace("degC", "°C"))
 }
 
 fn fault(error: impl std::fmt::Display) -> PlotError {
@@ -371,8 +372,8 @@ mod tests {
             "loss W",
             "mesh",
             "seals",
-            "61 degC",
-            "60 degC",
+            "61 °C",
+            "60 °C",
             "loaded",
             "measured",
         ] {

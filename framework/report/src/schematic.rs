@@ -15,9 +15,9 @@ use gearloss_framework::transmission::Transmission;
 use things::Things;
 
 /// Maximum width of gears and bearings. \[px\]
-const WIDTH: f64 = 760.0;
+const WIDTH: f64 = 520.0;
 /// Maximum height of the drawing if the symbols allow it. \[px\]
-const HEIGHT: f64 = 620.0;
+const HEIGHT: f64 = 420.0;
 
 /// Draws a gearbox as a self-contained `<svg>` element.
 ///

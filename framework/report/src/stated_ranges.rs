@@ -6,6 +6,7 @@ use gearloss_studies::analyses::Outcome;
 use gearloss_studies::distinct::distinct;
 use gearloss_studies::points::Note;
 
+use crate::names::model;
 use crate::text::{TextTable, beyond, number, short, significant};
 
 /// Start of each line.
@@ -21,7 +22,7 @@ struct Values {
     unit: String,
     /// Both ends as text, because JSON has no infinite numbers, and their origin.
     range: (String, String),
-    /// Share of the components in the loss of each analysis that knows it.
+    /// Share of the loss of each analysis that the components lose outside the range, where it is known.
     loss_shares: BTreeMap<String, f64>,
 }
 
@@ -119,7 +120,7 @@ impl StatedRanges {
         match (&mut own.values, other.values) {
             (Some(values), Some(more)) => {
                 values.add(&more);
-                // The same component with another model set.
+                // The same component with another model set: the larger share.
                 for (analysis, share) in more.loss_shares {
                     let own = values.loss_shares.entry(analysis).or_default();
                     *own = own.max(share);
@@ -161,9 +162,25 @@ impl StatedRanges {
         self.groups().iter().map(Group::short).collect()
     }
 
+    /// Rows of the table that an analysis concerns, such as `1-3, 5`; empty if there are none.
+    pub fn rows_of(&self, analysis: &str) -> String {
+        let groups = self.groups();
+        let concerned = groups
+            .iter()
+            .enumerate()
+            .filter(|(_, group)| group.analyses.iter().any(|own| own == analysis));
+        let rows: Vec<usize> = concerned.map(|(i, _)| i + 1).collect();
+        let runs = rows.chunk_by(|a, b| a + 1 == *b).map(|run| match run {
+            [first, .., last] => format!("{first}-{last}"),
+            _ => run[0].to_string(),
+        });
+        runs.collect::<Vec<_>>().join(", ")
+    }
+
     /// All of them as a table; absent if there are none.
     pub fn table(&self) -> Option<TextTable> {
         let mut table = TextTable::new(&[
+            "no.",
             "models",
             "quantity",
             "stated range",
@@ -171,15 +188,16 @@ impl StatedRanges {
             "to",
             "unit",
             "points outside %",
-            "share of the loss %",
+            "loss outside %",
             "source of the range",
             "analyses",
         ]);
         let groups = self.groups();
-        for group in &groups {
+        for (i, group) in groups.iter().enumerate() {
             let values = group.values.as_ref();
             let percent = |share: Option<f64>| number(share.map(|share| 100.0 * share), 1);
             table.row(vec![
+                (i + 1).to_string(),
                 group.paths.join(", "),
                 group.name.clone(),
                 values.map_or_else(|| "left in some samples".to_owned(), |v| v.range.0.clone()),
@@ -228,9 +246,9 @@ impl Group {
         }
     }
 
-    /// How much of the results it concerns. A component of unknown share counts as one of ten equal ones.
+    /// How much of the results it concerns. A component of unknown loss counts as one of ten equal ones.
     fn weight(&self) -> f64 {
-        let of = |values: &Values| values.share_of_points() * values.loss_share().unwrap_or(0.1);
+        let of = |values: &Values| values.loss_share().unwrap_or(0.1 * values.share_of_points());
         self.values.as_ref().map_or(0.0, of)
     }
 
@@ -255,18 +273,18 @@ impl Group {
     }
 
     fn short(&self) -> String {
-        let first = self.paths[0].trim_end_matches(".model");
+        let first = model(&self.paths[0]);
         let paths = match self.paths.len() {
-            1 => first.to_owned(),
+            1 => first,
             count => format!("{first} and {} more", count - 1),
         };
         let name = &self.name;
         let Some(all) = &self.values else {
             return format!("{paths}: {name} leaves its range in some samples");
         };
-        let share = all
-            .loss_share()
-            .map_or_else(String::new, |share| format!(", {} % of the loss", short(100.0 * share)));
+        let share = all.loss_share().map_or_else(String::new, |share| {
+            format!(", with {} % of the loss", short(100.0 * share))
+        });
         format!(
             "{paths}: {name} of {} to {}{} leaves its range ({}) at {} % of the points{share}",
             short(all.least),
@@ -321,7 +339,11 @@ mod tests {
               (catalogue); in map, city"
             ]
         );
-        let short = "bearings.B1 and 1 more: n_dm of 1 to 9 leaves its range (outside 0 to 5) at 40 % of the points, 50 % of the loss";
+        assert_eq!(
+            (ranges.rows_of("map"), ranges.rows_of("town")),
+            ("1".to_owned(), String::new())
+        );
+        let short = "bearing B1 and 1 more: n_dm of 1 to 9 leaves its range (outside 0 to 5) at 40 % of the points, with 50 % of the loss";
         assert_eq!(ranges.worst(), [short]);
     }
 }

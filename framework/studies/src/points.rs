@@ -19,7 +19,9 @@ pub use derivatives::{Derivative, Derivatives, Derived, Method, Variable};
 pub use gearloss_numerics::statistics::{Statistics, bands, correlation, histogram, levels, quantile};
 pub use grid::{Field, Given, GridResult, PointResult, Points, merge, run_grid};
 pub use locking::{SelfLocking, self_locking};
-pub use notes::{LostByPart, Note, STATIC_SAFETY, Stated, WeakPoint, evidence, notes, notes_with_shares};
+pub use notes::{
+    Note, STATIC_SAFETY, Stated, TotalLoss, WeakPoint, evidence, notes, notes_over_time, notes_with_shares,
+};
 pub use pieces::{MOST_IN_FLIGHT, Make, Numbered, Piece, solve_pieces, take_points};
 pub use prepared::{PreparedPoint, SolvedPoint};
 pub use rows::{OnRig, Rows, SolvedRows};

@@ -8,6 +8,7 @@ use gearloss_framework::language::Language;
 use gearloss_report::html::{Report, Section};
 use gearloss_report::page::Page;
 use gearloss_report::stated_ranges::StatedRanges;
+use gearloss_report::tested::Tested;
 use gearloss_report::text::capitalised;
 use gearloss_studies::analyses::progress::{Progress, Steps};
 use gearloss_studies::analyses::{AnalysisEntry, Context, Outcome, Stopped};
@@ -36,6 +37,8 @@ pub struct Run<'a> {
     pub(super) left: Cell<usize>,
     /// The same for the end of the run.
     pub(super) stated_ranges: RefCell<StatedRanges>,
+    /// Measured points, and limits that may be beyond them.
+    pub(super) tested: RefCell<Tested>,
     pub(super) analyses: StudyRun<'a>,
     /// Task results of shards.
     pub(super) tasks: Option<ShardTasks>,
@@ -123,6 +126,7 @@ impl<'a> Run<'a> {
             report: RefCell::default(),
             left: Cell::new(0),
             stated_ranges: RefCell::default(),
+            tested: RefCell::default(),
             tasks,
             only_checks: false,
         }
@@ -193,6 +197,7 @@ impl Runner<'_> {
         let left = outside + outcome.left_at_samples().len() + outcome.unlisted();
         self.run.left.set(self.run.left.get() + left);
         self.run.stated_ranges.borrow_mut().add_outcome(self.name, outcome);
+        self.run.tested.borrow_mut().add_outcome(self.name, outcome);
         let mut page = Page::from_outcome(outcome);
         self.run.shown.page(&page, out)?;
         let formats = analysis.formats();

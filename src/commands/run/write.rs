@@ -44,8 +44,16 @@ pub fn report(run: &Run<'_>, template: Option<&str>) -> Result<(), Failure> {
         report.gearboxes.push(gearbox_page(&context, name, gearbox)?);
     }
     report.answers.clone_from(&run.study.entry.answered_by);
-    report.outside = run.stated_ranges.borrow().table();
-    report.worst = run.stated_ranges.borrow().worst();
+    let ranges = run.stated_ranges.borrow();
+    (report.outside, report.worst) = (ranges.table(), ranges.worst());
+    for section in &mut report.sections {
+        section.marks = ranges.rows_of(&section.name);
+    }
+    for (name, warning) in run.tested.borrow().warnings() {
+        for section in report.sections.iter_mut().filter(|section| section.name == name) {
+            section.careful.insert(0, warning.clone());
+        }
+    }
     let frame = Frame::new(run.study, run.language, env!("CARGO_PKG_VERSION"));
     keep(run, REPORT, Ok(report.html(&frame, template)?.into_bytes()))
 }

@@ -1,11 +1,12 @@
 //! Workspace for one evaluation, of one point or of several together, and observations over many.
 
 use std::cell::Cell;
+use std::sync::Arc;
 
 use crate::attach::{Oil, State};
 use crate::flow::{Balance, Status, Work};
 use crate::loads::SupportLoad;
-use crate::loss::{Extent, Kept, Loss, Notebook, Seen, Trace, Undefined};
+use crate::loss::{Extent, Kept, Loss, Notebook, Seen, Trace, Undefined, nanowatts};
 use crate::real::{Mask as _, Points};
 use crate::transmission::{Case, Transmission};
 
@@ -121,6 +122,10 @@ pub struct Scratch<R: Points = f64> {
     pub(super) called: usize,
     /// Observed extents of every limit and observed quantity since the scratch was made, one count per point.
     pub totals: Vec<Extent>,
+    /// Number of evaluations whose observations are counted; of several points together as one.
+    pub counted: u64,
+    /// As [`Transmission::limited`].
+    limited: Arc<[(usize, usize)]>,
 }
 
 impl<R: Points> Scratch<R> {
@@ -145,6 +150,16 @@ impl<R: Points> Scratch<R> {
                 *total = total.merge(seen);
             }
         }
+        for (cell, part) in &*self.limited {
+            let outside = c.cells[*cell].get().among(solved).outside();
+            if outside != 0 {
+                let points = (0..R::COUNT).filter(|point| outside >> point & 1 == 1);
+                let lost = points.map(|point| nanowatts(self.watts[*part].at_point(point))).sum();
+                let total = &mut self.totals[*cell].lost_outside;
+                *total = total.saturating_add(lost);
+            }
+        }
+        self.counted += 1;
     }
 
     /// Output power of a point with losses; with ideal power flow the input minus the losses, `None` if they exceed it. \[W\]
@@ -209,6 +224,8 @@ impl<R: Points> Scratch<R> {
             passes: R::ZERO,
             called: 0,
             totals: vec![Extent::EMPTY; transmission.cells],
+            counted: 0,
+            limited: Arc::clone(&transmission.limited),
         }
     }
 }

@@ -110,8 +110,7 @@ impl Transmission {
         };
         let (instances, cells) = build.finish();
         let rated: Vec<RatedSupport> = models.components.iter().filter_map(rated).collect();
-        let mut parts = models.parts;
-        parts.sort_by_cached_key(|p| document_order(resolved, &p.path));
+        let parts = in_document_order(resolved, models.parts);
         if let Some(network) = &mut network {
             warnings.extend(network.warnings());
             network.set_heat(heat_of(&parts, &models.meshes, &frame.nodes));
@@ -132,6 +131,7 @@ impl Transmission {
             meshes: models.meshes,
             drags: models.drags,
             components: models.components,
+            limited: limited(&instances, &parts, &rated, (supports, cells)),
             parts,
             instances,
             cells: cells + rated.len(),
@@ -150,6 +150,35 @@ impl Transmission {
         memory.settle();
         Ok((built, memory))
     }
+}
+
+fn in_document_order(resolved: &Resolved, mut parts: Vec<PartInfo>) -> Vec<PartInfo> {
+    parts.sort_by_cached_key(|part| document_order(resolved, &part.path));
+    parts
+}
+
+/// As [`Transmission::limited`]; the cells of rated supports follow those of the models.
+fn limited(
+    instances: &[crate::registry::Instance],
+    parts: &[PartInfo],
+    rated: &[RatedSupport],
+    (supports, cells): (&[SeatedSupport], usize),
+) -> std::sync::Arc<[(usize, usize)]> {
+    let mut list = Vec::new();
+    for instance in instances {
+        let first = instance.notes.limits();
+        let users = parts.iter().enumerate();
+        let users = users.filter(|(_, part)| (part.notes.limits()..part.notes.end()).contains(&first));
+        for (part, _) in users {
+            list.extend((first..first + instance.entry.limits.len()).map(|cell| (cell, part)));
+        }
+    }
+    for (i, rated) in rated.iter().enumerate() {
+        let path = &supports[rated.support].path;
+        let bearing = parts.iter().position(|part| part.path == *path);
+        list.extend(bearing.map(|part| (cells + i, part)));
+    }
+    list.into()
 }
 
 impl Transmission {

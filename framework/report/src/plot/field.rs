@@ -112,10 +112,11 @@ pub fn map(map: &Map) -> Result<String, PlotError> {
             let y = f64::from(TOP + HEIGHT) - f64::from(HEIGHT) * (j + 0.5) / f64::from(rows);
             (x.round() as i32, y.round() as i32)
         };
+        let is_cut = cut(map);
         if lined {
             let mut labels: Vec<(i32, i32)> = Vec::new();
             for level in levels(range.0, range.1, 8) {
-                let line = pieces(&map.values, xs.len(), level);
+                let line = pieces(&map.values, xs.len(), level, &is_cut);
                 draw_line(root, &line, &place, 1)?;
                 if let Some(at) = free_place(&line, &place, &labels) {
                     labels.push(at);
@@ -131,7 +132,7 @@ pub fn map(map: &Map) -> Result<String, PlotError> {
                 }
             }
             for level in map.unseen.iter().filter(|l| **l > 0.0).flat_map(|l| [-l, *l]) {
-                draw_line(root, &pieces(&map.values, xs.len(), level), &place, 3)?;
+                draw_line(root, &pieces(&map.values, xs.len(), level, &is_cut), &place, 3)?;
             }
         }
         if let Some((x, y)) = map.numbers() {
@@ -171,6 +172,15 @@ pub fn map(map: &Map) -> Result<String, PlotError> {
         names(root, &words, &map.y.0)?;
         bar_of_colours(root, range, map.diverging)
     })
+}
+
+/// The cells between drive and coast, where the value jumps.
+fn cut(map: &Map) -> impl Fn(usize, usize) -> bool {
+    let (xs, ys) = map.numbers().filter(|_| map.jumps).unwrap_or_default();
+    move |i, j| {
+        let crosses = |list: &[f64], k: usize| list.get(k..k + 2).is_some_and(|pair| pair[0] * pair[1] < 0.0);
+        crosses(&xs, i) || crosses(&ys, j)
+    }
 }
 
 /// A cross that is visible on dark and on light cells.
@@ -244,14 +254,16 @@ pub fn cloud(cloud: &Cloud) -> Result<String, PlotError> {
         let frame = [(LEFT, TOP), (LEFT + WIDTH, TOP + HEIGHT)];
         root.draw(&Rectangle::new(frame, BLACK.stroke_width(1)))
             .map_err(fault)?;
-        for (px, py, value) in &cloud.points {
+        for (k, (px, py, value)) in cloud.points.iter().enumerate() {
+            let size = (12.0 * cloud.sizes.get(k).map_or(0.5, |share| share.sqrt())).max(2.0) as i32;
             let at = (
                 LEFT + (f64::from(WIDTH) * share(*px, x)) as i32,
                 TOP + HEIGHT - (f64::from(HEIGHT) * share(*py, y)) as i32,
             );
             let colour = tone(*value, z, cloud.diverging);
-            root.draw(&Circle::new(at, 6, colour.filled())).map_err(fault)?;
-            root.draw(&Circle::new(at, 6, BLACK.stroke_width(1))).map_err(fault)?;
+            root.draw(&Circle::new(at, size, colour.filled())).map_err(fault)?;
+            root.draw(&Circle::new(at, size, BLACK.stroke_width(1)))
+                .map_err(fault)?;
         }
         for k in 0..=4 {
             let part = f64::from(k) / 4.0;

@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 use words::Word;
 
 /// Height of the letters. \[px\]
-pub(super) const LETTERS: f64 = 13.0;
+pub(super) const LETTERS: f64 = 14.0;
 /// Mean width of a letter over its height.
 const LETTER_WIDTH: f64 = 0.58;
 /// Cost of a label per px2 of a thing that it covers; a position further from its owner costs five.

@@ -236,6 +236,8 @@ struct Influences {
     unit: &'static str,
     /// What the values are.
     of: &'static str,
+    /// The same behind a value.
+    brief: &'static str,
 }
 
 /// Influences by the best method that was run: shares of the variance, otherwise effects, otherwise slopes.
@@ -245,6 +247,7 @@ fn influences(loss: &OutputSensitivity) -> Option<Influences> {
             values: shares.total.iter().map(|share| 100.0 * share.value.max(0.0)).collect(),
             unit: "%",
             of: "share of the variance of the mean loss",
+            brief: "of its variance",
         });
     }
     if let Some(effects) = &loss.morris {
@@ -252,6 +255,7 @@ fn influences(loss: &OutputSensitivity) -> Option<Influences> {
             values: effects.iter().map(|effect| effect.mu_star).collect(),
             unit: "W",
             of: "change of the mean loss over the range",
+            brief: "over its range",
         });
     }
     let slopes = loss.local.as_ref()?.iter();
@@ -261,6 +265,7 @@ fn influences(loss: &OutputSensitivity) -> Option<Influences> {
             .collect(),
         unit: "%",
         of: "slope times range, of the mean loss",
+        brief: "by slope times range",
     })
 }
 

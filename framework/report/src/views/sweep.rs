@@ -6,10 +6,11 @@ use gearloss_studies::analyses::numbers::word;
 use gearloss_studies::analyses::sweep::{PointOfSweep, SweepOfValue, SweepOutcome};
 
 use crate::figure::Best;
+use crate::names::quantity;
 use crate::page::Page;
-use crate::plot::{Line, Stroke};
+use crate::plot::{Bar, Line, Stroke};
 use crate::register_view;
-use crate::text::{TextTable, fixed, number};
+use crate::text::{TextTable, fixed, number, short};
 use crate::{Figure, Map};
 
 register_view!(SweepOutcome, show);
@@ -27,6 +28,67 @@ fn show(outcome: &SweepOutcome, page: &mut Page) {
         page.line("");
     }
     sweep.figures(page);
+    designs(outcome, page);
+}
+
+/// Most designs that are compared.
+const DESIGNS: usize = 12;
+
+/// The values with the lowest mean loss over all points, as bars of its shares; only if both paths vary.
+fn designs(outcome: &SweepOutcome, page: &mut Page) {
+    let several = outcome.notes.len() > 1;
+    let label = |value: &SweepOfValue| {
+        let words = format!("{}, {}", word(&value.value), word(&value.second.as_ref()?.value));
+        Some(if several {
+            format!("{}: {words}", value.model_set)
+        } else {
+            words
+        })
+    };
+    let bar = |value: &SweepOfValue| {
+        let count = value.points.len().max(1) as f64;
+        let mut shares = vec![0.0; value.shares.len()];
+        for point in &value.points {
+            let losses = point.losses_w.as_ref()?;
+            shares
+                .iter_mut()
+                .zip(losses)
+                .for_each(|(sum, watts)| *sum += watts / count);
+        }
+        let mean: f64 = shares.iter().sum();
+        let above = format!("{} W", short(mean));
+        let label = label(value)?;
+        Some((
+            mean,
+            Bar {
+                label,
+                shares,
+                above,
+                ..Bar::default()
+            },
+        ))
+    };
+    let mut bars: Vec<(f64, Bar)> = outcome.sweep.iter().filter_map(bar).collect();
+    bars.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let all = bars.len();
+    bars.truncate(DESIGNS);
+    let names = outcome
+        .sweep
+        .first()
+        .map(|value| value.shares.clone())
+        .unwrap_or_default();
+    let first = outcome.sweep.first();
+    let paths = first.and_then(|value| Some([&value.path, &value.second.as_ref()?.path]));
+    let over = paths.map_or_else(String::new, |paths| paths.map(|path| quantity(path)).join(", "));
+    if bars.len() > 1 {
+        page.report_figure(Figure::Bars {
+            title: format!("Lowest mean loss of {all} designs, the best first"),
+            over,
+            height: "mean loss in W".to_owned(),
+            names,
+            bars: bars.into_iter().map(|(_, bar)| bar).collect(),
+        });
+    }
 }
 
 /// A sweep with its values as text.

@@ -30,7 +30,7 @@ use super::{Analysis, Built, Context, Stopped};
 use crate::distinct::distinct;
 use crate::measured::Measured;
 use crate::points::{
-    Field, LostByPart, Note, Numbered, OilTemperature, Piece, PointResult, SUMS, evidence, merge, notes_with_shares,
+    Field, Note, Numbered, OilTemperature, Piece, PointResult, SUMS, TotalLoss, evidence, merge, notes_with_shares,
 };
 use crate::register_analysis;
 use crate::study::{Data, Uses, Write};
@@ -99,7 +99,7 @@ impl MapEntry {
             if cx.part(number, solve)?.is_none() {
                 continue;
             }
-            map.notes = notes_with_shares(&plan.built.transmission, &map.seen, &map.lost);
+            map.notes = notes_with_shares(&plan.built.transmission, &map.seen, map.lost);
             maps.push(map);
         }
         cx.complete()?;
@@ -267,7 +267,7 @@ struct Map<'a> {
     oil: OilTemperature,
     shown: ShownMap,
     seen: Vec<Extent>,
-    lost: LostByPart,
+    lost: TotalLoss,
     notes: Vec<Note>,
     passes: usize,
     undefined: Vec<UndefinedLoss>,
@@ -292,7 +292,7 @@ impl<'a> Map<'a> {
             oil,
             shown: ShownMap::new(None, false),
             seen: Vec::new(),
-            lost: LostByPart::default(),
+            lost: TotalLoss::default(),
             notes: Vec::new(),
             passes: 0,
             undefined: Vec::new(),
@@ -308,7 +308,7 @@ impl<'a> Map<'a> {
         let (mut tables, mut picked, mut undefined) = (Vec::new(), Vec::new(), Vec::new());
         drop(piece.map(|taken| {
             self.passes += taken.passes;
-            self.lost.merge(&taken.lost);
+            self.lost.merge(taken.lost);
             tables.push(taken.rows);
             picked.push(taken.picked);
             undefined.extend(taken.undefined);
@@ -371,16 +371,16 @@ fn notes_of_sets(maps: &[Map<'_>]) -> Option<Vec<NotesOfSet>> {
     let of_set = |name: &str| {
         let mut all = Vec::new();
         let own = || maps.iter().filter(|map| map.built.name == name);
-        let mut lost = LostByPart::default();
+        let mut lost = TotalLoss::default();
         for map in own() {
             merge(&mut all, &map.seen);
-            lost.merge(&map.lost);
+            lost.merge(map.lost);
         }
         NotesOfSet {
             model_set: name.to_owned(),
             notes: own()
                 .next()
-                .map_or_else(Vec::new, |map| notes_with_shares(&map.built.transmission, &all, &lost)),
+                .map_or_else(Vec::new, |map| notes_with_shares(&map.built.transmission, &all, lost)),
         }
     };
     Some(names.into_iter().map(of_set).collect())

@@ -1,7 +1,7 @@
 //! Reads points of a file and solves them with model sets.
 
 use crate::measured::{Measured, MeasuredEntry, PortSpeeds};
-use crate::points::{LostByPart, Note, OnRig, PointResult, Rows, notes_with_shares};
+use crate::points::{Note, OnRig, PointResult, Rows, TotalLoss, notes_with_shares};
 use crate::study::Data;
 use gearloss_framework::description::Ordered;
 use gearloss_framework::document::Diagnostic;
@@ -113,11 +113,11 @@ impl Context<'_> {
                 transmission,
             });
             let built: Vec<Built<'s>> = built.collect();
-            let lost = LostByPart::of(solved.rows.iter().map(|(_, _, point)| point));
+            let lost = TotalLoss::of(solved.rows.iter().map(|(_, _, point)| point));
             Ok(Some(Solved {
                 name: name.to_owned(),
                 rows: solved.rows,
-                notes: notes_with_shares(&built[0].transmission, &solved.seen, &lost),
+                notes: notes_with_shares(&built[0].transmission, &solved.seen, lost),
                 built,
             }))
         };

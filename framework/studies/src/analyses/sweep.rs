@@ -12,7 +12,7 @@ use super::numbers::{RPM, tidy};
 use super::ranges::published;
 use super::shares::{Shares, together};
 use super::{Analysis, Built, Context, Stopped, gear_of};
-use crate::points::{GridResult, LostByPart, notes_with_shares};
+use crate::points::{GridResult, TotalLoss, notes_with_shares};
 use crate::register_analysis;
 use crate::study::{By, SpeedAxis, TorqueAxis, Uses, Write};
 use crate::varied::{Tie, Varied};
@@ -199,7 +199,7 @@ impl SweepEntry {
                     solved_speed_rpm: p.speed * RPM,
                 })
                 .collect(),
-            notes: notes_with_shares(t, &solved.result.seen, &LostByPart::of(&solved.result.points)),
+            notes: notes_with_shares(t, &solved.result.seen, TotalLoss::of(&solved.result.points)),
             places: solved.places,
         }
     }

@@ -71,6 +71,7 @@ impl Piece<Bits> {
             numbers(to, &[extent.least, extent.greatest]);
             to.extend(extent.seen.to_le_bytes());
             to.extend(extent.outside.to_le_bytes());
+            to.extend(extent.lost_outside.to_le_bytes());
         }
     }
 }
@@ -246,6 +247,7 @@ fn take_extent(from: &mut &[u8]) -> Option<Extent> {
         greatest,
         seen: u32::from_le_bytes(take(from)?),
         outside: u32::from_le_bytes(take(from)?),
+        lost_outside: i128::from_le_bytes(take(from)?),
     })
 }
 
@@ -318,6 +320,7 @@ mod tests {
             greatest: 2.5,
             seen: 9,
             outside: 2,
+            lost_outside: 3_000_000_001,
         };
         Piece::new(5, (0..9).map(point).collect(), vec![seen, Extent::EMPTY])
     }

@@ -74,6 +74,8 @@ pub struct Driven {
     pub start: Vec<f64>,
     /// Observed limits and quantities.
     pub seen: Vec<Extent>,
+    /// Energy that the components lose while a limit is exceeded, by cell of notes: each interval with the mean loss of its evaluations. \[J\]
+    pub lost_outside: Vec<f64>,
     /// Evaluations of the losses.
     pub evaluations: usize,
     /// Calls of loss models.
@@ -205,6 +207,7 @@ pub fn drive(
         brakes: 0.0,
         start,
         seen: Vec::new(),
+        lost_outside: vec![0.0; transmission.rated_cells() + transmission.rated().len()],
         evaluations: 0,
         calls: 0,
         steps: [0; 2],
@@ -227,6 +230,7 @@ pub fn drive(
             point: &point,
             around: &around,
         };
+        let (counted, seen) = (scratch.counted, scratch.totals.clone());
         let went = match &mut march {
             Some(march) => {
                 let before = march.evaluations;
@@ -244,6 +248,10 @@ pub fn drive(
                 break;
             }
         };
+        let per_evaluation = 1e-9 * interval.duration / (scratch.counted - counted).max(1) as f64;
+        for (joule, (after, before)) in driven.lost_outside.iter_mut().zip(scratch.totals.iter().zip(&seen)) {
+            *joule += (after.lost_outside - before.lost_outside) as f64 * per_evaluation;
+        }
         let member = |port: usize| transmission.ports()[port].member;
         let brakes = match (asked.brakes, wheels) {
             (Some(watts), _) => watts * interval.duration,

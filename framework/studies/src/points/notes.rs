@@ -1,12 +1,12 @@
 //! Notes on limits and observed quantities with the paths of their models, and evidence of models.
 
-use super::PointResult;
+use super::{Driven, PointResult};
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
 
 use gearloss_framework::loads::LEAST_STATIC_SAFETY;
-use gearloss_framework::loss::Extent;
+use gearloss_framework::loss::{Extent, nanowatts};
 use gearloss_framework::registry::{Evidence, Instance};
 use gearloss_framework::resolve::{Resolved, ValueSource, lookup};
 use gearloss_framework::transmission::Transmission;
@@ -35,64 +35,42 @@ pub struct Note {
     pub outside: u32,
     /// The stated range; absent for an observed quantity.
     pub range: Option<Stated>,
-    /// Share of its component in the loss of all points; absent if it is not known. [-]
+    /// Loss of its component at the points outside the range as a share of the loss of all components at all points; of a cycle the same
+    /// with energies. Absent if it is not known. [-]
     pub loss_share: Option<f64>,
 }
 
-/// Losses of all components, summed over points in whole numbers of nanowatts, so that no sum depends on the order of the points.
-#[derive(Debug, Clone, Default)]
-pub struct LostByPart(Vec<i128>);
+/// Loss of a transmission, summed over points in whole nanowatts, so that no sum depends on the order of the points.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct TotalLoss(i128);
 
-impl LostByPart {
-    /// One nanowatt. \[W\]
-    const UNIT: f64 = 1e-9;
-
+impl TotalLoss {
     /// Of some points.
     pub fn of<'p>(points: impl IntoIterator<Item = &'p PointResult>) -> Self {
-        let mut lost = Self::default();
-        for point in points {
-            let watts = point.parts.iter().map(|watts| (watts / Self::UNIT) as i128);
-            lost.add(watts.collect());
-        }
-        lost
+        let watts = points.into_iter().flat_map(|point| &point.parts);
+        Self(watts.fold(0, |sum: i128, watts| sum.saturating_add(nanowatts(*watts))))
     }
 
     /// Adds further points.
-    pub fn merge(&mut self, other: &Self) {
-        self.add(other.0.clone());
-    }
-
-    fn add(&mut self, losses: Vec<i128>) {
-        self.0.resize(self.0.len().max(losses.len()), 0);
-        for (sum, loss) in self.0.iter_mut().zip(losses) {
-            *sum = sum.saturating_add(loss);
-        }
-    }
-
-    /// The share of the components that use a model, by its path.
-    fn share(&self, transmission: &Transmission, path: &str) -> Option<f64> {
-        let sum = |losses: &mut dyn Iterator<Item = &i128>| {
-            losses.fold(0, |sum: i128, loss| sum.saturating_add(*loss)) as f64
-        };
-        let all = sum(&mut self.0.iter());
-        let uses = |model: &str| path == model || path.strip_prefix(model).is_some_and(|rest| rest.starts_with('.'));
-        let parts = transmission.parts().iter().zip(&self.0);
-        let own = parts.filter(|(part, _)| {
-            let model = &transmission.instances()[part.notes.instance()].path;
-            uses(model) || part.path == path
-        });
-        let mut own = own.map(|(_, loss)| loss).peekable();
-        (all > 0.0 && own.peek().is_some()).then(|| sum(&mut own) / all)
+    pub fn merge(&mut self, other: Self) {
+        self.0 = self.0.saturating_add(other.0);
     }
 }
 
-/// As [`notes`], with the share of each component in the loss.
-pub fn notes_with_shares(transmission: &Transmission, seen: &[Extent], lost: &LostByPart) -> Vec<Note> {
-    let mut notes = notes(transmission, seen);
-    for note in &mut notes {
-        note.loss_share = lost.share(transmission, &note.path);
-    }
-    notes
+/// As [`notes`] of points, with the loss of each component at the points outside as a share of all losses.
+pub fn notes_with_shares(transmission: &Transmission, seen: &[Extent], total: TotalLoss) -> Vec<Note> {
+    notes_of(transmission, seen, &|cell| {
+        (total.0 > 0).then(|| seen[cell].lost_outside as f64 / total.0 as f64)
+    })
+}
+
+/// As [`notes`] of a cycle, with the energy that each component loses outside as a share of all lost energy.
+pub fn notes_over_time(transmission: &Transmission, driven: &Driven) -> Vec<Note> {
+    let total: f64 = driven.total.parts.iter().sum();
+    notes_of(transmission, &driven.seen, &|cell| {
+        let outside = driven.lost_outside.get(cell)?;
+        (total > 0.0).then(|| outside / total)
+    })
 }
 
 /// The stated range of a model, in the unit of the note.
@@ -110,16 +88,27 @@ pub struct Stated {
 
 /// Notes on all limits and observed quantities, and on bearings with insufficient static safety.
 pub fn notes(transmission: &Transmission, seen: &[Extent]) -> Vec<Note> {
+    notes_of(transmission, seen, &|_| None)
+}
+
+/// The notes with the share of the loss of each cell of a limit.
+fn notes_of(transmission: &Transmission, seen: &[Extent], share: &dyn Fn(usize) -> Option<f64>) -> Vec<Note> {
+    let is_of_part = |cell: usize| transmission.limited().iter().any(|(limited, _)| *limited == cell);
+    let share = |cell: usize| share(cell).filter(|_| is_of_part(cell));
     let mut notes = Vec::new();
     for instance in transmission.instances() {
         for limit in instance.entry.limits {
-            let extent = seen[instance.notes.limits() + limit.index];
+            let cell = instance.notes.limits() + limit.index;
             let stated = Stated {
                 least: limit.least,
                 greatest: limit.greatest,
                 origin: limit.origin,
             };
-            notes.extend(note(instance, limit.name, limit.unit, extent, Some(stated)));
+            let note = note(instance, limit.name, limit.unit, seen[cell], Some(stated));
+            notes.extend(note.map(|note| Note {
+                loss_share: share(cell),
+                ..note
+            }));
         }
         for observed in instance.entry.observed {
             notes.extend(note(
@@ -132,22 +121,27 @@ pub fn notes(transmission: &Transmission, seen: &[Extent]) -> Vec<Note> {
         }
     }
     // Sufficient safety is not reported.
-    let rated = transmission.rated().iter().zip(&seen[transmission.rated_cells()..]);
-    notes.extend(rated.filter(|(_, seen)| seen.outside > 0).map(|(rated, seen)| Note {
-        path: transmission.supports()[rated.support].clone(),
-        name: STATIC_SAFETY,
-        unit: "-",
-        least: seen.least,
-        greatest: seen.greatest,
-        points: seen.seen,
-        outside: seen.outside,
-        range: Some(Stated {
-            least: LEAST_STATIC_SAFETY,
-            greatest: f64::INFINITY,
-            origin: "static safety, ISO 76",
-        }),
-        loss_share: None,
-    }));
+    let first = transmission.rated_cells();
+    let rated = transmission.rated().iter().zip(&seen[first..]).zip(first..);
+    notes.extend(
+        rated
+            .filter(|((_, seen), _)| seen.outside > 0)
+            .map(|((rated, seen), cell)| Note {
+                path: transmission.supports()[rated.support].clone(),
+                name: STATIC_SAFETY,
+                unit: "-",
+                least: seen.least,
+                greatest: seen.greatest,
+                points: seen.seen,
+                outside: seen.outside,
+                range: Some(Stated {
+                    least: LEAST_STATIC_SAFETY,
+                    greatest: f64::INFINITY,
+                    origin: "static safety, ISO 76",
+                }),
+                loss_share: share(cell),
+            }),
+    );
     notes
 }
 

@@ -3,7 +3,7 @@
 use gearloss_studies::analyses::balance::BalanceOutcome;
 
 use crate::page::Page;
-use crate::text::{of_set, short};
+use crate::text::{capitalised, of_set, short};
 
 pub fn add(outcome: &BalanceOutcome, page: &mut Page) {
     let mut words = Vec::new();
@@ -15,9 +15,9 @@ pub fn add(outcome: &BalanceOutcome, page: &mut Page) {
             oil.is_some_and(|oil| (step.oil_temperature_degc - oil).abs() < 1e-6)
         });
         if let Some(oil) = balance.oil_temperature_degc {
-            let loss = loss.map_or_else(String::new, |step| format!(" at {} W", short(step.loss_w)));
+            let loss = loss.map_or_else(String::new, |step| format!(" with a loss of {} W", short(step.loss_w)));
             words.push(format!(
-                "{}oil {} °C{loss}",
+                "{}the oil settles at {} °C{loss}",
                 of_set(set, outcome.balances.len()),
                 short(oil)
             ));
@@ -32,5 +32,5 @@ pub fn add(outcome: &BalanceOutcome, page: &mut Page) {
                 .push(format!("{set}: several temperatures are stable; the lowest is used"));
         }
     }
-    page.headline = (!words.is_empty()).then(|| words.join("; "));
+    page.headline = (!words.is_empty()).then(|| capitalised(&words.join("; ")));
 }

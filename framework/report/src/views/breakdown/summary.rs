@@ -3,11 +3,16 @@
 use gearloss_studies::analyses::breakdown::{As, BreakdownOutcome};
 use gearloss_studies::analyses::numbers::tidy;
 
+use crate::names::{SetNames, share};
 use crate::page::Page;
 use crate::text::{place, short};
 
+/// Shares that are named.
+const NAMED: usize = 3;
+
 pub fn add(outcome: &BreakdownOutcome, page: &mut Page) {
     let unit = outcome.unit.symbol();
+    let names = SetNames::new(outcome.breakdowns.iter().map(|own| own.model_set.as_str()));
     let mut words = Vec::new();
     for of_set in &outcome.breakdowns {
         let lost = of_set
@@ -24,19 +29,32 @@ pub fn add(outcome: &BreakdownOutcome, page: &mut Page) {
             continue;
         };
         let total = sum(shares);
-        let Some((largest, most)) = of_set.shares.iter().zip(shares).max_by(|a, b| a.1.total_cmp(b.1)) else {
+        let mut leading: Vec<(String, f64)> = of_set
+            .shares
+            .iter()
+            .map(|name| share(name))
+            .zip(shares.iter().copied())
+            .collect();
+        leading.sort_by(|a, b| b.1.total_cmp(&a.1));
+        let Some((largest, most)) = leading.first() else {
             continue;
         };
         let at = place(tidy(point.torque_nm), tidy(point.speed_rpm));
         let of = if outcome.breakdowns.iter().any(|other| other.gear != of_set.gear) {
-            format!("{}, gear {}", of_set.model_set, of_set.gear)
+            format!("{}, gear {}", names.quoted(&of_set.model_set), of_set.gear)
         } else {
-            of_set.model_set.clone()
+            names.quoted(&of_set.model_set)
         };
-        let share = if total > 0.0 { 100.0 * most / total } else { 0.0 };
+        let percent = |watts: f64| short(if total > 0.0 { 100.0 * watts / total } else { 0.0 });
         words.push(match outcome.unit {
-            As::Watts => format!("{of}: {} W at {at}, {} % of it {largest}", short(total), short(share)),
-            As::Percent => format!("{of}: {} % {largest} at {at}", short(share)),
+            As::Watts => {
+                let leading = leading.iter().take(NAMED).filter(|(_, watts)| *watts > 0.0);
+                let leading: Vec<String> = leading
+                    .map(|(name, watts)| format!("{name} {} %", percent(*watts)))
+                    .collect();
+                format!("{of} loses {} W at {at} ({})", short(total), leading.join(", "))
+            }
+            As::Percent => format!("{largest} with {} % at {at} ({of})", percent(*most)),
         });
         page.key_figure(
             &format!("largest share, {of}"),
@@ -45,5 +63,9 @@ pub fn add(outcome: &BreakdownOutcome, page: &mut Page) {
             format!("{largest} at {at}"),
         );
     }
-    page.headline = (!words.is_empty()).then(|| words.join("; "));
+    let largest = match outcome.unit {
+        As::Watts => "",
+        As::Percent => "Largest share: ",
+    };
+    page.headline = (!words.is_empty()).then(|| format!("{largest}{}", words.join("; ")));
 }

@@ -1,12 +1,22 @@
 //! The differences in one sentence.
 
+use gearloss_framework::resolve::OWN_MODELS;
 use gearloss_studies::analyses::compare::{
     CompareOutcome, Comparisons, CycleComparison, DataComparison, DifferenceOfShare, GridComparison, ranking,
 };
 use gearloss_studies::analyses::numbers::RPM;
 
+use crate::names::{SetNames, cycle, listed, share};
 use crate::page::Page;
 use crate::text::{brief, place, short, signed};
+
+/// Components that are named: for each cycle, and for a difference over a grid.
+const OF_CYCLE: usize = 2;
+const OF_GRID: usize = 3;
+/// The share of the largest difference below which a component is not named.
+const SMALL: f64 = 0.05;
+/// Components with a tile.
+const TILES: usize = 5;
 
 pub fn add(outcome: &CompareOutcome, page: &mut Page) {
     let (what, unit) = outcome.quantity.words(outcome.difference);
@@ -19,41 +29,67 @@ pub fn add(outcome: &CompareOutcome, page: &mut Page) {
 }
 
 fn over_cycles(all: &[CycleComparison], page: &mut Page) -> Option<String> {
-    let mut words = Vec::new();
+    let names = SetNames::new(all.iter().flat_map(|c| [c.model_set.as_str(), c.base.as_str()]));
+    let mut words: Vec<(String, Vec<String>)> = Vec::new();
     for c in all {
         let percent = c
             .difference_percent
-            .map_or_else(String::new, |percent| format!(" ({} %)", signed(percent)));
-        // The share that changes most in the direction of the sum.
-        let size = |share: &&DifferenceOfShare| share.difference_w * c.difference_w.signum();
-        let most = c.shares.iter().max_by(|a, b| size(a).total_cmp(&size(b)));
-        let most = most
-            .filter(|share| share.difference_w != 0.0)
-            .map_or_else(String::new, |share| {
-                format!(", most in {} ({} W)", share.share, signed(share.difference_w))
-            });
-        words.push(format!(
-            "{}, {}: {} W{percent}{most}",
-            c.model_set,
-            c.cycle,
-            signed(c.difference_w)
-        ));
+            .map_or_else(String::new, |percent| format!("{} %; ", signed(percent)));
+        let own = format!(
+            "{} W over {} ({percent}{})",
+            signed(c.difference_w),
+            cycle(&c.cycle),
+            leading(&c.shares, OF_CYCLE).join(", ")
+        );
+        let set = names.quoted(&c.model_set);
+        match words.iter_mut().find(|(other, _)| *other == set) {
+            Some((_, list)) => list.push(own),
+            None => words.push((set, vec![own])),
+        }
         let per_km = c
             .difference_wh_per_km
             .map_or_else(String::new, |wh| format!("; {} Wh/km", signed(wh)));
-        let detail = format!("{}: {} W{per_km}", c.base, short(c.base_mean_loss_w));
+        let detail = format!("{}: {} W{per_km}", names.word(&c.base), short(c.base_mean_loss_w));
         page.key_figure(
-            &format!("{}, {}", c.model_set, c.cycle),
+            &format!("{}, {}", names.word(&c.model_set), cycle(&c.cycle)),
             signed(c.difference_w),
             "W",
             detail,
         );
     }
-    let base = &all.first()?.base;
-    Some(format!("mean loss minus that of {base}: {}", words.join("; ")))
+    let first = base(&names, &all.first()?.base);
+    let words = words.into_iter().map(|(set, list)| format!("{set} {}", listed(&list)));
+    Some(format!(
+        "Mean loss against {first}: {}",
+        words.collect::<Vec<_>>().join("; ")
+    ))
+}
+
+/// The base in a sentence.
+fn base(names: &SetNames<'_>, base: &str) -> String {
+    if base == OWN_MODELS {
+        "the gearbox as described".to_owned()
+    } else {
+        names.quoted(base)
+    }
+}
+
+/// The shares with the largest differences, with these.
+fn leading(shares: &[DifferenceOfShare], count: usize) -> Vec<String> {
+    let mut order: Vec<&DifferenceOfShare> = shares.iter().filter(|share| share.difference_w != 0.0).collect();
+    order.sort_by(|a, b| b.difference_w.abs().total_cmp(&a.difference_w.abs()));
+    let least = order.first().map_or(0.0, |first| SMALL * first.difference_w.abs());
+    let words = order
+        .into_iter()
+        .take(count)
+        .filter(|own| own.difference_w.abs() >= least);
+    words
+        .map(|own| format!("{} {} W", share(&own.share), signed(own.difference_w)))
+        .collect()
 }
 
 fn on_grid(all: &[GridComparison], (what, unit): (&str, &str), page: &mut Page) -> Option<String> {
+    let names = SetNames::new(all.iter().flat_map(|c| [c.model_set.as_str(), c.base.as_str()]));
     let mut words = Vec::new();
     for c in all {
         let (Some(mean), Some(least), Some(greatest)) = (c.mean, &c.least, &c.greatest) else {
@@ -65,22 +101,57 @@ fn on_grid(all: &[GridComparison], (what, unit): (&str, &str), page: &mut Page) 
             greatest
         };
         let at = place(largest.torque_nm, largest.speed * RPM);
-        let of = format!("{} minus {}", c.model_set, c.base);
-        words.push(format!(
-            "{of}: {} {unit} on average, {} at {at}{}",
-            signed(mean),
-            signed(largest.difference),
-            everywhere(least.difference, greatest.difference)
-        ));
-        let label = format!("{what}: {of}");
+        let (set, base) = (names.quoted(&c.model_set), base(&names, &c.base));
+        let side = if mean < 0.0 { "lower" } else { "higher" };
+        // The first difference in full, the others by their mean.
+        words.push(if words.is_empty() {
+            let parts = leading(&c.components, if all.len() > 1 { 1 } else { OF_GRID });
+            let parts = if parts.is_empty() {
+                String::new()
+            } else {
+                format!("; loss by component: {} on average", parts.join(", "))
+            };
+            format!(
+                "With {set} the {what} is {} {unit} {side} than with {base} on average{}, most at {at} ({} {unit}){parts}",
+                short(mean.abs()),
+                everywhere(least.difference, greatest.difference),
+                signed(largest.difference),
+            )
+        } else {
+            format!("with {set} {} {unit} {side}", short(mean.abs()))
+        });
         page.key_figure(
-            &label,
+            &format!("{what}: {} minus {}", names.word(&c.model_set), names.word(&c.base)),
             signed(mean),
             unit,
             format!("mean; {} at {at}", signed(largest.difference)),
         );
     }
-    (!words.is_empty()).then(|| format!("{what}: {}", words.join("; ")))
+    if let [only] = all {
+        tiles_of_components(only, &names, page);
+    }
+    (!words.is_empty()).then(|| words.join("; "))
+}
+
+/// The components that contribute most to the difference.
+fn tiles_of_components(c: &GridComparison, names: &SetNames<'_>, page: &mut Page) {
+    let mut order: Vec<&DifferenceOfShare> = c.components.iter().collect();
+    order.sort_by(|a, b| b.difference_w.abs().total_cmp(&a.difference_w.abs()));
+    for own in order.into_iter().filter(|own| own.difference_w != 0.0).take(TILES) {
+        let detail = format!(
+            "mean; {} {} W, {} {} W",
+            names.word(&c.base),
+            short(own.base_mean_loss_w),
+            names.word(&c.model_set),
+            short(own.mean_loss_w)
+        );
+        page.key_figure(
+            &format!("difference in {}", share(&own.share)),
+            signed(own.difference_w),
+            "W",
+            detail,
+        );
+    }
 }
 
 /// Says that a difference has one sign.
@@ -107,7 +178,7 @@ fn with_data(all: &[DataComparison], (what, unit): (&str, &str), page: &mut Page
     let (first, others) = ranked.split_first()?;
     let others: Vec<String> = others
         .iter()
-        .map(|(set, rms)| format!("{set} {}", short(*rms)))
+        .map(|(set, rms)| format!("`{set}` {}", short(*rms)))
         .collect();
     let accuracy = all.first().and_then(|c| c.accuracy);
     if let (Some(accuracy), Some(next)) = (accuracy, ranked.get(1))
@@ -123,9 +194,12 @@ fn with_data(all: &[DataComparison], (what, unit): (&str, &str), page: &mut Page
     } else {
         format!("; {}", others.join(", "))
     };
+    let mean = all.iter().find(|c| c.model_set == first.0).and_then(|c| c.difference);
+    let mean = mean.map_or_else(String::new, |own| format!(" (mean {} {unit})", signed(own.mean)));
+    let closest = if ranked.len() > 1 { "at best, " } else { "" };
     Some(format!(
-        "{what} against the measurement: {} {} {unit} rms{others}",
-        first.0,
-        short(first.1)
+        "The {what} deviates from the measurement by {} {unit} rms{mean} {closest}with `{}`{others}",
+        short(first.1),
+        first.0
     ))
 }

@@ -3,6 +3,7 @@
 use gearloss_studies::analyses::component_compare::ComponentCompareOutcome;
 use gearloss_studies::analyses::numbers::RPM;
 
+use crate::names::model;
 use crate::page::Page;
 use crate::text::{place, short, signed};
 
@@ -13,11 +14,12 @@ pub fn add(outcome: &ComponentCompareOutcome, page: &mut Page) {
     };
     let at = place(*torque, speed * RPM);
     let mut words = Vec::new();
-    for model in &c.models {
-        if let Some(loss) = model.points.last().and_then(|point| point.loss_w) {
-            words.push(format!("{} {}", model.model, short(loss)));
+    let component = model(&c.component);
+    for own in &c.models {
+        if let Some(loss) = own.points.last().and_then(|point| point.loss_w) {
+            words.push(format!("`{}` {}", own.model, short(loss)));
             page.key_figure(
-                &format!("{} with {}", c.component, model.model),
+                &format!("{component} with {}", own.model),
                 short(loss),
                 "W",
                 at.as_str(),
@@ -27,14 +29,14 @@ pub fn add(outcome: &ComponentCompareOutcome, page: &mut Page) {
     if words.is_empty() {
         return;
     }
-    let mut headline = format!("loss of {} in W at {at}: {}", c.component, words.join(", "));
+    let mut headline = format!("Loss of {} at {at}: {} W", component, words.join(", "));
     let best = c
         .deviations
         .iter()
         .min_by(|a, b| a.rms_percent.total_cmp(&b.rms_percent));
     if let Some(best) = best {
         headline.push_str(&format!(
-            "; closest to the measurement: {}, {} % rms, mean {} %",
+            "; closest to the measurement: `{}`, {} % rms, mean {} %",
             best.model,
             short(best.rms_percent),
             signed(best.mean_percent)

@@ -16,7 +16,7 @@ pub fn add(outcome: &ContactPathOutcome, page: &mut Page) {
         page.key_figure("largest Hertzian pressure", short(high.0), "GPa", path.mesh.as_str());
     }
     if let Some([low, high]) = of(|place| place.mu) {
-        words.push(format!("friction {}", range(low.0, high.0, 3)));
+        words.push(format!("coefficient of friction {}", range(low.0, high.0, 3)));
         page.key_figure(
             "largest coefficient of friction",
             short(high.0),
@@ -32,5 +32,6 @@ pub fn add(outcome: &ContactPathOutcome, page: &mut Page) {
         page.careful
             .push(format!("no friction along the path of {}: {why}", path.mesh));
     }
-    page.headline = (!words.is_empty()).then(|| format!("{}, {}: {}", path.mesh, path.model_set, words.join(", ")));
+    page.headline =
+        (!words.is_empty()).then(|| format!("Mesh {} with `{}`: {}", path.mesh, path.model_set, words.join(", ")));
 }

@@ -1,6 +1,7 @@
 //! Pictures of cycles for the report: mean losses by share, and everything over time.
 
 use gearloss_studies::analyses::cycle::{CycleOutcome, DutyOfSet, IntervalOfDuty};
+use gearloss_studies::analyses::numbers::RPM;
 
 use super::{MOST, line, mean_losses, temperatures};
 use crate::page::Page;
@@ -18,41 +19,96 @@ pub fn draw(outcome: &CycleOutcome, page: &mut Page) {
     bars(outcome, page);
     for duty in &outcome.cycles {
         if !duty.series.is_empty() {
-            page.report_figure(Figure::Cloud(by_place(duty)));
+            let cells = Cells::new(duty);
+            page.report_figure(Figure::Cloud(cells.efficiency(duty)));
+            page.report_figure(Figure::Cloud(cells.lost(duty)));
             page.screen(Screen::Panes(over_time(duty)));
         }
     }
 }
 
-/// Where the energy of a cycle is lost: cells of torque and speed with their share.
-fn by_place(duty: &DutyOfSet) -> Cloud {
-    let ends = |read: fn(&IntervalOfDuty) -> f64| {
-        let ends = extremes(duty.series.iter().map(|interval| (read(interval), ())));
-        ends.map_or((0.0, 1.0), |[low, high]| (low.0, (high.0 - low.0).max(1e-9)))
-    };
-    let (speed, torque) = (ends(|i| i.speed_rpm), ends(|i| i.torque_nm));
-    let place = |value: f64, (low, width): (f64, f64), cells: usize| {
-        (((value - low) / width * cells as f64) as usize).min(cells - 1)
-    };
-    let mut joules = vec![0.0; CELLS[0] * CELLS[1]];
-    for interval in &duty.series {
-        let column = place(interval.speed_rpm, speed, CELLS[0]);
-        let row = place(interval.torque_nm, torque, CELLS[1]);
-        joules[row * CELLS[0] + column] += interval.loss_w * interval.duration_s;
+/// Energies of a cycle by cells of speed and torque.
+struct Cells {
+    /// Minimum and width of the range of speed and of torque.
+    ranges: [(f64, f64); 2],
+    /// For each cell: energy through the reference port in drive and in coast, and the losses of both. \[J\]
+    energies: Vec<[[f64; 2]; 2]>,
+}
+
+impl Cells {
+    fn new(duty: &DutyOfSet) -> Self {
+        let range = |read: fn(&IntervalOfDuty) -> f64| {
+            let ends = extremes(duty.series.iter().map(|interval| (read(interval), ())));
+            ends.map_or((0.0, 1.0), |[low, high]| (low.0, (high.0 - low.0).max(1e-9)))
+        };
+        let ranges = [range(|i| i.speed_rpm), range(|i| i.torque_nm)];
+        let place = |value: f64, (low, width): (f64, f64), cells: usize| {
+            (((value - low) / width * cells as f64) as usize).min(cells - 1)
+        };
+        let mut energies = vec![[[0.0; 2]; 2]; CELLS[0] * CELLS[1]];
+        for interval in &duty.series {
+            let column = place(interval.speed_rpm, ranges[0], CELLS[0]);
+            let row = place(interval.torque_nm, ranges[1], CELLS[1]);
+            let power = interval.torque_nm * interval.speed_rpm / RPM;
+            let [transferred, lost] = &mut energies[row * CELLS[0] + column];
+            let side = usize::from(power < 0.0);
+            transferred[side] += power.abs() * interval.duration_s;
+            lost[side] += interval.loss_w * interval.duration_s;
+        }
+        Self { ranges, energies }
     }
-    let all: f64 = joules.iter().sum();
-    let middle = |cell: usize, (low, width): (f64, f64), cells: usize| low + (cell as f64 + 0.5) * width / cells as f64;
-    let point = |(i, joule): (usize, &f64)| {
-        let (column, row) = (i % CELLS[0], i / CELLS[0]);
-        let share = 100.0 * joule / all;
-        (share >= LEAST).then(|| (middle(column, speed, CELLS[0]), middle(row, torque, CELLS[1]), share))
-    };
-    Cloud {
-        title: format!("Where {} loses its energy with {}, in %", duty.cycle, duty.model_set),
-        axes: ("speed in rpm".to_owned(), "torque in Nm".to_owned()),
-        points: joules.iter().enumerate().filter_map(point).collect(),
-        unit: "%".to_owned(),
-        diverging: false,
+
+    /// Speed and torque in the middle of a cell.
+    fn middle(&self, cell: usize) -> (f64, f64) {
+        let place = [cell % CELLS[0], cell / CELLS[0]];
+        let at = |k: usize| self.ranges[k].0 + (place[k] as f64 + 0.5) * self.ranges[k].1 / CELLS[k] as f64;
+        (at(0), at(1))
+    }
+
+    fn cloud(&self, title: String, value: impl Fn(&[[f64; 2]; 2]) -> Option<f64>) -> Cloud {
+        let cells = self.energies.iter().enumerate();
+        let points = cells.filter_map(|(cell, energies)| {
+            let (speed, torque) = self.middle(cell);
+            Some((speed, torque, value(energies)?))
+        });
+        Cloud {
+            title,
+            axes: ("speed in rpm".to_owned(), "torque in Nm".to_owned()),
+            points: points.collect(),
+            unit: "%".to_owned(),
+            ..Cloud::default()
+        }
+    }
+
+    /// Where the energy of a cycle is lost: cells with their share.
+    fn lost(&self, duty: &DutyOfSet) -> Cloud {
+        let lost = |[_, lost]: &[[f64; 2]; 2]| lost[0] + lost[1];
+        let all: f64 = self.energies.iter().map(lost).sum();
+        let share = |energies: &[[f64; 2]; 2]| Some(100.0 * lost(energies) / all).filter(|share| *share >= LEAST);
+        let title = format!("Where {} loses its energy with {}, in %", duty.cycle, duty.model_set);
+        self.cloud(title, share)
+    }
+
+    /// The efficiency at the operating points of a cycle, each as large as the energy that it transfers.
+    fn efficiency(&self, duty: &DutyOfSet) -> Cloud {
+        let transferred = |[transferred, _]: &[[f64; 2]; 2]| transferred[0] + transferred[1];
+        let all: f64 = self.energies.iter().map(transferred).sum();
+        let is_shown = |energies: &[[f64; 2]; 2]| 100.0 * transferred(energies) >= LEAST * all;
+        // The losses reduce what leaves: at the other port in drive, at this port in coast.
+        let efficiency = |energies: &[[f64; 2]; 2]| {
+            let [[drive, coast], lost] = energies;
+            let (input, output) = (drive + coast + lost[1], drive - lost[0] + coast);
+            (is_shown(energies) && input > 0.0 && output > 0.0).then(|| 100.0 * output / input)
+        };
+        let shown = self.energies.iter().filter(|own| efficiency(own).is_some());
+        let shares: Vec<f64> = shown.map(transferred).collect();
+        let largest = shares.iter().copied().fold(0.0, f64::max);
+        let title = format!("Efficiency over {} with {}, area by energy", duty.cycle, duty.model_set);
+        Cloud {
+            sizes: shares.iter().map(|joule| joule / largest).collect(),
+            sized: format!("area: energy transferred, largest {} %", short(100.0 * largest / all)),
+            ..self.cloud(title, efficiency)
+        }
     }
 }
 
@@ -67,7 +123,10 @@ fn bars(outcome: &CycleOutcome, page: &mut Page) {
             shares: duty.mean_losses_w.clone(),
             above: format!("{} W{band}", short(duty.mean_loss_w)),
             measured: duty.reference.as_ref().map(|reference| (reference.mean_loss_w, 0.0)),
-            above_measured: String::new(),
+            above_measured: duty
+                .reference
+                .as_ref()
+                .map_or_else(String::new, |reference| format!("{} W", short(reference.mean_loss_w))),
         }
     };
     page.report_figure(Figure::Bars {

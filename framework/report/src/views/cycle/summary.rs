@@ -2,42 +2,49 @@
 
 use gearloss_studies::analyses::cycle::{CycleOutcome, DutyOfSet};
 
+use crate::names::{SetNames, cycle, share};
 use crate::page::Page;
-use crate::text::{short, signed};
+use crate::text::short;
 
 pub fn add(outcome: &CycleOutcome, page: &mut Page) {
     let mut words = Vec::new();
+    let names = SetNames::new(outcome.cycles.iter().map(|duty| duty.model_set.as_str()));
     let several = outcome
         .cycles
         .iter()
         .any(|duty| duty.model_set != outcome.cycles[0].model_set);
     for duty in &outcome.cycles {
         let of = if several {
-            format!("{}, {}", duty.cycle, duty.model_set)
+            format!("{} with {}", cycle(&duty.cycle), names.quoted(&duty.model_set))
         } else {
-            duty.cycle.clone()
+            cycle(&duty.cycle)
         };
-        let mut own = format!("{of}: {} W", short(duty.mean_loss_w));
+        let mut own = format!("{} W over {of}", short(duty.mean_loss_w));
         let mut details = Vec::new();
         if let Some(per) = &duty.per_distance {
-            own.push_str(&format!(" or {} Wh/km", short(per.loss_wh_per_km)));
+            own = format!(
+                "{} W ({} Wh/km) over {of}",
+                short(duty.mean_loss_w),
+                short(per.loss_wh_per_km)
+            );
             details.push(format!("{} kWh/100 km", short(per.loss_kwh_per_100_km)));
         }
-        if let Some((name, share)) = largest(duty) {
-            own.push_str(&format!(", {} % of it {name}", short(share)));
-            details.push(format!("{} % {name}", short(share)));
+        own.push_str(&against_reference(duty));
+        if let Some((name, percent)) = largest(duty) {
+            let name = share(name);
+            own.push_str(&format!(", {} % in the {name}", short(percent)));
+            details.push(format!("{} % {name}", short(percent)));
         }
         if let Some(reference) = &duty.reference {
-            let ratio = 100.0 * (duty.mean_loss_w / reference.mean_loss_w - 1.0);
-            own.push_str(&format!(" ({} W in the reference)", short(reference.mean_loss_w)));
-            details.push(format!("{} % to the reference", signed(ratio)));
+            let source = reference.source.as_deref().unwrap_or("reference");
+            details.push(format!("{} W: {source}", short(reference.mean_loss_w)));
         }
         if let Some(band) = &duty.bands {
             let [low, _, high] = band.mean_loss_w.map(short);
             details.push(format!("95 %: {low} to {high} W"));
             if band.reference_inside == Some(false) {
                 page.careful.push(format!(
-                    "{of}: the reference lies outside the band of {low} to {high} W"
+                    "{of}: the published value is outside our 95 % band of {low} to {high} W"
                 ));
             }
         }
@@ -56,7 +63,27 @@ pub fn add(outcome: &CycleOutcome, page: &mut Page) {
             page.careful.push(format!("{of}: a motor was outside its map"));
         }
     }
-    page.headline = (!words.is_empty()).then(|| format!("mean loss over {}", words.join("; ")));
+    page.headline = (!words.is_empty()).then(|| format!("Mean loss {}", words.join("; ")));
+}
+
+/// The deviation from a published value, and whether that is inside the band.
+fn against_reference(duty: &DutyOfSet) -> String {
+    let Some(reference) = &duty.reference else {
+        return String::new();
+    };
+    let percent = 100.0 * (duty.mean_loss_w / reference.mean_loss_w - 1.0);
+    let side = if percent < 0.0 { "below" } else { "above" };
+    let band = duty.bands.as_ref().and_then(|band| {
+        let [low, _, high] = band.mean_loss_w.map(short);
+        let inside = if band.reference_inside? { "inside" } else { "outside" };
+        Some(format!(", which is {inside} our 95 % band of {low} to {high} W"))
+    });
+    format!(
+        ", {} % {side} the published {} W{}",
+        short(percent.abs()),
+        short(reference.mean_loss_w),
+        band.unwrap_or_default()
+    )
 }
 
 /// The largest share of the loss, in percent.

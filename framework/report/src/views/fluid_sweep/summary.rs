@@ -1,7 +1,8 @@
 //! The oil with the least loss in one sentence.
 
-use gearloss_studies::analyses::fluid_sweep::FluidSweepOutcome;
+use gearloss_studies::analyses::fluid_sweep::{FluidSweepOutcome, FluidsOfSet};
 
+use crate::names::{cycle, quantity};
 use crate::page::Page;
 use crate::text::short;
 
@@ -12,9 +13,9 @@ pub fn add(outcome: &FluidSweepOutcome, page: &mut Page) {
         for duty in &set.cycles {
             let least = &duty.least;
             let of = if several {
-                format!("{}, {}", duty.cycle, set.model_set)
+                format!("{}, {}", cycle(&duty.cycle), set.model_set)
             } else {
-                duty.cycle.clone()
+                cycle(&duty.cycle)
             };
             let end = if least.at_end_of_range {
                 ", the end of the range"
@@ -23,12 +24,13 @@ pub fn add(outcome: &FluidSweepOutcome, page: &mut Page) {
             };
             let flat = least.flat_range.map(short);
             words.push(format!(
-                "{of}: {} W at {} {}{end} (within 1 % from {} to {})",
-                short(least.mean_loss_w),
+                "{} {}{end} over {of} ({} W; within 1 % of it from {} to {} {})",
                 short(least.value),
                 set.unit,
+                short(least.mean_loss_w),
                 flat[0],
-                flat[1]
+                flat[1],
+                set.unit
             ));
             let detail = format!(
                 "{} W; within 1 % from {} to {}",
@@ -37,7 +39,7 @@ pub fn add(outcome: &FluidSweepOutcome, page: &mut Page) {
                 flat[1]
             );
             page.key_figure(
-                &format!("value of the least loss, {of}"),
+                &format!("best {}, {of}", property(set)),
                 short(least.value),
                 set.unit,
                 detail,
@@ -58,5 +60,15 @@ pub fn add(outcome: &FluidSweepOutcome, page: &mut Page) {
             );
         }
     }
-    page.headline = Some(format!("least mean loss: {}", words.join("; ")));
+    let property = outcome.fluid_sweep.first().map(property).unwrap_or_default();
+    page.headline = Some(format!(
+        "The {property} with the lowest loss is {}",
+        words.join(" and ")
+    ));
+}
+
+/// The swept property in words, without its unit.
+fn property(set: &FluidsOfSet) -> String {
+    let name = set.property.split([' ', ',']).next().unwrap_or_default();
+    quantity(name)
 }

@@ -1,28 +1,54 @@
 //! The fit of each model set in one sentence.
 
 use gearloss_studies::analyses::identify::{IdentificationOfSet, IdentifyOutcome};
+use gearloss_studies::study::Quantity;
 
 use super::words;
 use crate::page::Page;
-use crate::text::{brief, of_set, short};
+use crate::text::{brief, short};
+
+/// Probability below which a misfit is significant.
+const SIGNIFICANT: f64 = 0.05;
 
 pub fn add(outcome: &IdentifyOutcome, page: &mut Page) {
     let mut sentences = Vec::new();
+    let mut misfits = false;
     for o in &outcome.identifications {
-        sentences.push(sentence(o, outcome.identifications.len(), page));
+        sentences.push(sentence(o, misfits, page));
+        misfits = o.misfit.probability.is_some_and(|p| p < SIGNIFICANT);
     }
     page.headline = (!sentences.is_empty()).then(|| sentences.join("; "));
 }
 
-fn sentence(o: &IdentificationOfSet, sets: usize, page: &mut Page) -> String {
+/// `misfits`: whether the set before does not fit.
+fn sentence(o: &IdentificationOfSet, misfits: bool, page: &mut Page) -> String {
     let set = &o.model_set;
-    let mut sentence = of_set(set, sets);
-    for (i, quantity) in o.found.quantities().into_iter().enumerate() {
+    let fits = match o.misfit.probability {
+        Some(p) if p < SIGNIFICANT => "does not fit the points within their accuracy",
+        Some(_) => "fits the points within their accuracy",
+        None => "is fitted",
+    };
+    let probability = o.misfit.probability.map_or_else(String::new, |p| {
+        let p = if p < 0.001 {
+            "p < 0.001".to_owned()
+        } else {
+            format!("p = {p:.2}")
+        };
+        format!(" ({p})")
+    });
+    let is_misfit = o.misfit.probability.is_some_and(|p| p < SIGNIFICANT);
+    if is_misfit {
+        page.careful.push(format!("{set} {fits}{probability}"));
+    }
+    let mut sentence = match (is_misfit, misfits) {
+        (true, true) => format!("nor does `{set}`{probability}"),
+        _ => format!("`{set}` {fits}{probability}"),
+    };
+    for quantity in o.found.quantities() {
         let (what, unit) = words(quantity);
         let unit = brief(unit);
         let [before, after] = o.found.rms(quantity).map(short);
-        let comma = if i > 0 { ", " } else { "" };
-        sentence.push_str(&format!("{comma}{what} {before} to {after} {unit} rms"));
+        sentence.push_str(&format!(": {what} to {after} {unit} rms ({before} before)"));
         page.key_figure(
             &format!("{what} deviation, {set}"),
             after,
@@ -30,27 +56,15 @@ fn sentence(o: &IdentificationOfSet, sets: usize, page: &mut Page) -> String {
             format!("rms; {before} before the fit"),
         );
     }
-    let free = o.found.fitted.inference.sized_singular_values().len();
-    sentence.push_str(&format!(
-        ", {} of {free} combinations of parameters identified",
-        o.resolved_combinations
-    ));
-    let outliers = o.checks.outlier_lines.len();
-    if outliers > 0 {
-        let plural = if outliers == 1 { "" } else { "s" };
-        sentence.push_str(&format!(", {outliers} outlier{plural}"));
+    if let Some(prediction) = held_out(o, page) {
+        sentence.push_str(&format!(", {prediction}"));
     }
-    if let Some(p) = o.misfit.probability {
-        let p = if p < 0.001 {
-            "p < 0.001".to_owned()
-        } else {
-            format!("p = {p:.2}")
-        };
-        sentence.push_str(&format!(" ({p})"));
-        if o.misfit.probability.is_some_and(|p| p < 0.05) {
-            page.careful
-                .push(format!("{set} does not fit the points within their accuracy ({p})"));
-        }
+    let free = o.found.fitted.inference.sized_singular_values().len();
+    if !is_misfit {
+        sentence.push_str(&format!(
+            "; {} of {free} combinations of inputs identified",
+            o.resolved_combinations
+        ));
     }
     let bounded = o.parameters.iter().filter(|parameter| parameter.bound.is_some());
     let bounded: Vec<&str> = bounded.map(|parameter| parameter.name.as_str()).collect();
@@ -65,4 +79,32 @@ fn sentence(o: &IdentificationOfSet, sets: usize, page: &mut Page) -> String {
         ));
     }
     sentence
+}
+
+/// The errors of the predictions of held-out rows.
+fn held_out(o: &IdentificationOfSet, page: &mut Page) -> Option<String> {
+    let held = o.hold_out.as_ref()?;
+    let errors = held.quantities.iter().filter_map(|own| {
+        let (what, unit) = words(own.errors.quantity);
+        let unit = brief(unit);
+        let errors = own.held_out.as_ref()?;
+        let percent = errors
+            .in_percent
+            .as_ref()
+            .filter(|_| own.errors.quantity != Quantity::Efficiency)
+            .map_or_else(String::new, |percent| format!(" or {} %", short(percent.rms)));
+        page.key_figure(
+            &format!("predicted {what}, {}", o.model_set),
+            short(errors.rms),
+            unit,
+            format!("rms{percent} at {} held-out points ({})", errors.points, held.chosen_by),
+        );
+        Some(format!(
+            "{} {unit}{percent} at the held-out points ({})",
+            short(errors.rms),
+            held.chosen_by
+        ))
+    });
+    let errors: Vec<String> = errors.collect();
+    (!errors.is_empty()).then(|| errors.join(", "))
 }

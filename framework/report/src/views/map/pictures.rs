@@ -93,9 +93,10 @@ pub fn draw(outcome: &MapOutcome, page: &mut Page) {
                     map.gear,
                     map.bound_words()
                 );
-                for (side, figure) in over_torque(map, &title, &quantity, &axes, &outcome.marks, ends) {
-                    put(format!("{file}{number}{side}"), figure);
-                }
+                put(
+                    format!("{file}{number}"),
+                    over_torque(map, &title, &quantity, &axes, &outcome.marks, ends),
+                );
             }
         }
     }
@@ -162,7 +163,7 @@ impl AxisNames {
     }
 }
 
-/// The figures of one quantity of one map. The efficiency is zero at zero torque, so positive and negative torques have separate figures.
+/// The figure of one quantity of one map.
 fn over_torque(
     map: &MapOfSet,
     title: &str,
@@ -170,27 +171,17 @@ fn over_torque(
     names: &AxisNames,
     marks: &[Mark],
     ends: Option<(f64, f64)>,
-) -> Vec<(&'static str, Figure)> {
+) -> Figure {
     let value = quantity.value;
     let Some(ShownGrid { axes, places }) = &map.shown.grid else {
         let point = |p: &ShownPoint| Some((p.speed * RPM, p.torque, value(p)?));
-        let cloud = Cloud {
+        return Figure::Cloud(Cloud {
             title: title.to_owned(),
             axes: (names.speed.clone(), names.torque.clone()),
             points: map.shown.points.iter().filter_map(point).collect(),
             unit: quantity.unit.to_owned(),
-            diverging: false,
-        };
-        return vec![("", Figure::Cloud(cloud))];
-    };
-    let both = axes.torques.iter().any(|t| *t > 0.0) && axes.torques.iter().any(|t| *t < 0.0);
-    let sides: &[(&str, &str, fn(f64) -> bool)] = if quantity.short == "efficiency" && both {
-        &[
-            ("-above", ", positive torque", |t| t > 0.0),
-            ("-below", ", negative torque", |t| t < 0.0),
-        ]
-    } else {
-        &[("", "", |_| true)]
+            ..Cloud::default()
+        });
     };
     let columns = axes.speeds.len();
     let marks: Vec<(f64, f64)> = marks
@@ -198,28 +189,29 @@ fn over_torque(
         .filter(|m| m.gear.as_deref().is_none_or(|g| g == map.gear))
         .map(|m| (speed(axes, m.speed), torque(axes, m.torque)))
         .collect();
-    let picture = |(file, words, holds): &(&'static str, &str, fn(f64) -> bool)| {
-        let rows: Vec<usize> = (0..axes.torques.len()).filter(|t| holds(axes.torques[*t])).collect();
-        let cells = || rows.iter().flat_map(|t| &places[t * columns..(t + 1) * columns]);
-        let solved = |place: &Option<usize>| place.map(|i| &map.shown.points[i]);
-        let mut y = torque_axis(axes, names);
-        y.1 = rows.iter().map(|t| y.1[*t].clone()).collect();
-        let figure = Figure::Map(Map {
-            title: format!("{title}{words}"),
-            x: over_speed(axes, names),
-            y,
-            values: cells().map(|p| solved(p).and_then(value)).collect(),
-            unit: quantity.unit.to_owned(),
-            best: Some(quantity.best),
-            jumps: jumps(quantity.name),
-            hatched: cells().map(|p| solved(p).is_some_and(|p| p.outside)).collect(),
-            marks: marks.clone(),
-            ends,
-            ..Map::default()
-        });
-        (*file, figure)
+    let cells = || places[..axes.torques.len() * columns].iter();
+    let solved = |place: &Option<usize>| place.map(|i| &map.shown.points[i]);
+    // Without torque there is no efficiency.
+    let known = |p: &ShownPoint| {
+        if jumps(quantity.name) && p.torque == 0.0 {
+            None
+        } else {
+            value(p)
+        }
     };
-    sides.iter().map(picture).collect()
+    Figure::Map(Map {
+        title: title.to_owned(),
+        x: over_speed(axes, names),
+        y: torque_axis(axes, names),
+        values: cells().map(|p| solved(p).and_then(known)).collect(),
+        unit: quantity.unit.to_owned(),
+        best: Some(quantity.best),
+        jumps: jumps(quantity.name),
+        hatched: cells().map(|p| solved(p).is_some_and(|p| p.outside)).collect(),
+        marks,
+        ends,
+        ..Map::default()
+    })
 }
 
 /// A speed in the unit of the axis.

@@ -3,8 +3,9 @@
 use gearloss_studies::analyses::map::{MapOfSet, MapOutcome, ShownPoint};
 use gearloss_studies::analyses::numbers::RPM;
 
+use crate::names::SetNames;
 use crate::page::Page;
-use crate::text::{extremes, place, range, short};
+use crate::text::{capitalised, extremes, place, range, short};
 
 type Found<'a> = (&'a MapOfSet, &'a ShownPoint);
 
@@ -19,9 +20,10 @@ pub fn add(outcome: &MapOutcome, page: &mut Page) {
         extremes(points().filter_map(move |(map, point)| Some((value(point)?, (map, point)))))
     };
     let sets = outcome.set_names();
+    let names = SetNames::new(sets.iter().copied());
     let at = |(map, point): Found<'_>| {
         let set = if sets.len() > 1 {
-            format!(", {}", map.model_set)
+            format!(" with {}", names.quoted(&map.model_set))
         } else {
             String::new()
         };
@@ -35,7 +37,7 @@ pub fn add(outcome: &MapOutcome, page: &mut Page) {
             .map(|share| 100.0 * share)
     }) {
         words.push(format!(
-            "efficiency {} %, highest at {}",
+            "the efficiency is {} %, highest at {}",
             range(low.0, high.0, 1),
             at(high.1)
         ));
@@ -43,11 +45,11 @@ pub fn add(outcome: &MapOutcome, page: &mut Page) {
         page.key_figure("lowest efficiency", short(low.0), "%", at(low.1));
     }
     if let Some([low, high]) = of(|point| point.loss) {
-        words.push(format!("loss {} W", range(low.0, high.0, 0)));
+        words.push(format!("the loss {} W", range(low.0, high.0, 0)));
         page.key_figure("largest loss", short(high.0), "W", at(high.1));
     }
     if let Some([low, high]) = of(|point| point.oil).filter(|ends| ends[1].0 - ends[0].0 > 0.05) {
-        words.push(format!("oil {} °C", range(low.0, high.0, 0)));
+        words.push(format!("the oil temperature {} °C", range(low.0, high.0, 0)));
         page.key_figure("highest oil temperature", short(high.0), "°C", at(high.1));
     }
     let missing = points().filter(|(_, point)| point.loss.is_none()).count();
@@ -58,7 +60,7 @@ pub fn add(outcome: &MapOutcome, page: &mut Page) {
     }
     let count = match sets.len() {
         1 => String::new(),
-        sets => format!("{sets} model sets: "),
+        sets => format!("With {sets} model sets "),
     };
-    page.headline = (!words.is_empty()).then(|| format!("{count}{}", words.join("; ")));
+    page.headline = (!words.is_empty()).then(|| capitalised(&format!("{count}{}", words.join("; "))));
 }

@@ -3,6 +3,7 @@
 use gearloss_studies::analyses::measurable::is_measurable;
 use gearloss_studies::analyses::operating_points::{OperatingPoint, OperatingPointsOutcome};
 
+use crate::names::share;
 use crate::page::Page;
 use crate::text::{extremes, of_set, range, short, signed};
 
@@ -15,7 +16,13 @@ pub fn add(outcome: &OperatingPointsOutcome, page: &mut Page) {
         };
         let mut own = Vec::new();
         if let Some([low, high]) = ends(|point| point.loss_w) {
-            own.push(format!("{} W", range(low.0, high.0, 1)));
+            let parts = high
+                .1
+                .losses_w
+                .as_deref()
+                .map(|losses| leading(&points_of_set.shares, losses));
+            let parts = parts.map_or_else(String::new, |parts| format!(" (at the highest {parts})"));
+            own.push(format!("loss {} W{parts}", range(low.0, high.0, 1)));
             page.key_figure("largest loss", short(high.0), "W", format!("point {}", high.1.name));
         }
         if let Some([low, high]) = ends(|point| point.oil_temperature_degc) {
@@ -37,7 +44,7 @@ pub fn add(outcome: &OperatingPointsOutcome, page: &mut Page) {
             let mean = deviations.iter().sum::<f64>() / count;
             let rms = (deviations.iter().map(|x| x * x).sum::<f64>() / count).sqrt();
             own.push(format!(
-                "{} % to the measured loss on average, {} % rms",
+                "{} % to the measured loss on average ({} % rms)",
                 signed(mean),
                 short(rms)
             ));
@@ -50,7 +57,7 @@ pub fn add(outcome: &OperatingPointsOutcome, page: &mut Page) {
         }
         if !own.is_empty() {
             words.push(format!(
-                "{}{} points, {}",
+                "{}{} points: {}",
                 of_set(set, outcome.operating_points.len()),
                 points.len(),
                 own.join(", ")
@@ -63,4 +70,16 @@ pub fn add(outcome: &OperatingPointsOutcome, page: &mut Page) {
         }
     }
     page.headline = (!words.is_empty()).then(|| words.join("; "));
+}
+
+/// The two largest shares of a loss.
+fn leading(names: &[String], losses: &[f64]) -> String {
+    let total: f64 = losses.iter().sum();
+    let mut order: Vec<(&String, f64)> = names.iter().zip(losses.iter().copied()).collect();
+    order.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let words = order.into_iter().take(2).filter(|(_, watts)| *watts > 0.0);
+    let words: Vec<String> = words
+        .map(|(name, watts)| format!("{} {} %", share(name), short(100.0 * watts / total)))
+        .collect();
+    words.join(", ")
 }

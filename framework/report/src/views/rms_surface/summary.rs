@@ -2,8 +2,9 @@
 
 use gearloss_studies::analyses::rms_surface::RmsSurfaceOutcome;
 
+use crate::names::quantity;
 use crate::page::Page;
-use crate::text::{brief, last_key, short};
+use crate::text::{brief, short};
 
 pub fn add(outcome: &RmsSurfaceOutcome, page: &mut Page) {
     let mut words = Vec::new();
@@ -14,12 +15,16 @@ pub fn add(outcome: &RmsSurfaceOutcome, page: &mut Page) {
         let place = &surface.least_place.place;
         let at = [(&surface.x, place[0], least.x_end), (&surface.y, place[1], least.y_end)];
         let at = at.map(|(axis, i, end)| {
-            let name = last_key(&axis.path);
+            let name = quantity(&axis.path);
             let end = end.map_or_else(String::new, |end| format!(" ({end} end)"));
             format!("{name} {}{end}", axis.words[i])
         });
         let at = at.join(", ");
-        words.push(format!("{} {} {unit} rms at {at}", surface.model_set, short(least.rms)));
+        words.push(format!(
+            "`{}` {} {unit} rms at {at}",
+            surface.model_set,
+            short(least.rms)
+        ));
         page.key_figure(
             &format!("least deviation, {}", surface.model_set),
             short(least.rms),
@@ -31,5 +36,6 @@ pub fn add(outcome: &RmsSurfaceOutcome, page: &mut Page) {
                 .push(format!("{}: the minimum is at the end of a range", surface.model_set));
         }
     }
-    page.headline = (!words.is_empty()).then(|| words.join("; "));
+    page.headline =
+        (!words.is_empty()).then(|| format!("Smallest deviation from the measurement: {}", words.join("; ")));
 }

@@ -54,7 +54,7 @@ fn tornado(set: &SensitivityOfSet) -> Option<Tornado> {
 
 /// A bar for each parameter, the largest first.
 fn effects(name: &str, set: &SensitivityOfSet) -> Option<Figure> {
-    let Influences { values, unit, of } = influences(set.outputs.first()?)?;
+    let Influences { values, unit, of, .. } = influences(set.outputs.first()?)?;
     let bar = |k: &usize| Bar {
         label: folded(&set.parameters[*k].path),
         shares: vec![values[*k]],

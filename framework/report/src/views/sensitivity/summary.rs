@@ -3,8 +3,9 @@
 use gearloss_studies::analyses::sensitivity::{SensitivityOfSet, SensitivityOutcome};
 
 use super::{Influences, descending, influences};
+use crate::names::{listed, quantity};
 use crate::page::Page;
-use crate::text::{last_key, of_set, short};
+use crate::text::{of_set, short};
 
 /// Parameters that are named.
 const NAMED: usize = 3;
@@ -13,18 +14,32 @@ pub fn add(outcome: &SensitivityOutcome, page: &mut Page) {
     let mut words = Vec::new();
     for set in &outcome.sensitivities {
         let Some(loss) = set.outputs.first() else { continue };
-        let Some(Influences { values, unit, of }) = influences(loss) else {
+        let Some(Influences {
+            values,
+            unit,
+            of,
+            brief,
+        }) = influences(loss)
+        else {
             continue;
         };
         let order = descending(&values);
-        let named = order
-            .iter()
-            .take(NAMED)
-            .map(|k| format!("{} {} {unit}", name(set, *k), short(values[*k])));
+        let named = order.iter().take(NAMED).filter(|k| values[**k] > 0.0);
+        let named: Vec<String> = named
+            .enumerate()
+            .map(|(i, k)| {
+                let brief = if i == 0 { format!(" {brief}") } else { String::new() };
+                format!("the {} ({} {unit}{brief})", name(set, *k), short(values[*k]))
+            })
+            .collect();
+        let named = if named.is_empty() {
+            "none of the inputs".to_owned()
+        } else {
+            listed(&named)
+        };
         words.push(format!(
-            "{}{of}: {}",
-            of_set(&set.model_set, outcome.sensitivities.len()),
-            named.collect::<Vec<_>>().join(", ")
+            "{}the mean loss depends most on {named}",
+            of_set(&set.model_set, outcome.sensitivities.len())
         ));
         if let Some(first) = order.first() {
             page.key_figure(
@@ -38,7 +53,7 @@ pub fn add(outcome: &SensitivityOutcome, page: &mut Page) {
     page.headline = (!words.is_empty()).then(|| words.join("; "));
 }
 
-/// The end of the path of a parameter.
-fn name(set: &SensitivityOfSet, k: usize) -> &str {
-    last_key(&set.parameters[k].path)
+/// A parameter in words.
+fn name(set: &SensitivityOfSet, k: usize) -> String {
+    quantity(&set.parameters[k].path)
 }

@@ -3,6 +3,7 @@
 use gearloss_studies::analyses::numbers::word;
 use gearloss_studies::analyses::sweep::{SweepOfValue, SweepOutcome};
 
+use crate::names::{listed, quantity};
 use crate::page::Page;
 use crate::text::{extremes, of_set, short, signed};
 
@@ -42,6 +43,9 @@ pub fn add(outcome: &SweepOutcome, page: &mut Page) {
         page.key_figure(&format!("least mean loss, {set}"), short(low.0), "W", at(low.1));
         page.key_figure(&format!("largest mean loss, {set}"), short(high.0), "W", at(high.1));
     }
-    let path = outcome.sweep.first().map_or("", |value| value.path.as_str());
-    page.headline = (!words.is_empty()).then(|| format!("over {path}: {}", words.join("; ")));
+    let first = outcome.sweep.first();
+    let second = first.and_then(|value| Some(quantity(&value.second.as_ref()?.path)));
+    let paths = first.map(|value| quantity(&value.path)).into_iter().chain(second);
+    let paths = listed(&paths.collect::<Vec<_>>());
+    page.headline = (!words.is_empty()).then(|| format!("Over the {paths}: {}", words.join("; ")));
 }

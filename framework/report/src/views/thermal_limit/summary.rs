@@ -46,7 +46,7 @@ pub fn add(outcome: &ThermalLimitOutcome, page: &mut Page) {
         }
     }
     page.headline = Some(format!(
-        "at {} {along} the oil reaches {}",
+        "At {} {along} the oil reaches {}",
         short(*middle),
         words.join(", ")
     ));

@@ -2,6 +2,7 @@
 
 use gearloss_studies::analyses::tournament::{Tournament, TournamentOutcome};
 
+use crate::names::{listed, share as share_words};
 use crate::page::Page;
 use crate::text::{extremes, range, short};
 
@@ -20,9 +21,15 @@ pub fn add(outcome: &TournamentOutcome, page: &mut Page) {
                 alike => format!("{alike} others are not distinguishable from it"),
             };
             page.headline = Some(format!(
-                "best of {} combinations: {}, errors {} times the accuracy; {others}",
+                "Best of {} combinations of models: {}, with errors of {} times the accuracy; {others}",
                 ranking.combinations,
-                winner.models.join(", "),
+                listed(
+                    &winner
+                        .models
+                        .iter()
+                        .map(|model| format!("`{model}`"))
+                        .collect::<Vec<_>>()
+                ),
                 short(winner.predicted_over_accuracy)
             ));
             let models = winner.models.join(", ");
@@ -54,7 +61,7 @@ pub fn add(outcome: &TournamentOutcome, page: &mut Page) {
             let Some([low, high]) = extremes(halves) else { return };
             let unit = spread.unit_in_words;
             page.headline = Some(format!(
-                "{} combinations of models differ by +-{} {unit}, standard deviation {} {unit}",
+                "{} combinations of models differ by ±{} {unit}, standard deviation {} {unit}",
                 spread.combinations,
                 range(low.0, high.0, 2),
                 short(spread.deviation_rms)
@@ -71,7 +78,7 @@ pub fn add(outcome: &TournamentOutcome, page: &mut Page) {
                     "largest share of the spread",
                     short(100.0 * share),
                     "%",
-                    own.mechanism.as_str(),
+                    share_words(own.mechanism.as_str()),
                 );
             }
         }

@@ -3,8 +3,9 @@
 use gearloss_studies::analyses::numbers::tidy;
 use gearloss_studies::analyses::uncertainty::{PointOfBand, UncertaintyOutcome};
 
+use crate::names::quantity;
 use crate::page::Page;
-use crate::text::{extremes, last_key, of_set, place, range, short};
+use crate::text::{extremes, of_set, place, range, short};
 
 pub fn add(outcome: &UncertaintyOutcome, page: &mut Page) {
     let mut words = Vec::new();
@@ -16,7 +17,7 @@ pub fn add(outcome: &UncertaintyOutcome, page: &mut Page) {
         let at = |point: &PointOfBand| place(tidy(point.torque_nm), tidy(point.speed_rpm));
         if let Some([low, high]) = half(|point| point.efficiency_percent.half_width()) {
             own.push(format!(
-                "efficiency +-{} points, widest at {}",
+                "the efficiency is known to ±{} points, widest at {}",
                 range(low.0, high.0, 2),
                 at(high.1)
             ));
@@ -28,7 +29,7 @@ pub fn add(outcome: &UncertaintyOutcome, page: &mut Page) {
             );
         }
         if let Some([low, high]) = half(|point| point.loss_w.half_width()) {
-            own.push(format!("loss +-{} W", range(low.0, high.0, 1)));
+            own.push(format!("the loss to ±{} W", range(low.0, high.0, 1)));
             page.key_figure(
                 "widest band of the loss",
                 format!("±{}", short(high.0)),
@@ -41,11 +42,11 @@ pub fn add(outcome: &UncertaintyOutcome, page: &mut Page) {
             .first()
             .and_then(|i| Some((i, i.correlation_with_mean_loss?)))
         {
-            let name = last_key(&input.path);
-            own.push(format!("most by {name}"));
+            let name = quantity(&input.path);
+            own.push(format!("the {name} contributes most"));
             page.key_figure(
                 "strongest input",
-                name,
+                name.as_str(),
                 "",
                 format!("correlation {} with the mean loss", short(strength)),
             );
@@ -57,8 +58,8 @@ pub fn add(outcome: &UncertaintyOutcome, page: &mut Page) {
         words.push(format!(
             "{}{}",
             of_set(&set.model_set, outcome.bands.len()),
-            own.join("; ")
+            own.join(", ")
         ));
     }
-    page.headline = (!words.is_empty()).then(|| format!("95 % bands, {}", words.join("; ")));
+    page.headline = (!words.is_empty()).then(|| format!("With 95 % confidence: {}", words.join("; ")));
 }

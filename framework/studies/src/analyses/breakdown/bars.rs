@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::analyses::numbers::{RPM, tidy};
 use crate::analyses::shares::{Shares, together};
 use crate::analyses::{Built, Context, Head, Outcome, Stopped};
-use crate::points::{Given, GridResult, LostByPart, Note, PointResult, Points, notes_with_shares};
+use crate::points::{Given, GridResult, Note, PointResult, Points, TotalLoss, notes_with_shares};
 use crate::study::By;
 use crate::table::Table;
 
@@ -276,7 +276,7 @@ impl Stacks {
             gear: points.gear.clone(),
             unit: self.unit.name(),
             shares: self.names.clone(),
-            notes: notes_with_shares(&b.transmission, &solved.seen, &LostByPart::of(&solved.points)),
+            notes: notes_with_shares(&b.transmission, &solved.seen, TotalLoss::of(&solved.points)),
             points: solved.points.iter().map(point).collect(),
             turned_at: None,
             rows,

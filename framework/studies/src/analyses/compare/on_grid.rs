@@ -4,12 +4,14 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::cases::{cases, names};
+use super::over_cycles::DifferenceOfShare;
 use super::{CompareEntry, unit};
 use crate::analyses::axes::grid_axes;
 use crate::analyses::numbers::{RPM, tidy};
+use crate::analyses::shares::{Shares, together};
 use crate::analyses::{Built, Context, Head, Stopped};
-use crate::points::{GridResult, LostByPart, Note, PointResult, Statistics, notes, notes_with_shares};
-use crate::study::{Difference, Grid, Quantity};
+use crate::points::{GridResult, Note, PointResult, Statistics, TotalLoss, notes, notes_with_shares};
+use crate::study::{By, Difference, Grid, Quantity};
 use crate::table::Table;
 
 /// Differences of one model set from the base over a grid.
@@ -48,6 +50,9 @@ pub struct GridComparison {
     /// Points outside a stated range of a model of either set.
     #[serde(skip)]
     pub outside: Vec<bool>,
+    /// Mean losses by component over the points where both sets have a loss.
+    #[serde(skip)]
+    pub components: Vec<DifferenceOfShare>,
     /// Number of quantities outside their stated ranges with the base.
     #[serde(skip)]
     pub ranges_left_by_base: usize,
@@ -85,6 +90,7 @@ pub struct GridDifference {
 /// The base of the comparison and its grid.
 struct Base<'a> {
     name: &'a str,
+    built: &'a Built<'a>,
     gear: &'a str,
     torques: &'a [f64],
     speeds: &'a [f64],
@@ -123,6 +129,7 @@ pub(super) fn compare(
     let seen = notes(&built[0].transmission, &solved[0].seen);
     let base = Base {
         name: base,
+        built: &built[0],
         gear: &gear,
         torques: &torques,
         speeds: &speeds,
@@ -194,13 +201,45 @@ fn comparison(entry: &CompareEntry, base: &Base<'_>, built: &Built<'_>, other: &
         mean: (!known.is_empty()).then(|| known.iter().sum::<f64>() / known.len() as f64),
         difference: Statistics::from_values(known),
         loss_difference_percent_of_loss: Statistics::from_values(pairs().filter_map(of_loss)),
-        notes: notes_with_shares(&built.transmission, &other.seen, &LostByPart::of(&other.points)),
+        notes: notes_with_shares(&built.transmission, &other.seen, TotalLoss::of(&other.points)),
         outside: pairs().map(|(a, b)| a.outside || b.outside).collect(),
         points,
         torques: base.torques.to_vec(),
         speeds: base.speeds.to_vec(),
+        components: components([base.built, built], [base.points, &other.points]),
         ranges_left_by_base: base.ranges_left,
     }
+}
+
+/// Mean losses of the components of both, in the order of the document.
+fn components(built: [&Built<'_>; 2], points: [&[PointResult]; 2]) -> Vec<DifferenceOfShare> {
+    let transmissions = built.map(|b| &b.transmission);
+    let names = together(transmissions.into_iter(), By::Component);
+    let [of_base, of_other] = transmissions.map(|t| Shares::new(t, By::Component).under(&names));
+    let mut sums = [vec![0.0; names.len()], vec![0.0; names.len()]];
+    let mut count = 0.0;
+    for (base, other) in points[0].iter().zip(points[1]) {
+        let (Some(base), Some(other)) = (of_base.stack(base), of_other.stack(other)) else {
+            continue;
+        };
+        count += 1.0;
+        for (sums, own) in sums.iter_mut().zip([base, other]) {
+            sums.iter_mut().zip(own).for_each(|(sum, watts)| *sum += watts);
+        }
+    }
+    let [of_base, of_other] = sums.map(|sums| {
+        sums.into_iter()
+            .map(|sum| if count > 0.0 { sum / count } else { 0.0 })
+            .collect::<Vec<_>>()
+    });
+    let shares = names.into_iter().zip(of_base).zip(of_other);
+    let share = |((share, base), other): ((String, f64), f64)| DifferenceOfShare {
+        share,
+        base_mean_loss_w: base,
+        mean_loss_w: other,
+        difference_w: other - base,
+    };
+    shares.map(share).collect()
 }
 
 /// Place and value of the first difference that comes before all others.

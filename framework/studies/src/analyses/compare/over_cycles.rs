@@ -9,7 +9,7 @@ use crate::analyses::cycle::results::per_distance;
 use crate::analyses::duties::{Duties, Read, sums_energies};
 use crate::analyses::shares::{Shares, together};
 use crate::analyses::{Built, Context, Head, Stopped};
-use crate::points::{Driven, Note, notes};
+use crate::points::{Driven, Note, notes, notes_over_time};
 use crate::study::RideEntry;
 use crate::table::Table;
 
@@ -164,7 +164,7 @@ fn comparison(read: &Read, pair: [(&Built<'_>, &Driven); 2], shares: &[Shares; 2
         difference_wh_per_km: km.map(|km| difference * duration / 3600.0 / km),
         shares: shares[0].names.iter().enumerate().map(share).collect(),
         phases: phases(read, both),
-        notes: notes(&b.transmission, &driven.seen),
+        notes: notes_over_time(&b.transmission, driven),
         ranges_left_by_base: notes(&base.transmission, &of_base.seen)
             .iter()
             .filter(|note| note.outside > 0)

@@ -13,7 +13,7 @@ use crate::analyses::duties::{Read, nodes};
 use crate::analyses::numbers::RPM;
 use crate::analyses::shares::Shares;
 use crate::duty::Duty;
-use crate::points::{Driven, Stretch, notes};
+use crate::points::{Driven, Stretch, notes_over_time};
 
 /// The results of a simulated cycle.
 pub fn duty(
@@ -65,7 +65,7 @@ pub fn duty(
             time_s: *time,
             reason: reason(t, why),
         }),
-        notes: notes(t, &driven.seen),
+        notes: notes_over_time(t, driven),
         file_notes: match &read.duty {
             Duty::Trace(trace) => trace.notes.clone(),
             Duty::Spectrum(_) => Vec::new(),

@@ -12,7 +12,7 @@ use serde_json::Value;
 use super::super::Built;
 use super::super::numbers::{RPM, tidy, word};
 use super::shown::{Picked, Selection};
-use crate::points::{Field, LostByPart, Numbered, PointResult, SUMS};
+use crate::points::{Field, Numbered, PointResult, SUMS, TotalLoss};
 use crate::table::{Table, Values};
 
 /// Columns of a point from its torque to the first sum.
@@ -117,7 +117,7 @@ pub struct Taken {
     pub rows: Table,
     pub picked: Picked,
     pub passes: usize,
-    pub lost: LostByPart,
+    pub lost: TotalLoss,
     pub undefined: Vec<UndefinedLoss>,
 }
 
@@ -137,7 +137,7 @@ impl Taker<'_> {
             rows: self.rows.table("", rows),
             picked: self.selection.pick(self.field, points),
             passes: points.iter().map(|(_, point)| point.passes).sum(),
-            lost: LostByPart::of(points.iter().map(|(_, point)| &**point)),
+            lost: TotalLoss::of(points.iter().map(|(_, point)| &**point)),
             undefined: points.iter().filter_map(undefined).collect(),
         }
     }

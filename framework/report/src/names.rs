@@ -1,0 +1,177 @@
+//! Components, mechanisms and quantities of a study in the words of the field, for sentences and key figures.
+
+use crate::text::last_key;
+
+/// A section of a gearbox: its key, one of its components, all of them.
+const SECTIONS: [[&str; 3]; 10] = [
+    ["auxiliaries", "auxiliary", "auxiliaries"],
+    ["bearings", "bearing", "bearings"],
+    ["clutches", "clutch", "clutches"],
+    ["couplings", "coupling", "couplings"],
+    ["gears", "gear", "gears"],
+    ["meshes", "mesh", "meshes"],
+    ["planetary_sets", "planetary set", "planetary sets"],
+    ["seals", "seal", "seals"],
+    ["shafts", "shaft", "shafts"],
+    ["synchronizers", "synchronizer", "synchronizers"],
+];
+
+/// Mechanisms by their key.
+const MECHANISMS: [[&str; 2]; 8] = [
+    ["auxiliary", "auxiliaries"],
+    ["bearing", "bearings"],
+    ["clutch", "clutches"],
+    ["gear_drag", "gear drag"],
+    ["gear_mesh", "gear meshes"],
+    ["planetary_drag", "planetary drag"],
+    ["seal", "seals"],
+    ["synchronizer", "synchronizers"],
+];
+
+/// Ends of the paths of quantities.
+const QUANTITIES: [[&str; 2]; 22] = [
+    ["clearance.axial", "axial clearance of the housing"],
+    ["clearance.radial", "radial clearance of the housing"],
+    ["heat_capacity", "heat capacity"],
+    ["injection.flow", "injected oil flow"],
+    ["kv100", "oil viscosity at 100 °C"],
+    ["kv40", "oil viscosity at 40 °C"],
+    ["level_offset", "oil level"],
+    ["loss_factor", "loss"],
+    ["mu_bl", "boundary friction"],
+    ["oil.volume", "oil volume"],
+    ["oil_height", "oil level"],
+    ["oil_temperature", "oil temperature"],
+    ["radial_factor", "radial load"],
+    ["rheology.limiting_slope", "limiting shear stress of the oil"],
+    ["rheology.tau0", "Eyring stress of the oil"],
+    ["rheology.z", "pressure index of the oil viscosity"],
+    ["rig.support_in.torque", "bearing torque of the rig"],
+    ["rig.torque_offset_in", "torque offset of the rig"],
+    ["surface.rq", "surface roughness"],
+    ["thermal.oil", "oil temperature"],
+    ["viscosity.factor", "oil viscosity"],
+    ["viscosity.vi", "viscosity index of the oil"],
+];
+
+/// Cycles that are known by capital letters.
+const CYCLES: [&str; 7] = ["ftp75", "hwfet", "nedc", "nycc", "udds", "us06", "wltc"];
+
+/// A component with the rest of its path: `bearings.B2.model` is `bearing B2` and `model`. All components of a section for `*`.
+fn owner(path: &str) -> Option<(String, &str)> {
+    let (section, rest) = path.split_once('.')?;
+    let [_, one, all] = SECTIONS.iter().find(|[key, ..]| *key == section)?;
+    let (id, rest) = rest.split_once('.').unwrap_or((rest, ""));
+    let name = if id == "*" {
+        format!("the {all}")
+    } else {
+        format!("{one} {id}")
+    };
+    Some((name, rest))
+}
+
+fn spaced(key: &str) -> String {
+    key.replace('_', " ")
+}
+
+/// A mechanism, a component, or another share of a loss: `gear_mesh` is `gear meshes`, `bearings.B2` is `bearing B2`.
+pub fn share(name: &str) -> String {
+    let mechanism = MECHANISMS.iter().find(|[key, _]| *key == name);
+    let mechanism = mechanism.map(|[_, words]| (*words).to_owned());
+    mechanism.unwrap_or_else(|| model(name))
+}
+
+/// A component or one of its models: `meshes.M1.model.tooth_friction` is `tooth friction of mesh M1`.
+pub fn model(path: &str) -> String {
+    match owner(path) {
+        None => path.to_owned(),
+        Some((owner, "" | "model")) => owner,
+        Some((owner, rest)) => format!("{} of {owner}", spaced(last_key(rest.trim_end_matches(".model")))),
+    }
+}
+
+/// A quantity of a gearbox: `gears.*.surface.rq` is `surface roughness of the gears`.
+pub fn quantity(path: &str) -> String {
+    let is_end = |end: &str| path == end || path.strip_suffix(end).is_some_and(|rest| rest.ends_with('.'));
+    let known = QUANTITIES.iter().find(|[end, _]| is_end(end));
+    let name = known.map_or_else(|| spaced(last_key(path)), |[_, words]| (*words).to_owned());
+    match owner(path) {
+        Some((owner, rest)) if !rest.is_empty() => format!("{name} of {owner}"),
+        _ => name,
+    }
+}
+
+/// A cycle: `wltc` is `WLTC`.
+pub fn cycle(name: &str) -> String {
+    if CYCLES.contains(&name) {
+        name.to_uppercase()
+    } else {
+        format!("`{name}`")
+    }
+}
+
+/// Names of model sets in a sentence: `ours/joint` and `theirs/joint` differ in the product alone.
+pub struct SetNames<'a> {
+    common: Option<&'a str>,
+}
+
+impl<'a> SetNames<'a> {
+    /// For sentences about these sets.
+    pub fn new(all: impl Iterator<Item = &'a str>) -> Self {
+        let mut sets = all.map(|name| name.split_once('/').map(|(_, set)| set));
+        let first = sets.next().flatten();
+        Self {
+            common: first.filter(|_| sets.all(|set| set == first)),
+        }
+    }
+
+    /// The name without what all have in common.
+    pub fn word(&self, name: &str) -> String {
+        let product = self
+            .common
+            .and_then(|common| name.strip_suffix(common)?.strip_suffix('/'));
+        product.unwrap_or(name).to_owned()
+    }
+
+    /// The same between backticks.
+    pub fn quoted(&self, name: &str) -> String {
+        format!("`{}`", self.word(name))
+    }
+}
+
+/// `a, b and c`.
+pub fn listed(words: &[String]) -> String {
+    match words {
+        [] => String::new(),
+        [one] => one.clone(),
+        [first @ .., last] => format!("{} and {last}", first.join(", ")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{SetNames, cycle, listed, model, quantity, share};
+
+    #[test]
+    fn paths_are_words_of_the_field() {
+        assert_eq!(quantity("gears.*.surface.rq"), "surface roughness of the gears");
+        assert_eq!(quantity("lubricants.sump.viscosity.kv100"), "oil viscosity at 100 °C");
+        assert_eq!(quantity("bearings.B3.oil_height"), "oil level of bearing B3");
+        assert_eq!(quantity("thermal.network.oil_flow"), "oil flow");
+        assert_eq!(model("meshes.M1.model.tooth_friction"), "tooth friction of mesh M1");
+        assert_eq!(model("gears.G4.drag.churning.model"), "churning of gear G4");
+        assert_eq!(share("bearings.B2"), "bearing B2");
+        assert_eq!(share("gear_mesh"), "gear meshes");
+        assert_eq!((cycle("wltc"), cycle("town")), ("WLTC".to_owned(), "`town`".to_owned()));
+        assert_eq!(listed(&["a", "b", "c"].map(str::to_owned)), "a, b and c");
+    }
+
+    #[test]
+    fn products_with_one_set_need_no_set() {
+        let names = SetNames::new(["ours/joint", "theirs/joint"].into_iter());
+        assert_eq!(names.quoted("theirs/joint"), "`theirs`");
+        assert_eq!(SetNames::new(["iso", "joint"].into_iter()).quoted("iso"), "`iso`");
+        let mixed = SetNames::new(["ours/iso", "theirs/joint"].into_iter());
+        assert_eq!(mixed.quoted("ours/iso"), "`ours/iso`");
+    }
+}
