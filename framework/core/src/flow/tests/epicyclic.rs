@@ -407,7 +407,7 @@ fn points_of_a_set_near_self_locking_are_solved_together_as_alone() {
             all.steady[0] = Lane::constant(drag);
             all.live = Lane::mask(|_| true);
             let outcome = flow.real(Tolerance::default(), Start::Lossless, &mut all, |state| {
-                lost(&rig, state)
+                lost(&rig, state);
             });
             assert!(matches!(outcome, Outcome::Converged { .. }), "{outcome:?}");
             for i in 0..LANES {
@@ -420,7 +420,7 @@ fn points_of_a_set_near_self_locking_are_solved_together_as_alone() {
                 alone.given = vec![torque(i)];
                 alone.steady[0] = drag;
                 let outcome = flow.real(Tolerance::default(), Start::Lossless, &mut alone, |state| {
-                    lost(&rig, state)
+                    lost(&rig, state);
                 });
                 let passes = all.passes[i] as usize;
                 assert_eq!(outcome, Outcome::Converged { passes }, "{zeta} {sense} {speed} {i}");
