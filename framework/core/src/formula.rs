@@ -83,7 +83,7 @@ fn sign(x: f64) -> f64 {
     }
 }
 
-/// A power of a number. Exponents of engineers are exact; of a negative number only whole powers are defined.
+/// A power. A number that is not positive has those of [`f64::powf`]: whole ones if it is negative.
 #[inline(always)]
 fn power<R: Points>(x: R, exponent: R) -> R {
     let positive = x.is_above(R::ZERO);
@@ -100,7 +100,7 @@ fn power<R: Points>(x: R, exponent: R) -> R {
     })
 }
 
-/// The same with an exponent that all points have in common; exact for a root and small whole numbers.
+/// The same with an exponent that all points have in common; common ones are products, a root and a quotient.
 #[inline(always)]
 fn power_of<R: Points>(x: R, exponent: f64) -> R {
     if exponent == 2.0 {
@@ -372,7 +372,11 @@ impl Parser<'_> {
         }
         self.power()?;
         if negative {
-            self.program.push(Op::Negate);
+            match self.program.last_mut() {
+                // An operand whose program ends in a number is that number.
+                Some(Op::Number(number)) => *number = -*number,
+                _ => self.program.push(Op::Negate),
+            }
         }
         Ok(())
     }
@@ -526,6 +530,19 @@ mod tests {
         ] {
             assert!((value(text) - expected).abs() < 1e-12, "{text}: {}", value(text));
         }
+    }
+
+    #[test]
+    fn constant_exponents_are_known_before_evaluation() {
+        for (text, known) in [("speed^-1", -1.0_f64), ("pow(speed, -0.25)", -0.25), ("speed^2^-1", 0.5)] {
+            let formula = Formula::compile(text, &["speed"]).unwrap();
+            let found = match formula.program[..] {
+                [Op::Input(0), Op::PowerOf(exponent)] => exponent,
+                _ => f64::NAN,
+            };
+            assert_eq!(found.to_bits(), known.to_bits(), "{text}: {:?}", formula.program);
+        }
+        assert_eq!(value("speed^-1").to_bits(), (1.0 / 3.0_f64).to_bits());
     }
 
     #[test]
