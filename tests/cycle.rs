@@ -13,7 +13,7 @@ use gearloss_framework::resolve::Choice;
 use gearloss_framework::thermal::network::{Scheme, StepSize};
 use gearloss_framework::transmission::Transmission;
 use gearloss_plugins::tooth_friction::ehl_mixed::EhlMixed;
-use gearloss_studies::duty::{CycleEntry, Duty, FileCycleEntry, ShippedCycleEntry, Vehicle, VehicleEntry};
+use gearloss_studies::duty::{CycleEntry, Duty, FileCycleEntry, Interval, ShippedCycleEntry, Vehicle, VehicleEntry};
 use gearloss_studies::points::{Driven, OilTemperature, Ride, Stretch, drive};
 use serde_json::json;
 
@@ -46,16 +46,20 @@ fn shipped(language: &Language, name: &str) -> Duty {
 
 /// Drives from 23 degC.
 fn driven(t: &Transmission, duty: &Duty, scheme: Scheme, step: StepSize) -> Driven {
+    let intervals = duty.intervals(Some(&vehicle())).unwrap();
+    driven_over(t, &intervals, 23.0, scheme, step)
+}
+
+fn driven_over(t: &Transmission, intervals: &[Interval], start: f64, scheme: Scheme, step: StepSize) -> Driven {
     let vehicle = vehicle();
-    let intervals = duty.intervals(Some(&vehicle)).unwrap();
     let ride = Ride {
-        intervals: &intervals,
+        intervals,
         port: "input",
         vehicle: Some(&vehicle),
         gear: &t.states()[0].name,
         oil: OilTemperature::Network,
         spectrum: false,
-        start: Some(23.0),
+        start: Some(start),
         ambient: Some(23.0),
         scheme,
         step,
@@ -122,6 +126,31 @@ fn shorter_steps_and_adaptive_ones_agree() {
     let adaptive = driven(&t, &duty, Scheme::Implicit, StepSize::Adaptive(0.02));
     assert!(farthest(&adaptive, &fine) < 0.05 && adaptive.steps[1] > 0);
     assert!((loss(&adaptive) / loss(&fine) - 1.0).abs() < 2e-4);
+}
+
+#[test]
+fn the_loss_outside_a_range_is_weighed_by_the_time_of_each_step() {
+    let language = language();
+    let t = unit(&language);
+    let duty = shipped(&language, "wltc_class3b");
+    let intervals = duty.intervals(Some(&vehicle())).unwrap();
+    let mut long = intervals[1550].clone();
+    long.duration = 7200.0;
+    let shares = |step: StepSize| {
+        let driven = driven_over(&t, std::slice::from_ref(&long), -20.0, Scheme::Implicit, step);
+        let total = loss(&driven);
+        driven
+            .lost_outside
+            .iter()
+            .map(|lost| lost / total)
+            .collect::<Vec<f64>>()
+    };
+    // Steps grow from a second to half an hour while the oil warms up and ranges are left or entered.
+    let (adaptive, fine) = (shares(StepSize::Adaptive(0.5)), shares(StepSize::Fixed(20.0)));
+    assert!(fine.iter().any(|share| *share > 0.01 && *share < 0.5), "{fine:?}");
+    for (adaptive, fine) in adaptive.iter().zip(&fine) {
+        assert!((adaptive - fine).abs() <= 0.02, "{adaptive} {fine}");
+    }
 }
 
 /// Ways, passes of the inner loop and places of both meshes at a second of a drive.

@@ -10,6 +10,7 @@ use gearloss_framework::resolve::{Choice, ValueSource, lookup};
 use gearloss_framework::thermal::Outcome;
 use gearloss_framework::thermal::network::{March, Moment, Scheme, Steady, StepSize, Surroundings};
 use gearloss_framework::transmission::{HeatPath, PartKind, Transmission};
+use gearloss_studies::points::{Field, OilTemperature, Points, run_grid};
 use serde_json::{Value, json};
 
 /// An example, the gear state, speed in rpm and torque in Nm at the input.
@@ -306,6 +307,22 @@ fn sources_of_heat_come_into_oil_and_casing() {
     let rest = drive.rest(&language);
     let loss: f64 = rest.losses.iter().sum();
     assert!((rest.steady.leaving.held[0] - loss - 35.0).abs() < 1e-6);
+}
+
+#[test]
+fn the_models_of_a_steady_state_are_seen_once() {
+    let language = common::language();
+    let gearbox = Gearbox::read(&language, &common::file("examples/electric-drive-unit/gearbox.yaml")).unwrap();
+    let t = gearbox.transmission(&language, &Choice::default()).unwrap();
+    let field = Field::Grid {
+        torques: vec![40.0, 80.0],
+        speeds: vec![2000.0 * RPM, 6000.0 * RPM],
+    };
+    let mut points = Points::at_reference(&t, &t.states()[0].name, field);
+    points.oil = OilTemperature::Network;
+    let solved = run_grid(&t, &points, &|_| true).unwrap().unwrap();
+    assert!(solved.points.iter().all(|point| point.loss.is_some()));
+    assert_eq!(solved.seen.iter().map(|seen| seen.seen).max(), Some(4));
 }
 
 #[test]

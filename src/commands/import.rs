@@ -37,7 +37,7 @@ pub fn run(args: &ImportArgs, out: &mut Out) -> Result<End, Failure> {
         message: format!("{}: {}", runs.display(), fault.message),
         ..fault
     };
-    let list = Runs::of_text(&text).map_err(in_list)?;
+    let list = Runs::from_text(&text).map_err(in_list)?;
     let beside = runs.parent().unwrap_or(Path::new(""));
     let mut means = Vec::new();
     for run in list.runs() {

@@ -534,7 +534,11 @@ mod tests {
 
     #[test]
     fn constant_exponents_are_known_before_evaluation() {
-        for (text, known) in [("speed^-1", -1.0_f64), ("pow(speed, -0.25)", -0.25), ("speed^2^-1", 0.5)] {
+        for (text, known) in [
+            ("speed^-1", -1.0_f64),
+            ("pow(speed, -0.25)", -0.25),
+            ("speed^2^-1", 0.5),
+        ] {
             let formula = Formula::compile(text, &["speed"]).unwrap();
             let found = match formula.program[..] {
                 [Op::Input(0), Op::PowerOf(exponent)] => exponent,

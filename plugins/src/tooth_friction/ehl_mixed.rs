@@ -263,7 +263,10 @@ impl EhlMixed {
                 note(path.notes, place, settled);
             },
         );
-        super::finite(mu.iter().fold(R::ZERO, |sum, mu| sum + *mu)).map(|_| Along {
+        let sum = mu.iter().fold(R::ZERO, |sum, mu| sum + *mu);
+        // Points of a batch that have left it, or are at rest, are not asked.
+        let asked = R::mask(|point| R::COUNT == 1 || path.notes.points() >> point & 1 == 1);
+        super::finite(R::select(asked, sum, R::ZERO)).map(|_| Along {
             first_heat,
             ..Along::default()
         })

@@ -62,8 +62,8 @@ impl Manifest {
             }
         }
         Self {
-            // 3: results of tasks of every analysis.
-            format: "gearloss-shard/3".to_owned(),
+            // 3: results of tasks of every analysis. 4: loss outside ranges by time.
+            format: "gearloss-shard/4".to_owned(),
             gearloss: env!("CARGO_PKG_VERSION").to_owned(),
             packages: language.registry().packages().iter().map(ToString::to_string).collect(),
             inputs: all,

@@ -122,8 +122,6 @@ pub struct Scratch<R: Points = f64> {
     pub(super) called: usize,
     /// Observed extents of every limit and observed quantity since the scratch was made, one count per point.
     pub totals: Vec<Extent>,
-    /// Number of evaluations whose observations are counted; of several points together as one.
-    pub counted: u64,
     /// As [`Transmission::limited`].
     limited: Arc<[(usize, usize)]>,
 }
@@ -152,14 +150,12 @@ impl<R: Points> Scratch<R> {
         }
         for (cell, part) in &*self.limited {
             let outside = c.cells[*cell].get().among(solved).outside();
-            if outside != 0 {
-                let points = (0..R::COUNT).filter(|point| outside >> point & 1 == 1);
-                let lost = points.map(|point| nanowatts(self.watts[*part].at_point(point))).sum();
-                let total = &mut self.totals[*cell].lost_outside;
-                *total = total.saturating_add(lost);
+            let points = (0..R::COUNT).filter(|point| outside >> point & 1 == 1);
+            let total = &mut self.totals[*cell].lost_outside;
+            for point in points {
+                *total = total.saturating_add(nanowatts(self.watts[*part].at_point(point)));
             }
         }
-        self.counted += 1;
     }
 
     /// Output power of a point with losses; with ideal power flow the input minus the losses, `None` if they exceed it. \[W\]
@@ -224,7 +220,6 @@ impl<R: Points> Scratch<R> {
             passes: R::ZERO,
             called: 0,
             totals: vec![Extent::EMPTY; transmission.cells],
-            counted: 0,
             limited: Arc::clone(&transmission.limited),
         }
     }
@@ -244,6 +239,16 @@ impl Scratch {
     /// Speeds of the members (rad/s), and the note cells of heat models.
     pub(crate) fn speeds_and_cells(&self) -> (&[f64], &[Cell<Seen>]) {
         (&self.models.conditions.speeds, &self.models.conditions.cells)
+    }
+
+    /// Limits that are exceeded at the last point: cell of the notes and loss of a component that uses the model. \[W\]
+    pub fn lost_outside(&self) -> impl Iterator<Item = (usize, f64)> {
+        let cells = &self.models.conditions.cells;
+        let exceeded = self
+            .limited
+            .iter()
+            .filter(|(cell, _)| cells[*cell].get().outside() != 0);
+        exceeded.map(|(cell, part)| (*cell, self.watts[*part]))
     }
 
     /// Counts what heat models note as one more point.

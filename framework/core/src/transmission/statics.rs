@@ -57,11 +57,14 @@ pub struct Imported {
     pub tables: Vec<Vec<Option<Vec<(f64, [f64; 3])>>>>,
 }
 
+/// Least step of the derivatives of tabulated loads, far below any difference of torques in a file. \[Nm\]
+const STEP: f64 = 1e-6;
+
 impl Imported {
     /// Replaces the load of a support if the file has it.
     pub fn load<R: Real>(&self, state: usize, support: usize, torque: R) -> Option<SupportLoad<R>> {
         let rows = self.tables[state][support].as_ref()?;
-        let [radial, axial, tilting] = torque.lift_all(1e-6, |torque| {
+        let [radial, axial, tilting] = torque.lift_all(STEP, |torque| {
             let i = rows.partition_point(|r| r.0 <= torque).clamp(1, rows.len() - 1);
             let ((a, low), (b, high)) = (rows[i - 1], rows[i]);
             let t = ((torque - a) / (b - a)).clamp(0.0, 1.0);

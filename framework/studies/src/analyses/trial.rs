@@ -66,8 +66,10 @@ impl<'a> Trial<'a> {
 
 /// The stated ranges that a solved trial left.
 pub fn left(transmission: &Transmission, seen: &[Extent]) -> impl Iterator<Item = (String, String)> {
-    let outside = seen.iter().copied();
-    let outside: Vec<Extent> = outside
+    // Ranges that are kept need no words, which take longer than the points of a trial.
+    let outside: Vec<Extent> = seen
+        .iter()
+        .copied()
         .map(|seen| if seen.outside > 0 { seen } else { Extent::EMPTY })
         .collect();
     let left = notes(transmission, &outside).into_iter();

@@ -74,7 +74,7 @@ pub struct Driven {
     pub start: Vec<f64>,
     /// Observed limits and quantities.
     pub seen: Vec<Extent>,
-    /// Energy that the components lose while a limit is exceeded, by cell of notes: each interval with the mean loss of its evaluations. \[J\]
+    /// Energy that the components lose while a limit is exceeded, by cell of notes. \[J\]
     pub lost_outside: Vec<f64>,
     /// Evaluations of the losses.
     pub evaluations: usize,
@@ -230,7 +230,6 @@ pub fn drive(
             point: &point,
             around: &around,
         };
-        let (counted, seen) = (scratch.counted, scratch.totals.clone());
         let went = match &mut march {
             Some(march) => {
                 let before = march.evaluations;
@@ -248,10 +247,6 @@ pub fn drive(
                 break;
             }
         };
-        let per_evaluation = 1e-9 * interval.duration / (scratch.counted - counted).max(1) as f64;
-        for (joule, (after, before)) in driven.lost_outside.iter_mut().zip(scratch.totals.iter().zip(&seen)) {
-            *joule += (after.lost_outside - before.lost_outside) as f64 * per_evaluation;
-        }
         let member = |port: usize| transmission.ports()[port].member;
         let brakes = match (asked.brakes, wheels) {
             (Some(watts), _) => watts * interval.duration,
@@ -280,6 +275,9 @@ pub fn drive(
     if let (true, Some(first)) = (march.is_none(), driven.stretches.first()) {
         // Steady-state: there is no initial state.
         driven.start.clone_from(&first.temperatures);
+    }
+    if let Some(march) = march {
+        driven.lost_outside = march.lost_outside;
     }
     for (.., scratch) in &cases.known {
         driven.calls += scratch.all_calls();
@@ -454,6 +452,9 @@ fn rest(
         scratch,
         gearloss_framework::evaluate::Noting::Counted,
     )?;
+    for (cell, watts) in scratch.lost_outside() {
+        driven.lost_outside[cell] += watts * duration;
+    }
     let each = |list: &[f64]| list.iter().map(|x| x * duration).collect();
     let [input, output] = scratch.power();
     let mut heats = Heats {

@@ -45,9 +45,10 @@ pub struct Note {
 pub struct TotalLoss(i128);
 
 impl TotalLoss {
-    /// Of some points.
+    /// Of some points; those without a power flow have none.
     pub fn of<'p>(points: impl IntoIterator<Item = &'p PointResult>) -> Self {
-        let watts = points.into_iter().flat_map(|point| &point.parts);
+        let points = points.into_iter().filter(|point| point.status.has_flow());
+        let watts = points.flat_map(|point| &point.parts);
         Self(watts.fold(0, |sum: i128, watts| sum.saturating_add(nanowatts(*watts))))
     }
 

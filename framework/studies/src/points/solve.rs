@@ -1,4 +1,4 @@
-//! Points of a field, solved singly or, if several have the same speed and temperature, batched.
+//! Points of a field, solved one by one, in batches of one speed and temperature, or in groups of any speeds and temperatures.
 
 use super::temperature::find_all;
 use super::{Given, OilTemperature, PointResult, Points, sums};

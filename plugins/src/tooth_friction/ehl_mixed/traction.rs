@@ -81,7 +81,7 @@ pub fn exact<R: Real>(s: R, d0: R, limit: R) -> R {
     } else {
         mean
     };
-    R::select(s.is_above(R::ZERO), mean, R::ZERO)
+    R::select(s.is_zero(), R::ZERO, mean)
 }
 
 /// The integral of the stress of y and g = 1/u^2 up to the end of the transit.

@@ -143,6 +143,8 @@ pub struct March<'a> {
     pub evaluations: usize,
     /// Number of steps so far, and of rejected steps.
     pub steps: [usize; 2],
+    /// Energy that the components lose while a limit is exceeded, by cell of notes. \[J\]
+    pub lost_outside: Vec<f64>,
 }
 
 impl Transmission {
@@ -200,6 +202,7 @@ struct Loaded<'a, 'b> {
     scratch: &'b mut Scratch,
     evaluations: &'b mut usize,
     steps: &'b mut [usize; 2],
+    lost_outside: &'b mut [f64],
 }
 
 impl Heated for Loaded<'_, '_> {
@@ -209,10 +212,13 @@ impl Heated for Loaded<'_, '_> {
             .warm(self.network, self.moment, temperatures, search, self.scratch, warm)
     }
 
-    fn stepped(&mut self, taken: bool) {
-        self.steps[usize::from(!taken)] += 1;
-        if taken {
+    fn stepped(&mut self, taken: Option<f64>) {
+        self.steps[usize::from(taken.is_none())] += 1;
+        if let Some(length) = taken {
             self.scratch.count_seen();
+            for (cell, watts) in self.scratch.lost_outside() {
+                self.lost_outside[cell] += watts * length;
+            }
         }
     }
 }
@@ -233,6 +239,7 @@ impl<'a> March<'a> {
             temperatures: start,
             evaluations: 0,
             steps: [0; 2],
+            lost_outside: vec![0.0; transmission.cells],
         }
     }
 
@@ -249,6 +256,7 @@ impl<'a> March<'a> {
             scratch,
             evaluations: &mut self.evaluations,
             steps: &mut self.steps,
+            lost_outside: &mut self.lost_outside,
         };
         self.stepping.advance(&mut loaded, &mut self.temperatures, duration)
     }

@@ -97,8 +97,10 @@ impl Transmission {
                 steady.heat = warm.heat;
                 steady.motors = warm.motors;
                 steady.temperatures = after;
-                // Observations of the models at the steady state count once.
-                scratch.count_seen();
+                // The caller evaluates the losses here, so only what the links note is counted. They had values at these temperatures.
+                let speeds = scratch.speeds().to_vec();
+                let circuit = &mut warm.circuit;
+                let _ = scratch.note_heat(|cells| network.circuit(&guess, (&speeds, cells), moment.around, circuit));
                 return Some(steady);
             }
             // Evaluated at the maximum temperature, a node would be warmer still: there is no steady state in the range.

@@ -50,8 +50,8 @@ pub enum StepSize {
 pub(super) trait Heated {
     /// Losses, heat and conductances at node temperatures.
     fn warm(&mut self, temperatures: &[f64], search: Search, warm: &mut Warm) -> Result<(), Unbalanced>;
-    /// Called for every step, accepted or rejected.
-    fn stepped(&mut self, taken: bool);
+    /// Called for every step: its length if it is accepted. \[s\]
+    fn stepped(&mut self, taken: Option<f64>);
 }
 
 /// Stepping method, and its state between steps.
@@ -99,7 +99,7 @@ impl Stepping {
                             (error <= tolerance || length <= least, factor)
                         }
                     };
-                    heated.stepped(taken);
+                    heated.stepped(taken.then_some(length));
                     if taken {
                         heats.add(&more);
                         left -= length;
@@ -114,7 +114,7 @@ impl Stepping {
                     length = (length * factor).clamp(least, most);
                 }
                 Err(Unbalanced::Flow | Unbalanced::Network) if length > least => {
-                    heated.stepped(false);
+                    heated.stepped(None);
                     length *= 0.5;
                 }
                 Err(other) => return Err(other),

@@ -41,7 +41,7 @@ impl Runs {
     ///
     /// # Errors
     /// If a column is missing, a coordinate is not a number, or there is no run.
-    pub fn of_text(text: &str) -> Result<Self, Diagnostic> {
+    pub fn from_text(text: &str) -> Result<Self, Diagnostic> {
         read(text).map_err(|fault| {
             wrong(
                 fault,
@@ -69,7 +69,7 @@ impl Runs {
                     axis.name(),
                     significant(mean.total())
                 ),
-                "check --axis, the sense of rotation and --from",
+                "check the axis, the sense of rotation and the start of the averaging time",
             ));
         }
         Ok(means

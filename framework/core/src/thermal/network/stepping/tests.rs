@@ -149,8 +149,8 @@ impl Heated for Unit {
         warm.parts.clone_from(&warm.heat);
         Ok(())
     }
-    fn stepped(&mut self, taken: bool) {
-        self.steps[usize::from(!taken)] += 1;
+    fn stepped(&mut self, taken: Option<f64>) {
+        self.steps[usize::from(taken.is_none())] += 1;
     }
 }
 
@@ -288,7 +288,7 @@ fn what_never_agrees_is_reported_and_changes_nothing() {
             warm.heat = vec![0.0, if self.0 { 50.0 } else { 0.0 }];
             Ok(())
         }
-        fn stepped(&mut self, _: bool) {}
+        fn stepped(&mut self, _: Option<f64>) {}
     }
     let mut t = vec![20.0, 21.0];
     let mut stepping = Stepping::new(Scheme::Implicit, StepSize::Fixed(1.0));
