@@ -104,7 +104,7 @@ fn examples_are_without_complaint(server: &mut LanguageServer) {
     let mut files = Vec::new();
     for folder in std::fs::read_dir(root("examples")).unwrap() {
         let folder = folder.unwrap().path();
-        // The schema of the outside crate is printed by its own program: the other test.
+        // The schema of the in-house crate is printed by its own program: the other test.
         if folder.is_dir() && !folder.join("Cargo.toml").is_file() {
             let inside = std::fs::read_dir(folder).unwrap().map(|e| e.unwrap().path());
             files.extend(inside.filter(|f| f.extension().is_some_and(|e| e == "yaml")));
@@ -352,7 +352,7 @@ fn a_schema_may_come_from_the_settings(server: &mut LanguageServer) {
     );
 }
 
-/// The schema that the program of an outside crate prints makes its section and models known.
+/// The schema that the in-house program prints makes its section and models known.
 #[test]
 fn an_editor_with_the_schema_of_the_in_house_program() {
     let Some(mut server) = start("in-house schema", json!({})) else {

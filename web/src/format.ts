@@ -56,15 +56,16 @@ export function axisNumbers(ticks: number[]): string[] {
 }
 
 /** Sections of a gearbox: one of its components. */
-const SECTIONS: Record<string, string> = { auxiliaries: "auxiliary", bearings: "bearing", clutches: "clutch", couplings: "coupling", gears: "gear", meshes: "mesh", planetary_sets: "planetary set", seals: "seal", shafts: "shaft", synchronizers: "synchronizer" };
+const SECTIONS = new Map(Object.entries({ auxiliaries: "auxiliary", bearings: "bearing", clutches: "clutch", couplings: "coupling", gears: "gear", meshes: "mesh", planetary_sets: "planetary set", seals: "seal", shafts: "shaft" }));
 
 /** Mechanisms by their key. */
-const MECHANISMS: Record<string, string> = { auxiliary: "auxiliaries", bearing: "bearings", clutch: "clutches", gear_drag: "gear drag", gear_mesh: "gear meshes", planetary_drag: "planetary drag", seal: "seals", synchronizer: "synchronizers" };
+const MECHANISMS = new Map(Object.entries({ auxiliary: "auxiliaries", bearing: "bearings", clutch: "clutches", gear_drag: "gear drag", gear_mesh: "gear meshes", planetary_drag: "planetary drag", seal: "seals", synchronizer: "synchronizers" }));
 
 /** Mechanisms and components in words: `gear_mesh` is "gear meshes", `bearings.B2` is "bearing B2". */
 function named(text: string): string {
   const component = /^([a-z_]+)\.([\w-]+)$/.exec(text);
-  return component && SECTIONS[component[1]] ? `${SECTIONS[component[1]]} ${component[2]}` : (MECHANISMS[text] ?? text);
+  const section = component && SECTIONS.get(component[1]);
+  return section ? `${section} ${component[2]}` : (MECHANISMS.get(text) ?? text);
 }
 
 /** Words of the data in the field's typography. */

@@ -3,7 +3,7 @@
 use crate::text::last_key;
 
 /// A section of a gearbox: its key, one of its components, all of them.
-const SECTIONS: [[&str; 3]; 10] = [
+const SECTIONS: [[&str; 3]; 9] = [
     ["auxiliaries", "auxiliary", "auxiliaries"],
     ["bearings", "bearing", "bearings"],
     ["clutches", "clutch", "clutches"],
@@ -13,7 +13,6 @@ const SECTIONS: [[&str; 3]; 10] = [
     ["planetary_sets", "planetary set", "planetary sets"],
     ["seals", "seal", "seals"],
     ["shafts", "shaft", "shafts"],
-    ["synchronizers", "synchronizer", "synchronizers"],
 ];
 
 /// Mechanisms by their key.
@@ -29,20 +28,17 @@ const MECHANISMS: [[&str; 2]; 8] = [
 ];
 
 /// Ends of the paths of quantities.
-const QUANTITIES: [[&str; 2]; 22] = [
+const QUANTITIES: [[&str; 2]; 19] = [
     ["clearance.axial", "axial clearance of the housing"],
     ["clearance.radial", "radial clearance of the housing"],
-    ["heat_capacity", "heat capacity"],
     ["injection.flow", "injected oil flow"],
     ["kv100", "oil viscosity at 100 °C"],
     ["kv40", "oil viscosity at 40 °C"],
-    ["level_offset", "oil level"],
-    ["loss_factor", "loss"],
+    ["level_offset", "offset of the oil level"],
     ["mu_bl", "boundary friction"],
     ["oil.volume", "oil volume"],
     ["oil_height", "oil level"],
-    ["oil_temperature", "oil temperature"],
-    ["radial_factor", "radial load"],
+    ["radial_factor", "radial load factor"],
     ["rheology.limiting_slope", "limiting shear stress of the oil"],
     ["rheology.tau0", "Eyring stress of the oil"],
     ["rheology.z", "pressure index of the oil viscosity"],
@@ -50,7 +46,7 @@ const QUANTITIES: [[&str; 2]; 22] = [
     ["rig.torque_offset_in", "torque offset of the rig"],
     ["surface.rq", "surface roughness"],
     ["thermal.oil", "oil temperature"],
-    ["viscosity.factor", "oil viscosity"],
+    ["viscosity.factor", "oil viscosity factor"],
     ["viscosity.vi", "viscosity index of the oil"],
 ];
 

@@ -98,9 +98,8 @@ impl Tested {
             let warning = match self.points.get(&limits.gear) {
                 Some(field) => beyond(limits, *field)?,
                 None if limits.outside > 0 => format!(
-                    "the study has no tested points, and models leave {} stated range{} on the way to them",
-                    limits.outside,
-                    if limits.outside == 1 { "" } else { "s" }
+                    "no points of the data are in gear `{}`; on the way to the limits, {} quantities leave their stated ranges",
+                    limits.gear, limits.outside
                 ),
                 None => return None,
             };
@@ -119,7 +118,7 @@ fn beyond(limits: &Limits, field: Field) -> Option<String> {
     let farthest = outside.iter().max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()))?;
     let [torque, speed] = [field.torque, field.speed].map(|[low, high]| range(low, high, 0));
     Some(format!(
-        "{} of {} limits are beyond the tested points ({torque} Nm, {speed} rpm), as far as {}",
+        "{} of {} limits are beyond the points of the data ({torque} Nm, {speed} rpm), as far as {}",
         outside.len(),
         all.len(),
         place(farthest.0, farthest.1)
@@ -140,11 +139,13 @@ mod tests {
             outside: 2,
         });
         let alone = tested.warnings();
-        assert!(alone[0].1.starts_with("the study has no tested points"), "{alone:?}");
+        assert!(
+            alone[0].1.starts_with("no points of the data are in gear `first`"),
+            "{alone:?}"
+        );
         tested.add_point("first", -16.0, 500.0);
         tested.add_point("first", 0.0, 3000.0);
-        let words =
-            "1 of 2 limits are beyond the tested points (-16 to 0 Nm, 500 to 3000 rpm), as far as -50 Nm, 2000 rpm";
+        let words = "1 of 2 limits are beyond the points of the data (-16 to 0 Nm, 500 to 3000 rpm), as far as -50 Nm, 2000 rpm";
         assert_eq!(tested.warnings(), [("limit", words.to_owned())]);
     }
 }

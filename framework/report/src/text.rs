@@ -163,6 +163,15 @@ pub fn of_set(set: &str, sets: usize) -> String {
     }
 }
 
+/// A remark in brackets; nothing if it is empty.
+pub fn in_brackets(remark: &str) -> String {
+    if remark.is_empty() {
+        String::new()
+    } else {
+        format!(" ({remark})")
+    }
+}
+
 /// The last key of a path.
 pub fn last_key(path: &str) -> &str {
     path.rsplit('.').next().unwrap_or(path)

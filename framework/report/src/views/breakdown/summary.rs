@@ -5,7 +5,7 @@ use gearloss_studies::analyses::numbers::tidy;
 
 use crate::names::{SetNames, share};
 use crate::page::Page;
-use crate::text::{place, short};
+use crate::text::{in_brackets, place, short};
 
 /// Shares that are named.
 const NAMED: usize = 3;
@@ -52,7 +52,11 @@ pub fn add(outcome: &BreakdownOutcome, page: &mut Page) {
                 let leading: Vec<String> = leading
                     .map(|(name, watts)| format!("{name} {} %", percent(*watts)))
                     .collect();
-                format!("{of} loses {} W at {at} ({})", short(total), leading.join(", "))
+                format!(
+                    "{of} loses {} W at {at}{}",
+                    short(total),
+                    in_brackets(&leading.join(", "))
+                )
             }
             As::Percent => format!("{largest} with {} % at {at} ({of})", percent(*most)),
         });

@@ -8,7 +8,7 @@ use gearloss_studies::analyses::numbers::RPM;
 
 use crate::names::{SetNames, cycle, listed, share};
 use crate::page::Page;
-use crate::text::{brief, place, short, signed};
+use crate::text::{brief, in_brackets, place, short, signed};
 
 /// Components that are named: for each cycle, and for a difference over a grid.
 const OF_CYCLE: usize = 2;
@@ -32,15 +32,11 @@ fn over_cycles(all: &[CycleComparison], page: &mut Page) -> Option<String> {
     let names = SetNames::new(all.iter().flat_map(|c| [c.model_set.as_str(), c.base.as_str()]));
     let mut words: Vec<(String, Vec<String>)> = Vec::new();
     for c in all {
-        let percent = c
-            .difference_percent
-            .map_or_else(String::new, |percent| format!("{} %; ", signed(percent)));
-        let own = format!(
-            "{} W over {} ({percent}{})",
-            signed(c.difference_w),
-            cycle(&c.cycle),
-            leading(&c.shares, OF_CYCLE).join(", ")
-        );
+        let percent = c.difference_percent.map(|percent| format!("{} %", signed(percent)));
+        let parts = Some(leading(&c.shares, OF_CYCLE).join(", ")).filter(|parts| !parts.is_empty());
+        let details: Vec<String> = percent.into_iter().chain(parts).collect();
+        let details = in_brackets(&details.join("; "));
+        let own = format!("{} W over {}{details}", signed(c.difference_w), cycle(&c.cycle));
         let set = names.quoted(&c.model_set);
         match words.iter_mut().find(|(other, _)| *other == set) {
             Some((_, list)) => list.push(own),

@@ -1,7 +1,6 @@
 //! Pictures of cycles for the report: mean losses by share, and everything over time.
 
 use gearloss_studies::analyses::cycle::{CycleOutcome, DutyOfSet, IntervalOfDuty};
-use gearloss_studies::analyses::numbers::RPM;
 
 use super::{MOST, line, mean_losses, temperatures};
 use crate::page::Page;
@@ -31,8 +30,8 @@ pub fn draw(outcome: &CycleOutcome, page: &mut Page) {
 struct Cells {
     /// Minimum and width of the range of speed and of torque.
     ranges: [(f64, f64); 2],
-    /// For each cell: energy through the reference port in drive and in coast, and the losses of both. \[J\]
-    energies: Vec<[[f64; 2]; 2]>,
+    /// For each cell: input, output and loss. \[J\]
+    energies: Vec<[f64; 3]>,
 }
 
 impl Cells {
@@ -45,15 +44,14 @@ impl Cells {
         let place = |value: f64, (low, width): (f64, f64), cells: usize| {
             (((value - low) / width * cells as f64) as usize).min(cells - 1)
         };
-        let mut energies = vec![[[0.0; 2]; 2]; CELLS[0] * CELLS[1]];
+        let mut energies = vec![[0.0; 3]; CELLS[0] * CELLS[1]];
         for interval in &duty.series {
             let column = place(interval.speed_rpm, ranges[0], CELLS[0]);
             let row = place(interval.torque_nm, ranges[1], CELLS[1]);
-            let power = interval.torque_nm * interval.speed_rpm / RPM;
-            let [transferred, lost] = &mut energies[row * CELLS[0] + column];
-            let side = usize::from(power < 0.0);
-            transferred[side] += power.abs() * interval.duration_s;
-            lost[side] += interval.loss_w * interval.duration_s;
+            let powers = [interval.input_w, interval.output_w, interval.loss_w];
+            for (energy, power) in energies[row * CELLS[0] + column].iter_mut().zip(powers) {
+                *energy += power * interval.duration_s;
+            }
         }
         Self { ranges, energies }
     }
@@ -65,7 +63,7 @@ impl Cells {
         (at(0), at(1))
     }
 
-    fn cloud(&self, title: String, value: impl Fn(&[[f64; 2]; 2]) -> Option<f64>) -> Cloud {
+    fn cloud(&self, title: String, value: impl Fn(&[f64; 3]) -> Option<f64>) -> Cloud {
         let cells = self.energies.iter().enumerate();
         let points = cells.filter_map(|(cell, energies)| {
             let (speed, torque) = self.middle(cell);
@@ -82,31 +80,26 @@ impl Cells {
 
     /// Where the energy of a cycle is lost: cells with their share.
     fn lost(&self, duty: &DutyOfSet) -> Cloud {
-        let lost = |[_, lost]: &[[f64; 2]; 2]| lost[0] + lost[1];
-        let all: f64 = self.energies.iter().map(lost).sum();
-        let share = |energies: &[[f64; 2]; 2]| Some(100.0 * lost(energies) / all).filter(|share| *share >= LEAST);
+        let all: f64 = self.energies.iter().map(|[.., lost]| lost).sum();
+        let share = |[.., lost]: &[f64; 3]| Some(100.0 * lost / all).filter(|share| *share >= LEAST);
         let title = format!("Where {} loses its energy with {}, in %", duty.cycle, duty.model_set);
         self.cloud(title, share)
     }
 
-    /// The efficiency at the operating points of a cycle, each as large as the energy that it transfers.
+    /// The efficiency at the operating points of a cycle, each as large as its input energy.
     fn efficiency(&self, duty: &DutyOfSet) -> Cloud {
-        let transferred = |[transferred, _]: &[[f64; 2]; 2]| transferred[0] + transferred[1];
-        let all: f64 = self.energies.iter().map(transferred).sum();
-        let is_shown = |energies: &[[f64; 2]; 2]| 100.0 * transferred(energies) >= LEAST * all;
-        // The losses reduce what leaves: at the other port in drive, at this port in coast.
-        let efficiency = |energies: &[[f64; 2]; 2]| {
-            let [[drive, coast], lost] = energies;
-            let (input, output) = (drive + coast + lost[1], drive - lost[0] + coast);
-            (is_shown(energies) && input > 0.0 && output > 0.0).then(|| 100.0 * output / input)
+        let all: f64 = self.energies.iter().map(|[input, ..]| input).sum();
+        let efficiency = |[input, output, _]: &[f64; 3]| {
+            let is_shown = 100.0 * input >= LEAST * all && *input > 0.0 && *output > 0.0;
+            is_shown.then(|| 100.0 * output / input)
         };
         let shown = self.energies.iter().filter(|own| efficiency(own).is_some());
-        let shares: Vec<f64> = shown.map(transferred).collect();
+        let shares: Vec<f64> = shown.map(|[input, ..]| *input).collect();
         let largest = shares.iter().copied().fold(0.0, f64::max);
         let title = format!("Efficiency over {} with {}, area by energy", duty.cycle, duty.model_set);
         Cloud {
             sizes: shares.iter().map(|joule| joule / largest).collect(),
-            sized: format!("area: energy transferred, largest {} %", short(100.0 * largest / all)),
+            sized: format!("area: input energy, largest {} %", short(100.0 * largest / all)),
             ..self.cloud(title, efficiency)
         }
     }

@@ -29,12 +29,12 @@ pub fn add(outcome: &CycleOutcome, page: &mut Page) {
             );
             details.push(format!("{} kWh/100 km", short(per.loss_kwh_per_100_km)));
         }
-        own.push_str(&against_reference(duty));
         if let Some((name, percent)) = largest(duty) {
             let name = share(name);
-            own.push_str(&format!(", {} % in the {name}", short(percent)));
+            own.push_str(&format!(", {} % of it in the {name}", short(percent)));
             details.push(format!("{} % {name}", short(percent)));
         }
+        own.push_str(&against_reference(duty));
         if let Some(reference) = &duty.reference {
             let source = reference.source.as_deref().unwrap_or("reference");
             details.push(format!("{} W: {source}", short(reference.mean_loss_w)));
@@ -44,7 +44,7 @@ pub fn add(outcome: &CycleOutcome, page: &mut Page) {
             details.push(format!("95 %: {low} to {high} W"));
             if band.reference_inside == Some(false) {
                 page.careful.push(format!(
-                    "{of}: the published value is outside our 95 % band of {low} to {high} W"
+                    "{of}: the reference is outside the 95 % band of {low} to {high} W"
                 ));
             }
         }
@@ -76,10 +76,10 @@ fn against_reference(duty: &DutyOfSet) -> String {
     let band = duty.bands.as_ref().and_then(|band| {
         let [low, _, high] = band.mean_loss_w.map(short);
         let inside = if band.reference_inside? { "inside" } else { "outside" };
-        Some(format!(", which is {inside} our 95 % band of {low} to {high} W"))
+        Some(format!(", which is {inside} the 95 % band of {low} to {high} W"))
     });
     format!(
-        ", {} % {side} the published {} W{}",
+        ", {} % {side} the reference of {} W{}",
         short(percent.abs()),
         short(reference.mean_loss_w),
         band.unwrap_or_default()

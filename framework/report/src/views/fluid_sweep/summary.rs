@@ -2,7 +2,7 @@
 
 use gearloss_studies::analyses::fluid_sweep::{FluidSweepOutcome, FluidsOfSet};
 
-use crate::names::{cycle, quantity};
+use crate::names::{cycle, listed, quantity};
 use crate::page::Page;
 use crate::text::short;
 
@@ -18,7 +18,7 @@ pub fn add(outcome: &FluidSweepOutcome, page: &mut Page) {
                 cycle(&duty.cycle)
             };
             let end = if least.at_end_of_range {
-                ", the end of the range"
+                ", the end of the range,"
             } else {
                 ""
             };
@@ -61,10 +61,7 @@ pub fn add(outcome: &FluidSweepOutcome, page: &mut Page) {
         }
     }
     let property = outcome.fluid_sweep.first().map(property).unwrap_or_default();
-    page.headline = Some(format!(
-        "The {property} with the lowest loss is {}",
-        words.join(" and ")
-    ));
+    page.headline = (!words.is_empty()).then(|| format!("The {property} with the lowest loss is {}", listed(&words)));
 }
 
 /// The swept property in words, without its unit.

@@ -12,19 +12,25 @@ const SIGNIFICANT: f64 = 0.05;
 
 pub fn add(outcome: &IdentifyOutcome, page: &mut Page) {
     let mut sentences = Vec::new();
-    let mut misfits = false;
+    let mut after_misfit = false;
     for o in &outcome.identifications {
-        sentences.push(sentence(o, misfits, page));
-        misfits = o.misfit.probability.is_some_and(|p| p < SIGNIFICANT);
+        sentences.push(sentence(o, after_misfit, page));
+        after_misfit = misfits(o);
     }
     page.headline = (!sentences.is_empty()).then(|| sentences.join("; "));
 }
 
-/// `misfits`: whether the set before does not fit.
-fn sentence(o: &IdentificationOfSet, misfits: bool, page: &mut Page) -> String {
+/// Whether the points contradict a set.
+fn misfits(o: &IdentificationOfSet) -> bool {
+    o.misfit.probability.is_some_and(|p| p < SIGNIFICANT)
+}
+
+/// `after_misfit`: whether the set before does not fit.
+fn sentence(o: &IdentificationOfSet, after_misfit: bool, page: &mut Page) -> String {
     let set = &o.model_set;
+    let is_misfit = misfits(o);
     let fits = match o.misfit.probability {
-        Some(p) if p < SIGNIFICANT => "does not fit the points within their accuracy",
+        Some(_) if is_misfit => "does not fit the points within their accuracy",
         Some(_) => "fits the points within their accuracy",
         None => "is fitted",
     };
@@ -36,19 +42,21 @@ fn sentence(o: &IdentificationOfSet, misfits: bool, page: &mut Page) -> String {
         };
         format!(" ({p})")
     });
-    let is_misfit = o.misfit.probability.is_some_and(|p| p < SIGNIFICANT);
     if is_misfit {
         page.careful.push(format!("{set} {fits}{probability}"));
     }
-    let mut sentence = match (is_misfit, misfits) {
+    let mut sentence = match (is_misfit, after_misfit) {
         (true, true) => format!("nor does `{set}`{probability}"),
         _ => format!("`{set}` {fits}{probability}"),
     };
-    for quantity in o.found.quantities() {
+    for (i, quantity) in o.found.quantities().into_iter().enumerate() {
         let (what, unit) = words(quantity);
         let unit = brief(unit);
         let [before, after] = o.found.rms(quantity).map(short);
-        sentence.push_str(&format!(": {what} to {after} {unit} rms ({before} before)"));
+        sentence.push_str(&format!(
+            "{} {what} to {after} {unit} rms ({before} before)",
+            if i == 0 { ":" } else { "," }
+        ));
         page.key_figure(
             &format!("{what} deviation, {set}"),
             after,
@@ -100,7 +108,7 @@ fn held_out(o: &IdentificationOfSet, page: &mut Page) -> Option<String> {
             format!("rms{percent} at {} held-out points ({})", errors.points, held.chosen_by),
         );
         Some(format!(
-            "{} {unit}{percent} at the held-out points ({})",
+            "{what} to {} {unit}{percent} rms at the held-out points ({})",
             short(errors.rms),
             held.chosen_by
         ))

@@ -45,11 +45,11 @@ pub fn add(outcome: &MapOutcome, page: &mut Page) {
         page.key_figure("lowest efficiency", short(low.0), "%", at(low.1));
     }
     if let Some([low, high]) = of(|point| point.loss) {
-        words.push(format!("the loss {} W", range(low.0, high.0, 0)));
+        words.push(format!("the loss is {} W", range(low.0, high.0, 0)));
         page.key_figure("largest loss", short(high.0), "W", at(high.1));
     }
     if let Some([low, high]) = of(|point| point.oil).filter(|ends| ends[1].0 - ends[0].0 > 0.05) {
-        words.push(format!("the oil temperature {} °C", range(low.0, high.0, 0)));
+        words.push(format!("the oil temperature is {} °C", range(low.0, high.0, 0)));
         page.key_figure("highest oil temperature", short(high.0), "°C", at(high.1));
     }
     let missing = points().filter(|(_, point)| point.loss.is_none()).count();

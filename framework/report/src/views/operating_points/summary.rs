@@ -21,6 +21,7 @@ pub fn add(outcome: &OperatingPointsOutcome, page: &mut Page) {
                 .losses_w
                 .as_deref()
                 .map(|losses| leading(&points_of_set.shares, losses));
+            let parts = parts.filter(|parts| !parts.is_empty());
             let parts = parts.map_or_else(String::new, |parts| format!(" (at the highest {parts})"));
             own.push(format!("loss {} W{parts}", range(low.0, high.0, 1)));
             page.key_figure("largest loss", short(high.0), "W", format!("point {}", high.1.name));

@@ -32,13 +32,13 @@ pub fn add(outcome: &SensitivityOutcome, page: &mut Page) {
                 format!("the {} ({} {unit}{brief})", name(set, *k), short(values[*k]))
             })
             .collect();
-        let named = if named.is_empty() {
-            "none of the inputs".to_owned()
+        let depends = if named.is_empty() {
+            "depends on none of the inputs".to_owned()
         } else {
-            listed(&named)
+            format!("depends most on {}", listed(&named))
         };
         words.push(format!(
-            "{}the mean loss depends most on {named}",
+            "{}the mean loss {depends}",
             of_set(&set.model_set, outcome.sensitivities.len())
         ));
         if let Some(first) = order.first() {

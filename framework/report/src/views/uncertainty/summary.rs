@@ -29,7 +29,7 @@ pub fn add(outcome: &UncertaintyOutcome, page: &mut Page) {
             );
         }
         if let Some([low, high]) = half(|point| point.loss_w.half_width()) {
-            own.push(format!("the loss to ±{} W", range(low.0, high.0, 1)));
+            own.push(format!("the loss is known to ±{} W", range(low.0, high.0, 1)));
             page.key_figure(
                 "widest band of the loss",
                 format!("±{}", short(high.0)),
@@ -55,11 +55,9 @@ pub fn add(outcome: &UncertaintyOutcome, page: &mut Page) {
             page.careful
                 .push(format!("{}: {} samples have no value", set.model_set, set.failed));
         }
-        words.push(format!(
-            "{}{}",
-            of_set(&set.model_set, outcome.bands.len()),
-            own.join(", ")
-        ));
+        if !own.is_empty() {
+            words.push(of_set(&set.model_set, outcome.bands.len()) + &own.join(", "));
+        }
     }
     page.headline = (!words.is_empty()).then(|| format!("With 95 % confidence: {}", words.join("; ")));
 }
