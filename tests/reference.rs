@@ -186,7 +186,8 @@ fn model(out: &mut String, language: &Language, mechanism: &MechanismEntry, entr
     for limit in entry.limits {
         writeln!(
             out,
-            "- Stated range of {} [{}]: {} to {} ({}).",
+            "- Stated range of the {} {} [{}]: {} to {} ({}).",
+            limit.meaning,
             limit.name,
             limit.unit,
             significant(limit.least),
@@ -206,7 +207,7 @@ fn model(out: &mut String, language: &Language, mechanism: &MechanismEntry, entr
     for observed in entry.observed {
         writeln!(
             out,
-            "- Observed {} [{}]: {}",
+            "- Observed {} [{}]: {}.",
             observed.name, observed.unit, observed.meaning
         )
         .unwrap();

@@ -9,8 +9,8 @@ use gearloss_framework::{limits, terms};
 
 terms! { SHEAR = no_load("shear"); }
 limits! {
-    REYNOLDS = ("Re", "-", 0.0, 1000.0, "laminar gap flow");
-    TAYLOR = ("Ta", "-", 0.0, 41.3, "onset of Taylor vortices");
+    REYNOLDS = ("Re", "Reynolds number of the gap", "-", 0.0, 1000.0, "laminar gap flow");
+    TAYLOR = ("Ta", "Taylor number of the gap", "-", 0.0, 41.3, "onset of Taylor vortices");
 }
 
 /// The oil in the gap of one coupling, which is sheared over its width.

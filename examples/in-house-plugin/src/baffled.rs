@@ -3,7 +3,7 @@
 use gearloss_framework::prelude::*;
 
 terms! { BAFFLED = no_load("baffled"); }
-observed! { FACTOR = ("factor", "-", "Ratio of drag with and without the baffle."); }
+observed! { FACTOR = ("factor", "-", "ratio of drag with and without the baffle"); }
 
 /// Drag of a gear with a baffle.
 #[derive(Debug, Deserialize, JsonSchema)]

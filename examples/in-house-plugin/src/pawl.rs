@@ -5,7 +5,7 @@ use gearloss_framework::prelude::*;
 use crate::parking_lock::{ParkingLock, ParkingLockAt, ParkingLockModel};
 
 terms! { RATTLE = no_load("rattle"); }
-limits! { SPEED = ("n", "1/min", 0.0, 6000.0, "rig of the example"); }
+limits! { SPEED = ("n", "speed of the shaft", "1/min", 0.0, 6000.0, "rig of the example"); }
 
 /// A pawl that rattles on the wheel.
 #[derive(Debug, Deserialize, JsonSchema)]

@@ -6,7 +6,7 @@ terms! {
     VISCOUS = no_load("viscous");
     LOADED = load("loaded");
 }
-limits! { SPEED = ("n", "1/min", 200.0, 9000.0, "speeds on the rig"); }
+limits! { SPEED = ("n", "speed of the shaft", "1/min", 200.0, 9000.0, "speeds on the rig"); }
 
 coefficients! {
     /// Constants of the curve fitted to the points of the rig.

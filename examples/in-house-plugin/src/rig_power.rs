@@ -3,7 +3,7 @@
 use gearloss_framework::prelude::*;
 
 terms! { LOADED = load("loaded"); }
-limits! { LOAD = ("P_0", "N", 100.0, 20000.0, "loads on the rig"); }
+limits! { LOAD = ("P_0", "load", "N", 100.0, 20000.0, "loads on the rig"); }
 
 /// Friction of ball bearings under load as measured on the rig: a power of the equivalent static load P_0 according to ISO 76.
 #[derive(Debug, Deserialize, JsonSchema)]

@@ -68,7 +68,7 @@ macro_rules! terms {
     ($($all:tt)+) => { $crate::numbered! { Term, 0; $($all)+ } };
 }
 
-/// Declares the limits of a model as constants: symbol, unit, least, greatest, origin of the range. They are numbered in the order of
+/// Declares the limits of a model as constants: symbol, meaning, unit, least, greatest, origin of the range. They are numbered in the order of
 /// writing, which is that of `limits` in [`register!`](crate::register). Limits of another module that the model lists first are named
 /// in front: `after PLACE;`.
 ///
@@ -77,7 +77,7 @@ macro_rules! terms {
 ///
 /// gearloss_framework::limits! {
 ///     after PLACE;
-///     SPEED = ("v", "m/s", 0.0, 60.0, "speeds on the rig");
+///     SPEED = ("v", "pitch line velocity", "m/s", 0.0, 60.0, "speeds on the rig");
 /// }
 /// assert_eq!((SPEED.index, SPEED.greatest), (1, 60.0));
 /// ```
@@ -94,7 +94,7 @@ macro_rules! limits {
 /// Declares the observed quantities of a model as constants: symbol, unit, meaning; otherwise as [`limits!`](crate::limits).
 ///
 /// ```
-/// gearloss_framework::observed! { MU = ("mu", "-", "Coefficient of friction."); }
+/// gearloss_framework::observed! { MU = ("mu", "-", "coefficient of friction"); }
 /// assert_eq!(MU.name, "mu");
 /// ```
 #[macro_export]
@@ -364,8 +364,10 @@ impl Undefined {
 pub struct Limit {
     /// Index among the limits of its model.
     pub index: usize,
-    /// Symbol or name of the quantity.
+    /// Symbol of the quantity.
     pub name: &'static str,
+    /// Name of the quantity, as it stands in a sentence.
+    pub meaning: &'static str,
     /// Unit of the range.
     pub unit: &'static str,
     /// Minimum of the stated range.
@@ -378,10 +380,18 @@ pub struct Limit {
 
 impl Limit {
     /// A stated range with its origin, the only one of its model; [`limits!`](crate::limits) declares several.
-    pub const fn new(name: &'static str, unit: &'static str, least: f64, greatest: f64, origin: &'static str) -> Self {
+    pub const fn new(
+        name: &'static str,
+        meaning: &'static str,
+        unit: &'static str,
+        least: f64,
+        greatest: f64,
+        origin: &'static str,
+    ) -> Self {
         Self {
             index: 0,
             name,
+            meaning,
             unit,
             least,
             greatest,
@@ -405,7 +415,7 @@ pub struct Observed {
     pub name: &'static str,
     /// Unit.
     pub unit: &'static str,
-    /// Description, as a sentence.
+    /// Name of the quantity, as it stands in a sentence.
     pub meaning: &'static str,
 }
 
@@ -840,7 +850,7 @@ mod tests {
         ROLLING = load("rolling");
         DRAG = no_load("drag");
     }
-    limits! { RANGE = ("x", "-", 0.0, 1.0, "test"); }
+    limits! { RANGE = ("x", "position", "-", 0.0, 1.0, "test"); }
 
     #[test]
     fn total_derives_from_terms_to_the_last_bit() {

@@ -72,7 +72,8 @@ pub fn eval_text(mechanism: &MechanismEntry, entry: &Entry, evaluated: &Evaluate
     }
     for (path, limit, extent) in evaluated.limits.iter().filter(|(_, _, e)| e.outside > 0) {
         out.line(format!(
-            "outside: {path}: {} {} {} is {} ({})",
+            "outside: {path}: {} {} {} {} is {} ({})",
+            limit.meaning,
             limit.name,
             significant(if extent.least < limit.least {
                 extent.least

@@ -170,7 +170,8 @@ pub fn model_text(language: &Language, entry: &Entry) -> String {
     }
     for limit in entry.limits {
         out.line(format!(
-            "stated range: {} {} to {} {} ({})",
+            "stated range: {} {} {} to {} {} ({})",
+            limit.meaning,
             limit.name,
             significant(limit.least),
             significant(limit.greatest),

@@ -13,7 +13,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 terms! { PUMP = no_load("pump"); }
-observed! { FLOW = ("Q", "l/min", "Flow that the pump delivers."); }
+observed! { FLOW = ("Q", "l/min", "flow that the pump delivers"); }
 
 /// Oil pump from pressure, flow or displacement, and efficiency.
 #[derive(Debug, Deserialize, JsonSchema)]

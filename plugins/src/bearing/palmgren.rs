@@ -18,10 +18,10 @@ terms! {
     pub NO_LOAD = no_load("no_load");
 }
 limits! {
-    pub AXIAL_RATIO = ("Fa/Fr", "-", 0.0, 0.5, "axial load on cylindrical rollers, SKF 1994");
-    pub RADIAL_RATIO = ("Fr/Fa", "-", 0.0, 0.55, "radial load on spherical roller thrust bearings, SKF 1994");
+    pub AXIAL_RATIO = ("Fa/Fr", "axial load over radial load", "-", 0.0, 0.5, "axial load on cylindrical rollers, SKF 1994");
+    pub RADIAL_RATIO = ("Fr/Fa", "radial load over axial load", "-", 0.0, 0.55, "radial load on spherical roller thrust bearings, SKF 1994");
 }
-observed! { pub P1 = ("P1", "N", "Equivalent load of the load-dependent moment."); }
+observed! { pub P1 = ("P1", "N", "equivalent load of the load-dependent moment"); }
 
 coefficients! {
     /// Constants of the load-independent moment M0 in N mm, from mm2/s, 1/min and mm.

@@ -43,14 +43,14 @@ terms! {
     CENTRIFUGAL = no_load("centrifugal");
 }
 limits! {
-    SPEED = ("n d_m", "mm/min", 0.0, 0.5e6, "above, drag follows a different law");
-    VISCOSITY = ("nu", "mm2/s", 0.0, 500.0, "stated for the drag of oil baths up to D/2");
-    VISCOSITY_DEEP = ("nu (deep bath)", "mm2/s", 0.0, 250.0, "stated for the drag of oil baths above D/2");
-    OUTER = ("n_outer", "1/min", 0.0, 0.0, "drag and starvation were measured with a stationary outer ring");
+    SPEED = ("n d_m", "speed factor", "mm/min", 0.0, 0.5e6, "above, drag follows a different law");
+    VISCOSITY = ("nu", "kinematic viscosity of the oil", "mm2/s", 0.0, 500.0, "stated for the drag of oil baths up to D/2");
+    VISCOSITY_DEEP = ("nu (deep bath)", "kinematic viscosity of the oil in a deep bath", "mm2/s", 0.0, 250.0, "stated for the drag of oil baths above D/2");
+    OUTER = ("n_outer", "speed of the outer ring", "1/min", 0.0, 0.0, "drag and starvation were measured with a stationary outer ring");
 }
 observed! {
-    MU_SL = ("mu_sl", "-", "Coefficient of sliding friction.");
-    PHI_BL = ("phi_bl", "-", "Weight of boundary friction.");
+    MU_SL = ("mu_sl", "-", "coefficient of sliding friction");
+    PHI_BL = ("phi_bl", "-", "weight of boundary friction");
 }
 
 /// Speed above which the drag follows a different law. \[mm/min\]

@@ -17,7 +17,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 terms! { LOAD = load("load"); }
-observed! { FORCE = ("F_eff", "N", "Equivalent load of the torque."); }
+observed! { FORCE = ("F_eff", "N", "equivalent load of the torque"); }
 
 coefficients! {
     /// Constants of the formula of Timken.

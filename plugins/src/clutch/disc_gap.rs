@@ -20,8 +20,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 terms! { SHEAR = no_load("shear"); }
-limits! { REYNOLDS = ("Re", "-", 0.0, 1000.0, "laminar flow in the gap"); }
-observed! { RADIUS = ("r*", "mm", "Radius to which the oil fills the gap."); }
+limits! { REYNOLDS = ("Re", "Reynolds number of the gap", "-", 0.0, 1000.0, "laminar flow in the gap"); }
+observed! { RADIUS = ("r*", "mm", "radius to which the oil fills the gap"); }
 
 /// Shape of the film once centrifugal pumping exceeds the supply.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]

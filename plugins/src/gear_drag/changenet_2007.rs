@@ -18,8 +18,8 @@ use super::{CHURNING, GRAVITY};
 
 terms! { TERM = no_load("churning"); }
 observed! {
-    C_M = ("C_m", "-", "Dimensionless churning torque.");
-    REYNOLDS = ("Re", "-", "Reynolds number.");
+    C_M = ("C_m", "-", "dimensionless churning torque");
+    REYNOLDS = ("Re", "-", "Reynolds number");
 }
 
 coefficients! {

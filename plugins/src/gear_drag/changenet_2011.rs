@@ -23,14 +23,14 @@ use super::{CHURNING, GRAVITY};
 terms! { TERM = no_load("churning"); }
 const RANGE: &str = "gears of the tests, quoted from memory";
 limits! {
-    RADIUS = ("R_p", "mm", 40.0, 110.0, RANGE);
-    MODULE = ("m_n", "mm", 1.5, 5.0, RANGE);
-    WIDTH = ("b", "mm", 14.0, 40.0, RANGE);
-    SPEED = ("n", "1/min", 0.0, 7000.0, RANGE);
+    RADIUS = ("R_p", "pitch radius", "mm", 40.0, 110.0, RANGE);
+    MODULE = ("m_n", "normal module", "mm", 1.5, 5.0, RANGE);
+    WIDTH = ("b", "face width", "mm", 14.0, 40.0, RANGE);
+    SPEED = ("n", "speed of the gear", "1/min", 0.0, 7000.0, RANGE);
 }
 observed! {
-    C_M = ("C_m", "-", "Dimensionless churning torque.");
-    REYNOLDS = ("Re", "-", "Reynolds number.");
+    C_M = ("C_m", "-", "dimensionless churning torque");
+    REYNOLDS = ("Re", "-", "Reynolds number");
 }
 
 coefficients! {

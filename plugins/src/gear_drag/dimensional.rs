@@ -18,7 +18,7 @@ use super::dipping::Dipping;
 use super::{CHURNING, GRAVITY};
 
 terms! { TERM = no_load("churning"); }
-observed! { C_M = ("C_m", "-", "Dimensionless churning torque."); }
+observed! { C_M = ("C_m", "-", "dimensionless churning torque"); }
 
 /// Churning of one gear with a user-defined dimensionless torque.
 #[derive(Debug, Deserialize, JsonSchema)]

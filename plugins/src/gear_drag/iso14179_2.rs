@@ -20,10 +20,10 @@ use crate::powers::power;
 
 terms! { SPLASH = no_load("splash"); }
 limits! {
-    PITCH_SPEED = ("v_t", "m/s", 0.0, 60.0, "ISO/TR 14179-2");
-    WIDTH = ("b", "mm", 0.0, 100.0, "above, the b^3 term is unrealistically large");
+    PITCH_SPEED = ("v_t", "pitch line velocity", "m/s", 0.0, 60.0, "ISO/TR 14179-2");
+    WIDTH = ("b", "face width", "mm", 0.0, 100.0, "above, the b^3 term is unrealistically large");
 }
-observed! { TORQUE = ("T_H", "Nm", "Splash torque."); }
+observed! { TORQUE = ("T_H", "Nm", "splash torque"); }
 
 /// Gear whose speed multiplies the splash torque.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]

@@ -20,8 +20,8 @@ use super::wetted::Wetted;
 
 terms! { TERM = no_load("churning"); }
 limits! {
-    MODULE = ("m_n", "mm", 3.0, 6.0, "Mauz as quoted");
-    SPEED = ("v_t", "m/s", 0.0, 60.0, "Mauz as quoted");
+    MODULE = ("m_n", "normal module", "mm", 3.0, 6.0, "Mauz as quoted");
+    SPEED = ("v_t", "pitch line velocity", "m/s", 0.0, 60.0, "Mauz as quoted");
 }
 
 coefficients! {

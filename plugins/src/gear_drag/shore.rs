@@ -19,8 +19,8 @@ use serde::Deserialize;
 use super::CHURNING;
 
 terms! { TERM = no_load("churning"); }
-limits! { SPEED = ("v", "m/s", 0.0, 90.0, "pitch line velocities of the rig"); }
-observed! { H_EFF = ("h_eff", "mm", "Effective immersion depth while the gear rotates."); }
+limits! { SPEED = ("v", "pitch line velocity", "m/s", 0.0, 90.0, "pitch line velocities of the rig"); }
+observed! { H_EFF = ("h_eff", "mm", "effective immersion depth while the gear rotates"); }
 
 /// The source rounds gravity. \[m/s2\]
 const G: f64 = 9.8;

@@ -25,10 +25,10 @@ terms! {
     SLIDING = load("sliding");
     ROLLING = load("rolling");
 }
-limits! { HELIX = ("beta", "deg", 0.0, 0.0, "spur gears"); }
+limits! { HELIX = ("beta", "helix angle", "deg", 0.0, 0.0, "spur gears"); }
 observed! {
-    F = ("f", "-", "Coefficient of friction a quarter of the path from the pitch point.");
-    FILM = ("h", "um", "Central film a quarter of the path from the pitch point.");
+    F = ("f", "-", "coefficient of friction a quarter of the path from the pitch point");
+    FILM = ("h", "um", "central film a quarter of the path from the pitch point");
 }
 
 coefficients! {

@@ -14,7 +14,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 terms! { SLIDING = load("sliding"); }
-observed! { EFFICIENCY = ("eta", "-", "Efficiency of the mesh."); }
+observed! { EFFICIENCY = ("eta", "-", "efficiency of the mesh"); }
 
 /// Mesh loss from a known efficiency: a number, or a table over quantities of the mesh.
 #[derive(Debug, Deserialize, JsonSchema)]

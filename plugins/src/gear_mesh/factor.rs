@@ -10,8 +10,8 @@ use gearloss_framework::{observed, terms};
 
 terms! { pub SLIDING = load("sliding"); }
 observed! {
-    pub MU = ("mu_m", "-", "Mean coefficient of friction.");
-    pub LOSS_FACTOR = ("H_v", "-", "Tooth loss factor.");
+    pub MU = ("mu_m", "-", "mean coefficient of friction");
+    pub LOSS_FACTOR = ("H_v", "-", "tooth loss factor");
 }
 
 /// A loss factor with its mean friction law.

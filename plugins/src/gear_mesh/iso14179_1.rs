@@ -18,12 +18,12 @@ use serde::Deserialize;
 
 terms! { SLIDING = load("sliding"); }
 limits! {
-    SPEED = ("v", "m/s", 2.0, 25.0, "ISO/TR 14179-1");
-    K_FACTOR = ("K", "N/mm2", 1.4, 14.0, "ISO/TR 14179-1");
+    SPEED = ("v", "pitch line velocity", "m/s", 2.0, 25.0, "ISO/TR 14179-1");
+    K_FACTOR = ("K", "K factor of the load", "N/mm2", 1.4, 14.0, "ISO/TR 14179-1");
 }
 observed! {
-    F_M = ("f_m", "-", "Mesh coefficient of friction.");
-    M = ("M", "-", "Mesh mechanical advantage.");
+    F_M = ("f_m", "-", "mesh coefficient of friction");
+    M = ("M", "-", "mesh mechanical advantage");
 }
 
 coefficients! {

@@ -26,12 +26,12 @@ use crate::mean_friction::schlenk::{
 terms! { SLIDING = load("sliding"); }
 limits! {
     after LINE_LOAD, PITCH_SPEED, VISCOSITY;
-    CONTACT_RATIO = ("eps_alpha", "-", 1.0, 2.0, "one to two pairs in contact");
-    ADDENDUM = ("eps_1, eps_2", "-", 0.0, 1.0, "pitch point on the path of contact");
+    CONTACT_RATIO = ("eps_alpha", "transverse contact ratio", "-", 1.0, 2.0, "one to two pairs in contact");
+    ADDENDUM = ("eps_1, eps_2", "addendum contact ratios", "-", 0.0, 1.0, "pitch point on the path of contact");
 }
 observed! {
     after MU;
-    LOSS_FACTOR = ("H_v", "-", "Tooth loss factor.");
+    LOSS_FACTOR = ("H_v", "-", "tooth loss factor");
 }
 
 /// Loss factor.

@@ -18,8 +18,8 @@ use serde::Deserialize;
 use super::factor::{Factor, LOSS_FACTOR, MU, SLIDING};
 
 limits! {
-    CONTACT_RATIO = ("eps_alpha", "-", 1.0, 2.0, "one to two pairs in contact");
-    ADDENDUM = ("eps_1, eps_2", "-", 0.0, 1.0, "pitch point on the path of contact");
+    CONTACT_RATIO = ("eps_alpha", "transverse contact ratio", "-", 1.0, 2.0, "one to two pairs in contact");
+    ADDENDUM = ("eps_1, eps_2", "addendum contact ratios", "-", 0.0, 1.0, "pitch point on the path of contact");
 }
 
 /// Mesh loss from the tooth loss factor of Ohlendorf and a mean friction law.

@@ -38,8 +38,8 @@ terms! {
     ROLLING = load("rolling");
 }
 observed! {
-    MU_MEAN = ("mu_mean", "-", "Coefficient of friction, weighted by load and sliding speed.");
-    LOSS_FACTOR = ("H_vL", "-", "Local tooth loss factor of the load sharing.");
+    MU_MEAN = ("mu_mean", "-", "coefficient of friction, weighted by load and sliding speed");
+    LOSS_FACTOR = ("H_vL", "-", "local tooth loss factor of the load sharing");
 }
 
 /// Domain of averaging.

@@ -40,15 +40,15 @@ terms! { TOTAL = load("total"); }
 
 limits! {
     after PLACE;
-    LEFT = ("ranges left at the nearest node", "-", 0.0, 0.0,
+    LEFT = ("N", "number of ranges that the tabulated model leaves", "-", 0.0, 0.0,
         "ranges of the tabulated model; evaluate it directly to see which");
 }
 
 observed! {
-    GREATEST = ("greatest error", "%", "Maximum error of the table at its check points.");
-    RMS = ("rms error", "%", "Root mean square error of the table at its check points.");
+    GREATEST = ("greatest error", "%", "maximum error of the table at its check points");
+    RMS = ("rms error", "%", "root mean square error of the table at its check points");
     SHARE = ("error of the heat share", "-",
-        "Maximum error of the heat share of the first gear at the check points.");
+        "maximum error of the heat share of the first gear at the check points");
 }
 
 /// Models that are as fast as a table.

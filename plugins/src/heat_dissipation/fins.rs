@@ -18,7 +18,7 @@ use super::textbook::length;
 use super::{ZERO_CELSIUS, needed, part};
 use crate::convection::{Shape, forced, free, mixed};
 
-observed! { EFFICIENCY = ("eta_f", "-", "Efficiency of the fins."); }
+observed! { EFFICIENCY = ("eta_f", "-", "efficiency of the fins"); }
 
 /// A finned part of the housing.
 #[derive(Debug, Deserialize, JsonSchema)]

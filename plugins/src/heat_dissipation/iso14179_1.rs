@@ -16,7 +16,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{needed, part};
 
-limits! { AIR = ("v_air", "m/s", 2.5, 15.0, "table of the report, quoted from memory"); }
+limits! { AIR = ("v_air", "air velocity", "m/s", 2.5, 15.0, "table of the report, quoted from memory"); }
 const FAN: [(f64, f64); 4] = [(2.5, 15.0), (5.0, 24.0), (10.0, 42.0), (15.0, 58.0)];
 
 /// Location of the gearbox.

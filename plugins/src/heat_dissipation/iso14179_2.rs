@@ -21,8 +21,8 @@ use super::air::Air;
 use super::{ZERO_CELSIUS, needed, part};
 
 observed! {
-    WALL = ("T_wall", "degC", "Temperature of the wall.");
-    ALPHA = ("alpha_ca", "W/(m2 K)", "Heat transfer coefficient to the air with radiation.");
+    WALL = ("T_wall", "degC", "temperature of the wall");
+    ALPHA = ("alpha_ca", "W/(m2 K)", "heat transfer coefficient to the air with radiation");
 }
 const GRAVITY: f64 = 9.80665;
 

@@ -13,7 +13,7 @@ use gearloss_framework::{observed, register};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-observed! { EFFECTIVENESS = ("eps", "-", "Effectiveness of the cooler."); }
+observed! { EFFECTIVENESS = ("eps", "-", "effectiveness of the cooler"); }
 
 /// An oil cooler, described by its effectiveness.
 #[derive(Debug, Deserialize, JsonSchema)]

@@ -18,8 +18,8 @@ use serde::Deserialize;
 use super::{ZERO_CELSIUS, needed, part};
 use crate::convection::{Shape, forced, free, mixed, radiation};
 
-limits! { RAYLEIGH = ("Ra", "-", 0.0, 1e12, "Churchill and Chu 1975"); }
-observed! { ALPHA = ("alpha", "W/(m2 K)", "Heat transfer coefficient with radiation."); }
+limits! { RAYLEIGH = ("Ra", "Rayleigh number", "-", 0.0, 1e12, "Churchill and Chu 1975"); }
+observed! { ALPHA = ("alpha", "W/(m2 K)", "heat transfer coefficient with radiation"); }
 
 /// Free and forced convection with radiation.
 #[derive(Debug, Deserialize, JsonSchema)]

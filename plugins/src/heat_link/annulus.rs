@@ -22,10 +22,10 @@ use serde::{Deserialize, Serialize};
 
 use super::oil;
 
-limits! { TAYLOR = ("Ta^2/F_g", "-", 0.0, 1e7, "Becker and Kaye 1962, quoted from memory"); }
+limits! { TAYLOR = ("Ta^2/F_g", "Taylor number of the air gap", "-", 0.0, 1e7, "Becker and Kaye 1962, quoted from memory"); }
 observed! {
-    NUSSELT = ("Nu", "-", "Nusselt number over twice the gap.");
-    ALPHA = ("alpha", "W/(m2 K)", "Heat transfer coefficient for the total temperature difference.");
+    NUSSELT = ("Nu", "-", "Nusselt number over twice the gap");
+    ALPHA = ("alpha", "W/(m2 K)", "heat transfer coefficient for the total temperature difference");
 }
 
 /// Onset of vortices in the gap.

@@ -19,10 +19,10 @@ use super::{of_housing, part};
 use crate::convection::{Shape, forced, free, mixed, radiation};
 use crate::heat_dissipation::ZERO_CELSIUS;
 
-limits! { RAYLEIGH = ("Ra", "-", 0.0, 1e12, "Churchill and Chu 1975"); }
+limits! { RAYLEIGH = ("Ra", "Rayleigh number", "-", 0.0, 1e12, "Churchill and Chu 1975"); }
 observed! {
-    ALPHA = ("alpha", "W/(m2 K)", "Heat transfer coefficient with radiation.");
-    AIR = ("u", "m/s", "Speed of the air along the casing.");
+    ALPHA = ("alpha", "W/(m2 K)", "heat transfer coefficient with radiation");
+    AIR = ("u", "m/s", "speed of the air along the casing");
 }
 
 /// Casing to ambient air: free and forced convection with radiation.

@@ -21,7 +21,7 @@ use serde::Deserialize;
 use super::{of_gear, oil};
 use crate::rotating::Fluid;
 
-observed! { ALPHA = ("alpha", "W/(m2 K)", "Heat transfer coefficient on the wetted flanks."); }
+observed! { ALPHA = ("alpha", "W/(m2 K)", "heat transfer coefficient on the wetted flanks"); }
 
 /// Centrifugal film cooling of wetted teeth, from gear to oil.
 #[derive(Debug, Deserialize, JsonSchema)]

@@ -19,7 +19,7 @@ use serde::Deserialize;
 use super::{of_gear, oil};
 use crate::rotating::Body;
 
-limits! { REYNOLDS = ("Re_D", "-", 1e3, 1e5, "Becker 1963, toothed face as a cylinder"); }
+limits! { REYNOLDS = ("Re_D", "Reynolds number of the gear", "-", 1e3, 1e5, "Becker 1963, toothed face as a cylinder"); }
 
 /// A gear rotating in oil, air or a mist of both: its sides and its toothed face.
 #[derive(Debug, Deserialize, JsonSchema)]

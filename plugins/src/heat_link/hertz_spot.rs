@@ -23,7 +23,7 @@ use serde::Deserialize;
 
 use super::STEEL;
 
-observed! { PECLET = ("Pe", "-", "Peclet number of the spot in the first body."); }
+observed! { PECLET = ("Pe", "-", "peclet number of the spot in the first body"); }
 
 /// Hertzian contact spots, stationary or moving, such as between rolling elements and raceways.
 #[derive(Debug, Deserialize, JsonSchema)]

@@ -18,10 +18,10 @@ use serde::Deserialize;
 use super::{of_gear, of_housing, oil};
 use crate::convection::{Shape, along_plate, mixed, rayleigh};
 
-limits! { RAYLEIGH = ("Ra", "-", 0.0, 1e12, "Churchill and Chu 1975"); }
+limits! { RAYLEIGH = ("Ra", "Rayleigh number", "-", 0.0, 1e12, "Churchill and Chu 1975"); }
 observed! {
-    ALPHA = ("alpha", "W/(m2 K)", "Heat transfer coefficient from oil to casing.");
-    REYNOLDS = ("Re", "-", "Reynolds number over the height of the casing.");
+    ALPHA = ("alpha", "W/(m2 K)", "heat transfer coefficient from oil to casing");
+    REYNOLDS = ("Re", "-", "Reynolds number over the height of the casing");
 }
 
 /// Oil to casing inside: splash of an immersed gear, free convection at standstill.

@@ -21,8 +21,8 @@ use super::oil;
 use crate::rotating::Fluid;
 
 observed! {
-    ALPHA = ("alpha", "W/(m2 K)", "Heat transfer coefficient on the wetted surface.");
-    EFFECTIVENESS = ("eps", "-", "Ratio of the heat removed to the maximum that the stream can remove.");
+    ALPHA = ("alpha", "W/(m2 K)", "heat transfer coefficient on the wetted surface");
+    EFFECTIVENESS = ("eps", "-", "ratio of the heat removed to the maximum that the stream can remove");
 }
 
 /// A jet of oil.

@@ -18,7 +18,7 @@ use serde::{Deserialize, Serialize};
 use super::{STEEL, of_gear};
 use crate::tooth_friction::ehl_mixed::temperature::{FAST, Flank};
 
-limits! { PECLET = ("Pe", "-", FAST, f64::INFINITY, "fast bands of contact, derived"); }
+limits! { PECLET = ("Pe", "Péclet number of the contact", "-", FAST, f64::INFINITY, "fast bands of contact, derived"); }
 /// Sine of a pressure angle of 20 deg.
 const SINE: f64 = 0.342_020_143_325_668_7;
 /// Ratio of Blok's coefficient to that of uniform heat, 4/3/sqrt(pi).

@@ -17,8 +17,8 @@ use serde::Deserialize;
 
 use crate::boundary::greatest;
 
-limits! { PITCH_SPEED = ("v_t", "m/s", 0.5, 20.0, "FZG tests behind X_L, quoted from memory"); }
-observed! { MU = ("mu_m", "-", "Mean coefficient of friction."); }
+limits! { PITCH_SPEED = ("v_t", "pitch line velocity", "m/s", 0.5, 20.0, "FZG tests behind X_L, quoted from memory"); }
+observed! { MU = ("mu_m", "-", "mean coefficient of friction"); }
 
 coefficients! {
     /// Constants of the formula of Fernandes.

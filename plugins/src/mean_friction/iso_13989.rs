@@ -16,10 +16,10 @@ use serde::{Deserialize, Serialize};
 use crate::boundary::greatest;
 
 limits! {
-    PITCH_SPEED = ("v_t", "m/s", 0.5, 60.0,
+    PITCH_SPEED = ("v_t", "pitch line velocity", "m/s", 0.5, 60.0,
         "assumed, not stated by a source: as for Schlenk's formula of the same form");
 }
-observed! { MU = ("mu_m", "-", "Mean coefficient of friction."); }
+observed! { MU = ("mu_m", "-", "mean coefficient of friction"); }
 
 coefficients! {
     /// Constants of the formula of ISO/TR 13989-1.

@@ -20,7 +20,7 @@ use gearloss_framework::contact::path::FrictionPath;
 
 use crate::tooth_friction::finite;
 
-observed! { MU = ("mu_m", "-", "Mean coefficient of friction."); }
+observed! { MU = ("mu_m", "-", "mean coefficient of friction"); }
 
 /// Laws whose friction vanishes or diverges without sliding.
 const SLIDING_LAWS: [&str; 6] = [

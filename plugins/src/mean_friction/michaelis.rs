@@ -16,11 +16,11 @@ use serde::Deserialize;
 use crate::boundary::greatest;
 
 limits! {
-    LINE_LOAD = ("w_Bt", "N/mm", 150.0, 3000.0, "lower clamp of the method");
-    PITCH_SPEED = ("v_t", "m/s", 0.5, 60.0,
+    LINE_LOAD = ("w_Bt", "line load", "N/mm", 150.0, 3000.0, "lower clamp of the method");
+    PITCH_SPEED = ("v_t", "pitch line velocity", "m/s", 0.5, 60.0,
         "assumed, not stated by a source: as for Schlenk's formula of the same form");
 }
-observed! { MU = ("mu_m", "-", "Mean coefficient of friction."); }
+observed! { MU = ("mu_m", "-", "mean coefficient of friction"); }
 
 coefficients! {
     /// Constants of the formula of Michaelis.

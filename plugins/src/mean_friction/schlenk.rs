@@ -20,12 +20,12 @@ use crate::boundary::greatest;
 use crate::powers::power;
 
 limits! {
-    pub(crate) LINE_LOAD = ("F_bt/b", "N/mm", 150.0, 3000.0, "lower clamp of the method");
-    pub(crate) PITCH_SPEED = ("v_t", "m/s", 0.5, 60.0,
+    pub(crate) LINE_LOAD = ("F_bt/b", "line load", "N/mm", 150.0, 3000.0, "lower clamp of the method");
+    pub(crate) PITCH_SPEED = ("v_t", "pitch line velocity", "m/s", 0.5, 60.0,
         "tests behind the method; lower end as in FZG efficiency tests, quoted from memory");
-    pub(crate) VISCOSITY = ("eta", "mPa s", 5.0, 500.0, "tests behind the method, quoted from memory");
+    pub(crate) VISCOSITY = ("eta", "dynamic viscosity of the oil", "mPa s", 5.0, 500.0, "tests behind the method, quoted from memory");
 }
-observed! { pub(crate) MU = ("mu_m", "-", "Mean coefficient of friction."); }
+observed! { pub(crate) MU = ("mu_m", "-", "mean coefficient of friction"); }
 
 coefficients! {
     /// Constants of the formula of Schlenk.

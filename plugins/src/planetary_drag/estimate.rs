@@ -24,8 +24,8 @@ terms! {
     CARRIER = no_load("carrier");
 }
 observed! {
-    SHARE = ("A_wet/A", "-", "Oil-covered share of the carrier faces.");
-    REYNOLDS = ("Re", "-", "Reynolds number of the carrier in oil.");
+    SHARE = ("A_wet/A", "-", "oil-covered share of the carrier faces");
+    REYNOLDS = ("Re", "-", "Reynolds number of the carrier in oil");
 }
 
 /// A first estimate of carrier and planets in oil; expect a factor of three in either direction.

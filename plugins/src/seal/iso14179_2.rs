@@ -17,7 +17,7 @@ terms! { LIP = no_load("lip"); }
 limits! {
     /// Above, the formula would give a negative loss: above about 128 degC with 30 mm2/s at 40 degC, or 157 degC with 100 mm2/s. The
     /// upper end exceeds any oil temperature.
-    BRACKET = ("bracket", "-", 0.0, 1000.0, "below, the power would be negative; it is set to zero");
+    BRACKET = ("bracket", "bracket of the formula", "-", 0.0, 1000.0, "below, the power would be negative; it is set to zero");
 }
 
 coefficients! {

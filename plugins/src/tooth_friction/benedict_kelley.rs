@@ -18,8 +18,8 @@ use serde::Deserialize;
 
 use crate::boundary::greatest;
 
-limits! { SUM_SPEED = ("v_S", "m/s", 0.4, 100.0, "assumed, not stated by a source: gears with lubricant films"); }
-observed! { MU = ("mu", "-", "Coefficient of friction."); }
+limits! { SUM_SPEED = ("v_S", "sum of the surface velocities", "m/s", 0.4, 100.0, "assumed, not stated by a source: gears with lubricant films"); }
+observed! { MU = ("mu", "-", "coefficient of friction"); }
 
 coefficients! {
     /// Constants of the formula of Benedict and Kelley.

@@ -16,10 +16,10 @@ use serde::Deserialize;
 use super::{entraining, finite};
 
 limits! {
-    SUM_SPEED = ("v_S", "m/s", 0.2, 15.3,
+    SUM_SPEED = ("v_S", "sum of the surface velocities", "m/s", 0.2, 15.3,
         "FVA 345 tests FZG C gears up to 20 m/s, and boundary friction at 0.2 m/s; quoted from memory");
 }
-observed! { MU = ("mu", "-", "Coefficient of friction."); }
+observed! { MU = ("mu", "-", "coefficient of friction"); }
 
 /// Power law of boundary or fluid friction according to Doleschel, with test constants of an oil.
 #[derive(Debug, Deserialize, JsonSchema)]

@@ -17,12 +17,12 @@ use crate::powers::power;
 
 const FROM: &str = "range of the tests, quoted from memory";
 limits! {
-    SLIDING = ("v_g", "m/s", 0.0, 15.0, FROM);
-    SUM_SPEED = ("v_S", "m/s", 3.0, 20.0, FROM);
-    VISCOSITY = ("nu", "mm2/s", 4.0, 500.0, FROM);
-    PRESSURE = ("p", "kgf/cm2", 4000.0, 20000.0, FROM);
+    SLIDING = ("v_g", "sliding velocity", "m/s", 0.0, 15.0, FROM);
+    SUM_SPEED = ("v_S", "sum of the surface velocities", "m/s", 3.0, 20.0, FROM);
+    VISCOSITY = ("nu", "kinematic viscosity of the oil", "mm2/s", 4.0, 500.0, FROM);
+    PRESSURE = ("p", "Hertzian pressure", "kgf/cm2", 4000.0, 20000.0, FROM);
 }
-observed! { MU = ("mu", "-", "Coefficient of friction."); }
+observed! { MU = ("mu", "-", "coefficient of friction"); }
 
 /// One kgf/cm2. \[Pa\]
 const KGF_CM2: f64 = 98_066.5;

@@ -54,23 +54,23 @@ use temperature::{FAST, FilmHeat, Flank};
 use traction::Transit;
 
 limits! {
-    PRESSURE = ("p_mean", "GPa", 0.0, 1.0, "pressure range of Roelands' law, quoted from memory");
-    WARMTH = ("T_film", "degC", 20.0, 140.0,
+    PRESSURE = ("p_mean", "mean Hertzian pressure", "GPa", 0.0, 1.0, "pressure range of Roelands' law, quoted from memory");
+    WARMTH = ("T_film", "film temperature", "degC", 20.0, 140.0,
         "where Roelands' law fitted at 40 and 100 degC is within 2 % of ASTM D341");
-    PECLET = ("Pe", "-", FAST, f64::INFINITY, "fast bands of contact, derived");
+    PECLET = ("Pe", "Péclet number of the contact", "-", FAST, f64::INFINITY, "fast bands of contact, derived");
 }
 
 /// Bodies at different temperatures exchange heat even without friction; as a share of a small friction heat it would be unbounded.
 pub(crate) const LEAST_SHARE: f64 = -0.5;
 
 observed! {
-    MU = ("mu", "-", "Coefficient of friction.");
-    MU_F = ("mu_f", "-", "Coefficient of friction of the film alone.");
-    LAMBDA = ("lambda", "-", "Film thickness over rms roughness of both flanks.");
-    THICKNESS = ("h", "um", "Film thickness.");
-    T_FILM = ("T_film", "degC", "Temperature of the film.");
-    T_B1 = ("T_b1", "degC", "Body temperature of the first gear.");
-    T_B2 = ("T_b2", "degC", "Body temperature of the second gear.");
+    MU = ("mu", "-", "coefficient of friction");
+    MU_F = ("mu_f", "-", "coefficient of friction of the film alone");
+    LAMBDA = ("lambda", "-", "film thickness over rms roughness of both flanks");
+    THICKNESS = ("h", "um", "film thickness");
+    T_FILM = ("T_film", "degC", "temperature of the film");
+    T_B1 = ("T_b1", "degC", "body temperature of the first gear");
+    T_B2 = ("T_b2", "degC", "body temperature of the second gear");
 }
 const T_BODY: [Observed; 2] = [T_B1, T_B2];
 

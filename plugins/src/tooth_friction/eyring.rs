@@ -19,10 +19,10 @@ use serde::Deserialize;
 use crate::powers::asinh;
 use gearloss_framework::contact::{self, Film};
 
-limits! { SUM_SPEED = ("v_S", "m/s", 0.1, 100.0, "assumed, not stated by a source: speeds with a lubricant film"); }
+limits! { SUM_SPEED = ("v_S", "sum of the surface velocities", "m/s", 0.1, 100.0, "assumed, not stated by a source: speeds with a lubricant film"); }
 observed! {
-    MU = ("mu_f", "-", "Coefficient of friction.");
-    THICKNESS = ("h", "um", "Film thickness.");
+    MU = ("mu_f", "-", "coefficient of friction");
+    THICKNESS = ("h", "um", "film thickness");
 }
 
 /// Fluid friction of an EHL film: Eyring's law with a limiting shear stress.

@@ -15,8 +15,8 @@ use serde::Deserialize;
 use super::entraining;
 use crate::boundary::greatest;
 
-limits! { ROLLING = ("v_e", "m/s", 0.2, 50.0, "assumed, not stated by a source: gears with lubricant films"); }
-observed! { MU = ("mu", "-", "Coefficient of friction."); }
+limits! { ROLLING = ("v_e", "entraining velocity", "m/s", 0.2, 50.0, "assumed, not stated by a source: gears with lubricant films"); }
+observed! { MU = ("mu", "-", "coefficient of friction"); }
 
 coefficients! {
     /// Constants of the formula of the draft.

@@ -16,10 +16,10 @@ use serde::Deserialize;
 use crate::boundary::greatest;
 
 limits! {
-    PRESSURE = ("p_H", "GPa", 0.245, 4.0, "Misharin, quoted from memory");
-    SUM_SPEED = ("v_S", "m/s", 0.4, 100.0, "assumed, not stated by a source: gears with lubricant films");
+    PRESSURE = ("p_H", "Hertzian pressure", "GPa", 0.245, 4.0, "Misharin, quoted from memory");
+    SUM_SPEED = ("v_S", "sum of the surface velocities", "m/s", 0.4, 100.0, "assumed, not stated by a source: gears with lubricant films");
 }
-observed! { MU = ("mu", "-", "Coefficient of friction."); }
+observed! { MU = ("mu", "-", "coefficient of friction"); }
 
 coefficients! {
     /// Constants of the formula of Misharin.

@@ -30,14 +30,14 @@ use gearloss_framework::contact::{self, Film};
 use super::finite;
 
 limits! {
-    SUM_SPEED = ("v_S", "m/s", 0.0, 100.0,
+    SUM_SPEED = ("v_S", "sum of the surface velocities", "m/s", 0.0, 100.0,
         "assumed, not stated by a source; at zero speed there is no film, only boundary friction");
 }
 observed! {
-    MU = ("mu", "-", "Coefficient of friction.");
-    LAMBDA = ("lambda", "-", "Film thickness over roughness, as defined by the weight.");
-    XI = ("xi", "-", "Share of boundary friction.");
-    THICKNESS = ("h", "um", "Film thickness.");
+    MU = ("mu", "-", "coefficient of friction");
+    LAMBDA = ("lambda", "-", "film thickness over roughness, as defined by the weight");
+    XI = ("xi", "-", "share of boundary friction");
+    THICKNESS = ("h", "um", "film thickness");
 }
 
 /// Share of boundary friction as a function of the film.

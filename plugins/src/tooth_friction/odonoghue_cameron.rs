@@ -17,8 +17,8 @@ use serde::Deserialize;
 use super::entraining;
 use crate::powers::power;
 
-limits! { SUM_SPEED = ("v_S", "m/s", 0.4, 100.0, "assumed, not stated by a source: gears with lubricant films"); }
-observed! { MU = ("mu", "-", "Coefficient of friction."); }
+limits! { SUM_SPEED = ("v_S", "sum of the surface velocities", "m/s", 0.4, 100.0, "assumed, not stated by a source: gears with lubricant films"); }
+observed! { MU = ("mu", "-", "coefficient of friction"); }
 
 /// One inch. \[m\]
 const INCH: f64 = 25.4e-3;

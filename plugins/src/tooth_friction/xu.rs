@@ -24,14 +24,14 @@ use super::finite;
 /// Design range of the regression, quoted from memory.
 const FROM: &str = "design range of the regression, quoted from memory";
 limits! {
-    PRESSURE = ("P_h", "GPa", 0.5, 2.5, FROM);
-    SLIDE_ROLL = ("SR", "-", 0.0, 1.0, FROM);
-    VISCOSITY = ("nu0", "mPa s", 6.0, 75.0, FROM);
-    ROLLING = ("V_e", "m/s", 1.0, 25.0, FROM);
-    RADIUS = ("R", "mm", 5.0, 40.0, FROM);
-    ROUGHNESS = ("S", "um", 0.05, 0.6, FROM);
+    PRESSURE = ("P_h", "Hertzian pressure", "GPa", 0.5, 2.5, FROM);
+    SLIDE_ROLL = ("SR", "slide-to-roll ratio", "-", 0.0, 1.0, FROM);
+    VISCOSITY = ("nu0", "dynamic viscosity of the oil", "mPa s", 6.0, 75.0, FROM);
+    ROLLING = ("V_e", "entraining velocity", "m/s", 1.0, 25.0, FROM);
+    RADIUS = ("R", "effective radius of curvature", "mm", 5.0, 40.0, FROM);
+    ROUGHNESS = ("S", "surface roughness", "um", 0.05, 0.6, FROM);
 }
-observed! { MU = ("mu", "-", "Coefficient of friction."); }
+observed! { MU = ("mu", "-", "coefficient of friction"); }
 
 /// Roughness that is used as S.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]

@@ -158,7 +158,7 @@ impl<M: Mechanism> Scalar<M> {
 
 limits! {
     /// Position of a point in a table: the first limit of every model that reads one.
-    pub PLACE = ("position along the axis that is exceeded most, 0 and 1 are its ends", "-", 0.0, 1.0,
+    pub PLACE = ("s", "relative position in the table", "-", 0.0, 1.0,
         "the ends of the table");
 }
 

@@ -109,6 +109,7 @@ fn of_model(language: &Language, entry: &Entry, schema: &Value) -> Value {
         "observed": entry.observed.iter().map(|o| json!({ "name": o.name, "meaning": o.meaning, "unit": o.unit })).collect::<Vec<_>>(),
         "limits": entry.limits.iter().map(|l| json!({
             "name": l.name,
+            "meaning": l.meaning,
             "unit": l.unit,
             "least": l.least.is_finite().then_some(l.least),
             "greatest": l.greatest.is_finite().then_some(l.greatest),

@@ -93,8 +93,19 @@ pub struct FluidsOfDuty {
     pub cycle: String,
     /// The lowest-loss oil.
     pub least: LeastLoss,
+    /// The oil as described.
+    pub present: PresentOil,
     /// The oils in ascending order of the value.
     pub fluids: Vec<LossOfFluid>,
+}
+
+/// Mean loss of one cycle with the oil as described.
+#[derive(Debug, Clone, Copy, Serialize, JsonSchema)]
+pub struct PresentOil {
+    /// Value of the property, in its unit; null if the description has none.
+    pub value: Option<f64>,
+    /// Mean loss of the transmission. [W]
+    pub mean_loss_w: f64,
 }
 
 /// Mean loss of one cycle with one oil.
@@ -134,6 +145,8 @@ struct Search<'a> {
     label: String,
     /// Ascending by value.
     fluids: Vec<Fluid>,
+    /// Mean loss of each cycle with the oil as described. [W]
+    present: Vec<f64>,
     left: Left,
 }
 
@@ -167,6 +180,7 @@ impl Analysis for FluidSweepEntry {
                 trial: Trial::new(cx, b),
                 label: format!("{} oils", b.name),
                 fluids: Vec::new(),
+                present: Vec::new(),
                 left: Left::new(),
             };
             if cx.only_checks {
@@ -174,6 +188,7 @@ impl Analysis for FluidSweepEntry {
                 continue;
             }
             let driven = cx.part(i, || {
+                search.drive_present()?;
                 search.drive(&values, false)?;
                 if self.refine { search.refine() } else { Ok(()) }
             })?;
@@ -218,18 +233,28 @@ impl Search<'_> {
                 .swept
                 .overrides(*value)
                 .and_then(|changes| self.trial.build(changes));
-            oil.map_err(|reason| self.failed(*value, &reason))?;
+            oil.map_err(|reason| self.failed(&value.to_string(), &reason))?;
+        }
+        Ok(())
+    }
+
+    /// Simulates all cycles with the oil as described.
+    fn drive_present(&mut self) -> Result<(), Stopped> {
+        let losses = self.cx.each(&self.label, 1, |_| self.mean_losses(Vec::new()))?;
+        for result in losses {
+            let (losses, _) = result.map_err(|reason| self.failed("the oil as described", &reason))?;
+            self.present = losses.iter().map(|mean| mean.loss).collect();
         }
         Ok(())
     }
 
     /// Simulates all cycles with oils of some values, and stores the results.
     fn drive(&mut self, values: &[f64], refined: bool) -> Result<(), Stopped> {
-        let all = self
-            .cx
-            .each(&self.label, values.len(), |i| self.mean_losses(values[i]))?;
+        let all = self.cx.each(&self.label, values.len(), |i| {
+            self.mean_losses(self.swept.overrides(values[i])?)
+        })?;
         for (value, result) in values.iter().copied().zip(all) {
-            let (losses, more) = result.map_err(|reason| self.failed(value, &reason))?;
+            let (losses, more) = result.map_err(|reason| self.failed(&value.to_string(), &reason))?;
             self.left.extend(more);
             self.fluids.push(Fluid { value, losses, refined });
         }
@@ -237,8 +262,8 @@ impl Search<'_> {
         Ok(())
     }
 
-    fn mean_losses(&self, value: f64) -> Result<(Vec<MeanLoss>, Left), String> {
-        let t = self.trial.build(self.swept.overrides(value)?)?;
+    fn mean_losses(&self, overrides: Vec<(String, Value)>) -> Result<(Vec<MeanLoss>, Left), String> {
+        let t = self.trial.build(overrides)?;
         let losses = self.duties.mean_losses(self.cx, &t, self.entry.by, self.names);
         losses.map_err(Unfinished::text)
     }
@@ -263,12 +288,12 @@ impl Search<'_> {
         self.fluids.iter().map(|f| (f.value, f.losses[duty].loss)).collect()
     }
 
-    fn failed(&self, value: f64, reason: &str) -> Stopped {
+    fn failed(&self, oil: &str, reason: &str) -> Stopped {
         if !self.cx.should_continue() {
             return self.cx.why_ended();
         }
         let help = "delete the value, or narrow the range";
-        self.cx.wrong(&self.cx.path(), format!("{value}: {reason}"), help)
+        self.cx.wrong(&self.cx.path(), format!("{oil}: {reason}"), help)
     }
 
     fn result(&self, b: &Built<'_>) -> FluidsOfSet {
@@ -290,6 +315,10 @@ impl Search<'_> {
                 .map(|(k, read)| FluidsOfDuty {
                     cycle: read.name.clone(),
                     least: LeastLoss::new(&self.points(k)),
+                    present: PresentOil {
+                        value: self.swept.present(),
+                        mean_loss_w: self.present[k],
+                    },
                     fluids: self.fluids.iter().map(loss(k)).collect(),
                 })
                 .collect(),

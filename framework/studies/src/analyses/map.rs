@@ -205,6 +205,8 @@ impl MapEntry {
     ) -> Result<MapOutcome, Stopped> {
         let head = cx.head(&maps.iter().map(|map| &*map.built).collect::<Vec<_>>());
         let measured = self.measured(cx)?;
+        let grid = self.grid.as_ref().map(|name| cx.study.grid(&cx.path(), name));
+        let envelope = grid.transpose()?.and_then(|grid| grid.envelope.clone());
         let mark = |row| Mark {
             gear: crate::measured::Row::clone(row).gear,
             torque: measured.value(row, "torque").unwrap_or(0.0),
@@ -212,6 +214,7 @@ impl MapEntry {
         };
         Ok(MapOutcome {
             head,
+            envelope,
             notes_of_sets: notes_of_sets(&maps),
             maps: maps.into_iter().map(|map| map.outcome(&rows)).collect(),
             about_points,

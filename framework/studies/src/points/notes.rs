@@ -21,6 +21,8 @@ pub struct Note {
     pub path: String,
     /// Symbol.
     pub name: &'static str,
+    /// Name of the quantity, as it stands in a sentence.
+    pub meaning: &'static str,
     /// Unit.
     pub unit: &'static str,
     /// Minimum; null if it is not finite.
@@ -105,7 +107,12 @@ fn notes_of(transmission: &Transmission, seen: &[Extent], share: &dyn Fn(usize) 
                 greatest: limit.greatest,
                 origin: limit.origin,
             };
-            let note = note(instance, limit.name, limit.unit, seen[cell], Some(stated));
+            let note = note(
+                instance,
+                [limit.name, limit.meaning, limit.unit],
+                seen[cell],
+                Some(stated),
+            );
             notes.extend(note.map(|note| Note {
                 loss_share: share(cell),
                 ..note
@@ -114,8 +121,7 @@ fn notes_of(transmission: &Transmission, seen: &[Extent], share: &dyn Fn(usize) 
         for observed in instance.entry.observed {
             notes.extend(note(
                 instance,
-                observed.name,
-                observed.unit,
+                [observed.name, observed.meaning, observed.unit],
                 seen[instance.notes.observed() + observed.index],
                 None,
             ));
@@ -130,6 +136,7 @@ fn notes_of(transmission: &Transmission, seen: &[Extent], share: &dyn Fn(usize) 
             .map(|((rated, seen), cell)| Note {
                 path: transmission.supports()[rated.support].clone(),
                 name: STATIC_SAFETY,
+                meaning: "static safety",
                 unit: "-",
                 least: seen.least,
                 greatest: seen.greatest,
@@ -148,14 +155,14 @@ fn notes_of(transmission: &Transmission, seen: &[Extent], share: &dyn Fn(usize) 
 
 fn note(
     instance: &Instance,
-    name: &'static str,
-    unit: &'static str,
+    [name, meaning, unit]: [&'static str; 3],
     extent: Extent,
     range: Option<Stated>,
 ) -> Option<Note> {
     (extent.seen > 0).then(|| Note {
         path: instance.path.clone(),
         name,
+        meaning,
         unit,
         least: extent.least,
         greatest: extent.greatest,

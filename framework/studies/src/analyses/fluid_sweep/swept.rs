@@ -17,9 +17,10 @@ const DEFINED: f64 = 2.0;
 
 /// The varied property.
 pub enum Swept {
-    /// The viscosity, at a constant index. Path of the oil, and the other keys of its viscosity.
+    /// The viscosity, at a constant index. Path of the oil, its viscosity in mm2/s at 100 degC, and the other keys of its viscosity.
     Viscosity {
         oil: String,
+        present: Option<f64>,
         index: f64,
         law: Value,
         factor: Value,
@@ -58,19 +59,24 @@ impl Swept {
                 cx.found(vec![at])
             });
         }
-        let index = entry.vi.or_else(|| own_index(&b.resolved.value, &oil)).ok_or_else(|| {
-            cx.wrong(
-                &format!("{path}.vi"),
-                format!("`{oil}` has no viscosity index"),
-                "state the common index of all oils",
-            )
-        })?;
+        let present = viscosities(&b.resolved.value, &oil);
+        let index = entry
+            .vi
+            .or_else(|| present.and_then(|[kv40, kv100]| index(kv40, kv100)))
+            .ok_or_else(|| {
+                cx.wrong(
+                    &format!("{path}.vi"),
+                    format!("`{oil}` has no viscosity index"),
+                    "state the common index of all oils",
+                )
+            })?;
         let own = lookup(&b.resolved.value, &format!("{oil}.viscosity"));
         let of = |key: &str| own.and_then(|v| v.get(key)).cloned().unwrap_or(Value::Null);
         Ok(Self::Viscosity {
             law: of("law"),
             factor: of("factor"),
             oil,
+            present: present.map(|[_, kv100]| kv100),
             index,
         })
     }
@@ -114,6 +120,7 @@ impl Swept {
                 index,
                 law,
                 factor,
+                ..
             } => {
                 let kv40 = at_constant_index(value, *index)
                     .ok_or_else(|| format!("an oil with {value} mm2/s cannot have the viscosity index {index}"))?;
@@ -143,6 +150,14 @@ impl Swept {
         }
     }
 
+    /// Value of the description.
+    pub fn present(&self) -> Option<f64> {
+        match self {
+            Self::Viscosity { present, .. } => *present,
+            Self::Property(varied) => varied.start(),
+        }
+    }
+
     /// Unit of the property.
     pub fn unit(&self) -> &'static str {
         match self {
@@ -157,10 +172,9 @@ impl Swept {
     }
 }
 
-/// Viscosity index of an oil of a resolved document; absent if it has none.
-fn own_index(document: &Value, oil: &str) -> Option<f64> {
+/// Kinematic viscosities of an oil of a resolved document at 40 and 100 degC. \[mm2/s\]
+fn viscosities(document: &Value, oil: &str) -> Option<[f64; 2]> {
     let entry: LubricantEntry = serde_json::from_value(lookup(document, oil)?.clone()).ok()?;
     let lubricant = Lubricant::new(&entry).ok()?;
-    let [kv40, kv100] = [40.0, 100.0].map(|t| lubricant.oil_at(t).nu * 1e6);
-    index(kv40, kv100)
+    Some([40.0, 100.0].map(|t| lubricant.oil_at(t).nu * 1e6))
 }

@@ -11,6 +11,7 @@ use super::points::MapPoints;
 use super::shown::ShownMap;
 use crate::distinct::distinct;
 use crate::points::{Note, OilTemperature, WeakPoint};
+use crate::study::Envelope;
 use crate::table::Table;
 
 /// The maps of an analysis.
@@ -33,6 +34,9 @@ pub struct MapOutcome {
     /// Measured points for figures.
     #[serde(skip)]
     pub marks: Vec<Mark>,
+    /// Maximum torque over speed, beyond which there are no points.
+    #[serde(skip)]
+    pub envelope: Option<Envelope>,
     /// Combined notes of all maps of a set, if they form one table over a bound value.
     #[serde(skip)]
     pub notes_of_sets: Option<Vec<NotesOfSet>>,

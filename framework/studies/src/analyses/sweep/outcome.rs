@@ -193,6 +193,7 @@ mod tests {
         Note {
             path: path.to_owned(),
             name: "n_dm",
+            meaning: "speed factor",
             unit: "-",
             least,
             greatest,
