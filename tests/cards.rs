@@ -38,7 +38,7 @@ fn check_prints_a_card_and_bearings_with_too_little_safety_at_the_rating() {
     assert!(text.contains("gear neutral: no fixed ratio"), "{text}");
     let text = out(&["check", UNIT]);
     assert!(
-        text.contains("at the rated torque: bearings.B4: S0 = C0/P0 0.92"),
+        text.contains("at the rated torque: bearings.B4: static safety S0 = C0/P0 0.92"),
         "{text}"
     );
     assert!(text.contains("is below 1"), "{text}");

@@ -1,4 +1,4 @@
-// Writes docs/gallery.md with a picture of most kinds of analysis: node gallery.mjs, after the examples have been run.
+// Writes docs/gallery.md with a picture of every kind of analysis: node gallery.mjs, after the examples have been run.
 
 import { mkdir, readFile, writeFile } from "node:fs/promises";
 import { pathToFileURL } from "node:url";
@@ -18,6 +18,7 @@ const shown = [
   ["sensitivity", "two-speed-ev", "what_matters", 0],
   ["rms_surface", "two-speed-ev", "surface", 0],
   ["breakdown", "two-speed-ev", "stack", 1],
+  ["temperature_sweep", "two-products", "warming", 0],
   ["sweep", "two-speed-ev", "designs", -1],
   ["spin_loss", "two-speed-ev", "spin", 0],
   ["contact_path", "two-speed-ev", "contact", 1],
@@ -42,7 +43,7 @@ await page.setViewport({ width: 1100, height: 900 });
 await mkdir(new URL("docs/gallery/", root), { recursive: true });
 let text = `# Gallery
 
-A picture of most kinds of analysis, with the lines of the study that make it. The report shows more of each, with tooltips and tables.
+A picture of every kind of analysis, with the lines of the study that make it. The report shows more of each, with tooltips and tables.
 Made from the examples by \`web/gallery.mjs\`.
 `;
 let open = "";

@@ -20,19 +20,21 @@ export function heat(share: number): string {
   return `rgb(${mixed.join(", ")})`;
 }
 
-/** A bar of colours with losses in W, from none to the largest. */
+/** A bar of colours with losses in W, from none at the bottom to the largest. */
 export function heatScale(parent: Element, most: number): void {
-  const [width, left, length] = [270, 6, 206];
-  const element = canvas({ root: parent, width }, 30, `colours of losses from 0 to ${significant(most, 3)} W`);
+  const [top, length, thick] = [20, 110, 10];
+  const element = canvas({ root: parent, width: 72 }, top + length + 8, `colours of losses from 0 to ${significant(most, 3)} W`);
+  const height = (watts: number) => top + length - (length * watts) / most;
   const steps = 40;
-  for (let k = 0; k < steps; k++) svg(element, "rect", { x: left + (k * length) / steps, y: 2, width: length / steps + 0.5, height: 10, fill: heat((k + 0.5) / steps) });
-  svg(element, "rect", { x: left, y: 2, width: length, height: 10, class: "gl-frame" });
+  const step = most / steps;
+  for (let k = 0; k < steps; k++) svg(element, "rect", { x: 1, y: height((k + 1) * step), width: thick, height: length / steps + 0.5, fill: heat((k + 0.5) / steps) });
+  svg(element, "rect", { x: 1, y: top, width: thick, height: length, class: "gl-frame" });
   for (const watts of ticks(0, most, 5)) {
-    const x = left + (length * watts) / most;
-    svg(element, "line", { x1: x, x2: x, y1: 2, y2: 15, class: "gl-tick" });
-    svg(element, "text", { x, y: 27, "text-anchor": "middle" }, short(watts));
+    const y = height(watts);
+    svg(element, "line", { x1: 1, x2: thick + 5, y1: y, y2: y, class: "gl-tick" });
+    svg(element, "text", { x: thick + 8, y: y + 4 }, short(watts));
   }
-  svg(element, "text", { x: left + length + 10, y: 12 }, "W lost");
+  svg(element, "text", { x: 0, y: 11 }, "W lost");
 }
 
 /** Fills the shapes of each part by its loss and adds the loss to its tooltip. Returns the part with the largest loss. */

@@ -30,6 +30,8 @@ interface FieldLook {
   outside?: boolean[];
   marks?: [x: number, y: number][];
   powers?: number[];
+  /** Maximum of y over x, also for their negatives. */
+  envelope?: [x: number, most: number][];
   /** Levels of additional dashed lines. */
   dashed?: number[];
   crossed?: number;
@@ -119,6 +121,7 @@ export function drawField(frame: Frame, grid: Grid, look: FieldLook): { hatched:
     halo(frame.svg, right ? x + 10 : x - 10, ty, text, colours.at(values[at] as number), { "text-anchor": right ? "start" : "end", "font-weight": 600 });
     taken.push({ x: right ? x + 5 + w / 2 : x - 5 - w / 2, y: ty - 4, radius: w / 2 + 14 });
   }
+  outline(g, look);
   const powers = (look.powers ?? []).length > 0 && constantPower(frame, g, look, taken);
   marks(g, look, taken);
   if (look.crossed !== undefined && look.crossed < values.length) {
@@ -188,6 +191,21 @@ function marks(g: Element, look: FieldLook, taken: { x: number; y: number; radiu
     svg(g, "circle", { cx, cy, r, fill: "none", stroke: "#fff", "stroke-width": 2.8 });
     svg(g, "circle", { cx, cy, r, fill: "none", stroke: "#000", "stroke-width": 1.3, class: "gl-mark" });
     if (list.length <= 40) taken.push({ x: cx, y: cy, radius: r + 2 });
+  }
+}
+
+/** The envelope of the points, as far as the axes reach. */
+function outline(g: Element, look: FieldLook): void {
+  const { sx, sy, envelope = [] } = look;
+  for (const along of [1, -1]) {
+    for (const side of [1, -1]) {
+      const points = envelope.map(([x, most]): Point => [along * x, side * most]);
+      const seen = points.some(([x, y]) => x >= sx.low && x <= sx.high && y >= sy.low && y <= sy.high);
+      if (!seen) continue;
+      const d = "M" + points.map(([x, y]) => `${sx(x).toFixed(1)},${sy(y).toFixed(1)}`).join("L");
+      svg(g, "path", { d, fill: "none", stroke: "#fff", "stroke-opacity": 0.7, "stroke-width": 4 });
+      svg(g, "path", { d, fill: "none", stroke: "#000", "stroke-width": 1.8, class: "gl-envelope" });
+    }
   }
 }
 

@@ -81,7 +81,7 @@ export function drawPanels(stage: Stage, panels: Panels): void {
     if (!values || values.every((v) => v === null)) {
       svg(element, "text", { x: left + width / 2, y: top + height / 2, "text-anchor": "middle", class: "gl-name" }, "no map");
     } else {
-      const look = drawField(frame, gridOf(xs, ys, values, quantity.jumps), { sx, sy, colours, best, outside: panels.outside[index], marks: panels.marks, powers: panels.powers });
+      const look = drawField(frame, gridOf(xs, ys, values, quantity.jumps), { sx, sy, colours, best, outside: panels.outside[index], marks: panels.marks, powers: panels.powers, envelope: panels.envelope });
       explained.hatched ||= look.hatched;
       explained.powers ||= look.powers;
       if (look.allOutside) explained.allOutside++;
@@ -94,12 +94,13 @@ export function drawPanels(stage: Stage, panels: Panels): void {
   if (best) entries.push({ name: "best point", mark: "star", colour: "#fff" });
   if (panels.marks.length) entries.push({ name: panels.marked || "marked", mark: "ring" });
   if (explained.powers) entries.push({ name: "constant power", mark: "power" });
+  if (panels.envelope.length) entries.push({ name: "largest torque", mark: "line" });
   if (explained.hatched) entries.push({ name: "outside a model's stated range", mark: "hatch" });
   const foot = html(body, "div", { class: "gl-key" });
   legend(foot, entries);
   if (explained.allOutside) {
     const which = explained.allOutside === shown.length ? (shown.length > 1 ? "all panels" : "the map") : `${explained.allOutside} panels`;
-    html(foot, "p", { class: "gl-note" }, `Every point of ${which} is outside a model's stated range.`);
+    html(foot, "p", { class: "gl-note" }, `At every point of ${which} a model is outside one of its stated ranges (†).`);
   }
   const detail = panels.breakdown ? html(body, "div", { class: "gl-detail", "aria-live": "polite" }) : null;
   if (detail) html(foot, "p", { class: "gl-note gl-hint" }, "Click, or press Enter at the cursor: losses at that point.");

@@ -104,6 +104,9 @@ function theme(): void {
 }
 
 function navigation(): void {
+  const bar = document.querySelector<HTMLElement>("nav");
+  // The first screen and jumps leave room for it, in as many lines as it has.
+  if (bar) new ResizeObserver(() => document.documentElement.style.setProperty("--nav", `${bar.offsetHeight}px`)).observe(bar);
   const links = new Map([...document.querySelectorAll<HTMLAnchorElement>("nav a[href^='#']")].map((a) => [decodeURIComponent(a.hash.slice(1)), a]));
   const visible = new Set<string>();
   const watcher = new IntersectionObserver(

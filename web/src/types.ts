@@ -112,6 +112,7 @@ export interface Panels {
   marks: [x: number, y: number][];
   marked: string;
   powers: number[];
+  envelope: [x: number, most: number][];
   breakdown: { names: string[]; panels: (number[] | null)[] } | null;
 }
 

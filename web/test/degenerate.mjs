@@ -4,7 +4,7 @@ const none = null;
 const line = (points, stroke = "line") => ({ name: "a", points, stroke });
 const panels = (values, rest = {}) => ({
   kind: "panels", title: "panels", rows: ["a"], columns: ["b"], x: ["speed in rpm", [1000, 2000, 3000]], y: ["torque in Nm", [-5, 5]], slider: none,
-  quantities: [{ name: "efficiency", unit: "%", diverging: false, best: "highest", jumps: true, panels: [values] }], outside: [], marks: [], marked: "", powers: [1000], breakdown: none, ...rest,
+  quantities: [{ name: "efficiency", unit: "%", diverging: false, best: "highest", jumps: true, panels: [values] }], outside: [], marks: [], marked: "", powers: [1000], envelope: [], breakdown: none, ...rest,
 });
 const map = (values, rest = {}) => ({
   kind: "map", title: "map", unit: "", best: none, jumps: false, x: ["speed rpm", ["1000", "2000"]], y: ["torque Nm", ["5", "10"]], values, diverging: false, ends: none, hatched: [], marks: [], marked: "", crossed: none, unseen: none, ...rest,

@@ -76,7 +76,7 @@ function panels() {
   return {
     kind: "panels", title: "Efficiency of the three model sets, gear first", rows: sets, columns: [""],
     x: ["speed in rpm", speeds], y: ["torque in Nm", torques], slider: ["oil temperature", oils.map((o) => `${o} degC`)],
-    quantities, outside, marks: [[2500, 9], [6000, 6], [9500, 4], [12000, -5]], marked: "measured", powers: [1000, 5000, 15000], breakdown,
+    quantities, outside, marks: [[2500, 9], [6000, 6], [9500, 4], [12000, -5]], marked: "measured", powers: [1000, 5000, 15000], envelope: [[0, 10], [6000, 10], [16000, 4]], breakdown,
   };
 }
 

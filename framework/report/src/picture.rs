@@ -78,6 +78,8 @@ pub struct Panels {
     pub marked: String,
     /// Powers for which lines are drawn. \[W\]
     pub powers: Vec<f64>,
+    /// Maximum of the vertical over the horizontal coordinate, drawn as a line, also for their negatives; an empty list: none.
+    pub envelope: Vec<(f64, f64)>,
     /// Losses of each cell by share, shown after a click; absent if unknown.
     pub breakdown: Option<Breakdown>,
 }

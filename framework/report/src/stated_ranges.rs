@@ -19,7 +19,11 @@ struct Values {
     greatest: f64,
     points: u64,
     outside: u64,
-    unit: String,
+    /// Name of the quantity, as it stands in a sentence.
+    meaning: &'static str,
+    unit: &'static str,
+    /// Ends of the stated range.
+    ends: [f64; 2],
     /// Both ends as text, because JSON has no infinite numbers, and their origin.
     range: (String, String),
     /// Share of the loss of each analysis that the components lose outside the range, where it is known.
@@ -34,7 +38,9 @@ impl Values {
             greatest: note.greatest,
             points: note.points.into(),
             outside: note.outside.into(),
-            unit: note.unit.to_owned(),
+            meaning: note.meaning,
+            unit: note.unit,
+            ends: [stated.least, stated.greatest],
             range: (beyond(stated.least, stated.greatest), stated.origin.to_owned()),
             loss_shares: note
                 .loss_share
@@ -54,6 +60,18 @@ impl Values {
     /// Largest share in the loss of an analysis; absent if no analysis knows it.
     fn loss_share(&self) -> Option<f64> {
         self.loss_shares.values().copied().reduce(f64::max)
+    }
+
+    /// Which end is exceeded, or both.
+    fn exceeded(&self) -> String {
+        let [low, high] = self.ends;
+        if self.greatest <= high {
+            format!("below {}", short(low))
+        } else if self.least >= low {
+            format!("above {}", short(high))
+        } else {
+            format!("outside {} to {}", short(low), short(high))
+        }
     }
 
     fn share_of_points(&self) -> f64 {
@@ -199,11 +217,11 @@ impl StatedRanges {
             table.row(vec![
                 (i + 1).to_string(),
                 group.paths.join(", "),
-                group.name.clone(),
+                group.quantity(),
                 values.map_or_else(|| "left in some samples".to_owned(), |v| v.range.0.clone()),
                 values.map_or_else(String::new, |v| significant(v.least)),
                 values.map_or_else(String::new, |v| significant(v.greatest)),
-                values.map_or_else(String::new, |v| v.unit.clone()),
+                values.map_or_else(String::new, |v| v.unit.to_owned()),
                 percent(values.map(Values::share_of_points)),
                 percent(values.and_then(Values::loss_share)),
                 values.map_or_else(String::new, |v| v.range.1.clone()),
@@ -252,12 +270,18 @@ impl Group {
         self.values.as_ref().map_or(0.0, of)
     }
 
+    /// Name and symbol.
+    fn quantity(&self) -> String {
+        let meaning = self.values.as_ref().map(|values| format!("{} ", values.meaning));
+        format!("{}{}", meaning.unwrap_or_default(), self.name)
+    }
+
     fn line(&self) -> String {
         let analyses = match &self.analyses[..] {
             [] => String::new(),
             list => format!("; in {}", list.join(", ")),
         };
-        let (paths, name) = (self.paths.join(", "), &self.name);
+        let (paths, name) = (self.paths.join(", "), self.quantity());
         let Some(all) = &self.values else {
             return format!("{OUTSIDE}{paths}: {name} is outside its validity range in some samples{analyses}");
         };
@@ -266,7 +290,7 @@ impl Group {
             "{OUTSIDE}{paths}: {name} {} to {}{} is {range} at {} of {} points ({origin}){analyses}",
             significant(all.least),
             significant(all.greatest),
-            unit(&all.unit),
+            unit(all.unit),
             all.outside,
             all.points
         )
@@ -278,19 +302,21 @@ impl Group {
             1 => first,
             count => format!("{first} and {} more", count - 1),
         };
-        let name = &self.name;
+        let name = self.quantity();
         let Some(all) = &self.values else {
-            return format!("{paths}: {name} leaves its range in some samples");
+            return format!("{paths}: {name} is outside its range in some samples");
         };
         let share = all.loss_share().map_or_else(String::new, |share| {
             format!(", with {} % of the loss", short(100.0 * share))
         });
+        let ends = match [all.least, all.greatest].map(short) {
+            [low, high] if low == high => low,
+            [low, high] => format!("{low} to {high}"),
+        };
         format!(
-            "{paths}: {name} of {} to {}{} leaves its range ({}) at {} % of the points{share}",
-            short(all.least),
-            short(all.greatest),
-            unit(&all.unit),
-            all.range.0,
+            "{paths}: {name} ({ends}{}) is {} at {} % of the points{share}",
+            unit(all.unit),
+            all.exceeded(),
             short(100.0 * all.share_of_points())
         )
     }
@@ -318,7 +344,9 @@ mod tests {
                 greatest: 9.0,
                 points: 10,
                 outside: 4,
-                unit: "-".to_owned(),
+                meaning: "speed factor",
+                unit: "-",
+                ends: [0.0, 5.0],
                 range: ("outside 0 to 5".to_owned(), "catalogue".to_owned()),
                 loss_shares: BTreeMap::from([(analysis.to_owned(), 0.25)]),
             }),
@@ -335,7 +363,7 @@ mod tests {
         assert_eq!(
             ranges.lines(),
             [
-                "outside: bearings.B1.model, bearings.B2.model: n_dm 1 to 9 is outside 0 to 5 at 12 of 30 points \
+                "outside: bearings.B1.model, bearings.B2.model: speed factor n_dm 1 to 9 is outside 0 to 5 at 12 of 30 points \
               (catalogue); in map, city"
             ]
         );
@@ -343,7 +371,8 @@ mod tests {
             (ranges.rows_of("map"), ranges.rows_of("town")),
             ("1".to_owned(), String::new())
         );
-        let short = "bearing B1 and 1 more: n_dm of 1 to 9 leaves its range (outside 0 to 5) at 40 % of the points, with 50 % of the loss";
+        let short =
+            "bearing B1 and 1 more: speed factor n_dm (1 to 9) is above 5 at 40 % of the points, with 50 % of the loss";
         assert_eq!(ranges.worst(), [short]);
     }
 }

@@ -149,9 +149,13 @@ pub fn capitalised(text: &str) -> String {
         .map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
-/// The unit of a difference in a sentence, where it is clear that points are percentage points.
-pub fn brief(unit: &str) -> &str {
-    if unit == "percentage points" { "points" } else { unit }
+/// A unit behind a further number of a sentence, in which percentage points need no repetition.
+pub fn again(unit: &str) -> String {
+    if unit == "percentage points" {
+        String::new()
+    } else {
+        format!(" {unit}")
+    }
 }
 
 /// The name of a model set in front of its result; nothing if there are only the models of the gearbox.
@@ -159,7 +163,7 @@ pub fn of_set(set: &str, sets: usize) -> String {
     if set == OWN_MODELS && sets == 1 {
         String::new()
     } else {
-        format!("{set}: ")
+        format!("with `{set}` ")
     }
 }
 

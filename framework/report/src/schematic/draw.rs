@@ -214,7 +214,7 @@ impl Draw<'_> {
             notes.push("Blue gears are fixed to their shaft, amber gears turn freely on it.");
         }
         if unstated {
-            notes.push("Dashed: the description states no position.");
+            notes.push("Dashed: position assumed, the description states none.");
         }
         if self.canvas.holds(MESH) {
             notes.push("Dotted: gears in mesh that are apart in this plane.");

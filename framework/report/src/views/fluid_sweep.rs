@@ -58,18 +58,23 @@ fn text(name: &str, set: &FluidsOfSet, page: &mut Page) {
             "  * below 2 mm2/s the viscosity index is not defined; its law for 2 mm2/s and above is extrapolated",
         );
     }
-    for FluidsOfDuty { cycle, least, .. } in &set.cycles {
+    for FluidsOfDuty {
+        cycle, least, present, ..
+    } in &set.cycles
+    {
         let end = if least.at_end_of_range {
             ", at the end of the range"
         } else {
             ""
         };
+        let now = present.value.map_or_else(|| "the present oil".to_owned(), significant);
         page.line(format!(
-            "  {cycle}: minimum {:.2} W at {}{end}; within 1 % from {} to {}",
+            "  {cycle}: minimum {:.2} W at {}{end}; within 1 % from {} to {}; {:.2} W at present with {now}",
             least.mean_loss_w,
             significant(least.value),
             significant(least.flat_range[0]),
-            significant(least.flat_range[1])
+            significant(least.flat_range[1]),
+            present.mean_loss_w
         ));
     }
     page.line("");
@@ -94,5 +99,15 @@ fn lines(sets: &[FluidsOfSet], relative: bool) -> Vec<Line> {
             stroke: Stroke::Marked,
         }
     };
-    duties.map(line).collect()
+    let mut lines: Vec<Line> = duties.clone().map(line).collect();
+    let present = |(_, duty): (&FluidsOfSet, &FluidsOfDuty)| {
+        let scale = if relative { 100.0 / duty.least.mean_loss_w } else { 1.0 };
+        Some(Some((duty.present.value?, scale * duty.present.mean_loss_w)))
+    };
+    lines.push(Line {
+        name: "oil as described".to_owned(),
+        points: duties.filter_map(present).collect(),
+        stroke: Stroke::Dots,
+    });
+    lines
 }

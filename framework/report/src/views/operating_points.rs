@@ -27,7 +27,7 @@ fn show(outcome: &OperatingPointsOutcome, page: &mut Page) {
         differences(&of_set.points, page);
         page.line("");
         let figure = Figure::Bars {
-            title: format!("{name}: losses, models {set}, oil temperature above each bar"),
+            title: format!("{name}: losses, models {set}, oil temperature beside each bar"),
             over: String::new(),
             height: "loss in W".to_owned(),
             names: of_set.shares.clone(),

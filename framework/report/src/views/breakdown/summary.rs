@@ -39,7 +39,14 @@ pub fn add(outcome: &BreakdownOutcome, page: &mut Page) {
         let Some((largest, most)) = leading.first() else {
             continue;
         };
-        let at = place(tidy(point.torque_nm), tidy(point.speed_rpm));
+        // Of several temperatures, the one of the point matters.
+        let is_several = of_set
+            .points
+            .iter()
+            .any(|other| other.oil_temperature_degc != point.oil_temperature_degc);
+        let oil = point.oil_temperature_degc.filter(|_| is_several);
+        let oil = oil.map_or_else(String::new, |oil| format!(", oil {} °C", short(oil)));
+        let at = place(tidy(point.torque_nm), tidy(point.speed_rpm)) + &oil;
         let of = if outcome.breakdowns.iter().any(|other| other.gear != of_set.gear) {
             format!("{}, gear {}", names.quoted(&of_set.model_set), of_set.gear)
         } else {

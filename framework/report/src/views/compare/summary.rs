@@ -8,7 +8,7 @@ use gearloss_studies::analyses::numbers::RPM;
 
 use crate::names::{SetNames, cycle, listed, share};
 use crate::page::Page;
-use crate::text::{brief, in_brackets, place, short, signed};
+use crate::text::{again, in_brackets, place, short, signed};
 
 /// Components that are named: for each cycle, and for a difference over a grid.
 const OF_CYCLE: usize = 2;
@@ -20,7 +20,6 @@ const TILES: usize = 5;
 
 pub fn add(outcome: &CompareOutcome, page: &mut Page) {
     let (what, unit) = outcome.quantity.words(outcome.difference);
-    let unit = brief(unit);
     page.headline = match &outcome.comparisons {
         Comparisons::OnGrid(all) => on_grid(all, (what, unit), page),
         Comparisons::OverCycles(all) => over_cycles(all, page),
@@ -98,6 +97,7 @@ fn on_grid(all: &[GridComparison], (what, unit): (&str, &str), page: &mut Page) 
         };
         let at = place(largest.torque_nm, largest.speed * RPM);
         let (set, base) = (names.quoted(&c.model_set), base(&names, &c.base));
+        let share = share_of_loss(c, mean, unit);
         let side = if mean < 0.0 { "lower" } else { "higher" };
         // The first difference in full, the others by their mean.
         words.push(if words.is_empty() {
@@ -108,25 +108,36 @@ fn on_grid(all: &[GridComparison], (what, unit): (&str, &str), page: &mut Page) 
                 format!("; loss by component: {} on average", parts.join(", "))
             };
             format!(
-                "With {set} the {what} is {} {unit} {side} than with {base} on average{}, most at {at} ({} {unit}){parts}",
+                "With {set} the {what} is {} {unit}{share} {side} than with {base} on average{}, most at {at} ({}{}){parts}",
                 short(mean.abs()),
                 everywhere(least.difference, greatest.difference),
                 signed(largest.difference),
+                again(unit)
             )
         } else {
-            format!("with {set} {} {unit} {side}", short(mean.abs()))
+            format!("with {set} {}{}{share} {side}", short(mean.abs()), again(unit))
         });
         page.key_figure(
             &format!("{what}: {} minus {}", names.word(&c.model_set), names.word(&c.base)),
             signed(mean),
             unit,
-            format!("mean; {} at {at}", signed(largest.difference)),
+            format!("mean{share}; {} at {at}", signed(largest.difference)),
         );
     }
     if let [only] = all {
         tiles_of_components(only, &names, page);
     }
     (!words.is_empty()).then(|| words.join("; "))
+}
+
+/// A mean difference of the loss as a share of the mean loss of the base.
+fn share_of_loss(c: &GridComparison, mean: f64, unit: &str) -> String {
+    let base: f64 = c.components.iter().map(|own| own.base_mean_loss_w).sum();
+    if unit == "W" && base > 0.0 {
+        format!(" ({} % of {} W)", short(100.0 * mean.abs() / base), short(base))
+    } else {
+        String::new()
+    }
 }
 
 /// The components that contribute most to the difference.
@@ -159,6 +170,15 @@ fn everywhere(least: f64, greatest: f64) -> &'static str {
     }
 }
 
+/// A set that is compared with data: the gearbox itself, or other models for it.
+fn as_described(set: &str) -> String {
+    if set == OWN_MODELS {
+        "as described".to_owned()
+    } else {
+        format!("with `{set}`")
+    }
+}
+
 fn with_data(all: &[DataComparison], (what, unit): (&str, &str), page: &mut Page) -> Option<String> {
     for c in all {
         if let Some(difference) = c.difference {
@@ -167,7 +187,12 @@ fn with_data(all: &[DataComparison], (what, unit): (&str, &str), page: &mut Page
                 difference.count,
                 signed(difference.mean)
             );
-            page.key_figure(&format!("{what}: {}", c.model_set), short(difference.rms), unit, detail);
+            page.key_figure(
+                &format!("{what} deviation, {}", as_described(&c.model_set)),
+                short(difference.rms),
+                unit,
+                detail,
+            );
         }
     }
     let ranked = ranking(all).sets;
@@ -193,9 +218,13 @@ fn with_data(all: &[DataComparison], (what, unit): (&str, &str), page: &mut Page
     let mean = all.iter().find(|c| c.model_set == first.0).and_then(|c| c.difference);
     let mean = mean.map_or_else(String::new, |own| format!(" (mean {} {unit})", signed(own.mean)));
     let closest = if ranked.len() > 1 { "at best, " } else { "" };
+    let (start, with) = if first.0 == OWN_MODELS && others.is_empty() {
+        ("As described, the", String::new())
+    } else {
+        ("The", format!(" {closest}{}", as_described(&first.0)))
+    };
     Some(format!(
-        "The {what} deviates from the measurement by {} {unit} rms{mean} {closest}with `{}`{others}",
-        short(first.1),
-        first.0
+        "{start} {what} deviates from the data by {} {unit} rms{mean}{with}{others}",
+        short(first.1)
     ))
 }

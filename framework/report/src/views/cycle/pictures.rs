@@ -108,11 +108,16 @@ impl Cells {
 /// A bar of mean losses by share for each cycle and set, with the reference beside it.
 fn bars(outcome: &CycleOutcome, page: &mut Page) {
     let Some(first) = outcome.cycles.first() else { return };
+    let several = outcome.cycles.iter().any(|duty| duty.model_set != first.model_set);
     let bar = |duty: &DutyOfSet| {
         let band = duty.bands.as_ref().map(|band| band.mean_loss_w.map(short));
         let band = band.map_or_else(String::new, |[low, _, high]| format!(" ({low} to {high})"));
         Bar {
-            label: format!("{}\n{}", duty.cycle, duty.model_set),
+            label: if several {
+                format!("{}\n{}", duty.cycle, duty.model_set)
+            } else {
+                duty.cycle.clone()
+            },
             shares: duty.mean_losses_w.clone(),
             above: format!("{} W{band}", short(duty.mean_loss_w)),
             measured: duty.reference.as_ref().map(|reference| (reference.mean_loss_w, 0.0)),

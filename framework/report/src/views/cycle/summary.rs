@@ -79,9 +79,10 @@ fn against_reference(duty: &DutyOfSet) -> String {
         Some(format!(", which is {inside} the 95 % band of {low} to {high} W"))
     });
     format!(
-        ", {} % {side} the reference of {} W{}",
+        ", {} % {side} the {} W of {}{}",
         short(percent.abs()),
         short(reference.mean_loss_w),
+        reference.source.as_deref().unwrap_or("the reference"),
         band.unwrap_or_default()
     )
 }

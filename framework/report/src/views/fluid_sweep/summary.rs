@@ -23,17 +23,23 @@ pub fn add(outcome: &FluidSweepOutcome, page: &mut Page) {
                 ""
             };
             let flat = least.flat_range.map(short);
+            let present = duty.present.value.map_or_else(String::new, |value| {
+                format!(
+                    "; {} W with the present {}",
+                    short(duty.present.mean_loss_w),
+                    short(value)
+                )
+            });
             words.push(format!(
-                "{} {}{end} over {of} ({} W; within 1 % of it from {} to {} {})",
+                "{} {}{end} over {of} ({} W{present}; within 1 % of it from {} to {})",
                 short(least.value),
                 set.unit,
                 short(least.mean_loss_w),
                 flat[0],
-                flat[1],
-                set.unit
+                flat[1]
             ));
             let detail = format!(
-                "{} W; within 1 % from {} to {}",
+                "{} W{present}; within 1 % from {} to {}",
                 short(least.mean_loss_w),
                 flat[0],
                 flat[1]
@@ -61,7 +67,37 @@ pub fn add(outcome: &FluidSweepOutcome, page: &mut Page) {
         }
     }
     let property = outcome.fluid_sweep.first().map(property).unwrap_or_default();
-    page.headline = (!words.is_empty()).then(|| format!("The {property} with the lowest loss is {}", listed(&words)));
+    page.headline = (!words.is_empty()).then(|| {
+        format!(
+            "The {property} with the lowest loss is {}{}",
+            listed(&words),
+            in_common(outcome)
+        )
+    });
+}
+
+/// Values whose loss is within one percent of the lowest over every cycle.
+fn in_common(outcome: &FluidSweepOutcome) -> String {
+    let [set] = &outcome.fluid_sweep[..] else {
+        return String::new();
+    };
+    if set.cycles.len() < 2 {
+        return String::new();
+    }
+    let ends = set.cycles.iter().map(|duty| duty.least.flat_range);
+    let [low, high] = ends.fold([f64::NEG_INFINITY, f64::INFINITY], |[low, high], [from, to]| {
+        [low.max(from), high.min(to)]
+    });
+    if low <= high {
+        format!(
+            "; {} to {} {} is within 1 % over all cycles",
+            short(low),
+            short(high),
+            set.unit
+        )
+    } else {
+        "; no value is within 1 % over all cycles".to_owned()
+    }
 }
 
 /// The swept property in words, without its unit.

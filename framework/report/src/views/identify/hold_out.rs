@@ -3,7 +3,6 @@
 use gearloss_numerics::inference::{ErrorSummary, PlacedError};
 use gearloss_studies::analyses::identify::IdentificationOfSet;
 use gearloss_studies::analyses::identify::hold_out::ErrorsOfQuantity;
-use gearloss_studies::study::Difference;
 
 use super::{slug, words};
 use crate::Figure;
@@ -99,7 +98,7 @@ fn by_region(own: &ErrorsOfQuantity) -> TextTable {
     table
 }
 
-/// Errors of fitted and held-out rows over torque and over speed, with the bands of held-out rows.
+/// Errors of fitted and held-out rows over torque and over speed.
 pub(super) fn pictures(name: &str, o: &IdentificationOfSet) -> Vec<(String, Figure)> {
     let Some(held) = &o.hold_out else {
         return Vec::new();
@@ -110,22 +109,11 @@ pub(super) fn pictures(name: &str, o: &IdentificationOfSet) -> Vec<(String, Figu
         let (what, unit) = words(own.quantity);
         let axes: [(&str, &str, fn(&PlacedError) -> f64); 2] =
             [("torque", "Nm", |e| e.torque), ("speed", "rpm", |e| e.speed)];
-        let factor = own.quantity.difference(Difference::Points, 0.0, 1.0).unwrap_or(1.0);
         for (axis, axis_unit, value) in axes {
             let dots = |held: bool| {
                 let own = own.all.iter().filter(move |e| e.is_held_out == held);
                 own.map(|e| Some((value(e), e.error))).collect::<Vec<_>>()
             };
-            let of_quantity = held.points.iter().filter(|point| point.quantity == record.quantity);
-            let placed = own.all.iter().filter(|e| e.is_held_out);
-            let ends = of_quantity.zip(placed).flat_map(|(point, placed)| {
-                // A measurement inside its band has an error between these ends.
-                let from_model = |end: f64| factor * (point.predicted - end);
-                let ends = point.band.map_or_else(Vec::new, |band| band.map(from_model).to_vec());
-                ends.into_iter()
-                    .map(|end| Some((value(placed), end)))
-                    .collect::<Vec<_>>()
-            });
             let dotted = |name: &str, points: Vec<Option<(f64, f64)>>| Line {
                 name: name.to_owned(),
                 points,
@@ -138,11 +126,7 @@ pub(super) fn pictures(name: &str, o: &IdentificationOfSet) -> Vec<(String, Figu
                 ),
                 x: format!("{axis} {axis_unit}"),
                 y: format!("calculated minus measured, {unit}"),
-                lines: vec![
-                    dotted("fitted", dots(false)),
-                    dotted("held out", dots(true)),
-                    dotted("ends of 95 % bands", ends.collect()),
-                ],
+                lines: vec![dotted("fitted", dots(false)), dotted("held out", dots(true))],
             };
             all.push((format!("hold-out-{}-{axis}", slug(own.quantity)), figure));
         }

@@ -22,6 +22,9 @@ const BORDER: u32 = 72;
 pub(super) fn draw(outcome: &IdentifyOutcome, o: &IdentificationOfSet, page: &mut Page) {
     let name = outcome.head.analysis.as_str();
     let mut put = |what: &str, figure: Figure| page.figure(format!("{name}-{}-{what}", o.model_set), figure);
+    for (what, figure) in hold_out::pictures(name, o) {
+        put(&what, figure);
+    }
     put("parameters", parameters(name, o));
     for quantity in o.found.quantities() {
         for (what, figure) in maps(name, o, quantity) {
@@ -38,9 +41,6 @@ pub(super) fn draw(outcome: &IdentifyOutcome, o: &IdentificationOfSet, page: &mu
     }
     for (what, figure) in residuals(name, o) {
         put(what, figure);
-    }
-    for (what, figure) in hold_out::pictures(name, o) {
-        put(&what, figure);
     }
     put("correlations", correlations(name, o));
     for (what, figure) in joint(name, o) {

@@ -5,7 +5,7 @@ use gearloss_studies::study::Quantity;
 
 use super::words;
 use crate::page::Page;
-use crate::text::{brief, short};
+use crate::text::{again, short};
 
 /// Probability below which a misfit is significant.
 const SIGNIFICANT: f64 = 0.05;
@@ -30,8 +30,8 @@ fn sentence(o: &IdentificationOfSet, after_misfit: bool, page: &mut Page) -> Str
     let set = &o.model_set;
     let is_misfit = misfits(o);
     let fits = match o.misfit.probability {
-        Some(_) if is_misfit => "does not fit the points within their accuracy",
-        Some(_) => "fits the points within their accuracy",
+        Some(_) if is_misfit => "does not agree with the measured points",
+        Some(_) => "agrees with the measured points within their accuracy",
         None => "is fitted",
     };
     let probability = o.misfit.probability.map_or_else(String::new, |p| {
@@ -51,11 +51,11 @@ fn sentence(o: &IdentificationOfSet, after_misfit: bool, page: &mut Page) -> Str
     };
     for (i, quantity) in o.found.quantities().into_iter().enumerate() {
         let (what, unit) = words(quantity);
-        let unit = brief(unit);
         let [before, after] = o.found.rms(quantity).map(short);
         sentence.push_str(&format!(
-            "{} {what} to {after} {unit} rms ({before} before)",
-            if i == 0 { ":" } else { "," }
+            "{} {what} to {after}{} rms ({before} before the fit)",
+            if i == 0 { ":" } else { "," },
+            if after_misfit { again(unit) } else { format!(" {unit}") }
         ));
         page.key_figure(
             &format!("{what} deviation, {set}"),
@@ -77,6 +77,9 @@ fn sentence(o: &IdentificationOfSet, after_misfit: bool, page: &mut Page) -> Str
     let bounded = o.parameters.iter().filter(|parameter| parameter.bound.is_some());
     let bounded: Vec<&str> = bounded.map(|parameter| parameter.name.as_str()).collect();
     if !bounded.is_empty() {
+        if !is_misfit {
+            sentence.push_str(&format!(", {} at a bound", bounded.join(", ")));
+        }
         page.careful
             .push(format!("{set}: at a bound of its range: {}", bounded.join(", ")));
     }
@@ -94,7 +97,6 @@ fn held_out(o: &IdentificationOfSet, page: &mut Page) -> Option<String> {
     let held = o.hold_out.as_ref()?;
     let errors = held.quantities.iter().filter_map(|own| {
         let (what, unit) = words(own.errors.quantity);
-        let unit = brief(unit);
         let errors = own.held_out.as_ref()?;
         let percent = errors
             .in_percent
@@ -108,8 +110,9 @@ fn held_out(o: &IdentificationOfSet, page: &mut Page) -> Option<String> {
             format!("rms{percent} at {} held-out points ({})", errors.points, held.chosen_by),
         );
         Some(format!(
-            "{what} to {} {unit}{percent} rms at the held-out points ({})",
+            "{}{}{percent} at the held-out points ({})",
             short(errors.rms),
+            again(unit),
             held.chosen_by
         ))
     });

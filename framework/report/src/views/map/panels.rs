@@ -70,6 +70,7 @@ pub fn panels(outcome: &MapOutcome, names: &AxisNames) -> Option<Panels> {
         marks: marks.map(|[x, y]| (x, y)).collect(),
         marked: "measured".to_owned(),
         powers: if is_torque { powers(axes) } else { Vec::new() },
+        envelope: if is_torque { envelope(outcome, axes) } else { Vec::new() },
         breakdown: Some(Breakdown {
             names: SUMS.iter().map(|(_, meaning)| (*meaning).to_owned()).collect(),
             panels: placed.iter().map(|maps| panel(maps, &losses)).collect(),
@@ -206,6 +207,17 @@ fn outside(maps: &[&MapOfSet]) -> Vec<bool> {
 fn losses(map: &MapOfSet) -> Vec<f32> {
     let own = cells(map, |point| point.map_or([0.0; SUMS.len()], |point| point.sums));
     own.into_iter().flatten().map(|watts| watts as f32).collect()
+}
+
+/// Maximum torque over speed, as the axes state them.
+fn envelope(outcome: &MapOutcome, axes: &Axes) -> Vec<(f64, f64)> {
+    let Some(envelope) = &outcome.envelope else {
+        return Vec::new();
+    };
+    let corners = envelope.speed.iter().zip(&envelope.torque);
+    corners
+        .map(|(at, most)| (speed(axes, at.abs()), torque(axes, most.abs())))
+        .collect()
 }
 
 /// Powers with one or two digits; none if an axis is a fraction of a rating.

@@ -1,11 +1,12 @@
 //! Losses and temperatures of all points in one sentence.
 
 use gearloss_studies::analyses::measurable::is_measurable;
+use gearloss_studies::analyses::numbers::tidy;
 use gearloss_studies::analyses::operating_points::{OperatingPoint, OperatingPointsOutcome};
 
 use crate::names::share;
 use crate::page::Page;
-use crate::text::{extremes, of_set, range, short, signed};
+use crate::text::{capitalised, extremes, of_set, place, range, short, signed};
 
 pub fn add(outcome: &OperatingPointsOutcome, page: &mut Page) {
     let mut words = Vec::new();
@@ -13,6 +14,10 @@ pub fn add(outcome: &OperatingPointsOutcome, page: &mut Page) {
         let (set, points) = (&points_of_set.model_set, &points_of_set.points);
         let ends = |value: fn(&OperatingPoint) -> Option<f64>| {
             extremes(points.iter().filter_map(move |point| Some((value(point)?, point))))
+        };
+        let at = |point: &OperatingPoint| {
+            let at = place(tidy(point.torque_nm), point.speed_rpm);
+            format!("point {}: {at}", point.name)
         };
         let mut own = Vec::new();
         if let Some([low, high]) = ends(|point| point.loss_w) {
@@ -22,18 +27,13 @@ pub fn add(outcome: &OperatingPointsOutcome, page: &mut Page) {
                 .as_deref()
                 .map(|losses| leading(&points_of_set.shares, losses));
             let parts = parts.filter(|parts| !parts.is_empty());
-            let parts = parts.map_or_else(String::new, |parts| format!(" (at the highest {parts})"));
+            let parts = parts.map_or_else(String::new, |parts| format!(" (at the highest loss {parts})"));
             own.push(format!("loss {} W{parts}", range(low.0, high.0, 1)));
-            page.key_figure("largest loss", short(high.0), "W", format!("point {}", high.1.name));
+            page.key_figure("largest loss", short(high.0), "W", at(high.1));
         }
         if let Some([low, high]) = ends(|point| point.oil_temperature_degc) {
             own.push(format!("oil {} °C", range(low.0, high.0, 1)));
-            page.key_figure(
-                "highest oil temperature",
-                short(high.0),
-                "°C",
-                format!("point {}", high.1.name),
-            );
+            page.key_figure("highest oil temperature", short(high.0), "°C", at(high.1));
         }
         let deviation = |point: &OperatingPoint| {
             let (loss, seen) = (point.loss_w?, point.measured.loss_w?);
@@ -58,7 +58,7 @@ pub fn add(outcome: &OperatingPointsOutcome, page: &mut Page) {
         }
         if !own.is_empty() {
             words.push(format!(
-                "{}{} points: {}",
+                "{}at {} operating points: {}",
                 of_set(set, outcome.operating_points.len()),
                 points.len(),
                 own.join(", ")
@@ -70,7 +70,7 @@ pub fn add(outcome: &OperatingPointsOutcome, page: &mut Page) {
                 .push(format!("{set}: {missing} points have no defined loss"));
         }
     }
-    page.headline = (!words.is_empty()).then(|| words.join("; "));
+    page.headline = (!words.is_empty()).then(|| capitalised(&words.join("; ")));
 }
 
 /// The two largest shares of a loss.

@@ -4,13 +4,12 @@ use gearloss_studies::analyses::rms_surface::RmsSurfaceOutcome;
 
 use crate::names::quantity;
 use crate::page::Page;
-use crate::text::{brief, short};
+use crate::text::short;
 
 pub fn add(outcome: &RmsSurfaceOutcome, page: &mut Page) {
     let mut words = Vec::new();
     for surface in &outcome.surfaces {
         let (what, unit) = surface.quantity.words(outcome.difference);
-        let unit = brief(unit);
         let least = &surface.least;
         let place = &surface.least_place.place;
         let at = [(&surface.x, place[0], least.x_end), (&surface.y, place[1], least.y_end)];

@@ -5,7 +5,7 @@ use gearloss_studies::analyses::sensitivity::{SensitivityOfSet, SensitivityOutco
 use super::{Influences, descending, influences};
 use crate::names::{listed, quantity};
 use crate::page::Page;
-use crate::text::{of_set, short};
+use crate::text::{capitalised, of_set, short};
 
 /// Parameters that are named.
 const NAMED: usize = 3;
@@ -50,7 +50,7 @@ pub fn add(outcome: &SensitivityOutcome, page: &mut Page) {
             );
         }
     }
-    page.headline = (!words.is_empty()).then(|| words.join("; "));
+    page.headline = (!words.is_empty()).then(|| capitalised(&words.join("; ")));
 }
 
 /// A parameter in words.

@@ -32,7 +32,7 @@ pub fn add(outcome: &SweepOutcome, page: &mut Page) {
             0.0
         };
         words.push(format!(
-            "{}mean loss {} W at {}, {} W at {} ({} %)",
+            "{}the mean loss is {} W at {} and {} W at {} ({} %)",
             of_set(set, outcome.notes.len()),
             short(low.0),
             at(low.1),

@@ -46,7 +46,7 @@ pub fn add(outcome: &ThermalLimitOutcome, page: &mut Page) {
         }
     }
     page.headline = Some(format!(
-        "At {} {along} the oil reaches {}",
+        "At {} {along} the oil would reach {}",
         short(*middle),
         words.join(", ")
     ));
