@@ -63,12 +63,20 @@ pub fn main() -> ExitCode {
         let _ = Out::error().text("This is a bug in gearloss. Please report the input and the lines above.\n");
         std::process::exit(3);
     }));
+    interrupt::own_signals();
     ExitCode::from(call(std::env::args_os()))
+}
+
+/// Stops the command that runs in [`call`] on another thread, as the first Ctrl-C does: finished analyses are kept. Where `call` is used
+/// without [`main`], signals belong to the caller.
+pub fn interrupt() {
+    interrupt::press();
 }
 
 /// Runs one command with its arguments, the first of which is the program name; returns the exit code of [`main`]. A panic reaches the
 /// caller.
 pub fn call(args: impl IntoIterator<Item = OsString>) -> u8 {
+    interrupt::forget();
     let args = match Args::try_parse_from(args) {
         Ok(args) => args,
         Err(error) => {

@@ -1,0 +1,55 @@
+//! Errors of documents as an exception of Python.
+
+use std::sync::OnceLock;
+
+use gearloss::api::{Findings as Found, Language, Stopped};
+use pyo3::create_exception;
+use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError, PyValueError};
+use pyo3::prelude::*;
+
+use crate::{json, work};
+
+create_exception!(
+    gearloss,
+    Findings,
+    PyValueError,
+    "What is wrong with a document or a request. Its text is that of the terminal; `list` has a dict for each finding with code, severity, message, path, places (file, line, column) and help."
+);
+
+/// The exception of findings.
+pub fn raised(py: Python<'_>, found: &Found) -> PyErr {
+    let error = Findings::new_err(found.render().trim_end().to_owned());
+    let set = json::to_python(py, found).and_then(|list| error.value(py).setattr("list", list));
+    set.err().unwrap_or(error)
+}
+
+/// The exception of a request that is not part of a document.
+pub fn wrong(py: Python<'_>, message: impl Into<String>, help: &str) -> PyErr {
+    let error = gearloss::api::Diagnostic::error("", message).help(help);
+    raised(py, &Found::from(error))
+}
+
+/// The exception of an analysis without an outcome.
+pub fn stopped(py: Python<'_>, why: Stopped) -> PyErr {
+    match why {
+        Stopped::Found(found) => raised(py, &found),
+        Stopped::Interrupted => PyKeyboardInterrupt::new_err("interrupted"),
+        other => PyRuntimeError::new_err(format!("the analysis has no outcome: {other:?}")),
+    }
+}
+
+/// The language of the linked models.
+pub fn language(py: Python<'_>) -> PyResult<&'static Language> {
+    static LANGUAGE: OnceLock<Result<Language, Found>> = OnceLock::new();
+    LANGUAGE
+        .get_or_init(Language::linked)
+        .as_ref()
+        .map_err(|found| raised(py, found))
+}
+
+/// Runs a command of the program, such as `["run", "study.yaml", "-o", "results"]`; returns its exit code.
+#[pyfunction]
+pub fn call(py: Python<'_>, arguments: Vec<String>) -> PyResult<u8> {
+    let arguments = std::iter::once("gearloss".to_owned()).chain(arguments);
+    work::run_until(py, gearloss::interrupt, |_| gearloss::call(arguments.map(Into::into)))
+}

@@ -1,0 +1,227 @@
+//! One operating point.
+
+use gearloss::api::{OilTemperature, PowerFlow};
+use gearloss::framework::coefficients::changed_from_source;
+use gearloss::report::point::{explain_part, heading, point_json, point_text};
+use gearloss::studies::points::{PreparedPoint, evidence};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use serde_json::json;
+
+use crate::errors::{language, raised, wrong};
+use crate::gearbox::Transmission;
+use crate::json;
+use crate::quantity::unit;
+
+/// A point as it is asked for: torques in Nm and speeds in rpm by port, the oil temperature in degC.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub struct Request<'py> {
+    gear: Option<String>,
+    torque: Bound<'py, PyDict>,
+    speed: Bound<'py, PyDict>,
+    oil_temperature: Option<f64>,
+    ideal: bool,
+}
+
+/// The gear state that is asked for, or the only one.
+pub fn gear_of(py: Python<'_>, t: &Transmission, gear: Option<String>) -> PyResult<String> {
+    let states = t.transmission.states();
+    match (gear, states) {
+        (Some(gear), _) => Ok(gear),
+        (None, [only]) => Ok(only.name.clone()),
+        (None, states) => {
+            let names: Vec<&str> = states.iter().map(|state| state.name.as_str()).collect();
+            Err(wrong(
+                py,
+                "no gear is given",
+                &format!("give `gear` as one of {}", names.join(", ")),
+            ))
+        }
+    }
+}
+
+/// Oil temperature of a request: given, or as the gearbox states it.
+pub fn oil_of(py: Python<'_>, t: &Transmission, given: Option<f64>) -> PyResult<OilTemperature> {
+    if let Some(given) = given
+        && !(-60.0..=250.0).contains(&given)
+    {
+        let message = format!("{given} degC is not a valid oil temperature");
+        return Err(wrong(py, message, "give a temperature from -60 to 250 degC"));
+    }
+    Ok(OilTemperature::from_conditions(&t.transmission, given))
+}
+
+/// Real flow, or ideal flow.
+pub fn flow(ideal: bool) -> PowerFlow {
+    if ideal { PowerFlow::Ideal } else { PowerFlow::Real }
+}
+
+/// Port and value of each entry.
+fn by_port(given: &Bound<'_, PyDict>) -> PyResult<Vec<(String, f64)>> {
+    given
+        .iter()
+        .map(|(port, value)| Ok((port.extract()?, value.extract()?)))
+        .collect()
+}
+
+/// The point of a request.
+pub fn prepared(py: Python<'_>, t: &Transmission, request: Request<'_>) -> PyResult<PreparedPoint> {
+    let gear = gear_of(py, t, request.gear)?;
+    let (torques, speeds) = (by_port(&request.torque)?, by_port(&request.speed)?);
+    let finite = torques.iter().chain(&speeds).find(|(_, value)| !value.is_finite());
+    if let Some((port, value)) = finite {
+        return Err(wrong(
+            py,
+            format!("{value} at port `{port}` is not finite"),
+            "give a number",
+        ));
+    }
+    let names = |list: &[(String, f64)]| list.iter().map(|own| own.0.clone()).collect::<Vec<String>>();
+    let (torque_at, speed_at) = (names(&torques), names(&speeds));
+    let strs = |list: &[String]| list.iter().map(String::as_str).collect::<Vec<&str>>().join(", ");
+    let state = t.transmission.state(&gear).map_err(|error| raised(py, &error.into()))?;
+    let needed = t.transmission.torques_needed(state);
+    if torques.len() < needed {
+        let ports: Vec<&str> = t.transmission.ports().iter().map(|port| port.name.as_str()).collect();
+        let message = format!("gear `{gear}` needs {needed} given torque, not {}", torques.len());
+        let help = format!(
+            "give `torque` at one of {}; it is given at: {}",
+            ports.join(", "),
+            strs(&torque_at)
+        );
+        return Err(wrong(py, message, &help));
+    }
+    let torque_ports: Vec<&str> = torque_at.iter().map(String::as_str).collect();
+    let speed_ports: Vec<&str> = speed_at.iter().map(String::as_str).collect();
+    let case = t.transmission.case(&gear, &speed_ports, &torque_ports);
+    Ok(PreparedPoint {
+        case: case.map_err(|list| raised(py, &list.into()))?,
+        gear,
+        speeds: speeds.iter().map(|own| unit("rpm").to_si(own.1)).collect(),
+        torques: torques.iter().map(|own| own.1).collect(),
+        oil: oil_of(py, t, request.oil_temperature)?,
+        flow: flow(request.ideal),
+    })
+}
+
+/// A solved point.
+#[pyclass(frozen)]
+pub struct Solution {
+    transmission: Py<Transmission>,
+    prepared: PreparedPoint,
+    /// Sum of all losses in W; `None` if it has no value.
+    #[pyo3(get)]
+    loss: Option<f64>,
+    /// Output power over input power.
+    #[pyo3(get)]
+    efficiency: Option<f64>,
+    /// Oil temperature in degC.
+    #[pyo3(get)]
+    oil_temperature: f64,
+    /// State of the transmission, such as `drive`.
+    #[pyo3(get)]
+    status: &'static str,
+    watts: Vec<f64>,
+}
+
+impl Solution {
+    pub fn new(py: Python<'_>, transmission: Py<Transmission>, request: Request<'_>) -> PyResult<Self> {
+        let t = transmission.get();
+        let prepared = prepared(py, t, request)?;
+        let mut scratch = t.transmission.scratch(&prepared.case);
+        let point = prepared.point();
+        let found = prepared.oil.find(&t.transmission, &prepared.case, &point, &mut scratch);
+        let solution = t
+            .transmission
+            .evaluate(&prepared.case, &point, found.temperatures(), &mut scratch);
+        let sound = found.is_sound() && solution.has_flow();
+        let own = Self {
+            loss: solution.loss().filter(|_| sound),
+            efficiency: solution.efficiency().filter(|_| sound),
+            oil_temperature: found.oil,
+            status: solution.status().name(),
+            watts: solution.parts().map(|(_, loss)| loss.watts()).collect(),
+            transmission: transmission.clone_ref(py),
+            prepared,
+        };
+        Ok(own)
+    }
+}
+
+#[pymethods]
+impl Solution {
+    /// Loss of each component in W, by path.
+    #[getter]
+    fn parts<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let parts = PyDict::new(py);
+        let t = self.transmission.get();
+        for (part, watts) in t.transmission.parts().iter().zip(&self.watts) {
+            parts.set_item(&part.path, watts)?;
+        }
+        Ok(parts)
+    }
+
+    /// Everything that `gearloss solve --format json` states.
+    fn to_dict(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        let t = self.transmission.get();
+        let mut scratch = t.transmission.scratch(&self.prepared.case);
+        let solved = self.prepared.solve(&t.transmission, &mut scratch);
+        let packages = language(py)?.registry().packages();
+        let mut value = point_json(&t.transmission, &self.prepared, &solved, packages);
+        let is_written = |path: &str| t.gearbox.places.is_written(path);
+        value["evidence"] = json!(evidence(&t.transmission, &t.resolved, &is_written));
+        value["unreached"] = json!(t.resolved.unreached);
+        value["changed_from_source"] = json!(changed_from_source(&t.transmission, &t.resolved));
+        json::to_python(py, &value)
+    }
+
+    /// The tables of `gearloss solve`.
+    fn text(&self) -> String {
+        let t = self.transmission.get();
+        let mut scratch = t.transmission.scratch(&self.prepared.case);
+        let solved = self.prepared.solve(&t.transmission, &mut scratch);
+        point_text(&t.transmission, &self.prepared, &solved)
+    }
+
+    fn __repr__(&self) -> String {
+        let number = |x: Option<f64>| x.map_or_else(|| "None".to_owned(), |x| x.to_string());
+        format!(
+            "Solution(loss={}, efficiency={}, oil_temperature={}, status='{}')",
+            number(self.loss),
+            number(self.efficiency),
+            self.oil_temperature,
+            self.status
+        )
+    }
+}
+
+/// Every step of the loss of a component.
+pub fn explain(py: Python<'_>, t: &Transmission, part: &str, request: Request<'_>) -> PyResult<String> {
+    let fits =
+        |path: &str| path == part || path.starts_with(&format!("{part}.")) || path.split('.').nth(1) == Some(part);
+    let parts = t.transmission.parts();
+    let chosen: Vec<usize> = (0..parts.len()).filter(|i| fits(&parts[*i].path)).collect();
+    if chosen.is_empty() {
+        let paths: Vec<&str> = parts.iter().map(|part| part.path.as_str()).collect();
+        let help = format!("give one of {}", paths.join(", "));
+        return Err(wrong(py, format!("there is no component `{part}`"), &help));
+    }
+    let prepared = prepared(py, t, request)?;
+    let mut scratch = t.transmission.scratch(&prepared.case);
+    let solved = prepared.solve(&t.transmission, &mut scratch);
+    let at = format!("oil {} degC", solved.found.oil);
+    let mut text = heading(&t.transmission, &solved.solution, &prepared, &at);
+    let changed = changed_from_source(&t.transmission, &t.resolved);
+    for part in chosen {
+        text += &explain_part(
+            &t.transmission,
+            &t.gearbox,
+            &t.resolved,
+            &solved.solution,
+            part,
+            &changed,
+        );
+    }
+    Ok(text)
+}

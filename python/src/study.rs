@@ -1,0 +1,164 @@
+//! Studies and their outcomes.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use gearloss::api::{self, Progress, Silent, Steps, StudyRun};
+use gearloss::report::page::Page;
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::prelude::*;
+
+use crate::errors::{language, raised, stopped};
+use crate::json;
+use crate::table::Table;
+use crate::work;
+
+/// A checked study.
+#[pyclass(frozen)]
+pub struct Study {
+    study: api::Study,
+    run: StudyRun<'static>,
+}
+
+impl Study {
+    fn new(py: Python<'_>, read: Result<api::Study, api::Findings>) -> PyResult<Self> {
+        let language = language(py)?;
+        let study = read
+            .and_then(|study| study.check(language).map(|()| study))
+            .map_err(|found| raised(py, &found))?;
+        let run = StudyRun::new(language, &study);
+        Ok(Self { study, run })
+    }
+}
+
+/// Ends an analysis when it is asked to.
+struct Interruptible<'a>(&'a AtomicBool);
+
+impl Progress for Interruptible<'_> {
+    fn begin(&self, _: &str, _: usize) -> Box<dyn Steps + '_> {
+        Box::new(Silent)
+    }
+
+    fn should_continue(&self) -> bool {
+        !self.0.load(Ordering::Relaxed)
+    }
+}
+
+#[pymethods]
+impl Study {
+    /// Reads a file and its gearboxes, and checks every name that its analyses use.
+    #[staticmethod]
+    fn read(py: Python<'_>, file: PathBuf) -> PyResult<Self> {
+        let read = api::Study::read(language(py)?, &file);
+        Self::new(py, read)
+    }
+
+    /// Reads a text, in YAML or JSON; `folder` contains the files that it names.
+    #[staticmethod]
+    fn from_text(py: Python<'_>, text: String, name: &str, folder: PathBuf) -> PyResult<Self> {
+        let read = api::Study::of_text(language(py)?, text, name, folder);
+        Self::new(py, read)
+    }
+
+    /// Reads a document of dicts and lists.
+    #[staticmethod]
+    fn from_document(py: Python<'_>, document: &Bound<'_, PyAny>, folder: PathBuf) -> PyResult<Self> {
+        let text = json::from_python(document)?.to_string();
+        Self::from_text(py, text, "document", folder)
+    }
+
+    /// Title; `None` without one.
+    #[getter]
+    fn title(&self) -> Option<&str> {
+        self.study.entry.title.as_deref()
+    }
+
+    /// Names of the analyses, in their order.
+    #[getter]
+    fn analyses(&self) -> Vec<&str> {
+        self.study.entry.analyses.ids().collect()
+    }
+
+    /// Runs an analysis. Those whose model sets it uses must have run before.
+    fn analysis(&self, py: Python<'_>, name: &str) -> PyResult<Outcome> {
+        let language = language(py)?;
+        let outcome = work::run(py, |stop| {
+            let study = self.run.study_for_analysis();
+            let progress = Interruptible(stop);
+            self.run.run(&api::Context::new(language, &study, name, &progress))
+        })?;
+        Ok(Outcome(outcome.map_err(|why| stopped(py, why))?.into()))
+    }
+}
+
+/// The outcome of an analysis.
+#[pyclass(frozen)]
+pub struct Outcome(Arc<dyn api::Outcome>);
+
+#[pymethods]
+impl Outcome {
+    /// Name of the analysis.
+    #[getter]
+    fn name(&self) -> &str {
+        &self.0.head().analysis
+    }
+
+    /// The result in one sentence; `None` if there is none.
+    #[getter]
+    fn headline(&self) -> Option<String> {
+        Page::from_outcome(&*self.0).headline
+    }
+
+    /// Numbers that a reader remembers: dicts with label, value, unit and detail.
+    #[getter]
+    fn key_figures(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        json::to_python(py, &Page::from_outcome(&*self.0).key_figures)
+    }
+
+    /// What limits the result, and quantities outside the stated ranges of their models.
+    #[getter]
+    fn careful(&self) -> Vec<String> {
+        let page = Page::from_outcome(&*self.0);
+        page.careful.into_iter().chain(page.outside).collect()
+    }
+
+    /// Why parts of the outcome are missing.
+    #[getter]
+    fn failures(&self) -> Vec<String> {
+        self.0.failures().iter().map(api::Findings::render).collect()
+    }
+
+    /// Its tables; the first has the name of the analysis.
+    #[getter]
+    fn tables(&self, py: Python<'_>) -> PyResult<Vec<Table>> {
+        self.0
+            .tables()
+            .into_iter()
+            .map(|table| Table::from_outcome(py, table))
+            .collect()
+    }
+
+    /// Names of its figures.
+    #[getter]
+    fn figures(&self) -> Vec<String> {
+        let page = Page::from_outcome(&*self.0);
+        page.figures.into_iter().map(|figure| figure.name).collect()
+    }
+
+    /// A figure as SVG.
+    fn svg(&self, name: &str) -> PyResult<Option<String>> {
+        let page = Page::from_outcome(&*self.0);
+        let figure = page.figures.into_iter().find(|figure| figure.name == name);
+        let svg = figure.map(|figure| figure.figure.svg()).transpose();
+        svg.map_err(|error| PyRuntimeError::new_err(format!("{name}: {error}")))
+    }
+
+    /// The record of the JSON file that `gearloss run` writes.
+    fn to_dict(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        let mut text = Vec::new();
+        let written = self.0.write_json(&mut text);
+        written.map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
+        json::read(py, &String::from_utf8_lossy(&text))
+    }
+}

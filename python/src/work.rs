@@ -1,0 +1,62 @@
+//! Long work beside the interpreter: it runs without its lock and ends on Ctrl-C.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
+use std::sync::{Mutex, PoisonError};
+use std::time::Duration;
+
+use pyo3::prelude::*;
+
+/// How often signals are looked for.
+const LOOK: Duration = Duration::from_millis(20);
+
+/// Runs work on another thread until it is done or Ctrl-C is pressed. The work is asked to end by the flag that it is given.
+///
+/// # Errors
+/// `KeyboardInterrupt`, or what a handler of signals raises.
+pub fn run<T: Send>(py: Python<'_>, work: impl FnOnce(&AtomicBool) -> T + Send) -> PyResult<T> {
+    run_until(py, || {}, work)
+}
+
+/// As [`run`], for work that is asked to end by a function.
+pub fn run_until<T: Send>(py: Python<'_>, end: impl Fn(), work: impl FnOnce(&AtomicBool) -> T + Send) -> PyResult<T> {
+    let stop = AtomicBool::new(false);
+    std::thread::scope(|scope| {
+        let (done, finished) = channel();
+        let finished = Mutex::new(finished);
+        let stop = &stop;
+        let worker = scope.spawn(move || {
+            let result = work(stop);
+            // The receiver is gone only after an interruption, when nobody needs the result.
+            let _ = done.send(());
+            result
+        });
+        let mut pressed = None;
+        loop {
+            let waited = py.detach(|| wait(&finished));
+            match waited {
+                Err(RecvTimeoutError::Timeout) => {}
+                Ok(()) | Err(RecvTimeoutError::Disconnected) => break,
+            }
+            if let Err(error) = py.check_signals() {
+                stop.store(true, Ordering::Relaxed);
+                end();
+                pressed = Some(error);
+                break;
+            }
+        }
+        let result = py.detach(|| worker.join());
+        match (pressed, result) {
+            (Some(error), _) => Err(error),
+            (None, Ok(result)) => Ok(result),
+            // A bug: as `PanicException`.
+            (None, Err(bug)) => std::panic::resume_unwind(bug),
+        }
+    })
+}
+
+/// Waits for the end of the work, not longer than the next look for signals.
+fn wait(finished: &Mutex<Receiver<()>>) -> Result<(), RecvTimeoutError> {
+    let finished = finished.lock().unwrap_or_else(PoisonError::into_inner);
+    finished.recv_timeout(LOOK)
+}

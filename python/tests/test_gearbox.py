@@ -1,0 +1,108 @@
+import json
+
+import pytest
+
+import gearloss as gl
+
+from conftest import ROOT, TWO_SPEED
+
+
+def test_the_version_is_that_of_the_package():
+    from importlib.metadata import version
+
+    assert gl.__version__ == version("gearloss")
+
+
+def test_a_file_a_text_and_a_document_give_the_same_numbers(gearbox):
+    text = TWO_SPEED.read_text()
+    from_text = gl.Gearbox(text, folder=TWO_SPEED.parent).transmission()
+    document = json.loads(json.dumps(_yaml(text)))
+    from_document = gl.Gearbox(document, folder=TWO_SPEED.parent).transmission()
+    losses = {t.solve(gear="first", torque=10, speed=8000).loss for t in (gearbox.transmission(), from_text, from_document)}
+    assert len(losses) == 1
+
+
+def _yaml(text):
+    yaml = pytest.importorskip("yaml", reason="PyYAML is not installed")
+    return yaml.safe_load(text)
+
+
+def test_gears_ports_and_parts_are_listed(transmission):
+    assert transmission.gears == ["first", "second", "neutral"]
+    assert transmission.ports[0] == "input"
+    assert "bearings.B5" in transmission.parts
+
+
+def test_a_wrong_key_is_an_error_with_its_place(tmp_path):
+    wrong = tmp_path / "gearbox.yaml"
+    wrong.write_text(TWO_SPEED.read_text().replace("shafts:", "shaftz:", 1))
+    with pytest.raises(gl.Findings) as raised:
+        gl.Gearbox.read(wrong)
+    text = str(raised.value)
+    assert "shaftz" in text and "help:" in text and f"{wrong}:" in text
+    first = raised.value.list[0]
+    assert first["severity"] == "error" and first["code"].startswith("E")
+    assert isinstance(raised.value, ValueError)
+
+
+def test_the_text_of_an_error_is_that_of_the_terminal(tmp_path, program):
+    wrong = tmp_path / "gearbox.yaml"
+    wrong.write_text(TWO_SPEED.read_text().replace("shafts:", "shaftz:", 1))
+    with pytest.raises(gl.Findings) as raised:
+        gl.Gearbox.read(wrong)
+    printed = program("check", wrong, check=False)
+    assert str(raised.value) in printed.stdout + printed.stderr
+
+
+def test_a_missing_file_is_an_error():
+    with pytest.raises(gl.Findings, match="cannot read"):
+        gl.Gearbox.read("no/such/file.yaml")
+
+
+def test_model_sets_and_overrides_change_the_transmission(gearbox):
+    own = gearbox.transmission().solve(gear="first", torque=10, speed=8000).loss
+    rough = gearbox.transmission(set={"gears.*.surface.ra": "1.6 um"}).solve(gear="first", torque=10, speed=8000).loss
+    assert rough > own
+
+
+def test_overrides_are_in_the_unit_of_their_path(gearbox):
+    text = gearbox.transmission(set={"gears.*.surface.ra": "0.8 um"}).solve(gear="first", torque=10, speed=8000)
+    bare = gearbox.transmission(set={"gears.*.surface.ra": 0.8}).solve(gear="first", torque=10, speed=8000)
+    assert text.loss == bare.loss
+
+
+def test_numbers_of_numpy_are_numbers(gearbox):
+    numpy = pytest.importorskip("numpy")
+    own = gearbox.transmission(set={"gears.*.surface.ra": numpy.float64(0.8)})
+    assert own.solve(gear="first", torque=10, speed=8000).loss is not None
+
+
+def test_an_unknown_path_is_an_error_with_help(gearbox):
+    with pytest.raises(gl.Findings, match="help"):
+        gearbox.transmission(set={"gears.*.surface.roughness": 1})
+
+
+def test_an_unknown_model_set_is_an_error(gearbox):
+    with pytest.raises(gl.Findings, match="nowhere"):
+        gearbox.transmission(models="nowhere")
+
+
+def test_the_resolved_description_has_every_value(transmission):
+    resolved = transmission.resolved()
+    assert "bearings" in resolved and "lubricants" in resolved
+
+
+def test_evidence_lists_the_lowest_grade_first(transmission):
+    evidence = transmission.evidence()
+    assert evidence and {"what", "grade", "because", "paths"} <= set(evidence[0])
+
+
+def test_models_and_schemas_are_those_of_the_program(program):
+    assert gl.models() == json.loads(program("models", "--format", "json").stdout)
+    for kind in ("gearbox", "study", "eval", "result", "point", "check", "models"):
+        assert gl.schema(kind) == json.loads((ROOT / "schemas" / f"{kind}.schema.json").read_text())
+
+
+def test_an_unknown_schema_is_an_error():
+    with pytest.raises(gl.Findings, match="there is no schema"):
+        gl.schema("gearboxes")

@@ -1,0 +1,96 @@
+import gc
+
+import numpy as np
+import pytest
+
+import gearloss as gl
+
+
+@pytest.fixture(scope="module")
+def points(transmission):
+    return transmission.points(gear="first", torque=[5, 10, 15], speed=[3000, 6000, 9000])
+
+
+def test_columns_have_names_units_and_meanings(points):
+    loss = next(column for column in points.columns if column.name == "loss_w")
+    assert (loss.unit, loss.meaning, len(loss)) == ("W", "Sum of all losses", 3)
+    assert "loss_w" in points and "lost" not in points
+    assert list(points)[:2] == ["torque_nm", "speed_rpm"]
+    assert "loss_w" in repr(points) and "unit='W'" in repr(loss)
+
+
+def test_an_unknown_column_is_an_error(points):
+    with pytest.raises(KeyError, match="no column `lost`"):
+        points["lost"]
+
+
+def test_texts_are_no_array(points):
+    with pytest.raises(TypeError, match="status"):
+        points.array("status")
+
+
+def test_a_table_is_shown_in_a_notebook(points):
+    html = points._repr_html_()
+    assert html.startswith("<table>") and "loss_w" in html and html.count("<tr>") == 4
+
+
+def test_pandas_reads_a_table(points):
+    pytest.importorskip("pandas", reason="pandas is not installed")
+    frame = points.to_pandas()
+    assert frame.shape == (3, len(points.columns))
+    assert np.array_equal(frame["loss_w"].to_numpy(), points.loss)
+    assert frame.attrs["units"]["loss_w"] == "W"
+
+
+def test_pyarrow_reads_a_table_without_a_copy(points):
+    pyarrow = pytest.importorskip("pyarrow", reason="pyarrow is not installed")
+    table = pyarrow.table(points)
+    assert table.column_names == list(points)
+    own = table["loss_w"].chunk(0)
+    assert own.buffers()[1].address == points["loss_w"].ctypes.data
+    assert table["status"].to_pylist() == points["status"]
+    assert table.schema.field("loss_w").metadata == {b"unit": b"W"}
+    table.validate(full=True)
+
+
+def test_an_arrow_table_outlives_its_source(transmission):
+    pyarrow = pytest.importorskip("pyarrow", reason="pyarrow is not installed")
+    points = transmission.points(gear="first", torque=[5, 10], speed=3000)
+    loss = points.loss.copy()
+    table = pyarrow.table(points)
+    del points
+    gc.collect()
+    assert np.array_equal(table["loss_w"].to_numpy(), loss)
+
+
+def test_a_stream_that_nobody_reads_is_released(points):
+    for _ in range(1000):
+        points.__arrow_c_stream__()
+    gc.collect()
+
+
+def test_polars_reads_a_table(points):
+    polars = pytest.importorskip("polars", reason="polars is not installed")
+    frame = polars.DataFrame(points)
+    assert np.array_equal(frame["loss_w"].to_numpy(), points.loss)
+    assert frame["status"].to_list() == points["status"]
+
+
+def test_gaps_of_texts_stay_gaps():
+    pyarrow = pytest.importorskip("pyarrow", reason="pyarrow is not installed")
+    from conftest import ROOT
+
+    study = gl.Study.read(ROOT / "examples" / "two-products" / "study.yaml")
+    table = study.analysis("maps").table
+    balance = pyarrow.table(table)["balance"]
+    assert balance.null_count == len(table) and table["balance"] == [None] * len(table)
+
+
+def test_a_map_is_plotted(transmission):
+    matplotlib = pytest.importorskip("matplotlib", reason="matplotlib is not installed")
+    matplotlib.use("Agg")
+    whole = transmission.map(gear="first", torque=[5, 10, 15], speed=[3000, 6000, 9000])
+    axes = whole.plot()
+    assert axes.get_xlabel() == "speed in rpm"
+    assert whole.plot("loss_w", ax=axes, levels=5) is axes
+    matplotlib.pyplot.close("all")
