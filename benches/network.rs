@@ -27,6 +27,7 @@ fn network(c: &mut Criterion) {
         });
     });
     let start = network.start(Some(40.0), moment.around);
+    let mut scratch = t.batch_scratch(&case);
     group.bench_function("64 nodes, a step of one second", |b| {
         let mut march = March::new(&t, network, start.clone(), Scheme::Implicit, StepSize::Fixed(1.0));
         b.iter(|| {

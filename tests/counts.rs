@@ -169,9 +169,9 @@ fn a_network_of_64_nodes_takes_few_evaluations() {
     assert!((40.0..120.0).contains(&oil), "{oil}");
     let start = network.start(Some(40.0), moment.around);
     let mut march = March::new(&t, network, start, Scheme::Implicit, StepSize::Fixed(1.0));
-    march.advance(&moment, 1.0, &mut scratch).unwrap();
-    assert_eq!(march.steps, [1, 0]);
-    assert_eq!((steady.evaluations, march.evaluations), (7, 2));
+    march.advance(&moment, 1.0, &mut t.batch_scratch(&case)).unwrap();
+    assert_eq!(march.steps(), [1, 0]);
+    assert_eq!((steady.evaluations, march.evaluations()), (7, 2));
 }
 
 /// Calls of the residuals, each over all measured points, and steps. Both hang on where the search begins, on what the set makes

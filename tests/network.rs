@@ -10,7 +10,7 @@ use gearloss_framework::resolve::{Choice, ValueSource, lookup};
 use gearloss_framework::thermal::Outcome;
 use gearloss_framework::thermal::network::{March, Moment, Scheme, Steady, StepSize, Surroundings};
 use gearloss_framework::transmission::{HeatPath, PartKind, Transmission};
-use gearloss_studies::points::{Field, OilTemperature, Points, run_grid};
+use gearloss_studies::points::{Field, Given, OilTemperature, Points, run_grid};
 use serde_json::{Value, json};
 
 /// An example, the gear state, speed in rpm and torque in Nm at the input.
@@ -264,7 +264,7 @@ fn a_long_march_ends_where_the_network_rests() {
         let t = &rest.transmission;
         let network = t.network().unwrap();
         let (temperatures, heats) = drive.point(t, |moment| {
-            let mut scratch = t.scratch(moment.case);
+            let mut scratch = t.batch_scratch(moment.case);
             let start = network.start(None, moment.around);
             let mut march = March::new(t, network, start, Scheme::Implicit, StepSize::Adaptive(0.1));
             let heats = march.advance(moment, 2e5, &mut scratch).unwrap();
@@ -323,6 +323,98 @@ fn the_models_of_a_steady_state_are_seen_once() {
     let solved = run_grid(&t, &points, &|_| true).unwrap().unwrap();
     assert!(solved.points.iter().all(|point| point.loss.is_some()));
     assert_eq!(solved.seen.iter().map(|seen| seen.seen).max(), Some(4));
+}
+
+/// The drive unit with its own network, and examples with an automatic one.
+fn several(language: &Language) -> [(Transmission, &'static str); 3] {
+    let unit = Drive {
+        file: "examples/electric-drive-unit/gearbox.yaml",
+        gear: "only",
+        speed: 0.0,
+        torque: 0.0,
+        set: Vec::new(),
+    };
+    [unit, two_speed(), planetary()].map(|drive| (drive.transmission(language), drive.gear))
+}
+
+/// Torque of the transmission of a gear state over that of the drive unit.
+fn scale(gear: &str) -> f64 {
+    match gear {
+        "reducing" => 0.03,
+        "first" => 0.1,
+        _ => 1.0,
+    }
+}
+
+#[test]
+fn steady_states_have_the_bits_of_single_points_in_any_batch() {
+    let language = common::language();
+    for (t, gear) in &several(&language) {
+        let case = t.case(gear, &["input"], &["input"]).unwrap();
+        // Both senses, standstill, no torque, and loads at which no steady state is in the range.
+        let scale = scale(gear);
+        let given: Vec<[[f64; 1]; 2]> = (0..36)
+            .map(|i| {
+                let speed = f64::from(i * 7 % 12) * 900.0 * RPM;
+                [[speed], [scale * f64::from(i * 11 % 36 - 9) * 12.0]]
+            })
+            .collect();
+        let points: Vec<Point<'_>> = given
+            .iter()
+            .map(|[speeds, torques]| Point {
+                speeds,
+                torques,
+                ..Point::default()
+            })
+            .collect();
+        let around = Surroundings::default();
+        let moment = |point| Moment {
+            case: &case,
+            point,
+            around: &around,
+        };
+        let moments: Vec<Moment<'_>> = points.iter().map(moment).collect();
+        let mut scratch = t.scratch(&case);
+        let single: Vec<Steady> = moments.iter().map(|m| t.steady(m, &mut scratch).unwrap()).collect();
+        let sound = single.iter().filter(|steady| steady.outcome == Outcome::Converged);
+        assert!(sound.count() > 20, "{gear}");
+        for size in [1, 3, 7, 16, 36] {
+            let mut together = t.batch_scratch(&case);
+            let batches = moments.chunks(size);
+            let found: Vec<Steady> = batches
+                .flat_map(|some| t.steady_states(some, &mut together).unwrap())
+                .collect();
+            assert_eq!(found, single, "{gear} {size}");
+            assert_eq!(together.take_totals(), scratch.totals, "{gear} {size}");
+        }
+        let mut turned = moments.clone();
+        turned.reverse();
+        let mut found = t.steady_states(&turned, &mut t.batch_scratch(&case)).unwrap();
+        found.reverse();
+        assert_eq!(found, single, "{gear}");
+    }
+}
+
+#[test]
+fn a_map_of_a_network_has_the_points_of_solve() {
+    let language = common::language();
+    for (t, gear) in &several(&language) {
+        let scale = scale(gear);
+        let torques: Vec<f64> = (0..5).map(|i| scale * (f64::from(i) * 40.0 - 60.0)).collect();
+        let speeds: Vec<f64> = (0..9).map(|i| f64::from(i) * 700.0 * RPM).collect();
+        let field = Field::Grid {
+            torques: torques.clone(),
+            speeds: speeds.clone(),
+        };
+        let mut points = Points::at_reference(t, gear, field);
+        points.oil = OilTemperature::Network;
+        let map = run_grid(t, &points, &|_| true).unwrap().unwrap();
+        for (i, point) in map.points.iter().enumerate() {
+            points.field = Field::List(vec![Given::new(torques[i / speeds.len()], speeds[i % speeds.len()])]);
+            let own = run_grid(t, &points, &|_| true).unwrap().unwrap();
+            assert_eq!(*point, own.points[0], "{gear} {i}");
+        }
+    }
 }
 
 #[test]

@@ -5,6 +5,7 @@ mod derive;
 mod grip;
 mod readings;
 mod scratch;
+mod snapshot;
 mod solution;
 
 pub use batch::{Batch, BatchScratch, Block};
@@ -13,6 +14,7 @@ pub(crate) use readings::readings;
 pub use readings::{MemberTorques, Reading};
 use scratch::Models;
 pub use scratch::Scratch;
+pub(crate) use snapshot::{Asked, Snapshot};
 pub use solution::{PartLoss, Solution};
 
 use crate::attach::State;
@@ -224,21 +226,21 @@ impl Transmission {
         noting: Noting,
     ) {
         self.settle(case, point, temperatures, s, noting);
-        self.solve_settled(case, point, start, s, noting);
+        self.solve_settled(case, (point.flow, point.tolerance), start, s, noting);
     }
 
     /// Solves the given torques at the settled speeds and oils.
     fn solve_settled<R: Answers>(
         &self,
         case: &Case,
-        point: &Point<'_>,
+        (power_flow, tolerance): (PowerFlow, Tolerance<R>),
         start: Start,
         s: &mut Scratch<R>,
         noting: Noting,
     ) {
         let quiet = noting == Noting::Muted;
-        let iterates = point.flow == PowerFlow::Real && !s.standing;
-        s.ideal = point.flow == PowerFlow::Ideal;
+        let iterates = power_flow == PowerFlow::Real && !s.standing;
+        s.ideal = power_flow == PowerFlow::Ideal;
         let silent = if iterates && start == Start::Lossless {
             SILENT
         } else {
@@ -253,7 +255,7 @@ impl Transmission {
             self.lose(case, flow, models, notes);
         };
         let outcome = if iterates {
-            case.flow.real(point.tolerance, start, work, losses)
+            case.flow.real(tolerance, start, work, losses)
         } else {
             case.flow.ideal(work);
             work.once(losses);

@@ -15,6 +15,7 @@ mod work;
 use crate::real::Points;
 
 pub use system::{Flow, FlowFault, MeshRow, Share};
+pub(crate) use work::Last;
 pub use work::{Drive, FlowState, Outcome, Start, Tolerance, Work};
 
 /// Powers and status of one solved point.
@@ -52,7 +53,7 @@ impl Balance {
 }
 
 /// Operating state of a transmission at a point.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Status {
     /// The reference port drives.
@@ -64,6 +65,7 @@ pub enum Status {
     /// There is input power, but no output power.
     Dragged,
     /// Nothing rotates.
+    #[default]
     Standstill,
     /// With ideal power flow: losses exceed the input power, so there is no output.
     LossAboveInput,

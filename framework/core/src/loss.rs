@@ -550,6 +550,15 @@ impl Seen {
         }
     }
 
+    /// The observations of one of the points, as those of a single one; the values are those of all.
+    pub(crate) fn at_point(self, point: usize) -> Self {
+        Self {
+            points: self.points >> point & 1,
+            outside: self.outside >> point & 1,
+            ..self
+        }
+    }
+
     /// The points outside the limit, as bits.
     pub(crate) fn outside(self) -> u32 {
         self.outside

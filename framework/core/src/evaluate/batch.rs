@@ -8,7 +8,7 @@ use std::cell::Cell;
 
 use super::{Noting, Point, Scratch, Solution};
 use crate::attach::Oil;
-use crate::flow::{Balance, Start, Status};
+use crate::flow::{Balance, Last, Start, Status, Tolerance};
 use crate::loss::{Extent, Loss, Undefined};
 use crate::real::{LANES, Lane, Mask as _, Points as _, Real as _};
 use crate::thermal::Unbalanced;
@@ -22,9 +22,9 @@ const FEW: usize = 4;
 pub struct BatchScratch {
     /// Values that are common to the points of a batch.
     settled: Option<Scratch>,
-    together: Option<Scratch<Lane>>,
+    pub(super) together: Option<Scratch<Lane>>,
     /// For points that are solved one by one.
-    alone: Scratch,
+    pub(super) alone: Scratch,
 }
 
 impl BatchScratch {
@@ -105,8 +105,8 @@ impl Transmission {
         }
     }
 
-    /// Solves points with a speed, torque and temperature each, at most [`LANES`]; they have the power flow and the tolerance of the
-    /// first. \[degC\]
+    /// Solves points with a speed, torque and temperature each, at most [`LANES`]; they have the power flow of the first.
+    /// \[degC\]
     ///
     /// # Panics
     /// If there are none or too many, or as [`Transmission::evaluate`]: bugs of the caller.
@@ -120,6 +120,20 @@ impl Transmission {
     ) -> Block<'s> {
         assert!((1..=LANES).contains(&points.len()), "1 to {LANES} points");
         let s = scratch.together.get_or_insert_with(|| Scratch::new(self, case));
+        self.solve_together(case, points, temperatures, |_| None, noting, s);
+        Block { transmission: self, s }
+    }
+
+    /// The same, each from the losses of its last solve, if there are any.
+    pub(super) fn solve_together<'t>(
+        &self,
+        case: &Case,
+        points: &[Point<'_>],
+        temperatures: impl Fn(usize) -> &'t [f64],
+        last: impl Fn(usize) -> Option<&'t Last>,
+        noting: Noting,
+        s: &mut Scratch<Lane>,
+    ) {
         // Lanes without a point repeat the last one and are not read.
         let own = |lane: usize| lane.min(points.len() - 1);
         // Ports beyond those of the case have speeds and torques added by rules, which are zero.
@@ -138,8 +152,18 @@ impl Transmission {
         c.common = false;
         c.live = Lane::mask(|lane| lane < points.len());
         self.settle_prescribed(case, s, noting);
-        self.solve_settled(case, &points[0], Start::Lossless, s, noting);
-        Block { transmission: self, s }
+        let mut start = Start::Lossless;
+        if let Some(first) = last(0) {
+            start = Start::Last;
+            let alike = s.work.resume(|lane| last(own(lane)).unwrap_or(first));
+            let c = &mut s.models.conditions;
+            c.live = c.live & alike;
+        }
+        let tolerance = Tolerance {
+            power: Lane::each(|lane| points[own(lane)].tolerance.power),
+            ..points[0].tolerance.everywhere()
+        };
+        self.solve_settled(case, (points[0].flow, tolerance), start, s, noting);
     }
 
     /// The losses of points by number at temperatures, as [`Transmission::probe`]. \[degC, W\]
@@ -183,8 +207,9 @@ impl Batch<'_> {
         let last = torques.len() - 1;
         together.work.given[0] = Lane::each(|point| torques[point.min(last)]);
         together.begin_block(self.settled, torques.len());
+        let law = (self.point.flow, self.point.tolerance.everywhere());
         self.transmission
-            .solve_settled(self.case, &self.point, Start::Lossless, together, Noting::Counted);
+            .solve_settled(self.case, law, Start::Lossless, together, Noting::Counted);
         Block {
             transmission: self.transmission,
             s: together,

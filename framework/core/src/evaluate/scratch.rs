@@ -236,11 +236,6 @@ impl Scratch {
         &self.watts
     }
 
-    /// Speeds of the members (rad/s), and the note cells of heat models.
-    pub(crate) fn speeds_and_cells(&self) -> (&[f64], &[Cell<Seen>]) {
-        (&self.models.conditions.speeds, &self.models.conditions.cells)
-    }
-
     /// Limits that are exceeded at the last point: cell of the notes and loss of a component that uses the model. \[W\]
     pub fn lost_outside(&self) -> impl Iterator<Item = (usize, f64)> {
         let cells = &self.models.conditions.cells;
@@ -279,10 +274,5 @@ impl Scratch {
     /// Torque that a port of a member applies. \[Nm\]
     pub fn port_torque(&self, member: usize) -> f64 {
         self.work.ports[member]
-    }
-
-    /// Share of the heat of a mesh that enters its first gear.
-    pub(crate) fn first_heat(&self, mesh: usize) -> f64 {
-        self.models.mesh_losses[mesh].as_ref().map_or(0.5, Loss::first_heat)
     }
 }

@@ -44,15 +44,7 @@ impl Flow {
         work.largest = R::ZERO;
         // There is none only if torques overflow.
         self.solve(work, kept);
-        work.leading = (0..R::COUNT)
-            .filter(|point| work.live.at_point(*point))
-            .fold(0, |most, point| {
-                if work.largest.at_point(point) > work.largest.at_point(most) {
-                    point
-                } else {
-                    most
-                }
-            });
+        lead(work);
         for k in 0..self.meshes.len() {
             let drives = |point: usize| drive(work.rolling[k].at_point(point), work.largest.at_point(point));
             let decided = drives(work.leading);
@@ -69,7 +61,7 @@ impl Flow {
     /// the power balance holds to rounding for any tolerance. Without losses the first iteration is a guess, so there are at least two.
     pub fn real<R: Points>(
         &self,
-        tolerance: Tolerance,
+        tolerance: Tolerance<R>,
         start: Start,
         work: &mut Work<R>,
         mut losses: impl FnMut(&mut FlowState<'_, R>),
@@ -88,7 +80,10 @@ impl Flow {
                     self.begin(work, R::mask(|_| false));
                 } else {
                     self.prepare(work);
+                    work.rolling.fill(R::ZERO);
+                    work.largest = R::ZERO;
                     self.solve(work, R::mask(|_| false));
+                    lead(work);
                 }
             },
         );
@@ -111,7 +106,7 @@ impl Flow {
     /// Iterates models and equilibrium until they agree.
     fn iterate<R: Points>(
         &self,
-        tolerance: Tolerance,
+        tolerance: Tolerance<R>,
         work: &mut Work<R>,
         losses: &mut impl FnMut(&mut FlowState<'_, R>),
         passes: &mut usize,
@@ -163,7 +158,7 @@ impl Flow {
 
     /// Follows the results of the models with the next torques. Returns where there are any.
     #[inline(always)]
-    fn follow<R: Points>(&self, tolerance: Tolerance, work: &mut Work<R>, steps: &mut Steps<R>) -> R::Mask {
+    fn follow<R: Points>(&self, tolerance: Tolerance<R>, work: &mut Work<R>, steps: &mut Steps<R>) -> R::Mask {
         self.weigh(work);
         work.list_live_entries();
         let mut mismatch = R::ZERO;
@@ -171,7 +166,7 @@ impl Flow {
             mismatch = mismatch.larger(work.difference(entry).magnitude());
         }
         work.mismatch = mismatch;
-        let enough = work.largest * (SAFETY * tolerance.power);
+        let enough = work.largest * (tolerance.power * SAFETY);
         steps.last = if steps.known {
             work.done | !remaining(work).is_above(enough)
         } else if steps.near {
@@ -225,7 +220,7 @@ impl Flow {
     /// Tries patterns of the meshes whose driving gear kept changing, in order of the number of changes to the ideal pattern.
     fn patterns<R: Points>(
         &self,
-        tolerance: Tolerance,
+        tolerance: Tolerance<R>,
         work: &mut Work<R>,
         losses: &mut impl FnMut(&mut FlowState<'_, R>),
         passes: &mut usize,
@@ -374,6 +369,18 @@ pub(super) fn evaluate_losses<R: Points>(
             sum.is_below(R::constant(f64::INFINITY))
         },
     )
+}
+
+/// Lets the point with the largest power decide the driving gears.
+fn lead<R: Points>(work: &mut Work<R>) {
+    let live = (0..R::COUNT).filter(|point| work.live.at_point(*point));
+    work.leading = live.fold(0, |most, point| {
+        if work.largest.at_point(point) > work.largest.at_point(most) {
+            point
+        } else {
+            most
+        }
+    });
 }
 
 /// Adopts the driving gears of the last solve as the leading point decides; true if one of them was assumed differently.

@@ -15,20 +15,30 @@ pub enum Drive {
     Neither,
 }
 
-/// Tolerance of the agreement between loads and losses.
+/// Tolerance of the agreement between loads and losses, of one point or of each of several.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Tolerance {
+pub struct Tolerance<R = f64> {
     /// Remaining change of any power over the largest internal power.
-    pub power: f64,
+    pub power: R,
     /// Maximum number of iterations.
     pub passes: usize,
 }
 
-impl Default for Tolerance {
+impl<R: Points> Default for Tolerance<R> {
     fn default() -> Self {
         Self {
-            power: 1e-9,
+            power: R::constant(1e-9),
             passes: 60,
+        }
+    }
+}
+
+impl Tolerance {
+    /// The same for each of several points.
+    pub(crate) fn everywhere<R: Points>(self) -> Tolerance<R> {
+        Tolerance {
+            power: R::constant(self.power),
+            passes: self.passes,
         }
     }
 }
@@ -38,8 +48,16 @@ impl Default for Tolerance {
 pub enum Start {
     /// None in the meshes, and no drags that depend on torque.
     Lossless,
-    /// Those of the last solve of the work, which converged, for the same speeds and given torques at other temperatures.
+    /// Those of the last solve of the point, which converged, for the same speeds and given torques at other temperatures: the work has
+    /// them, or [`Work::resume`] copies them into it.
     Last,
+}
+
+/// Losses and driving gears of a solved point, for [`Start::Last`].
+#[derive(Debug, Clone, Default)]
+pub struct Last {
+    values: Vec<f64>,
+    drives: Vec<Drive>,
 }
 
 /// Torques in one iteration, and the target of the losses that follow from them.
@@ -195,6 +213,23 @@ impl<R: Points> Work<R> {
         self.mesh_loss.copy_from_slice(&self.model_losses);
         self.drags.fill(R::ZERO);
         self.passes = R::constant(1.0);
+    }
+
+    /// Copies the losses and driving gears of a solved point.
+    pub(crate) fn copy_last(&self, point: usize, last: &mut Last) {
+        last.values.clear();
+        let values = self.used.values.iter();
+        last.values.extend(values.map(|value| value.at_point(point)));
+        last.drives.clone_from(&self.drives);
+    }
+
+    /// Takes over the losses of earlier solves, one for each point, and the driving gears of the first. Returns where they are the same.
+    pub(crate) fn resume<'l>(&mut self, last: impl Fn(usize) -> &'l Last) -> R::Mask {
+        for (entry, value) in self.used.values.iter_mut().enumerate() {
+            *value = R::each(|point| last(point).values[entry]);
+        }
+        self.drives.clone_from(&last(0).drives);
+        R::mask(|point| last(point).drives == self.drives)
     }
 
     /// Removes the points where a condition does not hold. A point that is solved alone stays.

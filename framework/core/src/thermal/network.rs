@@ -11,7 +11,7 @@ mod stepping;
 
 pub(crate) use build::Around;
 pub use circuit::Circuit;
-pub use march::{Heats, March, Moment};
+pub use march::{Heats, March, Moment, Passed, Stage};
 pub use parts::{Network, Surroundings};
 pub use steady::Steady;
 pub use stepping::{Scheme, StepSize};

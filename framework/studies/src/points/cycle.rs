@@ -6,11 +6,11 @@
 use super::OilTemperature;
 use crate::duty::{Demand, Interval, Vehicle, input_torque};
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::evaluate::{Point, PowerFlow, Scratch};
+use gearloss_framework::evaluate::{BatchScratch, Noting, Point, PowerFlow};
 use gearloss_framework::flow::{Status, Tolerance};
 use gearloss_framework::loss::Extent;
 use gearloss_framework::thermal::Unbalanced;
-use gearloss_framework::thermal::network::{Heats, March, Moment, Scheme, StepSize, Surroundings};
+use gearloss_framework::thermal::network::{Heats, March, Moment, Passed, Scheme, Stage, StepSize, Surroundings};
 use gearloss_framework::transmission::{Case, Transmission, WHEELS};
 
 /// Settings of a simulation.
@@ -102,12 +102,14 @@ struct Cases<'a> {
     transmission: &'a Transmission,
     ride: &'a Ride<'a>,
     wheels: Option<usize>,
-    known: Vec<((String, At), Case, Scratch)>,
+    known: Vec<((String, At), Case)>,
+    /// A workspace for each case.
+    scratches: Vec<BatchScratch>,
 }
 
 impl Cases<'_> {
     fn place(&mut self, gear: &str, at: At) -> Result<usize, Vec<Diagnostic>> {
-        if let Some(place) = self.known.iter().position(|((g, a), ..)| g == gear && *a == at) {
+        if let Some(place) = self.known.iter().position(|((g, a), _)| g == gear && *a == at) {
             return Ok(place);
         }
         let t = self.transmission;
@@ -121,8 +123,8 @@ impl Cases<'_> {
         t.takes_one(state).map_err(|e| vec![e])?;
         let torques: &[&str] = if t.torques_needed(state) == 0 { &[] } else { &[torque] };
         let case = t.case(gear, &[speed], torques)?;
-        let scratch = t.scratch(&case);
-        self.known.push(((gear.to_owned(), at), case, scratch));
+        self.scratches.push(t.batch_scratch(&case));
+        self.known.push(((gear.to_owned(), at), case));
         Ok(self.known.len() - 1)
     }
 
@@ -144,6 +146,15 @@ struct Asked {
     braking: f64,
     /// Power of the brakes, if known beforehand. \[W\]
     brakes: Option<f64>,
+    /// Torque (Nm) and speed (rad/s) of the input without losses, if regeneration is limited unless losses reduce the torque.
+    limited: Option<[f64; 2]>,
+}
+
+/// An interval with its demand.
+struct Planned<'a> {
+    interval: &'a Interval,
+    asked: Asked,
+    around: Surroundings,
 }
 
 impl<'a> Cases<'a> {
@@ -155,6 +166,7 @@ impl<'a> Cases<'a> {
             ride,
             wheels: wheels.map_err(|e| vec![e])?,
             known: Vec::new(),
+            scratches: Vec::new(),
         })
     }
 }
@@ -192,6 +204,7 @@ pub fn drive(
     let reference = transmission.reference_port();
     let mut cases = Cases::new(transmission, ride)?;
     let wheels = cases.wheels;
+    let member = |port: usize| transmission.ports()[port].member;
     let first = around(ride, ride.intervals.first());
     let network = transmission.network().filter(|_| ride.oil == OilTemperature::Network);
     let start = network.map_or_else(
@@ -213,77 +226,120 @@ pub fn drive(
         steps: [0; 2],
         broken: None,
     };
-    for interval in ride.intervals {
-        let around = around(ride, Some(interval));
-        let warm = march.as_ref().map(|m| m.temperatures.clone());
-        let asked = ask(&mut cases, interval, &around, warm.as_deref(), &mut driven)?;
-        let (_, case, scratch) = &mut cases.known[asked.place];
-        let (torques, speeds) = ([asked.torque], [asked.speed]);
-        let point = Point {
-            speeds: &speeds,
-            torques: &torques[..case.torque_ports.len()],
-            flow: ride.flow,
-            tolerance: Tolerance::default(),
+    let mut rest = ride.intervals;
+    while let Some(first) = rest.first() {
+        let together = march
+            .as_ref()
+            .map_or(1, |march| march.reach(rest.iter().map(|interval| interval.duration)));
+        let warm = march.as_ref().map(|march| march.temperatures.as_slice());
+        let planned = plan(&mut cases, &rest[..together], warm, &mut driven)?;
+        let passed = match &mut march {
+            Some(march) => advance(march, &mut cases, &planned),
+            None => steady(&mut cases, &planned[0], &mut driven).map(|passed| vec![passed]),
         };
-        let moment = Moment {
-            case,
-            point: &point,
-            around: &around,
-        };
-        let went = match &mut march {
-            Some(march) => {
-                let before = march.evaluations;
-                let heats = march.advance(&moment, interval.duration, scratch);
-                driven.evaluations += march.evaluations - before;
-                driven.steps = march.steps;
-                heats.map(|heats| (heats, march.temperatures.clone()))
-            }
-            None => rest(transmission, ride, interval, &moment, scratch, &mut driven),
-        };
-        let (heats, temperatures) = match went {
-            Ok(went) => went,
+        let passed = match passed {
+            Ok(passed) => passed,
             Err(reason) => {
-                driven.broken = Some((interval.start, reason));
+                driven.broken = Some((first.start, reason));
                 break;
             }
         };
-        let member = |port: usize| transmission.ports()[port].member;
-        let brakes = match (asked.brakes, wheels) {
-            (Some(watts), _) => watts * interval.duration,
-            (None, Some(wheels)) if asked.braking > 0.0 => {
-                let taken = scratch.port_torque(member(wheels)) * scratch.speeds()[member(wheels)];
-                (asked.braking - taken).max(0.0) * interval.duration
+        rest = &rest[passed.len()..];
+        for (passed, planned) in passed.into_iter().zip(&planned) {
+            driven.take(passed, planned, [reference, wheels.unwrap_or(reference)].map(member));
+            if !progress(1) {
+                return Ok(None);
             }
-            _ => 0.0,
-        };
-        driven.total.add(&heats);
-        driven.brakes += brakes;
-        driven.stretches.push(Stretch {
-            start: interval.start,
-            torque: scratch.port_torque(member(reference)),
-            speed: scratch.speeds()[member(reference)],
-            vehicle_speed: interval.given.vehicle_speed,
-            heats,
-            brakes,
-            temperatures,
-            status: scratch.status(),
-        });
-        if !progress(1) {
-            return Ok(None);
         }
     }
     if let (true, Some(first)) = (march.is_none(), driven.stretches.first()) {
         // Steady-state: there is no initial state.
         driven.start.clone_from(&first.temperatures);
     }
-    if let Some(march) = march {
-        driven.lost_outside = march.lost_outside;
+    for scratch in &mut cases.scratches {
+        driven.calls += scratch.calls();
+        super::merge(&mut driven.seen, &scratch.take_totals());
     }
-    for (.., scratch) in &cases.known {
-        driven.calls += scratch.all_calls();
-        super::merge(&mut driven.seen, &scratch.totals);
+    if let Some(march) = march {
+        driven.lost_outside = march.lost_outside().to_vec();
+        driven.evaluations += march.evaluations();
+        driven.steps = march.steps();
+        super::merge(&mut driven.seen, march.seen());
     }
     Ok(Some(driven))
+}
+
+/// The demands of the next intervals. They end before an interval whose demand may depend on the temperatures at its start, unless it is
+/// the first.
+fn plan<'i>(
+    cases: &mut Cases<'_>,
+    intervals: &'i [Interval],
+    warm: Option<&[f64]>,
+    driven: &mut Driven,
+) -> Result<Vec<Planned<'i>>, Vec<Diagnostic>> {
+    let mut planned = Vec::with_capacity(intervals.len());
+    for interval in intervals {
+        let around = around(cases.ride, Some(interval));
+        let mut asked = ask(cases, interval, &around)?;
+        if let Some(lossless) = asked.limited {
+            let (limited, is_clear) = limit(cases, asked, (interval, &around, lossless), warm, driven)?;
+            if !is_clear && !planned.is_empty() {
+                break;
+            }
+            asked = limited;
+        }
+        planned.push(Planned {
+            interval,
+            asked,
+            around,
+        });
+    }
+    Ok(planned)
+}
+
+/// Simulates the first of some intervals, and those of the others that are simulated together with it.
+fn advance(march: &mut March<'_>, cases: &mut Cases<'_>, planned: &[Planned<'_>]) -> Result<Vec<Passed>, Unbalanced> {
+    let points: Vec<Point<'_>> = planned
+        .iter()
+        .map(|planned| point_of(&cases.known[planned.asked.place].1, cases.ride, &planned.asked))
+        .collect();
+    let stages = planned.iter().zip(&points).map(|(planned, point)| Stage {
+        moment: Moment {
+            case: &cases.known[planned.asked.place].1,
+            point,
+            around: &planned.around,
+        },
+        duration: planned.interval.duration,
+        scratch: planned.asked.place,
+    });
+    march.advance_together(&stages.collect::<Vec<_>>(), &mut cases.scratches)
+}
+
+impl Driven {
+    /// Takes over a simulated interval. Members: those of the reference port and of the wheels.
+    fn take(&mut self, passed: Passed, planned: &Planned<'_>, [reference, wheels]: [usize; 2]) {
+        let Planned { interval, asked, .. } = planned;
+        let brakes = match asked.brakes {
+            Some(watts) => watts * interval.duration,
+            None if asked.braking > 0.0 => {
+                let taken = passed.port_torques[wheels] * passed.speeds[wheels];
+                (asked.braking - taken).max(0.0) * interval.duration
+            }
+            None => 0.0,
+        };
+        self.total.add(&passed.heats);
+        self.brakes += brakes;
+        self.stretches.push(Stretch {
+            start: interval.start,
+            torque: passed.port_torques[reference],
+            speed: passed.speeds[reference],
+            vehicle_speed: interval.given.vehicle_speed,
+            heats: passed.heats,
+            brakes,
+            temperatures: passed.temperatures,
+            status: passed.status,
+        });
+    }
 }
 
 /// The port of the wheels: `wheels`, `output`, or the only port other than the reference port.
@@ -318,14 +374,8 @@ fn around(ride: &Ride<'_>, interval: Option<&Interval>) -> Surroundings {
     }
 }
 
-/// Torque and speed of an interval, and their ports.
-fn ask(
-    cases: &mut Cases<'_>,
-    interval: &Interval,
-    around: &Surroundings,
-    warm: Option<&[f64]>,
-    driven: &mut Driven,
-) -> Result<Asked, Vec<Diagnostic>> {
+/// Torque and speed of an interval, and their ports; the torque may still be limited.
+fn ask(cases: &mut Cases<'_>, interval: &Interval, around: &Surroundings) -> Result<Asked, Vec<Diagnostic>> {
     let gear = interval.given.gear.as_deref().unwrap_or(cases.ride.gear);
     let ride = cases.ride;
     let (torque, speed) = match interval.demand {
@@ -339,71 +389,41 @@ fn ask(
                     speed: 0.0,
                     braking: 0.0,
                     brakes: None,
+                    limited: None,
                 });
             };
             let ratio = cases.ratio(gear)?;
             // The input turns forward.
             let wheel_speed = speed * ratio.signum();
             let input_speed = speed * ratio.abs();
-            let braking = (-torque * speed).max(0.0);
-            let at_input = |cases: &mut Cases<'_>, torque: f64| -> Result<Asked, Vec<Diagnostic>> {
-                Ok(Asked {
-                    place: cases.place(gear, At::Input)?,
-                    torque,
-                    speed: wheel_speed,
-                    braking,
-                    brakes: None,
-                })
+            let at_wheels = Asked {
+                place: 0,
+                torque: -torque * ratio.signum(),
+                speed: wheel_speed,
+                braking: (-torque * speed).max(0.0),
+                brakes: None,
+                limited: None,
             };
             let regained = |torque: f64| vehicle.regained(torque, input_speed, around.vehicle_speed);
             if let Some(efficiency) = vehicle.efficiency {
                 let wanted = input_torque(torque, ratio.abs(), efficiency);
                 let taken = regained(wanted);
-                // The brakes supply what regeneration does not, with the efficiency at the wheels.
-                let brakes = Some((taken - wanted).max(0.0) * input_speed / efficiency);
                 return Ok(Asked {
-                    brakes,
-                    ..at_input(cases, taken)?
+                    place: cases.place(gear, At::Input)?,
+                    torque: taken,
+                    // The brakes supply what regeneration does not, with the efficiency at the wheels.
+                    brakes: Some((taken - wanted).max(0.0) * input_speed / efficiency),
+                    ..at_wheels
                 });
             }
-            let place = cases.place(gear, At::Wheels)?;
-            let at_wheels = Asked {
-                place,
-                torque: -torque * ratio.signum(),
-                speed: wheel_speed,
-                braking,
-                brakes: None,
-            };
             let ideal = torque / ratio.abs();
             // Losses reduce the regenerated power, so a demand within the limit without losses is within it with losses.
-            if regained(ideal) <= ideal {
-                return Ok(at_wheels);
-            }
-            let (_, case, scratch) = &mut cases.known[place];
-            let point = Point {
-                speeds: &[at_wheels.speed],
-                torques: &[at_wheels.torque][..case.torque_ports.len()],
-                flow: ride.flow,
-                tolerance: Tolerance::default(),
-            };
-            let given = interval.given.oil_temperature.or(ride.oil.given());
-            let oil = [given.unwrap_or(cases.transmission.oil_temperature)];
-            driven.evaluations += 1;
-            let t = cases.transmission;
-            let tried = t.try_point(
-                case,
-                &point,
-                warm.unwrap_or(&oil),
-                scratch,
-                gearloss_framework::evaluate::Noting::Muted,
-            );
-            let own = scratch.port_torque(t.ports()[t.reference_port()].member);
-            // If losses have no value, the solved point reports it.
-            return if tried.is_err() || regained(own) <= own {
-                Ok(at_wheels)
-            } else {
-                at_input(cases, regained(own))
-            };
+            let exceeds = regained(ideal) > ideal;
+            return Ok(Asked {
+                place: cases.place(gear, At::Wheels)?,
+                limited: exceeds.then_some([ideal, input_speed]),
+                ..at_wheels
+            });
         }
     };
     Ok(Asked {
@@ -412,30 +432,72 @@ fn ask(
         speed,
         braking: 0.0,
         brakes: None,
+        limited: None,
     })
 }
 
-/// A steady-state interval: at a given temperature, or at the equilibrium with its own losses.
-fn rest(
-    t: &Transmission,
-    ride: &Ride<'_>,
-    interval: &Interval,
-    moment: &Moment<'_>,
-    scratch: &mut Scratch,
+/// The demand of an interval whose torque at the wheels exceeds the limit of regeneration without losses: with the losses at these
+/// temperatures, the input torque is within the limit, or it is limited. True if it is the same with half and with one and a half times
+/// these losses, and hence at the temperatures of a later time.
+fn limit(
+    cases: &mut Cases<'_>,
+    asked: Asked,
+    (interval, around, [ideal, input_speed]): (&Interval, &Surroundings, [f64; 2]),
+    warm: Option<&[f64]>,
     driven: &mut Driven,
-) -> Result<(Heats, Vec<f64>), Unbalanced> {
+) -> Result<(Asked, bool), Vec<Diagnostic>> {
+    let (t, ride) = (cases.transmission, cases.ride);
+    let given = interval.given.oil_temperature.or(ride.oil.given());
+    let oil = [given.unwrap_or(t.oil_temperature)];
+    driven.evaluations += 1;
+    let scratch = cases.scratches[asked.place].alone();
+    let case = &cases.known[asked.place].1;
+    let point = point_of(case, ride, &asked);
+    let tried = t.try_point(case, &point, warm.unwrap_or(&oil), scratch, Noting::Muted);
+    let own = scratch.port_torque(t.ports()[t.reference_port()].member);
+    let Some(vehicle) = ride.vehicle.filter(|_| tried.is_ok()) else {
+        // The solved point reports that losses have no value.
+        return Ok((asked, false));
+    };
+    let regained = |torque: f64| vehicle.regained(torque, input_speed, around.vehicle_speed);
+    let exceeds = |torque: f64| regained(torque) > torque;
+    let slack = 0.5 * (own - ideal).abs();
+    let is_clear = exceeds(own - slack) == exceeds(own + slack);
+    if !exceeds(own) {
+        return Ok((asked, is_clear));
+    }
+    let gear = interval.given.gear.as_deref().unwrap_or(ride.gear);
+    let place = cases.place(gear, At::Input)?;
+    let torque = regained(own);
+    Ok((Asked { place, torque, ..asked }, is_clear))
+}
+
+/// The operating point of a demand.
+fn point_of<'a>(case: &Case, ride: &Ride<'_>, asked: &'a Asked) -> Point<'a> {
+    Point {
+        speeds: std::slice::from_ref(&asked.speed),
+        torques: &std::slice::from_ref(&asked.torque)[..case.torque_ports.len()],
+        flow: ride.flow,
+        tolerance: Tolerance::default(),
+    }
+}
+
+/// A steady-state interval: at a given temperature, or at the equilibrium with its own losses.
+fn steady(cases: &mut Cases<'_>, planned: &Planned<'_>, driven: &mut Driven) -> Result<Passed, Unbalanced> {
+    let (t, ride) = (cases.transmission, cases.ride);
+    let Planned { interval, asked, .. } = planned;
+    let (case, scratch) = (&cases.known[asked.place].1, cases.scratches[asked.place].alone());
+    let moment = Moment {
+        case,
+        point: &point_of(case, ride, asked),
+        around: &planned.around,
+    };
     let duration = interval.duration;
     let wanted = interval.given.oil_temperature.map_or(ride.oil, OilTemperature::Fixed);
     let warm = match wanted {
         OilTemperature::Network => {
-            let steady = t.steady(moment, scratch).ok_or(Unbalanced::Flow)?;
-            super::Found {
-                oil: steady.temperatures[t
-                    .network()
-                    .map_or(0, gearloss_framework::thermal::network::Network::oil)],
-                balance: None,
-                network: Some(steady),
-            }
+            let steady = t.steady(&moment, scratch).ok_or(Unbalanced::Flow)?;
+            super::Found::steady(t, steady)
         }
         other => other.find(t, moment.case, moment.point, scratch),
     };
@@ -445,13 +507,7 @@ fn rest(
         return Err(balance.map(|(_, why)| why).or(network).unwrap_or(Unbalanced::Flow));
     }
     driven.evaluations += warm.evaluations() + 1;
-    t.try_point(
-        moment.case,
-        moment.point,
-        warm.temperatures(),
-        scratch,
-        gearloss_framework::evaluate::Noting::Counted,
-    )?;
+    t.try_point(moment.case, moment.point, warm.temperatures(), scratch, Noting::Counted)?;
     for (cell, watts) in scratch.lost_outside() {
         driven.lost_outside[cell] += watts * duration;
     }
@@ -473,6 +529,12 @@ fn rest(
         heats.exchangers = each(&steady.leaving.exchangers);
         heats.flows = steady.leaving.flows * duration;
     }
-    let temperatures = warm.temperatures().to_vec();
-    Ok((heats, temperatures))
+    let members = 0..scratch.speeds().len();
+    Ok(Passed {
+        heats,
+        temperatures: warm.temperatures().to_vec(),
+        speeds: scratch.speeds().to_vec(),
+        port_torques: members.map(|member| scratch.port_torque(member)).collect(),
+        status: scratch.status(),
+    })
 }

@@ -136,8 +136,7 @@ impl<'a> Solver<'a> {
             .iter()
             .map(|number| self.points.field.given_point(*number))
             .collect();
-        let network = given.iter().any(|given| self.oil_of(*given) == OilTemperature::Network);
-        if given.len() < FEW || network {
+        if given.len() < FEW {
             results.extend(given.iter().map(|given| self.single(*given, space)));
         } else {
             self.group(&given, space, results);

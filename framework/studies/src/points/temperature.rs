@@ -37,6 +37,15 @@ impl Found {
         }
     }
 
+    pub(super) fn steady(transmission: &Transmission, found: Steady) -> Self {
+        let oil = transmission.network().map(|network| found.temperatures[network.oil()]);
+        Self {
+            oil: oil.unwrap_or(transmission.oil_temperature),
+            balance: None,
+            network: Some(found),
+        }
+    }
+
     /// Temperatures for the evaluation: of the oil, or of all nodes. \[degC\]
     pub fn temperatures(&self) -> &[f64] {
         match &self.network {
@@ -100,21 +109,17 @@ impl OilTemperature {
                     point,
                     around: &around,
                 };
-                match (transmission.steady(&moment, scratch), transmission.network()) {
-                    (Some(steady), Some(network)) => Found {
-                        oil: steady.temperatures[network.oil()],
-                        balance: None,
-                        network: Some(steady),
-                    },
-                    _ => given(transmission.oil_temperature),
+                match transmission.steady(&moment, scratch) {
+                    Some(steady) => Found::steady(transmission, steady),
+                    None => given(transmission.oil_temperature),
                 }
             }
         }
     }
 }
 
-/// The temperatures at which to evaluate several points of one case; balances of the oil are found side by side, with the numbers of
-/// each alone.
+/// The temperatures at which to evaluate several points of one case; balances of the oil and steady states of the network are found side
+/// by side, with the numbers of each as a single one.
 pub fn find_all(
     transmission: &Transmission,
     case: &Case,
@@ -122,15 +127,26 @@ pub fn find_all(
     origin: impl Fn(usize) -> OilTemperature,
     scratch: &mut BatchScratch,
 ) -> Vec<Found> {
-    let balanced = |number: &usize| origin(*number) == OilTemperature::Balance;
-    let own: Vec<Point<'_>> = (0..points.len())
-        .filter(balanced)
-        .map(|number| points[number])
-        .collect();
-    let mut found = transmission.equilibria(case, &own, scratch).into_iter();
-    let mut next = |number: usize| match balanced(&number).then(|| found.next()).flatten() {
-        Some(equilibrium) => Found::balanced(transmission, equilibrium),
-        None => origin(number).find(transmission, case, &points[number], scratch.alone()),
+    let origin = &origin;
+    let wanted = |wanted| points.iter().enumerate().filter(move |(i, _)| origin(*i) == wanted);
+    let own: Vec<Point<'_>> = wanted(OilTemperature::Balance).map(|(_, point)| *point).collect();
+    let mut balances = transmission.equilibria(case, &own, scratch).into_iter();
+    let around = Surroundings::default();
+    let moment = |(_, point)| Moment {
+        case,
+        point,
+        around: &around,
+    };
+    let moments: Vec<Moment<'_>> = wanted(OilTemperature::Network).map(moment).collect();
+    let states = transmission.steady_states(&moments, scratch).unwrap_or_default();
+    let mut states = states.into_iter();
+    let mut next = |number: usize| {
+        let found = match origin(number) {
+            OilTemperature::Fixed(_) => None,
+            OilTemperature::Balance => balances.next().map(|found| Found::balanced(transmission, found)),
+            OilTemperature::Network => states.next().map(|found| Found::steady(transmission, found)),
+        };
+        found.unwrap_or_else(|| origin(number).find(transmission, case, &points[number], scratch.alone()))
     };
     (0..points.len()).map(&mut next).collect()
 }

@@ -1,10 +1,13 @@
 //! Transient temperatures of the network of a transmission.
 
+use std::cmp::Ordering;
+
 use super::circuit::Circuit;
 use super::parts::{Network, Surroundings};
-use super::stepping::{Heated, Scheme, StepSize, Stepping};
-use crate::evaluate::{Noting, Point, Scratch};
-use crate::flow::{Start, Tolerance};
+use super::stepping::{Heated, Scheme, StepSize, Stepping, Trial};
+use crate::evaluate::{Asked, BatchScratch, Noting, Point, Snapshot};
+use crate::flow::{Start, Status, Tolerance};
+use crate::loss::Extent;
 use crate::thermal::Unbalanced;
 use crate::transmission::{Case, Transmission};
 
@@ -88,21 +91,45 @@ pub struct Moment<'a> {
     pub around: &'a Surroundings,
 }
 
+/// An interval with constant conditions.
+#[derive(Clone, Copy)]
+pub struct Stage<'a> {
+    /// Its conditions.
+    pub moment: Moment<'a>,
+    /// Its length. \[s\]
+    pub duration: f64,
+    /// Number of the workspace of its case.
+    pub scratch: usize,
+}
+
+/// A simulated interval.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Passed {
+    /// Energies.
+    pub heats: Heats,
+    /// Node temperatures at its end. \[degC\]
+    pub temperatures: Vec<f64>,
+    /// Speeds of the members. \[rad/s\]
+    pub speeds: Vec<f64>,
+    /// Torques that ports apply at its end, by member. \[Nm\]
+    pub port_torques: Vec<f64>,
+    /// Operating state at its end.
+    pub status: Status,
+}
+
 /// Losses and heat flows at one set of temperatures.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Warm {
     pub circuit: Circuit,
+    /// The evaluated point, with the loss of each part.
+    pub point: Snapshot,
     /// Heat into each node. \[W\]
     pub heat: Vec<f64>,
-    /// Loss of each part. \[W\]
-    pub parts: Vec<f64>,
     /// Loss of each motor in rotor and stator. \[W\]
     pub motors: Vec<[f64; 2]>,
     /// Heat from other sources. \[W\]
     pub sources: f64,
-    /// Power in and out. \[W\]
-    pub power: [f64; 2],
-    /// True if a motor is outside its map.
+    /// True if a motor was outside its map.
     pub beyond_map: bool,
 }
 
@@ -120,6 +147,11 @@ impl Search {
         start: Start::Lossless,
         least: 1e-5,
     };
+    /// The second for steps that are solved together, more roughly than the temperatures change until the third.
+    pub const SECOND: Self = Self {
+        start: Start::Last,
+        least: 1e-3,
+    };
     /// Without another one before.
     pub const ONLY: Self = Self {
         start: Start::Lossless,
@@ -130,94 +162,119 @@ impl Search {
         start: Start::Last,
         least: 0.0,
     };
-}
 
-/// Transient simulation of the node temperatures.
-pub struct March<'a> {
-    transmission: &'a Transmission,
-    network: &'a Network,
-    stepping: Stepping,
-    /// Present node temperatures. \[degC\]
-    pub temperatures: Vec<f64>,
-    /// Number of loss evaluations so far.
-    pub evaluations: usize,
-    /// Number of steps so far, and of rejected steps.
-    pub steps: [usize; 2],
-    /// Energy that the components lose while a limit is exceeded, by cell of notes. \[J\]
-    pub lost_outside: Vec<f64>,
+    /// A point with its own tolerance, or the minimum one.
+    pub fn point<'a>(self, point: &Point<'a>) -> Point<'a> {
+        let power = point.tolerance.power.max(self.least);
+        Point {
+            tolerance: Tolerance {
+                power,
+                ..point.tolerance
+            },
+            ..*point
+        }
+    }
 }
 
 impl Transmission {
-    /// Losses, heat and conductances at node temperatures.
+    /// Heat and conductances at the node temperatures at which a point was evaluated.
     pub(super) fn warm(
         &self,
         network: &Network,
-        moment: &Moment<'_>,
+        around: &Surroundings,
         temperatures: &[f64],
-        search: Search,
-        scratch: &mut Scratch,
         warm: &mut Warm,
     ) -> Result<(), Unbalanced> {
-        let own = moment.point.tolerance;
-        let power = own.power.max(search.least);
-        let point = Point {
-            tolerance: Tolerance { power, ..own },
-            ..*moment.point
-        };
-        // The losses at the first guess are never those of the result.
-        let noting = if search == Search::FIRST {
-            Noting::Muted
-        } else {
-            Noting::Seen
-        };
-        self.try_point_from(search.start, moment.case, &point, temperatures, scratch, noting)?;
+        let point = &mut warm.point;
         warm.heat.clear();
         warm.heat.resize(network.names().len(), 0.0);
-        network.add_parts(self, scratch, &mut warm.heat);
-        warm.parts.clear();
-        warm.parts.extend_from_slice(scratch.watts());
-        warm.power = scratch.power();
-        warm.beyond_map = network.add_motors(temperatures, scratch, &mut warm.heat, &mut warm.motors);
+        network.add_parts(self, point, &mut warm.heat);
+        warm.beyond_map = network.add_motors(temperatures, point, &mut warm.heat, &mut warm.motors);
         warm.sources = 0.0;
         for (node, watts) in network.sources() {
             warm.heat[*node] += watts;
             warm.sources += watts;
         }
         network
-            .circuit(
-                temperatures,
-                scratch.speeds_and_cells(),
-                moment.around,
-                &mut warm.circuit,
-            )
+            .circuit(temperatures, point, around, &mut warm.circuit)
             .map_err(|(link, reason)| Unbalanced::Link(link, reason))
     }
 }
 
-/// A transmission at one operating point, for the steps of its network.
-struct Loaded<'a, 'b> {
+/// Transient simulation of the node temperatures.
+pub struct March<'a> {
+    stepping: Stepping,
+    /// Present node temperatures. \[degC\]
+    pub temperatures: Vec<f64>,
+    counts: Counts<'a>,
+}
+
+/// What is counted in a simulation.
+struct Counts<'a> {
     transmission: &'a Transmission,
     network: &'a Network,
-    moment: &'b Moment<'b>,
-    scratch: &'b mut Scratch,
-    evaluations: &'b mut usize,
-    steps: &'b mut [usize; 2],
-    lost_outside: &'b mut [f64],
+    evaluations: usize,
+    steps: [usize; 2],
+    lost_outside: Vec<f64>,
+    seen: Vec<Extent>,
+}
+
+/// A transmission in some intervals, for the steps of its network.
+struct Loaded<'a, 'b> {
+    stages: &'b [Stage<'b>],
+    scratches: &'b mut [BatchScratch],
+    counts: &'b mut Counts<'a>,
+}
+
+/// Steps of stages with equal keys are evaluated together: those of one case, with equal signs of torque and speed and hence equal driving
+/// gears.
+fn key(stage: &Stage<'_>) -> (usize, [Option<Ordering>; 2]) {
+    let sign = |values: &[f64]| values.first().and_then(|value| value.partial_cmp(&0.0));
+    let point = stage.moment.point;
+    (stage.scratch, [sign(point.torques), sign(point.speeds)])
 }
 
 impl Heated for Loaded<'_, '_> {
-    fn warm(&mut self, temperatures: &[f64], search: Search, warm: &mut Warm) -> Result<(), Unbalanced> {
-        *self.evaluations += 1;
-        self.transmission
-            .warm(self.network, self.moment, temperatures, search, self.scratch, warm)
+    fn warm(&mut self, trials: &mut [Trial], search: Search) -> Result<(), Unbalanced> {
+        self.counts.evaluations += trials.len();
+        let (transmission, network) = (self.counts.transmission, self.counts.network);
+        let stages = self.stages;
+        let mut sorted: Vec<&mut Trial> = trials.iter_mut().collect();
+        sorted.sort_by_key(|trial| key(&stages[trial.stage]));
+        // The rough losses at the first guesses are never those of the result.
+        let noting = if search.least > 0.0 {
+            Noting::Muted
+        } else {
+            Noting::Seen
+        };
+        for some in sorted.chunk_by_mut(|a, b| key(&stages[a.stage]) == key(&stages[b.stage])) {
+            let Stage { moment, scratch, .. } = stages[some[0].stage];
+            let mut asked: Vec<Asked<'_>> = some
+                .iter_mut()
+                .map(|trial| Asked {
+                    point: search.point(stages[trial.stage].moment.point),
+                    temperatures: &trial.guess,
+                    snapshot: &mut trial.warm.point,
+                })
+                .collect();
+            let scratch = &mut self.scratches[scratch];
+            let found = transmission.evaluate_each(moment.case, &mut asked, search.start, noting, scratch);
+            found.into_iter().collect::<Result<(), _>>()?;
+        }
+        for trial in trials {
+            let around = stages[trial.stage].moment.around;
+            transmission.warm(network, around, &trial.guess, &mut trial.warm)?;
+        }
+        Ok(())
     }
 
-    fn stepped(&mut self, taken: Option<f64>) {
-        self.steps[usize::from(taken.is_none())] += 1;
-        if let Some(length) = taken {
-            self.scratch.count_seen();
-            for (cell, watts) in self.scratch.lost_outside() {
-                self.lost_outside[cell] += watts * length;
+    fn stepped(&mut self, taken: Option<(f64, &Warm)>) {
+        let counts = &mut *self.counts;
+        counts.steps[usize::from(taken.is_none())] += 1;
+        if let Some((length, warm)) = taken {
+            warm.point.count(counts.transmission, &mut counts.seen);
+            for (cell, watts) in warm.point.lost_outside(counts.transmission) {
+                counts.lost_outside[cell] += watts * length;
             }
         }
     }
@@ -233,14 +290,42 @@ impl<'a> March<'a> {
         step: StepSize,
     ) -> Self {
         Self {
-            transmission,
-            network,
             stepping: Stepping::new(scheme, step),
             temperatures: start,
-            evaluations: 0,
-            steps: [0; 2],
-            lost_outside: vec![0.0; transmission.cells],
+            counts: Counts {
+                transmission,
+                network,
+                evaluations: 0,
+                steps: [0; 2],
+                lost_outside: vec![0.0; transmission.cells],
+                seen: vec![Extent::EMPTY; transmission.cells],
+            },
         }
+    }
+
+    /// Number of loss evaluations so far.
+    pub fn evaluations(&self) -> usize {
+        self.counts.evaluations
+    }
+
+    /// Number of steps so far, and of rejected steps.
+    pub fn steps(&self) -> [usize; 2] {
+        self.counts.steps
+    }
+
+    /// Energy that the components lose while a limit is exceeded, by cell of notes. \[J\]
+    pub fn lost_outside(&self) -> &[f64] {
+        &self.counts.lost_outside
+    }
+
+    /// Observed limits and quantities, one count for each step.
+    pub fn seen(&self) -> &[Extent] {
+        &self.counts.seen
+    }
+
+    /// Number of the next intervals that can be simulated together, from their lengths. \[s\]
+    pub fn reach(&self, durations: impl Iterator<Item = f64>) -> usize {
+        self.stepping.reach(durations)
     }
 
     /// Simulates an interval (s) with constant speeds and torques, and returns its energies.
@@ -248,16 +333,41 @@ impl<'a> March<'a> {
     /// # Errors
     /// If a loss or a conductance is undefined, or no step is short enough. The temperatures are then those before the
     /// failed step.
-    pub fn advance(&mut self, moment: &Moment<'_>, duration: f64, scratch: &mut Scratch) -> Result<Heats, Unbalanced> {
-        let mut loaded = Loaded {
-            transmission: self.transmission,
-            network: self.network,
-            moment,
-            scratch,
-            evaluations: &mut self.evaluations,
-            steps: &mut self.steps,
-            lost_outside: &mut self.lost_outside,
+    pub fn advance(
+        &mut self,
+        moment: &Moment<'_>,
+        duration: f64,
+        scratch: &mut BatchScratch,
+    ) -> Result<Heats, Unbalanced> {
+        let stage = Stage {
+            moment: *moment,
+            duration,
+            scratch: 0,
         };
-        self.stepping.advance(&mut loaded, &mut self.temperatures, duration)
+        let mut heats = Heats::default();
+        for passed in self.advance_together(&[stage], std::slice::from_mut(scratch))? {
+            heats.add(&passed.heats);
+        }
+        Ok(heats)
+    }
+
+    /// Simulates the first of some intervals, and as many of the others as can be simulated together with it, each case with its own
+    /// workspace. Returns at least one.
+    ///
+    /// # Errors
+    /// As [`March::advance`], for the first.
+    pub fn advance_together(
+        &mut self,
+        stages: &[Stage<'_>],
+        scratches: &mut [BatchScratch],
+    ) -> Result<Vec<Passed>, Unbalanced> {
+        let durations: Vec<f64> = stages.iter().map(|stage| stage.duration).collect();
+        let mut loaded = Loaded {
+            stages,
+            scratches,
+            counts: &mut self.counts,
+        };
+        self.stepping
+            .advance_together(&mut loaded, &mut self.temperatures, &durations)
     }
 }

@@ -4,18 +4,18 @@ use std::cell::Cell;
 
 use super::circuit::{Circuit, Exchange};
 use super::parts::{Law, Lawful, Network, Rate, Surroundings};
-use crate::evaluate::Scratch;
+use crate::evaluate::Snapshot;
 use crate::loss::{Notes, Seen, Undefined};
 use crate::mechanism::heat_link::HeatLinkAt;
 use crate::transmission::{HeatPath, PartKind, Transmission};
 
 impl Network {
     /// Adds the heat of all parts at the last evaluated point to that of the nodes. \[W\]
-    pub(super) fn add_parts(&self, transmission: &Transmission, scratch: &Scratch, heat: &mut [f64]) {
-        for ((part, way), watts) in transmission.parts().iter().zip(&self.heat).zip(scratch.watts()) {
+    pub(super) fn add_parts(&self, transmission: &Transmission, point: &Snapshot, heat: &mut [f64]) {
+        for ((part, way), watts) in transmission.parts().iter().zip(&self.heat).zip(&point.watts) {
             match (way, part.kind) {
                 (HeatPath::Gears([first, second]), PartKind::Mesh(mesh)) => {
-                    let share = scratch.first_heat(mesh);
+                    let share = point.first_heat[mesh];
                     heat[*first] += share * watts;
                     heat[*second] += (1.0 - share) * watts;
                 }
@@ -29,14 +29,14 @@ impl Network {
     pub(super) fn add_motors(
         &self,
         temperatures: &[f64],
-        scratch: &Scratch,
+        point: &Snapshot,
         heat: &mut [f64],
         losses: &mut Vec<[f64; 2]>,
     ) -> bool {
         let mut outside = false;
         losses.clear();
         for motor in &self.motors {
-            let (speed, torque) = (scratch.speeds()[motor.member], scratch.port_torque(motor.member));
+            let (speed, torque) = (point.speeds[motor.member], point.port_torques[motor.member]);
             // The windings are in the stator.
             let found = motor.map.loss(speed, torque, temperatures[motor.stator]);
             outside |= found.outside;
@@ -69,14 +69,14 @@ impl Network {
         }
     }
 
-    /// Writes the numerical form of the network at node temperatures (degC) and speeds of the members (rad/s).
+    /// Writes the numerical form of the network at node temperatures (degC) and the speeds of an evaluated point.
     ///
     /// # Errors
     /// Number of the link whose model is undefined, and the reason.
     pub(crate) fn circuit(
         &self,
         temperatures: &[f64],
-        (speeds, cells): (&[f64], &[Cell<Seen>]),
+        point: &mut Snapshot,
         around: &Surroundings,
         circuit: &mut Circuit,
     ) -> Result<(), (usize, Undefined)> {
@@ -94,6 +94,7 @@ impl Network {
             Rate::Given(given) => given,
             Rate::Share(share) => share * capacity,
         };
+        let (speeds, cells) = point.speeds_and_cells();
         circuit.links.clear();
         for (i, link) in self.links.iter().enumerate() {
             let conductance = match &link.law {

@@ -7,8 +7,11 @@ use nalgebra::{DMatrix, DVector};
 
 use super::circuit::Leaving;
 use super::march::{Moment, Search, Warm};
+use super::parts::Network;
 use super::stepping::farthest;
-use crate::evaluate::Scratch;
+use crate::evaluate::{Asked, BatchScratch, Noting, Scratch};
+use crate::flow::Start;
+use crate::loss::Extent;
 use crate::thermal::{Outcome, Unbalanced};
 use crate::transmission::Transmission;
 
@@ -51,81 +54,159 @@ pub struct Steady {
 impl Transmission {
     /// Steady-state node temperatures of a point; `None` without a network.
     pub fn steady(&self, moment: &Moment<'_>, scratch: &mut Scratch) -> Option<Steady> {
+        let evaluate = |asked: &mut [Asked<'_>], start: Start| {
+            let each = asked.iter_mut();
+            each.map(|asked| self.evaluate_one(moment.case, asked, start, Noting::Muted, scratch))
+                .collect()
+        };
+        let found = self.search_steady(std::slice::from_ref(moment), evaluate)?;
+        self.count_links(&found, &mut scratch.totals);
+        found.into_iter().map(|seeking| seeking.steady).next()
+    }
+
+    /// Steady-state node temperatures of several points of one case side by side: with the numbers of each as a single one.
+    pub fn steady_states(&self, moments: &[Moment<'_>], scratch: &mut BatchScratch) -> Option<Vec<Steady>> {
+        let evaluate = |asked: &mut [Asked<'_>], start: Start| {
+            self.evaluate_each(moments[0].case, asked, start, Noting::Muted, scratch)
+        };
+        let found = self.search_steady(moments, evaluate)?;
+        self.count_links(&found, &mut scratch.alone().totals);
+        Some(found.into_iter().map(|seeking| seeking.steady).collect())
+    }
+
+    /// Iterates the temperatures of points until each has its steady state. The losses of all that have none yet are evaluated together.
+    fn search_steady<'m>(
+        &self,
+        moments: &'m [Moment<'m>],
+        mut evaluate: impl FnMut(&mut [Asked<'_>], Start) -> Vec<Result<(), Unbalanced>>,
+    ) -> Option<Vec<Seeking<'m>>> {
         let network = self.network()?;
+        let mut all: Vec<Seeking<'_>> = moments.iter().map(|moment| Seeking::new(network, moment)).collect();
+        let mut start = Search::FIRST.start;
+        loop {
+            let mut open: Vec<&mut Seeking<'_>> = all.iter_mut().filter(|seeking| seeking.open).collect();
+            if open.is_empty() {
+                return Some(all);
+            }
+            let mut asked: Vec<Asked<'_>> = open.iter_mut().map(|seeking| seeking.ask()).collect();
+            let found = evaluate(&mut asked, start);
+            for (seeking, found) in open.into_iter().zip(found) {
+                seeking.follow(self, network, found);
+            }
+            start = Search::NEXT.start;
+        }
+    }
+
+    /// Counts what the links note at the steady states. The caller evaluates the losses there, which counts those of the models.
+    fn count_links(&self, found: &[Seeking<'_>], totals: &mut [Extent]) {
+        for seeking in found {
+            if !seeking.steady.heat.is_empty() {
+                seeking.warm.point.count(self, totals);
+            }
+        }
+    }
+}
+
+/// The search for the steady state of one point.
+struct Seeking<'m> {
+    moment: &'m Moment<'m>,
+    search: Search,
+    warm: Warm,
+    memory: Memory,
+    /// Number of successive iterations outside the range.
+    hot: usize,
+    open: bool,
+    /// With the present guess as temperatures.
+    steady: Steady,
+}
+
+impl<'m> Seeking<'m> {
+    fn new(network: &Network, moment: &'m Moment<'m>) -> Self {
         let mut guess = network.start(None, moment.around);
         for (node, t) in guess.iter_mut().enumerate() {
             if !network.is_held(node) {
                 *t += WARMER;
             }
         }
-        let mut warm = Warm::default();
-        let mut steady = Steady {
-            outcome: Outcome::NoConvergence,
-            temperatures: guess.clone(),
-            leaving: Leaving::default(),
-            heat: Vec::new(),
-            motors: Vec::new(),
-            residual: 0.0,
-            evaluations: 0,
-            undefined: None,
+        Self {
+            moment,
+            search: Search::FIRST,
+            warm: Warm::default(),
+            memory: Memory::default(),
+            hot: 0,
+            open: true,
+            steady: Steady {
+                outcome: Outcome::NoConvergence,
+                temperatures: guess,
+                leaving: Leaving::default(),
+                heat: Vec::new(),
+                motors: Vec::new(),
+                residual: 0.0,
+                evaluations: 0,
+                undefined: None,
+            },
+        }
+    }
+
+    /// The evaluation at the present guess.
+    fn ask(&mut self) -> Asked<'_> {
+        self.steady.evaluations += 1;
+        Asked {
+            point: self.search.point(self.moment.point),
+            temperatures: &self.steady.temperatures,
+            snapshot: &mut self.warm.point,
+        }
+    }
+
+    /// Follows an evaluation with the next guess, or ends the search.
+    fn follow(&mut self, transmission: &Transmission, network: &Network, found: Result<(), Unbalanced>) {
+        let (steady, warm) = (&mut self.steady, &mut self.warm);
+        let warmed = found.and_then(|()| transmission.warm(network, self.moment.around, &steady.temperatures, warm));
+        let after = warmed.and_then(|()| warm.circuit.solve(&warm.heat, None).ok_or(Unbalanced::Network));
+        let after = match after {
+            Ok(after) => after,
+            Err(reason) => {
+                steady.outcome = Outcome::Undefined;
+                steady.undefined = Some(reason);
+                self.open = false;
+                return;
+            }
         };
-        let mut memory = Memory::default();
-        let mut hot = 0;
-        let mut search = Search::FIRST;
-        while steady.evaluations < MOST {
-            steady.evaluations += 1;
-            let warmed = self.warm(network, moment, &guess, search, scratch, &mut warm);
-            let after = warmed.and_then(|()| warm.circuit.solve(&warm.heat, None).ok_or(Unbalanced::Network));
-            let after = match after {
-                Ok(after) => after,
-                Err(reason) => {
-                    steady.outcome = Outcome::Undefined;
-                    steady.undefined = Some(reason);
-                    steady.temperatures = guess;
-                    return Some(steady);
-                }
+        let guess = &steady.temperatures;
+        let change = farthest(&after, guess);
+        let settled = change <= SETTLED && self.search.least <= self.moment.point.tolerance.power;
+        // Evaluated at the maximum temperature, a node would be warmer still: there is no steady state in the range.
+        let beyond = |(guess, after): (&f64, &f64)| *guess >= ASKED[1] && *after > ASKED[1];
+        self.hot = if guess.iter().zip(&after).any(beyond) {
+            self.hot + 1
+        } else {
+            0
+        };
+        if settled || self.hot == TOO_HOT {
+            steady.outcome = if settled && after[network.oil()] <= transmission.housing().maximum {
+                Outcome::Converged
+            } else {
+                Outcome::NoneBelowMaximum
             };
-            let change = farthest(&after, &guess);
-            if change <= SETTLED && search.least <= moment.point.tolerance.power {
-                steady.outcome = if after[network.oil()] > self.housing().maximum {
-                    Outcome::NoneBelowMaximum
-                } else {
-                    Outcome::Converged
-                };
+            if settled {
                 steady.leaving = warm.circuit.leaving(&after, &warm.heat);
                 steady.residual = warm.heat.iter().sum::<f64>() - steady.leaving.total();
-                steady.heat = warm.heat;
-                steady.motors = warm.motors;
-                steady.temperatures = after;
-                // The caller evaluates the losses here, so only what the links note is counted. They had values at these temperatures.
-                let speeds = scratch.speeds().to_vec();
-                let circuit = &mut warm.circuit;
-                let _ = scratch.note_heat(|cells| network.circuit(&guess, (&speeds, cells), moment.around, circuit));
-                return Some(steady);
+                steady.heat.clone_from(&warm.heat);
+                steady.motors.clone_from(&warm.motors);
             }
-            // Evaluated at the maximum temperature, a node would be warmer still: there is no steady state in the range.
-            let beyond = |(guess, after): (&f64, &f64)| *guess >= ASKED[1] && *after > ASKED[1];
-            hot = if guess.iter().zip(&after).any(beyond) {
-                hot + 1
-            } else {
-                0
-            };
-            if hot == TOO_HOT {
-                steady.outcome = Outcome::NoneBelowMaximum;
-                steady.temperatures = after;
-                return Some(steady);
-            }
-            search = Search {
-                least: (EXACTNESS * change).min(Search::FIRST.least),
-                ..Search::NEXT
-            };
-            guess = memory.next(&guess, &after);
-            for t in &mut guess {
-                *t = t.clamp(ASKED[0], ASKED[1]);
-            }
+            steady.temperatures = after;
+            self.open = false;
+            return;
         }
-        steady.temperatures = guess;
-        Some(steady)
+        self.search = Search {
+            least: (EXACTNESS * change).min(Search::FIRST.least),
+            ..Search::NEXT
+        };
+        steady.temperatures = self.memory.next(guess, &after);
+        for t in &mut steady.temperatures {
+            *t = t.clamp(ASKED[0], ASKED[1]);
+        }
+        self.open = steady.evaluations < MOST;
     }
 }
 

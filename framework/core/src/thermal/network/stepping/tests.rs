@@ -140,16 +140,18 @@ fn dormand_prince(slopes: impl Fn(&[f64]) -> Vec<f64>, mut y: Vec<f64>, duration
 }
 
 impl Heated for Unit {
-    fn warm(&mut self, t: &[f64], _: Search, warm: &mut Warm) -> Result<(), Unbalanced> {
-        warm.circuit = self.circuit.clone();
-        for (ends, g) in &mut warm.circuit.links {
-            *g = self.conductance(*ends, *g, t);
+    fn warm(&mut self, trials: &mut [Trial], _: Search) -> Result<(), Unbalanced> {
+        for Trial { guess: t, warm, .. } in trials {
+            warm.circuit = self.circuit.clone();
+            for (ends, g) in &mut warm.circuit.links {
+                *g = self.conductance(*ends, *g, t);
+            }
+            warm.heat = (0..t.len()).map(|i| self.heat(i, t[i])).collect();
+            warm.point.watts.clone_from(&warm.heat);
         }
-        warm.heat = (0..t.len()).map(|i| self.heat(i, t[i])).collect();
-        warm.parts.clone_from(&warm.heat);
         Ok(())
     }
-    fn stepped(&mut self, taken: Option<f64>) {
+    fn stepped(&mut self, taken: Option<(f64, &Warm)>) {
         self.steps[usize::from(taken.is_none())] += 1;
     }
 }
@@ -237,10 +239,12 @@ fn a_long_march_ends_at_rest() {
     for per_kelvin in [0.0, 0.01] {
         let mut unit = Unit::new(per_kelvin);
         let (t, _) = unit.march(Scheme::Implicit, StepSize::Fixed(2e4), &[4e6]);
-        let mut warm = Warm::default();
+        let mut trials = [Trial::default()];
         let mut rest = t.clone();
         for _ in 0..100 {
-            unit.warm(&rest, Search::ONLY, &mut warm).unwrap();
+            trials[0].guess.clone_from(&rest);
+            unit.warm(&mut trials, Search::ONLY).unwrap();
+            let warm = &trials[0].warm;
             rest = warm.circuit.solve(&warm.heat, None).unwrap();
         }
         // The losses of a step belong to its end within a hundredth of a kelvin.
@@ -276,9 +280,10 @@ fn u5k_lagged_steps_are_the_published_ones() {
 fn what_never_agrees_is_reported_and_changes_nothing() {
     struct Wild(bool);
     impl Heated for Wild {
-        fn warm(&mut self, _: &[f64], _: Search, warm: &mut Warm) -> Result<(), Unbalanced> {
+        fn warm(&mut self, trials: &mut [Trial], _: Search) -> Result<(), Unbalanced> {
             // Two alternating results, far apart for any step length.
             self.0 = !self.0;
+            let warm = &mut trials[0].warm;
             warm.circuit = Circuit {
                 capacities: vec![0.0, 0.0],
                 held: vec![Some(20.0), None],
@@ -288,7 +293,7 @@ fn what_never_agrees_is_reported_and_changes_nothing() {
             warm.heat = vec![0.0, if self.0 { 50.0 } else { 0.0 }];
             Ok(())
         }
-        fn stepped(&mut self, _: Option<f64>) {}
+        fn stepped(&mut self, _: Option<(f64, &Warm)>) {}
     }
     let mut t = vec![20.0, 21.0];
     let mut stepping = Stepping::new(Scheme::Implicit, StepSize::Fixed(1.0));
@@ -297,4 +302,105 @@ fn what_never_agrees_is_reported_and_changes_nothing() {
         Err(Unbalanced::Network)
     );
     assert_eq!(t, [20.0, 21.0]);
+}
+
+/// Temperatures, energies and numbers of steps of the unit over intervals of different length, one by one or together.
+fn intervals(unit: &mut Unit, step: f64, together: bool) -> (Vec<f64>, Heats, Vec<usize>) {
+    let durations: Vec<f64> = (0..60).map(|i| if i % 7 == 3 { 2.5 } else { 1.0 }).collect();
+    let mut stepping = Stepping::new(Scheme::Implicit, StepSize::Fixed(step));
+    let (mut t, mut heats, mut counts) = (vec![START; unit.heat.len()], Heats::default(), Vec::new());
+    let mut rest = &durations[..];
+    while !rest.is_empty() {
+        let some = if together { rest } else { &rest[..1] };
+        let passed = stepping.advance_together(unit, &mut t, some).unwrap();
+        for own in &passed {
+            heats.add(&own.heats);
+        }
+        assert_eq!(passed.last().unwrap().temperatures, t);
+        rest = &rest[passed.len()..];
+        counts.push(passed.len());
+    }
+    (t, heats, counts)
+}
+
+/// What is left of the iteration in temperatures is below its tolerance for one step, times the few steps over which a node forgets.
+#[test]
+fn steps_together_are_those_one_by_one_within_the_tolerance_of_the_iteration() {
+    for (per_kelvin, step) in [(0.0, 1.0), (0.01, 1.0), (0.01, 0.25), (0.05, 1.0)] {
+        let mut alone = Unit::new(per_kelvin);
+        let mut together = alone.clone();
+        let (t, heats, _) = intervals(&mut alone, step, false);
+        let (own_t, own_heats, counts) = intervals(&mut together, step, true);
+        assert!(
+            counts.iter().any(|count| *count >= 4),
+            "{per_kelvin} {step}: {counts:?}"
+        );
+        assert_eq!(alone.steps, together.steps);
+        assert!(farthest(&t, &own_t) < AGREED, "{per_kelvin} {}", farthest(&t, &own_t));
+        assert!((own_heats.duration - heats.duration).abs() < 1e-9);
+        assert!(own_heats.residual().abs() < 1e-9 * own_heats.heat_input());
+        assert!((own_heats.heat_input() / heats.heat_input() - 1.0).abs() < 1e-4);
+    }
+}
+
+#[test]
+fn steps_that_do_not_agree_together_are_solved_one_by_one_up_to_the_one_that_fails() {
+    /// Fails in its third interval, and for several steps at once; with the numbers of steps that were evaluated.
+    struct Stubborn(Unit, Vec<usize>);
+    impl Heated for Stubborn {
+        fn warm(&mut self, trials: &mut [Trial], search: Search) -> Result<(), Unbalanced> {
+            self.1.push(trials.len());
+            if trials.len() > 1 || self.0.steps[0] == 2 {
+                return Err(Unbalanced::Flow);
+            }
+            self.0.warm(trials, search)
+        }
+        fn stepped(&mut self, taken: Option<(f64, &Warm)>) {
+            self.0.stepped(taken);
+        }
+    }
+    let mut unit = Stubborn(Unit::new(0.01), Vec::new());
+    let mut stepping = Stepping::new(Scheme::Implicit, StepSize::Fixed(1e-3));
+    let mut t = vec![START; unit.0.heat.len()];
+    for _ in 0..2 {
+        let passed = stepping.advance_together(&mut unit, &mut t, &[1e-3; 40]).unwrap();
+        assert_eq!(passed.len(), 1);
+    }
+    let before = t.clone();
+    assert_eq!(
+        stepping.advance_together(&mut unit, &mut t, &[1e-3; 40]),
+        Err(Unbalanced::Flow)
+    );
+    assert_eq!((t, unit.0.steps[0]), (before, 2));
+    // A single step, then fewer and fewer steps together.
+    assert_eq!(unit.1[..6], [1, 1, 16, 8, 1, 1]);
+}
+
+#[test]
+fn only_implicit_steps_of_fixed_length_are_solved_together() {
+    for (scheme, step, expected) in [
+        (Scheme::Implicit, StepSize::Fixed(1.0), MOST_TOGETHER),
+        (Scheme::Implicit, StepSize::Fixed(0.25), MOST_TOGETHER / 4),
+        (Scheme::Implicit, StepSize::Fixed(0.01), 1),
+        (Scheme::Implicit, StepSize::Adaptive(0.1), 1),
+        (Scheme::Lagged, StepSize::Fixed(1.0), 1),
+    ] {
+        let mut stepping = Stepping::new(scheme, step);
+        assert_eq!(stepping.reach(std::iter::repeat_n(1.0, 100)), 1);
+        stepping.together = MOST_TOGETHER;
+        assert_eq!(stepping.reach(std::iter::repeat_n(1.0, 100)), expected);
+        assert_eq!(stepping.reach(std::iter::repeat_n(1.0, 1)), 1);
+    }
+}
+
+/// Long steps need more iterations, and more together than one by one.
+#[test]
+fn long_steps_are_solved_one_by_one() {
+    let mut unit = Unit::new(0.02);
+    let mut stepping = Stepping::new(Scheme::Implicit, StepSize::Fixed(600.0));
+    let mut t = vec![START; unit.heat.len()];
+    for _ in 0..3 {
+        let passed = stepping.advance_together(&mut unit, &mut t, &[600.0; 40]).unwrap();
+        assert_eq!((passed.len(), stepping.together), (1, 1));
+    }
 }
