@@ -117,10 +117,13 @@ fn beyond(limits: &Limits, field: Field) -> Option<String> {
         .collect();
     let farthest = outside.iter().max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()))?;
     let [torque, speed] = [field.torque, field.speed].map(|[low, high]| range(low, high, 0));
+    let count = if outside.len() == all.len() {
+        format!("all {}", all.len())
+    } else {
+        format!("{} of {}", outside.len(), all.len())
+    };
     Some(format!(
-        "{} of {} limits are beyond the points of the data ({torque} Nm, {speed} rpm), as far as {}",
-        outside.len(),
-        all.len(),
+        "{count} limits are beyond the points of the data ({torque} Nm, {speed} rpm), as far as {}",
         place(farthest.0, farthest.1)
     ))
 }

@@ -65,6 +65,8 @@ pub struct FluidSweepOutcome {
     pub head: Head,
     /// One for each model set.
     pub fluid_sweep: Vec<FluidsOfSet>,
+    /// Temperature at the start of the cycles, if the study states it. [degC]
+    pub start_degc: Option<f64>,
     /// Quantities outside their stated ranges with any oil, by set.
     #[serde(skip)]
     pub left: Vec<(String, String)>,
@@ -202,6 +204,7 @@ impl Analysis for FluidSweepEntry {
         Ok(FluidSweepOutcome {
             head: cx.head(&built.iter().collect::<Vec<_>>()),
             fluid_sweep: sets,
+            start_degc: self.drive.ride.start,
             left: all_left,
         })
     }

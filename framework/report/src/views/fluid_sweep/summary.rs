@@ -68,8 +68,13 @@ pub fn add(outcome: &FluidSweepOutcome, page: &mut Page) {
     }
     let property = outcome.fluid_sweep.first().map(property).unwrap_or_default();
     page.headline = (!words.is_empty()).then(|| {
+        let start = outcome.start_degc;
+        let start = start.map_or_else(
+            || "The".to_owned(),
+            |start| format!("Started at {} °C, the", short(start)),
+        );
         format!(
-            "The {property} with the lowest loss is {}{}",
+            "{start} {property} with the lowest loss is {}{}",
             listed(&words),
             in_common(outcome)
         )
@@ -90,13 +95,13 @@ fn in_common(outcome: &FluidSweepOutcome) -> String {
     });
     if low <= high {
         format!(
-            "; {} to {} {} is within 1 % over all cycles",
+            "; {} to {} {} is within 1 % of the lowest loss over every cycle",
             short(low),
             short(high),
             set.unit
         )
     } else {
-        "; no value is within 1 % over all cycles".to_owned()
+        "; no single value is within 1 % of the lowest loss over every cycle".to_owned()
     }
 }
 

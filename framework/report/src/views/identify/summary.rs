@@ -30,8 +30,8 @@ fn sentence(o: &IdentificationOfSet, after_misfit: bool, page: &mut Page) -> Str
     let set = &o.model_set;
     let is_misfit = misfits(o);
     let fits = match o.misfit.probability {
-        Some(_) if is_misfit => "does not agree with the measured points",
-        Some(_) => "agrees with the measured points within their accuracy",
+        Some(_) if is_misfit => "does not agree with the data",
+        Some(_) => "agrees with the data within its accuracy",
         None => "is fitted",
     };
     let probability = o.misfit.probability.map_or_else(String::new, |p| {
@@ -78,7 +78,7 @@ fn sentence(o: &IdentificationOfSet, after_misfit: bool, page: &mut Page) -> Str
     let bounded: Vec<&str> = bounded.map(|parameter| parameter.name.as_str()).collect();
     if !bounded.is_empty() {
         if !is_misfit {
-            sentence.push_str(&format!(", {} at a bound", bounded.join(", ")));
+            sentence.push_str(&format!(", but {} at the end of the allowed range", bounded.join(", ")));
         }
         page.careful
             .push(format!("{set}: at a bound of its range: {}", bounded.join(", ")));
@@ -104,7 +104,7 @@ fn held_out(o: &IdentificationOfSet, page: &mut Page) -> Option<String> {
             .filter(|_| own.errors.quantity != Quantity::Efficiency)
             .map_or_else(String::new, |percent| format!(" or {} %", short(percent.rms)));
         page.key_figure(
-            &format!("predicted {what}, {}", o.model_set),
+            &format!("error of the predicted {what}, {}", o.model_set),
             short(errors.rms),
             unit,
             format!("rms{percent} at {} held-out points ({})", errors.points, held.chosen_by),

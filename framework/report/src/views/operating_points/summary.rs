@@ -58,7 +58,7 @@ pub fn add(outcome: &OperatingPointsOutcome, page: &mut Page) {
         }
         if !own.is_empty() {
             words.push(format!(
-                "{}at {} operating points: {}",
+                "{}calculated at {} operating points: {}",
                 of_set(set, outcome.operating_points.len()),
                 points.len(),
                 own.join(", ")
