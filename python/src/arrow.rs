@@ -129,11 +129,7 @@ struct OwnStream {
 }
 
 /// A stream of columns with their names and units, in a capsule.
-pub fn stream<'py>(
-    py: Python<'py>,
-    columns: Vec<(String, String, Cells)>,
-    rows: usize,
-) -> PyResult<Bound<'py, PyCapsule>> {
+pub fn stream(py: Python<'_>, columns: Vec<(String, String, Cells)>, rows: usize) -> PyResult<Bound<'_, PyCapsule>> {
     let heads = columns
         .iter()
         .map(|(name, unit, cells)| (name.clone(), unit.clone(), cells.format()));

@@ -61,12 +61,12 @@ impl Gearbox {
         let gearbox = Arc::clone(&self.0);
         let built = py.detach(move || {
             let resolved = gearbox.resolve(language, &choice)?;
-            let transmission = gearbox.build(language, &resolved)?;
+            let built = gearbox.build(language, &resolved)?;
             Ok(Transmission {
                 gearbox,
                 choice,
                 resolved,
-                transmission,
+                built,
             })
         });
         built.map_err(|found: api::Findings| raised(py, &found))
@@ -79,7 +79,7 @@ pub struct Transmission {
     pub gearbox: Arc<api::Gearbox>,
     pub choice: api::Choice,
     pub resolved: api::Resolved,
-    pub transmission: api::Transmission,
+    pub built: api::Transmission,
 }
 
 #[pymethods]
@@ -87,18 +87,14 @@ impl Transmission {
     /// Names of the gear states.
     #[getter]
     fn gears(&self) -> Vec<&str> {
-        self.transmission
-            .states()
-            .iter()
-            .map(|state| state.name.as_str())
-            .collect()
+        self.built.states().iter().map(|state| state.name.as_str()).collect()
     }
 
     /// Names of the ports; the first is the reference port.
     #[getter]
     fn ports(&self) -> Vec<&str> {
-        let reference = self.transmission.reference_port();
-        let ports = self.transmission.ports();
+        let reference = self.built.reference_port();
+        let ports = self.built.ports();
         let others = ports.iter().enumerate().filter(|(i, _)| *i != reference);
         std::iter::once(&ports[reference])
             .chain(others.map(|(_, port)| port))
@@ -109,11 +105,7 @@ impl Transmission {
     /// Paths of the components.
     #[getter]
     fn parts(&self) -> Vec<&str> {
-        self.transmission
-            .parts()
-            .iter()
-            .map(|part| part.path.as_str())
-            .collect()
+        self.built.parts().iter().map(|part| part.path.as_str()).collect()
     }
 
     /// The resolved description: every value, in SI units as the program keeps them.
@@ -124,12 +116,12 @@ impl Transmission {
     /// Formulas, defaults and data that the results depend on, the lowest grade of evidence first.
     fn evidence(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
         let is_written = |path: &str| self.gearbox.places.is_written(path);
-        json::to_python(py, &json!(evidence(&self.transmission, &self.resolved, &is_written)))
+        json::to_python(py, &json!(evidence(&self.built, &self.resolved, &is_written)))
     }
 
     /// Warnings about the description.
     fn warnings(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
-        let list = self.transmission.warnings.clone();
+        let list = self.built.warnings.clone();
         json::to_python(py, &self.gearbox.findings(list))
     }
 
@@ -151,7 +143,7 @@ impl Transmission {
             gearbox: &self.gearbox,
             choice: &self.choice,
             resolved: &self.resolved,
-            transmission: &self.transmission,
+            transmission: &self.built,
             prepared: &prepared,
         };
         let all = py.detach(|| {

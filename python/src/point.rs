@@ -26,7 +26,7 @@ pub struct Request<'py> {
 
 /// The gear state that is asked for, or the only one.
 pub fn gear_of(py: Python<'_>, t: &Transmission, gear: Option<String>) -> PyResult<String> {
-    let states = t.transmission.states();
+    let states = t.built.states();
     match (gear, states) {
         (Some(gear), _) => Ok(gear),
         (None, [only]) => Ok(only.name.clone()),
@@ -49,7 +49,7 @@ pub fn oil_of(py: Python<'_>, t: &Transmission, given: Option<f64>) -> PyResult<
         let message = format!("{given} degC is not a valid oil temperature");
         return Err(wrong(py, message, "give a temperature from -60 to 250 degC"));
     }
-    Ok(OilTemperature::from_conditions(&t.transmission, given))
+    Ok(OilTemperature::from_conditions(&t.built, given))
 }
 
 /// Real flow, or ideal flow.
@@ -80,10 +80,10 @@ pub fn prepared(py: Python<'_>, t: &Transmission, request: Request<'_>) -> PyRes
     let names = |list: &[(String, f64)]| list.iter().map(|own| own.0.clone()).collect::<Vec<String>>();
     let (torque_at, speed_at) = (names(&torques), names(&speeds));
     let strs = |list: &[String]| list.iter().map(String::as_str).collect::<Vec<&str>>().join(", ");
-    let state = t.transmission.state(&gear).map_err(|error| raised(py, &error.into()))?;
-    let needed = t.transmission.torques_needed(state);
+    let state = t.built.state(&gear).map_err(|error| raised(py, &error.into()))?;
+    let needed = t.built.torques_needed(state);
     if torques.len() < needed {
-        let ports: Vec<&str> = t.transmission.ports().iter().map(|port| port.name.as_str()).collect();
+        let ports: Vec<&str> = t.built.ports().iter().map(|port| port.name.as_str()).collect();
         let message = format!("gear `{gear}` needs {needed} given torque, not {}", torques.len());
         let help = format!(
             "give `torque` at one of {}; it is given at: {}",
@@ -94,7 +94,7 @@ pub fn prepared(py: Python<'_>, t: &Transmission, request: Request<'_>) -> PyRes
     }
     let torque_ports: Vec<&str> = torque_at.iter().map(String::as_str).collect();
     let speed_ports: Vec<&str> = speed_at.iter().map(String::as_str).collect();
-    let case = t.transmission.case(&gear, &speed_ports, &torque_ports);
+    let case = t.built.case(&gear, &speed_ports, &torque_ports);
     Ok(PreparedPoint {
         case: case.map_err(|list| raised(py, &list.into()))?,
         gear,
@@ -129,11 +129,11 @@ impl Solution {
     pub fn new(py: Python<'_>, transmission: Py<Transmission>, request: Request<'_>) -> PyResult<Self> {
         let t = transmission.get();
         let prepared = prepared(py, t, request)?;
-        let mut scratch = t.transmission.scratch(&prepared.case);
+        let mut scratch = t.built.scratch(&prepared.case);
         let point = prepared.point();
-        let found = prepared.oil.find(&t.transmission, &prepared.case, &point, &mut scratch);
+        let found = prepared.oil.find(&t.built, &prepared.case, &point, &mut scratch);
         let solution = t
-            .transmission
+            .built
             .evaluate(&prepared.case, &point, found.temperatures(), &mut scratch);
         let sound = found.is_sound() && solution.has_flow();
         let own = Self {
@@ -156,7 +156,7 @@ impl Solution {
     fn parts<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let parts = PyDict::new(py);
         let t = self.transmission.get();
-        for (part, watts) in t.transmission.parts().iter().zip(&self.watts) {
+        for (part, watts) in t.built.parts().iter().zip(&self.watts) {
             parts.set_item(&part.path, watts)?;
         }
         Ok(parts)
@@ -165,23 +165,23 @@ impl Solution {
     /// Everything that `gearloss solve --format json` states.
     fn to_dict(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
         let t = self.transmission.get();
-        let mut scratch = t.transmission.scratch(&self.prepared.case);
-        let solved = self.prepared.solve(&t.transmission, &mut scratch);
+        let mut scratch = t.built.scratch(&self.prepared.case);
+        let solved = self.prepared.solve(&t.built, &mut scratch);
         let packages = language(py)?.registry().packages();
-        let mut value = point_json(&t.transmission, &self.prepared, &solved, packages);
+        let mut value = point_json(&t.built, &self.prepared, &solved, packages);
         let is_written = |path: &str| t.gearbox.places.is_written(path);
-        value["evidence"] = json!(evidence(&t.transmission, &t.resolved, &is_written));
+        value["evidence"] = json!(evidence(&t.built, &t.resolved, &is_written));
         value["unreached"] = json!(t.resolved.unreached);
-        value["changed_from_source"] = json!(changed_from_source(&t.transmission, &t.resolved));
+        value["changed_from_source"] = json!(changed_from_source(&t.built, &t.resolved));
         json::to_python(py, &value)
     }
 
     /// The tables of `gearloss solve`.
     fn text(&self) -> String {
         let t = self.transmission.get();
-        let mut scratch = t.transmission.scratch(&self.prepared.case);
-        let solved = self.prepared.solve(&t.transmission, &mut scratch);
-        point_text(&t.transmission, &self.prepared, &solved)
+        let mut scratch = t.built.scratch(&self.prepared.case);
+        let solved = self.prepared.solve(&t.built, &mut scratch);
+        point_text(&t.built, &self.prepared, &solved)
     }
 
     fn __repr__(&self) -> String {
@@ -200,7 +200,7 @@ impl Solution {
 pub fn explain(py: Python<'_>, t: &Transmission, part: &str, request: Request<'_>) -> PyResult<String> {
     let fits =
         |path: &str| path == part || path.starts_with(&format!("{part}.")) || path.split('.').nth(1) == Some(part);
-    let parts = t.transmission.parts();
+    let parts = t.built.parts();
     let chosen: Vec<usize> = (0..parts.len()).filter(|i| fits(&parts[*i].path)).collect();
     if chosen.is_empty() {
         let paths: Vec<&str> = parts.iter().map(|part| part.path.as_str()).collect();
@@ -208,20 +208,13 @@ pub fn explain(py: Python<'_>, t: &Transmission, part: &str, request: Request<'_
         return Err(wrong(py, format!("there is no component `{part}`"), &help));
     }
     let prepared = prepared(py, t, request)?;
-    let mut scratch = t.transmission.scratch(&prepared.case);
-    let solved = prepared.solve(&t.transmission, &mut scratch);
+    let mut scratch = t.built.scratch(&prepared.case);
+    let solved = prepared.solve(&t.built, &mut scratch);
     let at = format!("oil {} degC", solved.found.oil);
-    let mut text = heading(&t.transmission, &solved.solution, &prepared, &at);
-    let changed = changed_from_source(&t.transmission, &t.resolved);
+    let mut text = heading(&t.built, &solved.solution, &prepared, &at);
+    let changed = changed_from_source(&t.built, &t.resolved);
     for part in chosen {
-        text += &explain_part(
-            &t.transmission,
-            &t.gearbox,
-            &t.resolved,
-            &solved.solution,
-            part,
-            &changed,
-        );
+        text += &explain_part(&t.built, &t.gearbox, &t.resolved, &solved.solution, part, &changed);
     }
     Ok(text)
 }

@@ -104,7 +104,7 @@ struct Numbers {
 
 /// Solves a field; the temperature is that of its points, the given one, or that of the gearbox.
 pub fn solve(py: Python<'_>, t: &Transmission, field: Field, oil: Option<f64>, given: Given) -> PyResult<Table> {
-    let mut points = Points::at_reference(&t.transmission, &gear_of(py, t, given.gear)?, field);
+    let mut points = Points::at_reference(&t.built, &gear_of(py, t, given.gear)?, field);
     points.oil = oil_of(py, t, oil)?;
     points.flow = flow(given.ideal);
     if let Some(port) = given.torque_at {
@@ -113,9 +113,9 @@ pub fn solve(py: Python<'_>, t: &Transmission, field: Field, oil: Option<f64>, g
     if let Some(port) = given.speed_at {
         points.speed_at = vec![port];
     }
-    let parts = if given.parts { t.transmission.parts() } else { &[] };
+    let parts = if given.parts { t.built.parts() } else { &[] };
     let count = NUMBERS.len() + SUMS.len() + parts.len();
-    let transmission = &t.transmission;
+    let transmission = &t.built;
     let solved = work::run(py, |stop| {
         let make = |own: &mut Numbered<'_>| numbers(own, count, parts.len());
         let pieces: Vec<usize> = (0..points.field.pieces()).collect();
