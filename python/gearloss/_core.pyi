@@ -7,6 +7,22 @@ from typing import Any, final
 import numpy as np
 import numpy.typing as npt
 
+__all__ = [
+    "__version__",
+    "Column",
+    "Findings",
+    "Gearbox",
+    "Outcome",
+    "Solution",
+    "Study",
+    "Table",
+    "Transmission",
+    "call",
+    "models",
+    "quantity",
+    "schema",
+]
+
 __version__: str
 
 class Findings(ValueError):
@@ -70,8 +86,12 @@ class Solution:
         """Output power over input power; `None` without output power."""
 
     @property
-    def oil_temperature(self) -> float:
-        """Oil temperature in degC; the highest evaluated one if its balance has none."""
+    def oil_temperature(self) -> float | None:
+        """Oil temperature in degC; `None` if it has no value."""
+
+    @property
+    def balance(self) -> str | None:
+        """Outcome of the heat balance or the thermal network; `None` if the temperature is given."""
 
     @property
     def status(self) -> str:
@@ -79,7 +99,7 @@ class Solution:
 
     @property
     def parts(self) -> dict[str, float]:
-        """Loss of each component in W, by path."""
+        """Loss of each component in W, by path; empty if the point has no value."""
 
     def to_dict(self) -> dict[str, Any]:
         """The record of `gearloss solve --format json`; `schema("point")` describes it."""

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from .quantities import Quantities, Quantity, array, by_port, number
+from .quantities import Quantities, Quantity, array, by_port, finite, number
 from .results import Map, Points
 
 _Request = dict[str, Any]
@@ -27,6 +27,8 @@ class Gearbox:
         """
         if isinstance(document, str):
             self._core = _core.Gearbox.from_text(document, "text", folder)
+        elif isinstance(document, os.PathLike):
+            raise TypeError("a document is a text or a dict; `Gearbox.read` reads a file")
         else:
             self._core = _core.Gearbox.from_document(dict(document), folder)
 
@@ -145,10 +147,10 @@ class Transmission:
         **point: Any,
     ) -> npt.NDArray[np.float64]:
         """The derivatives as an array of shape (len(of), len(over)): `of` are ``loss``, ``efficiency``, ``oil_temperature`` or paths of
-        components, `over` and the point as in `derivatives`. At kinks it is the mean of both sides.
+        components, `over` and the point as in `derivatives`. At kinks it is the mean of both sides; NaN where the point has no such quantity.
 
         Raises:
-            KeyError: if the point has no such quantity.
+            KeyError: if there is no such component.
             Findings: as `derivatives`.
         """
         wanted = [of] if isinstance(of, str) else list(of)
@@ -156,9 +158,9 @@ class Transmission:
         for variable in self.derivatives(over, **point):
             known = {one["of"]: one for one in variable["derivatives"]}
             for name in wanted:
-                if name not in known:
+                if name not in known and name not in ("efficiency", "oil_temperature"):
                     raise KeyError(f"no derivative of `{name}`; there are {', '.join(known)}")
-            columns.append([_value(known[name]) for name in wanted])
+            columns.append([_value(known[name]) if name in known else float("nan") for name in wanted])
         return np.asarray(columns, dtype=np.float64).reshape(len(columns), len(wanted)).T
 
     def points(
@@ -178,12 +180,15 @@ class Transmission:
         components are left out. The numbers are those of `solve` to the last bit.
 
         Raises:
-            Findings: an unknown gear or port.
+            Findings: an unknown gear or port, a temperature out of range.
+            TypeError: what is no number, masked values.
             ValueError: shapes that do not match, numbers that are not finite.
         """
         given = [array("torque", torque, "Nm"), array("speed", speed, "rpm")]
         if oil_temperature is not None:
             given.append(array("oil_temperature", oil_temperature, "degC"))
+        for name, values in zip(("torque", "speed", "oil_temperature"), given):
+            finite(name, values)
         arrays = np.broadcast_arrays(*given)
         flat = [np.ascontiguousarray(one).ravel() for one in arrays]
         oil = flat[2] if len(flat) == 3 else None
@@ -208,13 +213,16 @@ class Transmission:
             Findings: an unknown gear or port.
             ValueError: axes that are not one-dimensional, numbers that are not finite.
         """
-        torques, speeds = np.atleast_1d(array("torque", torque, "Nm")), np.atleast_1d(array("speed", speed, "rpm"))
+        # Copies: the axes of the map stay what they were.
+        torques = np.array(array("torque", torque, "Nm"), ndmin=1)
+        speeds = np.array(array("speed", speed, "rpm"), ndmin=1)
+        finite("torque", torques)
+        finite("speed", speeds)
         if torques.ndim != 1 or speeds.ndim != 1:
             raise ValueError("the axes of a map have one dimension; `points` takes arrays of any shape")
         oil = None if oil_temperature is None else number("oil_temperature", oil_temperature, "degC")
-        axes = [np.ascontiguousarray(torques), np.ascontiguousarray(speeds)]
-        table = self._core.map(axes[0], axes[1], oil, self._given(gear, torque_at, speed_at, power_flow, parts))
-        return Map(table, axes[0], axes[1])
+        table = self._core.map(torques, speeds, oil, self._given(gear, torque_at, speed_at, power_flow, parts))
+        return Map(table, torques, speeds)
 
     def _request(self, gear: Any, torque: Any, speed: Any, oil: Any, flow: str) -> _Request:
         port = self._core.ports[0]

@@ -21,8 +21,15 @@ def number(name: str, value: Any, unit: str) -> float:
 
     Raises:
         Findings: if a text is not a number with a known unit.
+        TypeError: if it is neither a text nor a real number.
     """
-    return _core.quantity(name, value, unit) if isinstance(value, str) else float(value)
+    if isinstance(value, str):
+        return _core.quantity(name, value, unit)
+    if isinstance(value, np.ndarray) and value.ndim == 0:
+        return number(name, value.item(), unit)
+    if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, float, np.integer, np.floating)):
+        raise TypeError(f"{name} is {value!r}; give a number, or a text with a unit such as `10 {unit}`")
+    return float(value)
 
 
 def array(name: str, values: Any, unit: str) -> npt.NDArray[np.float64]:
@@ -30,14 +37,30 @@ def array(name: str, values: Any, unit: str) -> npt.NDArray[np.float64]:
 
     Raises:
         Findings: if a text is not a number with a known unit.
+        TypeError: if a value is neither a text nor a real number, or is masked.
     """
-    if isinstance(values, str):
-        return np.asarray(number(name, values, unit))
     given = np.asarray(values)
-    if given.dtype.kind in "US" or given.dtype == object:
-        cells = [number(f"{name}[{i}]", cell, unit) for i, cell in enumerate(given.ravel().tolist())]
-        return np.asarray(cells, dtype=np.float64).reshape(given.shape)
-    return np.asarray(given, dtype=np.float64)
+    if np.ma.is_masked(values):
+        raise TypeError(f"{name} has masked values; fill or drop them")
+    if given.dtype.kind in "iuf":
+        return np.asarray(given, dtype=np.float64)
+    cells = [number(_placed(name, at, given.ndim), given[at], unit) for at in np.ndindex(given.shape)]
+    return np.asarray(cells, dtype=np.float64).reshape(given.shape)
+
+
+def finite(name: str, values: npt.NDArray[np.float64]) -> None:
+    """Refuses values that are not finite.
+
+    Raises:
+        ValueError: with the place of the first one.
+    """
+    if not np.isfinite(values).all():
+        at = next(at for at in np.ndindex(values.shape) if not np.isfinite(values[at]))
+        raise ValueError(f"{_placed(name, at, values.ndim)} is {values[at]}, not a finite number")
+
+
+def _placed(name: str, at: tuple[int, ...], dimensions: int) -> str:
+    return f"{name}[{', '.join(map(str, at))}]" if dimensions else name
 
 
 def by_port(name: str, given: Any, unit: str, port: str) -> dict[str, float]:

@@ -53,7 +53,7 @@ class Table:
         """A data frame; needs pandas."""
         import pandas
 
-        frame = pandas.DataFrame({name: column.values for name, column in self._columns.items()}, copy=False)
+        frame = pandas.DataFrame({name: column.values for name, column in self._columns.items()})
         frame.attrs["units"] = {name: column.unit for name, column in self._columns.items()}
         return frame
 
@@ -109,7 +109,13 @@ class Points(Table):
         return np.asarray(self["status"], dtype=np.str_).reshape(self.shape)
 
     def part(self, path: str) -> npt.NDArray[np.float64]:
-        """Loss of a component in W, such as ``bearings.B5``."""
+        """Loss of a component in W, such as ``bearings.B5``.
+
+        Raises:
+            KeyError: if there is no such component, or the points were computed without `parts`.
+        """
+        if f"{path}_w" not in self:
+            raise KeyError(f"no losses of `{path}`: compute with `parts=True`, and see `Transmission.parts`")
         return self.array(f"{path}_w")
 
 
@@ -126,10 +132,13 @@ class Map(Points):
         self.speed = speed
 
     def plot(self, quantity: str = "efficiency", ax: Any = None, levels: Any = 12) -> Any:
-        """Contours of a quantity over speed and torque; needs matplotlib. Returns the axes."""
+        """Contours of a quantity over speed and torque: ``efficiency``, ``loss`` or a column; needs matplotlib. Returns the axes."""
         import matplotlib.pyplot
 
+        if min(self.shape) < 2:
+            raise ValueError("contours need two torques and two speeds")
         axes = matplotlib.pyplot.subplots()[1] if ax is None else ax
+        quantity = "loss_w" if quantity == "loss" else quantity
         values = 100.0 * self.efficiency if quantity == "efficiency" else self.array(quantity)
         filled = axes.contourf(self.speed, self.torque, values, levels)
         unit = "%" if quantity == "efficiency" else self._columns[quantity].unit

@@ -21,6 +21,8 @@ class Study:
         """
         if isinstance(document, str):
             self._core = _core.Study.from_text(document, "text", folder)
+        elif isinstance(document, os.PathLike):
+            raise TypeError("a document is a text or a dict; `Study.read` reads a file")
         else:
             self._core = _core.Study.from_document(dict(document), folder)
 
@@ -151,7 +153,11 @@ def run(
     force: bool = False,
 ) -> int:
     """Runs a study file as `gearloss run` does and writes results and report; `shard=(k, n)` computes the tasks of one of n shards, for
-    `gearloss merge`. Returns the exit code: 0 without findings, 1 with findings, 2 for wrong input, 130 after an interruption.
+    `gearloss merge`. Returns the exit code: 0 without findings, 1 with findings, 2 for wrong input. One thread may use it at a time.
+
+    Raises:
+        KeyboardInterrupt: after Ctrl-C; finished analyses are written.
+        RuntimeError: while another thread runs a study.
     """
     arguments = ["run", os.fspath(study)]
     if out is not None:

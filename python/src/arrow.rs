@@ -21,8 +21,11 @@ const NULLABLE: i64 = 2;
 
 /// The cells of a column with what they point to.
 pub enum Cells {
-    /// Numbers of NumPy.
-    Numbers(Py<PyArray1<f64>>),
+    /// Numbers of NumPy, which are kept with the place of the first.
+    Numbers {
+        _owner: Py<PyArray1<f64>>,
+        first: *const c_void,
+    },
     /// Texts with 64-bit offsets; a bit of `valid` for each, and the number of gaps.
     Texts {
         valid: Vec<u8>,
@@ -33,6 +36,14 @@ pub enum Cells {
 }
 
 impl Cells {
+    /// Numbers, which stay where they are.
+    pub fn numbers(numbers: &Bound<'_, PyArray1<f64>>) -> Self {
+        Self::Numbers {
+            first: numbers.data().cast_const().cast(),
+            _owner: numbers.clone().unbind(),
+        }
+    }
+
     /// Texts; absent ones are gaps.
     pub fn texts<'t>(texts: impl Iterator<Item = Option<&'t str>>) -> Self {
         let (mut valid, mut offsets, mut bytes, mut gaps) = (Vec::new(), vec![0_i64], Vec::new(), 0);
@@ -59,7 +70,7 @@ impl Cells {
 
     fn format(&self) -> &'static CStr {
         match self {
-            Self::Numbers(_) => c"g",
+            Self::Numbers { .. } => c"g",
             Self::Texts { .. } => c"U",
         }
     }
@@ -193,11 +204,11 @@ fn schema(name: &str, metadata: Vec<u8>, format: &'static CStr, children: Vec<Sc
     }
 }
 
-/// An array of cells. Pointers into numbers need the interpreter.
-fn array(py: Python<'_>, cells: Cells, rows: i64) -> Array {
+/// An array of cells.
+fn array(cells: Cells, rows: i64) -> Array {
     let (buffers, gaps): (Vec<*const c_void>, i64) = match &cells {
         // Gaps are NaN, as in the arrays.
-        Cells::Numbers(numbers) => (vec![null(), numbers.bind(py).data().cast_const().cast()], 0),
+        Cells::Numbers { first, .. } => (vec![null(), *first], 0),
         Cells::Texts {
             valid,
             offsets,
@@ -257,7 +268,7 @@ unsafe extern "C" fn get_next(stream: *mut Stream, out: *mut Array) -> c_int {
     unsafe {
         let own = &mut *(*stream).private_data.cast::<OwnStream>();
         let next = own.batches.pop_front().map(|cells| {
-            let children = Python::attach(|py| cells.into_iter().map(|cells| array(py, cells, own.rows)).collect());
+            let children = cells.into_iter().map(|cells| array(cells, own.rows)).collect();
             owned(None, vec![null()], children, own.rows, 0)
         });
         out.write(next.unwrap_or(Array {

@@ -1,8 +1,9 @@
 //! Errors of documents as an exception of Python.
 
-use std::sync::OnceLock;
+use std::sync::{Mutex, OnceLock};
 
 use gearloss::api::{Findings as Found, Language, Stopped};
+use gearloss::framework::codes;
 use pyo3::create_exception;
 use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
@@ -25,7 +26,9 @@ pub fn raised(py: Python<'_>, found: &Found) -> PyErr {
 
 /// The exception of a request that is not part of a document.
 pub fn wrong(py: Python<'_>, message: impl Into<String>, help: &str) -> PyErr {
-    let error = gearloss::api::Diagnostic::error("", message).help(help);
+    let error = gearloss::api::Diagnostic::error("", message)
+        .help(help)
+        .code(codes::GIVEN);
     raised(py, &Found::from(error))
 }
 
@@ -50,6 +53,13 @@ pub fn language(py: Python<'_>) -> PyResult<&'static Language> {
 /// Runs a command of the program, such as `["run", "study.yaml", "-o", "results"]`; returns its exit code.
 #[pyfunction]
 pub fn call(py: Python<'_>, arguments: Vec<String>) -> PyResult<u8> {
+    // Its interruption is one for the process.
+    static ONE: Mutex<()> = Mutex::new(());
+    let Ok(_one) = ONE.try_lock() else {
+        return Err(PyRuntimeError::new_err(
+            "another thread runs a study; wait for it, or use `Study`",
+        ));
+    };
     let arguments = std::iter::once("gearloss".to_owned()).chain(arguments);
     work::run_until(py, gearloss::interrupt, |_| gearloss::call(arguments.map(Into::into)))
 }

@@ -164,7 +164,7 @@ impl Transmission {
         oil_temperature: Option<PyReadonlyArray1<'_, f64>>,
         given: Given,
     ) -> PyResult<Table> {
-        let field = points::list(torque, speed, oil_temperature)?;
+        let field = points::list(py, torque, speed, oil_temperature)?;
         points::solve(py, self, field, None, given)
     }
 
@@ -177,7 +177,7 @@ impl Transmission {
         oil_temperature: Option<f64>,
         given: Given,
     ) -> PyResult<Table> {
-        let field = points::grid(torque, speed)?;
+        let field = points::grid(py, torque, speed)?;
         points::solve(py, self, field, oil_temperature, given)
     }
 }

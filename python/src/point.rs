@@ -2,6 +2,7 @@
 
 use gearloss::api::{OilTemperature, PowerFlow};
 use gearloss::framework::coefficients::changed_from_source;
+use gearloss::framework::thermal::Outcome;
 use gearloss::report::point::{explain_part, heading, point_json, point_text};
 use gearloss::studies::points::{PreparedPoint, evidence};
 use pyo3::prelude::*;
@@ -92,6 +93,13 @@ pub fn prepared(py: Python<'_>, t: &Transmission, request: Request<'_>) -> PyRes
         );
         return Err(wrong(py, message, &help));
     }
+    if speeds.is_empty() {
+        return Err(wrong(
+            py,
+            "no speed is given",
+            "give `speed`, in rpm, or a dict of ports",
+        ));
+    }
     let torque_ports: Vec<&str> = torque_at.iter().map(String::as_str).collect();
     let speed_ports: Vec<&str> = speed_at.iter().map(String::as_str).collect();
     let case = t.built.case(&gear, &speed_ports, &torque_ports);
@@ -116,9 +124,12 @@ pub struct Solution {
     /// Output power over input power.
     #[pyo3(get)]
     efficiency: Option<f64>,
-    /// Oil temperature in degC.
+    /// Oil temperature in degC; `None` if it has no value.
     #[pyo3(get)]
-    oil_temperature: f64,
+    oil_temperature: Option<f64>,
+    /// Outcome of the heat balance or the thermal network; `None` if the temperature is given.
+    #[pyo3(get)]
+    balance: Option<&'static str>,
     /// State of the transmission, such as `drive`.
     #[pyo3(get)]
     status: &'static str,
@@ -139,9 +150,14 @@ impl Solution {
         let own = Self {
             loss: solution.loss().filter(|_| sound),
             efficiency: solution.efficiency().filter(|_| sound),
-            oil_temperature: found.oil,
+            oil_temperature: Some(found.oil).filter(|_| found.is_sound()),
+            balance: found.outcome().map(Outcome::name),
             status: solution.status().name(),
-            watts: solution.parts().map(|(_, loss)| loss.watts()).collect(),
+            watts: solution
+                .parts()
+                .map(|(_, loss)| loss.watts())
+                .filter(|_| sound)
+                .collect(),
             transmission: transmission.clone_ref(py),
             prepared,
         };
@@ -151,7 +167,7 @@ impl Solution {
 
 #[pymethods]
 impl Solution {
-    /// Loss of each component in W, by path.
+    /// Loss of each component in W, by path; empty if the point has no value.
     #[getter]
     fn parts<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let parts = PyDict::new(py);
@@ -190,7 +206,7 @@ impl Solution {
             "Solution(loss={}, efficiency={}, oil_temperature={}, status='{}')",
             number(self.loss),
             number(self.efficiency),
-            self.oil_temperature,
+            number(self.oil_temperature),
             self.status
         )
     }

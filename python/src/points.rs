@@ -4,13 +4,13 @@ use std::sync::atomic::Ordering;
 
 use gearloss::api::{self, Field, Points};
 use gearloss::framework::flow::Status;
+use gearloss::framework::thermal::Outcome;
 use gearloss::studies::analyses::numbers::{RPM, tidy};
 use gearloss::studies::points::{Numbered, Piece, SUMS, solve_pieces};
 use numpy::PyReadonlyArray1;
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use crate::errors::raised;
+use crate::errors::{raised, wrong};
 use crate::gearbox::Transmission;
 use crate::point::{flow, gear_of, oil_of};
 use crate::quantity::unit;
@@ -40,21 +40,22 @@ const NUMBERS: [(&str, &str, &str); 8] = [
     ("output_w", "W", "Output power"),
 ];
 
-fn finite(name: &str, values: &[f64]) -> PyResult<()> {
+fn finite(py: Python<'_>, name: &str, values: &[f64]) -> PyResult<()> {
     match values.iter().position(|x| !x.is_finite()) {
         None => Ok(()),
-        Some(i) => Err(PyValueError::new_err(format!(
-            "{name}[{i}] is {}, not a finite number",
-            values[i]
-        ))),
+        Some(i) => Err(wrong(
+            py,
+            format!("{name}[{i}] is {}, not a finite number", values[i]),
+            "give numbers",
+        )),
     }
 }
 
 /// Every torque at every speed.
-pub fn grid(torque: PyReadonlyArray1<'_, f64>, speed: PyReadonlyArray1<'_, f64>) -> PyResult<Field> {
+pub fn grid(py: Python<'_>, torque: PyReadonlyArray1<'_, f64>, speed: PyReadonlyArray1<'_, f64>) -> PyResult<Field> {
     let (torques, speeds) = (torque.as_slice()?.to_vec(), speed.as_slice()?.to_vec());
-    finite("torque", &torques)?;
-    finite("speed", &speeds)?;
+    finite(py, "torque", &torques)?;
+    finite(py, "speed", &speeds)?;
     Ok(Field::Grid {
         torques,
         speeds: speeds.iter().map(|rpm| unit("rpm").to_si(*rpm)).collect(),
@@ -63,25 +64,25 @@ pub fn grid(torque: PyReadonlyArray1<'_, f64>, speed: PyReadonlyArray1<'_, f64>)
 
 /// A list of points of equal lengths.
 pub fn list(
+    py: Python<'_>,
     torque: PyReadonlyArray1<'_, f64>,
     speed: PyReadonlyArray1<'_, f64>,
     oil: Option<PyReadonlyArray1<'_, f64>>,
 ) -> PyResult<Field> {
     let (torques, speeds) = (torque.as_slice()?, speed.as_slice()?);
-    finite("torque", torques)?;
-    finite("speed", speeds)?;
+    finite(py, "torque", torques)?;
+    finite(py, "speed", speeds)?;
     let oils = oil.as_ref().map(PyReadonlyArray1::as_slice).transpose()?;
     if let Some(oils) = oils {
-        finite("oil_temperature", oils)?;
+        finite(py, "oil_temperature", oils)?;
         if let Some(i) = oils.iter().position(|x| !(-60.0..=250.0).contains(x)) {
             let message = format!("oil_temperature[{i}] is {} degC, not from -60 to 250 degC", oils[i]);
-            return Err(PyValueError::new_err(message));
+            return Err(wrong(py, message, "give temperatures from -60 to 250 degC"));
         }
     }
     if torques.len() != speeds.len() || oils.is_some_and(|oils| oils.len() != speeds.len()) {
-        return Err(PyValueError::new_err(
-            "torque, speed and oil_temperature have different lengths",
-        ));
+        let message = "torque, speed and oil_temperature have different lengths";
+        return Err(wrong(py, message, "give arrays of one length"));
     }
     let points = torques.iter().zip(speeds).enumerate();
     Ok(Field::List(
@@ -99,7 +100,7 @@ pub fn list(
 #[derive(Default)]
 struct Numbers {
     columns: Vec<Vec<f64>>,
-    states: Vec<Status>,
+    states: Vec<(Status, Option<Outcome>)>,
 }
 
 /// Solves a field; the temperature is that of its points, the given one, or that of the gearbox.
@@ -144,8 +145,11 @@ pub fn solve(py: Python<'_>, t: &Transmission, field: Field, oil: Option<f64>, g
     for ((name, unit, meaning), values) in own.chain(sums).chain(parts).zip(all.columns) {
         columns.push(Column::numbers(py, name, unit, meaning, values)?);
     }
-    let states = all.states.iter().map(|status| Some(status.name()));
+    let states = all.states.iter().map(|(status, _)| Some(status.name()));
+    let balances = all.states.iter().map(|(_, balance)| balance.map(Outcome::name));
     columns.insert(3, Column::texts(py, "status", "State of the transmission", states)?);
+    let meaning = "Outcome of the heat balance; none if the temperature is given";
+    columns.insert(3, Column::texts(py, "balance", meaning, balances)?);
     Ok(Table::new("points", columns))
 }
 
@@ -173,7 +177,7 @@ fn numbers(points: &mut Numbered<'_>, count: usize, parts: usize) -> Numbers {
         for (column, x) in all.columns.iter_mut().zip(own.into_iter().chain(watts)) {
             column.push(x);
         }
-        all.states.push(point.status);
+        all.states.push((point.status, point.balance));
     }
     all
 }

@@ -1,7 +1,7 @@
 //! Results as columns: arrays of NumPy, and the Arrow stream that data frames read.
 
 use gearloss::studies::table;
-use numpy::PyArray1;
+use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyCapsule, PyList};
 
@@ -34,13 +34,10 @@ enum Cells {
 impl Column {
     /// A column of numbers, which become an array without a copy.
     pub fn numbers(py: Python<'_>, name: String, unit: &str, meaning: String, values: Vec<f64>) -> PyResult<Py<Self>> {
-        Self::new(
-            py,
-            name,
-            unit,
-            meaning,
-            Cells::Numbers(PyArray1::from_vec(py, values).unbind()),
-        )
+        let numbers = PyArray1::from_vec(py, values);
+        // Views, data frames and streams share them.
+        numbers.readwrite().make_nonwriteable();
+        Self::new(py, name, unit, meaning, Cells::Numbers(numbers.unbind()))
     }
 
     /// A column of texts.
@@ -172,7 +169,7 @@ impl Table {
         let columns = self.columns.iter().map(|column| {
             let column = column.get();
             let cells = match &column.cells {
-                Cells::Numbers(numbers) => arrow::Cells::Numbers(numbers.clone_ref(py)),
+                Cells::Numbers(numbers) => arrow::Cells::numbers(numbers.bind(py)),
                 Cells::Texts { kinds, codes } => {
                     arrow::Cells::texts(codes.iter().map(|code| code.map(|code| kinds[code as usize].as_str())))
                 }

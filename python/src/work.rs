@@ -1,10 +1,11 @@
 //! Long work beside the interpreter: it runs without its lock and ends on Ctrl-C.
 
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
+use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 
 /// How often signals are looked for.
@@ -20,6 +21,7 @@ pub fn run<T: Send>(py: Python<'_>, work: impl FnOnce(&AtomicBool) -> T + Send) 
 
 /// As [`run`], for work that is asked to end by a function.
 pub fn run_until<T: Send>(py: Python<'_>, end: impl Fn(), work: impl FnOnce(&AtomicBool) -> T + Send) -> PyResult<T> {
+    same_process()?;
     let stop = AtomicBool::new(false);
     std::thread::scope(|scope| {
         let (done, finished) = channel();
@@ -40,9 +42,11 @@ pub fn run_until<T: Send>(py: Python<'_>, end: impl Fn(), work: impl FnOnce(&Ato
             }
             if let Err(error) = py.check_signals() {
                 stop.store(true, Ordering::Relaxed);
+                pressed.get_or_insert(error);
+            }
+            // Again and again: work that has only just begun may have missed it.
+            if pressed.is_some() {
                 end();
-                pressed = Some(error);
-                break;
             }
         }
         let result = py.detach(|| worker.join());
@@ -59,4 +63,16 @@ pub fn run_until<T: Send>(py: Python<'_>, end: impl Fn(), work: impl FnOnce(&Ato
 fn wait(finished: &Mutex<Receiver<()>>) -> Result<(), RecvTimeoutError> {
     let finished = finished.lock().unwrap_or_else(PoisonError::into_inner);
     finished.recv_timeout(LOOK)
+}
+
+/// Refuses to compute in a process that was forked after its parent had computed: it has no threads, so it would wait forever.
+fn same_process() -> PyResult<()> {
+    static FIRST: AtomicU32 = AtomicU32::new(0);
+    let own = std::process::id();
+    match FIRST.compare_exchange(0, own, Ordering::Relaxed, Ordering::Relaxed) {
+        Err(first) if first != own => Err(PyRuntimeError::new_err(
+            "this process was forked from one that has computed; use the start method `spawn`",
+        )),
+        _ => Ok(()),
+    }
 }

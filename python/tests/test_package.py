@@ -48,7 +48,8 @@ def test_notebooks_run(notebook):
     document = nbformat.read(notebook, as_version=4)
     resources = {"metadata": {"path": str(notebook.parent)}}
     nbclient.NotebookClient(document, timeout=300, kernel_name="python3", resources=resources).execute()
-    assert all(cell.get("outputs") is not None for cell in document.cells if cell.cell_type == "code")
+    # An error of a cell has been raised; what the last ones show is there.
+    assert document.cells[-1].get("outputs") or document.cells[-2].get("outputs")
 
 
 def test_the_script_of_the_readme_runs(tmp_path):

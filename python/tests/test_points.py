@@ -152,8 +152,8 @@ def test_shapes_must_match(transmission):
 
 
 def test_what_is_not_finite_is_refused(transmission):
-    with pytest.raises(ValueError, match=r"torque\[1\] is NaN"):
-        transmission.points(gear="first", torque=[1, np.nan], speed=1000)
+    with pytest.raises(ValueError, match=r"torque\[0, 1\] is nan"):
+        transmission.points(gear="first", torque=[[1, np.nan]], speed=1000)
     with pytest.raises(ValueError, match=r"oil_temperature\[0\] is 900"):
         transmission.points(gear="first", torque=[1], speed=1000, oil_temperature=[900])
 
@@ -176,7 +176,25 @@ def test_a_point_without_a_value_is_nan(transmission):
     assert np.isnan(still.efficiency[0])
 
 
-def test_two_threads_at_once(transmission):
+def test_the_interpreter_goes_on_during_a_map(transmission):
+    torques, speeds = np.linspace(1.0, 20.0, 1500), np.linspace(500.0, 20000.0, 1500)
+    done = threading.Event()
+
+    def work():
+        transmission.map(gear="first", torque=torques, speed=speeds)
+        done.set()
+
+    thread = threading.Thread(target=work)
+    thread.start()
+    rounds = 0
+    while not done.wait(0.001):
+        rounds += 1
+    thread.join()
+    # With the lock held, the first wait would last until the end.
+    assert rounds > 5
+
+
+def test_two_threads_give_the_numbers_of_one(transmission):
     torques, speeds = np.linspace(1.0, 20.0, 60), np.linspace(500.0, 20000.0, 60)
     alone = transmission.map(gear="first", torque=torques, speed=speeds).loss
     losses = [None, None]
@@ -234,3 +252,47 @@ def test_an_unknown_quantity_of_a_jacobian_is_an_error(transmission):
 def test_what_is_not_given_cannot_be_differentiated(transmission):
     with pytest.raises(gl.Findings):
         transmission.derivatives("torque:output", **AT)
+
+
+@pytest.mark.parametrize("call", ["solve", "derivatives", "explain"])
+def test_a_missing_speed_is_an_error(transmission, call):
+    first = {"solve": (), "derivatives": ("torque:input",), "explain": ("bearings.B5",)}[call]
+    for speed in (None, {}):
+        with pytest.raises(gl.Findings, match="no speed is given"):
+            getattr(transmission, call)(*first, gear="first", torque=10, speed=speed)
+
+
+@pytest.mark.parametrize("torque", [True, b"10", 1 + 2j, None, np.array(["2020-01-01"], dtype="M8[s]")])
+def test_what_is_no_number_is_refused(transmission, torque):
+    with pytest.raises((TypeError, gl.Findings), match="torque"):
+        transmission.points(gear="first", torque=torque, speed=1000)
+    with pytest.raises(TypeError, match="masked"):
+        transmission.points(gear="first", torque=np.ma.array([5.0, 10.0], mask=[0, 1]), speed=1000)
+
+
+def test_results_cannot_be_changed(transmission):
+    torque = np.array([5.0, 10.0])
+    whole = transmission.map(gear="first", torque=torque, speed=[3000, 6000])
+    torque[:] = 99.0
+    assert whole.torque.tolist() == [5.0, 10.0]
+    with pytest.raises(ValueError, match="read-only"):
+        whole.loss[0, 0] = 0.0
+
+
+def test_a_point_without_a_balance_has_no_numbers():
+    reducer = gl.Gearbox.read(REDUCER).transmission()
+    point = reducer.solve(torque=1e6, speed=6000)
+    assert (point.loss, point.oil_temperature, point.parts) == (None, None, {})
+    solved = reducer.points(torque=[1e6], speed=6000)
+    assert np.isnan(solved.loss[0]) and np.isnan(solved.oil_temperature[0])
+    assert solved["balance"] == [point.balance] and point.balance == "none_below_maximum"
+
+
+def test_a_jacobian_without_output_power_is_nan(transmission):
+    found = transmission.jacobian("speed:input", ["loss", "efficiency"], gear="first", torque=0, speed=8000)
+    assert np.isfinite(found[0, 0]) and np.isnan(found[1, 0])
+
+
+def test_the_texts_of_the_documentation_are_understood(transmission):
+    point = transmission.solve(gear="first", torque="10 Nm", speed="800 rad/s", oil_temperature="60 degC")
+    assert point.oil_temperature == 60.0

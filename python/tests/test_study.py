@@ -172,4 +172,37 @@ def test_ctrl_c_ends_long_work_soon(transmission):
     threading.Thread(target=press).start()
     with pytest.raises(KeyboardInterrupt):
         transmission.map(gear="first", torque=torques, speed=speeds)
+    # Measured 0.02 s; the machine may be busy.
     assert time.monotonic() - pressed[0] < 1.0
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="there is no fork")
+@pytest.mark.filterwarnings("ignore::DeprecationWarning")
+def test_a_forked_process_is_told_instead_of_waiting_forever(transmission):
+    import multiprocessing
+
+    transmission.map(gear="first", torque=[1, 2], speed=[1000])
+    receiver, sender = multiprocessing.Pipe(duplex=False)
+    child = os.fork()
+    if child == 0:
+        try:
+            transmission.map(gear="first", torque=[1, 2], speed=[1000])
+            sender.send("computed")
+        except RuntimeError as error:
+            sender.send(str(error))
+        finally:
+            os._exit(0)
+    assert receiver.poll(20) and "spawn" in receiver.recv()
+    os.waitpid(child, 0)
+
+
+def test_one_thread_runs_a_study_at_a_time(tmp_path):
+    study = tmp_path / "study.yaml"
+    slow = SMALL.replace("[10 Nm, 20 Nm]", "{ from: 1 Nm, to: 20 Nm, step: 0.02 Nm }")
+    study.write_text(slow.replace("gearbox.yaml", str(TWO_SPEED)).replace("[3000 rpm, 6000 rpm] } }", "{ from: 1000 rpm, to: 20000 rpm, step: 20 rpm } } }"))
+    thread = threading.Thread(target=gl.run, args=(study, tmp_path / "results"))
+    thread.start()
+    time.sleep(0.3)
+    with pytest.raises(RuntimeError, match="another thread"):
+        gl.run(study, tmp_path / "other")
+    thread.join()
