@@ -49,7 +49,7 @@ pub enum Start {
     /// None in the meshes, and no drags that depend on torque.
     Lossless,
     /// Those of the last solve of the point, which converged, for the same speeds and given torques at other temperatures: the work has
-    /// them, or [`Work::resume`] copies them into it.
+    /// them, or `resume` copies them into it.
     Last,
 }
 
