@@ -2,8 +2,7 @@
 
 use std::sync::{Mutex, OnceLock};
 
-use gearloss::api::{Findings as Found, Language, Stopped};
-use gearloss::framework::codes;
+use gearloss::api::{Code, Findings as Found, Language, Stopped};
 use pyo3::create_exception;
 use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
@@ -25,10 +24,8 @@ pub fn raised(py: Python<'_>, found: &Found) -> PyErr {
 }
 
 /// The exception of a request that is not part of a document.
-pub fn wrong(py: Python<'_>, message: impl Into<String>, help: &str) -> PyErr {
-    let error = gearloss::api::Diagnostic::error("", message)
-        .help(help)
-        .code(codes::GIVEN);
+pub fn wrong(py: Python<'_>, code: Code, message: impl Into<String>, help: &str) -> PyErr {
+    let error = gearloss::api::Diagnostic::error("", message).help(help).code(code);
     raised(py, &Found::from(error))
 }
 

@@ -3,7 +3,8 @@
 use gearloss::api::{OilTemperature, PowerFlow};
 use gearloss::framework::coefficients::changed_from_source;
 use gearloss::framework::thermal::Outcome;
-use gearloss::report::point::{explain_part, heading, point_json, point_text};
+use gearloss::report::point::{explain_part, heading, locking_text, point_json, point_text, temperature_text};
+use gearloss::report::text::significant;
 use gearloss::studies::points::{PreparedPoint, evidence};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -35,6 +36,7 @@ pub fn gear_of(py: Python<'_>, t: &Transmission, gear: Option<String>) -> PyResu
             let names: Vec<&str> = states.iter().map(|state| state.name.as_str()).collect();
             Err(wrong(
                 py,
+                gearloss::framework::codes::GIVEN,
                 "no gear is given",
                 &format!("give `gear` as one of {}", names.join(", ")),
             ))
@@ -48,7 +50,12 @@ pub fn oil_of(py: Python<'_>, t: &Transmission, given: Option<f64>) -> PyResult<
         && !(-60.0..=250.0).contains(&given)
     {
         let message = format!("{given} degC is not a valid oil temperature");
-        return Err(wrong(py, message, "give a temperature from -60 to 250 degC"));
+        return Err(wrong(
+            py,
+            gearloss::document::codes::OUT_OF_BOUNDS,
+            message,
+            "give a temperature from -60 to 250 degC",
+        ));
     }
     Ok(OilTemperature::from_conditions(&t.built, given))
 }
@@ -74,6 +81,7 @@ pub fn prepared(py: Python<'_>, t: &Transmission, request: Request<'_>) -> PyRes
     if let Some((port, value)) = finite {
         return Err(wrong(
             py,
+            gearloss::document::codes::OUT_OF_BOUNDS,
             format!("{value} at port `{port}` is not finite"),
             "give a number",
         ));
@@ -91,11 +99,12 @@ pub fn prepared(py: Python<'_>, t: &Transmission, request: Request<'_>) -> PyRes
             ports.join(", "),
             strs(&torque_at)
         );
-        return Err(wrong(py, message, &help));
+        return Err(wrong(py, gearloss::framework::codes::GIVEN, message, &help));
     }
     if speeds.is_empty() {
         return Err(wrong(
             py,
+            gearloss::framework::codes::GIVEN,
             "no speed is given",
             "give `speed`, in rpm, or a dict of ports",
         ));
@@ -221,13 +230,24 @@ pub fn explain(py: Python<'_>, t: &Transmission, part: &str, request: Request<'_
     if chosen.is_empty() {
         let paths: Vec<&str> = parts.iter().map(|part| part.path.as_str()).collect();
         let help = format!("give one of {}", paths.join(", "));
-        return Err(wrong(py, format!("there is no component `{part}`"), &help));
+        return Err(wrong(
+            py,
+            gearloss::framework::codes::UNKNOWN_NAME,
+            format!("there is no component `{part}`"),
+            &help,
+        ));
     }
     let prepared = prepared(py, t, request)?;
     let mut scratch = t.built.scratch(&prepared.case);
     let solved = prepared.solve(&t.built, &mut scratch);
-    let at = format!("oil {} degC", solved.found.oil);
+    let at = format!("oil {} degC", significant(solved.found.oil));
     let mut text = heading(&t.built, &solved.solution, &prepared, &at);
+    if let Some(locking) = &solved.locking {
+        text += &format!("{}\n", locking_text(locking));
+    }
+    if solved.found.outcome().is_some() {
+        text += &format!("{}\n", temperature_text(&t.built, &solved.found));
+    }
     let changed = changed_from_source(&t.built, &t.resolved);
     for part in chosen {
         text += &explain_part(&t.built, &t.gearbox, &t.resolved, &solved.solution, part, &changed);

@@ -45,6 +45,7 @@ fn finite(py: Python<'_>, name: &str, values: &[f64]) -> PyResult<()> {
         None => Ok(()),
         Some(i) => Err(wrong(
             py,
+            gearloss::document::codes::OUT_OF_BOUNDS,
             format!("{name}[{i}] is {}, not a finite number", values[i]),
             "give numbers",
         )),
@@ -56,9 +57,10 @@ pub fn grid(py: Python<'_>, torque: PyReadonlyArray1<'_, f64>, speed: PyReadonly
     let (torques, speeds) = (torque.as_slice()?.to_vec(), speed.as_slice()?.to_vec());
     finite(py, "torque", &torques)?;
     finite(py, "speed", &speeds)?;
+    let unit = unit("rpm");
     Ok(Field::Grid {
         torques,
-        speeds: speeds.iter().map(|rpm| unit("rpm").to_si(*rpm)).collect(),
+        speeds: speeds.iter().map(|rpm| unit.to_si(*rpm)).collect(),
     })
 }
 
@@ -77,19 +79,30 @@ pub fn list(
         finite(py, "oil_temperature", oils)?;
         if let Some(i) = oils.iter().position(|x| !(-60.0..=250.0).contains(x)) {
             let message = format!("oil_temperature[{i}] is {} degC, not from -60 to 250 degC", oils[i]);
-            return Err(wrong(py, message, "give temperatures from -60 to 250 degC"));
+            return Err(wrong(
+                py,
+                gearloss::document::codes::OUT_OF_BOUNDS,
+                message,
+                "give temperatures from -60 to 250 degC",
+            ));
         }
     }
     if torques.len() != speeds.len() || oils.is_some_and(|oils| oils.len() != speeds.len()) {
         let message = "torque, speed and oil_temperature have different lengths";
-        return Err(wrong(py, message, "give arrays of one length"));
+        return Err(wrong(
+            py,
+            gearloss::framework::codes::GIVEN,
+            message,
+            "give arrays of one length",
+        ));
     }
+    let unit = unit("rpm");
     let points = torques.iter().zip(speeds).enumerate();
     Ok(Field::List(
         points
             .map(|(i, (torque, rpm))| api::Given {
                 torque: *torque,
-                speed: unit("rpm").to_si(*rpm),
+                speed: unit.to_si(*rpm),
                 oil: oils.map(|oils| oils[i]),
             })
             .collect(),

@@ -23,6 +23,11 @@ pub fn quantity(py: Python<'_>, name: &str, text: &str, symbol: &str) -> PyResul
         .map(|si| tidy(unit.from_si(si)))
         .map_err(|fault| {
             let help = fault.help.unwrap_or_else(|| format!("write for example `10 {symbol}`"));
-            wrong(py, format!("{name} \"{text}\": {}", fault.message), &help)
+            wrong(
+                py,
+                gearloss::document::codes::WRONG_UNIT,
+                format!("{name} \"{text}\": {}", fault.message),
+                &help,
+            )
         })
 }

@@ -26,6 +26,7 @@ pub fn schema(py: Python<'_>, kind: &str) -> PyResult<Py<PyAny>> {
         "models" => json::read(py, include_str!("../../schemas/models.schema.json")),
         other => Err(wrong(
             py,
+            gearloss::framework::codes::UNKNOWN_NAME,
             format!("there is no schema `{other}`"),
             "give one of gearbox, study, eval, result, point, check, models",
         )),

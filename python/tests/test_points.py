@@ -223,6 +223,21 @@ def test_explain_is_that_of_the_program(transmission, program):
     assert transmission.explain("B5", **AT) == printed
 
 
+def test_explain_states_the_balance_as_the_program_does(program):
+    reducer = gl.Gearbox.read(REDUCER).transmission()
+    printed = program("explain", REDUCER, "seals.input", "--torque", "output=-16", "--speed", "3000").stdout
+    assert reducer.explain("seals.input", torque={"output": -16}, speed=3000) == printed
+
+
+def test_findings_of_a_request_have_a_code_of_their_own(transmission):
+    with pytest.raises(gl.Findings) as raised:
+        transmission.explain("bearings.B55", **AT)
+    assert raised.value.list[0]["code"] == "E0203"
+    with pytest.raises(gl.Findings) as raised:
+        transmission.solve(gear="first", torque="10 mm", speed=8000)
+    assert raised.value.list[0]["code"] == "E0106"
+
+
 def test_an_unknown_component_is_an_error(transmission):
     with pytest.raises(gl.Findings, match="there is no component"):
         transmission.explain("bearings.B55", **AT)
