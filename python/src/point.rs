@@ -243,10 +243,10 @@ pub fn explain(py: Python<'_>, t: &Transmission, part: &str, request: Request<'_
     let at = format!("oil {} degC", significant(solved.found.oil));
     let mut text = heading(&t.built, &solved.solution, &prepared, &at);
     if let Some(locking) = &solved.locking {
-        text += &format!("{}\n", locking_text(locking));
+        text = text + &locking_text(locking) + "\n";
     }
     if solved.found.outcome().is_some() {
-        text += &format!("{}\n", temperature_text(&t.built, &solved.found));
+        text = text + &temperature_text(&t.built, &solved.found) + "\n";
     }
     let changed = changed_from_source(&t.built, &t.resolved);
     for part in chosen {
