@@ -25,6 +25,8 @@ pub enum Command {
     Explain(ExplainArgs),
     /// Runs a study and writes its results.
     Run(RunArgs),
+    /// Counts the tasks of a study and proposes a number of shards for `run --shard K/N`.
+    Shards(ShardsArgs),
     /// Merges the parts of `run --shard` into the results of the whole study.
     Merge(MergeArgs),
     /// Lists mechanisms and models, or the inputs that a gearbox lacks for them.
@@ -327,6 +329,13 @@ pub struct RunArgs {
     pub results: ResultArgs,
 }
 
+/// Arguments of `shards`.
+#[derive(Debug, ClapArgs)]
+pub struct ShardsArgs {
+    /// Study file.
+    pub study: PathBuf,
+}
+
 /// Arguments of `merge`.
 #[derive(Debug, ClapArgs)]
 pub struct MergeArgs {
@@ -358,7 +367,7 @@ pub struct ResultArgs {
 }
 
 /// What `run` prints and opens.
-#[derive(Debug, Clone, Copy, ClapArgs)]
+#[derive(Debug, Clone, Copy, Default, ClapArgs)]
 pub struct ShownArgs {
     /// Prints all tables and notes.
     #[arg(short, long, conflicts_with = "quiet")]

@@ -13,6 +13,7 @@ mod point;
 pub mod run;
 pub mod schema;
 mod set;
+pub mod shards;
 pub mod solve;
 
 use std::path::Path;

@@ -37,6 +37,7 @@ mod shard;
 mod threads;
 
 use std::ffi::OsString;
+use std::path::Path;
 use std::process::ExitCode;
 
 use clap::Parser;
@@ -49,7 +50,8 @@ pub use gearloss_numerics as numerics;
 pub use gearloss_report as report;
 pub use gearloss_studies as studies;
 
-use args::{Args, Command};
+use args::{Args, Command, ResultArgs, ShownArgs};
+use gearloss_studies::tasks::TaskResults;
 use output::{End, Failure, Out};
 
 /// Runs the program with the arguments of the process.
@@ -87,7 +89,38 @@ pub fn call(args: impl IntoIterator<Item = OsString>) -> u8 {
             return if wrong { 2 } else { 0 };
         }
     };
-    match run(args) {
+    exit_code(run(args))
+}
+
+/// Writes the results of a study into a folder as `gearloss run -o` does, from results of tasks that other processes have computed; without
+/// a folder, into `results` next to the study. Returns the exit code of [`main`].
+pub fn write_results(
+    study: &api::Study,
+    language: &api::Language,
+    tasks: &dyn TaskResults,
+    folder: Option<&Path>,
+    force: bool,
+) -> u8 {
+    interrupt::forget();
+    let args = ResultArgs {
+        output: folder.map(Path::to_owned),
+        template: None,
+        force,
+        deny: Vec::new(),
+        shown: ShownArgs::default(),
+    };
+    exit_code(commands::run::all(
+        language,
+        study,
+        Some(tasks),
+        &args,
+        &mut Out::standard(),
+    ))
+}
+
+/// The exit code of a command, whose failure is printed.
+fn exit_code(end: Result<End, Failure>) -> u8 {
+    match end {
         Ok(End::Fine) => 0,
         Ok(End::Finding) => 1,
         Err(failure) => {
@@ -107,6 +140,7 @@ fn run(args: Args) -> Result<End, Failure> {
         Command::Solve(args) => commands::solve::run(&args, &mut out),
         Command::Explain(args) => commands::explain::run(&args, &mut out),
         Command::Run(args) => commands::run::run(&args, &mut out),
+        Command::Shards(args) => commands::shards::run(&args, &mut out),
         Command::Merge(args) => commands::merge::run(&args, &mut out),
         Command::Models(args) => commands::models::run(&args, &mut out),
         Command::Eval(args) => commands::eval::run(&args, &mut out),

@@ -15,6 +15,7 @@ mod counts;
 mod coverage;
 mod cycle;
 mod derivatives;
+mod distributed;
 mod editor;
 mod ehl_mixed;
 mod electric_drive_unit;

@@ -387,3 +387,20 @@ fn more_shards_than_pieces_are_fine_and_wrong_numbers_are_reported() {
     );
     assert!(words.contains("cannot be used with"), "{words}");
 }
+
+#[test]
+fn shards_lists_the_tasks_and_proposes_a_number() {
+    let folder = small("proposed");
+    let sound: Vec<&str> = STUDY.lines().filter(|line| !line.starts_with("  beyond")).collect();
+    fs::write(folder.join("study.yaml"), sound.join("\n")).unwrap();
+    let words = text(&fine(&folder, &["shards", "study.yaml"]).stdout);
+    let row = |name: &str| -> Vec<String> {
+        let line = words.lines().find(|line| line.starts_with(name)).unwrap();
+        line.split_whitespace().map(str::to_owned).collect()
+    };
+    assert_eq!(row("maps")[1], "2", "{words}");
+    assert_eq!(row("listed")[1..3], ["not", "split:"], "{words}");
+    assert!(words.contains("on one core: one `gearloss run` suffices"), "{words}");
+    fs::write(folder.join("study.yaml"), "gearloss: study/1\n").unwrap();
+    assert!(refused(&folder, &["shards", "study.yaml"]).contains("gearboxes"));
+}

@@ -10,6 +10,7 @@ import numpy.typing as npt
 __all__ = [
     "__version__",
     "Column",
+    "Distribution",
     "Findings",
     "Gearbox",
     "Outcome",
@@ -18,6 +19,7 @@ __all__ = [
     "Table",
     "Transmission",
     "call",
+    "compute",
     "models",
     "quantity",
     "schema",
@@ -146,7 +148,22 @@ class Study:
     def title(self) -> str | None: ...
     @property
     def analyses(self) -> list[str]: ...
+    def finds_models(self, name: str) -> bool:
+        """Whether other analyses may use a model set that the analysis finds."""
+
     def analysis(self, name: str) -> Outcome: ...
+
+@final
+class Distribution:
+    """What the workers of a study have computed."""
+
+    def __new__(cls, study: Study) -> Distribution: ...
+    def missing(self, analysis: str) -> list[tuple[int, int, list[int]]]: ...
+    def parcel(self) -> bytes: ...
+    def before(self, analysis: str, part: int, stage: int) -> bytes: ...
+    def add(self, analysis: str, results: bytes) -> None: ...
+    def outcome(self, analysis: str) -> Outcome: ...
+    def write(self, folder: str | os.PathLike[str] | None, force: bool) -> int: ...
 
 @final
 class Outcome:
@@ -171,6 +188,9 @@ class Outcome:
 
 def call(arguments: list[str]) -> int:
     """Runs a command of the program; returns its exit code."""
+
+def compute(parcel: bytes, analysis: str, stage: tuple[int, int, list[int]], before: bytes) -> bytes:
+    """The results of tasks on one thread."""
 
 def models() -> dict[str, Any]:
     """The linked models with parameters, ranges and evidence, as `gearloss models --format json` lists them."""

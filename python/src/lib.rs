@@ -2,6 +2,7 @@
 //! which adds arrays of any shape, data frames and plots.
 
 mod arrow;
+mod distributed;
 mod errors;
 mod gearbox;
 mod json;
@@ -18,6 +19,8 @@ use pyo3::prelude::*;
 /// What the package shares with the program.
 #[pymodule]
 mod _core {
+    #[pymodule_export]
+    use crate::distributed::{Distribution, compute};
     #[pymodule_export]
     use crate::errors::{Findings, call};
     #[pymodule_export]

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use gearloss::api::{self, Progress, Silent, Steps, StudyRun};
+use gearloss::document::files::Recorder;
 use gearloss::report::page::Page;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
@@ -17,23 +18,33 @@ use crate::work;
 /// A checked study.
 #[pyclass(frozen)]
 pub struct Study {
-    study: api::Study,
-    run: StudyRun<'static>,
+    pub checked: api::Study,
+    pub run: StudyRun<'static>,
+    /// The files that it has read so far.
+    pub read: Arc<Recorder>,
 }
 
 impl Study {
-    fn new(py: Python<'_>, read: Result<api::Study, api::Findings>) -> PyResult<Self> {
+    fn new(
+        py: Python<'_>,
+        read: impl FnOnce(&'static api::Language, &api::SharedSource) -> Result<api::Study, api::Findings>,
+    ) -> PyResult<Self> {
         let language = language(py)?;
-        let study = read
+        let recorder = Arc::new(Recorder::new(api::Disk::shared()));
+        let files: api::SharedSource = recorder.clone();
+        let study = read(language, &files)
             .and_then(|study| study.check(language).map(|()| study))
             .map_err(|found| raised(py, &found))?;
-        let run = StudyRun::new(language, &study);
-        Ok(Self { study, run })
+        Ok(Self {
+            run: StudyRun::new(language, &study),
+            checked: study,
+            read: recorder,
+        })
     }
 }
 
 /// Ends an analysis when it is asked to.
-struct Interruptible<'a>(&'a AtomicBool);
+pub struct Interruptible<'a>(pub &'a AtomicBool);
 
 impl Progress for Interruptible<'_> {
     fn begin(&self, _: &str, _: usize) -> Box<dyn Steps + '_> {
@@ -50,15 +61,15 @@ impl Study {
     /// Reads a file and its gearboxes, and checks every name that its analyses use.
     #[staticmethod]
     fn read(py: Python<'_>, file: PathBuf) -> PyResult<Self> {
-        let read = api::Study::read(language(py)?, &file);
-        Self::new(py, read)
+        Self::new(py, |language, files| api::Study::read_from(language, files, &file))
     }
 
     /// Reads a text, in YAML or JSON; `folder` contains the files that it names.
     #[staticmethod]
     fn from_text(py: Python<'_>, text: String, name: &str, folder: PathBuf) -> PyResult<Self> {
-        let read = api::Study::of_text(language(py)?, text, name, folder);
-        Self::new(py, read)
+        Self::new(py, |language, files| {
+            api::Study::from_text(language, files, text, name, folder)
+        })
     }
 
     /// Reads a document of dicts and lists.
@@ -71,13 +82,19 @@ impl Study {
     /// Title; `None` without one.
     #[getter]
     fn title(&self) -> Option<&str> {
-        self.study.entry.title.as_deref()
+        self.checked.entry.title.as_deref()
     }
 
     /// Names of the analyses, in their order.
     #[getter]
     fn analyses(&self) -> Vec<&str> {
-        self.study.entry.analyses.ids().collect()
+        self.checked.entry.analyses.ids().collect()
+    }
+
+    /// Whether other analyses may use a model set that the analysis finds.
+    fn finds_models(&self, name: &str) -> bool {
+        let analysis = self.checked.entry.analyses.get(name);
+        analysis.is_some_and(|analysis| analysis.then().is_some())
     }
 
     /// Runs an analysis. Those whose model sets it uses must have run before.
@@ -94,7 +111,7 @@ impl Study {
 
 /// The outcome of an analysis.
 #[pyclass(frozen)]
-pub struct Outcome(Arc<dyn api::Outcome>);
+pub struct Outcome(pub Arc<dyn api::Outcome>);
 
 #[pymethods]
 impl Outcome {

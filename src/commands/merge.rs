@@ -8,5 +8,5 @@ pub fn run(args: &MergeArgs, out: &mut Out) -> Result<End, Failure> {
     let language = super::language()?;
     let study = read(language, &args.study)?;
     let tasks = gather(language, &study, &args.parts, &args.study)?;
-    all(language, &study, Some(tasks), &args.results, out)
+    all(language, &study, Some(&tasks), &args.results, out)
 }

@@ -13,7 +13,6 @@ mod task_file;
 mod write;
 
 pub(super) use shard::gather;
-pub(super) use shard_tasks::ShardTasks;
 
 use self::console::Shown;
 use self::folder::Held;
@@ -28,6 +27,7 @@ use gearloss_framework::language::Language;
 use gearloss_report::page::Block;
 use gearloss_studies::distinct::distinct;
 use gearloss_studies::study::{Cautions, Study};
+use gearloss_studies::tasks::TaskResults;
 
 use super::read_file;
 use crate::args::{ResultArgs, RunArgs};
@@ -122,11 +122,11 @@ pub(super) fn look_over(language: &Language, file: &Path) -> Looked {
     }
 }
 
-/// Runs all analyses and writes the report; uses the results of shards.
-pub(super) fn all(
+/// Runs all analyses and writes the report; uses the results of tasks that other processes have computed.
+pub(crate) fn all(
     language: &Language,
     study: &Study,
-    tasks: Option<ShardTasks>,
+    tasks: Option<&dyn TaskResults>,
     args: &ResultArgs,
     out: &mut Out,
 ) -> Result<End, Failure> {

@@ -7,6 +7,10 @@ mod notebook;
 pub use notebook::{Kept, Notebook};
 
 use std::cell::{Cell, RefCell};
+use std::collections::BTreeSet;
+use std::sync::{Mutex, PoisonError};
+
+use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::real::{Mask as _, Points, Real};
 
@@ -341,7 +345,7 @@ impl<R: Points> Loss<R> {
 }
 
 /// A formula is undefined. Small and without an owned text, so that it is free in a map.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error, Serialize)]
 #[error("undefined: {what} = {value:.6}")]
 pub struct Undefined {
     /// The quantity or condition that is outside the formula's domain.
@@ -357,6 +361,34 @@ impl Undefined {
         what: "branch that all points take",
         value: f64::NAN,
     };
+}
+
+/// Reads what another process wrote.
+impl<'de> Deserialize<'de> for Undefined {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        /// The reason with its own text.
+        #[derive(Deserialize)]
+        struct Reason {
+            what: String,
+            value: f64,
+        }
+        let Reason { what, value } = Reason::deserialize(from)?;
+        let what = lasting(what);
+        Ok(Self { what, value })
+    }
+}
+
+/// A text that is never freed, because [`Undefined`] is copied for millions of points and therefore owns none. Reasons are texts of
+/// models, so that there are few; each is allocated once.
+fn lasting(text: String) -> &'static str {
+    static KNOWN: Mutex<BTreeSet<&'static str>> = Mutex::new(BTreeSet::new());
+    let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(same) = known.get(text.as_str()) {
+        return same;
+    }
+    let text: &'static str = text.leak();
+    known.insert(text);
+    text
 }
 
 /// The range in which a source states its formula to be valid. Outside it the model still returns a result, and this is noted.
@@ -438,7 +470,7 @@ impl Observed {
 }
 
 /// Observed extent of one limit or observed quantity. Extents merge in any order to the same bits.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Extent {
     /// Minimum observed value.
     pub least: f64,
@@ -860,6 +892,17 @@ mod tests {
         DRAG = no_load("drag");
     }
     limits! { RANGE = ("x", "position", "-", 0.0, 1.0, "test"); }
+
+    #[test]
+    fn a_reason_is_read_back_with_a_text_that_lasts() {
+        let what = String::from("speed [rpm]").leak();
+        let reason = Undefined { what, value: -3.5 };
+        let text = serde_json::to_string(&reason).unwrap_or_default();
+        let [one, other] = [(); 2].map(|()| serde_json::from_str::<Undefined>(&text).ok());
+        assert_eq!((one, other), (Some(reason), Some(reason)));
+        let [one, other] = [one, other].map(|reason| reason.map(|reason| reason.what.as_ptr()));
+        assert_eq!(one, other, "it is allocated once");
+    }
 
     #[test]
     fn total_derives_from_terms_to_the_last_bit() {

@@ -6,7 +6,7 @@ use std::fmt;
 use std::fs::{File, FileType};
 use std::io::{Error, ErrorKind, Read as _, Result};
 use std::path::{Component, Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// Maximum length of a description, study, input of `eval` or template of a report. \[byte\]
 ///
@@ -108,6 +108,41 @@ impl FileSource for InMemory {
     }
 }
 
+/// The files of another source, of which those that were read are kept: what a second process needs to read the same documents.
+#[derive(Debug)]
+pub struct Recorder {
+    source: SharedSource,
+    read: Mutex<InMemory>,
+}
+
+impl Recorder {
+    /// Keeps what is read from a source.
+    pub fn new(source: SharedSource) -> Self {
+        Self {
+            source,
+            read: Mutex::default(),
+        }
+    }
+
+    /// The files that were read so far, with their contents.
+    pub fn files(&self) -> Vec<(PathBuf, Vec<u8>)> {
+        let read = self.read.lock().unwrap_or_else(PoisonError::into_inner);
+        read.0
+            .iter()
+            .map(|(path, bytes)| (path.clone(), bytes.clone()))
+            .collect()
+    }
+}
+
+impl FileSource for Recorder {
+    fn read(&self, path: &Path, longest: u64) -> Result<Vec<u8>> {
+        let bytes = self.source.read(path, longest)?;
+        let mut read = self.read.lock().unwrap_or_else(PoisonError::into_inner);
+        read.add(path, bytes.as_slice());
+        Ok(bytes)
+    }
+}
+
 /// A path without `.`, and without `..` where a folder is before it.
 fn without_dots(path: &Path) -> PathBuf {
     let mut plain = PathBuf::new();
@@ -189,6 +224,17 @@ fn text_from(bytes: Vec<u8>) -> Result<String> {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
+
+    #[test]
+    fn recorded_files_can_be_read_without_their_source() {
+        let source = InMemory::new([("gears/a.yaml", "a"), ("b.csv", "b")]).shared();
+        let recorder = Recorder::new(source);
+        assert!(recorder.read(Path::new("gears/../gears/a.yaml"), 9).is_ok());
+        assert!(recorder.read(Path::new("c"), 9).is_err());
+        let again = InMemory::new(recorder.files());
+        assert_eq!(again.read(Path::new("gears/a.yaml"), 9).unwrap(), b"a");
+        assert!(again.read(Path::new("b.csv"), 9).is_err(), "it was not read before");
+    }
 
     fn refused(path: impl AsRef<Path>) -> String {
         read_text(path.as_ref(), 16).unwrap_err().to_string()

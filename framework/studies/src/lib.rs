@@ -11,6 +11,7 @@ pub mod study;
 
 // Analyses: how a study is run, entries and outcomes, results as columns.
 pub mod analyses;
+pub mod distributed;
 pub mod results;
 pub mod run;
 pub mod table;

@@ -1,6 +1,5 @@
 //! Many points of one transmission, solved in parallel with the same bits on any number of threads.
 
-mod bits;
 mod cycle;
 mod derivatives;
 mod grid;
@@ -13,7 +12,6 @@ mod solve;
 mod sums;
 mod temperature;
 
-pub use bits::Bits;
 pub use cycle::{Driven, Ride, Stretch, can_drive, drive};
 pub use derivatives::{Derivative, Derivatives, Derived, Method, Variable};
 pub use gearloss_numerics::statistics::{Statistics, bands, correlation, histogram, levels, quantile};

@@ -12,13 +12,15 @@ use crate::analyses::{Context, Outcome, Stopped};
 use crate::codes;
 use crate::study::Study;
 
+/// Model sets that analyses have found (`then`): resolved path to value, by name of the set.
+pub type FoundSets = BTreeMap<String, Map<String, Value>>;
+
 /// A study that is run. It prints nothing and writes no file. Runs of one study do not affect each other.
 pub struct StudyRun<'a> {
     language: &'a Language,
     /// The study before any analysis.
     study: Study,
-    /// Model sets that its analyses have found (`then`): resolved path to value, by name of the set.
-    found: Mutex<BTreeMap<String, Map<String, Value>>>,
+    found: Mutex<FoundSets>,
 }
 
 impl<'a> StudyRun<'a> {
@@ -29,6 +31,24 @@ impl<'a> StudyRun<'a> {
             study: study.clone(),
             found: Mutex::default(),
         }
+    }
+
+    /// The run of a study of which other runs have finished analyses: with the model sets that those found.
+    pub fn continued(language: &'a Language, study: &Study, found: FoundSets) -> Self {
+        Self {
+            found: Mutex::new(found),
+            ..Self::new(language, study)
+        }
+    }
+
+    /// The language of its documents.
+    pub fn language(&self) -> &'a Language {
+        self.language
+    }
+
+    /// Model sets that the finished analyses have found.
+    pub fn found_sets(&self) -> FoundSets {
+        self.found().clone()
     }
 
     /// The study for the next analysis: with the model sets found so far, and with gearboxes that have read no files of other analyses,
@@ -80,7 +100,7 @@ impl<'a> StudyRun<'a> {
         Ok(outcome)
     }
 
-    fn found(&self) -> MutexGuard<'_, BTreeMap<String, Map<String, Value>>> {
+    fn found(&self) -> MutexGuard<'_, FoundSets> {
         self.found.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

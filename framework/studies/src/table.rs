@@ -310,6 +310,15 @@ pub trait RowSink: Sync {
     fn take(&self, rows: &Table) -> Result<(), Stopped>;
 }
 
+/// For runs that write no tables: rows are dropped.
+pub struct DiscardedRows;
+
+impl RowSink for DiscardedRows {
+    fn take(&self, _: &Table) -> Result<(), Stopped> {
+        Ok(())
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -19,7 +19,6 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use super::console::Shown;
 use super::result_files::Files;
-use super::shard_tasks::ShardTasks;
 use super::table::Tables;
 use super::write;
 use crate::interrupt;
@@ -40,8 +39,8 @@ pub struct Run<'a> {
     /// Measured points, and limits that may be beyond them.
     pub(super) tested: RefCell<Tested>,
     pub(super) analyses: StudyRun<'a>,
-    /// Task results of shards.
-    pub(super) tasks: Option<ShardTasks>,
+    /// Results of tasks that other processes have computed.
+    tasks: Option<&'a dyn TaskResults>,
     /// What is printed.
     pub(super) shown: Shown,
     /// True for `check`: an analysis stops before it computes and reports its errors.
@@ -111,7 +110,7 @@ impl<'a> Run<'a> {
         language: &'a Language,
         study: &'a Study,
         folder: PathBuf,
-        tasks: Option<ShardTasks>,
+        tasks: Option<&'a dyn TaskResults>,
         shown: Shown,
     ) -> Self {
         Self {
@@ -145,7 +144,7 @@ impl<'a> Run<'a> {
     pub(super) fn context<'r>(&'r self, study: &'r Study, name: &'r str) -> Context<'r> {
         let cx = Context::new(self.language, study, name, &self.bars);
         let cx = if self.only_checks { cx.checking() } else { cx };
-        cx.with_tasks(self.tasks.as_ref().map(|tasks| tasks as &dyn TaskResults))
+        cx.with_tasks(self.tasks)
     }
 
     /// Runs an analysis and adds its section to the report.

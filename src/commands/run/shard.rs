@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use gearloss_framework::language::Language;
 use gearloss_studies::analyses::Stopped;
 use gearloss_studies::study::Study;
-use gearloss_studies::table::{RowSink, Table};
+use gearloss_studies::table::DiscardedRows;
 
 use super::console::Shown;
 use super::manifest::{MANIFEST, Manifest};
@@ -33,11 +33,11 @@ pub fn run(language: &Language, study: &Study, shard: Shard, args: &RunArgs, out
     others.retain(|other| *other != folder && manifest.is_of_splitting(other));
     interrupt::listen();
     let tasks = ShardTasks::of_shard(study, shard, &folder, &others)?;
-    let run = Run::new(language, study, folder.clone(), Some(tasks), Shown::Nothing);
+    let run = Run::new(language, study, folder.clone(), Some(&tasks), Shown::Nothing);
     let failed = compute(&run);
     // The same command continues an interrupted run.
     held.finish();
-    let (computed, before) = run.tasks.as_ref().map_or((0, 0), ShardTasks::counts);
+    let (computed, before) = tasks.counts();
     let words = format!(
         "shard {shard}: {} tasks in {}, {before} of them from an earlier run",
         computed + before,
@@ -61,15 +61,6 @@ pub fn run(language: &Language, study: &Study, shard: Shard, args: &RunArgs, out
     Ok(End::Fine)
 }
 
-/// Discarded rows: a shard writes no tables.
-struct Unwanted;
-
-impl RowSink for Unwanted {
-    fn take(&self, _: &Table) -> Result<(), Stopped> {
-        Ok(())
-    }
-}
-
 /// Computes the shard's tasks of all analyses; returns the number of failed analyses.
 fn compute(run: &Run<'_>) -> Result<usize, Failure> {
     let mut failed = 0;
@@ -79,7 +70,7 @@ fn compute(run: &Run<'_>) -> Result<usize, Failure> {
         if study.pending(analysis).is_some() {
             continue;
         }
-        let cx = run.context(&study, name).with_sink(&Unwanted);
+        let cx = run.context(&study, name).with_sink(&DiscardedRows);
         match run.analyses.run(&cx) {
             Err(Stopped::Found(findings)) => {
                 Out::error().text(&findings.render())?;

@@ -192,7 +192,7 @@ mod tests {
     #[test]
     fn wide_instructions_have_the_bits_of_single_numbers() {
         let x = Lane::each(|i| 0.37 + 11.3 * i as f64);
-        let together = Lane::wide(
+        let together = pulp::Arch::new().dispatch(
             #[inline(always)]
             || [x.map(exp), x.map(ln), x.map(cube_root), x.map(|x| sine(x * 0.007))],
         );

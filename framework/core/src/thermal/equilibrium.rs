@@ -8,7 +8,7 @@ use crate::real::Stencil;
 use crate::transmission::{Case, Transmission};
 
 /// Why losses or heat are undefined at a temperature.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub enum Unbalanced {
     /// The loss of a part, by number, is undefined.
     Part(usize, Undefined),

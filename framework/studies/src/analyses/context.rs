@@ -16,7 +16,7 @@ use serde_json::Value;
 use super::head::{Head, InputFile};
 use super::progress::{Progress, Running};
 use crate::codes;
-use crate::points::{Bits, Field, Given, GridResult, Make, Piece, Points, solve_pieces, take_points};
+use crate::points::{Field, Given, GridResult, Make, Piece, Points, solve_pieces, take_points};
 use crate::study::{Grid, Study};
 use crate::table::RowSink;
 use crate::tasks::{StorageError, Task, TaskResults};
@@ -353,17 +353,16 @@ impl<'a> Context<'a> {
             return self.evaluate(built, points, &all, make, take);
         };
         let missing = self.missing(kept, stage, all.len())?;
-        self.evaluate(built, points, &missing.own, &Bits::from_points, &mut |piece| {
-            let mut bytes = Vec::new();
-            piece.write_bits(&mut bytes);
+        self.evaluate(built, points, &missing.own, &take_points, &mut |piece| {
+            let bytes = postcard::to_stdvec(&piece).map_err(StorageError::Encode)?;
             kept.keep(self.task(stage, piece.number), &bytes)
         })?;
         missing.end()?;
         for number in all {
             let task = self.task(stage, number);
-            let bytes = kept.read(task)?;
             let own = points.field.of_piece(number);
-            let piece = Piece::read_bits(&mut &bytes[..]).filter(|piece| piece.len() == own.len());
+            let piece = postcard::from_bytes::<Piece>(&kept.read(task)?).ok();
+            let piece = piece.filter(|piece| piece.is_sound(number, own.len()));
             let piece = piece.ok_or_else(|| unlike(task))?;
             take(piece.made(own.start, make))?;
         }

@@ -18,7 +18,7 @@ use super::shares::{Shares, together};
 use super::{Analysis, Context, Head, Outcome, Stopped};
 use crate::codes;
 use crate::distinct::distinct;
-use crate::points::Note;
+use crate::points::{Driven, Note};
 use crate::register_analysis;
 use crate::study::{By, DriveEntry, ToleranceEntry, Uses, Write};
 use crate::table::Table;
@@ -98,16 +98,26 @@ impl Analysis for CycleAnalysisEntry {
             }
             cx.complete()?;
         }
-        cx.undivided()?;
+        let count = duties.list.len();
+        let driven = cx.each("cycles", built.len() * count, |i| {
+            let b = &built[i / count];
+            let driven = duties.drive(&b.transmission, &duties.list[i % count], &|_| cx.should_continue());
+            driven.unwrap_or_else(|list| {
+                cx.end(b.gearbox.findings(list).into());
+                None
+            })
+        });
+        let driven: Option<Vec<Driven>> = match driven {
+            Ok(driven) => driven.into_iter().collect(),
+            Err(Stopped::Interrupted) => None,
+            Err(stopped) => return Err(stopped),
+        };
+        let driven = driven.ok_or_else(|| cx.why_ended())?;
         let mut cycles = Vec::new();
-        for b in &built {
+        for (b, driven) in built.iter().zip(driven.chunks(count)) {
             let shares = Shares::new(&b.transmission, self.by).under(&names);
-            let running = cx.running(duties.intervals(), &b.name);
-            for read in &duties.list {
-                let driven = duties.drive(&b.transmission, read, &|n| running.advance(n));
-                let driven = driven.map_err(|list| Stopped::from(b.gearbox.findings(list)))?;
-                let driven = driven.ok_or(Stopped::Interrupted)?;
-                cycles.push(results::duty(b, read, &driven, &shares, self.reference.get(&read.name)));
+            for (read, driven) in duties.list.iter().zip(driven) {
+                cycles.push(results::duty(b, read, driven, &shares, self.reference.get(&read.name)));
             }
         }
         let mut all_left = Vec::new();

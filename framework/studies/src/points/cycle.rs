@@ -12,6 +12,7 @@ use gearloss_framework::loss::Extent;
 use gearloss_framework::thermal::Unbalanced;
 use gearloss_framework::thermal::network::{Heats, March, Moment, Passed, Scheme, Stage, StepSize, Surroundings};
 use gearloss_framework::transmission::{Case, Transmission, WHEELS};
+use serde::{Deserialize, Serialize};
 
 /// Settings of a simulation.
 #[derive(Clone, Copy)]
@@ -41,7 +42,7 @@ pub struct Ride<'a> {
 }
 
 /// One simulated interval.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Stretch {
     /// Time at its start. \[s\]
     pub start: f64,
@@ -62,7 +63,7 @@ pub struct Stretch {
 }
 
 /// A simulated cycle.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Driven {
     /// The simulated intervals.
     pub stretches: Vec<Stretch>,

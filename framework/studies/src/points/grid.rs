@@ -10,6 +10,7 @@ use gearloss_framework::flow::Status;
 use gearloss_framework::loss::{Extent, MOST_TERMS, Undefined};
 use gearloss_framework::thermal::Outcome as ThermalOutcome;
 use gearloss_framework::transmission::{Case, Transmission};
+use serde::{Deserialize, Serialize};
 
 /// Points and their prescription.
 #[derive(Debug, Clone)]
@@ -124,7 +125,7 @@ impl Field {
 }
 
 /// One solved point, as numbers.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct PointResult {
     /// Given torque. \[Nm\]
     pub torque: f64,

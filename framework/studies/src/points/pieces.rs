@@ -13,6 +13,7 @@ use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::Extent;
 use gearloss_framework::real::LANES;
 use gearloss_framework::transmission::Transmission;
+use serde::{Deserialize, Serialize};
 
 /// Points of a piece of a list.
 const PIECE: usize = 1024;
@@ -33,7 +34,7 @@ pub const MOST_IN_FLIGHT: usize = 2 * LARGEST;
 const TASK: usize = 4096;
 
 /// Results of consecutive points of a field, by task.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Piece<T = Vec<PointResult>> {
     /// Index of the piece in the field.
     pub number: usize,
@@ -115,6 +116,21 @@ impl Piece {
         let mut tasks: Vec<_> = self.tasks.into_iter().map(Vec::into_iter).collect();
         let in_order = self.order.into_iter().flat_map(|(task, count)| repeat_n(task, count));
         in_order.filter_map(move |task| tasks[task].next())
+    }
+
+    /// Whether a piece that was read has this number and so many points.
+    pub fn is_sound(&self, number: usize, points: usize) -> bool {
+        let mut missing: Vec<usize> = self.tasks.iter().map(Vec::len).collect();
+        let is_there = |&(task, count): &(usize, usize)| {
+            let rest = missing
+                .get_mut(task)
+                .and_then(|own| Some((own.checked_sub(count)?, own)));
+            rest.map(|(rest, own)| *own = rest).is_some()
+        };
+        self.number == number
+            && self.len() == points
+            && self.order.iter().all(is_there)
+            && missing.iter().all(|n| *n == 0)
     }
 
     /// Applies `make` to points that were solved elsewhere; `first` is the index of the first in the field.

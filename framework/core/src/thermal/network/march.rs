@@ -12,7 +12,7 @@ use crate::thermal::Unbalanced;
 use crate::transmission::{Case, Transmission};
 
 /// Energies of a time interval. \[J\]
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Heats {
     /// Length. \[s\]
     pub duration: f64,
