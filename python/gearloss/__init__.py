@@ -11,7 +11,9 @@ raises `Findings`, whose text is that of the terminal.
 """
 
 from ._core import Column, Findings, Solution, __version__, models, schema
+from .analyses import cycle, identify
 from .gearbox import Gearbox, Transmission
+from .law import Law, law
 from .results import Map, Points, Table
 from .study import Outcome, Study, run
 
@@ -19,6 +21,7 @@ __all__ = [
     "Column",
     "Findings",
     "Gearbox",
+    "Law",
     "Map",
     "Outcome",
     "Points",
@@ -27,6 +30,9 @@ __all__ = [
     "Table",
     "Transmission",
     "__version__",
+    "cycle",
+    "identify",
+    "law",
     "models",
     "run",
     "schema",

@@ -1,7 +1,7 @@
 """The extension module. Use the classes of `gearloss` instead, which take units and arrays of any shape."""
 
 import os
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any, final
 
 import numpy as np
@@ -18,6 +18,7 @@ __all__ = [
     "Study",
     "Table",
     "Transmission",
+    "add_function",
     "call",
     "compute",
     "models",
@@ -143,7 +144,9 @@ class Study:
     @staticmethod
     def from_text(text: str, name: str, folder: str | os.PathLike[str]) -> Study: ...
     @staticmethod
-    def from_document(document: Mapping[str, Any], folder: str | os.PathLike[str]) -> Study: ...
+    def from_document(
+        document: Mapping[str, Any], folder: str | os.PathLike[str], files: Mapping[str, str]
+    ) -> Study: ...
     @property
     def title(self) -> str | None: ...
     @property
@@ -185,6 +188,9 @@ class Outcome:
     def figures(self) -> list[str]: ...
     def svg(self, name: str) -> str | None: ...
     def to_dict(self) -> dict[str, Any]: ...
+
+def add_function(name: str, function: Callable[..., Any], quantities: list[str], vectorised: bool) -> None:
+    """Adds a function that takes a number of points and an array of each quantity; `gearloss.law` is its decorator."""
 
 def call(arguments: list[str]) -> int:
     """Runs a command of the program; returns its exit code."""

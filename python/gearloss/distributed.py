@@ -49,7 +49,7 @@ def compute_chunk(parcel: bytes, analysis: str, chunk: Stage, before: bytes) -> 
     Raises:
         RuntimeError: if the worker has another version of gearloss or of its models.
     """
-    return _core.compute(parcel, analysis, tuple(chunk), before)
+    return _core.compute(parcel, analysis, (chunk.part, chunk.stage, chunk.tasks), before)
 
 
 def _collect(distribution: _core.Distribution, engine: Engine, analysis: str) -> None:

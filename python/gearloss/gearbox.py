@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 from collections.abc import Iterable, Mapping
 from typing import Any, Union
@@ -10,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
+from .law import plain
 from .quantities import Quantities, Quantity, array, by_port, finite, number
 from .results import Map, Points
 
@@ -19,17 +21,23 @@ _Request = dict[str, Any]
 class Gearbox:
     """A checked description of a gearbox."""
 
+    _file: str = "gearbox.yaml"
+    _folder: Union[str, os.PathLike[str]] = "."
+
     def __init__(self, document: Union[str, Mapping[str, Any]], folder: Union[str, os.PathLike[str]] = ".") -> None:
         """Reads a text in YAML, or a document of dicts and lists; `folder` contains the files that it names.
 
         Raises:
             Findings: everything that is wrong with it, with line and column.
         """
+        self._folder = folder
         if isinstance(document, str):
+            self._text: Union[str, None] = document
             self._core = _core.Gearbox.from_text(document, "text", folder)
         elif isinstance(document, os.PathLike):
             raise TypeError("a document is a text or a dict; `Gearbox.read` reads a file")
         else:
+            self._text = json.dumps(document)
             self._core = _core.Gearbox.from_document(dict(document), folder)
 
     @classmethod
@@ -40,17 +48,19 @@ class Gearbox:
             Findings: everything that is wrong with it, with file, line and column.
         """
         own = cls.__new__(cls)
+        own._text = None
+        own._file = os.path.abspath(file)
         own._core = _core.Gearbox.read(file)
         return own
 
     def transmission(self, models: Union[str, None] = None, set: Union[Mapping[str, Any], None] = None) -> Transmission:
         """The gearbox with its models, or those of a model set, and with overrides of resolved paths, such as
-        ``{"gears.*.surface.ra": "0.4 um", "lubricants.oil.viscosity.kv40": 30}``. Numbers are in the unit of the path.
+        ``{"gears.*.surface.ra": "0.4 um", "lubricants.oil.viscosity.kv40": 30}``. Numbers are in the unit of the path. A model may be a `law`.
 
         Raises:
             Findings: an unknown set or path, a value out of range, files that cannot be read.
         """
-        return Transmission(self._core.transmission(models, list((set or {}).items())))
+        return Transmission(self._core.transmission(models, list(plain(set or {}).items())))
 
 
 class Transmission:

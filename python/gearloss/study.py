@@ -24,7 +24,7 @@ class Study:
         elif isinstance(document, os.PathLike):
             raise TypeError("a document is a text or a dict; `Study.read` reads a file")
         else:
-            self._core = _core.Study.from_document(dict(document), folder)
+            self._core = _core.Study.from_document(dict(document), folder, {})
 
     @classmethod
     def read(cls, file: Union[str, os.PathLike[str]]) -> Study:

@@ -40,7 +40,7 @@ impl Gearbox {
     /// Reads a document of dicts and lists.
     #[staticmethod]
     fn from_document(py: Python<'_>, document: &Bound<'_, PyAny>, folder: PathBuf) -> PyResult<Self> {
-        let text = json::from_python(document)?.to_string();
+        let text = format!("{:#}", json::from_python(document)?);
         Self::from_text(py, &text, "document", folder)
     }
 

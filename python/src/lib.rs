@@ -4,6 +4,7 @@
 mod arrow;
 mod distributed;
 mod errors;
+mod function;
 mod gearbox;
 mod json;
 mod point;
@@ -23,6 +24,8 @@ mod _core {
     use crate::distributed::{Distribution, compute};
     #[pymodule_export]
     use crate::errors::{Findings, call};
+    #[pymodule_export]
+    use crate::function::add_function;
     #[pymodule_export]
     use crate::gearbox::{Gearbox, Transmission};
     #[pymodule_export]

@@ -11,6 +11,7 @@ use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
 
 use crate::errors::{raised, wrong};
+use crate::function;
 use crate::gearbox::Transmission;
 use crate::point::{flow, gear_of, oil_of};
 use crate::quantity::unit;
@@ -118,6 +119,12 @@ struct Numbers {
 
 /// Solves a field; the temperature is that of its points, the given one, or that of the gearbox.
 pub fn solve(py: Python<'_>, t: &Transmission, field: Field, oil: Option<f64>, given: Given) -> PyResult<Table> {
+    if let Some(name) = function::one_by_one(&t.resolved.value) {
+        let message =
+            format!("the function `{name}` takes one point at a time, which is too slow for points in parallel");
+        let help = "write it for arrays and leave out `vectorised=False`, or solve the points one by one";
+        return Err(wrong(py, gearloss::framework::codes::MODEL, message, help));
+    }
     let mut points = Points::at_reference(&t.built, &gear_of(py, t, given.gear)?, field);
     points.oil = oil_of(py, t, oil)?;
     points.flow = flow(given.ideal);

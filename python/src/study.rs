@@ -1,6 +1,8 @@
 //! Studies and their outcomes.
 
-use std::path::PathBuf;
+use std::collections::BTreeMap;
+use std::io;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -27,10 +29,11 @@ pub struct Study {
 impl Study {
     fn new(
         py: Python<'_>,
+        source: api::SharedSource,
         read: impl FnOnce(&'static api::Language, &api::SharedSource) -> Result<api::Study, api::Findings>,
     ) -> PyResult<Self> {
         let language = language(py)?;
-        let recorder = Arc::new(Recorder::new(api::Disk::shared()));
+        let recorder = Arc::new(Recorder::new(source));
         let files: api::SharedSource = recorder.clone();
         let study = read(language, &files)
             .and_then(|study| study.check(language).map(|()| study))
@@ -40,6 +43,19 @@ impl Study {
             checked: study,
             read: recorder,
         })
+    }
+}
+
+/// Files in memory, and those of the disk.
+#[derive(Debug)]
+struct InMemoryFirst(api::InMemory);
+
+impl api::FileSource for InMemoryFirst {
+    fn read(&self, path: &Path, longest: u64) -> io::Result<Vec<u8>> {
+        match self.0.read(path, longest) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => api::Disk.read(path, longest),
+            read => read,
+        }
     }
 }
 
@@ -61,22 +77,33 @@ impl Study {
     /// Reads a file and its gearboxes, and checks every name that its analyses use.
     #[staticmethod]
     fn read(py: Python<'_>, file: PathBuf) -> PyResult<Self> {
-        Self::new(py, |language, files| api::Study::read_from(language, files, &file))
+        Self::new(py, api::Disk::shared(), |language, files| {
+            api::Study::read_from(language, files, &file)
+        })
     }
 
     /// Reads a text, in YAML or JSON; `folder` contains the files that it names.
     #[staticmethod]
     fn from_text(py: Python<'_>, text: String, name: &str, folder: PathBuf) -> PyResult<Self> {
-        Self::new(py, |language, files| {
+        Self::new(py, api::Disk::shared(), |language, files| {
             api::Study::from_text(language, files, text, name, folder)
         })
     }
 
-    /// Reads a document of dicts and lists.
+    /// Reads a document of dicts and lists; `folder` contains the files that it names, except for `files`, which are in memory.
     #[staticmethod]
-    fn from_document(py: Python<'_>, document: &Bound<'_, PyAny>, folder: PathBuf) -> PyResult<Self> {
-        let text = json::from_python(document)?.to_string();
-        Self::from_text(py, text, "document", folder)
+    fn from_document(
+        py: Python<'_>,
+        document: &Bound<'_, PyAny>,
+        folder: PathBuf,
+        files: BTreeMap<PathBuf, String>,
+    ) -> PyResult<Self> {
+        let text = format!("{:#}", json::from_python(document)?);
+        let files = files.into_iter().map(|(name, text)| (folder.join(name), text));
+        let source = Arc::new(InMemoryFirst(api::InMemory::new(files)));
+        Self::new(py, source, |language, files| {
+            api::Study::from_text(language, files, text, "document", folder)
+        })
     }
 
     /// Title; `None` without one.

@@ -97,10 +97,26 @@ def test_evidence_lists_the_lowest_grade_first(transmission):
     assert evidence and {"what", "grade", "because", "paths"} <= set(evidence[0])
 
 
+def without_functions(value):
+    """A list of models or a schema without the model `function`, which exists in Python only."""
+    if isinstance(value, list):
+        return [without_functions(own) for own in value if not is_function(own)]
+    if isinstance(value, dict):
+        return {key: without_functions(own) for key, own in value.items()}
+    return value
+
+
+def is_function(value):
+    condition = value.get("if", {}) if isinstance(value, dict) else {}
+    model = condition.get("properties", {}).get("type", {}) if isinstance(condition, dict) else {}
+    return isinstance(value, dict) and "function" in (value.get("model"), value.get("const"), model.get("const"))
+
+
 def test_models_and_schemas_are_those_of_the_program(program):
-    assert gl.models() == json.loads(program("models", "--format", "json").stdout)
+    assert without_functions(gl.models()) == json.loads(program("models", "--format", "json").stdout)
     for kind in ("gearbox", "study", "eval", "result", "point", "check", "models"):
-        assert gl.schema(kind) == json.loads((ROOT / "schemas" / f"{kind}.schema.json").read_text())
+        expected = json.loads((ROOT / "schemas" / f"{kind}.schema.json").read_text())
+        assert without_functions(gl.schema(kind)) == expected
 
 
 def test_an_unknown_schema_is_an_error():

@@ -1,4 +1,4 @@
-//! `none`, `constant`, `formula` and `table`, written once for all mechanisms, including those of other crates.
+//! `none`, `constant`, `formula`, `table` and `function`, written once for all mechanisms, including those of other crates.
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
@@ -7,6 +7,7 @@ use serde_json::Value;
 use crate::description::Ordered;
 use crate::document::{Diagnostic, Unit, did_you_mean};
 use crate::formula::Formula;
+use crate::function::FunctionSource;
 use crate::mechanism::gear_drag::Scope;
 pub use crate::mechanism::scalar::PLACE;
 use crate::mechanism::scalar::{Input, ScalarLaw};
@@ -66,6 +67,14 @@ pub(crate) fn entries<M: Mechanism>() -> Vec<Entry> {
             build_table::<M>,
         ),
     ];
+    if FunctionSource::linked().is_some() {
+        entries.push(entry(
+            "function",
+            "{ type: function, name: law }",
+            <FunctionParams as JsonSchema>::json_schema,
+            build_function::<M>,
+        ));
+    }
     entries.retain(|entry| !M::OWN.contains(&entry.name));
     entries
 }
@@ -80,6 +89,13 @@ struct FormulaParams {
     /// Formula over the quantities of the context, such as `0.02 + 1e-6 * abs(speed) * nu`. `gearloss models` lists them with
     /// their units.
     formula: String,
+}
+
+/// A function of the program that embeds gearloss, over quantities of the context in their documented units.
+#[derive(Deserialize, JsonSchema)]
+struct FunctionParams {
+    /// Name under which the function was registered.
+    name: String,
 }
 
 /// A table over one to four quantities of the context, from a CSV file or written in the document.
@@ -168,6 +184,44 @@ fn build_formula<M: Mechanism>(value: &Value, cx: &mut Build<'_>) -> Result<Buil
     )
 }
 
+fn build_function<M: Mechanism>(value: &Value, cx: &mut Build<'_>) -> Result<Built, Diagnostic> {
+    let FunctionParams { name } = cx.params(value)?;
+    let source = FunctionSource::linked();
+    let function = source.and_then(|source| (source.find)(&name)).ok_or_else(|| {
+        let known = source.map_or_else(Vec::new, |source| (source.names)());
+        let error = cx.error(format!("there is no function `{name}`"));
+        match did_you_mean(&name, known.iter().map(String::as_str)) {
+            Some(close) => error.help(format!("write `{close}`")),
+            None if known.is_empty() => error.help("register it before the transmission is built"),
+            None => error.help(format!("use one of {}", known.join(", "))),
+        }
+    })?;
+    let inputs = function.quantities().iter().map(|quantity| input::<M>(quantity, cx));
+    let inputs = inputs.collect::<Result<Vec<_>, _>>().map_err(|error| Diagnostic {
+        message: format!("function `{name}`: {}", error.message),
+        ..error
+    })?;
+    built::<M>(ScalarLaw::Function(function, inputs), cx)
+}
+
+/// A quantity of the context by its name, for the part of the model.
+fn input<M: Mechanism>(name: &str, cx: &Build<'_>) -> Result<Input<M>, Diagnostic> {
+    let names: Vec<&str> = M::QUANTITIES.iter().map(|q| q.name).collect();
+    let quantity = M::QUANTITIES.iter().find(|q| q.name == name).ok_or_else(|| {
+        let error = cx.error(format!("the context of {} has no quantity `{name}`", M::KEY));
+        error.help(match did_you_mean(name, names.iter().copied()) {
+            Some(close) => format!("write `{close}`"),
+            None => format!("use one of {}", names.join(", ")),
+        })
+    })?;
+    match cx.part::<M>().and_then(|part| M::needs(part, quantity.name)) {
+        Some(needed) => Err(cx
+            .error(format!("`{name}` is unknown here"))
+            .help(format!("state {needed}"))),
+        None => Ok(Input::new(quantity)),
+    }
+}
+
 impl<M: Mechanism> Lookup<M> {
     /// Reads a CSV file with one column of results in `unit`.
     ///
@@ -196,26 +250,14 @@ impl<M: Mechanism> Lookup<M> {
         reading: &Reading,
         cx: &Build<'_>,
     ) -> Result<Self, Diagnostic> {
-        let mut axes = Vec::new();
-        for (name, _) in stated {
-            let names: Vec<&str> = M::QUANTITIES.iter().map(|q| q.name).collect();
-            let quantity = M::QUANTITIES.iter().find(|q| q.name == *name).ok_or_else(|| {
-                let error = cx.error(format!("`axes`: the context of {} has no quantity `{name}`", M::KEY));
-                error.help(match did_you_mean(name, names.iter().copied()) {
-                    Some(close) => format!("write `{close}`"),
-                    None => format!("use one of {}", names.join(", ")),
-                })
-            })?;
-            if let Some(needed) = cx.part::<M>().and_then(|part| M::needs(part, quantity.name)) {
-                return Err(cx
-                    .error(format!("`axes`: `{name}` is unknown here"))
-                    .help(format!("state {needed}")));
-            }
-            axes.push(quantity);
-        }
-        let grid = stated.iter().zip(&axes).map(|((name, values), quantity)| table::Axis {
+        let axes = stated.iter().map(|(name, _)| input::<M>(name, cx));
+        let axes = axes.collect::<Result<Vec<_>, _>>().map_err(|error| Diagnostic {
+            message: format!("`axes`: {}", error.message),
+            ..error
+        })?;
+        let grid = stated.iter().zip(&axes).map(|((name, values), axis)| table::Axis {
             name: name.clone(),
-            unit: quantity.unit().symbol.to_owned(),
+            unit: axis.unit().symbol.to_owned(),
             values: values.clone(),
         });
         let table = Table::from_grid(grid.collect(), values, reading).map_err(|reason| {
@@ -225,7 +267,7 @@ impl<M: Mechanism> Lookup<M> {
         })?;
         Ok(Self {
             tables: vec![table],
-            axes: axes.into_iter().map(Input::new).collect(),
+            axes,
         })
     }
 

@@ -57,6 +57,7 @@ pub mod coefficients;
 pub mod description;
 pub mod eval;
 pub mod formula;
+pub mod function;
 pub mod gearbox;
 pub mod generic;
 pub mod language;

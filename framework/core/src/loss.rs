@@ -355,6 +355,12 @@ pub struct Undefined {
 }
 
 impl Undefined {
+    /// A reason with its own text, which is kept for good: for few texts.
+    pub fn new(what: String, value: f64) -> Self {
+        let what = lasting(what);
+        Self { what, value }
+    }
+
     /// Points that are evaluated together take different branches of a law, so that each must be evaluated on its own. It never leaves
     /// the framework.
     pub const DISAGREED: Self = Self {
@@ -373,8 +379,7 @@ impl<'de> Deserialize<'de> for Undefined {
             value: f64,
         }
         let Reason { what, value } = Reason::deserialize(from)?;
-        let what = lasting(what);
-        Ok(Self { what, value })
+        Ok(Self::new(what, value))
     }
 }
 

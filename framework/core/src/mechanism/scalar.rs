@@ -1,13 +1,16 @@
-//! Laws with a single result, which serve every mechanism: a constant, a formula, a table over quantities of the context.
+//! Laws with a single result, which serve every mechanism: a constant, a formula, a table or a function over quantities of the context.
 //!
 //! [`crate::generic`] builds them from the parameters in a document.
 
+use std::sync::Arc;
+
 use crate::document::Unit;
 use crate::formula::Formula;
+use crate::function::Function;
 use crate::limits;
 use crate::loss::{Loss, Undefined};
 use crate::mechanism::{Inputs, Mechanism, Quantity};
-use crate::real::{Lane, Mask as _, Points as _, Real as _};
+use crate::real::{LANES, Lane, Mask as _, Points as _, Real as _};
 use crate::table::Table;
 
 /// A law with a single result: a coefficient, a moment or a power.
@@ -24,6 +27,8 @@ pub(crate) enum ScalarLaw<M: Mechanism> {
     /// With all quantities of the context, in the order of the names of the formula.
     Formula(Formula, Vec<Input<M>>),
     Table(Lookup<M>),
+    /// Of the embedding program, with the quantities that it takes.
+    Function(Arc<dyn Function>, Vec<Input<M>>),
 }
 
 /// A quantity of a context with its documented unit, which is looked up once.
@@ -39,6 +44,11 @@ impl<M: Mechanism> Input<M> {
             quantity,
             unit: quantity.unit(),
         }
+    }
+
+    /// Its documented unit.
+    pub(crate) fn unit(&self) -> &'static Unit {
+        self.unit
     }
 
     /// Its value at a context, in its documented unit.
@@ -70,6 +80,19 @@ impl<M: Mechanism> Scalar<M> {
             ScalarLaw::Table(lookup) => {
                 let (value, place) = lookup.value(at)?;
                 at.notes().check(&PLACE, place);
+                value
+            }
+            ScalarLaw::Function(function, inputs) => {
+                let inputs: Vec<Vec<f64>> = inputs.iter().map(|input| vec![input.value(at)]).collect();
+                let mut value = [0.0];
+                function.evaluate(&inputs, &mut value)?;
+                let [value] = value;
+                if !(0.0..=f64::MAX).contains(&value) {
+                    return Err(Undefined {
+                        what: "value of the function is negative or not finite",
+                        value,
+                    });
+                }
                 value
             }
         };
@@ -104,15 +127,27 @@ impl<M: Mechanism> Scalar<M> {
                     #[inline(always)]
                     |input| inputs[input].values(at),
                 );
-                // Points that have left the batch, or are at rest, are not asked.
-                let sound = values.is_within(0.0, f64::MAX);
-                if sound.all() || at.notes().points() & !Lane::bits(sound) == 0 {
-                    Ok(values.map(|value| self.unit.to_si(value)))
-                } else {
-                    Err(Undefined::DISAGREED)
-                }
+                self.sound(values, at)
+            }
+            ScalarLaw::Function(function, inputs) => {
+                let values = |lane: Lane| (0..LANES).map(|point| lane.at_point(point)).collect();
+                let inputs: Vec<Vec<f64>> = inputs.iter().map(|input| values(input.values(at))).collect();
+                let mut results = [0.0; LANES];
+                function.evaluate(&inputs, &mut results)?;
+                self.sound(Lane::each(|point| results[point]), at)
             }
             ScalarLaw::Table(_) => Err(Undefined::DISAGREED),
+        }
+    }
+
+    /// Values in SI, if those of all points that are asked for are sound. Points that have left the batch, or are at rest, are not.
+    #[inline(always)]
+    fn sound(&self, values: Lane, at: &M::At<'_, Lane>) -> Result<Lane, Undefined> {
+        let sound = values.is_within(0.0, f64::MAX);
+        if sound.all() || at.notes().points() & !Lane::bits(sound) == 0 {
+            Ok(values.map(|value| self.unit.to_si(value)))
+        } else {
+            Err(Undefined::DISAGREED)
         }
     }
 
@@ -126,7 +161,7 @@ impl<M: Mechanism> Scalar<M> {
         match self.law {
             ScalarLaw::None => Some(0.0),
             ScalarLaw::Constant(value) => Some(value),
-            ScalarLaw::Formula(..) | ScalarLaw::Table(_) => None,
+            ScalarLaw::Formula(..) | ScalarLaw::Table(_) | ScalarLaw::Function(..) => None,
         }
     }
 
@@ -135,7 +170,7 @@ impl<M: Mechanism> Scalar<M> {
         match &self.law {
             ScalarLaw::None | ScalarLaw::Constant(_) => true,
             ScalarLaw::Formula(formula, _) => formula.is_smooth(),
-            ScalarLaw::Table(_) => false,
+            ScalarLaw::Table(_) | ScalarLaw::Function(..) => false,
         }
     }
 
