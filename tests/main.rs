@@ -39,6 +39,7 @@ mod modules;
 mod mutated;
 mod network;
 mod new;
+mod optimise;
 mod peers;
 mod performance;
 mod planetary;

@@ -398,7 +398,7 @@ fn shards_lists_the_tasks_and_proposes_a_number() {
         let line = words.lines().find(|line| line.starts_with(name)).unwrap();
         line.split_whitespace().map(str::to_owned).collect()
     };
-    assert_eq!(row("maps")[1], "2", "{words}");
+    assert_eq!(row("maps")[1], "4", "{words}");
     assert_eq!(row("listed")[1..3], ["not", "split:"], "{words}");
     assert!(words.contains("on one core: one `gearloss run` suffices"), "{words}");
     fs::write(folder.join("study.yaml"), "gearloss: study/1\n").unwrap();

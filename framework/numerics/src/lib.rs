@@ -1,4 +1,4 @@
-//! Numerical methods of gearloss, independent of gears: least squares, inference, sampling, sensitivity.
+//! Numerical methods of gearloss, independent of gears: least squares, inference, sampling, sensitivity, search.
 
 // Fits and what they say.
 pub mod fit;
@@ -9,6 +9,7 @@ pub mod selection;
 // Which points to take or to vary.
 pub mod design;
 pub mod sampling;
+pub mod search;
 pub mod sensitivity;
 
 // What all of them use.

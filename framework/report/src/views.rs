@@ -10,6 +10,7 @@ pub mod fluid_sweep;
 pub mod identify;
 pub mod map;
 pub mod operating_points;
+pub mod optimise;
 pub mod rms_surface;
 pub mod sensitivity;
 pub mod sweep;

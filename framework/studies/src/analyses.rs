@@ -20,6 +20,7 @@ pub mod map;
 pub mod measurable;
 pub mod numbers;
 pub mod operating_points;
+pub mod optimise;
 pub mod progress;
 pub mod ranges;
 pub mod rms_surface;

@@ -27,6 +27,11 @@ impl Generator {
         ((u128::from(self.draw()) * bound as u128) >> 64) as usize
     }
 
+    /// The next number from zero to one, without one: 53 random bits.
+    pub fn unit(&mut self) -> f64 {
+        (self.draw() >> 11) as f64 * 2.0_f64.powi(-53)
+    }
+
     /// A random permutation of a list.
     ///
     /// Source: Durstenfeld, Comm. ACM 7 (1964) 420 (algorithm 235).

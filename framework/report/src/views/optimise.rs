@@ -1,0 +1,215 @@
+//! The best design: its values, its changes, limits; progress of the search, and the front of several cycles.
+
+mod summary;
+
+use gearloss_studies::analyses::optimise::{ChangeOfDesign, DesignOfSearch, GainOfCycle, OptimiseOutcome};
+
+use crate::Figure;
+use crate::page::Page;
+use crate::plot::{Interval, Line, Stroke};
+use crate::register_view;
+use crate::text::{TextTable, number, significant};
+
+register_view!(OptimiseOutcome, show);
+
+/// Designs of the front that are printed.
+const PRINTED: usize = 12;
+
+fn show(outcome: &OptimiseOutcome, page: &mut Page) {
+    summary::add(outcome, page);
+    let minimised: Vec<&GainOfCycle> = outcome.gains.iter().filter(|own| own.minimised).collect();
+    variables(outcome, page);
+    losses(outcome, page);
+    changes(outcome, &minimised, page);
+    limits(outcome, page);
+    front(outcome, &minimised, page);
+    let figures = [
+        saved(outcome, &minimised),
+        compromises(outcome, &minimised),
+        progress(outcome, &minimised),
+    ];
+    for (name, figure) in figures.into_iter().flatten() {
+        page.figure(format!("{}-{name}", outcome.head.analysis), figure);
+    }
+}
+
+fn variables(outcome: &OptimiseOutcome, page: &mut Page) {
+    let way = if outcome.exhaustive {
+        "every combination"
+    } else {
+        "searched"
+    };
+    page.line(format!(
+        "{}: {} designs, {way}; {} keep all limits, {} could not be driven; models {}",
+        outcome.head.analysis, outcome.designs, outcome.feasible, outcome.failed, outcome.model_set
+    ));
+    let mut table = TextTable::new(&["variable", "path", "present", "best"]);
+    for own in &outcome.variables {
+        let end = if own.at_end_of_range { " (end of range)" } else { "" };
+        let best = own
+            .best
+            .as_ref()
+            .map_or_else(|| "-".to_owned(), |best| format!("{best}{end}"));
+        table.row(vec![own.variable.clone(), own.path.clone(), own.present.clone(), best]);
+    }
+    page.table(table);
+}
+
+fn losses(outcome: &OptimiseOutcome, page: &mut Page) {
+    let mut table = TextTable::new(&[
+        "cycle",
+        "present W",
+        "best W",
+        "gain W",
+        "least W of any design",
+        "gain at 2.5 %",
+        "at 97.5 %",
+    ]);
+    for own in &outcome.gains {
+        let band = own.band.map(|band| band.gain_w);
+        table.row(vec![
+            own.cycle.clone(),
+            number(Some(own.present_w), 2),
+            number(own.best_w, 2),
+            number(own.best_w.map(|best| own.present_w - best), 2),
+            number(own.least_w, 2),
+            number(band.map(|band| band[0]), 2),
+            number(band.map(|band| band[2]), 2),
+        ]);
+    }
+    page.table(table);
+}
+
+fn changes(outcome: &OptimiseOutcome, minimised: &[&GainOfCycle], page: &mut Page) {
+    if outcome.changes.is_empty() {
+        return;
+    }
+    let mut titles = vec!["change".to_owned(), "from".to_owned(), "to".to_owned()];
+    for own in minimised {
+        titles.push(format!("{} alone W", own.cycle));
+        titles.push(format!("{} share W", own.cycle));
+    }
+    let mut table = TextTable::new(&titles.iter().map(String::as_str).collect::<Vec<_>>());
+    for own in &outcome.changes {
+        let mut row = vec![own.variable.clone(), own.from.clone(), own.to.clone()];
+        for i in 0..minimised.len() {
+            let value = |list: &Option<Vec<f64>>| number(list.as_ref().map(|list| list[i]), 2);
+            row.extend([value(&own.alone_w), value(&own.share_w)]);
+        }
+        table.row(row);
+    }
+    page.table(table);
+    page.line("  alone: the gain of this change only; share: its share of the gain of all changes (Shapley value)");
+}
+
+fn limits(outcome: &OptimiseOutcome, page: &mut Page) {
+    if outcome.limits.is_empty() {
+        return;
+    }
+    let mut table = TextTable::new(&["limit", "quantity", "least", "most", "present", "best", "unit"]);
+    for own in &outcome.limits {
+        let value = |x: Option<f64>| x.map_or_else(|| "-".to_owned(), significant);
+        let best = if own.binding { "*" } else { "" };
+        table.row(vec![
+            own.limit.clone(),
+            own.quantity.clone(),
+            value(own.least),
+            value(own.most),
+            value(own.present),
+            value(own.best) + best,
+            own.unit.clone(),
+        ]);
+    }
+    page.table(table);
+    if outcome.limits.iter().any(|own| own.binding) {
+        page.line("  * at the limit");
+    }
+}
+
+/// The designs of a front of several cycles.
+fn front(outcome: &OptimiseOutcome, minimised: &[&GainOfCycle], page: &mut Page) {
+    if minimised.len() < 2 {
+        return;
+    }
+    let mut titles: Vec<&str> = minimised.iter().map(|own| own.cycle.as_str()).collect();
+    titles.extend(outcome.variables.iter().map(|own| own.variable.as_str()));
+    let mut table = TextTable::new(&titles).titled("Front: mean losses in W, and values");
+    let step = outcome.front.len().div_ceil(PRINTED).max(1);
+    for own in outcome.front.iter().step_by(step) {
+        let losses = own.mean_losses_w.iter().flatten().map(|loss| number(Some(*loss), 2));
+        table.row(losses.chain(own.values.iter().cloned()).collect());
+    }
+    page.table(table);
+}
+
+/// The gain of each change in the first cycle: its band, or its value.
+fn saved(outcome: &OptimiseOutcome, minimised: &[&GainOfCycle]) -> Option<(&'static str, Figure)> {
+    let cycle = &minimised.first()?.cycle;
+    let interval = |own: &ChangeOfDesign| {
+        Some(Interval {
+            name: format!("{} {}", own.variable, own.to),
+            at: own.alone_w.as_ref()?[0],
+            ends: own.bands.first().map(|band| [band.gain_w[0], band.gain_w[2]]),
+            before: own.share_w.as_ref().map(|share| share[0]),
+        })
+    };
+    let list: Vec<Interval> = outcome.changes.iter().filter_map(interval).collect();
+    let figure = Figure::Intervals {
+        title: format!("{}: gain of each change alone over {cycle}", outcome.head.analysis),
+        x: "gain in W".to_owned(),
+        marks: vec![0.0],
+        list: list.clone(),
+    };
+    (!list.is_empty()).then_some(("changes", figure))
+}
+
+/// Losses of two cycles: all designs that keep the limits, and the front.
+fn compromises(outcome: &OptimiseOutcome, minimised: &[&GainOfCycle]) -> Option<(&'static str, Figure)> {
+    let [first, second, ..] = minimised else { return None };
+    let point = |own: &DesignOfSearch| own.mean_losses_w.as_ref().map(|all| (all[0], all[1]));
+    let kept = outcome.all.iter().filter(|own| own.violation == Some(0.0));
+    let line = |name: &str, points: Vec<Option<(f64, f64)>>, stroke| Line {
+        name: name.to_owned(),
+        points,
+        stroke,
+    };
+    let figure = Figure::Lines {
+        title: format!("{}: front of both cycles", outcome.head.analysis),
+        x: format!("mean loss over {} in W", first.cycle),
+        y: format!("mean loss over {} in W", second.cycle),
+        lines: vec![
+            line("designs that keep the limits", kept.map(point).collect(), Stroke::Dots),
+            line("front", outcome.front.iter().map(point).collect(), Stroke::Marked),
+            line("present", vec![Some((first.present_w, second.present_w))], Stroke::Dots),
+        ],
+    };
+    Some(("front", figure))
+}
+
+/// The least loss of the first cycle among the designs so far.
+fn progress(outcome: &OptimiseOutcome, minimised: &[&GainOfCycle]) -> Option<(&'static str, Figure)> {
+    let cycle = &minimised.first()?.cycle;
+    let mut least = f64::INFINITY;
+    let best = |own: &DesignOfSearch| {
+        let loss = own.mean_losses_w.as_ref()?[0];
+        if own.violation == Some(0.0) {
+            least = least.min(loss);
+        }
+        least.is_finite().then_some((own.design as f64, least))
+    };
+    let points: Vec<Option<(f64, f64)>> = outcome.all.iter().map(best).collect();
+    let figure = Figure::Lines {
+        title: format!(
+            "{}: least mean loss over {cycle} among the designs so far",
+            outcome.head.analysis
+        ),
+        x: "designs".to_owned(),
+        y: "mean loss in W".to_owned(),
+        lines: vec![Line {
+            name: "least loss".to_owned(),
+            points: points.clone(),
+            stroke: Stroke::Line,
+        }],
+    };
+    points.iter().any(Option::is_some).then_some(("progress", figure))
+}

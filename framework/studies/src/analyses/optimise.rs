@@ -1,0 +1,173 @@
+//! The design with the least mean loss of cycles under limits.
+
+mod band;
+mod changes;
+mod drives;
+mod limits;
+mod outcome;
+mod search;
+mod variables;
+
+use gearloss_framework::description::Ordered;
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+pub use limits::{LimitEntry, LimitedQuantity};
+pub use outcome::{
+    BandOfGain, ChangeOfDesign, DesignOfSearch, GainOfCycle, LimitOfSearch, OptimiseOutcome, VariableOfSearch,
+};
+pub use variables::{Scale, VariableEntry};
+
+use self::drives::Drives;
+use self::limits::Limit;
+use self::search::Search;
+use self::variables::Variable;
+use super::duties::Duties;
+use super::inputs::Input;
+use super::trial::Trial;
+use super::{Analysis, Context, Stopped};
+use crate::register_analysis;
+use crate::study::{DriveEntry, Then, ToleranceEntry, Uses, Write};
+
+/// The design with the least mean loss of cycles under limits: which change saves most?
+///
+/// Numbers and choices are searched together by an evolutionary algorithm (NSGA-II), then the numbers are refined. Several cycles are
+/// several objectives, whose best compromises form a front.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+pub struct OptimiseEntry {
+    /// Cycles and settings of the simulation; one model set.
+    #[serde(flatten)]
+    pub drive: DriveEntry,
+    /// Variables by name.
+    #[schemars(length(min = 1, max = 64))]
+    pub variables: Ordered<VariableEntry>,
+    /// Cycles whose mean losses are minimised; default: all. The others are for limits.
+    #[serde(default)]
+    pub minimise: Vec<String>,
+    /// Limits by name, which a design must keep.
+    #[serde(default)]
+    pub limits: Ordered<LimitEntry>,
+    /// Maximum number of designs. [-]
+    #[serde(default = "designs")]
+    #[schemars(range(min = 16, max = 1_000_000))]
+    pub designs: u32,
+    /// Designs of a generation; default: 8 and 4 for each variable, at most 64. [-]
+    #[schemars(range(min = 8, max = 1000))]
+    pub population: Option<u32>,
+    /// Seed of the random numbers. [-]
+    #[serde(default = "seed")]
+    #[schemars(range(min = 0, max = 4_294_967_295_u32))]
+    pub seed: u32,
+    /// Uncertain inputs for the band of the gain: the present and the best design are driven with the same values drawn from their
+    /// distributions.
+    #[serde(default)]
+    pub inputs: Vec<ToleranceEntry>,
+    /// Number of samples of uncertain inputs; powers of two fill the ranges most evenly. [-]
+    #[serde(default = "samples")]
+    #[schemars(range(min = 8, max = 65536))]
+    pub samples: u32,
+    /// Name of a model set with the best design, for later analyses.
+    pub then: Option<String>,
+    /// Formats to write; default: CSV, JSON and SVG.
+    #[serde(default = "Write::every_format")]
+    pub write: Vec<Write>,
+}
+
+fn designs() -> u32 {
+    400
+}
+
+fn seed() -> u32 {
+    1
+}
+
+fn samples() -> u32 {
+    64
+}
+
+register_analysis!(OptimiseEntry);
+
+impl Analysis for OptimiseEntry {
+    const TYPE: &'static str = "optimise";
+    type Outcome = OptimiseOutcome;
+
+    fn uses(&self) -> Uses<'_> {
+        Uses::driving(&self.drive)
+    }
+
+    fn then(&self) -> Option<Then<'_>> {
+        let set = self.then.as_deref()?;
+        Some(Then {
+            set,
+            model_sets: &self.drive.model_sets,
+        })
+    }
+
+    fn run(&self, cx: &Context<'_>) -> Result<OptimiseOutcome, Stopped> {
+        let path = cx.path();
+        let gearbox = cx.gearbox(self.drive.gearbox.as_ref())?;
+        if self.drive.model_sets.len() > 1 {
+            let help = "give one, and write an analysis for each other one";
+            return Err(cx.wrong(&format!("{path}.model_sets"), "a search has one model set", help));
+        }
+        let duties = Duties::new(cx, &path, &self.drive.ride, self.drive.gear.as_ref())?;
+        let built = cx.built(gearbox, &self.drive.model_sets)?;
+        let b = &built[0];
+        duties.check(cx, &path, b)?;
+        let variables = Variable::all(cx, &path, &self.variables, b)?;
+        let objectives = self.objectives(cx, &duties)?;
+        let limits = Limit::all(cx, &path, &self.limits, &duties, b)?;
+        let inputs = Input::all(cx, &path, &self.inputs, b)?;
+        let drives = Drives {
+            cx,
+            duties: &duties,
+            trial: Trial::new(cx, b),
+            variables: &variables,
+            limits: &limits,
+        };
+        drives.check()?;
+        cx.begin()?;
+        let present = drives.present()?;
+        let mut search = Search::new(&drives, self, &present, &objectives);
+        search.run()?;
+        let chosen = search.chosen();
+        let changes = match &chosen {
+            Some(chosen) => changes::of_design(&drives, &chosen.genes, &present, &objectives)?,
+            None => Vec::new(),
+        };
+        let band = match &chosen {
+            Some(chosen) if !inputs.is_empty() => {
+                let changed: Vec<usize> = changes.iter().map(|change| change.variable).collect();
+                band::of_gain(&drives, self.samples, &inputs, &chosen.genes, &changed, &objectives)?
+            }
+            _ => Vec::new(),
+        };
+        Ok(outcome::put_together(
+            cx,
+            self,
+            b,
+            &drives,
+            &search,
+            &present,
+            &objectives,
+            changes,
+            band,
+        ))
+    }
+
+    fn formats(&self) -> &[Write] {
+        &self.write
+    }
+}
+
+impl OptimiseEntry {
+    /// Indices of the cycles that are minimised.
+    fn objectives(&self, cx: &Context<'_>, duties: &Duties<'_>) -> Result<Vec<usize>, Stopped> {
+        if self.minimise.is_empty() {
+            return Ok((0..duties.list.len()).collect());
+        }
+        let index =
+            |(i, name): (usize, &String)| limits::cycle(cx, &format!("{}.minimise.{i}", cx.path()), name, duties);
+        self.minimise.iter().enumerate().map(index).collect()
+    }
+}

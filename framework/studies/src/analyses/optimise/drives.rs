@@ -1,0 +1,120 @@
+//! Driven designs: losses of the cycles and limited quantities.
+
+use gearloss_numerics::search::Gene;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+use super::limits::{Limit, mean_loss};
+use super::variables::Variable;
+use crate::analyses::balance::reason;
+use crate::analyses::duties::Duties;
+use crate::analyses::trial::{Left, Trial, left};
+use crate::analyses::{Context, Stopped};
+use crate::points::Driven;
+
+/// What is driven, and how designs are built.
+pub struct Drives<'a> {
+    pub cx: &'a Context<'a>,
+    pub duties: &'a Duties<'a>,
+    pub trial: Trial<'a>,
+    pub variables: &'a [Variable],
+    pub limits: &'a [Limit],
+}
+
+/// A driven design.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Drive {
+    /// Mean loss of each cycle. \[W\]
+    pub losses: Vec<f64>,
+    /// Limited quantities, in the order and the units of the limits.
+    pub limited: Vec<f64>,
+    /// Quantities outside their stated ranges.
+    pub left: Left,
+}
+
+impl Drives<'_> {
+    /// The genes of the variables.
+    pub fn genes(&self) -> Vec<Gene> {
+        self.variables.iter().map(Variable::gene).collect()
+    }
+
+    /// Builds the gearbox with every choice on its own, so that wrong values are found before the search.
+    pub fn check(&self) -> Result<(), Stopped> {
+        for variable in self.variables {
+            let Gene::Choice(count) = variable.gene() else { continue };
+            for choice in 0..count {
+                if let Err(reason) = self.trial.build(variable.overrides(choice as f64)) {
+                    let path = format!("{}.variables.{}.values.{choice}", self.cx.path(), variable.name);
+                    return Err(self.cx.wrong(&path, reason, "correct the value, or delete it"));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The design as described.
+    pub fn present(&self) -> Result<Drive, Stopped> {
+        let mut driven = self.cx.each("design as described", 1, |_| self.drive(Vec::new()))?;
+        driven.remove(0).map_err(|reason| {
+            let help = "examine it with an analysis `cycle`";
+            self.cx
+                .wrong(&self.cx.path(), format!("the gearbox as described: {reason}"), help)
+        })
+    }
+
+    /// Overrides of the variables of a subset; the others are as described.
+    pub fn overrides<'g>(&'g self, genes: &'g [f64], own: impl Fn(usize) -> bool + 'g) -> Vec<(String, Value)> {
+        let own = self
+            .variables
+            .iter()
+            .zip(genes)
+            .enumerate()
+            .filter(move |(i, _)| own(*i));
+        own.flat_map(|(_, (variable, gene))| variable.overrides(*gene))
+            .collect()
+    }
+
+    /// Drives all cycles with overrides.
+    ///
+    /// # Errors
+    /// Why the gearbox cannot be built or driven.
+    pub fn drive(&self, overrides: Vec<(String, Value)>) -> Result<Drive, String> {
+        let t = self.trial.build(overrides)?;
+        let mut driven: Vec<Driven> = Vec::new();
+        for read in &self.duties.list {
+            let own = self.duties.drive(&t, read, &|_| self.cx.should_continue());
+            let own = own.map_err(|list| list.first().map_or_else(String::new, |d| d.message.clone()))?;
+            let own = own.ok_or_else(|| "interrupted".to_owned())?;
+            if let Some((time, why)) = &own.broken {
+                return Err(format!(
+                    "`{}` could not be simulated beyond {time} s: {}",
+                    read.name,
+                    reason(&t, why)
+                ));
+            }
+            driven.push(own);
+        }
+        let losses = driven.iter().map(|own| mean_loss(own).unwrap_or(f64::INFINITY));
+        let limited = self
+            .limits
+            .iter()
+            .map(|limit| limit.value(&t, &driven).unwrap_or(f64::NAN));
+        Ok(Drive {
+            losses: losses.collect(),
+            limited: limited.collect(),
+            left: driven.iter().flat_map(|own| left(&t, &own.seen)).collect(),
+        })
+    }
+
+    /// Drives designs with their genes, each as a task.
+    pub fn drive_all(&self, label: &str, designs: &[Vec<f64>]) -> Result<Vec<Result<Drive, String>>, Stopped> {
+        let drive = |i: usize| self.drive(self.overrides(&designs[i], |_| true));
+        self.cx.each(label, designs.len(), drive)
+    }
+
+    /// Sum of the violations of the limits.
+    pub fn violation(&self, drive: &Drive) -> f64 {
+        let pairs = self.limits.iter().zip(&drive.limited);
+        pairs.map(|(limit, value)| limit.violation(*value)).sum()
+    }
+}

@@ -1,0 +1,222 @@
+//! Variables of a design: numbers in ranges, and choices.
+
+use gearloss_framework::description::Ordered;
+use gearloss_framework::resolve::lookup;
+use gearloss_numerics::search::Gene;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+use crate::analyses::ranges::Range;
+use crate::analyses::{Built, Context, Stopped};
+use crate::study::RangeEntry;
+
+/// A variable of a design: a number in a range, or one of several values.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+pub struct VariableEntry {
+    /// The quantity, and its range if it is a number.
+    #[serde(flatten)]
+    pub range: RangeEntry,
+    /// Values to choose from, each as in a gearbox: numbers, designations, records of models. Not with a range.
+    #[serde(default)]
+    pub values: Vec<Value>,
+    /// Scale on which a number is searched.
+    #[serde(default)]
+    pub scale: Scale,
+}
+
+/// Scale of a range.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Scale {
+    /// Equal differences count equally.
+    #[default]
+    Linear,
+    /// Equal ratios count equally; both ends are positive.
+    Log,
+}
+
+/// A variable as read.
+pub struct Variable {
+    /// Name in the study.
+    pub name: String,
+    /// Path as written.
+    pub path: String,
+    kind: Kind,
+}
+
+enum Kind {
+    Number {
+        range: Box<Range>,
+        log: bool,
+    },
+    Choice {
+        values: Vec<Value>,
+        /// The value of the description among them.
+        present: Option<usize>,
+    },
+}
+
+impl Variable {
+    /// The variables of an analysis at a path.
+    pub fn all(
+        cx: &Context<'_>,
+        path: &str,
+        entries: &Ordered<VariableEntry>,
+        b: &Built<'_>,
+    ) -> Result<Vec<Self>, Stopped> {
+        let entries = entries.iter();
+        entries
+            .map(|(name, entry)| Self::new(cx, &format!("{path}.variables.{name}"), name, entry, b))
+            .collect()
+    }
+
+    fn new(cx: &Context<'_>, at: &str, name: &str, entry: &VariableEntry, b: &Built<'_>) -> Result<Self, Stopped> {
+        let path = &entry.range.path;
+        let RangeEntry {
+            plus_minus,
+            percent,
+            from,
+            to,
+            ..
+        } = &entry.range;
+        let is_range = plus_minus.is_some() || percent.is_some() || from.is_some() || to.is_some();
+        let kind = if entry.values.is_empty() {
+            let range = Range::new(cx, at, &entry.range, b)?;
+            range.inside(cx, at)?;
+            let log = entry.scale == Scale::Log;
+            if log && range.ends[0] <= 0.0 {
+                let message = format!(
+                    "{path}: a logarithmic scale needs positive ends, not {}",
+                    range.varied.words(range.ends[0])
+                );
+                return Err(cx.wrong(at, message, "raise the lower end, or delete `scale: log`"));
+            }
+            Kind::Number {
+                range: Box::new(range),
+                log,
+            }
+        } else if is_range || entry.scale == Scale::Log {
+            let message = "a variable has either `values` or a range";
+            return Err(cx.wrong(at, message, "delete `values`, or the range and its scale"));
+        } else if entry.values.len() < 2 {
+            let message = "there is only one value to choose";
+            return Err(cx.wrong(
+                &format!("{at}.values"),
+                message,
+                "add the values to choose from, the present one among them",
+            ));
+        } else {
+            let own = lookup(&b.resolved.value, path);
+            Kind::Choice {
+                present: own.and_then(|own| entry.values.iter().position(|value| value == own)),
+                values: entry.values.clone(),
+            }
+        };
+        Ok(Self {
+            name: name.to_owned(),
+            path: path.clone(),
+            kind,
+        })
+    }
+
+    /// Its gene.
+    pub fn gene(&self) -> Gene {
+        match &self.kind {
+            Kind::Number { .. } => Gene::Number,
+            Kind::Choice { values, .. } => Gene::Choice(values.len()),
+        }
+    }
+
+    /// The gene of the description, or the nearest to it.
+    pub fn present(&self) -> f64 {
+        match &self.kind {
+            Kind::Choice { present, .. } => present.unwrap_or(0) as f64,
+            Kind::Number { range, log } => {
+                let [low, high] = range.ends.map(|end| on_scale(end, *log));
+                let own = range.varied.start().filter(|own| !log || *own > 0.0);
+                own.map_or(0.5, |own| ((on_scale(own, *log) - low) / (high - low)).clamp(0.0, 1.0))
+            }
+        }
+    }
+
+    /// The number of a gene, in the unit of the path, with four digits; absent for a choice.
+    pub fn number(&self, gene: f64) -> Option<f64> {
+        match &self.kind {
+            Kind::Choice { .. } => None,
+            Kind::Number { range, log } => {
+                let [low, high] = range.ends;
+                let own = if *log {
+                    low * (high / low).powf(gene)
+                } else {
+                    range.value_at(gene)
+                };
+                Some(rounded(own).clamp(low, high))
+            }
+        }
+    }
+
+    /// Overrides of a gene.
+    pub fn overrides(&self, gene: f64) -> Vec<(String, Value)> {
+        match &self.kind {
+            Kind::Number { range, .. } => range.varied.overrides(self.number(gene).unwrap_or_default()).collect(),
+            Kind::Choice { values, .. } => vec![(self.path.clone(), values[gene as usize].clone())],
+        }
+    }
+
+    /// Whether a gene is the value of the description, to a thousandth of the range.
+    pub fn is_present(&self, gene: f64) -> bool {
+        match &self.kind {
+            Kind::Choice { present, .. } => present.is_some_and(|own| own as f64 == gene),
+            Kind::Number { range, .. } => {
+                let [now, own] = [range.varied.start(), self.number(gene)];
+                let [low, high] = range.ends;
+                now.zip(own)
+                    .is_some_and(|(now, own)| (own - now).abs() <= 1e-3 * (high - low))
+            }
+        }
+    }
+
+    /// A gene in words.
+    pub fn words(&self, gene: f64) -> String {
+        match &self.kind {
+            Kind::Number { range, .. } => range.varied.words(self.number(gene).unwrap_or_default()),
+            Kind::Choice { values, .. } => in_words(&values[gene as usize]),
+        }
+    }
+
+    /// The value of the description in words.
+    pub fn present_words(&self, b: &Built<'_>) -> String {
+        match &self.kind {
+            Kind::Number { range, .. } => {
+                let own = range.varied.start();
+                own.map_or_else(|| "not stated".to_owned(), |own| range.varied.words(own))
+            }
+            Kind::Choice { .. } => {
+                lookup(&b.resolved.value, &self.path).map_or_else(|| "not stated".to_owned(), in_words)
+            }
+        }
+    }
+}
+
+/// A number with four digits: more cannot be made, and are hard to read.
+fn rounded(x: f64) -> f64 {
+    if x == 0.0 {
+        return x;
+    }
+    // As text, because a product with a power of ten has other last bits.
+    format!("{x:.3e}").parse().unwrap_or(x)
+}
+
+fn on_scale(x: f64, log: bool) -> f64 {
+    if log { x.ln() } else { x }
+}
+
+/// A value in words: a record by its type.
+fn in_words(value: &Value) -> String {
+    match (value, value.get("type")) {
+        (_, Some(Value::String(name))) => name.clone(),
+        (Value::String(text), _) => text.clone(),
+        _ => value.to_string(),
+    }
+}
