@@ -43,16 +43,16 @@ export function drawIntervals(stage: Stage, given: Intervals): void {
     if (interval.before !== null) svg(group, "circle", { cx: sx(interval.before), cy: y, r: 5, fill: "none", stroke: PALETTE[5], "stroke-width": 2 });
     svg(group, "circle", { cx: sx(interval.at), cy: y, r: 5, fill: colour });
     group.addEventListener("pointermove", (event) => {
-      const rows = [{ name: "found", value: significant(interval.at, 4), strong: true }];
+      const rows = [{ name: data.key[0], value: significant(interval.at, 4), strong: true }];
       if (interval.ends) rows.push({ name: "95 %", value: `${significant(interval.ends[0], 4)} to ${significant(interval.ends[1], 4)}`, strong: false });
-      if (interval.before !== null) rows.push({ name: "stated", value: significant(interval.before, 4), strong: false });
+      if (interval.before !== null) rows.push({ name: data.key[1], value: significant(interval.before, 4), strong: false });
       tip.show({ head: interval.name, rows }, event.clientX, event.clientY);
     });
     group.addEventListener("pointerleave", () => tip.hide());
   });
-  const entries: Entry[] = [{ name: data.list.some((i) => i.ends) ? "found, 95 %" : "found", colour, mark: "bar" }];
-  if (data.list.some((i) => i.before !== null)) entries.push({ name: "stated", colour: PALETTE[5], mark: "ring" });
-  if (data.marks.length) entries.push({ name: "bounds", mark: "dashed" });
+  const entries: Entry[] = [{ name: data.list.some((i) => i.ends) ? `${data.key[0]}, 95 %` : data.key[0], colour, mark: "bar" }];
+  if (data.list.some((i) => i.before !== null)) entries.push({ name: data.key[1], colour: PALETTE[5], mark: "ring" });
+  if (data.marks.length) entries.push({ name: data.key[2], mark: "dashed" });
   legend(stage.root, entries);
 }
 

@@ -87,6 +87,7 @@ export interface Intervals {
   title: string;
   x: string;
   marks: number[];
+  key: [string, string, string];
   list: Interval[];
 }
 

@@ -59,6 +59,8 @@ pub enum Figure {
         x: String,
         /// Values at which lines are drawn, such as bounds.
         marks: Vec<f64>,
+        /// What the values, the references and the lines are, in the legend.
+        key: [String; 3],
         /// The intervals.
         list: Vec<Interval>,
     },
@@ -201,7 +203,9 @@ impl Figure {
                 places,
                 stacks,
             } => plot::areas(title, (x, y), names, places, stacks),
-            Self::Intervals { title, x, marks, list } => plot::intervals(title, x, marks, list),
+            Self::Intervals {
+                title, x, marks, list, ..
+            } => plot::intervals(title, x, marks, list),
         }
     }
 }

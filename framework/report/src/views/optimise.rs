@@ -5,6 +5,7 @@ mod summary;
 use gearloss_studies::analyses::optimise::{ChangeOfDesign, DesignOfSearch, GainOfCycle, OptimiseOutcome};
 
 use crate::Figure;
+use crate::names::cycle;
 use crate::page::Page;
 use crate::plot::{Interval, Line, Stroke};
 use crate::register_view;
@@ -144,7 +145,7 @@ fn front(outcome: &OptimiseOutcome, minimised: &[&GainOfCycle], page: &mut Page)
 
 /// The gain of each change in the first cycle: its band, or its value.
 fn saved(outcome: &OptimiseOutcome, minimised: &[&GainOfCycle]) -> Option<(&'static str, Figure)> {
-    let cycle = &minimised.first()?.cycle;
+    let of = cycle(&minimised.first()?.cycle);
     let interval = |own: &ChangeOfDesign| {
         Some(Interval {
             name: format!("{} {}", own.variable, own.to),
@@ -155,9 +156,10 @@ fn saved(outcome: &OptimiseOutcome, minimised: &[&GainOfCycle]) -> Option<(&'sta
     };
     let list: Vec<Interval> = outcome.changes.iter().filter_map(interval).collect();
     let figure = Figure::Intervals {
-        title: format!("{}: gain of each change alone over {cycle}", outcome.head.analysis),
+        title: format!("{}: gain of each change alone over {of}", outcome.head.analysis),
         x: "gain in W".to_owned(),
         marks: vec![0.0],
+        key: ["gain of the change alone", "its share of the gain of all", "no gain"].map(str::to_owned),
         list: list.clone(),
     };
     (!list.is_empty()).then_some(("changes", figure))
@@ -175,8 +177,8 @@ fn compromises(outcome: &OptimiseOutcome, minimised: &[&GainOfCycle]) -> Option<
     };
     let figure = Figure::Lines {
         title: format!("{}: front of both cycles", outcome.head.analysis),
-        x: format!("mean loss over {} in W", first.cycle),
-        y: format!("mean loss over {} in W", second.cycle),
+        x: format!("mean loss over {} in W", cycle(&first.cycle)),
+        y: format!("mean loss over {} in W", cycle(&second.cycle)),
         lines: vec![
             line("designs that keep the limits", kept.map(point).collect(), Stroke::Dots),
             line("front", outcome.front.iter().map(point).collect(), Stroke::Marked),
@@ -188,7 +190,7 @@ fn compromises(outcome: &OptimiseOutcome, minimised: &[&GainOfCycle]) -> Option<
 
 /// The least loss of the first cycle among the designs so far.
 fn progress(outcome: &OptimiseOutcome, minimised: &[&GainOfCycle]) -> Option<(&'static str, Figure)> {
-    let cycle = &minimised.first()?.cycle;
+    let of = cycle(&minimised.first()?.cycle);
     let mut least = f64::INFINITY;
     let best = |own: &DesignOfSearch| {
         let loss = own.mean_losses_w.as_ref()?[0];
@@ -200,7 +202,7 @@ fn progress(outcome: &OptimiseOutcome, minimised: &[&GainOfCycle]) -> Option<(&'
     let points: Vec<Option<(f64, f64)>> = outcome.all.iter().map(best).collect();
     let figure = Figure::Lines {
         title: format!(
-            "{}: least mean loss over {cycle} among the designs so far",
+            "{}: least mean loss over {of} among the designs so far",
             outcome.head.analysis
         ),
         x: "designs".to_owned(),

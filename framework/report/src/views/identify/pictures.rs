@@ -74,6 +74,7 @@ fn parameters(name: &str, o: &IdentificationOfSet) -> Figure {
         title: format!("{name}: parameters of {} between their bounds", o.model_set),
         x: "0: lower bound, 1: upper bound (logarithmic parameters by their logarithm)".to_owned(),
         marks: vec![0.0, 1.0],
+        key: ["found", "stated", "bounds"].map(str::to_owned),
         list: all.map(interval).filter(|i| i.at.is_finite()).collect(),
     }
 }
