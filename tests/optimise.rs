@@ -166,6 +166,27 @@ fn the_best_design_is_a_gearbox_that_runs() {
 }
 
 #[test]
+fn designations_come_from_the_catalogue() {
+    let found = search(&common(
+        "    cycles: [loads]\n    variables: { bearing: { path: bearings.B5.designation, catalogue: { kind: deep_groove_ball, bore: 50 mm } } }",
+    ));
+    assert!(found.exhaustive, "{found:?}");
+    let all: Vec<&str> = found.all.iter().map(|own| own.values[0].as_str()).collect();
+    assert!(
+        all.contains(&"6010") && all.contains(&"16010") && all.len() >= 5,
+        "{all:?}"
+    );
+    let words = optimised(&common(
+        "    cycles: [loads]\n    variables: { bearing: { path: bearings.B5.designation, catalogue: { bore: 51 mm } } }",
+    ));
+    let words = words.map(|_| ()).unwrap_err();
+    assert!(
+        words.contains("no designation has `bore: 51 mm`") && words.contains("catalogue.bore"),
+        "{words}"
+    );
+}
+
+#[test]
 fn wrong_entries_are_reported() {
     let variables = "    cycles: [loads]\n    variables: ";
     for (analysis, said) in [

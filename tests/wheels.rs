@@ -40,6 +40,9 @@ fn two_wheels_drive_straight_through_map_cycle_and_fluid_sweep() {
     let oils = read("oils");
     let fluids = oils["fluid_sweep"][0]["cycles"][0]["fluids"].as_array().unwrap();
     let losses: Vec<f64> = fluids.iter().map(|f| number(&f["mean_loss_w"])).collect();
-    assert!(losses.windows(2).all(|pair| pair[0] < pair[1]) && losses.len() >= 4, "{losses:?}");
+    assert!(
+        losses.windows(2).all(|pair| pair[0] < pair[1]) && losses.len() >= 4,
+        "{losses:?}"
+    );
     let _ = std::fs::remove_dir_all(&folder);
 }

@@ -10,6 +10,7 @@ use serde_json::Value;
 use crate::analyses::ranges::Range;
 use crate::analyses::{Built, Context, Stopped};
 use crate::study::RangeEntry;
+use crate::varied::{Tie, Varied};
 
 /// A variable of a design: a number in a range, or one of several values.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -20,6 +21,10 @@ pub struct VariableEntry {
     /// Values to choose from, each as in a gearbox: numbers, designations, records of models. Not with a range.
     #[serde(default)]
     pub values: Vec<Value>,
+    /// Designations of the shipped catalogue instead of values, for the path of a `designation`: those with these columns, such as
+    /// `{ kind: deep_groove_ball, bore: 40 mm }`; `gearloss catalogue` lists them.
+    #[serde(default)]
+    pub catalogue: Ordered<Value>,
     /// Scale on which a number is searched.
     #[serde(default)]
     pub scale: Scale,
@@ -81,7 +86,15 @@ impl Variable {
             ..
         } = &entry.range;
         let is_range = plus_minus.is_some() || percent.is_some() || from.is_some() || to.is_some();
-        let kind = if entry.values.is_empty() {
+        let values = match entry.catalogue.is_empty() {
+            true => entry.values.clone(),
+            false if entry.values.is_empty() => designations(cx, at, entry, b)?,
+            false => {
+                let message = "a variable has either `values` or a `catalogue`";
+                return Err(cx.wrong(at, message, "delete one of them"));
+            }
+        };
+        let kind = if values.is_empty() {
             let range = Range::new(cx, at, &entry.range, b)?;
             range.inside(cx, at)?;
             let log = entry.scale == Scale::Log;
@@ -99,7 +112,7 @@ impl Variable {
         } else if is_range || entry.scale == Scale::Log {
             let message = "a variable has either `values` or a range";
             return Err(cx.wrong(at, message, "delete `values`, or the range and its scale"));
-        } else if entry.values.len() < 2 {
+        } else if values.len() < 2 {
             let message = "there is only one value to choose";
             return Err(cx.wrong(
                 &format!("{at}.values"),
@@ -109,8 +122,8 @@ impl Variable {
         } else {
             let own = lookup(&b.resolved.value, path);
             Kind::Choice {
-                present: own.and_then(|own| entry.values.iter().position(|value| value == own)),
-                values: entry.values.clone(),
+                present: own.and_then(|own| values.iter().position(|value| value == own)),
+                values,
             }
         };
         Ok(Self {
@@ -197,6 +210,44 @@ impl Variable {
             }
         }
     }
+}
+
+/// Designations of the catalogue of a path whose columns have given values.
+fn designations(cx: &Context<'_>, at: &str, entry: &VariableEntry, b: &Built<'_>) -> Result<Vec<Value>, Stopped> {
+    let at = &format!("{at}.catalogue");
+    let path = &entry.range.path;
+    let owner = path.strip_suffix(".designation");
+    let table = owner.and_then(|owner| Some((owner, cx.language.catalogue(owner.split('.').next()?)?)));
+    let Some((owner, table)) = table else {
+        let message = format!("`{path}` has no catalogue");
+        return Err(cx.wrong(
+            at,
+            message,
+            "use the path of a designation, such as `bearings.B2.designation`",
+        ));
+    };
+    let mut found: Vec<&String> = table.0.keys().collect();
+    for (key, wanted) in entry.catalogue.iter() {
+        // Numbers are compared in the unit of the key.
+        let number = Varied::new(cx.language, &b.resolved, &format!("{owner}.{key}"), Tie::Value).ok();
+        let value = |written: &Value| number.as_ref().and_then(|own| own.quantity(written, false).ok());
+        found.retain(|designation| {
+            let own = table.0[*designation].values.iter().find(|(own, _)| own == key);
+            own.is_some_and(|(_, own)| match (value(own), value(wanted)) {
+                (Some(own), Some(wanted)) => (own - wanted).abs() <= 1e-9 * wanted.abs(),
+                _ => in_words(own) == in_words(wanted),
+            })
+        });
+        if found.is_empty() {
+            let message = format!("no designation has `{key}: {}`", in_words(wanted));
+            return Err(cx.wrong(
+                &format!("{at}.{key}"),
+                message,
+                "`gearloss catalogue bearings` lists all with their columns",
+            ));
+        }
+    }
+    Ok(found.into_iter().map(|own| Value::from(own.as_str())).collect())
 }
 
 /// A number with four digits: more cannot be made, and are hard to read.
