@@ -11,6 +11,7 @@ use std::path::Path;
 use std::sync::OnceLock;
 
 use crate::conformance::check_all;
+use crate::document::read_yaml;
 use crate::eval::{Evaluated, evaluate_input, rate_input};
 use crate::language::Language;
 use crate::registry::RatedAlone;
@@ -54,6 +55,21 @@ pub fn rate(rating: &str, input: &str) -> RatedAlone {
     match rated {
         Ok(rated) => rated,
         Err(findings) => panic!("{rating}: {findings}"),
+    }
+}
+
+/// A part of a mechanism from YAML, resolved: its quantities in SI, its defaults filled in.
+///
+/// # Panics
+/// With the errors of the input.
+#[track_caller]
+pub fn part(mechanism: &str, yaml: &str) -> serde_json::Value {
+    let read = read_yaml(0, &format!("part: {yaml}\n"));
+    assert!(read.findings.is_empty(), "{:?}", read.findings);
+    match language().walk_eval(mechanism, &read.node) {
+        Ok(walked) if walked.findings.is_empty() => walked.value["part"].clone(),
+        Ok(walked) => panic!("{yaml}: {:?}", walked.findings),
+        Err(found) => panic!("{mechanism}: {found:?}"),
     }
 }
 

@@ -5,7 +5,6 @@ use std::sync::Arc;
 use serde_json::Value;
 
 use super::head;
-use crate::document::Unit;
 use crate::language::Language;
 use crate::loss::{Notes, Undefined};
 use crate::mechanism::Mechanism;
@@ -28,7 +27,7 @@ pub(super) fn check_all(language: &Language) -> Vec<String> {
 }
 
 /// The faults of one rating, built from its resolved parameters, on one resolved part: it returns only listed quantities, each once,
-/// with finite values, a known unit, and the same for both directions of rotation.
+/// with finite values, and the same for both directions of rotation.
 pub fn conform_rating<M: Mechanism>(
     registry: &Registry,
     files: &Files,
@@ -38,8 +37,8 @@ pub fn conform_rating<M: Mechanism>(
 ) -> Vec<String> {
     let mut faults = head(&plugin.entry);
     for figure in plugin.figures {
-        if Unit::of_symbol(figure.unit).is_none() {
-            faults.push(format!("`{}` has the unknown unit `{}`", figure.symbol, figure.unit));
+        if [figure.symbol, figure.unit, figure.meaning].iter().any(|text| text.is_empty()) {
+            faults.push(format!("`{}` has no symbol, unit or meaning", figure.symbol));
         }
     }
     let part: Arc<M::Part> = match from_resolved(part) {
