@@ -40,6 +40,8 @@ pub struct Figure {
     pub meaning: &'static str,
     /// Combination of its values over a time.
     pub over: Over,
+    /// True for an intermediate that tables of several components omit.
+    pub detail: bool,
 }
 
 impl Figure {
@@ -50,7 +52,13 @@ impl Figure {
             unit,
             meaning,
             over: Over::Least,
+            detail: false,
         }
+    }
+
+    /// The same as an intermediate, which tables of several components omit.
+    pub const fn detail(self) -> Self {
+        Self { detail: true, ..self }
     }
 
     /// A quantity whose maximum over a time is decisive.

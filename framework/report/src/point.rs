@@ -3,6 +3,7 @@
 mod derivatives;
 mod explain;
 mod network;
+mod ratings;
 
 use std::fmt::Display;
 
@@ -19,6 +20,7 @@ use serde_json::{Value, json};
 pub use derivatives::derivatives_text;
 pub use explain::{explain_heat_path, explain_part};
 use network::{network_json, network_text};
+pub use ratings::{explain_ratings, rating_lines, ratings_text};
 
 use crate::page::outside;
 use crate::text::{TextTable, fixed, number, significant};

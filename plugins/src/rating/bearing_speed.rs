@@ -13,7 +13,7 @@ use gearloss_framework::registry::{Evidence, default_of, formula};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-const SPEED_FACTOR: Figure = Figure::greatest("n d_m", "mm/min", "speed factor");
+const SPEED_FACTOR: Figure = Figure::greatest("n d_m", "mm/min", "speed factor").detail();
 const OF_REFERENCE: Figure = Figure::greatest("n/n_ref", "-", "speed over reference speed");
 const OF_LIMITING: Figure = Figure::greatest("n/n_lim", "-", "speed over limiting speed");
 

@@ -22,10 +22,10 @@ use serde::{Deserialize, Serialize};
 
 use super::equivalent_load::equivalent;
 
-const P: Figure = Figure::greatest("P", "N", "equivalent dynamic load");
+const P: Figure = Figure::greatest("P", "N", "equivalent dynamic load").detail();
 const C_OVER_P: Figure = Figure::least("C/P", "-", "load ratio");
 const L10H: Figure = Figure::life("L10h", "h", "basic rating life");
-const NU1: Figure = Figure::greatest("nu1", "mm2/s", "viscosity required for kappa = 1");
+const NU1: Figure = Figure::greatest("nu1", "mm2/s", "viscosity required for kappa = 1").detail();
 const KAPPA: Figure = Figure::least("kappa", "-", "viscosity ratio");
 const A_ISO: Figure = Figure::least("a_ISO", "-", "life modification factor");
 const LNMH: Figure = Figure::life("Lnmh", "h", "modified rating life");

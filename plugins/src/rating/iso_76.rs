@@ -14,7 +14,7 @@ use gearloss_framework::registry::{Evidence, default_of, formula};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-const P0: Figure = Figure::greatest("P0", "N", "equivalent static load");
+const P0: Figure = Figure::greatest("P0", "N", "equivalent static load").detail();
 const S0: Figure = Figure::least("S0", "-", "static safety");
 
 /// Static safety of a rolling bearing according to ISO 76.

@@ -15,7 +15,7 @@ use gearloss_framework::registry::{Evidence, default_of, formula};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-const MINIMUM: Figure = Figure::greatest("F_m", "N", "minimum load");
+const MINIMUM: Figure = Figure::greatest("F_m", "N", "minimum load").detail();
 const RATIO: Figure = Figure::least("F/F_m", "-", "load over minimum load");
 
 /// Minimum load of a rolling bearing.
