@@ -3,7 +3,7 @@
 use gearloss::api::{OilTemperature, PowerFlow};
 use gearloss::framework::coefficients::changed_from_source;
 use gearloss::framework::thermal::Outcome;
-use gearloss::report::point::{explain_part, heading, locking_text, point_json, point_text, temperature_text};
+use gearloss::report::point::{explain_part, heading, locking_text, point_json, point_text, ratings_text, temperature_text};
 use gearloss::report::text::significant;
 use gearloss::studies::points::{PreparedPoint, evidence};
 use gearloss::studies::ratings::rated;
@@ -206,11 +206,14 @@ impl Solution {
     }
 
     /// The tables of `gearloss solve`.
-    fn text(&self) -> String {
+    fn text(&self, py: Python<'_>) -> PyResult<String> {
         let t = self.transmission.get();
         let mut scratch = t.built.scratch(&self.prepared.case);
         let solved = self.prepared.solve(&t.built, &mut scratch);
-        point_text(&t.built, &self.prepared, &solved)
+        let ratings = t.gearbox.ratings(language(py)?, &t.resolved, &t.built);
+        let ratings = ratings.map_err(|findings| raised(py, &findings))?;
+        let rated = rated(&ratings, &t.built, &solved.solution);
+        Ok(point_text(&t.built, &self.prepared, &solved) + &ratings_text(&rated))
     }
 
     fn __repr__(&self) -> String {

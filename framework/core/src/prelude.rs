@@ -21,7 +21,7 @@ pub use crate::mechanism::heat_dissipation::{
 pub use crate::mechanism::heat_link::{HeatLink, HeatLinkAt, HeatLinkModel, HeatLinkPart};
 pub use crate::mechanism::mean_friction::{MeanFriction, MeanFrictionAt, MeanFrictionLaw, MeanFrictionModel};
 pub use crate::mechanism::planetary_drag::{PlanetaryDrag, PlanetaryDragAt, PlanetaryDragModel, PlanetaryPart};
-pub use crate::mechanism::seal::{Seal, SealAt, SealKind, SealModel, SealPart};
+pub use crate::mechanism::seal::{Seal, SealAt, SealKind, SealMaterial, SealModel, SealPart};
 pub use crate::mechanism::synchronizer::{CouplingKind, CouplingPart, Synchronizer, SynchronizerAt, SynchronizerModel};
 pub use crate::mechanism::tooth_friction::{
     Along, ContactAt, PathAt, PathExtent, PathNode, ToothFriction, ToothFrictionLaw, ToothFrictionModel,

@@ -13,7 +13,9 @@ use gearloss_framework::resolve::Resolved;
 use gearloss_framework::transmission::Transmission;
 use gearloss_studies::analyses::balance::BalanceOfPoint;
 use gearloss_studies::analyses::numbers::{RPM, tidy};
-use gearloss_studies::points::{Found, PreparedPoint, SUMS, SelfLocking, SolvedPoint, WeakPoint, sums};
+use gearloss_studies::points::{
+    Found, PreparedPoint, STATIC_SAFETY, SUMS, SelfLocking, SolvedPoint, WeakPoint, sums,
+};
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -156,7 +158,9 @@ pub fn point_text(transmission: &Transmission, prepared: &PreparedPoint, solved:
     }
     text.extend(solved.locking.as_ref().map(locking_text));
     text.push_str(&temperature_text(transmission, found));
-    text.push_str(&outside(&solved.notes));
+    // The ratings state the static safety, with the user's bound.
+    let notes = solved.notes.iter().filter(|note| note.name != STATIC_SAFETY);
+    text.push_str(&outside(&notes.cloned().collect::<Vec<_>>()));
     text
 }
 

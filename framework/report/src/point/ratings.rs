@@ -5,10 +5,13 @@ use gearloss_framework::transmission::Transmission;
 use gearloss_studies::ratings::{RatedComponent, RatedQuantity, rated};
 
 use super::explain::steps;
-use crate::text::{Lines, TextTable, significant};
+use crate::text::{Lines, TextTable, figures, significant};
 
 /// Mark of a value outside its bound.
 const OUTSIDE: &str = "!";
+
+/// Digits of values in tables and warnings.
+const DIGITS: u32 = 4;
 
 /// The ratings as text: a table for each mechanism with a row for each component, then one line for each value outside its bound. Empty
 /// without any.
@@ -62,8 +65,8 @@ fn table(mechanism: &str, ratings: &[&RatedComponent]) -> Option<TextTable> {
     let mut table = TextTable::new(&heads).titled(format!("Ratings: {mechanism}"));
     for component in &components {
         let cell = |column: &(&str, &str)| match quantity(Some(component), *column) {
-            Some(q) if q.outside => format!("{}{OUTSIDE}", significant(q.value)),
-            Some(q) => significant(q.value),
+            Some(q) if q.outside => format!("{}{OUTSIDE}", figures(q.value, DIGITS)),
+            Some(q) => figures(q.value, DIGITS),
             None => "-".to_owned(),
         };
         let cells = columns.iter().map(cell);
@@ -84,8 +87,8 @@ pub fn rating_lines(own: &RatedComponent) -> Vec<String> {
                 own.component,
                 quantity.meaning,
                 quantity.symbol,
-                significant(quantity.value),
-                significant(bound),
+                figures(quantity.value, DIGITS),
+                figures(bound, DIGITS),
                 own.rating
             ));
         }
