@@ -3,7 +3,9 @@
 use gearloss::api::{OilTemperature, PowerFlow};
 use gearloss::framework::coefficients::changed_from_source;
 use gearloss::framework::thermal::Outcome;
-use gearloss::report::point::{explain_part, heading, locking_text, point_json, point_text, ratings_text, temperature_text};
+use gearloss::report::point::{
+    explain_part, heading, locking_text, point_json, point_text, ratings_text, temperature_text,
+};
 use gearloss::report::text::significant;
 use gearloss::studies::points::{PreparedPoint, evidence};
 use gearloss::studies::ratings::rated;

@@ -11,8 +11,8 @@ mod solution;
 
 pub use batch::{Batch, BatchScratch, Block};
 pub use derive::{GivenQuantity, NoSlopes, Slope, Slopes};
-pub(crate) use readings::readings;
 pub use ratings::{ComponentRating, Ratings};
+pub(crate) use readings::readings;
 pub use readings::{MemberTorques, Reading};
 use scratch::Models;
 pub use scratch::Scratch;

@@ -336,7 +336,10 @@ impl Language {
     /// All findings of reading and checking either.
     pub fn example_of_rating(&self, rating: &RatingPlugin) -> Result<(Value, Value), Vec<Diagnostic>> {
         let mechanism = self.registry.mechanism(rating.entry.mechanism);
-        let part = rating.entry.part.unwrap_or_else(|| mechanism.map_or("{}", |m| m.example));
+        let part = rating
+            .entry
+            .part
+            .unwrap_or_else(|| mechanism.map_or("{}", |m| m.example));
         let indented = part
             .trim()
             .lines()

@@ -141,7 +141,12 @@ impl Draft {
         }
         // A generated network depends on all other changes, and changes inside it are applied afterwards.
         let (inside, later): (Vec<_>, Vec<_>) = later.into_iter().partition(|(path, _)| network::meets_inside(path));
-        ratings::fill(language, &mut value, later.iter().map(|(path, _)| path.as_str()), &mut found);
+        ratings::fill(
+            language,
+            &mut value,
+            later.iter().map(|(path, _)| path.as_str()),
+            &mut found,
+        );
         apply(language, &mut value, later.iter().enumerate(), &mut sources, &mut found);
         Self {
             resolved: Resolved {

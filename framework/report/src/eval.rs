@@ -80,7 +80,11 @@ fn finite(x: f64) -> Option<f64> {
 /// Steps of a formula; those of nested models with their path.
 fn steps(own: &str, steps: &[(String, Step)], out: &mut Lines) {
     for (path, step) in steps {
-        let place = if path == own { String::new() } else { format!("{path}: ") };
+        let place = if path == own {
+            String::new()
+        } else {
+            format!("{path}: ")
+        };
         match step {
             Step::Value {
                 symbol, unit, value, ..
@@ -121,8 +125,15 @@ pub fn rated_text(plugin: &RatingPlugin, alone: &RatedAlone) -> String {
     steps("rating", &alone.steps, &mut out);
     for own in alone.rated.figures() {
         let unit = if own.figure.unit == "-" { "" } else { own.figure.unit };
-        let value = format!("{} {} = {} {unit}", own.figure.meaning, own.figure.symbol, significant(own.value));
-        let fault = own.fault().map(|(side, bound)| format!(", which is {side} {}", significant(bound)));
+        let value = format!(
+            "{} {} = {} {unit}",
+            own.figure.meaning,
+            own.figure.symbol,
+            significant(own.value)
+        );
+        let fault = own
+            .fault()
+            .map(|(side, bound)| format!(", which is {side} {}", significant(bound)));
         out.line(value.trim_end().to_owned() + &fault.unwrap_or_default());
     }
     out.into_text()

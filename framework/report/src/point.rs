@@ -13,9 +13,7 @@ use gearloss_framework::resolve::Resolved;
 use gearloss_framework::transmission::Transmission;
 use gearloss_studies::analyses::balance::BalanceOfPoint;
 use gearloss_studies::analyses::numbers::{RPM, tidy};
-use gearloss_studies::points::{
-    Found, PreparedPoint, STATIC_SAFETY, SUMS, SelfLocking, SolvedPoint, WeakPoint, sums,
-};
+use gearloss_studies::points::{Found, PreparedPoint, STATIC_SAFETY, SUMS, SelfLocking, SolvedPoint, WeakPoint, sums};
 use serde::Serialize;
 use serde_json::{Value, json};
 

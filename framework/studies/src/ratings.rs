@@ -7,6 +7,8 @@ use gearloss_framework::transmission::Transmission;
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use crate::analyses::numbers::figures;
+
 /// One rating of one component at one point.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct RatedComponent {
@@ -73,6 +75,35 @@ impl RatedQuantity {
     }
 }
 
+impl RatedQuantity {
+    /// How far the value is outside its bound; negative inside, minus infinity without a bound.
+    pub fn excess(&self) -> f64 {
+        let below = self.least.map_or(f64::NEG_INFINITY, |least| least - self.value);
+        let above = self
+            .greatest
+            .map_or(f64::NEG_INFINITY, |greatest| self.value - greatest);
+        below.max(above)
+    }
+
+    /// The value and its bound, as a sentence, if it is outside.
+    pub fn sentence(&self) -> Option<String> {
+        let (side, bound) = self.fault()?;
+        let unit = if self.unit == "-" {
+            String::new()
+        } else {
+            format!(" {}", self.unit)
+        };
+        let [value, bound] = [self.value, bound].map(|number| figures(number, DIGITS));
+        Some(format!(
+            "{} {} = {value}{unit} is {side} {bound}{unit}",
+            self.meaning, self.symbol
+        ))
+    }
+}
+
+/// Digits of numbers in sentences.
+const DIGITS: u32 = 4;
+
 impl RatedComponent {
     fn new(transmission: &Transmission, own: &ComponentRating) -> Self {
         let part = &transmission.parts()[own.part];
@@ -92,7 +123,12 @@ impl RatedComponent {
             component: part.path.clone(),
             mechanism: part.mechanism,
             rating: entry.name,
-            evidence: entry.evidence.iter().map(|g| g.grade).max().unwrap_or(Evidence::Assumed),
+            evidence: entry
+                .evidence
+                .iter()
+                .map(|g| g.grade)
+                .max()
+                .unwrap_or(Evidence::Assumed),
             undefined,
             quantities: figures.iter().map(RatedQuantity::new).collect(),
             outside_ranges: left.collect(),

@@ -69,7 +69,13 @@ mod tests {
     #[test]
     fn a_6208_at_half_and_at_twice_its_limiting_speed() {
         let part = "{ kind: deep_groove_ball, bore: 40 mm, outside: 80 mm, reference_speed: 18000 rpm, limiting_speed: 11000 rpm }";
-        let rated = |n: f64| rate("bearing_speed", &format!("{{ part: {part}, at: {{ speed: {n} rpm }} }}")).rated;
+        let rated = |n: f64| {
+            rate(
+                "bearing_speed",
+                &format!("{{ part: {part}, at: {{ speed: {n} rpm }} }}"),
+            )
+            .rated
+        };
         let (half, twice) = (rated(-5500.0), rated(22_000.0));
         assert_close(half.value("n/n_lim").unwrap(), 0.5, 1e-12);
         assert_close(half.value("n d_m").unwrap(), 330_000.0, 1e-12);

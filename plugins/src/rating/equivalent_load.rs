@@ -172,7 +172,11 @@ mod tests {
         assert_close(found.load(3000.0, 1000.0), 3509.92, 1e-5);
         assert_close(found.load(1000.0, 1000.0), 2389.92, 1e-5);
         let tapered = part("{ kind: tapered_roller, bore: 30 mm, outside: 62 mm, e: 0.37, y: 1.6 }");
-        assert_close(factors(&tapered, 1500.0, 14.0).unwrap().load(3000.0, 1500.0), 3600.0, 1e-12);
+        assert_close(
+            factors(&tapered, 1500.0, 14.0).unwrap().load(3000.0, 1500.0),
+            3600.0,
+            1e-12,
+        );
     }
 
     /// NSK catalogue E1102m, page 15: example 2 (6208, f0 14, C0r 17900 N: f0 Fa/C0r = 0.782, e about 0.26) and example 3 (series 231:
@@ -184,15 +188,23 @@ mod tests {
         assert_close(found.e, 0.26, 0.03);
         // Y2 = Y3 0.67/0.45.
         let y2 = 2.2 * 0.67 / 0.45;
-        let spherical = part(&format!("{{ kind: spherical_roller, bore: 120 mm, outside: 200 mm, e: 0.3, y: {y2} }}"));
-        assert_close(factors(&spherical, 8000.0, 14.0).unwrap().load(45_000.0, 8000.0), 62_600.0, 1e-9);
+        let spherical = part(&format!(
+            "{{ kind: spherical_roller, bore: 120 mm, outside: 200 mm, e: 0.3, y: {y2} }}"
+        ));
+        assert_close(
+            factors(&spherical, 8000.0, 14.0).unwrap().load(45_000.0, 8000.0),
+            62_600.0,
+            1e-9,
+        );
     }
 
     /// ISO 281 as printed by catalogues for contact angles of 25 and 40 deg: X 0.41 and 0.35.
     #[test]
     fn the_radial_factor_of_angular_contact_follows_from_continuity() {
         for (e, y, x) in [(0.68, 0.87, 0.41), (1.14, 0.57, 0.35)] {
-            let bearing = part(&format!("{{ kind: angular_contact_ball, bore: 40 mm, outside: 80 mm, e: {e}, y: {y} }}"));
+            let bearing = part(&format!(
+                "{{ kind: angular_contact_ball, bore: 40 mm, outside: 80 mm, e: {e}, y: {y} }}"
+            ));
             assert_close(factors(&bearing, 1.0, 14.0).unwrap().above[0], x, 0.005);
         }
     }

@@ -17,7 +17,12 @@ pub fn path(pair: &Pair, sharing: LoadSharing) -> Option<Path> {
 }
 
 /// Calls a function with each loaded contact of the path, its node and its number; not without speed or torque.
-pub fn contacts(path: &Path, at: &GearMeshAt<'_>, mean: &MeanFrictionAt<'_>, mut each: impl FnMut(usize, &PathNode, &ContactAt<'_>)) {
+pub fn contacts(
+    path: &Path,
+    at: &GearMeshAt<'_>,
+    mean: &MeanFrictionAt<'_>,
+    mut each: impl FnMut(usize, &PathNode, &ContactAt<'_>),
+) {
     let along = path.at_operating_point(mean, at.notes);
     for (i, node) in path.nodes().iter().enumerate().filter(|(_, node)| node.share > 0.0) {
         each(i, node, &along.contact(node));
@@ -27,5 +32,7 @@ pub fn contacts(path: &Path, at: &GearMeshAt<'_>, mean: &MeanFrictionAt<'_>, mut
 /// Number of the node next to the pitch point.
 pub fn at_pitch_point(path: &Path, pair: &Pair) -> usize {
     let distance = |i: usize| (path.points()[i].x - pair.points[2]).abs();
-    (0..path.len()).min_by(|a, b| distance(*a).total_cmp(&distance(*b))).unwrap_or(0)
+    (0..path.len())
+        .min_by(|a, b| distance(*a).total_cmp(&distance(*b)))
+        .unwrap_or(0)
 }

@@ -106,7 +106,9 @@ impl Rating<GearMesh> for Prepared {
         let line_load = mean.part.pair.line_load(mean.normal_force) * share;
         let at_pitch = hertz(line_load, mean.part.modulus, mean.radius);
         to.add(&AT_PITCH, at.show("p_HC", "MPa", at_pitch * 1e-6));
-        let bound = own.greatest_pressure.map_or(Bound::NONE, |bound| Bound::at_most(bound * 1e-6));
+        let bound = own
+            .greatest_pressure
+            .map_or(Bound::NONE, |bound| Bound::at_most(bound * 1e-6));
         to.add_bounded(&PRESSURE, at.show("p_H", "MPa", pressure * 1e-6), bound);
         if at.speed == 0.0 {
             at.branch("no speed: no film");
@@ -153,7 +155,14 @@ mod tests {
     /// pressure at the pitch point in MPa.
     #[test]
     fn load_stages_of_fva_54() {
-        for (torque, pressure) in [(70.0, 795.1), (98.9, 944.9), (132.5, 1093.9), (171.6, 1244.9), (215.6, 1395.4), (265.1, 1547.3)] {
+        for (torque, pressure) in [
+            (70.0, 795.1),
+            (98.9, 944.9),
+            (132.5, 1093.9),
+            (171.6, 1244.9),
+            (215.6, 1395.4),
+            (265.1, 1547.3),
+        ] {
             let found = rated(&format!("{{ torque: {torque} Nm }}"), "{}");
             assert_close(value(&found, "p_HC"), pressure, 0.01);
         }
@@ -172,8 +181,16 @@ mod tests {
     #[test]
     fn film_follows_its_law() {
         let film = |at: &str| value(&rated(at, "{ thermal: false }"), "h_min");
-        assert_close(film("{ speed: 2000 rpm }") / film("{ speed: 1000 rpm }"), 2.0_f64.powf(0.7), 1e-9);
-        assert_close(film("{ torque: 200 Nm }") / film("{ torque: 100 Nm }"), 2.0_f64.powf(-0.13), 1e-9);
+        assert_close(
+            film("{ speed: 2000 rpm }") / film("{ speed: 1000 rpm }"),
+            2.0_f64.powf(0.7),
+            1e-9,
+        );
+        assert_close(
+            film("{ torque: 200 Nm }") / film("{ torque: 100 Nm }"),
+            2.0_f64.powf(-0.13),
+            1e-9,
+        );
     }
 
     #[test]
@@ -181,7 +198,13 @@ mod tests {
         assert_eq!(rated("{}", "{}").rated.value("S_lambda"), None);
         let found = rated("{}", "{ permissible_film_ratio: 10 }");
         assert_close(value(&found, "S_lambda") * 10.0, value(&found, "lambda_GF"), 1e-12);
-        assert!(found.rated.figures().iter().any(|f| f.figure.symbol == "S_lambda" && f.is_outside()));
+        assert!(
+            found
+                .rated
+                .figures()
+                .iter()
+                .any(|f| f.figure.symbol == "S_lambda" && f.is_outside())
+        );
     }
 
     #[test]

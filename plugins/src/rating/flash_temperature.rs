@@ -125,7 +125,13 @@ impl Rating<GearMesh> for Prepared {
         let (mut greatest, mut sum, mut length) = (0.0_f64, 0.0, 0.0);
         flank::contacts(path, at, &mean, |i, _, contact| {
             let speeds = [1.0, -1.0].map(|side| 0.5 * (contact.sum_speed + side * contact.sliding).max(0.0));
-            let place = Contact::new(contact.line_load, contact.radius, contact.modulus, contact.length, speeds);
+            let place = Contact::new(
+                contact.line_load,
+                contact.radius,
+                contact.modulus,
+                contact.length,
+                speeds,
+            );
             let rise = blok(mu, &place, &flank);
             greatest = greatest.max(rise);
             let weight = path.points()[i].weight;
@@ -195,7 +201,11 @@ mod tests {
         assert_close(effusivity, 13_600.0, 1e-3);
         let one = blok(mu, &Contact::new(load, radius, modulus, 0.02, speeds), &steel);
         let slid = mu * (speeds[0].sqrt() - speeds[1].sqrt()) / effusivity;
-        assert_close(0.62 * load.powf(0.75) * (modulus / radius).powf(0.25) * slid, one, 0.005);
+        assert_close(
+            0.62 * load.powf(0.75) * (modulus / radius).powf(0.25) * slid,
+            one,
+            0.005,
+        );
         let pressure = (load * modulus / (2.0 * PI * radius)).sqrt();
         assert_close(2.45 * pressure.powf(1.5) * (radius / modulus).sqrt() * slid, one, 0.01);
     }
@@ -206,25 +216,45 @@ mod tests {
         let flash = |at: &str| value(&rated(at, FRICTION), "theta_fl");
         let base = flash("{ torque: 100 Nm, speed: 1000 rpm }");
         assert_close(flash("{ torque: 100 Nm, speed: 4000 rpm }") / base, 2.0, 1e-9);
-        assert_close(flash("{ torque: 200 Nm, speed: 1000 rpm }") / base, 2.0_f64.powf(0.75), 1e-9);
-        let twice = value(&rated("{ torque: 100 Nm, speed: 1000 rpm }", "mean_friction: { type: constant, value: 0.12 }"), "theta_fl");
+        assert_close(
+            flash("{ torque: 200 Nm, speed: 1000 rpm }") / base,
+            2.0_f64.powf(0.75),
+            1e-9,
+        );
+        let twice = value(
+            &rated(
+                "{ torque: 100 Nm, speed: 1000 rpm }",
+                "mean_friction: { type: constant, value: 0.12 }",
+            ),
+            "theta_fl",
+        );
         assert_close(twice / base, 2.0, 1e-9);
     }
 
     #[test]
     fn contact_is_bulk_and_flash() {
         let found = rated("{ temperature: 80 degC }", FRICTION);
-        assert_close(value(&found, "theta_B"), value(&found, "theta_M") + value(&found, "theta_fl"), 1e-12);
+        assert_close(
+            value(&found, "theta_B"),
+            value(&found, "theta_M") + value(&found, "theta_fl"),
+            1e-12,
+        );
         let rise = 0.47 * found.step("theta_flm").unwrap();
         assert_close(value(&found, "theta_M"), 80.0 + rise, 1e-12);
-        let network = rated("{ bodies_known: 1, temperature_1: 95 degC, temperature_2: 90 degC }", FRICTION);
+        let network = rated(
+            "{ bodies_known: 1, temperature_1: 95 degC, temperature_2: 90 degC }",
+            FRICTION,
+        );
         assert_close(value(&network, "theta_M"), 95.0, 1e-12);
     }
 
     #[test]
     fn scuffing_needs_its_temperature() {
         assert_eq!(rated("{}", FRICTION).rated.value("S_B"), None);
-        let found = rated("{ temperature: 80 degC }", &format!("{FRICTION}, scuffing_temperature: 90 degC"));
+        let found = rated(
+            "{ temperature: 80 degC }",
+            &format!("{FRICTION}, scuffing_temperature: 90 degC"),
+        );
         let by_hand = 10.0 / (value(&found, "theta_B") - 80.0);
         assert_close(value(&found, "S_B"), by_hand, 1e-12);
     }

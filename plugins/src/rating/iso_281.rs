@@ -193,7 +193,11 @@ fn fatigue_limit(part: &BearingPart) -> Option<f64> {
     part.pu.or_else(|| {
         let large = 100.0 / part.mean_diameter().mm().max(100.0);
         let balls = part.kind.has_balls();
-        let share = if balls { large.sqrt() / 22.0 } else { large.powf(0.3) / 8.2 };
+        let share = if balls {
+            large.sqrt() / 22.0
+        } else {
+            large.powf(0.3) / 8.2
+        };
         Some(part.c0? * share)
     })
 }
@@ -335,7 +339,11 @@ mod tests {
             "{ radial: 2500 N, axial: 0 N, speed: 900 rpm }",
             "{}",
         );
-        assert_close(value(&found, "L10h"), 500.0 * (0.333_f64 * 29_100.0 / 2500.0).powi(3), 0.005);
+        assert_close(
+            value(&found, "L10h"),
+            500.0 * (0.333_f64 * 29_100.0 / 2500.0).powi(3),
+            0.005,
+        );
     }
 
     /// Shigley, solution of problem 11-3: straight roller 03 series: 10.279 kN on 91.1 kN is 1440 million revolutions.
@@ -376,7 +384,15 @@ mod tests {
     /// Table of a1 in ISO 281:2007.
     #[test]
     fn reliability_factors_of_the_table() {
-        for (reliability, a1) in [(0.9, 1.0), (0.95, 0.64), (0.96, 0.55), (0.97, 0.47), (0.98, 0.37), (0.99, 0.25), (0.999, 0.093)] {
+        for (reliability, a1) in [
+            (0.9, 1.0),
+            (0.95, 0.64),
+            (0.96, 0.55),
+            (0.97, 0.47),
+            (0.98, 0.37),
+            (0.99, 0.25),
+            (0.999, 0.093),
+        ] {
             assert_close(reliability_factor(reliability), a1, 0.012);
         }
     }
@@ -395,14 +411,20 @@ mod tests {
     }
 
     fn example(kind: &str) -> BearingPart {
-        let value = gearloss_framework::testing::part("bearing", &format!("{{ kind: {kind}, bore: 40 mm, outside: 80 mm }}"));
+        let value =
+            gearloss_framework::testing::part("bearing", &format!("{{ kind: {kind}, bore: 40 mm, outside: 80 mm }}"));
         serde_json::from_value(value).unwrap()
     }
 
     /// The diagrams of a_ISO start at 0.1 without cleanliness, and no factor exceeds 50.
     #[test]
     fn ends_of_the_modification_factor() {
-        for kind in ["deep_groove_ball", "cylindrical_roller", "thrust_ball", "cylindrical_roller_thrust"] {
+        for kind in [
+            "deep_groove_ball",
+            "cylindrical_roller",
+            "thrust_ball",
+            "cylindrical_roller_thrust",
+        ] {
             let part = example(kind);
             assert_close(life_modification(&part, 1.0, 0.0), 0.1, 1e-12);
             assert_eq!(life_modification(&part, 4.0, 100.0), 50.0);

@@ -91,7 +91,10 @@ mod tests {
     #[test]
     fn an_overloaded_6010_is_reported() {
         let part = "{ kind: deep_groove_ball, bore: 50 mm, outside: 80 mm, c0: 16000 N }";
-        let rated = rate("iso_76", &format!("{{ part: {part}, at: {{ radial: 44000 N, axial: 0 N }} }}"));
+        let rated = rate(
+            "iso_76",
+            &format!("{{ part: {part}, at: {{ radial: 44000 N, axial: 0 N }} }}"),
+        );
         let found = rated.rated.figures().iter().find(|f| f.is_outside()).unwrap();
         assert_close(found.value, 0.3636, 1e-3);
         assert_eq!(found.fault(), Some(("below", 1.0)));
@@ -100,6 +103,11 @@ mod tests {
     #[test]
     fn without_data_there_is_no_rating() {
         let part = "{ kind: tapered_roller, bore: 30 mm, outside: 62 mm, c0: 44000 N }";
-        assert!(rate("iso_76", &format!("{{ part: {part} }}")).rated.figures().is_empty());
+        assert!(
+            rate("iso_76", &format!("{{ part: {part} }}"))
+                .rated
+                .figures()
+                .is_empty()
+        );
     }
 }

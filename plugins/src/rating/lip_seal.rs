@@ -98,6 +98,10 @@ mod tests {
         let at = "{ speed: 30000 rpm, temperature: 190 degC }";
         let unknown = rated("{ diameter: 400 mm }", at);
         assert!(unknown.figures().len() == 2 && !unknown.figures().iter().any(|f| f.is_outside()));
-        assert!(rated("{ diameter: 40 mm, kind: non_contact, material: nbr }", at).figures().is_empty());
+        assert!(
+            rated("{ diameter: 40 mm, kind: non_contact, material: nbr }", at)
+                .figures()
+                .is_empty()
+        );
     }
 }

@@ -38,7 +38,9 @@ fn minimum(at: &BearingAt<'_>) -> Option<f64> {
     let size = (part.mean_diameter().mm() / 100.0).powi(2);
     let of_factor = part.minimum_load_factor.map(|k| 1e3 * k * size);
     match part.kind {
-        BearingKind::DeepGrooveBall | BearingKind::DeepGrooveBallDoubleRow | BearingKind::AngularContactBallDoubleRow => {
+        BearingKind::DeepGrooveBall
+        | BearingKind::DeepGrooveBallDoubleRow
+        | BearingKind::AngularContactBallDoubleRow => {
             let viscous = (at.nu.mm2_s() * n / 1000.0).powf(2.0 / 3.0);
             of_factor.map(|k| k * viscous).or_else(|| Some(0.01 * part.c?))
         }
@@ -92,7 +94,10 @@ mod tests {
     use gearloss_framework::testing::{assert_close, rate};
 
     fn minimum(part: &str, at: &str) -> f64 {
-        rate("minimum_load", &format!("{{ part: {part}, at: {at} }}")).rated.value("F_m").unwrap()
+        rate("minimum_load", &format!("{{ part: {part}, at: {at} }}"))
+            .rated
+            .value("F_m")
+            .unwrap()
     }
 
     /// By hand: 0.03 (15 3000/1000)^(2/3) (65/100)^2 kN = 160.36 N.
@@ -106,7 +111,11 @@ mod tests {
     #[test]
     fn shares_of_the_load_ratings() {
         let roller = |kind: &str| format!("{{ kind: {kind}, bore: 40 mm, outside: 90 mm, c: 50000 N, c0: 60000 N }}");
-        for (kind, expected) in [("needle_cage", 1000.0), ("toroidal_roller", 420.0), ("spherical_roller", 600.0)] {
+        for (kind, expected) in [
+            ("needle_cage", 1000.0),
+            ("toroidal_roller", 420.0),
+            ("spherical_roller", 600.0),
+        ] {
             assert_close(minimum(&roller(kind), "{}"), expected, 1e-12);
         }
     }
@@ -114,7 +123,10 @@ mod tests {
     #[test]
     fn a_load_below_the_minimum_is_reported() {
         let part = "{ kind: tapered_roller, bore: 30 mm, outside: 62 mm, c: 40000 N }";
-        let rated = rate("minimum_load", &format!("{{ part: {part}, at: {{ radial: 100 N, axial: 400 N }} }}"));
+        let rated = rate(
+            "minimum_load",
+            &format!("{{ part: {part}, at: {{ radial: 100 N, axial: 400 N }} }}"),
+        );
         let found = rated.rated.figures().iter().find(|f| f.is_outside()).unwrap();
         assert_close(found.value, 0.5, 1e-12);
     }

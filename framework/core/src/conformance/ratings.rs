@@ -37,7 +37,10 @@ pub fn conform_rating<M: Mechanism>(
 ) -> Vec<String> {
     let mut faults = head(&plugin.entry);
     for figure in plugin.figures {
-        if [figure.symbol, figure.unit, figure.meaning].iter().any(|text| text.is_empty()) {
+        if [figure.symbol, figure.unit, figure.meaning]
+            .iter()
+            .any(|text| text.is_empty())
+        {
             faults.push(format!("`{}` has no symbol, unit or meaning", figure.symbol));
         }
     }
@@ -57,7 +60,10 @@ pub fn conform_rating<M: Mechanism>(
             (q.set)(&mut at, q.unit().to_si(*value));
             (q.set)(&mut mirrored, q.unit().to_si(*value));
         }
-        for q in M::QUANTITIES.iter().filter(|q| q.unit().symbol == "rpm" && q.least < 0.0) {
+        for q in M::QUANTITIES
+            .iter()
+            .filter(|q| q.unit().symbol == "rpm" && q.least < 0.0)
+        {
             let speed = (q.get)(&mirrored);
             (q.set)(&mut mirrored, -speed);
         }
@@ -83,7 +89,12 @@ pub fn conform_rating<M: Mechanism>(
     };
     try_at("the usual point", &[]);
     for (i, q) in M::QUANTITIES.iter().enumerate() {
-        for value in [q.least, q.greatest, 0.5 * (q.least + q.greatest), 0.0_f64.clamp(q.least, q.greatest)] {
+        for value in [
+            q.least,
+            q.greatest,
+            0.5 * (q.least + q.greatest),
+            0.0_f64.clamp(q.least, q.greatest),
+        ] {
             try_at(&format!("{} = {value}", q.name), &[(i, value)]);
             for (j, other) in M::QUANTITIES.iter().enumerate().skip(i + 1) {
                 for second in [other.least, other.greatest] {

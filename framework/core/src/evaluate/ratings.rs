@@ -185,7 +185,13 @@ impl Solution<'_> {
             }
             Kind::Mesh(i, rating) => {
                 let most = t.meshes[*i].sharing.map_or(1.0, |sharing| sharing.factors()[0]);
-                let muted = t.mesh_at(*i, s.models.tangential[*i] * most, s.work.drives[*i], &state, &Notebook::CLOSED);
+                let muted = t.mesh_at(
+                    *i,
+                    s.models.tangential[*i] * most,
+                    s.work.drives[*i],
+                    &state,
+                    &Notebook::CLOSED,
+                );
                 rating.rate(&muted.with(|to| to.notes = book.notes(rating.notes)))
             }
         }

@@ -69,7 +69,6 @@ pub trait Placed: sealed::Sealed + Send + Sync {
 /// A type-erased [`RatingSlot`].
 pub(crate) type BuiltRating = Box<dyn Any + Send + Sync>;
 
-
 struct PlacedAs<C: Component> {
     part: Arc<C::Part>,
     seat: <C::Attachment as Attach>::Seat,

@@ -48,7 +48,14 @@ impl Registry {
     /// If two ratings have the same name, or one is of an unknown mechanism; each error names modules and lines.
     pub fn with_ratings(mut self, ratings: impl IntoIterator<Item = RatingPlugin>) -> Result<Self, Vec<Diagnostic>> {
         self.ratings.extend(ratings);
-        let place = |r: &RatingPlugin| (r.entry.name, r.entry.origin.package, r.entry.origin.file, r.entry.origin.line);
+        let place = |r: &RatingPlugin| {
+            (
+                r.entry.name,
+                r.entry.origin.package,
+                r.entry.origin.file,
+                r.entry.origin.line,
+            )
+        };
         self.ratings.sort_by(|a, b| place(a).cmp(&place(b)));
         let mut found: Vec<Diagnostic> = self
             .ratings
@@ -59,7 +66,10 @@ impl Registry {
         for rating in &self.ratings {
             let entry = &rating.entry;
             if self.mechanism(entry.mechanism).is_none() {
-                let message = format!("rating `{}` refers to the unknown mechanism `{}`", entry.name, entry.mechanism);
+                let message = format!(
+                    "rating `{}` refers to the unknown mechanism `{}`",
+                    entry.name, entry.mechanism
+                );
                 let error = Diagnostic::error("", message).code(crate::codes::REGISTRATION);
                 found.push(
                     error

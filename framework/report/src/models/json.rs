@@ -2,8 +2,8 @@
 
 use gearloss_framework::document::Unit;
 use gearloss_framework::language::{Kind, Language};
-use gearloss_framework::mechanism::QuantityDoc;
 use gearloss_framework::loss::Limit;
+use gearloss_framework::mechanism::QuantityDoc;
 use gearloss_framework::registry::{Entry, Graded, MechanismEntry, RatingPlugin};
 use serde_json::{Value, json};
 

@@ -59,7 +59,10 @@ pub fn rating_text(language: &Language, rating: &RatingPlugin) -> String {
     out.text(&table.render());
     out.line("");
     for figure in rating.figures {
-        out.line(format!("quantity: {} [{}]: {}", figure.symbol, figure.unit, figure.meaning));
+        out.line(format!(
+            "quantity: {} [{}]: {}",
+            figure.symbol, figure.unit, figure.meaning
+        ));
     }
     for limit in entry.limits {
         out.line(format!(
@@ -78,7 +81,11 @@ pub fn rating_text(language: &Language, rating: &RatingPlugin) -> String {
         } else {
             format!("default of {}", graded.key)
         };
-        out.line(format!("evidence: {what}: {} ({})", graded.grade.name(), graded.because));
+        out.line(format!(
+            "evidence: {what}: {} ({})",
+            graded.grade.name(),
+            graded.because
+        ));
     }
     out.into_text()
 }

@@ -61,7 +61,9 @@ fn table(mechanism: &str, ratings: &[&RatedComponent]) -> Option<TextTable> {
         _ => column.1.to_owned(),
     };
     let heads: Vec<String> = columns.iter().map(head).collect();
-    let heads: Vec<&str> = std::iter::once("component").chain(heads.iter().map(String::as_str)).collect();
+    let heads: Vec<&str> = std::iter::once("component")
+        .chain(heads.iter().map(String::as_str))
+        .collect();
     let mut table = TextTable::new(&heads).titled(format!("Ratings: {mechanism}"));
     for component in &components {
         let cell = |column: &(&str, &str)| match quantity(Some(component), *column) {
@@ -78,34 +80,20 @@ fn table(mechanism: &str, ratings: &[&RatedComponent]) -> Option<TextTable> {
 /// A line for each value outside its bound, for a rating that is undefined, and for a formula outside its stated range.
 pub fn rating_lines(own: &RatedComponent) -> Vec<String> {
     let mut lines = Vec::new();
-    for quantity in &own.quantities {
-        if let Some((side, bound)) = quantity.fault() {
-            let unit = if quantity.unit == "-" { "" } else { quantity.unit };
-            let space = if unit.is_empty() { "" } else { " " };
-            lines.push(format!(
-                "warning: {}: {} {} = {}{space}{unit} is {side} {}{space}{unit} (ratings.{})",
-                own.component,
-                quantity.meaning,
-                quantity.symbol,
-                figures(quantity.value, DIGITS),
-                figures(bound, DIGITS),
-                own.rating
-            ));
-        }
-    }
-    lines.extend(own.undefined.iter().map(|reason| format!("note: {}: {}: {reason}", own.component, own.rating)));
+    let faults = own.quantities.iter().filter_map(RatedQuantity::sentence);
+    lines.extend(faults.map(|sentence| format!("warning: {}: {sentence} (ratings.{})", own.component, own.rating)));
+    lines.extend(
+        own.undefined
+            .iter()
+            .map(|reason| format!("note: {}: {}: {reason}", own.component, own.rating)),
+    );
     let left = own.outside_ranges.iter();
     lines.extend(left.map(|sentence| format!("note: {}: {}: {sentence}", own.component, own.rating)));
     lines
 }
 
 /// The steps of the ratings of a part, by its number.
-pub fn explain_ratings(
-    transmission: &Transmission,
-    ratings: &Ratings,
-    solution: &Solution<'_>,
-    part: usize,
-) -> String {
+pub fn explain_ratings(transmission: &Transmission, ratings: &Ratings, solution: &Solution<'_>, part: usize) -> String {
     let (found, trace) = ratings.explain(solution, part);
     let mut out = Lines::default();
     if found.is_empty() {
@@ -122,10 +110,18 @@ pub fn explain_ratings(
     }
     steps(ratings.instances(), trace, &mut out);
     let path = &transmission.parts()[part].path;
-    for own in rated(ratings, transmission, solution).iter().filter(|own| own.component == *path) {
+    for own in rated(ratings, transmission, solution)
+        .iter()
+        .filter(|own| own.component == *path)
+    {
         for quantity in &own.quantities {
             let unit = if quantity.unit == "-" { "" } else { quantity.unit };
-            let line = format!("  {} {} = {} {unit}", quantity.meaning, quantity.symbol, significant(quantity.value));
+            let line = format!(
+                "  {} {} = {} {unit}",
+                quantity.meaning,
+                quantity.symbol,
+                significant(quantity.value)
+            );
             out.line(line.trim_end());
         }
         for line in rating_lines(own) {

@@ -281,7 +281,13 @@ fn temperatures(duty: &DutyOfSet, every: usize) -> Vec<Line> {
 /// Ratings over the cycle: lives first, then what is outside its bound at some time.
 fn ratings(name: &str, duty: &DutyOfSet, page: &mut Page) {
     let Some(rated) = &duty.ratings else { return };
-    let unit = |own: &RatedOverTime| if own.unit == "-" { String::new() } else { format!(" {}", own.unit) };
+    let unit = |own: &RatedOverTime| {
+        if own.unit == "-" {
+            String::new()
+        } else {
+            format!(" {}", own.unit)
+        }
+    };
     for own in rated.iter().filter(|own| own.over_time == "damage") {
         page.line(format!(
             "{name}: {}: {} {} = {}{} over {}",

@@ -123,7 +123,9 @@ impl Analysis for CycleAnalysisEntry {
         let mut cycles = Vec::new();
         for (b, driven) in built.iter().zip(driven.chunks(count)) {
             let shares = Shares::new(&b.transmission, self.by).under(&names);
-            let ratings = self.ratings.then(|| b.gearbox.ratings(cx.language, &b.resolved, &b.transmission));
+            let ratings = self
+                .ratings
+                .then(|| b.gearbox.ratings(cx.language, &b.resolved, &b.transmission));
             let ratings = ratings.transpose()?;
             for (read, driven) in duties.list.iter().zip(driven) {
                 let mut duty = results::duty(b, read, driven, &shares, self.reference.get(&read.name));

@@ -71,7 +71,9 @@ pub fn over_cycle(
             let scratch = t.scratch(&case);
             cases.insert(gear, (case, scratch));
         }
-        let Some((case, scratch)) = cases.get_mut(gear) else { continue };
+        let Some((case, scratch)) = cases.get_mut(gear) else {
+            continue;
+        };
         let point = Point {
             speeds: &[stretch.speed],
             torques: &[stretch.torque][..case.torque_ports.len()],
