@@ -139,7 +139,9 @@ pub fn equivalent(part: &BearingPart, radial: f64, axial: f64, f0: f64, notes: N
     };
     if factors.e.is_finite() && factors.e > 0.0 {
         notes.show("e", "-", factors.e);
-        notes.show("Fa/Fr", "-", if radial > 0.0 { axial / radial } else { f64::MAX });
+        if radial > 0.0 {
+            notes.show("Fa/Fr", "-", axial / radial);
+        }
     }
     if axial > factors.e * radial {
         notes.show("X", "-", factors.above[0]);

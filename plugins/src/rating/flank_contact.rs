@@ -21,7 +21,7 @@ use gearloss_framework::registry::{Build, Evidence, default_of, formula};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::flank;
+use super::{at_least_unless_zero, flank};
 
 const AT_PITCH: Figure = Figure::greatest("p_HC", "MPa", "Hertzian pressure at the pitch point");
 const PRESSURE: Figure = Figure::greatest("p_H", "MPa", "maximum Hertzian pressure along the path of contact");
@@ -117,7 +117,7 @@ impl Rating<GearMesh> for Prepared {
         to.add(&FILM, at.show("h_min", "um", thinnest.um()));
         at.show("Rq", "um", at.part.rq.um());
         let lambda = at.show("lambda", "-", thinnest / at.part.rq);
-        to.add_bounded(&LAMBDA, lambda, Bound::at_least(own.least_film_ratio));
+        to.add_bounded(&LAMBDA, lambda, at_least_unless_zero(own.least_film_ratio));
         let of_mean = at.show("lambda_GF", "-", thinnest / at.part.ra);
         to.add(&LAMBDA_RA, of_mean);
         if let Some(permissible) = own.permissible_film_ratio {

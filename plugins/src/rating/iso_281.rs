@@ -20,6 +20,7 @@ use gearloss_framework::{limits, register_rating};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::at_least_unless_zero;
 use super::equivalent_load::equivalent;
 
 const P: Figure = Figure::greatest("P", "N", "equivalent dynamic load").detail();
@@ -256,7 +257,7 @@ impl Rating<Bearing> for Iso281 {
         to.add(&A_ISO, modification);
         let a1 = at.show("a1", "-", reliability_factor(self.reliability));
         let life = at.show("Lnmh", "h", a1 * modification * basic * hours);
-        to.add_bounded(&LNMH, life, Bound::at_least(self.least_life / 3600.0));
+        to.add_bounded(&LNMH, life, at_least_unless_zero(self.least_life / 3600.0));
         Ok(())
     }
 }

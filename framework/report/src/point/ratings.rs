@@ -2,6 +2,7 @@
 
 use gearloss_framework::evaluate::{Ratings, Solution};
 use gearloss_framework::transmission::Transmission;
+use gearloss_studies::distinct::distinct;
 use gearloss_studies::ratings::{RatedComponent, RatedQuantity, rated};
 
 use super::explain::steps;
@@ -32,6 +33,17 @@ pub fn ratings_text(ratings: &[RatedComponent]) -> String {
     }
     for line in ratings.iter().flat_map(rating_lines) {
         out.line(line);
+    }
+    if let Some(lowest) = ratings.iter().map(|own| own.evidence).max() {
+        let own = ratings
+            .iter()
+            .filter(|own| own.evidence == lowest)
+            .map(|own| own.rating);
+        let grade = lowest.name();
+        out.line(format!(
+            "lowest evidence grade of the ratings: {grade} ({})",
+            distinct(own).join(", ")
+        ));
     }
     out.into_text()
 }

@@ -61,7 +61,6 @@ pub struct DutyOfSet {
     /// Bands of uncertain inputs; absent without any.
     pub bands: Option<BandOfDuty>,
     /// Ratings of the components over the cycle; absent unless requested.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub ratings: Option<Vec<RatedOverTime>>,
     /// Number of evaluations of the losses. [-]
     pub evaluations: usize,

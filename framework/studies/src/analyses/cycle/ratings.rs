@@ -101,7 +101,7 @@ pub fn over_cycle(
         let is_outside = |value: f64| !(course.bound.least..=course.bound.greatest).contains(&value);
         let value = course.combined(&durations)?;
         let outside = course.values.iter().filter(|(_, value)| is_outside(*value));
-        let outside: f64 = outside.map(|(i, _)| durations[*i]).sum();
+        let outside = outside.fold(0.0, |sum, (i, _)| sum + durations[*i]);
         let finite = |end: f64| end.is_finite().then_some(end);
         Some(RatedOverTime {
             component: t.parts()[part].path.clone(),
