@@ -64,6 +64,7 @@ register_rating!(Bearing, "bearing_speed", BearingSpeed,
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
+    use gearloss_framework::rating::RatedFigure;
     use gearloss_framework::testing::{assert_close, rate};
 
     #[test]
@@ -79,7 +80,7 @@ mod tests {
         let (half, twice) = (rated(-5500.0), rated(22_000.0));
         assert_close(half.value("n/n_lim").unwrap(), 0.5, 1e-12);
         assert_close(half.value("n d_m").unwrap(), 330_000.0, 1e-12);
-        assert!(!half.figures().iter().any(|f| f.is_outside()));
+        assert!(!half.figures().iter().any(RatedFigure::is_outside));
         let reported = twice.figures().iter().filter(|f| f.is_outside());
         assert_eq!(reported.map(|f| f.figure.symbol).collect::<Vec<_>>(), ["n/n_lim"]);
     }

@@ -70,14 +70,14 @@ pub fn factors(part: &BearingPart, axial: f64, f0: f64) -> Option<Factors> {
         above: [x, y],
     };
     match part.kind {
-        BearingKind::DeepGrooveBall | BearingKind::DeepGrooveBallDoubleRow => match (part.e, part.y) {
-            (Some(e), Some(y)) => Some(single_row(e, y, 0.56)),
-            _ => {
-                let relative = part.calculation_factor.unwrap_or(f0) * axial / part.c0?;
-                let [_, e, y] = interpolated(&DEEP_GROOVE, relative);
-                Some(single_row(e, y, 0.56))
+        BearingKind::DeepGrooveBall | BearingKind::DeepGrooveBallDoubleRow => {
+            if let (Some(e), Some(y)) = (part.e, part.y) {
+                return Some(single_row(e, y, 0.56));
             }
-        },
+            let relative = part.calculation_factor.unwrap_or(f0) * axial / part.c0?;
+            let [_, e, y] = interpolated(&DEEP_GROOVE, relative);
+            Some(single_row(e, y, 0.56))
+        }
         BearingKind::AngularContactBall => Some(single_row(part.e?, part.y?, 1.0 - part.e? * part.y?)),
         BearingKind::AngularContactBallDoubleRow => {
             let [_, y1, x2, y2] = interpolated(&DOUBLE_ROW_ANGULAR, part.e?);
@@ -107,12 +107,12 @@ pub fn factors(part: &BearingPart, axial: f64, f0: f64) -> Option<Factors> {
             above: [0.67, part.y?],
         }),
         BearingKind::CylindricalRoller | BearingKind::CylindricalRollerFullComplement => {
-            let stated = part.e.zip(part.y);
-            let (e, y) = stated.or_else(|| match part.series.as_deref() {
+            let of_series = match part.series.as_deref() {
                 Some("10" | "2" | "3" | "4") => Some((0.2, 0.6)),
                 Some("22" | "23") => Some((0.3, 0.4)),
                 _ => None,
-            })?;
+            };
+            let (e, y) = part.e.zip(part.y).or(of_series)?;
             Some(single_row(e, y, 0.92))
         }
         // They carry no axial load.

@@ -75,7 +75,7 @@ register_rating!(Seal, "lip_seal", LipSeal,
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
-    use gearloss_framework::rating::Rated;
+    use gearloss_framework::rating::{Rated, RatedFigure};
     use gearloss_framework::testing::{assert_close, rate};
 
     fn rated(part: &str, at: &str) -> Rated {
@@ -90,14 +90,14 @@ mod tests {
         assert_close(nbr.value("v").unwrap(), 12.566, 1e-4);
         assert_eq!(nbr.figures().iter().filter(|f| f.is_outside()).count(), 2);
         let fkm = rated("{ diameter: 40 mm, material: fkm }", at);
-        assert!(!fkm.figures().iter().any(|f| f.is_outside()));
+        assert!(!fkm.figures().iter().any(RatedFigure::is_outside));
     }
 
     #[test]
     fn without_a_material_there_is_no_limit_and_without_contact_no_rating() {
         let at = "{ speed: 30000 rpm, temperature: 190 degC }";
         let unknown = rated("{ diameter: 400 mm }", at);
-        assert!(unknown.figures().len() == 2 && !unknown.figures().iter().any(|f| f.is_outside()));
+        assert!(unknown.figures().len() == 2 && !unknown.figures().iter().any(RatedFigure::is_outside));
         assert!(
             rated("{ diameter: 40 mm, kind: non_contact, material: nbr }", at)
                 .figures()
