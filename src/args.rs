@@ -383,9 +383,9 @@ pub struct ShownArgs {
 /// Arguments of `models`.
 #[derive(Debug, ClapArgs)]
 pub struct ModelsArgs {
-    /// Mechanism, such as `bearing`.
+    /// Mechanism, such as `bearing`, or `rating`.
     pub mechanism: Option<String>,
-    /// Model, such as `skf`.
+    /// Model, such as `skf`, or the name of a rating.
     pub model: Option<String>,
     /// Lists the inputs that each model needs, and whether this gearbox has them.
     #[arg(long, value_name = "GEARBOX", conflicts_with = "format")]
@@ -417,9 +417,9 @@ pub enum CatalogueArg {
 /// Arguments of `eval`.
 #[derive(Debug, ClapArgs)]
 pub struct EvalArgs {
-    /// Mechanism and model, such as `bearing/skf`.
+    /// Mechanism and model, such as `bearing/skf`, or a rating, such as `rating/iso_281`.
     pub model: String,
-    /// YAML file with `part`, `at` and optionally `model` [default: the mechanism's example at its usual point].
+    /// YAML file with `part`, `at` and optionally `model` or `rating` [default: the mechanism's example at its usual point].
     #[arg(long, value_name = "FILE")]
     pub input: Option<PathBuf>,
     /// Output format.

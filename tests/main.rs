@@ -44,6 +44,7 @@ mod peers;
 mod performance;
 mod planetary;
 mod program;
+mod ratings;
 mod reader;
 mod reducer;
 mod reference;

@@ -7,7 +7,8 @@ use std::fmt::Write as _;
 use gearloss_framework::coefficients::COEFFICIENTS;
 use gearloss_framework::document::records_by_type;
 use gearloss_framework::language::{Kind, Language};
-use gearloss_framework::registry::{Entry, Files, MechanismEntry};
+use gearloss_framework::registry::{Entry, Files, MechanismEntry, RatingPlugin};
+use gearloss_framework::resolve::RATINGS;
 use serde_json::{Map, Value};
 
 /// Models of the field that are not here.
@@ -112,6 +113,11 @@ fn parameters(out: &mut String, language: &Language, entry: &Entry) {
         .flatten()
         .filter(|(name, _)| !["type", COEFFICIENTS].contains(&name.as_str()))
         .collect();
+    parameter_table(out, &schema, &fields, entry);
+}
+
+/// A row for each parameter of a model or rating.
+fn parameter_table(out: &mut String, schema: &Value, fields: &[(&String, &Value)], entry: &Entry) {
     if fields.is_empty() {
         out.push_str("No parameters.\n\n");
         return;
@@ -126,7 +132,7 @@ fn parameters(out: &mut String, language: &Language, entry: &Entry) {
             "evidence of the default",
         ],
     );
-    for (name, field) in fields {
+    for &(name, field) in fields {
         let range = match (field["minimum"].as_f64(), field["maximum"].as_f64()) {
             (Some(least), Some(greatest)) => format!("{} to {}", significant(least), significant(greatest)),
             (Some(least), None) => format!("from {}", significant(least)),
@@ -138,10 +144,10 @@ fn parameters(out: &mut String, language: &Language, entry: &Entry) {
             Value::Number(n) => n.as_f64().map_or_else(|| n.to_string(), significant),
             value => value.to_string(),
         };
-        let graded = entry.evidence.iter().find(|g| g.key == name);
+        let graded = entry.evidence.iter().find(|g| g.key == name.as_str());
         let evidence = graded.map_or_else(String::new, |g| format!("{}: {}", g.grade.name(), g.because));
         let doc = field["description"].as_str().unwrap_or_default();
-        let choices = choices(&schema, field);
+        let choices = choices(schema, field);
         let doc = if choices.is_empty() {
             doc.to_owned()
         } else {
@@ -276,6 +282,87 @@ fn mechanism_page(language: &Language, mechanism: &MechanismEntry) -> String {
     out.trim_end().to_owned() + "\n"
 }
 
+fn rating(out: &mut String, language: &Language, plugin: &RatingPlugin) {
+    let entry = &plugin.entry;
+    writeln!(out, "## {}\n\n{}\n", entry.name, entry.meaning()).unwrap();
+    let head = head_of(entry);
+    if !head.is_empty() {
+        writeln!(out, "{head}\n").unwrap();
+    }
+    writeln!(
+        out,
+        "Rates components of the mechanism [{0}]({0}.md).\n",
+        entry.mechanism
+    )
+    .unwrap();
+    let schema = language.published(Kind::Gearbox);
+    let choice = &schema["properties"][RATINGS]["properties"][entry.name];
+    let records = choice["anyOf"].as_array().into_iter().flatten();
+    let fields: Vec<(&String, &Value)> = records
+        .filter_map(|record| record["properties"].as_object())
+        .flatten()
+        .collect();
+    parameter_table(out, &schema, &fields, entry);
+    for graded in entry.evidence.iter().filter(|g| g.key.is_empty()) {
+        writeln!(out, "Evidence: {} ({}).", graded.grade.name(), graded.because).unwrap();
+    }
+    writeln!(out, "Source: {}.\n", entry.source).unwrap();
+    for limit in entry.limits {
+        writeln!(
+            out,
+            "- Stated range of the {} {} [{}]: {} to {} ({}).",
+            limit.meaning,
+            limit.name,
+            limit.unit,
+            significant(limit.least),
+            significant(limit.greatest),
+            limit.origin
+        )
+        .unwrap();
+    }
+    for figure in plugin.figures {
+        writeln!(
+            out,
+            "- Quantity {} [{}]: {}.",
+            figure.symbol, figure.unit, figure.meaning
+        )
+        .unwrap();
+    }
+    let (parameters, part) = language.example_of_rating(plugin).unwrap();
+    let files = Files::default();
+    let alone = (plugin.eval)(language.registry(), &files, plugin, &parameters, &part, &Map::new()).unwrap();
+    let values: Vec<String> = alone
+        .rated
+        .figures()
+        .iter()
+        .map(|own| {
+            let unit = if own.figure.unit == "-" { "" } else { own.figure.unit };
+            format!("{} {} {unit}", own.figure.symbol, significant(own.value))
+                .trim_end()
+                .to_owned()
+        })
+        .collect();
+    let values = values.join(", ");
+    writeln!(
+        out,
+        "\n`gearloss eval rating/{}` returns {values} at the usual point.\n",
+        entry.name
+    )
+    .unwrap();
+}
+
+/// The page of all ratings.
+fn ratings_page(language: &Language) -> String {
+    let mut out = String::from(
+        "# Ratings\n\nQuantities of components at solved points that compare them with what they can bear. No loss depends on them. \
+         [What they are for, and what is omitted](../ratings.md).\n\n",
+    );
+    for plugin in language.registry().ratings() {
+        rating(&mut out, language, plugin);
+    }
+    out.trim_end().to_owned() + "\n"
+}
+
 fn index(language: &Language) -> String {
     let mut out = String::from(
         "# Models\n\nGenerated from the program: `UPDATE=1 cargo test --test all reference::`. Evidence grades are explained in \
@@ -297,6 +384,19 @@ fn index(language: &Language) -> String {
         }
         out.push('\n');
     }
+    out.push_str("## [ratings](ratings.md)\n\nRatings of components at solved points.\n\n");
+    header(&mut out, &["rating", "mechanism", "description", "evidence", "source"]);
+    for plugin in language.registry().ratings() {
+        let entry = &plugin.entry;
+        let formula = entry.evidence.iter().find(|g| g.key.is_empty());
+        let link = format!("[{0}](ratings.md#{0})", entry.name);
+        let grade = formula.map_or("", |g| g.grade.name());
+        row(
+            &mut out,
+            &[&link, entry.mechanism, &entry.meaning(), grade, entry.source],
+        );
+    }
+    out.push('\n');
     writeln!(
         out,
         "{count} models, including the four generic ones of each mechanism.\n"
@@ -324,6 +424,7 @@ fn the_reference_is_not_stale() {
     for mechanism in language.registry().mechanisms() {
         pages.push((mechanism.key.to_owned(), mechanism_page(&language, mechanism)));
     }
+    pages.push(("ratings".to_owned(), ratings_page(&language)));
     for (name, own) in &pages {
         let path = common::file(&format!("docs/models/{name}.md"));
         if std::env::var_os("UPDATE").is_some() {

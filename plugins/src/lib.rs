@@ -19,6 +19,7 @@ pub mod planetary_drag;
 mod powers;
 #[cfg(test)]
 mod printed;
+pub mod rating;
 pub mod rotating;
 pub mod seal;
 pub mod sets;

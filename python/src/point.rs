@@ -3,9 +3,12 @@
 use gearloss::api::{OilTemperature, PowerFlow};
 use gearloss::framework::coefficients::changed_from_source;
 use gearloss::framework::thermal::Outcome;
-use gearloss::report::point::{explain_part, heading, locking_text, point_json, point_text, temperature_text};
+use gearloss::report::point::{
+    explain_part, heading, locking_text, point_json, point_text, ratings_text, temperature_text,
+};
 use gearloss::report::text::significant;
 use gearloss::studies::points::{PreparedPoint, evidence};
+use gearloss::studies::ratings::rated;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use serde_json::json;
@@ -195,6 +198,9 @@ impl Solution {
         let packages = language(py)?.registry().packages();
         let mut value = point_json(&t.built, &self.prepared, &solved, packages);
         let is_written = |path: &str| t.gearbox.places.is_written(path);
+        let ratings = t.gearbox.ratings(language(py)?, &t.resolved, &t.built);
+        let ratings = ratings.map_err(|findings| raised(py, &findings))?;
+        value["ratings"] = json!(rated(&ratings, &t.built, &solved.solution));
         value["evidence"] = json!(evidence(&t.built, &t.resolved, &is_written));
         value["unreached"] = json!(t.resolved.unreached);
         value["changed_from_source"] = json!(changed_from_source(&t.built, &t.resolved));
@@ -202,11 +208,14 @@ impl Solution {
     }
 
     /// The tables of `gearloss solve`.
-    fn text(&self) -> String {
+    fn text(&self, py: Python<'_>) -> PyResult<String> {
         let t = self.transmission.get();
         let mut scratch = t.built.scratch(&self.prepared.case);
         let solved = self.prepared.solve(&t.built, &mut scratch);
-        point_text(&t.built, &self.prepared, &solved)
+        let ratings = t.gearbox.ratings(language(py)?, &t.resolved, &t.built);
+        let ratings = ratings.map_err(|findings| raised(py, &findings))?;
+        let rated = rated(&ratings, &t.built, &solved.solution);
+        Ok(point_text(&t.built, &self.prepared, &solved) + &ratings_text(&rated))
     }
 
     fn __repr__(&self) -> String {

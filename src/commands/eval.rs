@@ -5,14 +5,13 @@ use std::path::Path;
 use gearloss_framework::eval;
 use gearloss_framework::files::LONGEST_TEXT;
 use gearloss_framework::gearbox::Findings;
-use gearloss_report::eval::{eval_json, eval_text};
+use gearloss_report::eval::{eval_json, eval_text, rated_json, rated_text};
 
 use crate::args::{EvalArgs, Format};
 use crate::output::{End, Failure, Out};
 
 pub fn run(args: &EvalArgs, out: &mut Out) -> Result<End, Failure> {
     let language = super::language()?;
-    let (mechanism, entry) = eval::named(language, &args.model).map_err(Findings::from)?;
     let (text, folder) = match &args.input {
         Some(file) => (
             super::read_file(file, LONGEST_TEXT, "check the file name")?,
@@ -21,6 +20,18 @@ pub fn run(args: &EvalArgs, out: &mut Out) -> Result<End, Failure> {
         None => Default::default(),
     };
     let source = args.input.as_deref().unwrap_or(Path::new("")).display().to_string();
+    if let Some(name) = args.model.strip_prefix("rating/") {
+        let plugin = language.registry().rating_named(name).map_err(Findings::from)?;
+        let rated = eval::rate_input(language, plugin, &source, &text, &folder)?;
+        if args.format == Format::Json {
+            let value = rated_json(plugin, &rated, language.registry().packages());
+            out.line(serde_json::to_string_pretty(&value).unwrap_or_default())?;
+        } else {
+            out.text(&rated_text(plugin, &rated))?;
+        }
+        return Ok(End::Fine);
+    }
+    let (mechanism, entry) = eval::named(language, &args.model).map_err(Findings::from)?;
     let evaluated = eval::evaluate_input(language, &args.model, &source, &text, &folder)?;
     if !evaluated.total.is_finite() {
         return Err(Failure::input(

@@ -4,7 +4,9 @@ use gearloss_framework::coefficients::changed_from_source;
 use gearloss_framework::document::did_you_mean;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::transmission::Transmission;
-use gearloss_report::point::{explain_heat_path, explain_part, heading, locking_text, temperature_text};
+use gearloss_report::point::{
+    explain_heat_path, explain_part, explain_ratings, heading, locking_text, temperature_text,
+};
 
 use super::point::prepare;
 use super::{set, warn};
@@ -34,6 +36,7 @@ pub fn run(args: &ExplainArgs, out: &mut Out) -> Result<End, Failure> {
     if found.outcome().is_some() {
         out.line(temperature_text(&transmission, found))?;
     }
+    let ratings = gearbox.ratings(language, &resolved, &transmission)?;
     let changed = changed_from_source(&transmission, &resolved);
     for way in ways {
         let surface = found.balance.as_ref().and_then(|b| b.surface).unwrap_or(found.oil);
@@ -49,6 +52,7 @@ pub fn run(args: &ExplainArgs, out: &mut Out) -> Result<End, Failure> {
             part,
             &changed,
         ))?;
+        out.text(&explain_ratings(&transmission, &ratings, solution, part))?;
     }
     Ok(End::Fine)
 }

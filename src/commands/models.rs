@@ -4,11 +4,14 @@ use std::path::Path;
 
 use gearloss_framework::gearbox::{Findings, Gearbox};
 use gearloss_framework::language::Language;
-use gearloss_report::models::{mechanism_text, model_text, models_json, models_text};
+use gearloss_report::models::{mechanism_text, model_text, models_json, models_text, rating_text, ratings_list};
 use gearloss_studies::needs::needs;
 
 use crate::args::{Format, ModelsArgs};
 use crate::output::{End, Failure, Out, Table};
+
+/// Word that lists ratings instead of the models of a mechanism.
+const RATING: &str = "rating";
 
 pub fn run(args: &ModelsArgs, out: &mut Out) -> Result<End, Failure> {
     let language = super::language()?;
@@ -16,6 +19,14 @@ pub fn run(args: &ModelsArgs, out: &mut Out) -> Result<End, Failure> {
         return print_needs(language, file, args.mechanism.as_deref(), out);
     }
     let registry = language.registry();
+    if args.mechanism.as_deref() == Some(RATING) && args.format == Format::Table {
+        let text = match &args.model {
+            None => ratings_list(language),
+            Some(name) => rating_text(language, registry.rating_named(name).map_err(Findings::from)?),
+        };
+        out.text(&text)?;
+        return Ok(End::Fine);
+    }
     let mechanism = args.mechanism.as_ref().map(|name| registry.mechanism_named(name));
     let mechanism = mechanism.transpose().map_err(Findings::from)?;
     let model = mechanism

@@ -2,8 +2,9 @@
 
 use gearloss_framework::coefficients::changed_from_source;
 use gearloss_framework::gearbox::Gearbox;
-use gearloss_report::point::{derivatives_text, point_json, point_text, remarks};
+use gearloss_report::point::{derivatives_text, point_json, point_text, ratings_text, remarks};
 use gearloss_studies::points::{Derived, Variable, evidence};
+use gearloss_studies::ratings::rated;
 use serde_json::json;
 
 use super::check::grade;
@@ -21,6 +22,8 @@ pub fn run(args: &SolveArgs, out: &mut Out) -> Result<End, Failure> {
     let prepared = prepare(&args.point, &gearbox, &transmission)?;
     let mut scratch = transmission.scratch(&prepared.case);
     let solved = prepared.solve(&transmission, &mut scratch);
+    let ratings = gearbox.ratings(language, &resolved, &transmission)?;
+    let ratings = rated(&ratings, &transmission, &solved.solution);
     let known = evidence(&transmission, &resolved, &|path| gearbox.places.is_written(path));
     let changed = changed_from_source(&transmission, &resolved);
     let choice = set::choice(&args.choice)?;
@@ -42,6 +45,7 @@ pub fn run(args: &SolveArgs, out: &mut Out) -> Result<End, Failure> {
         Format::Json => {
             let packages = language.registry().packages();
             let mut value = point_json(&transmission, &prepared, &solved, packages);
+            value["ratings"] = json!(ratings);
             value["evidence"] = json!(known);
             value["unreached"] = json!(resolved.unreached);
             value["changed_from_source"] = json!(changed);
@@ -52,6 +56,10 @@ pub fn run(args: &SolveArgs, out: &mut Out) -> Result<End, Failure> {
         }
         Format::Table => {
             out.text(&point_text(&transmission, &prepared, &solved))?;
+            let text = ratings_text(&ratings);
+            if !text.is_empty() {
+                out.text(&format!("{text}\n"))?;
+            }
             for derivatives in &derivatives {
                 out.text(&derivatives_text(derivatives))?;
             }

@@ -23,6 +23,7 @@ fn all_models_conform() {
             "{mechanism}/{model} is not linked"
         );
     }
+    assert!(language.registry().rating_named("lock_speed").is_ok());
     gearloss_framework::testing::conformance();
 }
 
@@ -86,6 +87,9 @@ fn check_solve_and_explain_know_them() {
             .clone()
     };
     // 0.5 N at 45 mm on the wheel at 3000/3.5 rpm.
+    let ratings = solved["ratings"].as_array().unwrap();
+    let own = ratings.iter().find(|own| own["rating"] == "lock_speed").unwrap();
+    assert_eq!(own["component"], "parking_locks.lock");
     let expected = 0.5 * 0.045 * 3000.0 / 3.5 * std::f64::consts::PI / 30.0;
     assert!((part("parking_locks.lock")["loss_w"].as_f64().unwrap() - expected).abs() < 1e-9);
     assert_eq!(part("bearings.P1")["model"], "rig_line");

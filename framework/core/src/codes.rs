@@ -88,4 +88,7 @@ gearloss_document::codes! {
     OVERLOADED = "W0305", "static safety below 1 at the rating",
         cause: "A bearing has a static safety below 1 at the rated torque.",
         help: "Use a larger bearing, or check the rating.";
+    RATED_OUTSIDE = "W0306", "quantity of a rating is outside its bound at the rating",
+        cause: "At the rated torque and speed, a component exceeds what a rating under `ratings` allows, such as its load or its speed.",
+        help: "Change the component, or state another bound under `ratings`; `gearloss models rating` lists them.";
 }

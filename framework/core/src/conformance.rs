@@ -3,6 +3,9 @@
 //! It serves built-in models and those of other crates: a crate calls [`check_all`] in one test, which covers every linked model.
 
 mod derivatives;
+mod ratings;
+
+pub use ratings::conform_rating;
 
 use std::cell::Cell;
 use std::sync::Arc;
@@ -15,7 +18,7 @@ use crate::mechanism::{Answer, Inputs as _, Mechanism, Quantity};
 use crate::real::{Dual, LANES, Lane, Real as _};
 use crate::registry::{Build, Entry, Evidence, Files, Graded, Registry, from_resolved};
 
-/// Checks every linked model on its mechanism's example part. Returns one line for each fault.
+/// Checks every linked model and rating on its mechanism's example part. Returns one line for each fault.
 pub fn check_all(language: &Language) -> Vec<String> {
     let mut faults = Vec::new();
     for mechanism in language.registry().mechanisms() {
@@ -62,6 +65,7 @@ pub fn check_all(language: &Language) -> Vec<String> {
             }
         }
     }
+    faults.extend(ratings::check_all(language));
     faults
 }
 
@@ -314,7 +318,7 @@ fn same_result<A: Answer>(a: &Result<A, Undefined>, b: &Result<A, Undefined>, sp
     }
 }
 
-fn head(entry: &Entry) -> Vec<String> {
+pub(super) fn head(entry: &Entry) -> Vec<String> {
     let mut faults = Vec::new();
     if entry.meaning().is_empty() {
         faults.push("has no description: write a doc comment on its parameters".to_owned());

@@ -10,10 +10,10 @@ use crate::codes;
 use crate::document::{Diagnostic, Sources, classify, did_you_mean, read_yaml};
 use crate::gearbox::Findings;
 use crate::language::Language;
-use crate::loss::{Notes, Seen, Trace};
-use crate::mechanism::{Answer, Mechanism, settle};
+use crate::loss::{Notebook, Notes, Seen, Trace};
+use crate::mechanism::{Answer, Inputs as _, Mechanism, settle};
 pub use crate::registry::Evaluated;
-use crate::registry::{Build, Entry, Files, MechanismEntry, Registry, from_resolved};
+use crate::registry::{Build, Entry, Files, MechanismEntry, RatedAlone, RatingPlugin, Registry, from_resolved};
 
 /// A mechanism and a model of a language by their names, `MECHANISM/MODEL`.
 ///
@@ -131,21 +131,7 @@ pub fn eval<M: Mechanism>(
     let trace = Trace::default();
     let (answer, speed, followed) = {
         let mut at = M::usual(&part, Notes::new(&cells, slot.notes).traced(&trace));
-        let mut stated = Vec::new();
-        for (name, value) in inputs {
-            let Some(quantity) = M::QUANTITIES.iter().find(|q| q.name == name) else {
-                let error = Diagnostic::error(
-                    format!("at.{name}"),
-                    format!("the context of {} has no quantity `{name}`", M::KEY),
-                );
-                return Err(match did_you_mean(name, M::QUANTITIES.iter().map(|q| q.name)) {
-                    Some(close) => error.help(format!("write `{close}`")),
-                    None => error,
-                });
-            };
-            (quantity.set)(&mut at, value.as_f64().unwrap_or(f64::NAN));
-            stated.push(quantity.name);
-        }
+        let stated = set_inputs::<M>(&mut at, inputs)?;
         let mut followed = Vec::new();
         for (name, law) in settle::<M>(&mut at, &stated)? {
             if let Some(q) = M::QUANTITIES.iter().find(|q| q.name == name) {
@@ -186,4 +172,110 @@ pub fn eval<M: Mechanism>(
         }
     }
     Ok(evaluated)
+}
+
+/// Sets the given quantities of a context, SI; returns their names.
+fn set_inputs<M: Mechanism>(
+    at: &mut M::At<'_, f64>,
+    inputs: &Map<String, Value>,
+) -> Result<Vec<&'static str>, Diagnostic> {
+    let mut stated = Vec::new();
+    for (name, value) in inputs {
+        let Some(quantity) = M::QUANTITIES.iter().find(|q| q.name == name) else {
+            let error = Diagnostic::error(
+                format!("at.{name}"),
+                format!("the context of {} has no quantity `{name}`", M::KEY),
+            );
+            return Err(match did_you_mean(name, M::QUANTITIES.iter().map(|q| q.name)) {
+                Some(close) => error.help(format!("write `{close}`")),
+                None => error,
+            });
+        };
+        (quantity.set)(at, value.as_f64().unwrap_or(f64::NAN));
+        stated.push(quantity.name);
+    }
+    Ok(stated)
+}
+
+/// Evaluates `MECHANISM/RATING` at an input in YAML with `part`, `at` and `rating`, each optional, as [`evaluate_input`] does for models.
+///
+/// # Errors
+/// If there is no such rating, or the input is invalid, or [`rate`] fails.
+pub fn rate_input(
+    language: &Language,
+    plugin: &RatingPlugin,
+    source: &str,
+    input: &str,
+    folder: &Path,
+) -> Result<RatedAlone, Findings> {
+    let mut sources = Sources::default();
+    let source = sources.add(source.to_owned(), input);
+    let found = |mut list: Vec<Diagnostic>| {
+        classify(&mut list, codes::EVAL);
+        Findings {
+            list,
+            sources: sources.clone(),
+        }
+    };
+    let text = if input.trim().is_empty() { "{}" } else { input };
+    let read = read_yaml(source, text);
+    if !read.findings.is_empty() {
+        return Err(found(read.findings));
+    }
+    let walked = language.walk_rating(plugin, &read.node).map_err(found)?;
+    if !walked.findings.is_empty() {
+        return Err(found(walked.findings));
+    }
+    let (_, example) = language.example_of_rating(plugin).map_err(found)?;
+    let written = |key: &str| walked.value.get(key).filter(|value| !value.is_null()).cloned();
+    let rating = match written("rating") {
+        Some(own) => own,
+        None => language.default_rating(plugin.entry.name).map_err(found)?,
+    };
+    let at = match written("at") {
+        Some(Value::Object(at)) => at,
+        _ => Map::new(),
+    };
+    let part = written("part").unwrap_or(example);
+    let files = Files::beside(folder.to_path_buf());
+    (plugin.eval)(language.registry(), &files, plugin, &rating, &part, &at)
+        .map_err(|error| found(vec![walked.places.place(error).at_span(read.node.span)]))
+}
+
+/// Evaluates a rating on a part, at the usual context with the given quantities changed; all values SI.
+///
+/// # Errors
+/// As [`eval`].
+pub fn rate<M: Mechanism>(
+    registry: &Registry,
+    files: &Files,
+    plugin: &RatingPlugin,
+    rating: &Value,
+    part: &Value,
+    inputs: &Map<String, Value>,
+) -> Result<RatedAlone, Diagnostic> {
+    let part: Arc<M::Part> = Arc::new(from_resolved(part).map_err(|e| Diagnostic::error("part", e.to_string()))?);
+    let mut build = Build::new(registry, files);
+    let slot = build.rating::<M>("rating", &part, &plugin.entry, rating)?;
+    let (instances, cells) = build.finish();
+    let cells = vec![Cell::new(Seen::NOTHING); cells];
+    let trace = Trace::default();
+    let rated = {
+        let mut at = M::usual(&part, Notes::MUTED);
+        let stated = set_inputs::<M>(&mut at, inputs)?;
+        settle::<M>(&mut at, &stated)?;
+        let book = Notebook {
+            cells: &cells,
+            trace: Some(&trace),
+            ..Notebook::CLOSED
+        };
+        slot.rate(&at.with_notes(book.notes(slot.notes)))
+    };
+    let steps = trace.into_steps().into_iter();
+    Ok(RatedAlone {
+        rated: rated.map_err(|undefined| Diagnostic::error("rating", undefined.to_string()))?,
+        steps: steps
+            .map(|step| (instances[step.instance()].path.clone(), step))
+            .collect(),
+    })
 }

@@ -3,6 +3,7 @@
 mod batch;
 mod derive;
 mod grip;
+mod ratings;
 mod readings;
 mod scratch;
 mod snapshot;
@@ -10,6 +11,7 @@ mod solution;
 
 pub use batch::{Batch, BatchScratch, Block};
 pub use derive::{GivenQuantity, NoSlopes, Slope, Slopes};
+pub use ratings::{ComponentRating, Ratings};
 pub(crate) use readings::readings;
 pub use readings::{MemberTorques, Reading};
 use scratch::Models;

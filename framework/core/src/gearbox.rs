@@ -9,6 +9,7 @@ use serde_json::{Map, Value};
 
 use crate::codes;
 use crate::document::{Diagnostic, Node, PlacedDiagnostic, Places, Severity, Sources, Span, read_yaml};
+use crate::evaluate::Ratings;
 use crate::files::{Disk, LONGEST_TEXT, SharedSource};
 use crate::language::{DRAGS, HEAT, Language};
 use crate::registry::{Files, Memory, Registry};
@@ -272,6 +273,19 @@ impl Gearbox {
     pub fn build(&self, language: &Language, resolved: &Resolved) -> Result<Transmission, Findings> {
         let (built, _) = self.build_again(language, resolved, Memory::default())?;
         Ok(built)
+    }
+
+    /// Builds the ratings of a resolved description, for the points of its transmission.
+    ///
+    /// # Errors
+    /// All findings of building them, with positions.
+    pub fn ratings(
+        &self,
+        language: &Language,
+        resolved: &Resolved,
+        transmission: &Transmission,
+    ) -> Result<Ratings, Findings> {
+        Ratings::new(language, &self.files, resolved, transmission).map_err(|list| self.findings(list))
     }
 
     /// As [`Gearbox::build`], after another build of the description.

@@ -19,8 +19,8 @@ use crate::mechanism::gear_drag::{GearDrag, Scope};
 use crate::mechanism::gear_mesh::GearMesh;
 use crate::mechanism::heat_dissipation::HeatDissipation;
 use crate::mechanism::planetary_drag::PlanetaryDrag;
-use crate::registry::{DocumentKind, Entry, Files, Registry, inventory};
-use crate::resolve::CatalogueTable;
+use crate::registry::{DocumentKind, Entry, Files, RatingPlugin, Registry, inventory};
+use crate::resolve::{CatalogueTable, RATINGS};
 
 /// Key of the mechanism of mesh models.
 pub const MESHES: &str = GearMesh::KEY;
@@ -320,6 +320,48 @@ impl Language {
         }
         let value = fine(self.walk_eval(entry.mechanism, &read.node)?)?;
         Ok((value["model"].clone(), value["part"].clone()))
+    }
+
+    /// The parameters of a rating with their defaults.
+    ///
+    /// # Errors
+    /// If one of them has no default.
+    pub fn default_rating(&self, name: &str) -> Result<Value, Vec<Diagnostic>> {
+        self.checked(&Value::Object(serde_json::Map::new()), &format!("{RATINGS}.{name}"))
+    }
+
+    /// The parameters of a rating with their defaults, and the resolved example part of its mechanism.
+    ///
+    /// # Errors
+    /// All findings of reading and checking either.
+    pub fn example_of_rating(&self, rating: &RatingPlugin) -> Result<(Value, Value), Vec<Diagnostic>> {
+        let mechanism = self.registry.mechanism(rating.entry.mechanism);
+        let part = rating
+            .entry
+            .part
+            .unwrap_or_else(|| mechanism.map_or("{}", |m| m.example));
+        let indented = part
+            .trim()
+            .lines()
+            .fold(String::new(), |text, line| text + "\n  " + line);
+        let read = read_yaml(0, &format!("part:{indented}\n"));
+        if !read.findings.is_empty() {
+            return Err(read.findings);
+        }
+        let value = fine(self.walk_rating(rating, &read.node)?)?;
+        Ok((self.default_rating(rating.entry.name)?, value["part"].clone()))
+    }
+
+    /// Checks the input of a rating that is evaluated alone: `rating`, `part` and `at`.
+    ///
+    /// # Errors
+    /// If the schema of the rating cannot be compiled.
+    pub fn walk_rating(&self, rating: &RatingPlugin, node: &Node) -> Result<Walked, Vec<Diagnostic>> {
+        let mut found = Vec::new();
+        match compiled(&compose::rating(&self.registry, rating), &mut found) {
+            Some(schema) => Ok(walk(node, &schema)),
+            None => Err(found),
+        }
     }
 
     /// Whether the law of a model is written for any number: then it answers for several points at once and has exact derivatives.

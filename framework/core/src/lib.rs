@@ -70,6 +70,7 @@ pub mod attach;
 pub mod conformance;
 pub mod loss;
 pub mod mechanism;
+pub mod rating;
 mod registration;
 
 // What models and the solver calculate with: numbers, teeth, contacts, oils, motors.

@@ -21,7 +21,7 @@ pub use crate::mechanism::heat_dissipation::{
 pub use crate::mechanism::heat_link::{HeatLink, HeatLinkAt, HeatLinkModel, HeatLinkPart};
 pub use crate::mechanism::mean_friction::{MeanFriction, MeanFrictionAt, MeanFrictionLaw, MeanFrictionModel};
 pub use crate::mechanism::planetary_drag::{PlanetaryDrag, PlanetaryDragAt, PlanetaryDragModel, PlanetaryPart};
-pub use crate::mechanism::seal::{Seal, SealAt, SealKind, SealModel, SealPart};
+pub use crate::mechanism::seal::{Seal, SealAt, SealKind, SealMaterial, SealModel, SealPart};
 pub use crate::mechanism::synchronizer::{CouplingKind, CouplingPart, Synchronizer, SynchronizerAt, SynchronizerModel};
 pub use crate::mechanism::tooth_friction::{
     Along, ContactAt, PathAt, PathExtent, PathNode, ToothFriction, ToothFrictionLaw, ToothFrictionModel,
@@ -29,10 +29,11 @@ pub use crate::mechanism::tooth_friction::{
 pub use crate::mechanism::{
     Answers, Component, Lookup, Mechanism, ModelRef, NamedSlots, NoPart, Quantity, Scalar, ShopUnits, Slot,
 };
+pub use crate::rating::{Bound, Figure, Over, Rated, Rating};
 pub use crate::real::{Mask, Points, Real};
 pub use crate::registry::{Build, Catalogue, Evidence, ShippedCycle, ShippedSet, default_of, formula, inventory};
 pub use crate::table::{Interpolation, Outside, Reading};
 pub use crate::{
     answered_by, coefficients, context, limits, observed, origin, register, register_component, register_mechanism,
-    terms,
+    register_rating, terms,
 };

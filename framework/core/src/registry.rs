@@ -7,6 +7,7 @@ mod build;
 mod evaluated;
 mod memory;
 mod placed;
+mod rating;
 mod recipe;
 
 use std::any::Any;
@@ -18,8 +19,10 @@ use serde_json::{Map, Value};
 pub use build::{Build, Files, Instance};
 pub use evaluated::Evaluated;
 pub(crate) use memory::Memory;
+pub(crate) use placed::BuiltRating;
 pub(crate) use placed::sealed::Sealed;
 pub use placed::{Placed, Section};
+pub use rating::{RatedAlone, RatingPlugin};
 pub use recipe::NetworkRecipe;
 
 use crate::codes;
@@ -338,6 +341,7 @@ pub struct Registry {
     sets: Vec<ShippedSet>,
     cycles: Vec<ShippedCycle>,
     recipes: Vec<NetworkRecipe>,
+    ratings: Vec<RatingPlugin>,
 }
 
 impl Registry {
@@ -353,7 +357,8 @@ impl Registry {
             inventory::iter::<ShippedSet>().copied(),
         )?
         .with_recipes(inventory::iter::<NetworkRecipe>().copied())
-        .with_cycles(inventory::iter::<ShippedCycle>().copied())
+        .with_cycles(inventory::iter::<ShippedCycle>().copied())?
+        .with_ratings(inventory::iter::<RatingPlugin>().copied())
     }
 
     /// The same with recipes for thermal networks.
@@ -449,6 +454,7 @@ impl Registry {
                 sets,
                 cycles: Vec::new(),
                 recipes: Vec::new(),
+                ratings: Vec::new(),
             })
         } else {
             Err(found)
@@ -541,6 +547,7 @@ impl Registry {
             .chain(self.sets.iter().map(|s| s.origin))
             .chain(self.cycles.iter().map(|c| c.origin))
             .chain(self.recipes.iter().map(|r| r.origin))
+            .chain(self.ratings.iter().map(|r| r.entry.origin))
             .map(|origin| origin.package)
             .collect();
         packages.sort_unstable();

@@ -8,6 +8,7 @@ mod choice;
 mod designation;
 mod network;
 mod paths;
+mod ratings;
 
 use std::collections::BTreeMap;
 
@@ -18,6 +19,7 @@ pub use choice::{Choice, ModelSet, OWN_MODELS, called_own, expand_set, sets_of};
 pub use paths::{lookup, matches};
 
 pub use paths::{meets, no_match};
+pub use ratings::RATINGS;
 
 pub(crate) use paths::lookup_mut;
 
@@ -139,6 +141,12 @@ impl Draft {
         }
         // A generated network depends on all other changes, and changes inside it are applied afterwards.
         let (inside, later): (Vec<_>, Vec<_>) = later.into_iter().partition(|(path, _)| network::meets_inside(path));
+        ratings::fill(
+            language,
+            &mut value,
+            later.iter().map(|(path, _)| path.as_str()),
+            &mut found,
+        );
         apply(language, &mut value, later.iter().enumerate(), &mut sources, &mut found);
         Self {
             resolved: Resolved {
@@ -167,6 +175,7 @@ impl Draft {
         let Resolved { value, sources, .. } = &mut resolved;
         let (more_inside, outside): (Vec<_>, Vec<_>) =
             (more.iter().enumerate()).partition(|(_, (path, _))| network::meets_inside(path));
+        ratings::fill(language, value, more.iter().map(|(path, _)| path.as_str()), &mut found);
         let mut written = apply(language, value, outside.into_iter(), sources, &mut found);
         if network::expand(language, value, sources, &mut found) {
             apply(language, value, inside.iter().enumerate(), sources, &mut found);

@@ -11,8 +11,10 @@ use std::path::Path;
 use std::sync::OnceLock;
 
 use crate::conformance::check_all;
-use crate::eval::{Evaluated, evaluate_input};
+use crate::document::read_yaml;
+use crate::eval::{Evaluated, evaluate_input, rate_input};
 use crate::language::Language;
+use crate::registry::RatedAlone;
 
 /// The language of everything linked into this test, composed once.
 ///
@@ -39,7 +41,39 @@ pub fn eval(model: &str, input: &str) -> Evaluated {
     }
 }
 
-/// Runs the conformance suite on every linked model.
+/// Evaluates one rating by its name at an input as for `gearloss eval --input`: `part`, `at` and `rating` in YAML, each optional.
+///
+/// # Panics
+/// With the errors of the input, or with the reason why the rating is undefined there.
+#[track_caller]
+pub fn rate(rating: &str, input: &str) -> RatedAlone {
+    let language = language();
+    let rated = match language.registry().rating_named(rating) {
+        Ok(plugin) => rate_input(language, plugin, "input", input, Path::new("")),
+        Err(error) => Err(error.into()),
+    };
+    match rated {
+        Ok(rated) => rated,
+        Err(findings) => panic!("{rating}: {findings}"),
+    }
+}
+
+/// A part of a mechanism from YAML, resolved: its quantities in SI, its defaults filled in.
+///
+/// # Panics
+/// With the errors of the input.
+#[track_caller]
+pub fn part(mechanism: &str, yaml: &str) -> serde_json::Value {
+    let read = read_yaml(0, &format!("part: {yaml}\n"));
+    assert!(read.findings.is_empty(), "{:?}", read.findings);
+    match language().walk_eval(mechanism, &read.node) {
+        Ok(walked) if walked.findings.is_empty() => walked.value["part"].clone(),
+        Ok(walked) => panic!("{yaml}: {:?}", walked.findings),
+        Err(found) => panic!("{mechanism}: {found:?}"),
+    }
+}
+
+/// Runs the conformance suite on every linked model and rating.
 ///
 /// # Panics
 /// With a line for each fault.

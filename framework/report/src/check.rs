@@ -4,7 +4,7 @@ use gearloss_framework::codes;
 use gearloss_framework::document::{Diagnostic, PlacedDiagnostic, Sources};
 use gearloss_framework::language::Language;
 use gearloss_framework::transmission::{GearState, Transmission};
-use gearloss_studies::checked::{CheckedGearbox, overloaded};
+use gearloss_studies::checked::{CheckedGearbox, out_of_bounds, overloaded};
 use serde_json::{Map, Value, json};
 
 use crate::card::{card, stage_lines};
@@ -64,6 +64,13 @@ pub fn checked_text(file: &str, checked: &CheckedGearbox) -> String {
         let line = line.trim_start_matches("outside: ");
         text.push_str(&format!("  at the rated torque: {line}\n"));
     }
+    for own in out_of_bounds(checked) {
+        let sentence = own.quantity.sentence().unwrap_or_default();
+        text.push_str(&format!(
+            "  at the rated torque: {}: {sentence} (ratings.{})\n",
+            own.component, own.rating
+        ));
+    }
     for line in remarks(resolved, &checked.changed, &checked.evidence) {
         text.push_str(&format!("  {line}\n"));
     }
@@ -112,7 +119,19 @@ pub fn warnings(checked: &CheckedGearbox) -> Vec<PlacedDiagnostic> {
                 .code(codes::OVERLOADED),
         )
     });
-    let warnings: Vec<Diagnostic> = transmission.warnings.iter().cloned().chain(overloaded).collect();
+    let outside = out_of_bounds(checked).into_iter().map(|own| {
+        let sentence = own.quantity.sentence().unwrap_or_default();
+        checked.gearbox.places.place(
+            Diagnostic::warning(own.component, format!("at the rated torque, {sentence}"))
+                .help(format!(
+                    "change the component, or state another bound under `ratings.{}`",
+                    own.rating
+                ))
+                .code(codes::RATED_OUTSIDE),
+        )
+    });
+    let found = overloaded.chain(outside);
+    let warnings: Vec<Diagnostic> = transmission.warnings.iter().cloned().chain(found).collect();
     placed(&warnings, &checked.gearbox.sources)
 }
 

@@ -2,7 +2,7 @@
 
 use gearloss_framework::eval::Evaluated;
 use gearloss_framework::loss::Step;
-use gearloss_framework::registry::{Entry, MechanismEntry};
+use gearloss_framework::registry::{Entry, MechanismEntry, RatedAlone, RatingPlugin};
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -42,22 +42,7 @@ pub fn eval_text(mechanism: &MechanismEntry, entry: &Entry, evaluated: &Evaluate
     for (name, value, unit, law) in &evaluated.followed {
         out.line(format!("follows: {name} = {} {unit} ({law})", significant(*value)));
     }
-    for (path, step) in &evaluated.steps {
-        let place = if path == "model" {
-            String::new()
-        } else {
-            format!("{path}: ")
-        };
-        match step {
-            Step::Value {
-                symbol, unit, value, ..
-            } => {
-                let unit = if *unit == "-" { "" } else { unit };
-                out.line(format!("  {place}{symbol} = {} {unit}", significant(*value)).trim_end());
-            }
-            Step::Branch { taken, .. } => out.line(format!("  {place}branch: {taken}")),
-        }
-    }
+    steps("model", &evaluated.steps, &mut out);
     if evaluated.moment.is_some() {
         for (name, watts) in &evaluated.values {
             out.line(format!("{name}: {} W", significant(*watts)));
@@ -90,4 +75,66 @@ pub fn eval_text(mechanism: &MechanismEntry, entry: &Entry, evaluated: &Evaluate
 
 fn finite(x: f64) -> Option<f64> {
     x.is_finite().then_some(x)
+}
+
+/// Steps of a formula; those of nested models with their path.
+fn steps(own: &str, steps: &[(String, Step)], out: &mut Lines) {
+    for (path, step) in steps {
+        let place = if path == own {
+            String::new()
+        } else {
+            format!("{path}: ")
+        };
+        match step {
+            Step::Value {
+                symbol, unit, value, ..
+            } => {
+                let unit = if *unit == "-" { "" } else { unit };
+                out.line(format!("  {place}{symbol} = {} {unit}", significant(*value)).trim_end());
+            }
+            Step::Branch { taken, .. } => out.line(format!("  {place}branch: {taken}")),
+        }
+    }
+}
+
+/// An evaluated rating as a record of the format `gearloss-eval/1`; `packages` are the crates with models.
+pub fn rated_json(plugin: &RatingPlugin, alone: &RatedAlone, packages: impl Serialize) -> Value {
+    json!({
+        "format": "gearloss-eval/1",
+        "gearloss": env!("CARGO_PKG_VERSION"),
+        "packages": packages,
+        "mechanism": plugin.entry.mechanism,
+        "rating": plugin.entry.name,
+        "quantities": alone.rated.figures().iter().map(|own| json!({
+            "symbol": own.figure.symbol,
+            "meaning": own.figure.meaning,
+            "unit": own.figure.unit,
+            "value": own.value,
+            "least": finite(own.bound.least),
+            "greatest": finite(own.bound.greatest),
+            "outside": own.is_outside(),
+        })).collect::<Vec<_>>(),
+    })
+}
+
+/// An evaluated rating as text: source, steps, quantities, and which of them are outside their bounds.
+pub fn rated_text(plugin: &RatingPlugin, alone: &RatedAlone) -> String {
+    let mut out = Lines::default();
+    out.line(format!("rating {}: {}", plugin.entry.name, plugin.entry.meaning()));
+    out.line(format!("source: {}", plugin.entry.source));
+    steps("rating", &alone.steps, &mut out);
+    for own in alone.rated.figures() {
+        let unit = if own.figure.unit == "-" { "" } else { own.figure.unit };
+        let value = format!(
+            "{} {} = {} {unit}",
+            own.figure.meaning,
+            own.figure.symbol,
+            significant(own.value)
+        );
+        let fault = own
+            .fault()
+            .map(|(side, bound)| format!(", which is {side} {}", significant(bound)));
+        out.line(value.trim_end().to_owned() + &fault.unwrap_or_default());
+    }
+    out.into_text()
 }

@@ -1,6 +1,7 @@
 //! Mechanisms and models of a program: tables and records.
 
 mod json;
+mod ratings;
 
 use gearloss_framework::coefficients::COEFFICIENTS;
 use gearloss_framework::document::records_by_type;
@@ -9,6 +10,7 @@ use gearloss_framework::registry::{Entry, MechanismEntry};
 use serde_json::Value;
 
 pub use json::models_json;
+pub use ratings::{rating_text, ratings_list};
 
 use crate::text::{Lines, TextTable, significant};
 
@@ -33,7 +35,7 @@ fn evaluation(language: &Language, entry: &Entry) -> &'static str {
     if language.is_generic(entry) { GENERIC } else { PLAIN }
 }
 
-/// All models by mechanism, the model sets, and the crates with models.
+/// All models by mechanism, the ratings, the model sets, and the crates with models.
 pub fn models_text(language: &Language) -> String {
     let mut out = Lines::default();
     let mut table = TextTable::new(&["mechanism", "model", "crate", "evidence", "evaluation", "description"]);
@@ -57,6 +59,9 @@ pub fn models_text(language: &Language) -> String {
     out.text(&table.render());
     out.line("");
     out.line("generic: several points at once, exact derivatives; plain: derivatives by differences");
+    out.line("");
+    out.text(&ratings_list(language));
+    out.line("");
     for set in language.registry().shipped_sets() {
         out.line(format!(
             "set {}: {} ({})",
@@ -100,6 +105,9 @@ pub fn mechanism_text(language: &Language, mechanism: &MechanismEntry) -> String
         models.row(vec![model.name.to_owned(), model.meaning(), model.source.to_owned()]);
     }
     out.text(&models.render());
+    for rating in language.registry().ratings_of(mechanism.key) {
+        out.line(format!("rating {}: {}", rating.entry.name, rating.entry.meaning()));
+    }
     out.into_text()
 }
 

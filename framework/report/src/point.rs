@@ -3,6 +3,7 @@
 mod derivatives;
 mod explain;
 mod network;
+mod ratings;
 
 use std::fmt::Display;
 
@@ -12,13 +13,14 @@ use gearloss_framework::resolve::Resolved;
 use gearloss_framework::transmission::Transmission;
 use gearloss_studies::analyses::balance::BalanceOfPoint;
 use gearloss_studies::analyses::numbers::{RPM, tidy};
-use gearloss_studies::points::{Found, PreparedPoint, SUMS, SelfLocking, SolvedPoint, WeakPoint, sums};
+use gearloss_studies::points::{Found, PreparedPoint, STATIC_SAFETY, SUMS, SelfLocking, SolvedPoint, WeakPoint, sums};
 use serde::Serialize;
 use serde_json::{Value, json};
 
 pub use derivatives::derivatives_text;
 pub use explain::{explain_heat_path, explain_part};
 use network::{network_json, network_text};
+pub use ratings::{explain_ratings, rating_lines, ratings_text};
 
 use crate::page::outside;
 use crate::text::{TextTable, fixed, number, significant};
@@ -154,7 +156,9 @@ pub fn point_text(transmission: &Transmission, prepared: &PreparedPoint, solved:
     }
     text.extend(solved.locking.as_ref().map(locking_text));
     text.push_str(&temperature_text(transmission, found));
-    text.push_str(&outside(&solved.notes));
+    // The ratings state the static safety, with the user's bound.
+    let notes = solved.notes.iter().filter(|note| note.name != STATIC_SAFETY);
+    text.push_str(&outside(&notes.cloned().collect::<Vec<_>>()));
     text
 }
 

@@ -1,14 +1,16 @@
 //! A gearbox that was checked: what it is built from, and what deserves attention.
 
 use gearloss_framework::coefficients::{Changed, changed_from_source};
-use gearloss_framework::evaluate::{Point, PowerFlow};
+use gearloss_framework::evaluate::{Point, PowerFlow, Ratings, Solution};
 use gearloss_framework::gearbox::{Findings, Gearbox};
 use gearloss_framework::language::Language;
+use gearloss_framework::loss::Extent;
 use gearloss_framework::registry::Evidence;
 use gearloss_framework::resolve::Resolved;
 use gearloss_framework::transmission::Transmission;
 
 use crate::points::{Note, STATIC_SAFETY, WeakPoint, evidence, merge, notes};
+use crate::ratings::{RatedQuantity, rated};
 
 /// A gearbox that was read, resolved and built.
 pub struct CheckedGearbox {
@@ -18,6 +20,8 @@ pub struct CheckedGearbox {
     pub resolved: Resolved,
     /// Its transmission.
     pub transmission: Transmission,
+    /// Its ratings.
+    pub ratings: Ratings,
     /// Evidence, lowest grade first.
     pub evidence: Vec<WeakPoint>,
     /// Coefficients that differ from their source.
@@ -32,6 +36,7 @@ impl CheckedGearbox {
     pub fn new(language: &Language, gearbox: Gearbox, resolved: Resolved) -> Result<Self, Findings> {
         let transmission = gearbox.build(language, &resolved)?;
         Ok(Self {
+            ratings: gearbox.ratings(language, &resolved, &transmission)?,
             evidence: evidence(&transmission, &resolved, &|path| gearbox.places.is_written(path)),
             changed: changed_from_source(&transmission, &resolved),
             gearbox,
@@ -46,8 +51,8 @@ impl CheckedGearbox {
     }
 }
 
-/// Bearings with insufficient static safety at the rated torque and speed, in any gear, in drive and coast.
-pub fn overloaded(t: &Transmission) -> Vec<Note> {
+/// Solves the rated torque and speed in any gear, in drive and coast, and returns what models noted.
+fn at_the_rating(t: &Transmission, mut each: impl FnMut(&Solution<'_>)) -> Vec<Extent> {
     let Some(rating) = t.rating else { return Vec::new() };
     let mut seen = Vec::new();
     for i in 0..t.states().len() {
@@ -63,13 +68,63 @@ pub fn overloaded(t: &Transmission) -> Vec<Note> {
                 flow: PowerFlow::Ideal,
                 ..Point::default()
             };
-            t.evaluate(&case, &point, &[t.oil_temperature], &mut scratch);
+            each(&t.evaluate(&case, &point, &[t.oil_temperature], &mut scratch));
         }
         merge(&mut seen, &scratch.totals);
     }
+    seen
+}
+
+/// Bearings with insufficient static safety at the rated torque and speed, in any gear, in drive and coast.
+pub fn overloaded(t: &Transmission) -> Vec<Note> {
+    let seen = at_the_rating(t, |_| {});
     if seen.is_empty() {
         return Vec::new();
     }
     let safety = |note: &Note| note.name == STATIC_SAFETY;
     notes(t, &seen).into_iter().filter(safety).collect()
+}
+
+/// A quantity of a rating that is outside its bound at the rated torque and speed.
+#[derive(Debug, Clone)]
+pub struct OutOfBound {
+    /// Path of the component.
+    pub component: String,
+    /// Name of the rating.
+    pub rating: &'static str,
+    /// The quantity with its worst value.
+    pub quantity: RatedQuantity,
+}
+
+/// Quantities of ratings outside their bounds at the rated torque and speed, in any gear, in drive and coast, each with its worst value;
+/// without those that [`overloaded`] reports.
+pub fn out_of_bounds(checked: &CheckedGearbox) -> Vec<OutOfBound> {
+    let t = &checked.transmission;
+    let mut worst: Vec<OutOfBound> = Vec::new();
+    at_the_rating(t, |solution| {
+        for own in rated(&checked.ratings, t, solution) {
+            for quantity in own.quantities.into_iter().filter(|quantity| quantity.outside) {
+                let known = worst.iter_mut().find(|known| {
+                    known.component == own.component
+                        && known.rating == own.rating
+                        && known.quantity.symbol == quantity.symbol
+                });
+                match known {
+                    Some(known) if quantity.excess() > known.quantity.excess() => known.quantity = quantity,
+                    Some(_) => {}
+                    None => worst.push(OutOfBound {
+                        component: own.component.clone(),
+                        rating: own.rating,
+                        quantity,
+                    }),
+                }
+            }
+        }
+    });
+    let reported = overloaded(t);
+    worst.retain(|own| {
+        let same = |note: &&Note| note.path == own.component && note.meaning == own.quantity.meaning;
+        !reported.iter().any(|note| same(&note))
+    });
+    worst
 }

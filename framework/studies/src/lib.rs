@@ -26,4 +26,5 @@ pub mod distinct;
 pub mod fit;
 pub mod identify;
 pub mod points;
+pub mod ratings;
 pub mod varied;

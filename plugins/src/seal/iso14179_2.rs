@@ -76,6 +76,7 @@ mod tests {
         let part = SealPart {
             diameter: 0.040,
             kind: SealKind::RadialLip,
+            material: None,
         };
         let speed = 3000.0 * std::f64::consts::PI / 30.0;
         let at = SealAt::usual(&part, Notes::MUTED).with(|to| {
@@ -100,7 +101,11 @@ mod tests {
     #[test]
     fn the_moment_does_not_depend_on_speed_and_a_seal_without_contact_has_none() {
         let moment = |kind, speed| {
-            let part = SealPart { diameter: 0.040, kind };
+            let part = SealPart {
+                diameter: 0.040,
+                kind,
+                material: None,
+            };
             let at = SealAt::usual(&part, Notes::MUTED).with(|to| to.speed = speed);
             Iso14179 {
                 coefficients: Constants::PUBLISHED,

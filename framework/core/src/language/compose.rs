@@ -7,7 +7,8 @@ use serde_json::{Map, Value, json};
 use super::{HELD, NAMED};
 use crate::description::GearboxEntry;
 use crate::document::publish;
-use crate::registry::{MechanismEntry, Registry};
+use crate::registry::{MechanismEntry, RatingPlugin, Registry};
+use crate::resolve::RATINGS;
 
 /// The schema of a gearbox.
 pub(super) fn gearbox(registry: &Registry) -> Value {
@@ -26,6 +27,20 @@ pub(super) fn gearbox(registry: &Registry) -> Value {
         models(registry, &mut Map::new(), "Default model of components, by mechanism."),
     );
     properties.insert("model_sets".to_owned(), sets(registry));
+    let ratings: Map<String, Value> = registry
+        .ratings()
+        .iter()
+        .map(|r| (r.entry.name.to_owned(), choice_of_rating(r, &mut generator)))
+        .collect();
+    let properties = self::properties(&mut root);
+    properties.insert(
+        RATINGS.to_owned(),
+        json!({
+            "type": "object",
+            "description": "Ratings at solved points, by name: life, safety, film, temperature. All are on with their defaults; `none` omits one.",
+            "properties": ratings,
+        }),
+    );
     let mut schema = finish(registry, generator, root);
     // Omitted keys of a gearbox may be in the one that it extends.
     if let Some(object) = schema.as_object_mut()
@@ -64,6 +79,42 @@ pub(super) fn eval_of(registry: &Registry, mechanism: &str) -> Value {
         Some(m) => eval_record(m, &mut generator),
         None => json!({ "type": "object", "properties": {} }),
     };
+    finish(registry, generator, root)
+}
+
+/// The parameters of a rating.
+fn parameters_of_rating(rating: &RatingPlugin, generator: &mut SchemaGenerator) -> Value {
+    let mut schema = (rating.entry.schema)(generator).to_value();
+    if let Some(object) = schema.as_object_mut() {
+        object.remove("title");
+        object.entry("type").or_insert(json!("object"));
+        object.entry("properties").or_insert_with(|| json!({}));
+    }
+    schema
+}
+
+/// The parameters of a rating, or `none`.
+fn choice_of_rating(rating: &RatingPlugin, generator: &mut SchemaGenerator) -> Value {
+    json!({
+        "description": rating.entry.meaning(),
+        "anyOf": [
+            parameters_of_rating(rating, generator),
+            { "type": "string", "enum": ["none"], "description": "Not rated." },
+        ],
+    })
+}
+
+/// The schema of the input of a rating that is evaluated alone.
+pub(super) fn rating(registry: &Registry, rating: &RatingPlugin) -> Value {
+    let mut generator = generator();
+    let parameters = parameters_of_rating(rating, &mut generator);
+    let mut root = match registry.mechanism(rating.entry.mechanism) {
+        Some(mechanism) => eval_record(mechanism, &mut generator),
+        None => json!({ "type": "object", "properties": {} }),
+    };
+    let properties = properties(&mut root);
+    properties.shift_remove("model");
+    properties.insert("rating".to_owned(), parameters);
     finish(registry, generator, root)
 }
 

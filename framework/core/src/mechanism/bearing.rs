@@ -148,6 +148,22 @@ pub struct BearingEntry {
     /// Axial factor of the static equivalent load. [-]
     #[schemars(range(min = 0.0, max = 10.0))]
     pub y0: Option<f64>,
+    /// Fatigue load limit; for ratings. [N]
+    #[schemars(range(min = 0.1, max = 1e8))]
+    pub pu: Option<f64>,
+    /// Calculation factor f0 of the catalogue, from which the axial factor of a deep groove ball bearing follows; for ratings. Unlike f0
+    /// of friction models. [-]
+    #[schemars(range(min = 1.0, max = 30.0))]
+    pub calculation_factor: Option<f64>,
+    /// Minimum load factor k_r of the catalogue; for ratings. [-]
+    #[schemars(range(min = 0.0, max = 10.0))]
+    pub minimum_load_factor: Option<f64>,
+    /// Thermal reference speed of the catalogue; for ratings. [rpm]
+    #[schemars(range(min = 1.0, max = 1e6))]
+    pub reference_speed: Option<f64>,
+    /// Limiting speed of the catalogue; for ratings. [rpm]
+    #[schemars(range(min = 1.0, max = 1e6))]
+    pub limiting_speed: Option<f64>,
     /// Radius of the lowest point of the outer raceway. [mm]
     #[schemars(range(min = 0.5, max = 2500.0))]
     pub raceway: Option<f64>,
@@ -185,6 +201,16 @@ pub struct BearingPart {
     pub y: Option<f64>,
     /// Axial factor Y0.
     pub y0: Option<f64>,
+    /// Fatigue load limit. \[N\]
+    pub pu: Option<f64>,
+    /// Calculation factor f0 of the catalogue.
+    pub calculation_factor: Option<f64>,
+    /// Minimum load factor k_r of the catalogue.
+    pub minimum_load_factor: Option<f64>,
+    /// Thermal reference speed. \[rad/s\]
+    pub reference_speed: Option<f64>,
+    /// Limiting speed. \[rad/s\]
+    pub limiting_speed: Option<f64>,
     /// Radius of the lowest point of the outer raceway. \[m\]
     pub raceway: f64,
     /// Separate oil height above the raceway's lowest point. \[m\]
@@ -231,6 +257,39 @@ impl BearingPart {
             c0: self.c0?,
             factors: self.static_factors()?,
         })
+    }
+}
+
+impl BearingKind {
+    /// True if its rolling elements are balls, with contact in points; the others have rollers, with contact in lines.
+    pub fn has_balls(self) -> bool {
+        match self {
+            Self::DeepGrooveBall
+            | Self::DeepGrooveBallDoubleRow
+            | Self::SelfAligningBall
+            | Self::AngularContactBall
+            | Self::AngularContactBallDoubleRow
+            | Self::FourPointContactBall
+            | Self::ThrustBall => true,
+            Self::CylindricalRoller
+            | Self::CylindricalRollerFullComplement
+            | Self::NeedleCage
+            | Self::TaperedRoller
+            | Self::SphericalRoller
+            | Self::ToroidalRoller
+            | Self::ToroidalRollerFullComplement
+            | Self::CylindricalRollerThrust
+            | Self::NeedleRollerThrust
+            | Self::SphericalRollerThrust => false,
+        }
+    }
+
+    /// True for a thrust bearing.
+    pub fn is_thrust(self) -> bool {
+        matches!(
+            self,
+            Self::ThrustBall | Self::CylindricalRollerThrust | Self::NeedleRollerThrust | Self::SphericalRollerThrust
+        )
     }
 }
 
@@ -289,6 +348,11 @@ impl TryFrom<BearingEntry> for BearingPart {
             e: entry.e,
             y: entry.y,
             y0: entry.y0,
+            pu: entry.pu,
+            calculation_factor: entry.calculation_factor,
+            minimum_load_factor: entry.minimum_load_factor,
+            reference_speed: entry.reference_speed,
+            limiting_speed: entry.limiting_speed,
             raceway,
             oil_height: entry.oil_height,
             lubrication: entry.lubrication,

@@ -32,6 +32,24 @@ pub enum SealKind {
     NonContact,
 }
 
+/// Material of a sealing lip.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum SealMaterial {
+    /// Acrylonitrile-butadiene rubber.
+    Nbr,
+    /// Hydrogenated acrylonitrile-butadiene rubber.
+    Hnbr,
+    /// Polyacrylate rubber.
+    Acm,
+    /// Fluoro rubber.
+    Fkm,
+    /// Silicone rubber.
+    Vmq,
+    /// Polytetrafluoroethylene.
+    Ptfe,
+}
+
 /// A shaft seal against the housing.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct SealPart {
@@ -41,6 +59,8 @@ pub struct SealPart {
     /// Kind of the seal.
     #[serde(default)]
     pub kind: SealKind,
+    /// Material of the lip; for ratings.
+    pub material: Option<SealMaterial>,
 }
 
 context! {

@@ -15,6 +15,7 @@ use crate::files::{Disk, InMemory, LONGEST_DATA, SharedSource};
 use crate::loss::NoteBase;
 use crate::mechanism::gear_drag::{GearDrag, Scope};
 use crate::mechanism::{Mechanism, ModelRef, Slot};
+use crate::rating::{Rating, RatingSlot};
 
 /// Files named by a description, read once; paths are relative to the document that names them.
 #[derive(Debug)]
@@ -354,6 +355,42 @@ impl<'a> Build<'a> {
             Ok(model) => Ok(Slot::new(*model, notes.until(self.cells), name == "none")),
             Err(_) => Err(self.error(format!("bug: model `{name}` was built for another mechanism"))),
         }
+    }
+
+    /// Builds a rating at a path for a part.
+    ///
+    /// # Errors
+    /// If the rating cannot be built.
+    pub(crate) fn rating<M: Mechanism>(
+        &mut self,
+        path: &str,
+        part: &Arc<M::Part>,
+        entry: &Entry,
+        value: &Value,
+    ) -> Result<RatingSlot<M>, Diagnostic> {
+        path.clone_into(&mut self.path);
+        self.part = Some(Arc::clone(part) as Arc<dyn Any + Send + Sync>);
+        let notes = NoteBase::new(self.instances.len(), self.cells, entry.limits.len(), 0);
+        self.cells = notes.end();
+        self.instances.push(Instance {
+            path: path.to_owned(),
+            entry: *entry,
+            notes,
+        });
+        let built = (entry.build)(value, self);
+        self.part = None;
+        match built?.downcast::<Arc<dyn Rating<M>>>() {
+            Ok(rating) => Ok(RatingSlot {
+                rating: *rating,
+                notes: notes.until(self.cells),
+            }),
+            Err(_) => Err(self.error(format!("bug: rating `{}` was built for another mechanism", entry.name))),
+        }
+    }
+
+    /// Number of the instances built so far.
+    pub(crate) fn instances(&self) -> usize {
+        self.instances.len()
     }
 
     /// All instances built, and the number of their note cells.

@@ -1,18 +1,20 @@
 //! A placed component with its model, the unit of evaluation.
 
+use std::any::Any;
 use std::sync::Arc;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde_json::Value;
 
 use super::build::Build;
-use super::from_resolved;
+use super::{Entry, from_resolved};
 use crate::attach::{Attach, Common, Names, Spot, State};
 use crate::document::Diagnostic;
 use crate::evaluate::{Reading, readings};
 use crate::loads::StaticRating;
 use crate::loss::{Loss, NoteBase, Notebook, Notes, Undefined};
 use crate::mechanism::{Answers, Component, Slot};
+use crate::rating::{Rated, RatingSlot};
 use crate::real::{Dual, Lane, Points as _};
 
 /// Seals [`Placed`] within the framework.
@@ -48,7 +50,24 @@ pub trait Placed: sealed::Sealed + Send + Sync {
     fn static_rating(&self) -> Option<StaticRating> {
         None
     }
+    /// Builds a rating of its mechanism at a path, which only this component evaluates; `None` if it has no ratings.
+    fn build_rating(
+        &self,
+        _path: &str,
+        _entry: &Entry,
+        _value: &Value,
+        _build: &mut Build<'_>,
+    ) -> Result<Option<BuiltRating>, Diagnostic> {
+        Ok(None)
+    }
+    /// Evaluates a rating that it has built.
+    fn rate(&self, _rating: &dyn Any, _state: &State<'_>, _book: &Notebook<'_>) -> Result<Rated, Undefined> {
+        Ok(Rated::default())
+    }
 }
+
+/// A type-erased [`RatingSlot`].
+pub(crate) type BuiltRating = Box<dyn Any + Send + Sync>;
 
 struct PlacedAs<C: Component> {
     part: Arc<C::Part>,
@@ -110,6 +129,23 @@ impl<C: Component> Placed for PlacedAs<C> {
     }
     fn static_rating(&self) -> Option<StaticRating> {
         C::static_rating(&self.part)
+    }
+    fn build_rating(
+        &self,
+        path: &str,
+        entry: &Entry,
+        value: &Value,
+        build: &mut Build<'_>,
+    ) -> Result<Option<BuiltRating>, Diagnostic> {
+        Ok(Some(Box::new(build.rating::<C>(path, &self.part, entry, value)?)))
+    }
+    fn rate(&self, rating: &dyn Any, state: &State<'_>, book: &Notebook<'_>) -> Result<Rated, Undefined> {
+        // Another component's rating would be a bug; it rates nothing.
+        let Some(slot) = rating.downcast_ref::<RatingSlot<C>>() else {
+            return Ok(Rated::default());
+        };
+        let site = C::Attachment::site(self.seat, &self.spot, state);
+        slot.rate(&C::context(&self.part, site, book.notes(slot.notes)))
     }
 }
 

@@ -2,10 +2,12 @@
 
 use gearloss_framework::document::Unit;
 use gearloss_framework::language::{Kind, Language};
+use gearloss_framework::loss::Limit;
 use gearloss_framework::mechanism::QuantityDoc;
-use gearloss_framework::registry::{Entry, MechanismEntry};
+use gearloss_framework::registry::{Entry, Graded, MechanismEntry, RatingPlugin};
 use serde_json::{Value, json};
 
+use super::ratings::rating_json;
 use super::{evaluation, parameters};
 
 /// Mechanisms with their models in the format `gearloss-models/1`; all of them, or the selected ones.
@@ -39,12 +41,19 @@ pub fn models_json(language: &Language, mechanism: Option<&MechanismEntry>, mode
         .iter()
         .map(|set| json!({ "name": set.name, "meaning": set.meaning, "package": set.origin.package.name }))
         .collect();
+    let fits = |rating: &&RatingPlugin| {
+        let own = mechanism.is_none_or(|only| only.key == rating.entry.mechanism);
+        own && model.is_none()
+    };
+    let ratings = registry.ratings().iter().filter(fits);
+    let ratings: Vec<Value> = ratings.map(|rating| rating_json(rating, &schema)).collect();
     json!({
         "format": "gearloss-models/1",
         "gearloss": env!("CARGO_PKG_VERSION"),
         "packages": registry.packages(),
         "mechanisms": mechanisms,
         "sets": sets,
+        "ratings": ratings,
     })
 }
 
@@ -73,28 +82,7 @@ fn quantity(quantity: &QuantityDoc) -> Value {
 fn of_model(language: &Language, entry: &Entry, schema: &Value) -> Value {
     let parameters: Vec<Value> = parameters(entry, schema)
         .iter()
-        .map(|(name, field)| {
-            let doc = field["description"].as_str().unwrap_or_default();
-            json!({
-                "name": name,
-                "meaning": meaning(doc),
-                "unit": Unit::of_doc(doc).map(|unit| unit.symbol),
-                "default": field["default"],
-                "least": field["minimum"],
-                "greatest": field["maximum"],
-            })
-        })
-        .collect();
-    let evidence: Vec<Value> = entry
-        .evidence
-        .iter()
-        .map(|graded| {
-            json!({
-                "default_of": (!graded.key.is_empty()).then_some(graded.key),
-                "grade": graded.grade.name(),
-                "because": graded.because,
-            })
-        })
+        .map(|(name, field)| parameter(name, field))
         .collect();
     json!({
         "model": entry.name,
@@ -107,14 +95,44 @@ fn of_model(language: &Language, entry: &Entry, schema: &Value) -> Value {
         "coefficients": entry.coefficients(),
         "terms": entry.terms.iter().map(|t| json!({ "name": t.name, "load_dependent": t.load_dependent })).collect::<Vec<_>>(),
         "observed": entry.observed.iter().map(|o| json!({ "name": o.name, "meaning": o.meaning, "unit": o.unit })).collect::<Vec<_>>(),
-        "limits": entry.limits.iter().map(|l| json!({
-            "name": l.name,
-            "meaning": l.meaning,
-            "unit": l.unit,
-            "least": l.least.is_finite().then_some(l.least),
-            "greatest": l.greatest.is_finite().then_some(l.greatest),
-            "origin": l.origin,
-        })).collect::<Vec<_>>(),
-        "evidence": evidence,
+        "limits": entry.limits.iter().map(limit).collect::<Vec<_>>(),
+        "evidence": evidence(entry),
     })
+}
+
+/// A parameter of a model or rating.
+pub(super) fn parameter(name: &str, field: &Value) -> Value {
+    let doc = field["description"].as_str().unwrap_or_default();
+    json!({
+        "name": name,
+        "meaning": meaning(doc),
+        "unit": Unit::of_doc(doc).map(|unit| unit.symbol),
+        "default": field["default"],
+        "least": field["minimum"],
+        "greatest": field["maximum"],
+    })
+}
+
+/// A stated range.
+pub(super) fn limit(limit: &Limit) -> Value {
+    json!({
+        "name": limit.name,
+        "meaning": limit.meaning,
+        "unit": limit.unit,
+        "least": limit.least.is_finite().then_some(limit.least),
+        "greatest": limit.greatest.is_finite().then_some(limit.greatest),
+        "origin": limit.origin,
+    })
+}
+
+/// The grades of formula and defaults.
+pub(super) fn evidence(entry: &Entry) -> Vec<Value> {
+    let graded = |graded: &Graded| {
+        json!({
+            "default_of": (!graded.key.is_empty()).then_some(graded.key),
+            "grade": graded.grade.name(),
+            "because": graded.because,
+        })
+    };
+    entry.evidence.iter().map(graded).collect()
 }

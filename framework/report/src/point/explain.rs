@@ -4,7 +4,7 @@ use gearloss_framework::coefficients::Changed;
 use gearloss_framework::evaluate::Solution;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::loss::{Step, Trace};
-use gearloss_framework::registry::Entry;
+use gearloss_framework::registry::{Entry, Instance};
 use gearloss_framework::resolve::{Resolved, ValueSource, lookup};
 use gearloss_framework::transmission::Transmission;
 use gearloss_studies::analyses::numbers::RPM;
@@ -37,7 +37,7 @@ pub fn explain_part(
         significant(loss.speed * RPM),
         significant(info.count)
     ));
-    steps(transmission, trace, out);
+    steps(transmission.instances(), trace, out);
     match loss.result {
         Ok(_) => {
             for term in entry.terms {
@@ -84,12 +84,12 @@ pub fn explain_part(
 }
 
 /// The steps of a model, with the path of each nested model.
-fn steps(transmission: &Transmission, trace: Trace, out: &mut Lines) {
+pub(super) fn steps(instances: &[Instance], trace: Trace, out: &mut Lines) {
     let mut last = usize::MAX;
     for step in trace.into_steps() {
         if step.instance() != last {
             last = step.instance();
-            let instance = &transmission.instances()[last];
+            let instance = &instances[last];
             out.line(format!("  {} ({})", instance.path, instance.entry.name));
         }
         match step {
@@ -124,7 +124,7 @@ pub fn explain_heat_path(
         significant(surface)
     ));
     let (heat, trace) = transmission.explain_way(way, oil, surface);
-    steps(transmission, trace, out);
+    steps(transmission.instances(), trace, out);
     match heat {
         Ok(heat) => out.line(format!("  heat: {} W", significant(heat))),
         Err(undefined) => out.line(format!("  {undefined}")),

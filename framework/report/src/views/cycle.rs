@@ -3,7 +3,9 @@
 mod pictures;
 mod summary;
 
-use gearloss_studies::analyses::cycle::{BandOfDuty, CycleOutcome, DutyOfSet, HeatOfDuty, IntervalOfDuty};
+use gearloss_studies::analyses::cycle::{
+    BandOfDuty, CycleOutcome, DutyOfSet, HeatOfDuty, IntervalOfDuty, RatedOverTime,
+};
 
 use crate::Figure;
 use crate::page::Page;
@@ -19,6 +21,7 @@ fn show(outcome: &CycleOutcome, page: &mut Page) {
     for duty in &outcome.cycles {
         text(name, duty, page);
         figures(name, duty, page);
+        ratings(name, duty, page);
     }
     pictures::draw(outcome, page);
 }
@@ -273,4 +276,47 @@ fn temperatures(duty: &DutyOfSet, every: usize) -> Vec<Line> {
         }
     }
     lines
+}
+
+/// Ratings over the cycle: lives first, then what is outside its bound at some time.
+fn ratings(name: &str, duty: &DutyOfSet, page: &mut Page) {
+    let Some(rated) = &duty.ratings else { return };
+    let unit = |own: &RatedOverTime| {
+        if own.unit == "-" {
+            String::new()
+        } else {
+            format!(" {}", own.unit)
+        }
+    };
+    for own in rated.iter().filter(|own| own.over_time == "damage") {
+        page.line(format!(
+            "{name}: {}: {} {} = {}{} over {}",
+            own.component,
+            own.meaning,
+            own.symbol,
+            significant(own.value),
+            unit(own),
+            duty.cycle
+        ));
+    }
+    for own in rated.iter().filter(|own| own.outside) {
+        let (side, bound) = match (own.least, own.greatest) {
+            (Some(least), _) if own.value < least => ("below", least),
+            (_, Some(greatest)) => ("above", greatest),
+            _ => continue,
+        };
+        page.careful.push(format!(
+            "{}: {} {} reaches {}{}, {side} {}{}, for {} % of {} (ratings.{})",
+            own.component,
+            own.meaning,
+            own.symbol,
+            significant(own.value),
+            unit(own),
+            significant(bound),
+            unit(own),
+            significant(100.0 * own.outside_share),
+            duty.cycle,
+            own.rating
+        ));
+    }
 }

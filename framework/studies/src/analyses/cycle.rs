@@ -2,6 +2,7 @@
 
 mod bands;
 mod outcome;
+mod ratings;
 pub(super) mod results;
 
 use gearloss_framework::attach::dangling;
@@ -22,6 +23,8 @@ use crate::points::{Driven, Note};
 use crate::register_analysis;
 use crate::study::{By, DriveEntry, ToleranceEntry, Uses, Write};
 use crate::table::Table;
+
+pub use ratings::RatedOverTime;
 
 pub use outcome::{
     BandOfDuty, BrokenOff, CycleOutcome, DutyOfSet, EnergyOfDuty, EnergyPerDistance, HeatOfDuty, HeatOfExchanger,
@@ -47,6 +50,10 @@ pub struct CycleAnalysisEntry {
     #[serde(default = "samples")]
     #[schemars(range(min = 8, max = 65536))]
     pub samples: u32,
+    /// Ratings of the components over each cycle: lives after Palmgren and Miner at the temperature of each moment, extremes of the
+    /// other quantities.
+    #[serde(default)]
+    pub ratings: bool,
     /// Formats to write; default: CSV, JSON and SVG.
     #[serde(default = "Write::every_format")]
     pub write: Vec<Write>,
@@ -116,8 +123,17 @@ impl Analysis for CycleAnalysisEntry {
         let mut cycles = Vec::new();
         for (b, driven) in built.iter().zip(driven.chunks(count)) {
             let shares = Shares::new(&b.transmission, self.by).under(&names);
+            let ratings = self
+                .ratings
+                .then(|| b.gearbox.ratings(cx.language, &b.resolved, &b.transmission));
+            let ratings = ratings.transpose()?;
             for (read, driven) in duties.list.iter().zip(driven) {
-                cycles.push(results::duty(b, read, driven, &shares, self.reference.get(&read.name)));
+                let mut duty = results::duty(b, read, driven, &shares, self.reference.get(&read.name));
+                if let Some(ratings) = &ratings {
+                    let rated = ratings::over_cycle(b, ratings, &duties.ride(&b.transmission, read), driven);
+                    duty.ratings = Some(rated.map_err(|list| b.gearbox.findings(list))?);
+                }
+                cycles.push(duty);
             }
         }
         let mut all_left = Vec::new();

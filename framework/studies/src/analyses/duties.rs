@@ -212,7 +212,7 @@ impl<'a> Duties<'a> {
     }
 
     /// Settings of the simulation of one of them.
-    fn ride<'r>(&'r self, t: &'r Transmission, read: &'r Read) -> Ride<'r> {
+    pub fn ride<'r>(&'r self, t: &'r Transmission, read: &'r Read) -> Ride<'r> {
         let of_port = read.intervals.iter().any(|i| matches!(i.demand, Demand::Port { .. }));
         let longest = read.intervals.iter().map(|i| i.duration).fold(0.0, f64::max);
         Ride {

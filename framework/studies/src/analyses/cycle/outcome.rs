@@ -5,6 +5,7 @@ use gearloss_framework::gearbox::Findings;
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use super::ratings::RatedOverTime;
 use crate::analyses::Head;
 use crate::points::Note;
 
@@ -59,6 +60,8 @@ pub struct DutyOfSet {
     pub reference: Option<ReferenceOfDuty>,
     /// Bands of uncertain inputs; absent without any.
     pub bands: Option<BandOfDuty>,
+    /// Ratings of the components over the cycle; absent unless requested.
+    pub ratings: Option<Vec<RatedOverTime>>,
     /// Number of evaluations of the losses. [-]
     pub evaluations: usize,
     /// Number of calls of loss models. [-]

@@ -57,6 +57,7 @@ pub fn duty(
             source: reference.source.clone(),
         }),
         bands: None,
+        ratings: None,
         evaluations: driven.evaluations,
         calls: driven.calls,
         steps: driven.steps[0],

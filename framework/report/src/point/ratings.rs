@@ -1,0 +1,145 @@
+//! Ratings at a solved point: a table for each mechanism, and what is outside its bounds.
+
+use gearloss_framework::evaluate::{Ratings, Solution};
+use gearloss_framework::transmission::Transmission;
+use gearloss_studies::distinct::distinct;
+use gearloss_studies::ratings::{RatedComponent, RatedQuantity, rated};
+
+use super::explain::steps;
+use crate::text::{Lines, TextTable, figures, significant};
+
+/// Mark of a value outside its bound.
+const OUTSIDE: &str = "!";
+
+/// Digits of values in tables and warnings.
+const DIGITS: u32 = 4;
+
+/// The ratings as text: a table for each mechanism with a row for each component, then one line for each value outside its bound. Empty
+/// without any.
+pub fn ratings_text(ratings: &[RatedComponent]) -> String {
+    let mut out = Lines::default();
+    let mut mechanisms: Vec<&str> = Vec::new();
+    for own in ratings {
+        if !mechanisms.contains(&own.mechanism) {
+            mechanisms.push(own.mechanism);
+        }
+    }
+    for mechanism in mechanisms {
+        let own: Vec<&RatedComponent> = ratings.iter().filter(|own| own.mechanism == mechanism).collect();
+        if let Some(table) = table(mechanism, &own) {
+            out.line("");
+            out.text(&table.render());
+        }
+    }
+    for line in ratings.iter().flat_map(rating_lines) {
+        out.line(line);
+    }
+    if let Some(lowest) = ratings.iter().map(|own| own.evidence).max() {
+        let own = ratings
+            .iter()
+            .filter(|own| own.evidence == lowest)
+            .map(|own| own.rating);
+        let grade = lowest.name();
+        out.line(format!(
+            "lowest evidence grade of the ratings: {grade} ({})",
+            distinct(own).join(", ")
+        ));
+    }
+    out.into_text()
+}
+
+/// A table of the components of one mechanism; a column for each quantity that is not an intermediate.
+fn table(mechanism: &str, ratings: &[&RatedComponent]) -> Option<TextTable> {
+    let mut columns: Vec<(&str, &str)> = Vec::new();
+    let mut components: Vec<&str> = Vec::new();
+    for own in ratings {
+        for quantity in own.quantities.iter().filter(|q| !q.detail) {
+            if !columns.contains(&(own.rating, quantity.symbol)) {
+                columns.push((own.rating, quantity.symbol));
+            }
+            if components.last() != Some(&own.component.as_str()) {
+                components.push(&own.component);
+            }
+        }
+    }
+    let quantity = |component: Option<&str>, (rating, symbol): (&str, &str)| -> Option<&RatedQuantity> {
+        let of = ratings
+            .iter()
+            .filter(|own| own.rating == rating && component.is_none_or(|component| component == own.component));
+        of.flat_map(|own| &own.quantities).find(|q| q.symbol == symbol)
+    };
+    let head = |column: &(&str, &str)| match quantity(None, *column) {
+        Some(q) if q.unit != "-" => format!("{} {}", q.symbol, q.unit),
+        _ => column.1.to_owned(),
+    };
+    let heads: Vec<String> = columns.iter().map(head).collect();
+    let heads: Vec<&str> = std::iter::once("component")
+        .chain(heads.iter().map(String::as_str))
+        .collect();
+    let mut table = TextTable::new(&heads).titled(format!("Ratings: {mechanism}"));
+    for component in &components {
+        let cell = |column: &(&str, &str)| match quantity(Some(component), *column) {
+            Some(q) if q.outside => format!("{}{OUTSIDE}", figures(q.value, DIGITS)),
+            Some(q) => figures(q.value, DIGITS),
+            None => "-".to_owned(),
+        };
+        let cells = columns.iter().map(cell);
+        table.row(std::iter::once((*component).to_owned()).chain(cells).collect());
+    }
+    (!components.is_empty()).then_some(table)
+}
+
+/// A line for each value outside its bound, for a rating that is undefined, and for a formula outside its stated range.
+pub fn rating_lines(own: &RatedComponent) -> Vec<String> {
+    let mut lines = Vec::new();
+    let faults = own.quantities.iter().filter_map(RatedQuantity::sentence);
+    lines.extend(faults.map(|sentence| format!("warning: {}: {sentence} (ratings.{})", own.component, own.rating)));
+    lines.extend(
+        own.undefined
+            .iter()
+            .map(|reason| format!("note: {}: {}: {reason}", own.component, own.rating)),
+    );
+    let left = own.outside_ranges.iter();
+    lines.extend(left.map(|sentence| format!("note: {}: {}: {sentence}", own.component, own.rating)));
+    lines
+}
+
+/// The steps of the ratings of a part, by its number.
+pub fn explain_ratings(transmission: &Transmission, ratings: &Ratings, solution: &Solution<'_>, part: usize) -> String {
+    let (found, trace) = ratings.explain(solution, part);
+    let mut out = Lines::default();
+    if found.is_empty() {
+        return String::new();
+    }
+    out.line(format!("{}: ratings", transmission.parts()[part].path));
+    for own in &found {
+        let entry = &own.plugin.entry;
+        out.line(format!("  {}: {}", entry.name, entry.meaning()));
+        out.line(format!("  source: {}", entry.source));
+        for graded in entry.evidence.iter().filter(|graded| graded.key.is_empty()) {
+            out.line(format!("  evidence: {} ({})", graded.grade.name(), graded.because));
+        }
+    }
+    steps(ratings.instances(), trace, &mut out);
+    let path = &transmission.parts()[part].path;
+    for own in rated(ratings, transmission, solution)
+        .iter()
+        .filter(|own| own.component == *path)
+    {
+        for quantity in &own.quantities {
+            let unit = if quantity.unit == "-" { "" } else { quantity.unit };
+            let line = format!(
+                "  {} {} = {} {unit}",
+                quantity.meaning,
+                quantity.symbol,
+                significant(quantity.value)
+            );
+            out.line(line.trim_end());
+        }
+        for line in rating_lines(own) {
+            out.line(format!("  {line}"));
+        }
+    }
+    out.line("");
+    out.into_text()
+}

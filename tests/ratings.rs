@@ -1,0 +1,214 @@
+//! Ratings beside losses: what is printed, what documents may choose, and what they must not change.
+
+use crate::common::study::{of_gearbox, run_texts};
+use assert_cmd::Command;
+use serde_json::Value;
+
+fn out(args: &[&str]) -> String {
+    let output = Command::cargo_bin("gearloss")
+        .unwrap()
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .args(args)
+        .output()
+        .unwrap();
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{args:?}: {errors}");
+    String::from_utf8(output.stdout).unwrap()
+}
+
+const UNIT: &str = "examples/electric-drive-unit/gearbox.yaml";
+
+fn at(torque: &str, more: &[&str]) -> Vec<String> {
+    let point = [
+        "--torque",
+        torque,
+        "--speed",
+        "1000 rpm",
+        "--oil-temperature",
+        "80 degC",
+    ];
+    point.iter().chain(more).map(|text| (*text).to_owned()).collect()
+}
+
+fn solved(torque: &str, more: &[&str]) -> String {
+    let at = at(torque, more);
+    let args: Vec<&str> = ["solve", UNIT]
+        .into_iter()
+        .chain(at.iter().map(String::as_str))
+        .collect();
+    out(&args)
+}
+
+fn json(torque: &str, more: &[&str]) -> Value {
+    let mut more = more.to_vec();
+    more.extend(["--format", "json"]);
+    serde_json::from_str(&solved(torque, &more)).unwrap()
+}
+
+fn quantity(value: &Value, component: &str, symbol: &str) -> Option<Value> {
+    let own = value["ratings"].as_array().unwrap().iter();
+    let own = own.filter(|rating| rating["component"] == component);
+    let mut quantities = own.flat_map(|rating| rating["quantities"].as_array().unwrap());
+    quantities.find(|quantity| quantity["symbol"] == symbol).cloned()
+}
+
+#[test]
+fn an_overloaded_bearing_is_a_warning_with_numbers_and_a_bound_of_the_user() {
+    let text = solved("350 Nm", &[]);
+    let warning = "warning: bearings.B4: static safety S0 = 0.9347 is below 1 (ratings.iso_76)";
+    assert!(text.contains("Ratings: bearing") && text.contains(warning), "{text}");
+    assert!(
+        text.contains("warning: bearings.B4: load ratio C/P = 1.647 is below 3 (ratings.iso_281)"),
+        "{text}"
+    );
+    assert!(
+        text.contains("note: bearings.B4: iso_281: equivalent load over dynamic load rating P/C"),
+        "{text}"
+    );
+    let fewer = solved("350 Nm", &["--set", "ratings.iso_76.least_safety=0.9"]);
+    assert!(!fewer.contains("(ratings.iso_76)"), "{fewer}");
+    let more = solved("350 Nm", &["--set", "ratings.iso_76.least_safety=1.4"]);
+    assert!(more.contains("warning: bearings.B3: static safety"), "{more}");
+    let without = solved("350 Nm", &["--set", "ratings.iso_76=none"]);
+    assert!(!without.contains("S0"), "{without}");
+}
+
+#[test]
+fn no_loss_depends_on_a_rating() {
+    let with = json("120 Nm", &[]);
+    let without = json(
+        "120 Nm",
+        &[
+            "--set",
+            "ratings.iso_281=none",
+            "--set",
+            "ratings.flank_contact=none",
+            "--set",
+            "ratings.minimum_load=none",
+        ],
+    );
+    assert!(quantity(&with, "bearings.B1", "L10h").is_some() && quantity(&without, "bearings.B1", "L10h").is_none());
+    for key in [
+        "loss_w",
+        "efficiency",
+        "parts",
+        "power",
+        "sums_w",
+        "supports",
+        "notes",
+        "evidence",
+    ] {
+        assert_eq!(with[key], without[key], "{key}");
+    }
+}
+
+#[test]
+fn static_safety_agrees_with_that_of_the_supports() {
+    let value = json("350 Nm", &[]);
+    for support in value["supports"].as_array().unwrap() {
+        let path = support["support"].as_str().unwrap();
+        let own = quantity(&value, path, "S0").unwrap();
+        assert_eq!(own["value"], support["static_safety"], "{path}");
+        assert_eq!(own["outside"], own["value"].as_f64().unwrap() < 1.0);
+    }
+}
+
+#[test]
+fn a_parameter_of_a_rating_changes_its_result() {
+    let life = |more: &[&str]| {
+        quantity(&json("120 Nm", more), "bearings.B1", "Lnmh").unwrap()["value"]
+            .as_f64()
+            .unwrap()
+    };
+    let (usual, safer) = (life(&[]), life(&["--set", "ratings.iso_281.reliability=0.99"]));
+    assert!((safer / usual - 0.248).abs() < 1e-3, "{usual} {safer}");
+    let reported = solved("120 Nm", &["--set", "ratings.iso_281.least_life=1e8 h"]);
+    assert!(reported.contains("modified rating life Lnmh"), "{reported}");
+}
+
+#[test]
+fn explain_shows_the_steps_and_eval_a_rating_alone() {
+    let at = at("350 Nm", &[]);
+    let args: Vec<&str> = ["explain", UNIT, "bearings.B1"]
+        .into_iter()
+        .chain(at.iter().map(String::as_str))
+        .collect();
+    let text = out(&args);
+    for step in [
+        "bearings.B1: ratings",
+        "nu1 = ",
+        "e_C Cu/P = ",
+        "a_ISO = ",
+        "evidence: recalled",
+    ] {
+        assert!(text.contains(step), "{step}: {text}");
+    }
+    let alone = out(&["eval", "rating/flash_temperature"]);
+    assert!(alone.contains("maximum contact temperature theta_B = "), "{alone}");
+    let listed = out(&["models", "rating", "lip_seal"]);
+    assert!(
+        listed.contains("greatest_speed") && listed.contains("evidence: formula: recalled"),
+        "{listed}"
+    );
+}
+
+#[test]
+fn a_wrong_parameter_or_name_is_an_error_with_its_place() {
+    for set in [
+        "ratings.iso_281.reliability=2",
+        "ratings.iso_281.reliabilty=0.95",
+        "ratings.iso_282=none",
+    ] {
+        let output = Command::cargo_bin("gearloss")
+            .unwrap()
+            .current_dir(env!("CARGO_MANIFEST_DIR"))
+            .args(["solve", UNIT, "--torque", "1 Nm", "--speed", "1 rpm", "--set", set])
+            .output()
+            .unwrap();
+        let text = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(
+            !output.status.success() && text.contains("ratings.iso_28"),
+            "{set}: {text}"
+        );
+    }
+}
+
+/// A spectrum of two loads at given temperatures: 1/L = sum of the time shares over the lives at each.
+#[test]
+fn damages_of_a_spectrum_add_up_after_miner() {
+    let study = of_gearbox(
+        UNIT,
+        "
+conditions: { oil_temperature: 80 degC }
+cycles:
+  both: { spectrum: [{ torque: 100 Nm, speed: 1000 rpm, share: 0.75 }, { torque: 300 Nm, speed: 1000 rpm, share: 0.25 }] }
+analyses:
+  lives: { type: cycle, cycles: [both], ratings: true, write: [json] }
+",
+    );
+    let (ran, text) = run_texts(&study, &[]).with_text();
+    assert!(ran.succeeded, "{text}");
+    let lives = ran.json("lives");
+    let over = lives["cycles"][0]["ratings"].as_array().unwrap();
+    let of = |component: &str, symbol: &str| {
+        let found = over
+            .iter()
+            .find(|own| own["component"] == component && own["symbol"] == symbol);
+        found.unwrap().clone()
+    };
+    let [light, heavy] = ["100 Nm", "300 Nm"].map(|torque| json(torque, &[]));
+    for bearing in ["bearings.B1", "bearings.B4"] {
+        let at = |point: &Value, symbol: &str| quantity(point, bearing, symbol).unwrap()["value"].as_f64().unwrap();
+        for symbol in ["L10h", "Lnmh"] {
+            let by_hand = 1.0 / (0.75 / at(&light, symbol) + 0.25 / at(&heavy, symbol));
+            let own = of(bearing, symbol)["value"].as_f64().unwrap();
+            assert!(
+                (own / by_hand - 1.0).abs() < 1e-9,
+                "{bearing} {symbol}: {own}, by hand {by_hand}"
+            );
+        }
+        let least = of(bearing, "S0")["value"].as_f64().unwrap();
+        assert_eq!(least, at(&heavy, "S0"), "the minimum of the static safety");
+    }
+    assert_eq!(of("bearings.B4", "C/P")["outside_share"], 0.25);
+}
