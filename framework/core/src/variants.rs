@@ -9,6 +9,7 @@ use std::sync::{Mutex, PoisonError};
 use serde_json::Value;
 
 use crate::document::Unit;
+use crate::evaluate::Ratings;
 use crate::gearbox::{Findings, Gearbox};
 use crate::language::Language;
 use crate::registry::Memory;
@@ -62,6 +63,25 @@ impl<'a> Variants<'a> {
     /// # Errors
     /// All findings of resolving and building.
     pub fn build(&self, overrides: &[(String, Value)]) -> Result<Transmission, Findings> {
+        Ok(self.built(overrides, |_, _| Ok(()))?.0)
+    }
+
+    /// The same with the ratings of its components.
+    ///
+    /// # Errors
+    /// All findings of resolving and building.
+    pub fn build_rated(&self, overrides: &[(String, Value)]) -> Result<(Transmission, Ratings), Findings> {
+        self.built(overrides, |resolved, built| {
+            self.gearbox.ratings(self.language, resolved, built)
+        })
+    }
+
+    /// The transmission with further overrides, and what is made of it and its resolved description.
+    fn built<T>(
+        &self,
+        overrides: &[(String, Value)],
+        make: impl FnOnce(&Resolved, &Transmission) -> Result<T, Findings>,
+    ) -> Result<(Transmission, T), Findings> {
         let spare = self.benches.lock().unwrap_or_else(PoisonError::into_inner).pop();
         let again = spare.and_then(|mut bench| bench.write(overrides).then_some(bench));
         let mut bench = match again {
@@ -71,10 +91,11 @@ impl<'a> Variants<'a> {
         let memory = std::mem::take(&mut bench.memory);
         let (built, memory) = self.gearbox.build_again(self.language, &bench.resolved, memory)?;
         bench.memory = memory;
+        let made = make(&bench.resolved, &built)?;
         if !bench.places.is_empty() {
             self.benches.lock().unwrap_or_else(PoisonError::into_inner).push(bench);
         }
-        Ok(built)
+        Ok((built, made))
     }
 
     /// The description resolved with further overrides.

@@ -2,7 +2,7 @@
 
 mod bands;
 mod outcome;
-mod ratings;
+pub(super) mod ratings;
 pub(super) mod results;
 
 use gearloss_framework::attach::dangling;
@@ -130,7 +130,8 @@ impl Analysis for CycleAnalysisEntry {
             for (read, driven) in duties.list.iter().zip(driven) {
                 let mut duty = results::duty(b, read, driven, &shares, self.reference.get(&read.name));
                 if let Some(ratings) = &ratings {
-                    let rated = ratings::over_cycle(b, ratings, &duties.ride(&b.transmission, read), driven);
+                    let rated =
+                        ratings::over_cycle(&b.transmission, ratings, &duties.ride(&b.transmission, read), driven);
                     duty.ratings = Some(rated.map_err(|list| b.gearbox.findings(list))?);
                 }
                 cycles.push(duty);

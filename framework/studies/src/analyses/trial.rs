@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use crate::points::{GridResult, OilTemperature, OnRig, PointResult, Points, Rows, SolvedRows, notes, run_grid};
+use gearloss_framework::evaluate::Ratings;
 use gearloss_framework::loss::Extent;
 use gearloss_framework::transmission::Transmission;
 use gearloss_framework::variants::Variants;
@@ -35,6 +36,13 @@ impl<'a> Trial<'a> {
     pub fn build(&self, overrides: impl IntoIterator<Item = (String, Value)>) -> Result<Transmission, String> {
         let overrides: Vec<(String, Value)> = overrides.into_iter().collect();
         self.variants.build(&overrides).map_err(|findings| findings.first())
+    }
+
+    /// The same with the ratings of its components.
+    pub fn build_rated(&self, overrides: Vec<(String, Value)>) -> Result<(Transmission, Ratings), String> {
+        self.variants
+            .build_rated(&overrides)
+            .map_err(|findings| findings.first())
     }
 
     /// Solves all points. Their temperature follows the overrides unless given otherwise.

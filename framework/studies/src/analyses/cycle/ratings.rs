@@ -6,11 +6,10 @@ use gearloss_framework::document::Diagnostic;
 use gearloss_framework::evaluate::{Point, Ratings, Scratch};
 use gearloss_framework::flow::Tolerance;
 use gearloss_framework::rating::{Bound, Figure, Over, over_time};
-use gearloss_framework::transmission::Case;
+use gearloss_framework::transmission::{Case, Transmission};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::analyses::Built;
 use crate::points::{Driven, Ride};
 
 /// A quantity of a rating over a whole cycle.
@@ -52,12 +51,11 @@ struct Course {
 /// # Errors
 /// If a gear is unknown.
 pub fn over_cycle(
-    b: &Built<'_>,
+    t: &Transmission,
     ratings: &Ratings,
     ride: &Ride<'_>,
     driven: &Driven,
 ) -> Result<Vec<RatedOverTime>, Vec<Diagnostic>> {
-    let t = &b.transmission;
     let port = t.ports()[t.reference_port()].name.as_str();
     let mut cases: BTreeMap<&str, (Case, Scratch)> = BTreeMap::new();
     // By component, rating and order of the quantity in it.

@@ -7,6 +7,7 @@ use serde_json::Value;
 use super::limits::{Limit, mean_loss};
 use super::variables::Variable;
 use crate::analyses::balance::reason;
+use crate::analyses::cycle::ratings::over_cycle;
 use crate::analyses::duties::Duties;
 use crate::analyses::trial::{Left, Trial, left};
 use crate::analyses::{Context, Stopped};
@@ -79,7 +80,13 @@ impl Drives<'_> {
     /// # Errors
     /// Why the gearbox cannot be built or driven.
     pub fn drive(&self, overrides: Vec<(String, Value)>) -> Result<Drive, String> {
-        let t = self.trial.build(overrides)?;
+        let (t, ratings) = if self.limits.iter().any(Limit::is_rating) {
+            let (t, ratings) = self.trial.build_rated(overrides)?;
+            (t, Some(ratings))
+        } else {
+            (self.trial.build(overrides)?, None)
+        };
+        let mut rated = Vec::new();
         let mut driven: Vec<Driven> = Vec::new();
         for read in &self.duties.list {
             let own = self.duties.drive(&t, read, &|_| self.cx.should_continue());
@@ -92,13 +99,17 @@ impl Drives<'_> {
                     reason(&t, why)
                 ));
             }
+            if let Some(ratings) = &ratings {
+                let own = over_cycle(&t, ratings, &self.duties.ride(&t, read), &own);
+                rated.push(own.map_err(|list| list.first().map_or_else(String::new, |d| d.message.clone()))?);
+            }
             driven.push(own);
         }
         let losses = driven.iter().map(|own| mean_loss(own).unwrap_or(f64::INFINITY));
         let limited = self
             .limits
             .iter()
-            .map(|limit| limit.value(&t, &driven).unwrap_or(f64::NAN));
+            .map(|limit| limit.value(&t, &driven, &rated).unwrap_or(f64::NAN));
         Ok(Drive {
             losses: losses.collect(),
             limited: limited.collect(),

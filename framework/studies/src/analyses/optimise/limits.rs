@@ -2,13 +2,16 @@
 
 use gearloss_framework::attach::dangling;
 use gearloss_framework::description::Ordered;
-use gearloss_framework::document::{Dimension, Unit, parse_quantity};
+use gearloss_framework::document::{Diagnostic, Dimension, Unit, parse_quantity};
+use gearloss_framework::rating::Figure;
+use gearloss_framework::resolve::meets;
 use gearloss_framework::thermal::network::Network;
 use gearloss_framework::transmission::Transmission;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
+use crate::analyses::cycle::RatedOverTime;
 use crate::analyses::duties::{Duties, nodes};
 use crate::analyses::{Built, Context, Stopped};
 use crate::points::Driven;
@@ -18,8 +21,11 @@ use crate::points::Driven;
 pub struct LimitEntry {
     /// Limited quantity.
     pub quantity: LimitedQuantity,
-    /// What it belongs to: a node of the thermal network, a cycle, a gear. Default: the oil, all cycles, the first gear.
+    /// What it belongs to: a node of the thermal network, a cycle, a gear, a component or several (`bearings.*`). Default: the oil, every
+    /// cycle, the first gear, every component.
     pub of: Option<String>,
+    /// Rating and symbol, for the quantity `rating`: `iso_281.L10h`; `gearloss models rating` lists them.
+    pub rating: Option<String>,
     /// Least allowed value, with its unit: `20 degC`.
     pub least: Option<Value>,
     /// Greatest allowed value, with its unit: `110 degC`.
@@ -36,17 +42,18 @@ pub enum LimitedQuantity {
     MeanLoss,
     /// The ratio of a gear: speed of the reference port over that of the first other port.
     Ratio,
+    /// A quantity of a rating over each cycle: a life after Palmgren and Miner, the minimum or the maximum of the others.
+    Rating,
 }
 
 impl LimitedQuantity {
-    /// Its unit.
-    fn unit(self) -> &'static Unit {
-        let symbol = match self {
+    /// Symbol of its unit; that of a rating is its own.
+    fn unit(self) -> &'static str {
+        match self {
             Self::Temperature => "degC",
             Self::MeanLoss => "W",
-            Self::Ratio => "-",
-        };
-        Unit::of_symbol(symbol).unwrap_or(Unit::ONE)
+            Self::Ratio | Self::Rating => "-",
+        }
     }
 }
 
@@ -71,6 +78,12 @@ enum Owner {
     Cycle(usize),
     AllCycles,
     Gear(usize),
+    /// Name of the rating and symbol of its quantity; pattern of the components.
+    Rating {
+        rating: &'static str,
+        symbol: &'static str,
+        components: String,
+    },
 }
 
 /// The index of a cycle of an analysis.
@@ -103,14 +116,36 @@ impl Limit {
         duties: &Duties<'_>,
         b: &Built<'_>,
     ) -> Result<Self, Stopped> {
-        let unit = entry.quantity.unit();
         let t = &b.transmission;
+        let rated = match (entry.quantity, &entry.rating) {
+            (LimitedQuantity::Rating, Some(rating)) => Some(known_rating(cx, &format!("{path}.rating"), rating)?),
+            (LimitedQuantity::Rating, None) => {
+                let help = "write for example `rating: iso_281.L10h`";
+                return Err(cx.wrong(path, "`rating` is missing", help));
+            }
+            (_, Some(_)) => {
+                let message = "`rating` belongs to the quantity `rating`";
+                return Err(cx.wrong(
+                    &format!("{path}.rating"),
+                    message,
+                    "write `quantity: rating`, or delete it",
+                ));
+            }
+            (_, None) => None,
+        };
+        let symbol = rated.map_or(entry.quantity.unit(), |(_, figure)| figure.unit);
+        let unit = Unit::of_symbol(symbol).unwrap_or(Unit::ONE);
         let of = &format!("{path}.of");
         let of = match (entry.quantity, entry.of.as_deref()) {
             (LimitedQuantity::Temperature, None) => Owner::Oil,
             (LimitedQuantity::Temperature, Some(node)) => Owner::Node(known_node(cx, of, node, t)?),
             (LimitedQuantity::MeanLoss, None) => Owner::AllCycles,
             (LimitedQuantity::MeanLoss, Some(name)) => Owner::Cycle(cycle(cx, of, name, duties)?),
+            (LimitedQuantity::Rating, own) => Owner::Rating {
+                rating: rated.map_or("", |(rating, _)| rating),
+                symbol: rated.map_or("", |(_, figure)| figure.symbol),
+                components: own.unwrap_or("*").to_owned(),
+            },
             (LimitedQuantity::Ratio, None) => Owner::Gear(0),
             (LimitedQuantity::Ratio, Some(gear)) => {
                 let names: Vec<&str> = t.states().iter().map(|state| state.name.as_str()).collect();
@@ -146,16 +181,34 @@ impl Limit {
         }
     }
 
-    /// The limited value of a driven design, in the unit: of the worst moment.
-    pub fn value(&self, t: &Transmission, driven: &[Driven]) -> Option<f64> {
-        match (&self.of, self.quantity) {
-            (Owner::Gear(gear), _) => t.ratios(*gear).first().and_then(|(_, ratio)| *ratio).map(f64::abs),
-            (Owner::Cycle(cycle), _) => mean_loss(&driven[*cycle]),
-            (Owner::AllCycles, _) => {
+    /// Whether it needs the ratings of the components.
+    pub fn is_rating(&self) -> bool {
+        self.quantity == LimitedQuantity::Rating
+    }
+
+    /// The limited value of a driven design, in the unit: of the worst moment, component and cycle. `rated` are the ratings over each cycle.
+    pub fn value(&self, t: &Transmission, driven: &[Driven], rated: &[Vec<RatedOverTime>]) -> Option<f64> {
+        match &self.of {
+            Owner::Rating {
+                rating,
+                symbol,
+                components,
+            } => {
+                let own = rated.iter().flatten();
+                let own = own.filter(|own| own.rating == *rating && own.symbol == *symbol);
+                let own = own.filter(|own| meets(components, &own.component));
+                // Where the quantity is unknown, the limit cannot be kept.
+                let mut values = own.map(|own| own.value).peekable();
+                values.peek()?;
+                Some(self.worst(values))
+            }
+            Owner::Gear(gear) => t.ratios(*gear).first().and_then(|(_, ratio)| *ratio).map(f64::abs),
+            Owner::Cycle(cycle) => mean_loss(&driven[*cycle]),
+            Owner::AllCycles => {
                 let all = driven.iter().map(mean_loss).collect::<Option<Vec<f64>>>()?;
                 Some(self.worst(all.into_iter()))
             }
-            (Owner::Oil | Owner::Node(_), _) => {
+            Owner::Oil | Owner::Node(_) => {
                 let node = match &self.of {
                     Owner::Node(name) => nodes(t, driven.first()?).iter().position(|own| own == name)?,
                     _ => t.network().map_or(0, Network::oil),
@@ -215,6 +268,23 @@ fn known_node(cx: &Context<'_>, path: &str, node: &str, t: &Transmission) -> Res
     Err(cx.found(vec![dangling(path, "node", node, &names)]))
 }
 
+/// A rating and its quantity, of `RATING.SYMBOL`.
+fn known_rating(cx: &Context<'_>, path: &str, written: &str) -> Result<(&'static str, Figure), Stopped> {
+    let (rating, symbol) = written.split_once('.').unwrap_or((written, ""));
+    let plugin = cx.language.registry().rating_named(rating).map_err(|error| {
+        cx.found(vec![Diagnostic {
+            path: path.to_owned(),
+            ..error
+        }])
+    })?;
+    let figure = plugin.figures.iter().find(|figure| figure.symbol == symbol);
+    let figure = figure.ok_or_else(|| {
+        let symbols: Vec<&str> = plugin.figures.iter().map(|figure| figure.symbol).collect();
+        cx.found(vec![dangling(path, "quantity of this rating", symbol, &symbols)])
+    })?;
+    Ok((plugin.entry.name, *figure))
+}
+
 /// A bound in a unit.
 fn quantity(written: &Value, unit: &'static Unit) -> Result<f64, String> {
     let number = match written {
@@ -232,5 +302,9 @@ fn words(entry: &LimitEntry) -> String {
         LimitedQuantity::Temperature => format!("temperature of {}", of("the oil")),
         LimitedQuantity::MeanLoss => format!("mean loss over {}", of("every cycle")),
         LimitedQuantity::Ratio => format!("ratio of gear {}", of("1")),
+        LimitedQuantity::Rating => {
+            let rating = entry.rating.as_deref().unwrap_or_default();
+            format!("{rating} of {}", of("every component"))
+        }
     }
 }
