@@ -7,7 +7,7 @@ use gearloss_framework::transmission::Transmission;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::analyses::numbers::figures;
+use crate::analyses::numbers::{beyond, figures};
 
 /// One rating of one component at one point.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
@@ -108,15 +108,24 @@ impl RatedComponent {
     fn new(transmission: &Transmission, own: &ComponentRating) -> Self {
         let part = &transmission.parts()[own.part];
         let entry = &own.plugin.entry;
-        let (figures, undefined) = match &own.result {
+        let (rated, undefined) = match &own.result {
             Ok(rated) => (rated.figures(), None),
             Err(reason) => (&[][..], Some(reason.to_string())),
         };
         let left = own.left.iter().map(|(i, extent)| {
             let limit = &entry.limits[*i];
+            let value = if extent.least < limit.least {
+                extent.least
+            } else {
+                extent.greatest
+            };
             format!(
-                "{} {} = {:.4} is outside its stated range {} to {} ({})",
-                limit.meaning, limit.name, extent.greatest, limit.least, limit.greatest, limit.origin
+                "{} {} = {} is {} ({})",
+                limit.meaning,
+                limit.name,
+                figures(value, DIGITS),
+                beyond(limit.least, limit.greatest),
+                limit.origin
             )
         });
         Self {
@@ -130,7 +139,7 @@ impl RatedComponent {
                 .max()
                 .unwrap_or(Evidence::Assumed),
             undefined,
-            quantities: figures.iter().map(RatedQuantity::new).collect(),
+            quantities: rated.iter().map(RatedQuantity::new).collect(),
             outside_ranges: left.collect(),
         }
     }
