@@ -106,6 +106,34 @@ fn a_limit_is_kept_and_costs_something() {
     assert_eq!((none.feasible, none.failed), (0, 0));
 }
 
+/// A life that only a heavier bearing reaches costs losses.
+#[test]
+fn a_life_limits_the_choice_of_a_bearing() {
+    let variables = "    cycles: [loads]
+    variables: { bearing: { path: bearings.B5.designation, values: [\"16010\", \"6010\", \"6210\", \"6310\"] } }
+    limits: { life: { quantity: rating, rating: iso_281.L10h, of: bearings.B5, least: LEAST h } }";
+    let life = |least: &str| search(&common(&variables.replace("LEAST", least)));
+    let free = life("0.001");
+    let lives: Vec<f64> = free.all.iter().map(|own| own.limited[0]).collect();
+    assert!(
+        free.exhaustive && lives.windows(2).all(|pair| pair[0] < pair[1]),
+        "{lives:?}"
+    );
+    let least = 0.5 * (lives[2] + lives[3]);
+    let long = life(&least.to_string());
+    assert_eq!((long.feasible, long.variables[0].best.as_deref()), (1, Some("6310")));
+    assert!(long.limits[0].best.unwrap() > least);
+    assert!(long.gains[0].best_w.unwrap() > free.gains[0].best_w.unwrap());
+}
+
+#[test]
+fn the_study_of_the_drive_unit_is_right() {
+    let language = Language::linked().unwrap();
+    let files = gearloss::api::Disk::shared();
+    let study = file("examples/electric-drive-unit/best.yaml");
+    assert!(read_study(&language, &files, study).is_ok());
+}
+
 #[test]
 fn two_cycles_have_a_front() {
     let found = search(&common(&format!(
@@ -225,6 +253,22 @@ fn wrong_entries_are_reported() {
         (
             format!("    cycles: [loads]{VARIABLES}\n    limits: {{ hot: {{ quantity: temperature, most: 90 W }} }}"),
             "hot",
+        ),
+        (
+            format!(
+                "    cycles: [loads]{VARIABLES}\n    limits: {{ life: {{ quantity: rating, rating: iso_281.L20h, least: 1 h }} }}"
+            ),
+            "no quantity of this rating is called `L20h`",
+        ),
+        (
+            format!(
+                "    cycles: [loads]{VARIABLES}\n    limits: {{ life: {{ quantity: rating, rating: iso_28.L10h, least: 1 h }} }}"
+            ),
+            "no rating is called `iso_28`",
+        ),
+        (
+            format!("    cycles: [loads]{VARIABLES}\n    limits: {{ life: {{ quantity: rating, least: 1 h }} }}"),
+            "`rating` is missing",
         ),
         (
             format!("    cycles: [loads]{VARIABLES}\n    limits: {{ hot: {{ quantity: temperature }} }}"),
