@@ -39,6 +39,7 @@ mod modules;
 mod mutated;
 mod network;
 mod new;
+mod oils;
 mod optimise;
 mod peers;
 mod performance;

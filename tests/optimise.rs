@@ -127,10 +127,10 @@ fn a_life_limits_the_choice_of_a_bearing() {
 }
 
 #[test]
-fn the_study_of_the_drive_unit_is_right() {
+fn the_example_is_right() {
     let language = Language::linked().unwrap();
     let files = gearloss::api::Disk::shared();
-    let study = file("examples/electric-drive-unit/best.yaml");
+    let study = file("examples/best-design/study.yaml");
     assert!(read_study(&language, &files, study).is_ok());
 }
 

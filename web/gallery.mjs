@@ -12,6 +12,7 @@ const shown = [
   ["compare", "electric-drive-unit", "savings", 0],
   ["cycle", "electric-drive-unit", "figure_9", 0],
   ["fluid_sweep", "electric-drive-unit", "figure_11", 1],
+  ["optimise", "best-design", "best", 0],
   ["identify", "two-speed-ev", "identify", 0],
   ["tournament", "two-speed-ev", "which", 0],
   ["uncertainty", "two-speed-ev", "band", 0],

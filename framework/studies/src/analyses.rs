@@ -16,6 +16,7 @@ pub mod fluid_sweep;
 pub mod head;
 pub mod identify;
 pub mod inputs;
+pub mod limits;
 pub mod map;
 pub mod measurable;
 pub mod numbers;

@@ -2,7 +2,9 @@
 
 mod summary;
 
-use gearloss_studies::analyses::fluid_sweep::{FluidSweepOutcome, FluidsOfDuty, FluidsOfSet, LossOfFluid};
+use gearloss_studies::analyses::fluid_sweep::{
+    FluidSweepOutcome, FluidsOfDuty, FluidsOfSet, LimitOfFluids, LossOfFluid,
+};
 
 use crate::Figure;
 use crate::page::Page;
@@ -33,6 +35,47 @@ fn show(outcome: &FluidSweepOutcome, page: &mut Page) {
         };
         page.figure(format!("{name}-{file}"), figure);
     }
+    for set in &outcome.fluid_sweep {
+        for (i, limit) in set.limits.iter().enumerate() {
+            let figure = limited(name, set, i, limit);
+            page.figure(
+                format!("{name}-{}-{}", set.model_set.replace('/', "-"), limit.limit),
+                figure,
+            );
+        }
+    }
+}
+
+/// A limited quantity over the property, with its bounds.
+fn limited(name: &str, set: &FluidsOfSet, i: usize, limit: &LimitOfFluids) -> Figure {
+    let fluids = set.cycles.first().map_or(&[][..], |duty| &duty.fluids);
+    let value = |fluid: &LossOfFluid| fluid.limited[i].map(|value| (fluid.value, value));
+    let line = |name: &str, points, stroke| Line {
+        name: name.to_owned(),
+        points,
+        stroke,
+    };
+    let mut lines = vec![line(
+        &limit.quantity,
+        fluids.iter().map(value).collect(),
+        Stroke::Marked,
+    )];
+    for (side, bound) in [("least", limit.least), ("most", limit.most)] {
+        if let Some(bound) = bound {
+            let ends = fluids.iter().map(|fluid| Some((fluid.value, bound)));
+            lines.push(line(
+                &format!("{side}, `{}`", limit.limit),
+                ends.collect(),
+                Stroke::Line,
+            ));
+        }
+    }
+    Figure::Lines {
+        title: format!("{name}: {} over the oils", limit.quantity),
+        x: set.property.clone(),
+        y: format!("{} in {}", limit.quantity, limit.unit),
+        lines,
+    }
 }
 
 fn text(name: &str, set: &FluidsOfSet, page: &mut Page) {
@@ -50,6 +93,14 @@ fn text(name: &str, set: &FluidsOfSet, page: &mut Page) {
     for duty in &set.cycles {
         let mut row = vec![duty.cycle.clone()];
         row.extend(listed(duty).map(|fluid| format!("{:.2}", fluid.mean_loss_w)));
+        table.row(row);
+    }
+    for (i, limit) in set.limits.iter().enumerate() {
+        let mut row = vec![format!("{} [{}]", limit.quantity, limit.unit)];
+        row.extend(
+            all.iter()
+                .map(|fluid| fluid.limited[i].map_or_else(|| "-".to_owned(), significant)),
+        );
         table.row(row);
     }
     page.table(table);

@@ -300,17 +300,12 @@ impl Unfinished {
 }
 
 impl Duties<'_> {
-    /// Mean losses of every cycle, with shares under common names of several transmissions, and quantities outside their stated ranges.
-    pub fn mean_losses(
-        &self,
-        cx: &Context<'_>,
-        t: &Transmission,
-        by: By,
-        names: &[String],
-    ) -> Result<(Vec<MeanLoss>, Left), Unfinished> {
-        let shares = Shares::new(t, by).under(names);
-        let mut losses = Vec::new();
-        let mut seen = Left::new();
+    /// Drives every cycle to its end.
+    ///
+    /// # Errors
+    /// If one cannot be driven to its end.
+    pub fn drive_all(&self, cx: &Context<'_>, t: &Transmission) -> Result<Vec<Driven>, Unfinished> {
+        let mut all = Vec::new();
         for read in &self.list {
             let driven = self
                 .drive(t, read, &|_| cx.should_continue())
@@ -322,15 +317,35 @@ impl Duties<'_> {
                     reason: Some(reason(t, why)),
                 });
             }
-            let time = driven.total.duration;
-            losses.push(MeanLoss {
-                loss: driven.total.parts.iter().sum::<f64>() / time,
-                shares: shares.sums(&driven.total.parts).iter().map(|x| x / time).collect(),
-            });
-            seen.extend(left(t, &driven.seen));
+            all.push(driven);
         }
-        Ok((losses, seen))
+        Ok(all)
     }
+
+    /// Mean losses of every cycle, with shares under common names of several transmissions, and quantities outside their stated ranges.
+    pub fn mean_losses(
+        &self,
+        cx: &Context<'_>,
+        t: &Transmission,
+        by: By,
+        names: &[String],
+    ) -> Result<(Vec<MeanLoss>, Left), Unfinished> {
+        Ok(mean_losses_of(t, &self.drive_all(cx, t)?, by, names))
+    }
+}
+
+/// Mean losses of driven cycles, as [`Duties::mean_losses`].
+pub fn mean_losses_of(t: &Transmission, driven: &[Driven], by: By, names: &[String]) -> (Vec<MeanLoss>, Left) {
+    let shares = Shares::new(t, by).under(names);
+    let mean = |driven: &Driven| {
+        let time = driven.total.duration;
+        MeanLoss {
+            loss: driven.total.parts.iter().sum::<f64>() / time,
+            shares: shares.sums(&driven.total.parts).iter().map(|x| x / time).collect(),
+        }
+    };
+    let seen = driven.iter().flat_map(|own| left(t, &own.seen));
+    (driven.iter().map(mean).collect(), seen.collect())
 }
 
 /// Rejects sums by the terms of models, because energies of cycles are stored by component only.

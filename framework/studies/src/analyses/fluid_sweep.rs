@@ -3,12 +3,14 @@
 mod least;
 mod swept;
 
+use gearloss_framework::description::Ordered;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use self::swept::Swept;
-use super::duties::{Duties, MeanLoss, Unfinished, sums_energies};
+use super::duties::{Duties, MeanLoss, Unfinished, mean_losses_of, sums_energies};
+use super::limits::{self, Limit, LimitEntry};
 use super::shares::together;
 use super::trial::{Left, Trial};
 use super::{Analysis, Built, Context, Head, Outcome, Stopped};
@@ -43,6 +45,9 @@ pub struct FluidSweepEntry {
     /// Adds values between the listed ones until the minimum loss is found.
     #[serde(default = "yes")]
     pub refine: bool,
+    /// Limits by name, which an oil must keep: a life, a film ratio, a temperature.
+    #[serde(default)]
+    pub limits: Ordered<LimitEntry>,
     /// Grouping of losses.
     #[serde(default)]
     pub by: By,
@@ -81,6 +86,8 @@ pub struct FluidsOfSet {
     pub property: String,
     /// Names of the shares of the loss of all sets.
     pub shares: Vec<String>,
+    /// The limits.
+    pub limits: Vec<LimitOfFluids>,
     /// One for each cycle.
     pub cycles: Vec<FluidsOfDuty>,
     /// Unit of the property.
@@ -95,6 +102,8 @@ pub struct FluidsOfDuty {
     pub cycle: String,
     /// The lowest-loss oil.
     pub least: LeastLoss,
+    /// The listed or refined oil with the least loss that keeps all limits; null without limits, or if none keeps them.
+    pub least_within_limits: Option<OilWithinLimits>,
     /// The oil as described.
     pub present: PresentOil,
     /// The oils in ascending order of the value.
@@ -110,6 +119,34 @@ pub struct PresentOil {
     pub mean_loss_w: f64,
 }
 
+/// The oil with the least loss that keeps all limits.
+#[derive(Debug, Clone, Copy, Serialize, JsonSchema)]
+pub struct OilWithinLimits {
+    /// Value of the property, in its unit.
+    pub value: f64,
+    /// Mean loss of the transmission. [W]
+    pub mean_loss_w: f64,
+}
+
+/// A limit of a sweep of oils.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct LimitOfFluids {
+    /// Name in the study.
+    pub limit: String,
+    /// What is limited.
+    pub quantity: String,
+    /// Unit of the values.
+    pub unit: String,
+    /// Least allowed value.
+    pub least: Option<f64>,
+    /// Greatest allowed value.
+    pub most: Option<f64>,
+    /// Value with the oil as described; null if it is unknown.
+    pub present: Option<f64>,
+    /// Whether the oil as described keeps it.
+    pub present_keeps_it: bool,
+}
+
 /// Mean loss of one cycle with one oil.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct LossOfFluid {
@@ -123,6 +160,10 @@ pub struct LossOfFluid {
     pub beyond_definition: bool,
     /// True if the value was added by the search for the minimum loss.
     pub refined: bool,
+    /// Limited quantities over all cycles, in the order and the units of the limits; null where one is unknown.
+    pub limited: Vec<Option<f64>>,
+    /// Whether it keeps all limits.
+    pub keeps_limits: bool,
 }
 
 /// Results of one hypothetical oil.
@@ -131,6 +172,8 @@ struct Fluid {
     value: f64,
     /// Mean loss of each cycle.
     losses: Vec<MeanLoss>,
+    /// Limited quantities.
+    limited: Vec<f64>,
     /// True if it was added by the search for the minimum loss.
     refined: bool,
 }
@@ -143,12 +186,13 @@ struct Search<'a> {
     names: &'a [String],
     swept: &'a Swept,
     trial: Trial<'a>,
+    limits: &'a [Limit],
     /// Label of the progress.
     label: String,
     /// Ascending by value.
     fluids: Vec<Fluid>,
-    /// Mean loss of each cycle with the oil as described. [W]
-    present: Vec<f64>,
+    /// Mean loss of each cycle with the oil as described, and its limited quantities. [W]
+    present: (Vec<f64>, Vec<f64>),
     left: Left,
 }
 
@@ -173,6 +217,7 @@ impl Analysis for FluidSweepEntry {
             duties.check(cx, &path, b)?;
             let swept = Swept::new(cx, &path, self, b)?;
             let values = swept.values(cx, &path, self)?;
+            let limits = Limit::all(cx, &path, &self.limits, &duties, b)?;
             let mut search = Search {
                 cx,
                 entry: self,
@@ -180,9 +225,10 @@ impl Analysis for FluidSweepEntry {
                 names: &names,
                 swept: &swept,
                 trial: Trial::new(cx, b),
+                limits: &limits,
                 label: format!("{} oils", b.name),
                 fluids: Vec::new(),
-                present: Vec::new(),
+                present: Default::default(),
                 left: Left::new(),
             };
             if cx.only_checks {
@@ -245,8 +291,8 @@ impl Search<'_> {
     fn drive_present(&mut self) -> Result<(), Stopped> {
         let losses = self.cx.each(&self.label, 1, |_| self.mean_losses(Vec::new()))?;
         for result in losses {
-            let (losses, _) = result.map_err(|reason| self.failed("the oil as described", &reason))?;
-            self.present = losses.iter().map(|mean| mean.loss).collect();
+            let (losses, limited, _) = result.map_err(|reason| self.failed("the oil as described", &reason))?;
+            self.present = (losses.iter().map(|mean| mean.loss).collect(), limited);
         }
         Ok(())
     }
@@ -257,18 +303,26 @@ impl Search<'_> {
             self.mean_losses(self.swept.overrides(values[i])?)
         })?;
         for (value, result) in values.iter().copied().zip(all) {
-            let (losses, more) = result.map_err(|reason| self.failed(&value.to_string(), &reason))?;
+            let (losses, limited, more) = result.map_err(|reason| self.failed(&value.to_string(), &reason))?;
             self.left.extend(more);
-            self.fluids.push(Fluid { value, losses, refined });
+            self.fluids.push(Fluid {
+                value,
+                losses,
+                limited,
+                refined,
+            });
         }
         self.fluids.sort_by(|a, b| a.value.total_cmp(&b.value));
         Ok(())
     }
 
-    fn mean_losses(&self, overrides: Vec<(String, Value)>) -> Result<(Vec<MeanLoss>, Left), String> {
-        let t = self.trial.build(overrides)?;
-        let losses = self.duties.mean_losses(self.cx, &t, self.entry.by, self.names);
-        losses.map_err(Unfinished::text)
+    /// Mean loss of each cycle, limited quantities, and quantities outside their stated ranges.
+    fn mean_losses(&self, overrides: Vec<(String, Value)>) -> Result<(Vec<MeanLoss>, Vec<f64>, Left), String> {
+        let (t, ratings) = limits::built(&self.trial, self.limits, overrides)?;
+        let driven = self.duties.drive_all(self.cx, &t).map_err(Unfinished::text)?;
+        let limited = limits::values(self.limits, self.duties, &t, ratings.as_ref(), &driven)?;
+        let (losses, left) = mean_losses_of(&t, &driven, self.entry.by, self.names);
+        Ok((losses, limited, left))
     }
 
     /// Simulates further oils: in each round, for every cycle, the oil at the minimum of a parabola through the three best oils.
@@ -291,6 +345,34 @@ impl Search<'_> {
         self.fluids.iter().map(|f| (f.value, f.losses[duty].loss)).collect()
     }
 
+    /// The driven oil with the least loss of a cycle that keeps all limits.
+    fn least_within_limits(&self, duty: usize) -> Option<OilWithinLimits> {
+        let kept = self
+            .fluids
+            .iter()
+            .filter(|own| limits::violation(self.limits, &own.limited) == 0.0);
+        let least = kept.min_by(|a, b| a.losses[duty].loss.total_cmp(&b.losses[duty].loss));
+        let least = least.filter(|_| !self.limits.is_empty());
+        least.map(|own| OilWithinLimits {
+            value: own.value,
+            mean_loss_w: own.losses[duty].loss,
+        })
+    }
+
+    /// A limit with the oil as described.
+    fn limit(&self, i: usize, limit: &Limit) -> LimitOfFluids {
+        let present = self.present.1.get(i).copied().filter(|x| x.is_finite());
+        LimitOfFluids {
+            limit: limit.name.clone(),
+            quantity: limit.words.clone(),
+            unit: limit.unit.symbol.to_owned(),
+            least: limit.bounds[0],
+            most: limit.bounds[1],
+            present,
+            present_keeps_it: present.is_some_and(|value| limit.violation(value) == 0.0),
+        }
+    }
+
     fn failed(&self, oil: &str, reason: &str) -> Stopped {
         if !self.cx.should_continue() {
             return self.cx.why_ended();
@@ -307,6 +389,8 @@ impl Search<'_> {
                 mean_losses_w: f.losses[k].shares.clone(),
                 beyond_definition: self.swept.is_beyond(f.value),
                 refined: f.refined,
+                limited: f.limited.iter().map(|x| Some(*x).filter(|x| x.is_finite())).collect(),
+                keeps_limits: limits::violation(self.limits, &f.limited) == 0.0,
             }
         };
         let duties = self.duties.list.iter().enumerate();
@@ -314,13 +398,20 @@ impl Search<'_> {
             model_set: b.name.clone(),
             property: self.swept.name(),
             shares: self.names.to_vec(),
+            limits: self
+                .limits
+                .iter()
+                .enumerate()
+                .map(|(i, limit)| self.limit(i, limit))
+                .collect(),
             cycles: duties
                 .map(|(k, read)| FluidsOfDuty {
                     cycle: read.name.clone(),
                     least: LeastLoss::new(&self.points(k)),
+                    least_within_limits: self.least_within_limits(k),
                     present: PresentOil {
                         value: self.swept.present(),
-                        mean_loss_w: self.present[k],
+                        mean_loss_w: self.present.0[k],
                     },
                     fluids: self.fluids.iter().map(loss(k)).collect(),
                 })
@@ -339,6 +430,7 @@ impl Outcome for FluidSweepOutcome {
         let first = self.fluid_sweep.first();
         let unit = first.map_or("-", |set| set.unit);
         let shares = first.map_or(&[][..], |set| &set.shares);
+        let limits = first.map_or(&[][..], |set| &set.limits);
         let mut rows = Vec::new();
         for set in &self.fluid_sweep {
             for duty in &set.cycles {
@@ -367,6 +459,15 @@ impl Outcome for FluidSweepOutcome {
             .each(shares.iter().enumerate(), |table, (i, share)| {
                 let meaning = format!("Mean loss of the share {share}");
                 table.number(format!("{share}_w"), "W", meaning, |(.., fluid)| fluid.mean_losses_w[i])
+            })
+            .each(limits.iter().enumerate(), |table, (i, limit)| {
+                let meaning = format!("{} over all cycles", limit.quantity);
+                table.number(
+                    format!("{}_limited", limit.limit),
+                    limit.unit.clone(),
+                    meaning,
+                    |(.., fluid)| fluid.limited[i],
+                )
             });
         vec![table.finish()]
     }

@@ -3,7 +3,6 @@
 mod band;
 mod changes;
 mod drives;
-mod limits;
 mod outcome;
 mod search;
 mod variables;
@@ -12,18 +11,17 @@ use gearloss_framework::description::Ordered;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-pub use limits::{LimitEntry, LimitedQuantity};
 pub use outcome::{
     BandOfGain, ChangeOfDesign, DesignOfSearch, GainOfCycle, LimitOfSearch, OptimiseOutcome, VariableOfSearch,
 };
 pub use variables::{Scale, VariableEntry};
 
 use self::drives::Drives;
-use self::limits::Limit;
 use self::search::Search;
 use self::variables::Variable;
 use super::duties::Duties;
 use super::inputs::Input;
+use super::limits::{self, Limit, LimitEntry};
 use super::trial::Trial;
 use super::{Analysis, Context, Stopped};
 use crate::register_analysis;

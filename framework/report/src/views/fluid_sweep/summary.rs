@@ -1,6 +1,6 @@
 //! The oil with the least loss in one sentence.
 
-use gearloss_studies::analyses::fluid_sweep::{FluidSweepOutcome, FluidsOfSet};
+use gearloss_studies::analyses::fluid_sweep::{FluidSweepOutcome, FluidsOfDuty, FluidsOfSet, LossOfFluid};
 
 use crate::names::{cycle, listed, quantity};
 use crate::page::Page;
@@ -54,6 +54,7 @@ pub fn add(outcome: &FluidSweepOutcome, page: &mut Page) {
                 page.careful
                     .push(format!("{of}: the least loss is at the end of the range of oils"));
             }
+            limits(set, duty, &of, page);
         }
         if set
             .cycles
@@ -79,6 +80,47 @@ pub fn add(outcome: &FluidSweepOutcome, page: &mut Page) {
             in_common(outcome)
         )
     });
+}
+
+/// The best oil that keeps all limits, where the best of all does not.
+fn limits(set: &FluidsOfSet, duty: &FluidsOfDuty, of: &str, page: &mut Page) {
+    if set.limits.is_empty() {
+        return;
+    }
+    let near = |own: &&LossOfFluid| (own.value / duty.least.value - 1.0).abs() < 0.01;
+    let best = duty.fluids.iter().find(near);
+    if best.is_some_and(|own| own.keeps_limits) {
+        return;
+    }
+    let broken: Vec<String> = set
+        .limits
+        .iter()
+        .enumerate()
+        .filter(|(i, limit)| {
+            let value = best.and_then(|own| own.limited[*i]);
+            value.is_none_or(|value| limit.least.is_some_and(|x| value < x) || limit.most.is_some_and(|x| value > x))
+        })
+        .map(|(_, limit)| format!("`{}`", limit.limit))
+        .collect();
+    match duty.least_within_limits {
+        Some(own) => {
+            page.careful.push(format!(
+                "{of}: the oil with the lowest loss breaks {}; {} {} is the best that keeps all limits ({} W)",
+                listed(&broken),
+                short(own.value),
+                set.unit,
+                short(own.mean_loss_w)
+            ));
+            let label = format!("best {} within limits, {of}", property(set));
+            page.key_figure(
+                &label,
+                short(own.value),
+                set.unit,
+                format!("{} W", short(own.mean_loss_w)),
+            );
+        }
+        None => page.careful.push(format!("{of}: no oil keeps {}", listed(&broken))),
+    }
 }
 
 /// Values whose loss is within one percent of the lowest over every cycle.

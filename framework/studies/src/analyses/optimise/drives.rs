@@ -4,14 +4,11 @@ use gearloss_numerics::search::Gene;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use super::limits::{Limit, mean_loss};
 use super::variables::Variable;
-use crate::analyses::balance::reason;
-use crate::analyses::cycle::ratings::over_cycle;
-use crate::analyses::duties::Duties;
+use crate::analyses::duties::{Duties, Unfinished};
+use crate::analyses::limits::{self, Limit, mean_loss};
 use crate::analyses::trial::{Left, Trial, left};
 use crate::analyses::{Context, Stopped};
-use crate::points::Driven;
 
 /// What is driven, and how designs are built.
 pub struct Drives<'a> {
@@ -80,39 +77,14 @@ impl Drives<'_> {
     /// # Errors
     /// Why the gearbox cannot be built or driven.
     pub fn drive(&self, overrides: Vec<(String, Value)>) -> Result<Drive, String> {
-        let (t, ratings) = if self.limits.iter().any(Limit::is_rating) {
-            let (t, ratings) = self.trial.build_rated(overrides)?;
-            (t, Some(ratings))
-        } else {
-            (self.trial.build(overrides)?, None)
-        };
-        let mut rated = Vec::new();
-        let mut driven: Vec<Driven> = Vec::new();
-        for read in &self.duties.list {
-            let own = self.duties.drive(&t, read, &|_| self.cx.should_continue());
-            let own = own.map_err(|list| list.first().map_or_else(String::new, |d| d.message.clone()))?;
-            let own = own.ok_or_else(|| "interrupted".to_owned())?;
-            if let Some((time, why)) = &own.broken {
-                return Err(format!(
-                    "`{}` could not be simulated beyond {time} s: {}",
-                    read.name,
-                    reason(&t, why)
-                ));
-            }
-            if let Some(ratings) = &ratings {
-                let own = over_cycle(&t, ratings, &self.duties.ride(&t, read), &own);
-                rated.push(own.map_err(|list| list.first().map_or_else(String::new, |d| d.message.clone()))?);
-            }
-            driven.push(own);
-        }
-        let losses = driven.iter().map(|own| mean_loss(own).unwrap_or(f64::INFINITY));
-        let limited = self
-            .limits
-            .iter()
-            .map(|limit| limit.value(&t, &driven, &rated).unwrap_or(f64::NAN));
+        let (t, ratings) = limits::built(&self.trial, self.limits, overrides)?;
+        let driven = self.duties.drive_all(self.cx, &t).map_err(Unfinished::text)?;
         Ok(Drive {
-            losses: losses.collect(),
-            limited: limited.collect(),
+            losses: driven
+                .iter()
+                .map(|own| mean_loss(own).unwrap_or(f64::INFINITY))
+                .collect(),
+            limited: limits::values(self.limits, self.duties, &t, ratings.as_ref(), &driven)?,
             left: driven.iter().flat_map(|own| left(&t, &own.seen)).collect(),
         })
     }
@@ -125,7 +97,6 @@ impl Drives<'_> {
 
     /// Sum of the violations of the limits.
     pub fn violation(&self, drive: &Drive) -> f64 {
-        let pairs = self.limits.iter().zip(&drive.limited);
-        pairs.map(|(limit, value)| limit.violation(*value)).sum()
+        limits::violation(self.limits, &drive.limited)
     }
 }

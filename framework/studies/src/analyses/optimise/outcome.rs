@@ -9,6 +9,7 @@ use super::band::Band;
 use super::changes::Change;
 use super::drives::{Drive, Drives};
 use super::search::Search;
+use crate::analyses::limits::Limit;
 use crate::analyses::trial::Left;
 use crate::analyses::{Built, Context, Head, Outcome, TextFile};
 use crate::points::Note;
@@ -258,7 +259,7 @@ fn variables(drives: &Drives<'_>, genes: Option<&[f64]>, b: &Built<'_>) -> Vec<V
 
 fn limits(drives: &Drives<'_>, present: &Drive, best: Option<&Drive>) -> Vec<LimitOfSearch> {
     let limits = drives.limits.iter().enumerate();
-    let limit = |(i, own): (usize, &super::Limit)| {
+    let limit = |(i, own): (usize, &Limit)| {
         let best = best.map(|drive| drive.limited[i]).filter(|x| x.is_finite());
         let present = Some(present.limited[i]).filter(|x| x.is_finite());
         let near = |value: f64, bound: &f64| {

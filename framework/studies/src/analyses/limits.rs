@@ -1,8 +1,9 @@
-//! Limits that a design must keep.
+//! Limits of quantities over cycles, which designs and oils must keep.
 
 use gearloss_framework::attach::dangling;
 use gearloss_framework::description::Ordered;
 use gearloss_framework::document::{Diagnostic, Dimension, Unit, parse_quantity};
+use gearloss_framework::evaluate::Ratings;
 use gearloss_framework::rating::Figure;
 use gearloss_framework::resolve::meets;
 use gearloss_framework::thermal::network::Network;
@@ -12,7 +13,9 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use crate::analyses::cycle::RatedOverTime;
+use crate::analyses::cycle::ratings::over_cycle;
 use crate::analyses::duties::{Duties, nodes};
+use crate::analyses::trial::Trial;
 use crate::analyses::{Built, Context, Stopped};
 use crate::points::Driven;
 
@@ -249,6 +252,51 @@ impl Limit {
         };
         beyond / scale
     }
+}
+
+/// A gearbox with overrides, and its ratings if limits need them.
+///
+/// # Errors
+/// The first error of building.
+pub fn built(
+    trial: &Trial<'_>,
+    limits: &[Limit],
+    overrides: Vec<(String, Value)>,
+) -> Result<(Transmission, Option<Ratings>), String> {
+    if limits.iter().any(Limit::is_rating) {
+        let (t, ratings) = trial.build_rated(overrides)?;
+        Ok((t, Some(ratings)))
+    } else {
+        Ok((trial.build(overrides)?, None))
+    }
+}
+
+/// The limited quantities of a driven gearbox, in the order and the units of the limits; NaN where one is unknown.
+///
+/// # Errors
+/// If the ratings cannot be evaluated.
+pub fn values(
+    limits: &[Limit],
+    duties: &Duties<'_>,
+    t: &Transmission,
+    ratings: Option<&Ratings>,
+    driven: &[Driven],
+) -> Result<Vec<f64>, String> {
+    let mut rated = Vec::new();
+    if let Some(ratings) = ratings {
+        for (read, driven) in duties.list.iter().zip(driven) {
+            let own = over_cycle(t, ratings, &duties.ride(t, read), driven);
+            rated.push(own.map_err(|list| list.first().map_or_else(String::new, |d| d.message.clone()))?);
+        }
+    }
+    let value = |limit: &Limit| limit.value(t, driven, &rated).unwrap_or(f64::NAN);
+    Ok(limits.iter().map(value).collect())
+}
+
+/// Sum of the violations of limits.
+pub fn violation(limits: &[Limit], values: &[f64]) -> f64 {
+    let pairs = limits.iter().zip(values);
+    pairs.map(|(limit, value)| limit.violation(*value)).sum()
 }
 
 /// Mean loss of a cycle. \[W\]
