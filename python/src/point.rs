@@ -3,10 +3,7 @@
 use gearloss::api::{OilTemperature, PowerFlow};
 use gearloss::framework::coefficients::changed_from_source;
 use gearloss::framework::thermal::Outcome;
-use gearloss::report::point::{
-    explain_part, heading, locking_text, point_json, point_text, ratings_text, temperature_text,
-};
-use gearloss::report::text::significant;
+use gearloss::report::point::{Explained, point_json, point_text, ratings_text};
 use gearloss::studies::points::{PreparedPoint, evidence};
 use gearloss::studies::ratings::rated;
 use pyo3::prelude::*;
@@ -232,34 +229,14 @@ impl Solution {
 
 /// Every step of the loss of a component.
 pub fn explain(py: Python<'_>, t: &Transmission, part: &str, request: Request<'_>) -> PyResult<String> {
-    let fits =
-        |path: &str| path == part || path.starts_with(&format!("{part}.")) || path.split('.').nth(1) == Some(part);
-    let parts = t.built.parts();
-    let chosen: Vec<usize> = (0..parts.len()).filter(|i| fits(&parts[*i].path)).collect();
-    if chosen.is_empty() {
-        let paths: Vec<&str> = parts.iter().map(|part| part.path.as_str()).collect();
-        let help = format!("give one of {}", paths.join(", "));
-        return Err(wrong(
-            py,
-            gearloss::framework::codes::UNKNOWN_NAME,
-            format!("there is no component `{part}`"),
-            &help,
-        ));
-    }
+    let explained = Explained::named(&t.built, part).map_err(|error| {
+        let error = error.code(gearloss::framework::codes::UNKNOWN_NAME);
+        raised(py, &error.into())
+    })?;
     let prepared = prepared(py, t, request)?;
     let mut scratch = t.built.scratch(&prepared.case);
     let solved = prepared.solve(&t.built, &mut scratch);
-    let at = format!("oil {} degC", significant(solved.found.oil));
-    let mut text = heading(&t.built, &solved.solution, &prepared, &at);
-    if let Some(locking) = &solved.locking {
-        text = text + &locking_text(locking) + "\n";
-    }
-    if solved.found.outcome().is_some() {
-        text = text + &temperature_text(&t.built, &solved.found) + "\n";
-    }
-    let changed = changed_from_source(&t.built, &t.resolved);
-    for part in chosen {
-        text += &explain_part(&t.built, &t.gearbox, &t.resolved, &solved.solution, part, &changed);
-    }
-    Ok(text)
+    let ratings = t.gearbox.ratings(language(py)?, &t.resolved, &t.built);
+    let ratings = ratings.map_err(|findings| raised(py, &findings))?;
+    Ok(explained.text((&t.gearbox, &t.resolved, &t.built), &ratings, &prepared, &solved))
 }

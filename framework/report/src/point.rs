@@ -2,6 +2,7 @@
 
 mod derivatives;
 mod explain;
+mod explained;
 mod network;
 mod ratings;
 
@@ -18,9 +19,11 @@ use serde::Serialize;
 use serde_json::{Value, json};
 
 pub use derivatives::derivatives_text;
-pub use explain::{explain_heat_path, explain_part};
+use explain::{explain_heat_path, explain_part};
+pub use explained::Explained;
 use network::{network_json, network_text};
-pub use ratings::{explain_ratings, rating_lines, ratings_text};
+use ratings::explain_ratings;
+pub use ratings::{rating_lines, ratings_text};
 
 use crate::page::outside;
 use crate::text::{TextTable, fixed, number, significant};
