@@ -23,6 +23,21 @@ pub fn raised(py: Python<'_>, found: &Found) -> PyErr {
     set.err().unwrap_or(error)
 }
 
+/// The exception of the findings of several inputs.
+fn several(py: Python<'_>, all: &[Found]) -> PyErr {
+    let text: String = all.iter().map(Found::render).collect();
+    let error = Findings::new_err(text.trim_end().to_owned());
+    let lists = all
+        .iter()
+        .map(|found| json::to_python(py, found)?.bind(py).extract::<Vec<Py<PyAny>>>());
+    let set = lists.collect::<PyResult<Vec<_>>>().and_then(|lists| {
+        error
+            .value(py)
+            .setattr("list", lists.into_iter().flatten().collect::<Vec<_>>())
+    });
+    set.err().unwrap_or(error)
+}
+
 /// The exception of a request that is not part of a document.
 pub fn wrong(py: Python<'_>, code: Code, message: impl Into<String>, help: &str) -> PyErr {
     let error = gearloss::api::Diagnostic::error("", message).help(help).code(code);
@@ -33,6 +48,7 @@ pub fn wrong(py: Python<'_>, code: Code, message: impl Into<String>, help: &str)
 pub fn stopped(py: Python<'_>, why: Stopped) -> PyErr {
     match why {
         Stopped::Found(found) => raised(py, &found),
+        Stopped::Several(all) => several(py, &all),
         Stopped::Interrupted => PyKeyboardInterrupt::new_err("interrupted"),
         other => PyRuntimeError::new_err(format!("the analysis has no outcome: {other:?}")),
     }

@@ -99,6 +99,15 @@ def test_an_unknown_analysis_is_an_error(small):
         small.analysis("lost")
 
 
+def test_errors_of_several_inputs_are_all_raised():
+    models = "{ one: { type: table, file: one.csv }, other: { type: table, file: other.csv } }"
+    text = SMALL + f"  models: {{ type: component_compare, component: bearings.B5, gear: first, torque: 5 Nm, speed: 900 rpm, models: {models} }}\n"
+    with pytest.raises(gl.Findings) as raised:
+        gl.Study(text, folder=TWO_SPEED.parent).analysis("models")
+    assert all(name in str(raised.value) for name in ("one.csv", "other.csv"))
+    assert len(raised.value.list) == 2
+
+
 def test_a_wrong_study_is_an_error_with_its_place():
     with pytest.raises(gl.Findings) as raised:
         gl.Study(SMALL.replace("grid: small", "grid: smal"), folder=TWO_SPEED.parent)

@@ -176,6 +176,12 @@ pub fn model_text(language: &Language, entry: &Entry) -> String {
             observed.name, observed.unit, observed.meaning
         ));
     }
+    ranges_and_evidence(&mut out, entry);
+    out.into_text()
+}
+
+/// Stated ranges and evidence of a model or a rating.
+fn ranges_and_evidence(out: &mut Lines, entry: &Entry) {
     for limit in entry.limits {
         out.line(format!(
             "stated range: {} {} {} to {} {} ({})",
@@ -199,5 +205,4 @@ pub fn model_text(language: &Language, entry: &Entry) -> String {
             graded.because
         ));
     }
-    out.into_text()
 }

@@ -104,6 +104,11 @@ impl Ratings {
         Ok(Self { own, instances, cells })
     }
 
+    /// Keeps those that are wanted, by name of the rating and number of the component.
+    pub fn retain(&mut self, is_wanted: impl Fn(&str, usize) -> bool) {
+        self.own.retain(|own| is_wanted(own.plugin.entry.name, own.part));
+    }
+
     /// Every rating and nested model that was built, with its path.
     pub fn instances(&self) -> &[Instance] {
         &self.instances

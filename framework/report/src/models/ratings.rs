@@ -7,6 +7,7 @@ use gearloss_framework::resolve::RATINGS;
 use serde_json::{Value, json};
 
 use super::json::parameter;
+use super::ranges_and_evidence;
 use crate::text::{Lines, TextTable, significant};
 
 /// Names and schemas of the parameters of a rating, from the schema of gearboxes.
@@ -64,29 +65,7 @@ pub fn rating_text(language: &Language, rating: &RatingPlugin) -> String {
             figure.symbol, figure.unit, figure.meaning
         ));
     }
-    for limit in entry.limits {
-        out.line(format!(
-            "stated range: {} {} {} to {} {} ({})",
-            limit.meaning,
-            limit.name,
-            significant(limit.least),
-            significant(limit.greatest),
-            limit.unit,
-            limit.origin
-        ));
-    }
-    for graded in entry.evidence {
-        let what = if graded.key.is_empty() {
-            "formula".to_owned()
-        } else {
-            format!("default of {}", graded.key)
-        };
-        out.line(format!(
-            "evidence: {what}: {} ({})",
-            graded.grade.name(),
-            graded.because
-        ));
-    }
+    ranges_and_evidence(&mut out, entry);
     out.into_text()
 }
 

@@ -2,9 +2,8 @@
 
 mod summary;
 
-use gearloss_studies::analyses::fluid_sweep::{
-    FluidSweepOutcome, FluidsOfDuty, FluidsOfSet, LimitOfFluids, LossOfFluid,
-};
+use gearloss_studies::analyses::fluid_sweep::{FluidSweepOutcome, FluidsOfDuty, FluidsOfSet, LossOfFluid};
+use gearloss_studies::analyses::limits::LimitRecord;
 
 use crate::Figure;
 use crate::page::Page;
@@ -47,7 +46,7 @@ fn show(outcome: &FluidSweepOutcome, page: &mut Page) {
 }
 
 /// A limited quantity over the property, with its bounds.
-fn limited(name: &str, set: &FluidsOfSet, i: usize, limit: &LimitOfFluids) -> Figure {
+fn limited(name: &str, set: &FluidsOfSet, i: usize, limit: &LimitRecord) -> Figure {
     let fluids = set.cycles.first().map_or(&[][..], |duty| &duty.fluids);
     let value = |fluid: &LossOfFluid| fluid.limited[i].map(|value| (fluid.value, value));
     let line = |name: &str, points, stroke| Line {

@@ -112,13 +112,13 @@ fn limits(outcome: &OptimiseOutcome, page: &mut Page) {
         let value = |x: Option<f64>| x.map_or_else(|| "-".to_owned(), significant);
         let best = if own.binding { "*" } else { "" };
         table.row(vec![
-            own.limit.clone(),
-            own.quantity.clone(),
-            value(own.least),
-            value(own.most),
-            value(own.present),
+            own.entry.limit.clone(),
+            own.entry.quantity.clone(),
+            value(own.entry.least),
+            value(own.entry.most),
+            value(own.entry.present),
             value(own.best) + best,
-            own.unit.clone(),
+            own.entry.unit.clone(),
         ]);
     }
     page.table(table);

@@ -10,7 +10,7 @@ use serde_json::Value;
 
 use self::swept::Swept;
 use super::duties::{Duties, MeanLoss, Unfinished, mean_losses_of, sums_energies};
-use super::limits::{self, Limit, LimitEntry};
+use super::limits::{self, Limit, LimitEntry, LimitRecord};
 use super::shares::together;
 use super::trial::{Left, Trial};
 use super::{Analysis, Built, Context, Head, Outcome, Stopped};
@@ -87,7 +87,7 @@ pub struct FluidsOfSet {
     /// Names of the shares of the loss of all sets.
     pub shares: Vec<String>,
     /// The limits.
-    pub limits: Vec<LimitOfFluids>,
+    pub limits: Vec<LimitRecord>,
     /// One for each cycle.
     pub cycles: Vec<FluidsOfDuty>,
     /// Unit of the property.
@@ -126,25 +126,6 @@ pub struct OilWithinLimits {
     pub value: f64,
     /// Mean loss of the transmission. [W]
     pub mean_loss_w: f64,
-}
-
-/// A limit of a sweep of oils.
-#[derive(Debug, Clone, Serialize, JsonSchema)]
-pub struct LimitOfFluids {
-    /// Name in the study.
-    pub limit: String,
-    /// What is limited.
-    pub quantity: String,
-    /// Unit of the values.
-    pub unit: String,
-    /// Least allowed value.
-    pub least: Option<f64>,
-    /// Greatest allowed value.
-    pub most: Option<f64>,
-    /// Value with the oil as described; null if it is unknown.
-    pub present: Option<f64>,
-    /// Whether the oil as described keeps it.
-    pub present_keeps_it: bool,
 }
 
 /// Mean loss of one cycle with one oil.
@@ -359,20 +340,6 @@ impl Search<'_> {
         })
     }
 
-    /// A limit with the oil as described.
-    fn limit(&self, i: usize, limit: &Limit) -> LimitOfFluids {
-        let present = self.present.1.get(i).copied().filter(|x| x.is_finite());
-        LimitOfFluids {
-            limit: limit.name.clone(),
-            quantity: limit.words.clone(),
-            unit: limit.unit.symbol.to_owned(),
-            least: limit.bounds[0],
-            most: limit.bounds[1],
-            present,
-            present_keeps_it: present.is_some_and(|value| limit.violation(value) == 0.0),
-        }
-    }
-
     fn failed(&self, oil: &str, reason: &str) -> Stopped {
         if !self.cx.should_continue() {
             return self.cx.why_ended();
@@ -401,8 +368,8 @@ impl Search<'_> {
             limits: self
                 .limits
                 .iter()
-                .enumerate()
-                .map(|(i, limit)| self.limit(i, limit))
+                .zip(&self.present.1)
+                .map(|(limit, x)| limit.record(Some(*x)))
                 .collect(),
             cycles: duties
                 .map(|(k, read)| FluidsOfDuty {

@@ -60,6 +60,25 @@ impl LimitedQuantity {
     }
 }
 
+/// A limit with the value of the design or oil as described.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct LimitRecord {
+    /// Name in the study.
+    pub limit: String,
+    /// What is limited.
+    pub quantity: String,
+    /// Unit of the values.
+    pub unit: String,
+    /// Least allowed value.
+    pub least: Option<f64>,
+    /// Greatest allowed value.
+    pub most: Option<f64>,
+    /// Value as described; null if it is unknown.
+    pub present: Option<f64>,
+    /// Whether it is kept as described.
+    pub present_keeps_it: bool,
+}
+
 /// A limit as read.
 pub struct Limit {
     /// Name in the study.
@@ -192,18 +211,11 @@ impl Limit {
     /// The limited value of a driven design, in the unit: of the worst moment, component and cycle. `rated` are the ratings over each cycle.
     pub fn value(&self, t: &Transmission, driven: &[Driven], rated: &[Vec<RatedOverTime>]) -> Option<f64> {
         match &self.of {
-            Owner::Rating {
-                rating,
-                symbol,
-                components,
-            } => {
+            Owner::Rating { symbol, .. } => {
                 let own = rated.iter().flatten();
-                let own = own.filter(|own| own.rating == *rating && own.symbol == *symbol);
-                let own = own.filter(|own| meets(components, &own.component));
+                let own = own.filter(|own| own.symbol == *symbol && self.rates(own.rating, &own.component));
                 // Where the quantity is unknown, the limit cannot be kept.
-                let mut values = own.map(|own| own.value).peekable();
-                values.peek()?;
-                Some(self.worst(values))
+                Some(self.worst(own.map(|own| own.value)))
             }
             Owner::Gear(gear) => t.ratios(*gear).first().and_then(|(_, ratio)| *ratio).map(f64::abs),
             Owner::Cycle(cycle) => mean_loss(&driven[*cycle]),
@@ -225,12 +237,34 @@ impl Limit {
         }
     }
 
-    /// The value closest to the limit, or farthest beyond it.
+    /// The value closest to a bound, or farthest beyond one; NaN if there is none.
     fn worst(&self, values: impl Iterator<Item = f64>) -> f64 {
-        if self.bounds[1].is_some() {
-            values.fold(f64::NEG_INFINITY, f64::max)
-        } else {
-            values.fold(f64::INFINITY, f64::min)
+        let [least, most] = self.bounds;
+        let margin = |value: &f64| {
+            let above = least.map_or(f64::INFINITY, |least| value - least);
+            above.min(most.map_or(f64::INFINITY, |most| most - value))
+        };
+        values
+            .min_by(|a, b| margin(a).total_cmp(&margin(b)))
+            .unwrap_or(f64::NAN)
+    }
+
+    /// Whether it limits a rating of a component.
+    fn rates(&self, name: &str, component: &str) -> bool {
+        matches!(&self.of, Owner::Rating { rating, components, .. } if *rating == name && meets(components, component))
+    }
+
+    /// The limit with the value of the design or oil as described.
+    pub fn record(&self, present: Option<f64>) -> LimitRecord {
+        let present = present.filter(|x| x.is_finite());
+        LimitRecord {
+            limit: self.name.clone(),
+            quantity: self.words.clone(),
+            unit: self.unit.symbol.to_owned(),
+            least: self.bounds[0],
+            most: self.bounds[1],
+            present,
+            present_keeps_it: present.is_some_and(|value| self.violation(value) == 0.0),
         }
     }
 
@@ -264,7 +298,9 @@ pub fn built(
     overrides: Vec<(String, Value)>,
 ) -> Result<(Transmission, Option<Ratings>), String> {
     if limits.iter().any(Limit::is_rating) {
-        let (t, ratings) = trial.build_rated(overrides)?;
+        let (t, mut ratings) = trial.build_rated(overrides)?;
+        // Only what is limited is rated, at every moment of the cycles.
+        ratings.retain(|rating, part| limits.iter().any(|limit| limit.rates(rating, &t.parts()[part].path)));
         Ok((t, Some(ratings)))
     } else {
         Ok((trial.build(overrides)?, None))
@@ -354,5 +390,30 @@ fn words(entry: &LimitEntry) -> String {
             let rating = entry.rating.as_deref().unwrap_or_default();
             format!("{rating} of {}", of("every component"))
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_worst_value_is_the_one_beyond_either_bound() {
+        let limit = |bounds| Limit {
+            name: String::new(),
+            words: String::new(),
+            unit: Unit::ONE,
+            bounds,
+            quantity: LimitedQuantity::MeanLoss,
+            of: Owner::AllCycles,
+        };
+        let worst = |bounds, values: [f64; 3]| limit(bounds).worst(values.into_iter());
+        assert_eq!(worst([Some(2.0), Some(9.0)], [1.0, 5.0, 8.0]), 1.0);
+        assert_eq!(worst([Some(2.0), Some(9.0)], [3.0, 5.0, 10.0]), 10.0);
+        assert_eq!(worst([Some(2.0), Some(9.0)], [4.0, 5.0, 8.0]), 8.0);
+        assert_eq!(worst([Some(2.0), None], [4.0, 5.0, 8.0]), 4.0);
+        assert_eq!(worst([None, Some(9.0)], [4.0, 5.0, 8.0]), 8.0);
+        assert!(limit([None, Some(9.0)]).worst(std::iter::empty()).is_nan());
+        assert!(limit([None, Some(9.0)]).violation(f64::NAN).is_infinite());
     }
 }

@@ -35,12 +35,15 @@ pub fn add(outcome: &OptimiseOutcome, page: &mut Page) {
     };
     page.headline = Some(format!("{tried} loses {}{changes}", listed(&gains)));
     for limit in outcome.limits.iter().filter(|limit| limit.binding) {
-        let bound = limit.most.or(limit.least).map_or_else(String::new, short);
+        let near = |bound: &f64| limit.best.map_or(0.0, |best| (best - bound).abs());
+        let bounds = [limit.entry.least, limit.entry.most].into_iter().flatten();
+        let bound = bounds.min_by(|a, b| near(a).total_cmp(&near(b)));
+        let bound = bound.map_or_else(String::new, short);
         page.key_figure(
-            &format!("limit `{}`", limit.limit),
+            &format!("limit `{}`", limit.entry.limit),
             limit.best.map_or_else(String::new, short),
-            &limit.unit,
-            format!("{}, at its limit of {bound}", limit.quantity),
+            &limit.entry.unit,
+            format!("{}, at its limit of {bound}", limit.entry.quantity),
         );
     }
 }
@@ -82,7 +85,7 @@ fn change(own: &ChangeOfDesign) -> Option<String> {
 /// The limit that most designs break, where none keeps all.
 fn tightest(outcome: &OptimiseOutcome) -> String {
     let broken = |i: usize| {
-        let limit = &outcome.limits[i];
+        let limit = &outcome.limits[i].entry;
         let beyond = |value: &f64| {
             limit.least.is_some_and(|least| *value < least) || limit.most.is_some_and(|most| *value > most)
         };
@@ -94,7 +97,7 @@ fn tightest(outcome: &OptimiseOutcome) -> String {
     };
     let worst = (0..outcome.limits.len()).max_by_key(|i| broken(*i));
     worst.map_or_else(String::new, |i| {
-        format!("; {} break `{}`", broken(i), outcome.limits[i].limit)
+        format!("; {} break `{}`", broken(i), outcome.limits[i].entry.limit)
     })
 }
 
@@ -106,7 +109,12 @@ fn careful(outcome: &OptimiseOutcome, page: &mut Page) {
             variable.best.as_deref().unwrap_or_default()
         ));
     }
-    for limit in outcome.limits.iter().filter(|own| !own.present_keeps_it) {
+    for limit in outcome
+        .limits
+        .iter()
+        .map(|own| &own.entry)
+        .filter(|own| !own.present_keeps_it)
+    {
         page.careful.push(format!(
             "the present design breaks `{}`: {} {}",
             limit.limit,

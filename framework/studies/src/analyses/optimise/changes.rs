@@ -31,14 +31,14 @@ pub fn of_design(
         .map(|(i, _)| i)
         .collect();
     let count = changed.len();
-    let sets: Vec<u32> = if count <= MOST_SHARED {
+    let sets: Vec<u64> = if count <= MOST_SHARED {
         (1..1 << count).collect()
     } else {
-        (0..count.min(31)).map(|place| 1 << place).collect()
+        (0..count).map(|place| 1 << place).collect()
     };
-    let holds = |set: u32, variable: usize| {
+    let holds = |set: u64, variable: usize| {
         let place = changed.iter().position(|own| *own == variable);
-        place.is_some_and(|place| place < 32 && set & (1 << place) != 0)
+        place.is_some_and(|place| set & (1 << place) != 0)
     };
     let driven = drives.cx.each("combinations of changes", sets.len(), |i| {
         drives.drive(drives.overrides(genes, |variable| holds(sets[i], variable)))

@@ -9,7 +9,7 @@ use super::band::Band;
 use super::changes::Change;
 use super::drives::{Drive, Drives};
 use super::search::Search;
-use crate::analyses::limits::Limit;
+use crate::analyses::limits::{Limit, LimitRecord};
 use crate::analyses::trial::Left;
 use crate::analyses::{Built, Context, Head, Outcome, TextFile};
 use crate::points::Note;
@@ -77,20 +77,9 @@ pub struct VariableOfSearch {
 /// A limit of a search.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct LimitOfSearch {
-    /// Name in the study.
-    pub limit: String,
-    /// What is limited.
-    pub quantity: String,
-    /// Unit of the values.
-    pub unit: String,
-    /// Least allowed value.
-    pub least: Option<f64>,
-    /// Greatest allowed value.
-    pub most: Option<f64>,
-    /// Value of the design as described.
-    pub present: Option<f64>,
-    /// Whether the design as described keeps it.
-    pub present_keeps_it: bool,
+    /// The limit, and its value in the design as described.
+    #[serde(flatten)]
+    pub entry: LimitRecord,
     /// Value of the best design.
     pub best: Option<f64>,
     /// True if the best design is within 1 % of the limit, or within 1 K.
@@ -261,7 +250,6 @@ fn limits(drives: &Drives<'_>, present: &Drive, best: Option<&Drive>) -> Vec<Lim
     let limits = drives.limits.iter().enumerate();
     let limit = |(i, own): (usize, &Limit)| {
         let best = best.map(|drive| drive.limited[i]).filter(|x| x.is_finite());
-        let present = Some(present.limited[i]).filter(|x| x.is_finite());
         let near = |value: f64, bound: &f64| {
             let width = if own.unit.symbol == "degC" {
                 1.0
@@ -271,13 +259,7 @@ fn limits(drives: &Drives<'_>, present: &Drive, best: Option<&Drive>) -> Vec<Lim
             (value - bound).abs() <= width
         };
         LimitOfSearch {
-            limit: own.name.clone(),
-            quantity: own.words.clone(),
-            unit: own.unit.symbol.to_owned(),
-            least: own.bounds[0],
-            most: own.bounds[1],
-            present,
-            present_keeps_it: present.is_some_and(|value| own.violation(value) == 0.0),
+            entry: own.record(Some(present.limited[i])),
             best,
             binding: best.is_some_and(|value| own.bounds.iter().flatten().any(|bound| near(value, bound))),
         }
@@ -366,13 +348,12 @@ impl Outcome for OptimiseOutcome {
                 })
             })
             .each(self.limits.iter().enumerate(), |table, (i, limit)| {
-                let unit = limit.unit.clone();
-                table.number(
-                    format!("{}_limited", limit.limit),
-                    unit,
-                    limit.quantity.clone(),
-                    move |own| own.limited.get(i).copied(),
-                )
+                let LimitRecord {
+                    limit, quantity, unit, ..
+                } = limit.entry.clone();
+                table.number(format!("{limit}_limited"), unit, quantity, move |own| {
+                    own.limited.get(i).copied()
+                })
             })
             .number(
                 "violation",
