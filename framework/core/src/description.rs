@@ -7,6 +7,7 @@ pub mod gears;
 pub mod housing;
 pub mod lubricant;
 pub mod network;
+pub mod plausibility;
 pub mod shafts;
 pub mod states;
 
@@ -20,6 +21,7 @@ pub use gears::{DifferentialEntry, GearEntry, GearKind, MeshEntry, Mounting, Pla
 pub use housing::{HeatInto, HousingEntry, LevelOver, OilEntry, OutsideEntry, Running, Thermal, ThermalMode};
 pub use lubricant::LubricantEntry;
 pub use network::{NetworkChoice, NetworkEntry, NodeEntry};
+pub use plausibility::PlausibilityEntry;
 pub use shafts::{LoadEntry, SectionEntry, ShaftEntry, Unsupported};
 pub use states::{AssumedEntry, GearStateEntry, ImportedLoads, RatingEntry, TorqueShare};
 
@@ -88,6 +90,9 @@ pub struct GearboxEntry {
     pub catalogues: Ordered<String>,
     /// Design torque and speed, the largest values; axes of grids may use fractions of them.
     pub rating: Option<RatingEntry>,
+    /// Ranges of plausible values of the geometry.
+    #[serde(default)]
+    pub plausibility: PlausibilityEntry,
     /// Assumptions and their reasons; shown in reports.
     #[serde(default)]
     pub assumed: Vec<AssumedEntry>,

@@ -1,32 +1,38 @@
-//! Key data of a gearbox: its stages and the ratio of each gear.
+//! Key data of a gearbox: its stages and teeth, its bearings, the ratio of each gear, its oil.
 
 use gearloss_framework::transmission::{Stage, Transmission};
+use gearloss_studies::bearings::{BearingCard, bearing_cards};
+use gearloss_studies::checked::CheckedGearbox;
 use serde_json::Value;
 
-use crate::text::{TextTable, number, significant};
+use crate::text::{TextTable, last_key, number, short, significant};
 
-/// One indented line per stage and per gear.
-pub fn card(transmission: &Transmission) -> String {
+/// Indented tables and lines.
+pub fn card(checked: &CheckedGearbox) -> String {
+    let transmission = &checked.transmission;
     let mut text = String::new();
-    let mut stages = TextTable::new(&[
-        "stage",
-        "z",
-        "ratio",
-        "a mm",
-        "x1",
-        "x2",
-        "eps_alpha",
-        "eps_beta",
-        "face overlap mm",
-    ]);
-    let mut any = false;
-    for stage in transmission.stages() {
-        any = true;
-        stages.row(row(&stage));
+    let stages: Vec<Stage> = transmission.stages().collect();
+    if !stages.is_empty() {
+        text.push_str(&stage_table(&stages));
+        text.push_str(&tooth_table(&stages));
     }
-    if any {
-        text.push_str(&stages.render());
+    let bearings = bearing_cards(checked);
+    if !bearings.is_empty() {
+        text.push_str(&bearing_table(&bearings));
     }
+    text.push_str(&ratio_lines(transmission));
+    if let Some((volume, mass)) = transmission.oil_fill() {
+        let [litres, mass] = [1e3 * volume, mass].map(short);
+        let temperature = significant(transmission.oil_temperature);
+        text.push_str(&format!("oil: {litres} l, {mass} kg at {temperature} degC\n"));
+    }
+    let lines: Vec<&str> = text.lines().collect();
+    format!("  {}\n", lines.join("\n  "))
+}
+
+/// One line for each gear: the ratio from the reference port to each other port.
+fn ratio_lines(transmission: &Transmission) -> String {
+    let mut text = String::new();
     let ports = transmission.ports();
     let reference = &ports[transmission.reference_port()].name;
     for (i, state) in transmission.states().iter().enumerate() {
@@ -45,24 +51,124 @@ pub fn card(transmission: &Transmission) -> String {
         };
         text.push_str(&format!("gear {}: {ratios}\n", state.name));
     }
-    let lines: Vec<&str> = text.lines().collect();
-    format!("  {}\n", lines.join("\n  "))
+    text
 }
 
-fn row(stage: &Stage) -> Vec<String> {
-    let narrow = stage.facewidth_mm[0].min(stage.facewidth_mm[1]);
-    let [x1, x2] = stage.profile_shift.map(|x| number(Some(x), 4));
-    vec![
-        stage.mesh.trim_start_matches("meshes.").to_owned(),
-        format!("{}/{}", stage.z[0], stage.z[1]),
-        number(Some(stage.ratio), 4),
-        number(Some(stage.centre_distance_mm), 3),
-        x1,
-        x2,
-        number(stage.transverse_contact_ratio, 4),
-        number(Some(stage.overlap_contact_ratio), 4),
-        format!("{} of {}", significant(stage.face_overlap_mm), significant(narrow)),
-    ]
+/// What determines a stage.
+fn stage_table(stages: &[Stage]) -> String {
+    let mut table = TextTable::new(&[
+        "stage",
+        "z",
+        "ratio",
+        "a mm",
+        "x1",
+        "x2",
+        "x1+x2",
+        "eps_alpha",
+        "eps_beta",
+        "face overlap mm",
+    ]);
+    for stage in stages {
+        let narrow = stage.facewidth_mm[0].min(stage.facewidth_mm[1]);
+        let [x1, x2] = stage.profile_shift;
+        let sum = if stage.internal { x2 - x1 } else { x1 + x2 };
+        let [x1, x2, sum] = [x1, x2, sum].map(|x| number(Some(if x.abs() < 5e-5 { 0.0 } else { x }), 4));
+        table.row(vec![
+            mesh_name(stage),
+            format!("{}/{}", stage.z[0], stage.z[1]),
+            number(Some(stage.ratio), 4),
+            number(Some(stage.centre_distance_mm), 3),
+            x1,
+            x2,
+            sum,
+            number(stage.transverse_contact_ratio, 4),
+            number(Some(stage.overlap_contact_ratio), 4),
+            format!("{} of {}", significant(stage.face_overlap_mm), significant(narrow)),
+        ]);
+    }
+    table.render()
+}
+
+/// Whether its teeth can exist and run: both gears of a stage in one cell.
+fn tooth_table(stages: &[Stage]) -> String {
+    let mut table = TextTable::new(&[
+        "teeth",
+        "tip clearance mm",
+        "tip width mm",
+        "x over undercut",
+        "specific sliding",
+    ]);
+    let both = |values: [Option<f64>; 2], digits: usize| {
+        let cells = values.map(|value| value.map_or_else(|| "-".to_owned(), |value| format!("{value:.digits$}")));
+        format!("{} / {}", cells[0], cells[1])
+    };
+    for stage in stages {
+        let above = |gear: usize| stage.undercut_limit[gear].map(|limit| stage.profile_shift[gear] - limit);
+        table.row(vec![
+            mesh_name(stage),
+            both([0, 1].map(|gear| stage.tip_clearance_mm.map(|own| own[gear])), 3),
+            both(stage.tip_width_mm, 3),
+            both([0, 1].map(above), 3),
+            both([0, 1].map(|gear| stage.specific_sliding.map(|own| own[gear])), 2),
+        ]);
+    }
+    table.render()
+}
+
+/// Bearings with their arrangement, and their loads at the rated point if there is one.
+fn bearing_table(bearings: &[BearingCard]) -> String {
+    let rated = bearings.iter().any(|bearing| bearing.at_rating.is_some());
+    let mut head = vec![
+        "bearing",
+        "shaft",
+        "at mm",
+        "designation",
+        "takes thrust",
+        "C kN",
+        "C0 kN",
+    ];
+    if rated {
+        head.extend(["P kN", "P0 kN", "L10h h", "n d_m mm/min"]);
+    }
+    let mut table = TextTable::new(&head);
+    let cell = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), short);
+    let kilo = |value: Option<f64>| cell(value.map(|newton| newton / 1e3));
+    for bearing in bearings {
+        let thrust = match bearing.axial.as_str() {
+            "both" => "both ways",
+            "left" => "to -x",
+            "right" => "to +x",
+            _ => "no",
+        };
+        let mut row = vec![
+            last_key(&bearing.bearing).to_owned(),
+            bearing.shaft.clone(),
+            significant(bearing.at_mm),
+            bearing.designation.clone().unwrap_or_else(|| "-".to_owned()),
+            thrust.to_owned(),
+            kilo(bearing.c_n),
+            kilo(bearing.c0_n),
+        ];
+        if rated {
+            let own = bearing.at_rating.clone().unwrap_or_default();
+            let life = own.l10h_h.map_or_else(|| "-".to_owned(), |hours| format!("{hours:.0}"));
+            let speed = own
+                .speed_factor
+                .map_or_else(|| "-".to_owned(), |factor| format!("{factor:.0}"));
+            row.extend([kilo(own.p_n), kilo(own.p0_n), life, speed]);
+        }
+        table.row(row);
+    }
+    let note = if rated {
+        "  (P, P0, L10h, n d_m: worst of the rated torque and speed in all gears, drive and coast)\n"
+    } else {
+        ""
+    };
+    format!("{}{note}", table.render())
+}
+
+fn mesh_name(stage: &Stage) -> String {
+    last_key(&stage.mesh).to_owned()
 }
 
 /// All data of a stage at full precision, one line each: key and value as in JSON.

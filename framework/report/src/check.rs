@@ -4,6 +4,7 @@ use gearloss_framework::codes;
 use gearloss_framework::document::{Diagnostic, PlacedDiagnostic, Sources};
 use gearloss_framework::language::Language;
 use gearloss_framework::transmission::{GearState, Transmission};
+use gearloss_studies::bearings::bearing_cards;
 use gearloss_studies::checked::{CheckedGearbox, out_of_bounds, overloaded};
 use serde_json::{Map, Value, json};
 
@@ -59,7 +60,7 @@ pub fn checked_text(file: &str, checked: &CheckedGearbox) -> String {
         transmission.parts().len(),
         states.join(", ")
     ));
-    text.push_str(&card(transmission));
+    text.push_str(&card(checked));
     for line in outside(&overloaded(transmission)).lines() {
         let line = line.trim_start_matches("outside: ");
         text.push_str(&format!("  at the rated torque: {line}\n"));
@@ -88,6 +89,11 @@ pub fn checked_json(checked: &CheckedGearbox, with_resolved: bool) -> Map<String
     built.insert("parts".to_owned(), transmission.parts().len().into());
     built.insert("gear_states".to_owned(), json!(states));
     built.insert("stages".to_owned(), json!(transmission.stages().collect::<Vec<_>>()));
+    built.insert("bearings".to_owned(), json!(bearing_cards(checked)));
+    let fill = transmission.oil_fill().map(|(volume, mass)| {
+        json!({ "volume_l": 1e3 * volume, "mass_kg": mass, "temperature_degc": transmission.oil_temperature })
+    });
+    built.insert("oil".to_owned(), json!(fill));
     built.insert("ratios".to_owned(), ratios(transmission));
     built.insert("notes".to_owned(), json!(notes));
     built.insert("changed_from_source".to_owned(), json!(checked.changed));

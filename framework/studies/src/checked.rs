@@ -52,7 +52,7 @@ impl CheckedGearbox {
 }
 
 /// Solves the rated torque and speed in any gear, in drive and coast, and returns what models noted.
-fn at_the_rating(t: &Transmission, mut each: impl FnMut(&Solution<'_>)) -> Vec<Extent> {
+pub fn at_the_rating(t: &Transmission, mut each: impl FnMut(&Solution<'_>)) -> Vec<Extent> {
     let Some(rating) = t.rating else { return Vec::new() };
     let mut seen = Vec::new();
     for i in 0..t.states().len() {

@@ -18,6 +18,7 @@ pub mod table;
 pub mod tasks;
 
 // What `check` finds and `models --needs` lists.
+pub mod bearings;
 pub mod checked;
 pub mod needs;
 

@@ -485,8 +485,30 @@ impl Pair {
         tip * angle * helix.cos()
     }
 
-    /// Clearance between a tip and the mate's root of an external pair. \[m\]
+    /// Clearance between a tip and the mate's root. \[m\]
     pub fn tip_clearance(&self, gear: usize) -> f64 {
-        self.centre_distance - 0.5 * (self.tip_diameter[gear] + self.root_diameter[1 - gear])
+        let [tip, root] = [self.tip_diameter[gear], self.root_diameter[1 - gear]].map(|d| 0.5 * d);
+        match (self.internal, gear) {
+            (false, _) => self.centre_distance - tip - root,
+            (true, 0) => root - self.centre_distance - tip,
+            (true, _) => tip - self.centre_distance - root,
+        }
+    }
+
+    /// Profile shift coefficient of an external gear below which a rack with a straight flank of one module below the pitch line
+    /// (form dedendum of the basic rack A of ISO 53) undercuts its teeth.
+    pub fn undercut_limit(&self, gear: usize) -> f64 {
+        1.0 - f64::from(self.z[gear]) * self.transverse_angle.sin().powi(2) / (2.0 * self.helix_angle.cos())
+    }
+
+    /// Specific sliding of both gears where it is lowest, at the lowest points of their contacting flanks: sliding speed of the flank
+    /// against its mate over its own surface speed, negative (ISO 21771).
+    pub fn specific_sliding(&self) -> [f64; 2] {
+        let [a, .., e] = self.points;
+        let [[own, mate], [mate_at_e, own_at_e]] = [self.curvature(a), self.curvature(e)];
+        [
+            1.0 - mate / (self.ratio() * own),
+            1.0 - self.ratio() * mate_at_e / own_at_e,
+        ]
     }
 }

@@ -157,7 +157,7 @@ impl<'a> Gearing<'a> {
             tip_shortening: mesh.tip_shortening,
         };
         let schematic = !looks_at_teeth(self.registry, self.entry, mesh);
-        let pair = self.pair(&path, &spec, second, schematic)?;
+        let pair = self.pair(&path, &spec, [first, second], schematic)?;
         self.adopt(&path, &pair, [first, second]);
         let helix = if mesh.double_helical { 0.0 } else { mesh.helix_angle };
         let hand = hand_of(&path, helix, sign, [first, second], &self.gears, &mut self.hands)
@@ -293,12 +293,14 @@ impl<'a> Gearing<'a> {
             );
             return None;
         }
-        self.warnings.extend(plausible::face_overlap(path, [a, b], facewidth));
+        let least = self.entry.plausibility.face_overlap;
+        self.warnings
+            .extend(plausible::face_overlap(path, [a, b], facewidth, least));
         Some(facewidth)
     }
 
     /// The geometry of a pair; pitch circles only if no model uses impossible teeth.
-    fn pair(&mut self, path: &str, spec: &PairSpec, second: usize, schematic: bool) -> Option<Pair> {
+    fn pair(&mut self, path: &str, spec: &PairSpec, gears: [usize; 2], schematic: bool) -> Option<Pair> {
         let pair = match self.memory.repeat(path, *spec, Pair::new) {
             Ok(pair) => pair,
             Err(faults) if schematic && faults.iter().all(PairFault::is_of_teeth) => {
@@ -309,7 +311,7 @@ impl<'a> Gearing<'a> {
                     .ok()?
             }
             Err(faults) => {
-                let ring = &self.entry.gears.0[second].1;
+                let ring = &self.entry.gears.0[gears[1]].1;
                 let help =
                     if ring.profile_shift.is_some() && turned(spec).is_some_and(|other| Pair::new(&other).is_ok()) {
                         other_sign(ring.profile_shift_sign)
@@ -318,7 +320,7 @@ impl<'a> Gearing<'a> {
                     };
                 self.found.extend(faults.iter().map(|fault| match fault {
                     PairFault::RingTip => {
-                        let ring = &self.gears[second].id;
+                        let ring = &self.gears[gears[1]].id;
                         Diagnostic::error(format!("gears.{ring}"), fault.to_string()).help(
                             "add `tip_diameter: ... mm`, the inner diameter of its teeth: without profile shift and tip shortening the reference diameter minus two modules",
                         )
@@ -331,7 +333,11 @@ impl<'a> Gearing<'a> {
         let closes = spec.centre_distance.is_some();
         let follows = spec.profile_shift.map(|shift| closes && shift.is_none());
         if pair.involute {
-            self.warnings.extend(plausible::shifts(path, spec, &pair, follows));
+            let ranges = &self.entry.plausibility;
+            self.warnings
+                .extend(plausible::shifts(path, spec, &pair, follows, ranges.profile_shift));
+            let ids = gears.map(|gear| self.gears[gear].id.as_str());
+            self.warnings.extend(plausible::teeth(path, &pair, ids, ranges));
         }
         Some(pair)
     }

@@ -1,26 +1,17 @@
-//! Checks for likely mistakes in valid descriptions: little face overlap, profile shifts that only match a centre distance, oil
-//! that reaches no gear.
+//! Checks for likely mistakes in valid descriptions: little face overlap, profile shifts that only match a centre distance, pointed or
+//! undercut teeth, oil that reaches no gear.
 
 use super::oils::OilNumbers;
 use super::seats::GearSeat;
 use crate::attach::Level;
-use crate::description::GearboxEntry;
+use crate::description::{GearboxEntry, PlausibilityEntry};
 use crate::document::Diagnostic;
 use crate::geometry::{Pair, PairFault, PairSpec};
 
-/// Share of the narrower face width below which the overlap is reported. Faces are often offset or differ by a few percent on
-/// purpose.
-const LEAST_OVERLAP: f64 = 0.9;
-
-/// Profile shift coefficient above which an unstated one is reported, and limit of the sum if neither is stated: designs according
-/// to DIN 3992 are within it except for pinions with few teeth, whose shift is stated. One tooth too many changes the sum by about
-/// 0.5.
-const LARGEST_SHIFT: f64 = 0.5;
-
-/// Reports faces with little overlap. \[m\]
-pub fn face_overlap(path: &str, [a, b]: [&GearSeat; 2], overlap: f64) -> Option<Diagnostic> {
+/// Reports faces with less than a share of overlap. \[m\]
+pub fn face_overlap(path: &str, [a, b]: [&GearSeat; 2], overlap: f64, least: f64) -> Option<Diagnostic> {
     let narrow = a.facewidth.min(b.facewidth);
-    (overlap < LEAST_OVERLAP * narrow).then(|| {
+    (overlap < least * narrow).then(|| {
         Diagnostic::warning(
             format!("{path}.gears"),
             format!(
@@ -48,7 +39,7 @@ pub fn no_involute(path: &str, faults: &[PairFault]) -> Option<Diagnostic> {
 }
 
 /// Reports large profile shifts that follow from the centre distance only; `follows` marks these.
-pub fn shifts(path: &str, spec: &PairSpec, pair: &Pair, follows: [bool; 2]) -> Option<Diagnostic> {
+pub fn shifts(path: &str, spec: &PairSpec, pair: &Pair, follows: [bool; 2], most: f64) -> Option<Diagnostic> {
     let [x1, x2] = pair.profile_shift;
     let largest = match follows {
         [true, true] => (x1 + x2).abs(),
@@ -56,7 +47,7 @@ pub fn shifts(path: &str, spec: &PairSpec, pair: &Pair, follows: [bool; 2]) -> O
         [false, true] => x2.abs(),
         [false, false] => 0.0,
     };
-    if largest <= LARGEST_SHIFT {
+    if largest <= most {
         return None;
     }
     let own: Vec<String> = (0..2)
@@ -79,6 +70,59 @@ pub fn shifts(path: &str, spec: &PairSpec, pair: &Pair, follows: [bool; 2]) -> O
         )),
         None => warning,
     })
+}
+
+/// Reports teeth that are pointed, undercut, touch the root of their mate or slide much.
+pub fn teeth(path: &str, pair: &Pair, gears: [&str; 2], ranges: &PlausibilityEntry) -> Vec<Diagnostic> {
+    let mut found = Vec::new();
+    let mut report = |message: String, help: &str| found.push(Diagnostic::warning(path, message).help(help));
+    let module = pair.normal_module;
+    let sliding = pair.specific_sliding();
+    for (gear, id) in gears.into_iter().enumerate() {
+        let mate = gears[1 - gear];
+        let clearance = pair.tip_clearance(gear);
+        if clearance < ranges.tip_clearance * module {
+            report(
+                format!(
+                    "the tip of `{id}` has {:.3} mm clearance to the root of `{mate}` ({:.2} of the module)",
+                    1e3 * clearance,
+                    clearance / module
+                ),
+                "check `tip_diameter` and `root_diameter`, or write `tip_shortening: true`",
+            );
+        }
+        if sliding[gear] < -ranges.specific_sliding {
+            report(
+                format!(
+                    "`{id}` has a specific sliding of {:.2} at the lowest point of its contacting flank",
+                    sliding[gear]
+                ),
+                "check the profile shifts and the tip diameter of the mate",
+            );
+        }
+        if pair.internal && gear == 1 {
+            continue;
+        }
+        let width = pair.tip_width(gear);
+        if width < ranges.tip_width * module {
+            report(
+                format!(
+                    "the teeth of `{id}` are {:.3} mm wide at the tip ({:.2} of the module)",
+                    1e3 * width,
+                    width / module
+                ),
+                "check `profile_shift` and `tip_diameter`",
+            );
+        }
+        let (shift, limit) = (pair.profile_shift[gear], pair.undercut_limit(gear));
+        if limit - shift > ranges.undercut {
+            report(
+                format!("the teeth of `{id}` are undercut: x = {shift:.3}, and undercut begins below {limit:.3}"),
+                "check `z` and `profile_shift`",
+            );
+        }
+    }
+    found
 }
 
 /// The number of teeth of the second gear that best matches the centre distance, with its remaining profile shift.

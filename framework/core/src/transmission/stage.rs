@@ -47,6 +47,14 @@ pub struct Stage {
     pub tip_diameter_mm: [f64; 2],
     /// Root diameters d_f, written or of the standard basic rack. [mm]
     pub root_diameter_mm: [f64; 2],
+    /// Clearances between the tip of each gear and the root of its mate; `None` if the pair is treated as pitch circles. [mm]
+    pub tip_clearance_mm: Option<[f64; 2]>,
+    /// Normal tooth widths at the tips; `None` for a ring gear and for pitch circles. [mm]
+    pub tip_width_mm: [Option<f64>; 2],
+    /// Profile shift coefficients below which a standard rack undercuts the teeth; `None` for a ring gear. [-]
+    pub undercut_limit: [Option<f64>; 2],
+    /// Specific sliding of each gear at the lowest point of its contacting flank; `None` for pitch circles. [-]
+    pub specific_sliding: Option<[f64; 2]>,
 }
 
 impl Transmission {
@@ -56,6 +64,7 @@ impl Transmission {
             let pair = &mesh.part.pair;
             let gears = mesh.seat.gears.map(|g| &self.gears[g]);
             let mm = |lengths: [f64; 2]| lengths.map(|length| length * 1e3);
+            let external = |gear: usize| Some(gear).filter(|gear| !pair.internal || *gear == 0);
             Stage {
                 mesh: mesh.seat.path.clone(),
                 gears: gears.map(|g| g.id.clone()),
@@ -77,6 +86,14 @@ impl Transmission {
                 pitch_diameter_mm: mm(pair.working_radius.map(|r| 2.0 * r)),
                 tip_diameter_mm: mm(pair.tip_diameter),
                 root_diameter_mm: mm(pair.root_diameter),
+                tip_clearance_mm: pair.involute.then(|| mm([0, 1].map(|gear| pair.tip_clearance(gear)))),
+                tip_width_mm: [0, 1].map(|gear| {
+                    external(gear)
+                        .filter(|_| pair.involute)
+                        .map(|_| 1e3 * pair.tip_width(gear))
+                }),
+                undercut_limit: [0, 1].map(|gear| external(gear).map(|gear| pair.undercut_limit(gear))),
+                specific_sliding: pair.involute.then(|| pair.specific_sliding()),
             }
         })
     }

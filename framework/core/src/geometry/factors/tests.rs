@@ -320,6 +320,41 @@ fn two_speed_geometry_table() {
     }
 }
 
+#[test]
+fn undercut_begins_at_seventeen_teeth() {
+    let pair = Pair::new(&spec([16, 17], 2.0, 20.0, 0.0, 20.0, 33.0, [36.0, 38.0])).unwrap();
+    // 2/sin^2(20 deg) = 17.097 teeth.
+    near(pair.undercut_limit(0), 1.0 - 16.0 / 17.097, 5e-5);
+    near(pair.undercut_limit(1), 1.0 - 17.0 / 17.097, 5e-5);
+}
+
+#[test]
+fn specific_sliding_is_that_of_the_surface_speeds_at_the_ends() {
+    for pair in [fzg_c14(), helical(), internal()] {
+        let at = |x: f64| {
+            let [own, mate] = pair.curvature(x);
+            [own, mate / pair.ratio()]
+        };
+        let ([v1, v2], [w1, w2]) = (at(pair.points[0]), at(pair.points[4]));
+        let [first, second] = pair.specific_sliding();
+        close(first, (v1 - v2) / v1);
+        close(second, (w2 - w1) / w2);
+        assert!(first < 0.0 && second < 0.0);
+    }
+}
+
+#[test]
+fn an_internal_pair_of_standard_racks_has_standard_clearances() {
+    let pair = Pair::new(&PairSpec {
+        internal: true,
+        profile_shift: [Some(0.0), Some(0.0)],
+        ..spec([24, 72], 2.0, 20.0, 0.0, 20.0, 48.0, [52.0, 140.0])
+    })
+    .unwrap();
+    close(pair.tip_clearance(0), 0.5e-3);
+    close(pair.tip_clearance(1), 0.5e-3);
+}
+
 proptest! {
     #[test]
     fn shifts_and_centre_distance_go_there_and_back(
