@@ -60,6 +60,7 @@ mod selection;
 mod sensitivity;
 mod shard;
 mod studies;
+mod study_limits;
 mod surface;
 mod temperature;
 mod topologies;

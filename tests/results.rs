@@ -25,10 +25,17 @@ const STUDIES: [&str; 4] = [
 const RARE: [&str; 2] = ["KinkOfModel", "BrokenOff"];
 
 /// Objects whose keys are the user's, or a model's.
-const OPEN: [&str; 5] = ["bound", "set", "terms_w", "value", "model"];
+const OPEN: [&str; 6] = ["bound", "set", "terms_w", "value", "model", "limit_values"];
 
 /// Keys that some records have and others have not.
-const OPTIONAL: [&str; 4] = ["data", "turned_at", "file", "derivatives"];
+const OPTIONAL: [&str; 6] = [
+    "data",
+    "turned_at",
+    "file",
+    "derivatives",
+    "study_limits",
+    "limit_values",
+];
 
 /// One file of results with the type of its analysis.
 struct Written {
@@ -392,7 +399,9 @@ fn json_of(value: &Value, header: &[String]) -> Vec<Vec<Value>> {
             let cell = |key: &String| -> Value {
                 let name = key.trim_end_matches("_w");
                 let part = parts.iter().position(|p| *p == name);
-                [&map[key], &map["bound"][key], &point["sums_w"][name]]
+                let limit = key.trim_start_matches("limit_").trim_end_matches("_h");
+                let limited = &point["limit_values"][limit];
+                [&map[key], &map["bound"][key], &point["sums_w"][name], limited]
                     .into_iter()
                     .chain(part.map(|i| &point["parts_w"][i]))
                     // The temperature of the map is that of its points where it is given.

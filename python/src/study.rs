@@ -160,11 +160,12 @@ impl Outcome {
         json::to_python(py, &Page::from_outcome(&*self.0).key_figures)
     }
 
-    /// What limits the result, and quantities outside the stated ranges of their models.
+    /// Limits that are not kept, what else limits the result, and quantities outside the stated ranges of their models.
     #[getter]
     fn careful(&self) -> Vec<String> {
         let page = Page::from_outcome(&*self.0);
-        page.careful.into_iter().chain(page.outside).collect()
+        let limits = page.limits.into_iter();
+        limits.chain(page.careful).chain(page.outside).collect()
     }
 
     /// Why parts of the outcome are missing.

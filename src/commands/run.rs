@@ -25,6 +25,7 @@ use gearloss_framework::files::LONGEST_TEXT;
 use gearloss_framework::gearbox::Findings;
 use gearloss_framework::language::Language;
 use gearloss_report::page::Block;
+use gearloss_studies::analyses::limits::Severity;
 use gearloss_studies::distinct::distinct;
 use gearloss_studies::study::{Cautions, Study};
 use gearloss_studies::tasks::TaskResults;
@@ -183,6 +184,7 @@ pub(crate) fn all(
         }
         done_so_far += 1;
     }
+    shown.limits(width, &runner.broken.borrow(), out)?;
     shown.outside(width, &runner.stated_ranges.borrow(), out)?;
     write::report(&runner, template.as_deref())?;
     held.finish();
@@ -203,6 +205,16 @@ pub(crate) fn all(
         out.line(format!(
             "error (--deny extrapolation): {} quantities outside their stated ranges",
             runner.left.get()
+        ))?;
+        return Ok(End::Finding);
+    }
+    let broken = runner.broken.borrow();
+    let errors = broken.iter().filter(|(_, limit)| limit.severity == Severity::Error);
+    let errors: Vec<&str> = distinct(errors.map(|(_, limit)| limit.limit.as_str()));
+    if failed == 0 && !errors.is_empty() {
+        out.line(format!(
+            "error: limits with `severity: error` are not kept: {}",
+            errors.join(", ")
         ))?;
         return Ok(End::Finding);
     }

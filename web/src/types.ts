@@ -34,6 +34,7 @@ export interface FieldMap {
   diverging: boolean;
   ends: [number, number] | null;
   hatched: boolean[];
+  hatching: string;
   marks: [number, number][];
   marked: string;
   crossed: [cell: number, text: string] | null;

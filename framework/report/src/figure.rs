@@ -104,6 +104,8 @@ pub struct Map {
     pub ends: Option<(f64, f64)>,
     /// Cells outside a model's validity range; empty: none.
     pub hatched: Vec<bool>,
+    /// Legend text of the hatching; empty: outside a validity range.
+    pub hatching: String,
     /// Points that are marked, in the coordinates.
     pub marks: Vec<(f64, f64)>,
     /// Legend text of the marks; empty: "measured".

@@ -64,7 +64,9 @@ pub struct Section {
     pub headline: Option<String>,
     /// The numbers to remember.
     pub key_figures: Vec<KeyFigure>,
-    /// What a reader has to be careful about.
+    /// Limits of the study that are not kept.
+    pub limits: Vec<String>,
+    /// What else a reader has to be careful about.
     pub careful: Vec<String>,
     /// Main conclusions.
     pub verdicts: Vec<String>,
@@ -90,6 +92,7 @@ impl Section {
     pub fn add(&mut self, page: Page) {
         self.headline = page.headline;
         self.key_figures = page.key_figures;
+        self.limits = page.limits;
         self.careful = page.careful;
         self.outside = page.outside;
         self.blocks.extend(page.blocks);

@@ -9,6 +9,7 @@ pub mod check;
 pub mod codes;
 pub mod eval;
 pub mod html;
+pub mod limits;
 pub mod models;
 mod names;
 pub mod page;

@@ -14,6 +14,7 @@ use gearloss_studies::table::Table;
 use serde::Serialize;
 
 use crate::Figure;
+use crate::limits;
 use crate::picture::{Picture, Screen};
 use crate::stated_ranges::StatedRanges;
 use crate::text::{TextTable, significant};
@@ -25,7 +26,9 @@ pub struct Page {
     pub headline: Option<String>,
     /// The numbers that a reader remembers, three to five.
     pub key_figures: Vec<KeyFigure>,
-    /// What a reader has to be careful about, the worst first.
+    /// Limits of the study that are not kept, as sentences.
+    pub limits: Vec<String>,
+    /// What else a reader has to be careful about, the worst first.
     pub careful: Vec<String>,
     /// Text and tables, for the details of the report and for `--verbose`.
     pub blocks: Vec<Block>,
@@ -169,6 +172,7 @@ impl Page {
             Some(view) => (view.show)(own, &mut page),
             None => page.tables(&outcome.tables()),
         }
+        limits::add(&outcome.head().study_limits, &mut page);
         let mut ranges = StatedRanges::default();
         ranges.add_outcome(&outcome.head().analysis, outcome);
         page.outside = ranges.lines();

@@ -82,6 +82,7 @@ fn about(sheet: &mut Worksheet, section: &Section) -> Result<(), XlsxError> {
         row += 1;
     }
     let lists = [
+        ("Limits that are not kept", &section.limits[..]),
         ("Careful", &section.careful[..]),
         ("Outside a stated range", &section.outside[..]),
     ];

@@ -37,6 +37,7 @@ pub use tolerance::{Shape, ToleranceEntry};
 pub use write::Write;
 
 use crate::analyses::AnalysisEntry;
+use crate::analyses::limits::LimitEntry;
 use crate::duty::{CycleEntry, VehicleEntry};
 use crate::measured::MeasuredEntry;
 use gearloss_framework::description::Ordered;
@@ -77,6 +78,9 @@ pub struct StudyEntry {
     /// Vehicles by name, for cycles with a vehicle speed only.
     #[serde(default)]
     pub vehicles: Ordered<VehicleEntry>,
+    /// Limits of quantities by name: every analysis reports where they are not kept, `optimise` and `fluid_sweep` keep them.
+    #[serde(default)]
+    pub limits: Ordered<LimitEntry>,
     /// Grids of operating points by name.
     #[serde(default)]
     pub grids: Ordered<Grid>,

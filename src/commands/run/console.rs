@@ -4,8 +4,10 @@ use std::io;
 use std::path::Path;
 use std::time::Instant;
 
+use gearloss_report::limits;
 use gearloss_report::page::{Block, Page};
 use gearloss_report::stated_ranges::StatedRanges;
+use gearloss_studies::analyses::limits::LimitReached;
 
 use crate::args::ShownArgs;
 use crate::output::Out;
@@ -81,6 +83,14 @@ impl Shown {
             String::new()
         };
         out.line(format!("  {name:width$}  {time}{result}"))
+    }
+
+    /// Limits of the study that are not kept, each with the name of its analysis.
+    pub fn limits(self, width: usize, broken: &[(String, LimitReached)], out: &mut Out) -> io::Result<()> {
+        for (analysis, limit) in broken.iter().filter(|_| self.has_headlines()) {
+            out.line(format!("  {:width$}  {analysis}: {}", "limit", limits::sentence(limit)))?;
+        }
+        Ok(())
     }
 
     /// Quantities outside their stated ranges: all of them, or the worst.

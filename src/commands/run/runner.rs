@@ -10,6 +10,7 @@ use gearloss_report::page::Page;
 use gearloss_report::stated_ranges::StatedRanges;
 use gearloss_report::tested::Tested;
 use gearloss_report::text::capitalised;
+use gearloss_studies::analyses::limits::LimitReached;
 use gearloss_studies::analyses::progress::{Progress, Steps};
 use gearloss_studies::analyses::{AnalysisEntry, Context, Outcome, Stopped};
 use gearloss_studies::run::StudyRun;
@@ -34,6 +35,8 @@ pub struct Run<'a> {
     pub(super) files: Files,
     /// Quantities outside their stated ranges, counted over all analyses.
     pub(super) left: Cell<usize>,
+    /// Limits that are not kept, each with the name of its analysis.
+    pub(super) broken: RefCell<Vec<(String, LimitReached)>>,
     /// The same for the end of the run.
     pub(super) stated_ranges: RefCell<StatedRanges>,
     /// Measured points, and limits that may be beyond them.
@@ -124,6 +127,7 @@ impl<'a> Run<'a> {
             },
             report: RefCell::default(),
             left: Cell::new(0),
+            broken: RefCell::default(),
             stated_ranges: RefCell::default(),
             tested: RefCell::default(),
             tasks,
@@ -195,6 +199,9 @@ impl Runner<'_> {
         let outside = outcome.notes().iter().filter(|note| note.outside > 0).count();
         let left = outside + outcome.left_at_samples().len() + outcome.unlisted();
         self.run.left.set(self.run.left.get() + left);
+        let broken = outcome.head().study_limits.iter().filter(|limit| limit.beyond > 0);
+        let broken = broken.map(|limit| (self.name.to_owned(), limit.clone()));
+        self.run.broken.borrow_mut().extend(broken);
         self.run.stated_ranges.borrow_mut().add_outcome(self.name, outcome);
         self.run.tested.borrow_mut().add_outcome(self.name, outcome);
         let mut page = Page::from_outcome(outcome);

@@ -158,10 +158,15 @@ pub fn map(map: &Map) -> Result<String, PlotError> {
             root.draw(&Text::new(y.clone(), at, beside)).map_err(fault)?;
         }
         let mut words = map.x.0.clone();
+        let outside = match map.hatching.as_str() {
+            "" if all_over => "outside a model's validity range",
+            "" => "outside a validity range",
+            own => own,
+        };
         if all_over {
-            words.push_str("; all points outside a model's validity range");
+            words.push_str(&format!("; all points {outside}"));
         } else if map.hatched.contains(&true) {
-            words.push_str("; hatched: outside a validity range");
+            words.push_str(&format!("; hatched: {outside}"));
         }
         if let Some(level) = map.unseen.filter(|_| lined) {
             words.push_str(&format!("; thick line: accuracy of the instrument, {}", short(level)));

@@ -6,6 +6,7 @@ use gearloss_studies::analyses::numbers::word;
 use gearloss_studies::analyses::sweep::{PointOfSweep, SweepOfValue, SweepOutcome};
 
 use crate::figure::Best;
+use crate::limits::in_unit;
 use crate::names::quantity;
 use crate::page::Page;
 use crate::plot::{Bar, Line, Stroke};
@@ -28,6 +29,7 @@ fn show(outcome: &SweepOutcome, page: &mut Page) {
         page.line("");
     }
     sweep.figures(page);
+    sweep.limits(page);
     designs(outcome, page);
 }
 
@@ -175,7 +177,7 @@ impl<'a> Sweep<'a> {
                 }
                 continue;
             }
-            let lines = self.lines(read);
+            let lines = self.lines(&read);
             if !lines.is_empty() {
                 let figure = Figure::Lines {
                     title: format!("{}: {y}", self.name),
@@ -185,6 +187,46 @@ impl<'a> Sweep<'a> {
                 };
                 page.figure(format!("{}-{short}", self.name), figure);
             }
+        }
+    }
+
+    /// Limited quantities over the values, each with its limit as lines.
+    fn limits(&self, page: &mut Page) {
+        if self.second_path.is_some() {
+            return;
+        }
+        let (places, x) = self.axis();
+        for column in &self.outcome.limits {
+            let mut lines = self.lines(&|point| point.limit_values.get(&column.name).copied().flatten());
+            let reached = self
+                .outcome
+                .head
+                .study_limits
+                .iter()
+                .find(|own| own.limit == column.name);
+            let (Some(limit), false) = (reached, lines.is_empty()) else {
+                continue;
+            };
+            let across = |bound: f64| places.iter().map(|place| Some((*place, bound))).collect();
+            lines.extend(
+                [(limit.least, "least"), (limit.most, "most")]
+                    .into_iter()
+                    .filter_map(|(bound, end)| {
+                        Some(Line {
+                            name: format!("limit {}: {end}", column.name),
+                            points: across(bound?),
+                            stroke: Stroke::Line,
+                        })
+                    }),
+            );
+            let y = format!("{}{}", column.words, in_unit(column.unit));
+            let figure = Figure::Lines {
+                title: format!("{}: {y}", self.name),
+                x: x.clone(),
+                y,
+                lines,
+            };
+            page.figure(format!("{}-limit-{}", self.name, column.name), figure);
         }
     }
 
@@ -207,7 +249,7 @@ impl<'a> Sweep<'a> {
     }
 
     /// A line for each set, torque and speed.
-    fn lines(&self, quantity: fn(&PointOfSweep) -> Option<f64>) -> Vec<Line> {
+    fn lines(&self, quantity: &dyn Fn(&PointOfSweep) -> Option<f64>) -> Vec<Line> {
         let (places, _) = self.axis();
         let mut lines = Vec::new();
         for set in self.sets() {

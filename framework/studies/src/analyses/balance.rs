@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::{Analysis, Built, Context, Head, Outcome, Stopped, gear_of};
-use crate::points::{Note, notes};
+use crate::points::{Given, Note, notes};
 use crate::register_analysis;
 use crate::study::{Uses, Write};
 use crate::table::Table;
@@ -235,7 +235,7 @@ impl Analysis for BalanceEntry {
             let t = &b.transmission;
             let points = cx.points(t, gear_of(self.gear.as_deref(), t), Vec::new(), Vec::new());
             let case = cx.case(b.gearbox, t, &points)?;
-            if cx.only_checks {
+            if cx.checked(b, &points)? {
                 continue;
             }
             let torques = [self.torque];
@@ -250,6 +250,12 @@ impl Analysis for BalanceEntry {
             if let Some(oil) = found.oil() {
                 // Notes belong to the temperature found.
                 t.evaluate(&case, &point, &[oil], &mut scratch);
+                let given = Given {
+                    torque: self.torque,
+                    speed: self.speed,
+                    oil: Some(oil),
+                };
+                cx.note_points(b, &points, vec![given])?;
             }
             balances.push(BalanceOfSet {
                 model_set: b.name.clone(),

@@ -14,9 +14,10 @@ use serde::de::DeserializeOwned;
 use serde_json::Value;
 
 use super::head::{Head, InputFile};
+use super::limits::{Limit, Reached, Watch};
 use super::progress::{Progress, Running};
 use crate::codes;
-use crate::points::{Field, Given, GridResult, Make, Piece, Points, solve_pieces, take_points};
+use crate::points::{Field, Given, GridResult, Make, Numbered, Piece, Points, solve_pieces, take_points};
 use crate::study::{Grid, Study};
 use crate::table::RowSink;
 use crate::tasks::{StorageError, Task, TaskResults};
@@ -112,6 +113,8 @@ pub struct Context<'a> {
     /// Why the current part ends early, where a function that cannot say so was in between.
     ended: Mutex<Option<Stopped>>,
     has_ended: AtomicBool,
+    /// What the limits of the study reached so far, by model set.
+    reached: Mutex<Vec<(String, Vec<(Limit, Reached)>)>>,
     /// Its own lock, because files are also read in parallel.
     record: Mutex<Record>,
 }
@@ -132,6 +135,7 @@ impl<'a> Context<'a> {
             incomplete: AtomicBool::new(false),
             ended: Mutex::default(),
             has_ended: AtomicBool::new(false),
+            reached: Mutex::default(),
             record: Mutex::default(),
         }
     }
@@ -177,7 +181,55 @@ impl<'a> Context<'a> {
     /// The head of its outcome: provenance.
     pub fn head(&self, built: &[&Built<'_>]) -> Head {
         let record = self.record.lock().unwrap_or_else(PoisonError::into_inner);
-        Head::new(self, built, &record.inputs, &record.about)
+        let mut head = Head::new(self, built, &record.inputs, &record.about);
+        let mut reached = self.reached.lock().unwrap_or_else(PoisonError::into_inner);
+        // In the order of the sets, whichever was first.
+        reached.sort_by_key(|(set, _)| built.iter().position(|b| b.name == *set));
+        for (set, limits) in std::mem::take(&mut *reached) {
+            head.study_limits.extend(
+                limits
+                    .into_iter()
+                    .filter_map(|(limit, reached)| reached.record(&limit, &set)),
+            );
+        }
+        head
+    }
+
+    /// Adds what limits of the study reach with a model set.
+    pub fn note_limits(&self, set: &str, limits: &[Limit], reached: Vec<Reached>) {
+        let mut all = self.reached.lock().unwrap_or_else(PoisonError::into_inner);
+        let own = match all.iter().position(|(known, _)| known == set) {
+            Some(place) => &mut all[place].1,
+            None => {
+                let none = limits.iter().map(|limit| (limit.clone(), Reached::default()));
+                all.push((set.to_owned(), none.collect()));
+                let last = all.len() - 1;
+                &mut all[last].1
+            }
+        };
+        for ((limit, known), more) in own.iter_mut().zip(reached) {
+            known.merge(limit, more);
+        }
+    }
+
+    /// Notes what the limits of the study reach at points that an analysis solves in its own way, each with its oil temperature.
+    ///
+    /// # Errors
+    /// As [`Context::solve_here`].
+    pub fn note_points(&self, built: &Built<'_>, points: &Points, list: Vec<Given>) -> Result<(), Stopped> {
+        if !self.study.entry.limits.is_empty() {
+            let field = Field::List(list);
+            self.solve_here(built, &Points { field, ..points.clone() })?;
+        }
+        Ok(())
+    }
+
+    /// Adds the limited quantities to solved points, and notes what the limits reach.
+    pub fn mark(&self, built: &Built<'_>, watch: &Watch, points: &Points, solved: &mut Numbered<'_>) {
+        // Points that do not fit were rejected before they were solved.
+        if let Ok(reached) = watch.mark(&built.transmission, points, solved) {
+            self.note_limits(&built.name, watch.limits(), reached);
+        }
     }
 
     /// Records the hash of a file read by the analysis.
@@ -270,6 +322,7 @@ impl<'a> Context<'a> {
     /// As [`Context::case`].
     pub fn checked(&self, built: &Built<'_>, points: &Points) -> Result<bool, Stopped> {
         self.case(built.gearbox, &built.transmission, points)?;
+        Watch::new(self, built)?;
         Ok(self.only_checks)
     }
 
@@ -314,7 +367,9 @@ impl<'a> Context<'a> {
         self.checked(built, points)?;
         let mut all = GridResult::default();
         let numbers: Vec<usize> = (0..points.field.pieces()).collect();
-        self.evaluate(built, points, &numbers, &take_points, &mut |piece| {
+        let watch = Watch::new(self, built)?;
+        let make = self.marking(built, points, watch.as_ref(), &take_points);
+        self.evaluate(built, points, &numbers, &make, &mut |piece| {
             all.add(piece);
             Ok(())
         })?;
@@ -347,6 +402,8 @@ impl<'a> Context<'a> {
         take: &mut dyn FnMut(Piece<T>) -> Result<(), Stopped>,
     ) -> Result<(), Stopped> {
         self.checked(built, points)?;
+        let watch = Watch::new(self, built)?;
+        let make = &self.marking(built, points, watch.as_ref(), make);
         let all: Vec<usize> = (0..points.field.pieces()).collect();
         let stage = self.next_stage();
         let Some(kept) = self.tasks.filter(|kept| !self.is_alone(*kept, stage, all.len())) else {
@@ -367,6 +424,22 @@ impl<'a> Context<'a> {
             take(piece.made(own.start, make))?;
         }
         Ok(())
+    }
+
+    /// A function that marks points before it passes them on.
+    fn marking<'m, T>(
+        &'m self,
+        built: &'m Built<'_>,
+        points: &'m Points,
+        watch: Option<&'m Watch>,
+        make: &'m Make<'_, T>,
+    ) -> impl Fn(&mut Numbered<'_>) -> T + Sync + 'm {
+        move |solved| {
+            if let Some(watch) = watch {
+                self.mark(built, watch, points, solved);
+            }
+            make(solved)
+        }
     }
 
     /// Computes a stage of so many tasks on all threads, and gives their results in their order. Results are stored to the bit. A

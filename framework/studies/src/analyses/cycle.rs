@@ -14,9 +14,10 @@ use serde::Deserialize;
 
 use super::duties::{Duties, sums_energies};
 use super::inputs::Input;
+use super::limits::{self, Limit};
 use super::numbers::tidy;
 use super::shares::{Shares, together};
-use super::{Analysis, Context, Head, Outcome, Stopped};
+use super::{Analysis, Built, Context, Head, Outcome, Stopped};
 use crate::codes;
 use crate::distinct::distinct;
 use crate::points::{Driven, Note};
@@ -93,6 +94,7 @@ impl Analysis for CycleAnalysisEntry {
         let names = together(built.iter().map(|b| &b.transmission), self.by);
         for b in &built {
             duties.check(cx, &path, b)?;
+            Limit::of_study(cx, Some(&duties), b)?;
             if cx.only_checks {
                 Input::all(cx, &path, &self.inputs, b)?;
             }
@@ -127,6 +129,7 @@ impl Analysis for CycleAnalysisEntry {
                 .ratings
                 .then(|| b.gearbox.ratings(cx.language, &b.resolved, &b.transmission));
             let ratings = ratings.transpose()?;
+            note_limits(cx, b, &duties, driven)?;
             for (read, driven) in duties.list.iter().zip(driven) {
                 let mut duty = results::duty(b, read, driven, &shares, self.reference.get(&read.name));
                 if let Some(ratings) = &ratings {
@@ -168,6 +171,25 @@ impl CycleAnalysisEntry {
         let path = format!("{path}.reference");
         Err(cx.found(vec![dangling(&path, "cycle of this analysis", unknown, &names)]))
     }
+}
+
+/// Notes what the limits of the study reach in the cycles of a set.
+fn note_limits(cx: &Context<'_>, b: &Built<'_>, duties: &Duties<'_>, driven: &[Driven]) -> Result<(), Stopped> {
+    let limits = Limit::of_study(cx, Some(duties), b)?;
+    if limits.is_empty() {
+        return Ok(());
+    }
+    let t = &b.transmission;
+    let mut rated = Vec::new();
+    if let Some(ratings) = limits::ratings(cx, &limits, b)? {
+        for (read, driven) in duties.list.iter().zip(driven) {
+            let own = ratings::over_cycle(t, &ratings, &duties.ride(t, read), driven);
+            rated.push(own.map_err(|list| b.gearbox.findings(list))?);
+        }
+    }
+    let driven: Vec<&Driven> = driven.iter().collect();
+    cx.note_limits(&b.name, &limits, limits::reached(&limits, duties, t, &driven, &rated));
+    Ok(())
 }
 
 /// Why the first cycle that did not reach its end stopped.

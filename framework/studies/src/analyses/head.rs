@@ -11,6 +11,7 @@ use serde::Serialize;
 use serde_json::Value;
 
 use super::context::{Built, Context};
+use super::limits::LimitReached;
 use crate::study::Study;
 
 /// The head of every result.
@@ -34,6 +35,9 @@ pub struct Head {
     pub changed_from_source: Vec<ChangedOfSet>,
     /// Models of a set that no component uses.
     pub unreached: Vec<UnreachedOfSet>,
+    /// Limits of the study over all points or cycles of the analysis; absent if the study has none that apply.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub study_limits: Vec<LimitReached>,
     /// Notes of data entries on their files.
     #[serde(skip)]
     pub about_data: Vec<String>,
@@ -126,6 +130,7 @@ impl Head {
                     lines: b.resolved.unreached.clone(),
                 })
                 .collect(),
+            study_limits: Vec::new(),
             about_data: about.to_vec(),
         }
     }

@@ -1,31 +1,33 @@
-//! Limits of quantities over cycles, which designs and oils must keep.
+//! Limits of quantities, which points, cycles, designs and oils must keep.
+
+mod at_points;
+mod over_cycles;
+mod reached;
 
 use gearloss_framework::attach::dangling;
 use gearloss_framework::description::Ordered;
 use gearloss_framework::document::{Diagnostic, Dimension, Unit, parse_quantity};
-use gearloss_framework::evaluate::Ratings;
 use gearloss_framework::rating::Figure;
 use gearloss_framework::resolve::meets;
-use gearloss_framework::thermal::network::Network;
 use gearloss_framework::transmission::Transmission;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use crate::analyses::cycle::RatedOverTime;
-use crate::analyses::cycle::ratings::over_cycle;
-use crate::analyses::duties::{Duties, nodes};
-use crate::analyses::trial::Trial;
+use crate::analyses::duties::Duties;
 use crate::analyses::{Built, Context, Stopped};
-use crate::points::Driven;
 
-/// A bound of a quantity over all cycles.
+pub use self::at_points::{LimitColumn, Watch, ratings};
+pub use self::over_cycles::{built, mean_loss, reached, values, violation};
+pub use self::reached::{LimitReached, Place, Reached};
+
+/// A bound of a quantity, at each point or over all cycles.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct LimitEntry {
     /// Limited quantity.
     pub quantity: LimitedQuantity,
     /// What it belongs to: a node of the thermal network, a cycle, a gear, a component or several (`bearings.*`). Default: the oil, every
-    /// cycle, the first gear, every component.
+    /// cycle, the first gear, every component. A loss and an efficiency are those of the gearbox.
     pub of: Option<String>,
     /// Rating and symbol, for the quantity `rating`: `iso_281.L10h`; `gearloss models rating` lists them.
     pub rating: Option<String>,
@@ -33,19 +35,37 @@ pub struct LimitEntry {
     pub least: Option<Value>,
     /// Greatest allowed value, with its unit: `110 degC`.
     pub most: Option<Value>,
+    /// What follows if it is not kept: a warning, or an error with which `gearloss run` ends after it has written all results.
+    #[serde(default)]
+    pub severity: Severity,
+}
+
+/// What follows if a limit is not kept.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Severity {
+    /// A warning.
+    #[default]
+    Warning,
+    /// `gearloss run` ends with the exit code of a finding.
+    Error,
 }
 
 /// A quantity that can be limited.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum LimitedQuantity {
-    /// The highest temperature of a node in any cycle, or the lowest for a least value.
+    /// The temperature of the oil or a node: at a point, or the highest in any cycle (the lowest for a least value).
     Temperature,
+    /// The loss at a point, or at the worst moment of any cycle.
+    Loss,
+    /// The efficiency at a point, or the energy delivered over the energy received in a cycle.
+    Efficiency,
     /// The mean loss of a cycle.
     MeanLoss,
     /// The ratio of a gear: speed of the reference port over that of the first other port.
     Ratio,
-    /// A quantity of a rating over each cycle: a life after Palmgren and Miner, the minimum or the maximum of the others.
+    /// A quantity of a rating: at a point, or over each cycle a life after Palmgren and Miner, the minimum or the maximum of the others.
     Rating,
 }
 
@@ -54,8 +74,8 @@ impl LimitedQuantity {
     fn unit(self) -> &'static str {
         match self {
             Self::Temperature => "degC",
-            Self::MeanLoss => "W",
-            Self::Ratio | Self::Rating => "-",
+            Self::MeanLoss | Self::Loss => "W",
+            Self::Ratio | Self::Rating | Self::Efficiency => "-",
         }
     }
 }
@@ -80,6 +100,7 @@ pub struct LimitRecord {
 }
 
 /// A limit as read.
+#[derive(Debug, Clone)]
 pub struct Limit {
     /// Name in the study.
     pub name: String,
@@ -89,16 +110,23 @@ pub struct Limit {
     pub unit: &'static Unit,
     /// Least and greatest allowed value, in the unit.
     pub bounds: [Option<f64>; 2],
+    /// What follows if it is not kept.
+    pub severity: Severity,
     quantity: LimitedQuantity,
     /// Name of the node; index of the cycle; index of the gear.
     of: Owner,
 }
 
+#[derive(Debug, Clone)]
 enum Owner {
     Node(String),
     Oil,
     Cycle(usize),
     AllCycles,
+    /// A cycle that the analysis does not have.
+    OtherCycle,
+    /// The gearbox as a whole.
+    Gearbox,
     Gear(usize),
     /// Name of the rating and symbol of its quantity; pattern of the components.
     Rating {
@@ -116,7 +144,10 @@ pub fn cycle(cx: &Context<'_>, path: &str, name: &str, duties: &Duties<'_>) -> R
 }
 
 impl Limit {
-    /// The limits of an analysis at a path.
+    /// The limits of an analysis at a path, after those of the study whose names it does not use.
+    ///
+    /// # Errors
+    /// Everything that is wrong in the first wrong entry.
     pub fn all(
         cx: &Context<'_>,
         path: &str,
@@ -124,9 +155,29 @@ impl Limit {
         duties: &Duties<'_>,
         b: &Built<'_>,
     ) -> Result<Vec<Self>, Stopped> {
-        let entries = entries.iter();
+        let mut all = Self::of_study(cx, Some(duties), b)?;
+        all.retain(|limit| entries.get(&limit.name).is_none());
+        for (name, entry) in entries.iter() {
+            all.push(Self::new(
+                cx,
+                &format!("{path}.limits.{name}"),
+                name,
+                entry,
+                Some(duties),
+                b,
+            )?);
+        }
+        Ok(all)
+    }
+
+    /// The limits of the study, with the cycles of an analysis if it has some.
+    ///
+    /// # Errors
+    /// Everything that is wrong in the first wrong entry.
+    pub fn of_study(cx: &Context<'_>, duties: Option<&Duties<'_>>, b: &Built<'_>) -> Result<Vec<Self>, Stopped> {
+        let entries = cx.study.entry.limits.iter();
         entries
-            .map(|(name, entry)| Self::new(cx, &format!("{path}.limits.{name}"), name, entry, duties, b))
+            .map(|(name, entry)| Self::new(cx, &format!("limits.{name}"), name, entry, duties, b))
             .collect()
     }
 
@@ -135,7 +186,7 @@ impl Limit {
         path: &str,
         name: &str,
         entry: &LimitEntry,
-        duties: &Duties<'_>,
+        duties: Option<&Duties<'_>>,
         b: &Built<'_>,
     ) -> Result<Self, Stopped> {
         let t = &b.transmission;
@@ -162,11 +213,15 @@ impl Limit {
             (LimitedQuantity::Temperature, None) => Owner::Oil,
             (LimitedQuantity::Temperature, Some(node)) => Owner::Node(known_node(cx, of, node, t)?),
             (LimitedQuantity::MeanLoss, None) => Owner::AllCycles,
-            (LimitedQuantity::MeanLoss, Some(name)) => Owner::Cycle(cycle(cx, of, name, duties)?),
+            (LimitedQuantity::MeanLoss, Some(name)) => known_cycle(cx, of, name, duties)?,
+            (LimitedQuantity::Loss | LimitedQuantity::Efficiency, None) => Owner::Gearbox,
+            (LimitedQuantity::Loss | LimitedQuantity::Efficiency, Some(_)) => {
+                return Err(cx.wrong(of, "a loss and an efficiency are those of the gearbox", "delete `of`"));
+            }
             (LimitedQuantity::Rating, own) => Owner::Rating {
                 rating: rated.map_or("", |(rating, _)| rating),
                 symbol: rated.map_or("", |(_, figure)| figure.symbol),
-                components: own.unwrap_or("*").to_owned(),
+                components: known_components(cx, of, own.unwrap_or("*"), t)?,
             },
             (LimitedQuantity::Ratio, None) => Owner::Gear(0),
             (LimitedQuantity::Ratio, Some(gear)) => {
@@ -194,9 +249,10 @@ impl Limit {
             }
             _ => Ok(Self {
                 name: name.to_owned(),
-                words: words(entry),
+                words: words(entry, rated.map(|(_, figure)| figure)),
                 unit,
                 bounds,
+                severity: entry.severity,
                 quantity: entry.quantity,
                 of,
             }),
@@ -208,45 +264,25 @@ impl Limit {
         self.quantity == LimitedQuantity::Rating
     }
 
-    /// The limited value of a driven design, in the unit: of the worst moment, component and cycle. `rated` are the ratings over each cycle.
-    pub fn value(&self, t: &Transmission, driven: &[Driven], rated: &[Vec<RatedOverTime>]) -> Option<f64> {
-        match &self.of {
-            Owner::Rating { symbol, .. } => {
-                let own = rated.iter().flatten();
-                let own = own.filter(|own| own.symbol == *symbol && self.rates(own.rating, &own.component));
-                // Where the quantity is unknown, the limit cannot be kept.
-                Some(self.worst(own.map(|own| own.value)))
-            }
-            Owner::Gear(gear) => t.ratios(*gear).first().and_then(|(_, ratio)| *ratio).map(f64::abs),
-            Owner::Cycle(cycle) => mean_loss(&driven[*cycle]),
-            Owner::AllCycles => {
-                let all = driven.iter().map(mean_loss).collect::<Option<Vec<f64>>>()?;
-                Some(self.worst(all.into_iter()))
-            }
-            Owner::Oil | Owner::Node(_) => {
-                let node = match &self.of {
-                    Owner::Node(name) => nodes(t, driven.first()?).iter().position(|own| own == name)?,
-                    _ => t.network().map_or(0, Network::oil),
-                };
-                let all = driven.iter().flat_map(|own| {
-                    let ends = own.stretches.iter().map(|stretch| &stretch.temperatures);
-                    ends.filter_map(|all| all.get(node).or(all.first()).copied())
-                });
-                Some(self.worst(all))
-            }
-        }
-    }
-
     /// The value closest to a bound, or farthest beyond one; NaN if there is none.
     fn worst(&self, values: impl Iterator<Item = f64>) -> f64 {
+        let worst = values.min_by(|a, b| self.margin(*a).total_cmp(&self.margin(*b)));
+        worst.unwrap_or(f64::NAN)
+    }
+
+    /// Distance of a value from the closest bound, negative beyond it.
+    fn margin(&self, value: f64) -> f64 {
         let [least, most] = self.bounds;
-        let margin = |value: &f64| {
-            let above = least.map_or(f64::INFINITY, |least| value - least);
-            above.min(most.map_or(f64::INFINITY, |most| most - value))
-        };
-        values
-            .min_by(|a, b| margin(a).total_cmp(&margin(b)))
-            .unwrap_or(f64::NAN)
+        let above = least.map_or(f64::INFINITY, |least| value - least);
+        above.min(most.map_or(f64::INFINITY, |most| most - value))
+    }
+
+    /// Symbol of the limited quantity of a rating.
+    fn symbol(&self) -> Option<&'static str> {
+        match self.of {
+            Owner::Rating { symbol, .. } => Some(symbol),
+            _ => None,
+        }
     }
 
     /// Whether it limits a rating of a component.
@@ -288,57 +324,28 @@ impl Limit {
     }
 }
 
-/// A gearbox with overrides, and its ratings if limits need them.
-///
-/// # Errors
-/// The first error of building.
-pub fn built(
-    trial: &Trial<'_>,
-    limits: &[Limit],
-    overrides: Vec<(String, Value)>,
-) -> Result<(Transmission, Option<Ratings>), String> {
-    if limits.iter().any(Limit::is_rating) {
-        let (t, mut ratings) = trial.build_rated(overrides)?;
-        // Only what is limited is rated, at every moment of the cycles.
-        ratings.retain(|rating, part| limits.iter().any(|limit| limit.rates(rating, &t.parts()[part].path)));
-        Ok((t, Some(ratings)))
-    } else {
-        Ok((trial.build(overrides)?, None))
-    }
-}
-
-/// The limited quantities of a driven gearbox, in the order and the units of the limits; NaN where one is unknown.
-///
-/// # Errors
-/// If the ratings cannot be evaluated.
-pub fn values(
-    limits: &[Limit],
-    duties: &Duties<'_>,
-    t: &Transmission,
-    ratings: Option<&Ratings>,
-    driven: &[Driven],
-) -> Result<Vec<f64>, String> {
-    let mut rated = Vec::new();
-    if let Some(ratings) = ratings {
-        for (read, driven) in duties.list.iter().zip(driven) {
-            let own = over_cycle(t, ratings, &duties.ride(t, read), driven);
-            rated.push(own.map_err(|list| list.first().map_or_else(String::new, |d| d.message.clone()))?);
+/// A cycle of an analysis; one of the study that the analysis does not have limits nothing.
+fn known_cycle(cx: &Context<'_>, path: &str, name: &str, duties: Option<&Duties<'_>>) -> Result<Owner, Stopped> {
+    let place = duties.and_then(|duties| duties.list.iter().position(|read| read.name == name));
+    match (place, duties) {
+        (Some(place), _) => Ok(Owner::Cycle(place)),
+        (None, _) if path.starts_with("limits.") && cx.study.entry.cycles.get(name).is_some() => Ok(Owner::OtherCycle),
+        (None, Some(duties)) => cycle(cx, path, name, duties).map(Owner::Cycle),
+        (None, None) => {
+            let names: Vec<&str> = cx.study.entry.cycles.ids().collect();
+            Err(cx.found(vec![dangling(path, "cycle of this study", name, &names)]))
         }
     }
-    let value = |limit: &Limit| limit.value(t, driven, &rated).unwrap_or(f64::NAN);
-    Ok(limits.iter().map(value).collect())
 }
 
-/// Sum of the violations of limits.
-pub fn violation(limits: &[Limit], values: &[f64]) -> f64 {
-    let pairs = limits.iter().zip(values);
-    pairs.map(|(limit, value)| limit.violation(*value)).sum()
-}
-
-/// Mean loss of a cycle. \[W\]
-pub fn mean_loss(driven: &Driven) -> Option<f64> {
-    let time = driven.total.duration;
-    (time > 0.0 && driven.broken.is_none()).then(|| driven.total.parts.iter().sum::<f64>() / time)
+/// A pattern of components, which one of the gearbox meets. In a study with several gearboxes it may belong to another one.
+fn known_components(cx: &Context<'_>, path: &str, pattern: &str, t: &Transmission) -> Result<String, Stopped> {
+    let own = || t.parts().iter().map(|part| part.path.as_str());
+    if pattern == "*" || own().any(|part| meets(pattern, part)) || cx.study.gearboxes.len() > 1 {
+        return Ok(pattern.to_owned());
+    }
+    let names: Vec<&str> = own().collect();
+    Err(cx.found(vec![dangling(path, "component", pattern, &names)]))
 }
 
 fn known_node(cx: &Context<'_>, path: &str, node: &str, t: &Transmission) -> Result<String, Stopped> {
@@ -380,15 +387,21 @@ fn quantity(written: &Value, unit: &'static Unit) -> Result<f64, String> {
     number.ok_or_else(|| format!("{written} is not a valid {}", unit.dimension.name()))
 }
 
-fn words(entry: &LimitEntry) -> String {
+/// What is limited, in words; with the quantity of a rating.
+fn words(entry: &LimitEntry, figure: Option<Figure>) -> String {
     let of = |default: &str| entry.of.clone().unwrap_or_else(|| default.to_owned());
     match entry.quantity {
         LimitedQuantity::Temperature => format!("temperature of {}", of("the oil")),
+        LimitedQuantity::Loss => "loss".to_owned(),
+        LimitedQuantity::Efficiency => "efficiency".to_owned(),
         LimitedQuantity::MeanLoss => format!("mean loss over {}", of("every cycle")),
         LimitedQuantity::Ratio => format!("ratio of gear {}", of("1")),
         LimitedQuantity::Rating => {
-            let rating = entry.rating.as_deref().unwrap_or_default();
-            format!("{rating} of {}", of("every component"))
+            let of = entry.of.as_ref().map_or_else(String::new, |of| format!(" of {of}"));
+            match figure {
+                Some(figure) => format!("{} {}{of}", figure.meaning, figure.symbol),
+                None => format!("{}{of}", entry.rating.as_deref().unwrap_or_default()),
+            }
         }
     }
 }
@@ -404,6 +417,7 @@ mod tests {
             words: String::new(),
             unit: Unit::ONE,
             bounds,
+            severity: Severity::Warning,
             quantity: LimitedQuantity::MeanLoss,
             of: Owner::AllCycles,
         };

@@ -26,6 +26,7 @@ use self::export::ExportData;
 use self::plan::{Planned, on_grid};
 use self::points::{RowsOf, Taken, Taker, UndefinedLoss};
 use self::shown::Selection;
+use super::limits::LimitColumn;
 use super::{Analysis, Built, Context, Stopped};
 use crate::distinct::distinct;
 use crate::measured::Measured;
@@ -90,7 +91,7 @@ impl MapEntry {
             let taker = Taker {
                 built: &plan.built,
                 field: &plan.points.field,
-                rows: RowsOf::new(&plan.built, &plan.points.gear, &plan.bound, &rows.parts),
+                rows: RowsOf::new(&plan.built, &plan.points.gear, &plan.bound, &rows.parts, &rows.limits),
                 selection: &Selection::new(Some(&plan.axes), whole),
                 wanted: rows.wanted,
             };
@@ -175,7 +176,7 @@ impl MapEntry {
                 let taker = Taker {
                     built: &built[place],
                     field: &Field::List(Vec::new()),
-                    rows: RowsOf::new(&built[place], gear, &bound, &rows.parts),
+                    rows: RowsOf::new(&built[place], gear, &bound, &rows.parts, &rows.limits),
                     selection: &Selection::new(None, false),
                     wanted: rows.wanted,
                 };
@@ -238,6 +239,8 @@ struct Rows<'c> {
     cx: &'c Context<'c>,
     /// Paths of the components with a column; sets may have different components, and each component has one column.
     parts: Vec<String>,
+    /// Limits of the study at points.
+    limits: Vec<LimitColumn>,
     /// Number of columns before those of points.
     constant: usize,
     table: Table,
@@ -251,8 +254,10 @@ impl<'c> Rows<'c> {
     fn new(cx: &'c Context<'c>, entry: &MapEntry, bound: &[String], all: &[&Built<'_>]) -> Self {
         let parts = all.iter().flat_map(|built| built.transmission.parts());
         let parts: Vec<String> = distinct(parts.map(|part| &part.path)).into_iter().cloned().collect();
+        let limits = LimitColumn::all(cx);
         Self {
-            table: RowsOf::none(bound, &parts).table(cx.name, []),
+            table: RowsOf::none(bound, &parts, &limits).table(cx.name, []),
+            limits,
             holds: cx.sink.is_none() || entry.write.contains(&Write::Json),
             wanted: cx.sink.is_none() || entry.write.iter().any(|format| *format != Write::Svg),
             constant: 2 + bound.len(),
@@ -338,7 +343,15 @@ impl<'a> Map<'a> {
         let column = |path: &String| rows.parts.iter().position(|part| part == path).unwrap_or(0);
         let columns: Vec<usize> = t.parts().iter().map(|part| column(&part.path)).collect();
         MapOfSet {
-            points: MapPoints::new(&rows.table, rows.constant, columns, self.rows, self.undefined),
+            points: MapPoints::new(
+                &rows.table,
+                rows.constant,
+                columns,
+                self.rows,
+                self.undefined,
+                &rows.limits,
+            ),
+            limits: rows.limits.clone(),
             model_set: built.name.clone(),
             gear: self.gear,
             bound: self.bound.into_iter().collect(),

@@ -6,6 +6,7 @@ use gearloss_framework::thermal;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::limits::LimitColumn;
 use super::numbers::{RPM, tidy};
 use super::rows::Solved;
 use super::shares::{Shares, together};
@@ -57,6 +58,9 @@ pub struct OperatingPointsOutcome {
     /// How the file was read, and which rows were omitted.
     #[serde(skip)]
     pub file_notes: Vec<String>,
+    /// Limits of the study at points.
+    #[serde(skip)]
+    pub limits: Vec<LimitColumn>,
     /// Columns that change a value of the gearbox.
     #[serde(skip)]
     pub bound: Vec<String>,
@@ -102,6 +106,12 @@ pub struct OperatingPoint {
     pub loss_w: Option<f64>,
     /// The loss by share, in the order of `shares`. [W]
     pub losses_w: Option<Vec<f64>>,
+    /// Limited quantities, by the names of the limits; absent if the study has none at points.
+    #[serde(skip_serializing_if = "Ordered::is_empty")]
+    pub limit_values: Ordered<Option<f64>>,
+    /// True if one of them is beyond its limit.
+    #[serde(skip)]
+    pub beyond: bool,
     /// Measured values.
     pub measured: MeasuredAtPoint,
     /// Speed as it was solved. [rad/s]
@@ -172,9 +182,11 @@ impl Analysis for OperatingPointsEntry {
         cx.begin()?;
         let built: Vec<&Built<'_>> = all.iter().flat_map(|s| &s.built).collect();
         let shares = together(built.iter().map(|b| &b.transmission), self.by);
+        let limits = LimitColumn::all(cx);
         Ok(OperatingPointsOutcome {
             head: cx.head(&built),
-            operating_points: all.iter().map(|s| self.of_set(&listed, s, &shares)).collect(),
+            operating_points: all.iter().map(|s| self.of_set(&listed, s, &shares, &limits)).collect(),
+            limits,
             file: cx.data(&path, &self.data)?.file.to_string(),
             file_notes: listed.notes,
             bound: self.bind.ids().map(str::to_owned).collect(),
@@ -188,7 +200,7 @@ impl Analysis for OperatingPointsEntry {
 
 impl OperatingPointsEntry {
     /// The points of a file solved with one set.
-    fn of_set(&self, listed: &Measured, solved: &Solved<'_>, names: &[String]) -> PointsOfSet {
+    fn of_set(&self, listed: &Measured, solved: &Solved<'_>, names: &[String], limits: &[LimitColumn]) -> PointsOfSet {
         let built = solved.built.iter();
         let shares: Vec<Shares> = built
             .map(|b| Shares::new(&b.transmission, self.by).under(names))
@@ -207,6 +219,8 @@ impl OperatingPointsEntry {
             efficiency: point.efficiency,
             loss_w: point.loss,
             losses_w: shares[*place].stack(point),
+            limit_values: LimitColumn::by_name(limits, &point.limits),
+            beyond: point.beyond,
             measured: MeasuredAtPoint::new(listed, row, point),
             speed: point.speed,
         });
@@ -291,6 +305,11 @@ impl Outcome for OperatingPointsOutcome {
             .each(shares.iter().enumerate(), |table, (i, share)| {
                 table.number(format!("{share}_w"), "W", format!("Loss: {share}"), |(_, point)| {
                     point.losses_w.as_ref().map(|watts| watts[i])
+                })
+            })
+            .each(&self.limits, |table, limit| {
+                table.number(limit.key(), limit.unit, limit.words.clone(), |(_, point)| {
+                    point.limit_values.get(&limit.name).copied().flatten()
                 })
             });
         vec![table.finish()]

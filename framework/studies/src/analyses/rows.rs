@@ -1,16 +1,18 @@
 //! Reads points of a file and solves them with model sets.
 
+use crate::distinct::distinct;
 use crate::measured::{Measured, MeasuredEntry, PortSpeeds};
 use crate::points::{Note, OnRig, PointResult, Rows, TotalLoss, notes_with_shares};
 use crate::study::Data;
 use gearloss_framework::description::Ordered;
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::gearbox::Gearbox;
-use gearloss_framework::resolve::OWN_MODELS;
+use gearloss_framework::resolve::{OWN_MODELS, Resolved};
 use gearloss_framework::transmission::Transmission;
 use gearloss_framework::variants::Variants;
 use serde_json::Value;
 
+use super::limits::Watch;
 use super::trial::{Left, Trial, left, why};
 use super::{Built, Context, Stopped};
 
@@ -88,6 +90,7 @@ impl Context<'_> {
             let variants = Variants::new(self.language, gearbox, choice);
             let transmissions = self.rows_fit(&rows, gearbox, &variants)?;
             if self.only_checks {
+                self.limits_fit(name, gearbox, rows.resolved(&variants)?, transmissions)?;
                 return Ok(None);
             }
             let running = self.running(measured.rows.len(), name);
@@ -113,6 +116,7 @@ impl Context<'_> {
                 transmission,
             });
             let built: Vec<Built<'s>> = built.collect();
+            self.mark_rows(&rows, &built, &mut solved.rows)?;
             let lost = TotalLoss::of(solved.rows.iter().map(|(_, _, point)| point));
             Ok(Some(Solved {
                 name: name.to_owned(),
@@ -126,6 +130,47 @@ impl Context<'_> {
         }
         let all: Vec<_> = sets.iter().map(|set| own(Some(set))).collect::<Result<_, Stopped>>()?;
         Ok(all.into_iter().flatten().collect())
+    }
+
+    /// Whether the limits of the study fit the first transmission of rows.
+    fn limits_fit(
+        &self,
+        name: &str,
+        gearbox: &Gearbox,
+        resolved: Vec<Resolved>,
+        transmissions: Vec<Transmission>,
+    ) -> Result<(), Stopped> {
+        for (resolved, transmission) in resolved.into_iter().zip(transmissions).take(1) {
+            let built = Built {
+                name: name.to_owned(),
+                gearbox,
+                resolved,
+                transmission,
+            };
+            Watch::new(self, &built)?;
+        }
+        Ok(())
+    }
+
+    /// Adds the limited quantities to solved rows, and notes what the limits reach.
+    fn mark_rows(
+        &self,
+        rows: &Rows<'_>,
+        built: &[Built<'_>],
+        solved: &mut [(usize, String, PointResult)],
+    ) -> Result<(), Stopped> {
+        for (place, b) in built.iter().enumerate() {
+            let Some(watch) = Watch::new(self, b)? else { continue };
+            let gears = solved.iter().filter(|row| row.0 == place).map(|row| row.1.clone());
+            for gear in distinct(gears) {
+                let own = solved.iter_mut().enumerate();
+                let own = own.filter(|(_, row)| row.0 == place && row.1 == gear);
+                let mut own: Vec<(usize, &mut PointResult)> = own.map(|(i, row)| (i, &mut row.2)).collect();
+                let points = rows.points(&gear, &b.transmission, Vec::new());
+                self.mark(b, &watch, &points, &mut own);
+            }
+        }
+        Ok(())
     }
 
     /// The transmissions of rows; rows with invalid bound values, gears or ports are errors.

@@ -8,6 +8,7 @@ use serde::Deserialize;
 use serde_json::Value;
 
 use super::axes::{speeds, torques};
+use super::limits::LimitColumn;
 use super::numbers::{RPM, tidy};
 use super::ranges::published;
 use super::shares::{Shares, together};
@@ -82,11 +83,13 @@ impl Analysis for SweepEntry {
                 .collect(),
             None => Vec::new(),
         };
-        let sweep: Vec<SweepOfValue> = all.iter().map(|value| self.record(value, &shares)).collect();
+        let limits = LimitColumn::all(cx);
+        let sweep: Vec<SweepOfValue> = all.iter().map(|value| self.record(value, &shares, &limits)).collect();
         Ok(SweepOutcome {
             head: cx.head(&all.iter().map(|value| &value.built).collect::<Vec<_>>()),
             notes: NotesOfSet::all(&sweep),
             sweep,
+            limits,
             published: published(varied.iter()),
         })
     }
@@ -169,7 +172,7 @@ impl SweepEntry {
     }
 
     /// The record of a solved value.
-    fn record(&self, solved: &Solved<'_>, shares: &[String]) -> SweepOfValue {
+    fn record(&self, solved: &Solved<'_>, shares: &[String], limits: &[LimitColumn]) -> SweepOfValue {
         let t = &solved.built.transmission;
         let [first, second] = solved.places;
         let own = Shares::new(t, self.by).under(shares);
@@ -196,6 +199,8 @@ impl SweepEntry {
                     efficiency: p.efficiency,
                     loss_w: p.loss,
                     losses_w: own.stack(p),
+                    limit_values: LimitColumn::by_name(limits, &p.limits),
+                    beyond: p.beyond,
                     solved_speed_rpm: p.speed * RPM,
                 })
                 .collect(),

@@ -11,7 +11,7 @@ use super::axes::{speeds, torques};
 use super::balance::needs_balance;
 use super::numbers::{RPM, tidy};
 use super::{Analysis, Built, Context, Head, Outcome, Stopped, gear_of};
-use crate::points::{Note, Points, notes};
+use crate::points::{Given, Note, Points, notes};
 use crate::register_analysis;
 use crate::study::{SpeedAxis, TorqueAxis, Uses, Write};
 use crate::table::Table;
@@ -134,7 +134,7 @@ impl Analysis for ThermalLimitEntry {
                 let message = format!("`{gear}` has no given torque, so there is no torque limit");
                 return Err(cx.wrong(&path, message, "choose another gear, or find the speed"));
             }
-            if cx.only_checks {
+            if cx.checked(b, &points)? {
                 continue;
             }
             let search = Search {
@@ -147,7 +147,17 @@ impl Analysis for ThermalLimitEntry {
                 Find::Torque => (torques, speeds),
                 Find::Speed => (speeds, torques),
             };
-            thermal_limits.push(search.all(&self.temperature, outwards(&range), &fixed));
+            let found = search.all(&self.temperature, outwards(&range), &fixed);
+            let given = |limit: &ThermalLimit| {
+                Some(Given {
+                    torque: limit.torque_nm?,
+                    speed: limit.solved_speed_rpm? / RPM,
+                    oil: Some(limit.limit_degc),
+                })
+            };
+            let reached = found.limits.iter().filter(|limit| limit.loss_w.is_some());
+            cx.note_points(b, &points, reached.filter_map(given).collect())?;
+            thermal_limits.push(found);
         }
         cx.begin()?;
         let head = cx.head(&built.iter().collect::<Vec<_>>());

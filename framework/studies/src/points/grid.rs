@@ -167,6 +167,10 @@ pub struct PointResult {
     pub terms: Vec<[f64; MOST_TERMS]>,
     /// True if a model is outside its stated range.
     pub outside: bool,
+    /// Quantities that the study limits, in the order of its limits at points; NaN where one is unknown, empty without limits.
+    pub limits: Vec<f64>,
+    /// True if one of them is beyond its limit.
+    pub beyond: bool,
     /// Why a loss has no value: index of the component and the reason.
     pub undefined: Option<(usize, Undefined)>,
     /// Number of iterations over the loss models.

@@ -56,6 +56,7 @@ pub type Make<'a, T> = dyn Fn(&mut Numbered<'_>) -> T + Sync + 'a;
 pub fn take_points(points: &mut Numbered<'_>) -> Vec<PointResult> {
     let taken = |(_, point): &mut (usize, &mut PointResult)| PointResult {
         nodes: std::mem::take(&mut point.nodes),
+        limits: std::mem::take(&mut point.limits),
         parts: std::mem::take(&mut point.parts),
         terms: std::mem::take(&mut point.terms),
         ..**point

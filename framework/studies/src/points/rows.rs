@@ -156,7 +156,8 @@ impl Rows<'_> {
         [if torque { -other } else { 1.0 }, if speed { other } else { 1.0 }]
     }
 
-    fn points(&self, gear: &str, transmission: &Transmission, list: Vec<Given>) -> Points {
+    /// Points of a gear, as rows prescribe them.
+    pub fn points(&self, gear: &str, transmission: &Transmission, list: Vec<Given>) -> Points {
         let [torque_at, speed_at] = [
             (self.torque_at, self.measured.torque_at_other_port),
             (self.speed_at, self.measured.speed_at_other_port),

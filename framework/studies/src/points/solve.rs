@@ -336,6 +336,8 @@ impl<'a> Solver<'a> {
                     .map(|terms| std::array::from_fn(|k| terms[k][lane]))
                     .collect(),
                 outside: block.leaves_a_range(lane),
+                limits: Vec::new(),
+                beyond: false,
                 undefined: None,
                 passes: block.passes(lane),
                 evaluations: 0,
@@ -374,6 +376,8 @@ impl<'a> Solver<'a> {
             parts: solution.watts().to_vec(),
             terms,
             outside: solution.leaves_a_range(),
+            limits: Vec::new(),
+            beyond: false,
             undefined: solution.undefined_part(),
             passes: solution.passes(),
             evaluations: 0,

@@ -6,6 +6,7 @@ use gearloss_studies::points::OilTemperature;
 
 use super::panels::panels;
 use crate::figure::{Best, jumps};
+use crate::limits::{bounds, in_unit, is_beyond};
 use crate::page::Page;
 use crate::picture::Screen;
 use crate::text::extremes;
@@ -103,7 +104,68 @@ pub fn draw(outcome: &MapOutcome, page: &mut Page) {
     if let Some(panels) = panels {
         page.screen(Screen::Panels(Box::new(panels)));
     }
+    limit_maps(outcome, &axes, page);
 }
+
+/// Each limited quantity over speed and torque, hatched where it is beyond its limit.
+fn limit_maps(outcome: &MapOutcome, names: &AxisNames, page: &mut Page) {
+    let name = &outcome.head.analysis;
+    for (number, map) in outcome.maps.iter().enumerate() {
+        let Some(ShownGrid { axes, places }) = &map.shown.grid else {
+            continue;
+        };
+        for (i, column) in map.limits.iter().enumerate() {
+            let reached = outcome.head.study_limits.iter();
+            let mut reached = reached.filter(|own| own.limit == column.name && own.model_set == map.model_set);
+            let Some(limit) = reached.next() else { continue };
+            let value = |place: &Option<usize>| {
+                let value = *map.shown.points[(*place)?].limits.get(i)?;
+                value.is_finite().then_some(value)
+            };
+            // Lives span decades, most of them far from their limit.
+            let cut = limit.least.map_or(f64::INFINITY, |least| CUT * least.abs());
+            let values: Vec<Option<f64>> = places.iter().map(value).collect();
+            let is_cut = values.iter().flatten().any(|value| *value > cut);
+            let remark = if is_cut {
+                format!(", cut off at {CUT} times")
+            } else {
+                String::new()
+            };
+            let title = format!(
+                "{name}: {}{}, {}{remark}, models {}, gear {}{}",
+                column.words,
+                in_unit(column.unit),
+                bounds(limit),
+                map.model_set,
+                map.gear,
+                map.bound_words()
+            );
+            let figure = Figure::Map(Map {
+                title,
+                x: over_speed(axes, names),
+                y: torque_axis(axes, names),
+                hatched: values
+                    .iter()
+                    .map(|value| value.is_some_and(|value| is_beyond(limit, value)))
+                    .collect(),
+                hatching: "beyond the limit".to_owned(),
+                values: values
+                    .into_iter()
+                    .map(|value| value.map(|value| value.min(cut)))
+                    .collect(),
+                unit: column.unit.trim_matches('-').to_owned(),
+                ..Map::default()
+            });
+            page.figure(
+                format!("{name}-{}-limit-{}-{}", map.model_set, column.name, number + 1),
+                figure,
+            );
+        }
+    }
+}
+
+/// Factor on a least value at which a picture cuts off larger ones.
+const CUT: f64 = 3.0;
 
 /// A quantity over speed and the values of one bound path.
 fn over_bound(

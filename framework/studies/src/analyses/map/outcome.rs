@@ -9,6 +9,7 @@ use super::super::{Head, Outcome};
 use super::export::{ExportData, ExportName};
 use super::points::MapPoints;
 use super::shown::ShownMap;
+use crate::analyses::limits::LimitColumn;
 use crate::distinct::distinct;
 use crate::points::{Note, OilTemperature, WeakPoint};
 use crate::study::Envelope;
@@ -75,6 +76,9 @@ pub struct MapOfSet {
     /// Origin of the oil temperature.
     #[serde(skip)]
     pub oil: OilTemperature,
+    /// Limits of the study at points, in the order of the values of the shown points.
+    #[serde(skip)]
+    pub limits: Vec<LimitColumn>,
     /// Data for figures and text.
     #[serde(skip)]
     pub shown: ShownMap,

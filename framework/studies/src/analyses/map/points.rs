@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use gearloss_framework::description::Ordered;
 use gearloss_framework::flow::Status;
 use gearloss_framework::thermal;
 use schemars::JsonSchema;
@@ -10,10 +11,11 @@ use serde::{Serialize, Serializer};
 use serde_json::Value;
 
 use super::super::Built;
+use super::super::limits::LimitColumn;
 use super::super::numbers::{RPM, tidy, word};
 use super::shown::{Picked, Selection};
 use crate::points::{Field, Numbered, PointResult, SUMS, TotalLoss};
-use crate::table::{Table, Values};
+use crate::table::{Column, Table, Values};
 
 /// Columns of a point from its torque to the first sum.
 const FIXED: usize = 11;
@@ -26,20 +28,29 @@ pub struct RowsOf {
     bound: Vec<(String, String)>,
     /// The components with a column, and the index of each in this map; absent if it has none.
     parts: Vec<(String, Option<usize>)>,
+    /// Limits of the study at points.
+    limits: Vec<LimitColumn>,
 }
 
 impl RowsOf {
     /// Of no map: for the columns of a table without rows.
-    pub fn none(bound: &[String], parts: &[String]) -> Self {
+    pub fn none(bound: &[String], parts: &[String], limits: &[LimitColumn]) -> Self {
         Self {
             model_set: String::new(),
             gear: String::new(),
             bound: bound.iter().map(|path| (path.clone(), String::new())).collect(),
             parts: parts.iter().map(|part| (part.clone(), None)).collect(),
+            limits: limits.to_vec(),
         }
     }
 
-    pub fn new(built: &Built<'_>, gear: &str, bound: &[(String, Value)], parts: &[String]) -> Self {
+    pub fn new(
+        built: &Built<'_>,
+        gear: &str,
+        bound: &[(String, Value)],
+        parts: &[String],
+        limits: &[LimitColumn],
+    ) -> Self {
         let own = built.transmission.parts();
         let place = |part: &String| own.iter().position(|o| o.path == *part);
         Self {
@@ -47,6 +58,7 @@ impl RowsOf {
             gear: gear.to_owned(),
             bound: bound.iter().map(|(path, value)| (path.clone(), word(value))).collect(),
             parts: parts.iter().map(|part| (part.clone(), place(part))).collect(),
+            limits: limits.to_vec(),
         }
     }
 
@@ -82,6 +94,11 @@ impl RowsOf {
             .each(&self.parts, |table, (part, place)| {
                 table.number(format!("{part}_w"), "W", "Loss of the component", |p| {
                     place.and_then(|place| loss_of(p, place))
+                })
+            })
+            .each(self.limits.iter().enumerate(), |table, (i, limit)| {
+                table.number(limit.key(), limit.unit, limit.words.clone(), |p| {
+                    p.limits.get(i).copied()
                 })
             })
             .finish()
@@ -162,6 +179,7 @@ pub struct MapPoints {
     parts: Vec<usize>,
     rows: Range<usize>,
     undefined: Vec<UndefinedLoss>,
+    limits: Vec<LimitColumn>,
 }
 
 /// A point.
@@ -195,6 +213,9 @@ pub struct MapPoint<'a> {
     sums_w: Option<Sums>,
     /// Losses of the components, in order. [W]
     parts_w: Vec<Option<f64>>,
+    /// Limited quantities, by the names of the limits; absent if the study has none at points.
+    #[serde(skip_serializing_if = "Ordered::is_empty")]
+    limit_values: Ordered<Option<f64>>,
     /// Why a loss has no value.
     undefined: Option<Missing<'a>>,
 }
@@ -238,8 +259,10 @@ impl MapPoints {
         parts: Vec<usize>,
         rows: Range<usize>,
         undefined: Vec<UndefinedLoss>,
+        limits: &[LimitColumn],
     ) -> Self {
         Self {
+            limits: limits.to_vec(),
             table: table.clone(),
             first,
             parts,
@@ -258,6 +281,13 @@ impl MapPoints {
             Values::Texts(texts) => texts.get(row),
             Values::Numbers(_) => None,
         }
+    }
+
+    /// The limited quantities, which have the last columns.
+    fn limits_at(&self, row: usize) -> Vec<f64> {
+        let own = &self.table.columns[self.table.columns.len() - self.limits.len()..];
+        let value = |column: &Column| column.numbers().map_or(f64::NAN, |numbers| numbers[row]);
+        own.iter().map(value).collect()
     }
 
     fn sums(&self, row: usize) -> Option<Sums> {
@@ -295,6 +325,7 @@ impl MapPoints {
                 .iter()
                 .map(|part| number(FIXED + SUMS.len() + part))
                 .collect(),
+            limit_values: LimitColumn::by_name(&self.limits, &self.limits_at(row)),
             undefined: undefined.map(|i| Missing {
                 part: &self.undefined[i].part,
                 reason: &self.undefined[i].reason,

@@ -14,7 +14,7 @@ const LINES: usize = 36 * (SHOWN - 1) + 1;
 pub const SHOWN: usize = 8;
 
 /// One point for figures and the terminal.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct ShownPoint {
     /// Torque. \[Nm\]
     pub torque: f64,
@@ -32,6 +32,8 @@ pub struct ShownPoint {
     pub sums: [f64; 6],
     /// True if a model is outside its stated range.
     pub outside: bool,
+    /// Quantities that the study limits; empty without limits.
+    pub limits: Vec<f64>,
 }
 
 impl From<&PointResult> for ShownPoint {
@@ -45,6 +47,7 @@ impl From<&PointResult> for ShownPoint {
             loss_torque: point.loss_torque,
             sums: point.sums,
             outside: point.outside,
+            limits: point.limits.clone(),
         }
     }
 }

@@ -1,11 +1,13 @@
 //! The outcome of a sweep.
 
+use gearloss_framework::description::Ordered;
 use gearloss_framework::flow::Status;
 use gearloss_framework::thermal;
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
 
+use crate::analyses::limits::LimitColumn;
 use crate::analyses::numbers::word;
 use crate::analyses::ranges::PublishedCoefficient;
 use crate::analyses::{Head, Outcome};
@@ -20,6 +22,9 @@ pub struct SweepOutcome {
     pub head: Head,
     /// One for each model set at each value: the values of the second path outermost, the sets innermost.
     pub sweep: Vec<SweepOfValue>,
+    /// Limits of the study at points.
+    #[serde(skip)]
+    pub limits: Vec<LimitColumn>,
     /// Paths that are coefficients of formulas.
     #[serde(skip)]
     pub published: Vec<PublishedCoefficient>,
@@ -89,6 +94,12 @@ pub struct PointOfSweep {
     pub loss_w: Option<f64>,
     /// Losses in the order of the shares. [W]
     pub losses_w: Option<Vec<f64>>,
+    /// Limited quantities, by the names of the limits; absent if the study has none at points.
+    #[serde(skip_serializing_if = "Ordered::is_empty")]
+    pub limit_values: Ordered<Option<f64>>,
+    /// True if one of them is beyond its limit.
+    #[serde(skip)]
+    pub beyond: bool,
     /// The speed without rounding, for headings. [rpm]
     #[serde(skip)]
     pub solved_speed_rpm: f64,
@@ -175,6 +186,11 @@ impl Outcome for SweepOutcome {
             .each(shares.iter().enumerate(), |table, (i, share)| {
                 table.number(format!("{share}_w"), "W", format!("Loss of {share}"), |(_, point)| {
                     point.losses_w.as_ref().map(|losses| losses[i])
+                })
+            })
+            .each(&self.limits, |table, limit| {
+                table.number(limit.key(), limit.unit, limit.words.clone(), |(_, point)| {
+                    point.limit_values.get(&limit.name).copied().flatten()
                 })
             });
         vec![table.finish()]

@@ -1,0 +1,105 @@
+//! Limits of a study that points or cycles do not keep, in words.
+
+use gearloss_framework::resolve::OWN_MODELS;
+use gearloss_studies::analyses::limits::{LimitReached, Place};
+
+use crate::page::Page;
+use crate::text::{TextTable, short};
+
+/// Adds the limits of an analysis: broken ones as sentences, all of them as a table.
+pub fn add(limits: &[LimitReached], page: &mut Page) {
+    if limits.is_empty() {
+        return;
+    }
+    let broken = limits.iter().filter(|limit| limit.beyond > 0);
+    page.limits = broken.map(|limit| format!("limit {}", sentence(limit))).collect();
+    let mut table = TextTable::new(&["limit", "models", "quantity", "allowed", "worst", "where", "beyond"]);
+    for limit in limits {
+        table.row(vec![
+            limit.limit.clone(),
+            limit.model_set.clone(),
+            limit.quantity.clone(),
+            bounds(limit),
+            format!("{}{}", short(limit.worst), after(&limit.unit)),
+            place(&limit.at),
+            format!("{} of {}", limit.beyond, limit.points),
+        ]);
+    }
+    page.table(table.titled("Limits of the study"));
+}
+
+/// A broken limit with its worst value.
+pub fn sentence(limit: &LimitReached) -> String {
+    let what = if limit.at.cycle.is_some() { "cycles" } else { "points" };
+    let side = match limit.least {
+        Some(least) if limit.worst < least => "below",
+        _ => "above",
+    };
+    let bound = if side == "below" { limit.least } else { limit.most }.unwrap_or(f64::NAN);
+    let unit = after(&limit.unit);
+    format!(
+        "{}: {} is {}{unit}, {side} {}{unit}, {}; beyond the limit at {} of {} {what}{}",
+        limit.limit,
+        limit.quantity,
+        short(limit.worst),
+        short(bound),
+        place(&without_repetition(limit)),
+        limit.beyond,
+        limit.points,
+        match limit.model_set.as_str() {
+            OWN_MODELS => String::new(),
+            set => format!(" with {set}"),
+        }
+    )
+}
+
+/// A unit after its number; nothing for `-`.
+pub fn after(unit: &str) -> String {
+    match unit {
+        "-" => String::new(),
+        _ => format!(" {unit}"),
+    }
+}
+
+/// A unit of an axis or a title.
+pub fn in_unit(unit: &str) -> String {
+    match unit {
+        "-" => String::new(),
+        _ => format!(" in {unit}"),
+    }
+}
+
+/// Whether a value is beyond a limit.
+pub fn is_beyond(limit: &LimitReached, value: f64) -> bool {
+    limit.least.is_some_and(|least| value < least) || limit.most.is_some_and(|most| value > most)
+}
+
+/// The bounds as words of a title.
+pub fn bounds(limit: &LimitReached) -> String {
+    let unit = after(&limit.unit);
+    match (limit.least, limit.most) {
+        (Some(least), Some(most)) => format!("{} to {}{unit}", short(least), short(most)),
+        (Some(least), None) => format!("at least {}{unit}", short(least)),
+        (None, Some(most)) => format!("at most {}{unit}", short(most)),
+        (None, None) => String::new(),
+    }
+}
+
+/// Where a value was found, without the component if the quantity names it.
+fn without_repetition(limit: &LimitReached) -> Place {
+    let mut at = limit.at.clone();
+    at.component
+        .take_if(|component| limit.quantity.ends_with(component.as_str()));
+    at
+}
+
+/// Where a value was found.
+fn place(at: &Place) -> String {
+    let component = at.component.iter().map(|component| format!("at {component}"));
+    let cycle = at.cycle.iter().map(|cycle| format!("over {cycle}"));
+    let torque = at.torque_nm.map(|torque| format!("{} Nm", short(torque)));
+    let speed = at.speed_rpm.map(|speed| format!("{speed:.0} rpm"));
+    let gear = at.gear.iter().map(|gear| format!("gear {gear}"));
+    let all = component.chain(cycle).chain(torque).chain(speed).chain(gear);
+    all.collect::<Vec<_>>().join(", ")
+}

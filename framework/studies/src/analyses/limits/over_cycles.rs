@@ -1,0 +1,170 @@
+//! Limited quantities over cycles.
+
+use gearloss_framework::evaluate::Ratings;
+use gearloss_framework::thermal::network::Network;
+use gearloss_framework::transmission::Transmission;
+use serde_json::Value;
+
+use super::at_points::keep_limited;
+use super::reached::{Place, Reached};
+use super::{Limit, LimitedQuantity, Owner};
+use crate::analyses::cycle::RatedOverTime;
+use crate::analyses::cycle::ratings::over_cycle;
+use crate::analyses::duties::{Duties, nodes};
+use crate::analyses::trial::Trial;
+use crate::points::Driven;
+
+impl Limit {
+    /// The limited value of a driven design, in the unit: of the worst moment, component and cycle. `rated` are the ratings over each cycle.
+    fn value(&self, t: &Transmission, driven: &[Driven], rated: &[Vec<RatedOverTime>]) -> Option<f64> {
+        match &self.of {
+            Owner::Rating { .. } => {
+                let own = rated.iter().flatten();
+                let own = own.filter(|own| self.limits(own));
+                // Where the quantity is unknown, the limit cannot be kept.
+                Some(self.worst(own.map(|own| own.value)))
+            }
+            Owner::OtherCycle => None,
+            Owner::Gearbox => {
+                let all = driven.iter().flat_map(|own| self.of_gearbox(own));
+                Some(self.worst(all))
+            }
+            Owner::Gear(gear) => t.ratios(*gear).first().and_then(|(_, ratio)| *ratio).map(f64::abs),
+            Owner::Cycle(cycle) => mean_loss(&driven[*cycle]),
+            Owner::AllCycles => {
+                let all = driven.iter().map(mean_loss).collect::<Option<Vec<f64>>>()?;
+                Some(self.worst(all.into_iter()))
+            }
+            Owner::Oil | Owner::Node(_) => {
+                let node = match &self.of {
+                    Owner::Node(name) => nodes(t, driven.first()?).iter().position(|own| own == name)?,
+                    _ => t.network().map_or(0, Network::oil),
+                };
+                let all = driven.iter().flat_map(|own| {
+                    let ends = own.stretches.iter().map(|stretch| &stretch.temperatures);
+                    ends.filter_map(|all| all.get(node).or(all.first()).copied())
+                });
+                Some(self.worst(all))
+            }
+        }
+    }
+
+    /// The loss of every moment, or the efficiency of a cycle.
+    fn of_gearbox(&self, driven: &Driven) -> Vec<f64> {
+        if self.quantity == LimitedQuantity::Efficiency {
+            let Some(received) = Some(driven.total.input).filter(|energy| *energy > 0.0) else {
+                return Vec::new();
+            };
+            return vec![driven.total.output / received];
+        }
+        let moments = driven.stretches.iter().map(|stretch| &stretch.heats);
+        let moments = moments.filter(|heats| heats.duration > 0.0);
+        moments
+            .map(|heats| heats.parts.iter().sum::<f64>() / heats.duration)
+            .collect()
+    }
+
+    /// Whether it limits a quantity of a rating.
+    fn limits(&self, own: &RatedOverTime) -> bool {
+        self.symbol() == Some(own.symbol) && self.rates(own.rating, &own.component)
+    }
+
+    /// Whether it limits one of the cycles but not this one.
+    fn is_of_another_cycle(&self, cycle: usize) -> bool {
+        match self.of {
+            Owner::Cycle(own) => own != cycle,
+            Owner::OtherCycle => true,
+            _ => false,
+        }
+    }
+}
+
+/// What the limits reach in each cycle of a simulated gearbox, in the order of the limits; `rated` are the ratings over each cycle.
+pub fn reached(
+    limits: &[Limit],
+    duties: &Duties<'_>,
+    t: &Transmission,
+    driven: &[&Driven],
+    rated: &[Vec<RatedOverTime>],
+) -> Vec<Reached> {
+    let of_limit = |limit: &Limit| {
+        let mut reached = Reached::default();
+        for (k, driven) in driven
+            .iter()
+            .enumerate()
+            .filter(|(k, _)| !limit.is_of_another_cycle(*k))
+        {
+            let own = std::slice::from_ref(*driven);
+            let value = match limit.of {
+                Owner::Cycle(_) => mean_loss(driven),
+                _ => limit.value(t, own, rated.get(k).map_or(&[], std::slice::from_ref)),
+            };
+            let Some(value) = value.filter(|value| value.is_finite()) else {
+                continue;
+            };
+            let mut parts = rated.get(k).into_iter().flatten().filter(|own| limit.limits(own));
+            let component = parts.find(|own| own.value == value).map(|own| own.component.clone());
+            let place = Place {
+                component,
+                cycle: Some(duties.list[k].name.clone()),
+                ..Place::default()
+            };
+            reached.note(limit, value, || place.clone());
+        }
+        reached
+    };
+    limits.iter().map(of_limit).collect()
+}
+
+/// A gearbox with overrides, and its ratings if limits need them.
+///
+/// # Errors
+/// The first error of building.
+pub fn built(
+    trial: &Trial<'_>,
+    limits: &[Limit],
+    overrides: Vec<(String, Value)>,
+) -> Result<(Transmission, Option<Ratings>), String> {
+    if limits.iter().any(Limit::is_rating) {
+        let (t, mut ratings) = trial.build_rated(overrides)?;
+        // Only what is limited is rated, at every moment of the cycles.
+        keep_limited(&mut ratings, limits, &t);
+        Ok((t, Some(ratings)))
+    } else {
+        Ok((trial.build(overrides)?, None))
+    }
+}
+
+/// The limited quantities of a driven gearbox, in the order and the units of the limits; NaN where one is unknown.
+///
+/// # Errors
+/// If the ratings cannot be evaluated.
+pub fn values(
+    limits: &[Limit],
+    duties: &Duties<'_>,
+    t: &Transmission,
+    ratings: Option<&Ratings>,
+    driven: &[Driven],
+) -> Result<Vec<f64>, String> {
+    let mut rated = Vec::new();
+    if let Some(ratings) = ratings {
+        for (read, driven) in duties.list.iter().zip(driven) {
+            let own = over_cycle(t, ratings, &duties.ride(t, read), driven);
+            rated.push(own.map_err(|list| list.first().map_or_else(String::new, |d| d.message.clone()))?);
+        }
+    }
+    let value = |limit: &Limit| limit.value(t, driven, &rated).unwrap_or(f64::NAN);
+    Ok(limits.iter().map(value).collect())
+}
+
+/// Sum of the violations of limits.
+pub fn violation(limits: &[Limit], values: &[f64]) -> f64 {
+    let pairs = limits.iter().zip(values);
+    pairs.map(|(limit, value)| limit.violation(*value)).sum()
+}
+
+/// Mean loss of a cycle. \[W\]
+pub fn mean_loss(driven: &Driven) -> Option<f64> {
+    let time = driven.total.duration;
+    (time > 0.0 && driven.broken.is_none()).then(|| driven.total.parts.iter().sum::<f64>() / time)
+}
