@@ -11,6 +11,7 @@ mod coefficients;
 mod common;
 mod comparison;
 mod conformance;
+mod consumption;
 mod counts;
 mod coverage;
 mod cycle;

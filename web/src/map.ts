@@ -64,7 +64,7 @@ function contourMap(stage: Stage, map: FieldMap, x: number[], y: number[]): void
   if (map.marks.length) entries.push({ name: map.marked || "measured", mark: "ring" });
   if (map.crossed) entries.push({ name: map.crossed[1], mark: "cross" });
   if (dashed.length) entries.push({ name: `accuracy of the instrument, ${significant(map.unseen, 2)}`, mark: "dashed" });
-  if (shown.hatched) entries.push({ name: map.hatching || "outside a validity range", mark: "hatch" });
+  if (shown.hatched) entries.push({ name: map.hatching === "limit" ? "beyond the limit" : "outside a validity range", mark: "hatch" });
   legend(key, entries);
   if (shown.allOutside) note(stage, "All points are outside a model's validity range.");
   const tip = new Tooltip(stage.root);
@@ -143,7 +143,7 @@ function cells(stage: Stage, map: FieldMap): void {
   colourBar(key, colours, words(map.unit), Math.min(stage.width, 480));
   const entries: Entry[] = [];
   if (map.crossed) entries.push({ name: map.crossed[1], mark: "outline" });
-  if (hatch) entries.push({ name: map.hatching || "outside a validity range", mark: "hatch" });
+  if (hatch) entries.push({ name: map.hatching === "limit" ? "beyond the limit" : "outside a validity range", mark: "hatch" });
   legend(key, entries);
   const tip = new Tooltip(stage.root);
   element.addEventListener("pointermove", (event) => {

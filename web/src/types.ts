@@ -34,7 +34,7 @@ export interface FieldMap {
   diverging: boolean;
   ends: [number, number] | null;
   hatched: boolean[];
-  hatching: string;
+  hatching: "validity" | "limit";
   marks: [number, number][];
   marked: string;
   crossed: [cell: number, text: string] | null;

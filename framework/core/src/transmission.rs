@@ -177,8 +177,6 @@ pub struct Transmission {
     /// Supports with a known static load rating.
     pub(crate) rated: Vec<RatedSupport>,
     pub(crate) oils: Oils,
-    /// Volume of the oil in the housing. \[m3\]
-    pub(crate) oil_volume: Option<f64>,
     pub(crate) loads: Arc<ShaftLoads>,
     /// Load correction factors of each support; empty if all are one.
     pub(crate) load_factors: Vec<statics::LoadFactors>,
@@ -281,8 +279,7 @@ impl Transmission {
     }
     /// Volume of the oil in the housing, if it is stated, and its mass at the temperature of [`Self::oil_temperature`]. \[m3 and kg\]
     pub fn oil_fill(&self) -> Option<(f64, f64)> {
-        let (density, _) = self.oils.heat(self.oil_temperature);
-        self.oil_volume.map(|volume| (volume, volume * density))
+        self.oils.fill(self.oil_temperature)
     }
     /// Density and specific heat of the sump at a temperature in degC. \[kg/m3 and J/(kg K)\]
     pub(crate) fn sump_heat(&self, temperature: f64) -> (f64, f64) {

@@ -27,6 +27,8 @@ pub enum Dimension {
     AngularStiffness,
     /// Power, W.
     Power,
+    /// Energy, J.
+    Energy,
     /// Mass, kg.
     Mass,
     /// Density, kg/m3.
@@ -100,6 +102,7 @@ impl Dimension {
             Self::LineLoad => "force per length",
             Self::AngularStiffness => "angular stiffness",
             Self::Power => "power",
+            Self::Energy => "energy",
             Self::Mass => "mass",
             Self::Density => "density",
             Self::KinematicViscosity => "kinematic viscosity",
@@ -200,6 +203,11 @@ static UNITS: &[Unit] = &[
     unit("N m/rad", Dimension::AngularStiffness, 1.0),
     unit("W", Dimension::Power, 1.0),
     unit("kW", Dimension::Power, 1e3),
+    unit("J", Dimension::Energy, 1.0),
+    unit("kJ", Dimension::Energy, 1e3),
+    unit("MJ", Dimension::Energy, 1e6),
+    unit("Wh", Dimension::Energy, 3.6e3),
+    unit("kWh", Dimension::Energy, 3.6e6),
     unit("kg", Dimension::Mass, 1.0),
     unit("g", Dimension::Mass, 1e-3),
     unit("t", Dimension::Mass, 1e3),

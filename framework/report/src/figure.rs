@@ -104,8 +104,8 @@ pub struct Map {
     pub ends: Option<(f64, f64)>,
     /// Cells outside a model's validity range; empty: none.
     pub hatched: Vec<bool>,
-    /// Legend text of the hatching; empty: outside a validity range.
-    pub hatching: String,
+    /// What the hatching means.
+    pub hatching: Hatching,
     /// Points that are marked, in the coordinates.
     pub marks: Vec<(f64, f64)>,
     /// Legend text of the marks; empty: "measured".
@@ -135,7 +135,30 @@ pub struct Cloud {
     pub diverging: bool,
 }
 
+/// What the hatched cells of a map are.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Hatching {
+    /// Outside the validity range of a model.
+    #[default]
+    Validity,
+    /// Beyond a limit of the study.
+    Limit,
+}
+
 impl Map {
+    /// The hatching in words; empty without hatched cells.
+    pub(super) fn words_of_hatching(&self) -> &'static str {
+        let all_over = self.is_hatched_all_over();
+        match self.hatching {
+            _ if !self.hatched.contains(&true) => "",
+            Hatching::Validity if all_over => "; all points outside a model's validity range",
+            Hatching::Validity => "; hatched: outside a validity range",
+            Hatching::Limit if all_over => "; all points beyond the limit",
+            Hatching::Limit => "; hatched: beyond the limit",
+        }
+    }
+
     /// True if every cell with a value is outside a validity range: then a text replaces the hatching.
     pub(super) fn is_hatched_all_over(&self) -> bool {
         let cells = || {

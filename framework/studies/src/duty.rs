@@ -3,11 +3,13 @@
 //! A cycle is converted into a list of intervals. Each states the demand at a port of the transmission or at the wheels; the response of
 //! the transmission and its temperature are computed elsewhere.
 
+mod battery;
 mod cycle;
 mod spectrum;
 mod trace;
 mod vehicle;
 
+pub use battery::{Battery, BatteryEntry, Consumption, distance};
 pub use cycle::{CycleEntry, Duty, FileCycleEntry, PhaseEntry, ShippedCycleEntry, SpectrumCycleEntry};
 pub use spectrum::{Spectrum, SpectrumFile, SpectrumPoint};
 pub use trace::{Sample, Trace};

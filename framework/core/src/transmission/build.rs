@@ -137,7 +137,6 @@ impl Transmission {
             cells: cells + rated.len(),
             rated,
             oils,
-            oil_volume: entry.housing.oil.as_ref().and_then(|oil| oil.volume),
             loads,
             load_factors,
             imported,

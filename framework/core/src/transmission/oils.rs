@@ -41,6 +41,8 @@ pub struct Oils {
     surface: Surface,
     /// The oil of the housing.
     sump: Option<usize>,
+    /// Volume of the oil in the housing, if it is stated. \[m3\]
+    volume: Option<f64>,
 }
 
 impl Oils {
@@ -78,6 +80,12 @@ impl Oils {
         })
     }
 
+    /// Volume of the oil in the housing, if it is stated, and its mass at a temperature in degC. \[m3 and kg\]
+    pub fn fill(&self, temperature: f64) -> Option<(f64, f64)> {
+        let (density, _) = self.heat(temperature);
+        self.volume.map(|volume| (volume, volume * density))
+    }
+
     /// Number of oils.
     pub fn len(&self) -> usize {
         self.spots.len()
@@ -100,6 +108,8 @@ pub struct OilNumbers<'a> {
     surface: Surface,
     /// Level of the sump at standstill, if stated. \[m\]
     at_rest: Option<f64>,
+    /// Volume of the sump, if stated. \[m3\]
+    volume: Option<f64>,
     /// Axis of each member, and the radius of its orbit.
     axes: Vec<Option<([f64; 2], f64)>>,
     up: [f64; 3],
@@ -118,24 +128,7 @@ impl<'a> OilNumbers<'a> {
     ) -> Self {
         let mut findings = Vec::new();
         let names: Vec<&str> = entry.lubricants.ids().collect();
-        let mut lubricants = Vec::new();
-        for (id, lubricant) in entry.lubricants.iter() {
-            let path = format!("lubricants.{id}");
-            if let Some(known) = memory.get::<Arc<Lubricant>>(&path).filter(|_| memory.is_same(&path)) {
-                lubricants.push(Arc::clone(known));
-                continue;
-            }
-            match Lubricant::new(lubricant) {
-                Ok(lubricant) => {
-                    let lubricant = Arc::new(lubricant);
-                    memory.keep(&path, Arc::clone(&lubricant));
-                    lubricants.push(lubricant);
-                }
-                Err((key, message, help)) => {
-                    findings.push(Diagnostic::error(format!("lubricants.{id}.{key}"), message).help(help));
-                }
-            }
-        }
+        let mut lubricants = lubricants(entry, memory, &mut findings);
         // A planet's axis orbits that of its carrier.
         let axes = (0..members.names.len())
             .map(|m| match members.planets[m] {
@@ -204,6 +197,7 @@ impl<'a> OilNumbers<'a> {
             lubricants.clear();
         }
         Self {
+            volume: entry.housing.oil.as_ref().and_then(|oil| oil.volume),
             names,
             lubricants,
             spots: Vec::new(),
@@ -253,10 +247,34 @@ impl<'a> OilNumbers<'a> {
                 spots: self.spots,
                 surface: self.surface,
                 sump: self.default,
+                volume: self.volume,
             },
             self.findings,
         )
     }
+}
+
+/// The oils of a gearbox, those with equal entries from the last time.
+fn lubricants(entry: &GearboxEntry, memory: &mut Memory, findings: &mut Vec<Diagnostic>) -> Vec<Arc<Lubricant>> {
+    let mut lubricants = Vec::new();
+    for (id, lubricant) in entry.lubricants.iter() {
+        let path = format!("lubricants.{id}");
+        if let Some(known) = memory.get::<Arc<Lubricant>>(&path).filter(|_| memory.is_same(&path)) {
+            lubricants.push(Arc::clone(known));
+            continue;
+        }
+        match Lubricant::new(lubricant) {
+            Ok(lubricant) => {
+                let lubricant = Arc::new(lubricant);
+                memory.keep(&path, Arc::clone(&lubricant));
+                lubricants.push(lubricant);
+            }
+            Err((key, message, help)) => {
+                findings.push(Diagnostic::error(format!("lubricants.{id}.{key}"), message).help(help));
+            }
+        }
+    }
+    lubricants
 }
 
 impl Places for OilNumbers<'_> {

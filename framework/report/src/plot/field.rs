@@ -158,16 +158,7 @@ pub fn map(map: &Map) -> Result<String, PlotError> {
             root.draw(&Text::new(y.clone(), at, beside)).map_err(fault)?;
         }
         let mut words = map.x.0.clone();
-        let outside = match map.hatching.as_str() {
-            "" if all_over => "outside a model's validity range",
-            "" => "outside a validity range",
-            own => own,
-        };
-        if all_over {
-            words.push_str(&format!("; all points {outside}"));
-        } else if map.hatched.contains(&true) {
-            words.push_str(&format!("; hatched: {outside}"));
-        }
+        words.push_str(map.words_of_hatching());
         if let Some(level) = map.unseen.filter(|_| lined) {
             words.push_str(&format!("; thick line: accuracy of the instrument, {}", short(level)));
         }

@@ -7,11 +7,13 @@ use gearloss_studies::analyses::cycle::{
     BandOfDuty, CycleOutcome, DutyOfSet, HeatOfDuty, IntervalOfDuty, RatedOverTime,
 };
 
+use gearloss_studies::duty::Consumption;
+
 use crate::Figure;
 use crate::page::Page;
 use crate::plot::{Line, Stroke};
 use crate::register_view;
-use crate::text::{TextTable, last_key, number, significant};
+use crate::text::{TextTable, last_key, number, short, signed, significant};
 
 register_view!(CycleOutcome, show);
 
@@ -86,6 +88,9 @@ fn text(name: &str, duty: &DutyOfSet, page: &mut Page) {
             significant(per.loss_kwh_per_100_km)
         ));
     }
+    if let Some(consumption) = &duty.consumption {
+        consumption_text(consumption, page);
+    }
     if energy.brakes_j > 0.0 {
         page.line(format!(
             "  dissipated in brakes: {} kJ",
@@ -103,6 +108,37 @@ fn text(name: &str, duty: &DutyOfSet, page: &mut Page) {
         duty.intervals, duty.steps, duty.evaluations
     ));
     page.line("");
+}
+
+/// Consumption, recuperation and range of the vehicle.
+fn consumption_text(own: &Consumption, page: &mut Page) {
+    page.line(format!(
+        "  battery: {} kWh/100 km drawn, {} recuperated, consumption {} kWh/100 km{}",
+        short(own.drawn_kwh_per_100_km),
+        short(own.recuperated_kwh_per_100_km),
+        short(own.consumption_kwh_per_100_km),
+        if own.includes_motor {
+            ""
+        } else {
+            ", without losses of the motor"
+        }
+    ));
+    let Some(range) = own.range_km else { return };
+    let lost = own
+        .range_lost_in_transmission_km
+        .map(|km| format!("; the losses of the transmission cost {} km", short(km)));
+    let difference = own
+        .range_difference_km
+        .map(|km| format!("; {} km against the first model set", signed(km)));
+    page.line(format!(
+        "  range {} km{}{}",
+        short(range),
+        lost.unwrap_or_default(),
+        difference.unwrap_or_default()
+    ));
+    if own.motor_beyond_map {
+        page.line("  note: the motor was outside its map, the loss at the edge of the map is used");
+    }
 }
 
 /// The uncertainty band of the loss and of its shares, and the correlation with the inputs.

@@ -198,15 +198,12 @@ impl<'a> Context<'a> {
     /// Adds what limits of the study reach with a model set.
     pub fn note_limits(&self, set: &str, limits: &[Limit], reached: Vec<Reached>) {
         let mut all = self.reached.lock().unwrap_or_else(PoisonError::into_inner);
-        let own = match all.iter().position(|(known, _)| known == set) {
-            Some(place) => &mut all[place].1,
-            None => {
-                let none = limits.iter().map(|limit| (limit.clone(), Reached::default()));
-                all.push((set.to_owned(), none.collect()));
-                let last = all.len() - 1;
-                &mut all[last].1
-            }
-        };
+        let place = all.iter().position(|(known, _)| known == set).unwrap_or_else(|| {
+            let none = limits.iter().map(|limit| (limit.clone(), Reached::default()));
+            all.push((set.to_owned(), none.collect()));
+            all.len() - 1
+        });
+        let own = &mut all[place].1;
         for ((limit, known), more) in own.iter_mut().zip(reached) {
             known.merge(limit, more);
         }
@@ -219,7 +216,13 @@ impl<'a> Context<'a> {
     pub fn note_points(&self, built: &Built<'_>, points: &Points, list: Vec<Given>) -> Result<(), Stopped> {
         if !self.study.entry.limits.is_empty() {
             let field = Field::List(list);
-            self.solve_here(built, &Points { field, ..points.clone() })?;
+            self.solve_here(
+                built,
+                &Points {
+                    field,
+                    ..points.clone()
+                },
+            )?;
         }
         Ok(())
     }

@@ -132,6 +132,7 @@ impl Analysis for CycleAnalysisEntry {
             note_limits(cx, b, &duties, driven)?;
             for (read, driven) in duties.list.iter().zip(driven) {
                 let mut duty = results::duty(b, read, driven, &shares, self.reference.get(&read.name));
+                duty.consumption = duties.consumption(driven);
                 if let Some(ratings) = &ratings {
                     let rated =
                         ratings::over_cycle(&b.transmission, ratings, &duties.ride(&b.transmission, read), driven);
@@ -140,6 +141,7 @@ impl Analysis for CycleAnalysisEntry {
                 cycles.push(duty);
             }
         }
+        range_differences(&mut cycles, count);
         let mut all_left = Vec::new();
         for (bands, own) in all_bands.into_iter().zip(cycles.chunks_mut(duties.list.len())) {
             bands.add_to(own);
@@ -170,6 +172,18 @@ impl CycleAnalysisEntry {
         };
         let path = format!("{path}.reference");
         Err(cx.found(vec![dangling(&path, "cycle of this analysis", unknown, &names)]))
+    }
+}
+
+/// Adds the difference of each range from that of the first set in the same cycle.
+fn range_differences(cycles: &mut [DutyOfSet], count: usize) {
+    let range = |duty: &DutyOfSet| duty.consumption.and_then(|consumption| consumption.range_km);
+    let first: Vec<Option<f64>> = cycles.iter().take(count).map(range).collect();
+    for (i, duty) in cycles.iter_mut().enumerate().skip(count) {
+        let difference = range(duty).zip(first[i % count]).map(|(own, first)| own - first);
+        if let Some(consumption) = &mut duty.consumption {
+            consumption.range_difference_km = difference;
+        }
     }
 }
 

@@ -1,10 +1,12 @@
 //! Reads and simulates the cycles of a study.
 
 use crate::codes;
-use crate::duty::{Demand, Duty, Given, Interval, Vehicle};
+use crate::duty::{Battery, Consumption, Demand, Duty, Given, Interval, Vehicle, VehicleEntry};
 use crate::points::{Driven, OilTemperature, Ride, can_drive, drive};
 use crate::study::{By, Conditions, RideEntry};
+use gearloss_framework::document::data::MeasuredFault;
 use gearloss_framework::document::{Diagnostic, classify};
+use gearloss_framework::motor::MotorMap;
 use gearloss_framework::thermal::network::{Network, StepSize};
 use gearloss_framework::transmission::Transmission;
 
@@ -34,6 +36,8 @@ pub struct Duties<'a> {
     /// The cycles.
     pub list: Vec<Read>,
     vehicle: Option<Vehicle>,
+    /// Battery of the vehicle with its motor.
+    battery: Option<Battery>,
     entry: &'a RideEntry,
     /// Gear of cycles without one.
     gear: Option<&'a str>,
@@ -59,6 +63,11 @@ impl<'a> Duties<'a> {
         let vehicle = vehicle.and_then(|(id, vehicle)| {
             let read = vehicle.vehicle(&format!("vehicles.{id}"));
             read.map_err(|fault| found.push(fault)).ok()
+        });
+        let battery = own.and_then(|id| Some((id, study.vehicles.get(id)?)));
+        let battery = battery.and_then(|(id, vehicle)| {
+            let read = battery_of(cx, &format!("vehicles.{id}"), vehicle);
+            read.map_err(|faults| found.extend(faults)).ok().flatten()
         });
         let mut list = Vec::new();
         for name in &entry.cycles {
@@ -102,10 +111,16 @@ impl<'a> Duties<'a> {
         Ok(Self {
             list,
             vehicle,
+            battery,
             entry,
             gear: gear.map(String::as_str),
             conditions: &study.conditions,
         })
+    }
+
+    /// Energy of the vehicle over a simulated cycle; absent without a battery or without distance.
+    pub fn consumption(&self, driven: &Driven) -> Option<Consumption> {
+        self.battery.as_ref()?.consumption(driven)
     }
 
     /// Number of all intervals.
@@ -116,6 +131,13 @@ impl<'a> Duties<'a> {
     /// Reasons why the cycles cannot be simulated with a gearbox.
     pub fn check(&self, cx: &Context<'_>, path: &str, b: &Built<'_>) -> Result<(), Stopped> {
         let oil = OilTemperature::from_conditions(&b.transmission, self.conditions.oil_temperature);
+        // A fixed temperature replaces the network with its motors.
+        let motors = b.transmission.network().filter(|_| oil == OilTemperature::Network);
+        let has_motor = motors.is_some_and(|network| network.motors().next().is_some());
+        if has_motor && self.battery.as_ref().is_some_and(|battery| battery.motor.is_some()) {
+            let message = "`motor_map` of the vehicle, but the thermal network of the gearbox has a motor";
+            return Err(cx.wrong_as(codes::DUTY, path, message, "delete `motor_map` of the vehicle"));
+        }
         let in_time = self.list.iter().find(|read| matches!(read.duty, Duty::Trace(_)));
         if let (OilTemperature::Balance, Some(read)) = (oil, in_time) {
             let message = format!(
@@ -360,4 +382,32 @@ pub fn sums_energies(cx: &Context<'_>, path: &str, by: By) -> Result<(), Stopped
         ));
     }
     Ok(())
+}
+
+/// The battery of a vehicle with the losses of its motor.
+fn battery_of(cx: &Context<'_>, path: &str, vehicle: &VehicleEntry) -> Result<Option<Battery>, Vec<Diagnostic>> {
+    let Some(entry) = vehicle.battery else {
+        let unused = vehicle.motor_map.as_ref().map(|_| {
+            let error = Diagnostic::error(
+                format!("{path}.motor_map"),
+                "a motor without a battery changes no result",
+            );
+            vec![error.help("state `battery: { energy: 60 kWh, efficiency: 0.95 }`, or delete `motor_map`")]
+        });
+        return unused.map_or(Ok(None), Err);
+    };
+    let Some(file) = &vehicle.motor_map else {
+        return Ok(Some(Battery { entry, motor: None }));
+    };
+    let at = format!("{path}.motor_map");
+    let bytes = cx.study.read_file(file);
+    let bytes = bytes
+        .map_err(|e| vec![Diagnostic::error(&at, format!("cannot read {file}: {e}")).help("check the file name")])?;
+    cx.keep_input(file, &bytes);
+    let of_file = |fault: MeasuredFault| Diagnostic::error(&at, format!("{file}: {}", fault.message)).help(fault.help);
+    let motor = MotorMap::read(&bytes).map_err(|faults| faults.into_iter().map(of_file).collect::<Vec<_>>())?;
+    Ok(Some(Battery {
+        entry,
+        motor: Some(motor),
+    }))
 }

@@ -4,7 +4,7 @@ use crate::codes;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::Demand;
+use super::{BatteryEntry, Demand};
 use gearloss_framework::document::Diagnostic;
 
 /// Standard gravity. \[m/s2\]
@@ -42,6 +42,11 @@ pub struct VehicleEntry {
     /// A fixed efficiency between port and wheels; default: the losses of the transmission are used. [-]
     #[schemars(range(min = 0.01, max = 1.0))]
     pub efficiency: Option<f64>,
+    /// Battery: with it, cycles report consumption, recuperation and range.
+    pub battery: Option<BatteryEntry>,
+    /// Losses of the motor at the reference port, for gearboxes without a motor in a thermal network: CSV file relative to the study with
+    /// `speed [rpm]`, `torque [Nm]`, and `efficiency [-]` or `loss [W]`. Needs `battery`.
+    pub motor_map: Option<String>,
 }
 
 fn rotating_mass_factor() -> f64 {

@@ -228,6 +228,8 @@ mod tests {
             parts: Vec::new(),
             terms: Vec::new(),
             outside: false,
+            limits: Vec::new(),
+            beyond: false,
             undefined: None,
             passes: 0,
             evaluations: 0,

@@ -44,7 +44,14 @@ fn over_cycles(all: &[CycleComparison], page: &mut Page) -> Option<String> {
         let per_km = c
             .difference_wh_per_km
             .map_or_else(String::new, |wh| format!("; {} Wh/km", signed(wh)));
-        let detail = format!("{}: {} W{per_km}", names.word(&c.base), short(c.base_mean_loss_w));
+        let range = c
+            .range_difference_km
+            .map_or_else(String::new, |km| format!("; {} km of range", signed(km)));
+        let detail = format!(
+            "{}: {} W{per_km}{range}",
+            names.word(&c.base),
+            short(c.base_mean_loss_w)
+        );
         page.key_figure(
             &format!("{}, {}", names.word(&c.model_set), cycle(&c.cycle)),
             signed(c.difference_w),

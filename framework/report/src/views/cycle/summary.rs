@@ -48,6 +48,21 @@ pub fn add(outcome: &CycleOutcome, page: &mut Page) {
                 ));
             }
         }
+        if let Some(consumption) = &duty.consumption {
+            own.push_str(&format!(
+                "; consumption {} kWh/100 km",
+                short(consumption.consumption_kwh_per_100_km)
+            ));
+            if let Some(range) = consumption.range_km {
+                let lost = consumption.range_lost_in_transmission_km.map(short);
+                page.key_figure(
+                    &format!("range, {of}"),
+                    short(range),
+                    "km",
+                    lost.map_or_else(String::new, |km| format!("{km} km lost in the transmission")),
+                );
+            }
+        }
         words.push(own);
         page.key_figure(
             &format!("mean loss, {of}"),

@@ -5,7 +5,7 @@ use gearloss_studies::analyses::numbers::{RPM, tidy, word};
 use gearloss_studies::points::OilTemperature;
 
 use super::panels::panels;
-use crate::figure::{Best, jumps};
+use crate::figure::{Best, Hatching, jumps};
 use crate::limits::{bounds, in_unit, is_beyond};
 use crate::page::Page;
 use crate::picture::Screen;
@@ -148,7 +148,7 @@ fn limit_maps(outcome: &MapOutcome, names: &AxisNames, page: &mut Page) {
                     .iter()
                     .map(|value| value.is_some_and(|value| is_beyond(limit, value)))
                     .collect(),
-                hatching: "beyond the limit".to_owned(),
+                hatching: Hatching::Limit,
                 values: values
                     .into_iter()
                     .map(|value| value.map(|value| value.min(cut)))

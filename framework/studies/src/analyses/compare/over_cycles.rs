@@ -34,6 +34,10 @@ pub struct CycleComparison {
     pub difference_percent: Option<f64>,
     /// The same as energy per distance; absent without a vehicle. [Wh/km]
     pub difference_wh_per_km: Option<f64>,
+    /// Difference of the consumption of the vehicle; absent without a battery. [kWh/100 km]
+    pub consumption_difference_kwh_per_100_km: Option<f64>,
+    /// Difference of the range of the vehicle; absent without a battery. [km]
+    pub range_difference_km: Option<f64>,
     /// Differences by share of the loss.
     pub shares: Vec<DifferenceOfShare>,
     /// Differences by phase of the cycle; empty if it has none.
@@ -101,7 +105,14 @@ pub(super) fn compare(
     for (b, own) in others.iter().zip(of_others) {
         for ((read, driven), of_base) in duties.list.iter().zip(own).zip(of_base) {
             let shares = [base, b].map(|b| Shares::new(&b.transmission, entry.by).under(&share_names));
-            comparisons.push(comparison(read, [(base, of_base), (b, driven)], &shares));
+            let mut own = comparison(read, [(base, of_base), (b, driven)], &shares);
+            let both = [of_base, driven].map(|driven| duties.consumption(driven));
+            if let [Some(before), Some(now)] = both {
+                own.consumption_difference_kwh_per_100_km =
+                    Some(now.consumption_kwh_per_100_km - before.consumption_kwh_per_100_km);
+                own.range_difference_km = now.range_km.zip(before.range_km).map(|(now, before)| now - before);
+            }
+            comparisons.push(own);
         }
     }
     Ok((cx.head(&built.iter().collect::<Vec<_>>()), comparisons))
@@ -162,6 +173,8 @@ fn comparison(read: &Read, pair: [(&Built<'_>, &Driven); 2], shares: &[Shares; 2
         difference_w: difference,
         difference_percent: (losses[0] > 0.0).then(|| 100.0 * difference / losses[0]),
         difference_wh_per_km: km.map(|km| difference * duration / 3600.0 / km),
+        consumption_difference_kwh_per_100_km: None,
+        range_difference_km: None,
         shares: shares[0].names.iter().enumerate().map(share).collect(),
         phases: phases(read, both),
         notes: notes_over_time(&b.transmission, driven),

@@ -7,6 +7,7 @@ use serde::Serialize;
 
 use super::ratings::RatedOverTime;
 use crate::analyses::Head;
+use crate::duty::Consumption;
 use crate::points::Note;
 
 /// Cycles simulated with each model set.
@@ -46,6 +47,8 @@ pub struct DutyOfSet {
     pub energy: EnergyOfDuty,
     /// Energy over the distance; absent without a vehicle.
     pub per_distance: Option<EnergyPerDistance>,
+    /// Energy of the vehicle; absent without a battery or without distance.
+    pub consumption: Option<Consumption>,
     /// Heat balance; absent without a thermal network.
     pub heat: Option<HeatOfDuty>,
     /// Losses of the motors of the thermal network.

@@ -12,7 +12,7 @@ use crate::analyses::balance::reason;
 use crate::analyses::duties::{Read, nodes};
 use crate::analyses::numbers::RPM;
 use crate::analyses::shares::Shares;
-use crate::duty::Duty;
+use crate::duty::{Duty, distance};
 use crate::points::{Driven, Stretch, notes_over_time};
 
 /// The results of a simulated cycle.
@@ -42,6 +42,7 @@ pub fn duty(
         mean_losses_w: energies.iter().map(|joule| mean(*joule)).collect(),
         energy,
         per_distance: per_distance(driven),
+        consumption: None,
         heat: heat(t, driven),
         motors: motors(t, driven),
         motors_beyond_map: driven.total.beyond_map,
@@ -102,12 +103,10 @@ fn efficiency(driven: &Driven, holds: fn(f64) -> bool) -> Option<f64> {
 
 /// Energy over the distance of the vehicle.
 pub fn per_distance(driven: &Driven) -> Option<EnergyPerDistance> {
-    let distances = driven
-        .stretches
-        .iter()
-        .map(|s| Some(s.vehicle_speed? * s.heats.duration));
-    let distance = distances.sum::<Option<f64>>().filter(|distance| *distance > 0.0)?;
-    let (km, wh) = (1e-3 * distance, driven.total.parts.iter().sum::<f64>() / 3600.0);
+    let (km, wh) = (
+        1e-3 * distance(driven)?,
+        driven.total.parts.iter().sum::<f64>() / 3600.0,
+    );
     Some(EnergyPerDistance {
         distance_km: km,
         loss_wh_per_km: wh / km,

@@ -17,6 +17,8 @@ fn sedan() -> VehicleEntry {
         rotating_mass_factor: 1.04,
         regeneration: RegenerationEntry::Word(NoRegeneration::None),
         efficiency: None,
+        battery: None,
+        motor_map: None,
     }
 }
 
