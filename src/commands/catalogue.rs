@@ -1,11 +1,17 @@
 //! `catalogue`: designations of bearings and oils for gearbox files.
 
-use gearloss_framework::language::LUBRICANTS;
-use gearloss_framework::resolve::without_suffix;
+use std::collections::BTreeMap;
+use std::path::Path;
 
+use gearloss_framework::document::did_you_mean;
+use gearloss_framework::files::LONGEST_DATA;
+use gearloss_framework::language::LUBRICANTS;
+use gearloss_framework::resolve::{CatalogueRow, CatalogueTable, read_designation};
+use gearloss_studies::distinct::distinct;
+
+use super::read_file;
 use crate::args::{CatalogueArg, CatalogueArgs};
 use crate::output::{End, Failure, Out, Table};
-use gearloss_studies::distinct::distinct;
 
 pub fn run(args: &CatalogueArgs, out: &mut Out) -> Result<End, Failure> {
     let language = super::language()?;
@@ -13,36 +19,103 @@ pub fn run(args: &CatalogueArgs, out: &mut Out) -> Result<End, Failure> {
         CatalogueArg::Bearings => "bearings",
         CatalogueArg::Oils => LUBRICANTS,
     };
-    let rows = || language.catalogue(section).into_iter().flat_map(|table| &table.0);
-    let wanted = args.text.as_deref().unwrap_or_default().to_lowercase();
-    let found: Vec<_> = rows()
+    let own = args
+        .file
+        .as_deref()
+        .map(|file| own_catalogue(file, section, &language))
+        .transpose()?;
+    let shipped = language.catalogue(section);
+    let rows: BTreeMap<&str, &CatalogueRow> = match &own {
+        Some(own) => by_designation(own),
+        None => shipped.map(by_designation).unwrap_or_default(),
+    };
+    let text = args.text.as_deref().unwrap_or_default();
+    let wanted = text.to_lowercase();
+    let mut found: Vec<(&str, &CatalogueRow)> = rows
+        .iter()
         .filter(|(designation, _)| designation.to_lowercase().contains(&wanted))
+        .map(|(designation, row)| (*designation, *row))
         .collect();
     if found.is_empty() {
-        let text = args.text.as_deref().unwrap_or_default();
-        let help = match without_suffix(text, rows().map(|(designation, _)| designation.as_str())) {
-            Some((base, _)) => format!("there is `{base}`, without the suffix"),
-            None => "shorten the text, or omit it to list all; other parts state their own data, or come from a CSV under `catalogues` of \
-                     the gearbox"
-                .to_owned(),
+        let read = read_designation(text, rows.keys().copied()).filter(|_| section != LUBRICANTS);
+        let Some(read) = read else {
+            return Err(nothing(text, &rows));
         };
-        return Err(Failure::input(format!("no designation contains `{text}`"), help));
+        out.line(format!("{text}: {}", read.words()))?;
+        found.extend(
+            rows.get_key_value(read.base)
+                .map(|(designation, row)| (*designation, *row)),
+        );
     }
+    out.text(&table(&found).render())?;
+    Ok(End::Fine)
+}
+
+fn by_designation(table: &CatalogueTable) -> BTreeMap<&str, &CatalogueRow> {
+    table
+        .0
+        .iter()
+        .map(|(designation, row)| (designation.as_str(), row))
+        .collect()
+}
+
+/// A catalogue of a user. Every row must state what a component needs, because a gearbox reads only the rows that it names.
+fn own_catalogue(
+    file: &Path,
+    section: &str,
+    language: &gearloss_framework::language::Language,
+) -> Result<CatalogueTable, Failure> {
+    let text = read_file(file, LONGEST_DATA, "check the file name")?;
+    let help =
+        "a catalogue has the column `designation` and keys of the section with their units, such as `bore [mm],c0 [N]`";
+    let wrong = |message: String| Failure::input(format!("{}: {message}", file.display()), help);
+    let table = CatalogueTable::from_csv(&text).map_err(wrong)?;
+    let mut faults = Vec::new();
+    for (designation, row) in &table.0 {
+        for (key, value) in &row.values {
+            if let Err(list) = language.checked(value, &format!("{section}.{designation}.{key}")) {
+                faults.extend(
+                    list.into_iter()
+                        .map(|fault| format!("`{designation}`: {}", fault.message)),
+                );
+            }
+        }
+    }
+    if faults.is_empty() {
+        Ok(table)
+    } else {
+        Err(wrong(faults.join("; ")))
+    }
+}
+
+/// No row has the text.
+fn nothing(text: &str, rows: &BTreeMap<&str, &CatalogueRow>) -> Failure {
+    let help = did_you_mean(text, rows.keys().copied()).map_or_else(
+        || {
+            "shorten the text, or omit it to list all; other parts state their own data, or come from a CSV under `catalogues` of the gearbox"
+                .to_owned()
+        },
+        |close| format!("there is `{close}`"),
+    );
+    Failure::input(format!("no designation contains `{text}`"), help)
+}
+
+/// Rows with their data, confidence and origin.
+fn table(found: &[(&str, &CatalogueRow)]) -> Table {
     let keys = found.iter().flat_map(|(_, row)| &row.values);
     let keys: Vec<&str> = distinct(keys.map(|(key, _)| key.as_str()));
     let mut head = vec!["designation"];
     head.extend(&keys);
-    head.push("confidence");
+    head.extend(["confidence", "origin"]);
     let mut table = Table::new(&head);
     for (designation, row) in found {
-        let mut cells = vec![designation.clone()];
+        let mut cells = vec![(*designation).to_owned()];
         for key in &keys {
             let value = row.values.iter().find(|(own, _)| own == key).map(|(_, value)| value);
             cells.push(value.map_or_else(String::new, |v| v.as_str().map_or_else(|| v.to_string(), str::to_owned)));
         }
-        cells.push(row.confidence.clone());
+        cells.extend([row.confidence.clone(), row.basis.clone()]);
         table.row(cells);
     }
-    out.text(&table.render())?;
-    Ok(End::Fine)
+    table
 }

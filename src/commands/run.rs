@@ -25,8 +25,8 @@ use gearloss_framework::files::LONGEST_TEXT;
 use gearloss_framework::gearbox::Findings;
 use gearloss_framework::language::Language;
 use gearloss_report::page::Block;
-use gearloss_studies::analyses::limits::Severity;
 use gearloss_studies::distinct::distinct;
+use gearloss_studies::study::Severity;
 use gearloss_studies::study::{Cautions, Study};
 use gearloss_studies::tasks::TaskResults;
 

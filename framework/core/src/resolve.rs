@@ -3,6 +3,7 @@
 //! Every component gets its own model, catalogue values and defaults; `models` and `model_sets` are then removed. A written path is
 //! an override of this document, so a change is: write it, resolve again, build again.
 
+mod bearing_designation;
 mod catalogue;
 mod choice;
 mod designation;
@@ -14,7 +15,8 @@ use std::collections::BTreeMap;
 
 use serde_json::{Map, Value};
 
-pub use catalogue::{CatalogueRow, CatalogueTable, without_suffix};
+pub use bearing_designation::{Design, Designation, read as read_designation};
+pub use catalogue::{CatalogueRow, CatalogueTable};
 pub use choice::{Choice, ModelSet, OWN_MODELS, called_own, expand_set, sets_of};
 pub use paths::{lookup, matches};
 
@@ -63,6 +65,8 @@ pub struct Resolved {
     pub unreached: Vec<String>,
     /// Components without a chosen model, not even `none`: their loss is zero. One line for each section.
     pub without: Vec<String>,
+    /// Designations with suffixes, and what they were read as. One line for each.
+    pub designations: Vec<String>,
 }
 
 impl Resolved {
@@ -129,7 +133,8 @@ impl Draft {
             .chain(choice.overrides.iter().cloned())
             .partition(|(path, _)| precedes_catalogues(path));
         apply(language, &mut value, first.iter().enumerate(), &mut sources, &mut found);
-        catalogue::fill(language, files, &mut value, &mut sources, &mut found);
+        let mut designations = Vec::new();
+        catalogue::fill(language, files, &mut value, &mut sources, &mut designations, &mut found);
         surfaces(&mut value, &mut sources);
 
         let own = value.get("models").cloned().unwrap_or(Value::Null);
@@ -154,6 +159,7 @@ impl Draft {
                 sources,
                 unreached,
                 without,
+                designations,
             },
             inside,
             found,

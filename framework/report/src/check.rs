@@ -84,7 +84,12 @@ pub fn checked_json(checked: &CheckedGearbox, with_resolved: bool) -> Map<String
         resolved, transmission, ..
     } = checked;
     let states: Vec<&str> = transmission.states().iter().map(|s| s.name.as_str()).collect();
-    let notes: Vec<&String> = resolved.unreached.iter().chain(&resolved.without).collect();
+    let notes: Vec<&String> = resolved
+        .unreached
+        .iter()
+        .chain(&resolved.without)
+        .chain(&resolved.designations)
+        .collect();
     let mut built = Map::new();
     built.insert("parts".to_owned(), transmission.parts().len().into());
     built.insert("gear_states".to_owned(), json!(states));

@@ -1,7 +1,7 @@
 //! Limits of a study that points or cycles do not keep, in words.
 
 use gearloss_framework::resolve::OWN_MODELS;
-use gearloss_studies::analyses::limits::{LimitReached, Place};
+use gearloss_studies::analyses::limits::reached::{LimitReached, Place};
 
 use crate::page::Page;
 use crate::text::{TextTable, short};

@@ -31,7 +31,11 @@ use crate::views::balance::balance_text;
 
 /// Lines on what has no model, on changed coefficients, and on the lowest evidence grade.
 pub fn remarks(resolved: &Resolved, changed: &[impl Display], evidence: &[WeakPoint]) -> Vec<String> {
-    let missing = resolved.unreached.iter().chain(&resolved.without);
+    let missing = resolved
+        .unreached
+        .iter()
+        .chain(&resolved.without)
+        .chain(&resolved.designations);
     let mut lines: Vec<String> = missing.map(|line| format!("note: {line}")).collect();
     lines.extend(changed.iter().map(|changed| format!("note: {changed}")));
     lines.extend(evidence.first().map(|weak| {

@@ -8,6 +8,7 @@ mod data;
 mod drive;
 mod files;
 mod identify;
+mod limits;
 mod names;
 mod parameters;
 mod range;
@@ -29,6 +30,7 @@ pub use files::Study;
 pub use identify::{
     FoldsBy, FoldsEntry, HoldOutEntry, HoldOutRows, IdentifiedEntry, OverEntry, PriorEntry, ScaleEntry,
 };
+pub use limits::{LimitEntry, LimitedQuantity, Severity};
 pub use names::is_device;
 pub use parameters::{NameOr, NamesOrParameters, ParameterKey};
 pub use range::RangeEntry;
@@ -37,7 +39,6 @@ pub use tolerance::{Shape, ToleranceEntry};
 pub use write::Write;
 
 use crate::analyses::AnalysisEntry;
-use crate::analyses::limits::LimitEntry;
 use crate::duty::{CycleEntry, VehicleEntry};
 use crate::measured::MeasuredEntry;
 use gearloss_framework::description::Ordered;

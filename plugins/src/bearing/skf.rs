@@ -100,6 +100,10 @@ fn two() -> u32 {
     2
 }
 
+/// Height of the inner shoulder over the cross-section, (d1 - d)/(D - d). Recalled: deep groove ball bearings 6204 to 6210 and 6305 to 6308 of the
+/// SKF catalogue have 0.31 to 0.35.
+const SHOULDER: f64 = 0.32;
+
 coefficients! {
     /// Constants that all bearings of the SKF model share.
     struct Constants {
@@ -158,7 +162,7 @@ pub struct Skf {
     /// combined one; default: as published. [-]
     #[schemars(range(min = 0.001, max = 1.0))]
     pub blend_to: Option<f64>,
-    /// Contact seals.
+    /// Contact seals; default: those of the designation or of `seals` of the bearing, on a counterface of typical diameter.
     pub seals: Option<Seals>,
     /// Needle roller bearings are treated as full-complement cylindrical roller bearings.
     #[serde(default)]
@@ -192,6 +196,8 @@ struct Model {
     fastest: f64,
     /// \[N mm\]
     seals: f64,
+    /// True if the diameter of the counterface of the seals is not stated.
+    counterface_is_estimated: bool,
 }
 
 impl Model {
@@ -202,9 +208,14 @@ impl Model {
             Lubrication::Bath | Lubrication::Jet => params.coefficients.replenishment_oil,
             Lubrication::Grease | Lubrication::OilAir => params.coefficients.replenishment_grease,
         };
-        let seals = match &params.seals {
-            Some(seals) => SealRow::new(seals.code, big_d, seals.number)?.moment(seals.diameter.mm()),
-            None => 0.0,
+        let counterface = d + SHOULDER * (big_d - d);
+        let seals = match (&params.seals, part.seals) {
+            (Some(seals), _) => SealRow::new(seals.code, big_d, seals.number)?.moment(seals.diameter.mm()),
+            (None, Some(seals)) => match Code::of(seals.design, part.kind, big_d)? {
+                Some(code) => SealRow::new(code, big_d, seals.number)?.moment(counterface),
+                None => 0.0,
+            },
+            (None, None) => 0.0,
         };
         Ok(Self {
             coefficients: params.coefficients,
@@ -231,6 +242,7 @@ impl Model {
                 Beyond::Hold => FASTEST / d_m,
             },
             seals,
+            counterface_is_estimated: params.seals.is_none() && seals > 0.0,
         })
     }
 }
@@ -371,6 +383,9 @@ impl BearingLaw for Model {
         at.show("G_sl", "-", g_sl);
         self.check_speeds(at, n)?;
         let seals = R::constant(self.seals.nmm_in_nm());
+        if self.counterface_is_estimated {
+            at.branch("counterface of the seals at d + 0.32 (D - d): not stated");
+        }
         if n.is_zero().agreed()? {
             at.branch("at standstill: starting friction");
             return Ok(Loss::MOMENTS
@@ -445,6 +460,7 @@ mod tests {
     use super::*;
     use gearloss_framework::loss::Notes;
     use gearloss_framework::mechanism::bearing::{BearingEntry, BearingKind};
+    use gearloss_framework::mechanism::bearing::{BearingSeals, SealDesign};
 
     fn params() -> Skf {
         Skf {
@@ -736,6 +752,48 @@ mod tests {
         assert!(drag(Beyond::Extrapolate, 2.0 * edge) > 3.0 * drag(Beyond::Extrapolate, edge));
         close(drag(Beyond::Hold, 2.0 * edge), drag(Beyond::Extrapolate, edge));
         close(drag(Beyond::Hold, 0.5 * edge), drag(Beyond::Extrapolate, 0.5 * edge));
+    }
+
+    #[test]
+    fn seals_of_a_designation_have_a_counterface_of_typical_diameter() {
+        let mut part = part();
+        let loss = |part: &BearingPart, params: Skf| {
+            let model = Model::new(&params, part).unwrap();
+            model.loss(&at(part, 1000.0, 0.0, 0.0)).unwrap().value(3)
+        };
+        let diameter = part.bore + 0.32 * (part.outside - part.bore);
+        let stated = Seals {
+            code: Code::Rs1DeepGroove,
+            diameter,
+            number: 2,
+        };
+        let by_model = loss(
+            &part,
+            Skf {
+                seals: Some(stated),
+                ..params()
+            },
+        );
+        for (design, number, share) in [
+            (SealDesign::Rs1, 2, 1.0),
+            (SealDesign::Rs1, 1, 0.5),
+            // Above 52 mm RSH has the constants of RS1.
+            (SealDesign::Rsh, 2, 1.0),
+            (SealDesign::Shield, 2, 0.0),
+            (SealDesign::NonContact, 2, 0.0),
+        ] {
+            part.seals = Some(BearingSeals { design, number });
+            let own = loss(&part, params());
+            assert!(
+                (own - share * by_model).abs() <= 1e-12 * by_model,
+                "{design:?}: {own} and {by_model}"
+            );
+        }
+        part.seals = Some(BearingSeals {
+            design: SealDesign::Ls,
+            number: 2,
+        });
+        assert!(Model::new(&params(), &part).is_err());
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! Friction of contact seals of bearings, SKF catalogue: M = K_S1 d_s^beta + K_S2 for both seals.
 
+use gearloss_framework::mechanism::bearing::{BearingKind, SealDesign};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -23,6 +24,37 @@ pub enum Code {
     CsSpherical,
     /// CS, CS2, CS5 in CARB bearings.
     CsCarb,
+}
+
+impl Code {
+    /// The row of a design in a kind of bearing with an outside diameter in mm; `None` without friction.
+    ///
+    /// # Errors
+    /// If the catalogue has no such seals in this kind: the problem and how to fix it.
+    pub fn of(design: SealDesign, kind: BearingKind, outside: f64) -> Result<Option<Self>, (String, String)> {
+        use BearingKind as Kind;
+        let code = match (design, kind) {
+            (SealDesign::NonContact | SealDesign::Shield, _) => return Ok(None),
+            // Constants of RSL and RSH end at 52 mm.
+            (SealDesign::Rsl, Kind::DeepGrooveBall) if outside <= 52.0 => Self::RslDeepGroove,
+            (SealDesign::Rsh, Kind::DeepGrooveBall) if outside <= 52.0 => Self::RshDeepGroove,
+            (SealDesign::Rs1 | SealDesign::Rsh, Kind::DeepGrooveBall) => Self::Rs1DeepGroove,
+            (SealDesign::Rs1, Kind::AngularContactBall | Kind::AngularContactBallDoubleRow) => Self::Rs1AngularContact,
+            (SealDesign::Rs1, Kind::SelfAligningBall) => Self::Rs1SelfAligning,
+            (SealDesign::Ls, Kind::CylindricalRoller | Kind::CylindricalRollerFullComplement) => Self::LsCylindrical,
+            (SealDesign::Cs, Kind::SphericalRoller) => Self::CsSpherical,
+            (SealDesign::Cs, Kind::ToroidalRoller | Kind::ToroidalRollerFullComplement) => Self::CsCarb,
+            _ => {
+                return Err((
+                    format!("the catalogue has no friction of `{design:?}` seals in this kind of bearing")
+                        .to_lowercase(),
+                    "state `seals` of the model with the code that is closest, or delete `seals` of the bearing"
+                        .to_owned(),
+                ));
+            }
+        };
+        Ok(Some(code))
+    }
 }
 
 /// Constants of one seal.

@@ -7,7 +7,7 @@ use std::time::Instant;
 use gearloss_report::limits;
 use gearloss_report::page::{Block, Page};
 use gearloss_report::stated_ranges::StatedRanges;
-use gearloss_studies::analyses::limits::LimitReached;
+use gearloss_studies::analyses::limits::reached::LimitReached;
 
 use crate::args::ShownArgs;
 use crate::output::Out;

@@ -10,7 +10,7 @@ use gearloss_report::page::Page;
 use gearloss_report::stated_ranges::StatedRanges;
 use gearloss_report::tested::Tested;
 use gearloss_report::text::capitalised;
-use gearloss_studies::analyses::limits::LimitReached;
+use gearloss_studies::analyses::limits::reached::LimitReached;
 use gearloss_studies::analyses::progress::{Progress, Steps};
 use gearloss_studies::analyses::{AnalysisEntry, Context, Outcome, Stopped};
 use gearloss_studies::run::StudyRun;

@@ -115,6 +115,59 @@ pub enum Lubrication {
     Grease,
 }
 
+/// Seals or shields of a bearing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct BearingSeals {
+    /// Their design.
+    pub design: SealDesign,
+    /// One or two. [-]
+    #[serde(default = "two")]
+    #[schemars(range(min = 1, max = 2))]
+    pub number: u32,
+}
+
+fn two() -> u32 {
+    2
+}
+
+/// Design of the seals of a bearing, by the suffixes of SKF; those of other makers are similar.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum SealDesign {
+    /// Contact seal with a steel insert: RS1; RSR, DU, LU of others.
+    Rs1,
+    /// Contact seal in a recess of the inner ring: RSH.
+    Rsh,
+    /// Contact seal of low friction: RSL.
+    Rsl,
+    /// Contact seal of a cylindrical roller bearing: LS.
+    Ls,
+    /// Contact seal of a spherical or toroidal roller bearing: CS.
+    Cs,
+    /// Non-contact seal: RZ; VV, LB of others.
+    NonContact,
+    /// Shield: Z.
+    Shield,
+}
+
+/// Class of the radial internal clearance (DIN 620-4, ISO 5753).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum ClearanceClass {
+    /// Less than C2.
+    C1,
+    /// Less than normal.
+    C2,
+    /// Normal.
+    Cn,
+    /// Greater than normal.
+    C3,
+    /// Greater than C3.
+    C4,
+    /// Greater than C4.
+    C5,
+}
+
 /// A rolling bearing as written; omitted keys come from the catalogue by `designation`.
 #[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
 pub struct BearingEntry {
@@ -164,6 +217,10 @@ pub struct BearingEntry {
     /// Limiting speed of the catalogue; for ratings. [rpm]
     #[schemars(range(min = 1.0, max = 1e6))]
     pub limiting_speed: Option<f64>,
+    /// Seals or shields of the bearing; default: from the designation, none.
+    pub seals: Option<BearingSeals>,
+    /// Class of the radial internal clearance; default: from the designation. For reports and other programs: no model depends on it.
+    pub clearance: Option<ClearanceClass>,
     /// Radius of the lowest point of the outer raceway. [mm]
     #[schemars(range(min = 0.5, max = 2500.0))]
     pub raceway: Option<f64>,
@@ -211,6 +268,8 @@ pub struct BearingPart {
     pub reference_speed: Option<f64>,
     /// Limiting speed. \[rad/s\]
     pub limiting_speed: Option<f64>,
+    /// Seals or shields.
+    pub seals: Option<BearingSeals>,
     /// Radius of the lowest point of the outer raceway. \[m\]
     pub raceway: f64,
     /// Separate oil height above the raceway's lowest point. \[m\]
@@ -353,6 +412,7 @@ impl TryFrom<BearingEntry> for BearingPart {
             minimum_load_factor: entry.minimum_load_factor,
             reference_speed: entry.reference_speed,
             limiting_speed: entry.limiting_speed,
+            seals: entry.seals,
             raceway,
             oil_height: entry.oil_height,
             lubrication: entry.lubrication,

@@ -4,12 +4,15 @@ use std::collections::BTreeMap;
 
 use serde_json::{Map, Value};
 
+use super::bearing_designation::{self, Designation};
 use super::designation::suggest;
 use super::{ValueSource, absent, entries_mut};
 use crate::attach::dangling;
 use crate::codes;
 use crate::document::{Diagnostic, Dimension, Unit};
 use crate::language::{LUBRICANTS, Language};
+use crate::mechanism::Component as _;
+use crate::mechanism::bearing::Bearing;
 use crate::registry::Files;
 
 /// One row of a catalogue.
@@ -19,6 +22,8 @@ pub struct CatalogueRow {
     pub values: Vec<(String, Value)>,
     /// Confidence of the row.
     pub confidence: String,
+    /// Origin of the data; may be empty.
+    pub basis: String,
 }
 
 /// A catalogue: rows by designation.
@@ -66,10 +71,12 @@ impl CatalogueTable {
             let mut row = CatalogueRow {
                 values: Vec::new(),
                 confidence: "not stated".to_owned(),
+                basis: String::new(),
             };
             for ((key, unit), cell) in columns.iter().zip(&record) {
                 match (key.as_str(), unit) {
-                    ("designation" | "basis", _) => {}
+                    ("designation", _) => {}
+                    ("basis", _) => cell.clone_into(&mut row.basis),
                     ("confidence", _) => cell.clone_into(&mut row.confidence),
                     _ if cell.is_empty() => {}
                     (_, Some(unit)) => {
@@ -97,25 +104,13 @@ impl CatalogueTable {
     }
 }
 
-/// The longest known designation that a written one extends with a suffix, and that suffix: `6208` and `-2RS1`.
-pub fn without_suffix<'a>(written: &'a str, known: impl Iterator<Item = &'a str>) -> Option<(&'a str, &'a str)> {
-    let suffix_of = |base: &&str| {
-        let head = written.get(..base.len())?;
-        let suffix = &written[base.len()..];
-        let ends = suffix.chars().next()?;
-        // `62081` is a different bearing, not `6208` with a suffix.
-        (head.eq_ignore_ascii_case(base) && !ends.is_ascii_digit()).then_some(suffix)
-    };
-    let bases = known.filter_map(|base| Some((base, suffix_of(&base)?)));
-    bases.max_by_key(|(base, _)| base.len())
-}
-
 /// Fills the omitted keys of every component that has a designation.
 pub(super) fn fill(
     language: &Language,
     files: &Files,
     value: &mut Value,
     sources: &mut BTreeMap<String, ValueSource>,
+    notes: &mut Vec<String>,
     found: &mut Vec<Diagnostic>,
 ) {
     let own = written_catalogues(language, files, value, found);
@@ -128,17 +123,16 @@ pub(super) fn fill(
             let Some(designation) = entry.get("designation").and_then(Value::as_str).map(str::to_owned) else {
                 continue;
             };
-            let row = own.into_iter().chain(shipped).find_map(|t| t.0.get(&designation));
-            if let Some(row) = row {
-                fill_entry(
-                    language,
-                    &format!("{section}.{id}"),
-                    entry,
-                    &designation,
-                    row,
-                    sources,
-                    found,
-                );
+            let tables = || own.into_iter().chain(shipped);
+            let path = format!("{section}.{id}");
+            let mut fill = |designation: &str, row: &CatalogueRow| {
+                fill_entry(language, &path, entry, designation, row, sources, found);
+            };
+            if let Some(row) = tables().find_map(|t| t.0.get(&designation)) {
+                fill(&designation, row);
+            } else if let Some((read, row)) = with_suffixes(section, &designation, tables()) {
+                notes.push(format!("{path}.designation `{designation}`: {}", read.words()));
+                fill(&designation, &row);
             } else if absent(entry, needed) {
                 let rows = shipped.into_iter().chain(own).flat_map(|t| &t.0);
                 let rows: Vec<(&str, &CatalogueRow)> = rows.map(|(name, row)| (name.as_str(), row)).collect();
@@ -146,6 +140,25 @@ pub(super) fn fill(
             }
         }
     }
+}
+
+/// The row of a designation without its suffixes, changed by what they state; bearings only.
+fn with_suffixes<'t>(
+    section: &str,
+    written: &str,
+    tables: impl Iterator<Item = &'t CatalogueTable> + Clone,
+) -> Option<(Designation<'t>, CatalogueRow)> {
+    if section != Bearing::SECTION {
+        return None;
+    }
+    let known = tables.clone().flat_map(|table| table.0.keys().map(String::as_str));
+    let read = bearing_designation::read(written, known)?;
+    let mut row = tables.clone().find_map(|table| table.0.get(read.base))?.clone();
+    let (keys, invalid) = read.changes();
+    row.values.retain(|(key, _)| !invalid.contains(&key.as_str()));
+    row.values
+        .extend(keys.into_iter().map(|(key, value)| (key.to_owned(), value)));
+    Some((read, row))
 }
 
 /// The catalogues that the document names, by section.
@@ -189,12 +202,6 @@ fn unknown_designation(section: &str, id: &str, designation: &str, rows: &[(&str
             rows.len(),
             if section == LUBRICANTS { "oils" } else { section }
         ));
-    if let Some((base, suffix)) = without_suffix(designation, rows.iter().map(|(name, _)| *name)) {
-        return error.help(format!(
-            "write `{base}`, which has the same dimensions and ratings; no row states what `{suffix}` changes, such as seals, \
-             clearance or cage: state it in keys and in the model of this entry"
-        ));
-    }
     let here = if section == LUBRICANTS {
         "state viscosity, kind and density here"
     } else {

@@ -132,6 +132,7 @@ mod tests {
         let row = |bore: &str| CatalogueRow {
             values: vec![("bore".to_owned(), Value::from(bore))],
             confidence: String::new(),
+            basis: String::new(),
         };
         let rows = [("16012", row("60 mm")), ("6013", row("65 mm")), ("6205", row("25 mm"))];
         let rows: Vec<(&str, &CatalogueRow)> = rows.iter().map(|(name, row)| (*name, row)).collect();

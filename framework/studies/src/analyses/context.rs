@@ -14,7 +14,9 @@ use serde::de::DeserializeOwned;
 use serde_json::Value;
 
 use super::head::{Head, InputFile};
-use super::limits::{Limit, Reached, Watch};
+use super::limits::at_points::Watch;
+use super::limits::reached::Reached;
+use super::limits::{Limit, Scope};
 use super::progress::{Progress, Running};
 use crate::codes;
 use crate::points::{Field, Given, GridResult, Make, Numbered, Piece, Points, solve_pieces, take_points};
@@ -195,6 +197,24 @@ impl<'a> Context<'a> {
         head
     }
 
+    /// What the limits of the study are read for, at points of a gearbox.
+    pub fn scope<'s>(&'s self, built: &'s Built<'_>) -> Scope<'s> {
+        Scope {
+            language: self.language,
+            study: self.study,
+            transmission: &built.transmission,
+            cycles: None,
+        }
+    }
+
+    /// The limits of the study at points of a gearbox.
+    ///
+    /// # Errors
+    /// Wrong limits.
+    pub fn watch(&self, built: &Built<'_>) -> Result<Option<Watch>, Stopped> {
+        Ok(Watch::new(self.scope(built), built.gearbox, &built.resolved)?)
+    }
+
     /// Adds what limits of the study reach with a model set.
     pub fn note_limits(&self, set: &str, limits: &[Limit], reached: Vec<Reached>) {
         let mut all = self.reached.lock().unwrap_or_else(PoisonError::into_inner);
@@ -325,7 +345,7 @@ impl<'a> Context<'a> {
     /// As [`Context::case`].
     pub fn checked(&self, built: &Built<'_>, points: &Points) -> Result<bool, Stopped> {
         self.case(built.gearbox, &built.transmission, points)?;
-        Watch::new(self, built)?;
+        self.watch(built)?;
         Ok(self.only_checks)
     }
 
@@ -370,7 +390,7 @@ impl<'a> Context<'a> {
         self.checked(built, points)?;
         let mut all = GridResult::default();
         let numbers: Vec<usize> = (0..points.field.pieces()).collect();
-        let watch = Watch::new(self, built)?;
+        let watch = self.watch(built)?;
         let make = self.marking(built, points, watch.as_ref(), &take_points);
         self.evaluate(built, points, &numbers, &make, &mut |piece| {
             all.add(piece);
@@ -405,7 +425,7 @@ impl<'a> Context<'a> {
         take: &mut dyn FnMut(Piece<T>) -> Result<(), Stopped>,
     ) -> Result<(), Stopped> {
         self.checked(built, points)?;
-        let watch = Watch::new(self, built)?;
+        let watch = self.watch(built)?;
         let make = &self.marking(built, points, watch.as_ref(), make);
         let all: Vec<usize> = (0..points.field.pieces()).collect();
         let stage = self.next_stage();

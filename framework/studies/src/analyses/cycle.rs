@@ -14,7 +14,8 @@ use serde::Deserialize;
 
 use super::duties::{Duties, sums_energies};
 use super::inputs::Input;
-use super::limits::{self, Limit};
+use super::limits::at_points;
+use super::limits::over_cycles::{limits_of, reached};
 use super::numbers::tidy;
 use super::shares::{Shares, together};
 use super::{Analysis, Built, Context, Head, Outcome, Stopped};
@@ -94,7 +95,7 @@ impl Analysis for CycleAnalysisEntry {
         let names = together(built.iter().map(|b| &b.transmission), self.by);
         for b in &built {
             duties.check(cx, &path, b)?;
-            Limit::of_study(cx, Some(&duties), b)?;
+            limits_of(cx, &path, &Ordered::default(), &duties, b)?;
             if cx.only_checks {
                 Input::all(cx, &path, &self.inputs, b)?;
             }
@@ -189,20 +190,20 @@ fn range_differences(cycles: &mut [DutyOfSet], count: usize) {
 
 /// Notes what the limits of the study reach in the cycles of a set.
 fn note_limits(cx: &Context<'_>, b: &Built<'_>, duties: &Duties<'_>, driven: &[Driven]) -> Result<(), Stopped> {
-    let limits = Limit::of_study(cx, Some(duties), b)?;
+    let limits = limits_of(cx, &cx.path(), &Ordered::default(), duties, b)?;
     if limits.is_empty() {
         return Ok(());
     }
     let t = &b.transmission;
     let mut rated = Vec::new();
-    if let Some(ratings) = limits::ratings(cx, &limits, b)? {
+    if let Some(ratings) = at_points::ratings(cx.scope(b), &limits, b.gearbox, &b.resolved)? {
         for (read, driven) in duties.list.iter().zip(driven) {
             let own = ratings::over_cycle(t, &ratings, &duties.ride(t, read), driven);
             rated.push(own.map_err(|list| b.gearbox.findings(list))?);
         }
     }
     let driven: Vec<&Driven> = driven.iter().collect();
-    cx.note_limits(&b.name, &limits, limits::reached(&limits, duties, t, &driven, &rated));
+    cx.note_limits(&b.name, &limits, reached(&limits, duties, t, &driven, &rated));
     Ok(())
 }
 

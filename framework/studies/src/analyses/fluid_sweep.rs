@@ -10,13 +10,14 @@ use serde_json::Value;
 
 use self::swept::Swept;
 use super::duties::{Duties, MeanLoss, Unfinished, mean_losses_of, sums_energies};
-use super::limits::{self, Limit, LimitEntry, LimitRecord};
+use super::limits::over_cycles::{built, limits_of, values, violation};
+use super::limits::{Limit, LimitRecord};
 use super::shares::together;
 use super::trial::{Left, Trial};
 use super::{Analysis, Built, Context, Head, Outcome, Stopped};
 use crate::points::Note;
 use crate::register_analysis;
-use crate::study::{By, DriveEntry, Uses, Write};
+use crate::study::{By, DriveEntry, LimitEntry, Uses, Write};
 use crate::table::Table;
 
 pub use least::LeastLoss;
@@ -198,7 +199,7 @@ impl Analysis for FluidSweepEntry {
             duties.check(cx, &path, b)?;
             let swept = Swept::new(cx, &path, self, b)?;
             let values = swept.values(cx, &path, self)?;
-            let limits = Limit::all(cx, &path, &self.limits, &duties, b)?;
+            let limits = limits_of(cx, &path, &self.limits, &duties, b)?;
             let mut search = Search {
                 cx,
                 entry: self,
@@ -299,9 +300,9 @@ impl Search<'_> {
 
     /// Mean loss of each cycle, limited quantities, and quantities outside their stated ranges.
     fn mean_losses(&self, overrides: Vec<(String, Value)>) -> Result<(Vec<MeanLoss>, Vec<f64>, Left), String> {
-        let (t, ratings) = limits::built(&self.trial, self.limits, overrides)?;
+        let (t, ratings) = built(&self.trial, self.limits, overrides)?;
         let driven = self.duties.drive_all(self.cx, &t).map_err(Unfinished::text)?;
-        let limited = limits::values(self.limits, self.duties, &t, ratings.as_ref(), &driven)?;
+        let limited = values(self.limits, self.duties, &t, ratings.as_ref(), &driven)?;
         let (losses, left) = mean_losses_of(&t, &driven, self.entry.by, self.names);
         Ok((losses, limited, left))
     }
@@ -331,7 +332,7 @@ impl Search<'_> {
         let kept = self
             .fluids
             .iter()
-            .filter(|own| limits::violation(self.limits, &own.limited) == 0.0);
+            .filter(|own| violation(self.limits, &own.limited) == 0.0);
         let least = kept.min_by(|a, b| a.losses[duty].loss.total_cmp(&b.losses[duty].loss));
         let least = least.filter(|_| !self.limits.is_empty());
         least.map(|own| OilWithinLimits {
@@ -357,7 +358,7 @@ impl Search<'_> {
                 beyond_definition: self.swept.is_beyond(f.value),
                 refined: f.refined,
                 limited: f.limited.iter().map(|x| Some(*x).filter(|x| x.is_finite())).collect(),
-                keeps_limits: limits::violation(self.limits, &f.limited) == 0.0,
+                keeps_limits: violation(self.limits, &f.limited) == 0.0,
             }
         };
         let duties = self.duties.list.iter().enumerate();

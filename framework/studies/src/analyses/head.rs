@@ -11,7 +11,7 @@ use serde::Serialize;
 use serde_json::Value;
 
 use super::context::{Built, Context};
-use super::limits::LimitReached;
+use super::limits::reached::LimitReached;
 use crate::study::Study;
 
 /// The head of every result.

@@ -1,84 +1,23 @@
 //! Limits of quantities, which points, cycles, designs and oils must keep.
 
-mod at_points;
-mod over_cycles;
-mod reached;
+pub mod at_points;
+pub mod over_cycles;
+pub mod reached;
 
 use gearloss_framework::attach::dangling;
 use gearloss_framework::description::Ordered;
 use gearloss_framework::document::{Diagnostic, Dimension, Unit, parse_quantity};
+use gearloss_framework::gearbox::Findings;
+use gearloss_framework::language::Language;
 use gearloss_framework::rating::Figure;
 use gearloss_framework::resolve::meets;
 use gearloss_framework::transmission::Transmission;
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use serde_json::Value;
 
-use crate::analyses::duties::Duties;
-use crate::analyses::{Built, Context, Stopped};
-
-pub use self::at_points::{LimitColumn, Watch, ratings};
-pub use self::over_cycles::{built, mean_loss, reached, values, violation};
-pub use self::reached::{LimitReached, Place, Reached};
-
-/// A bound of a quantity, at each point or over all cycles.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
-pub struct LimitEntry {
-    /// Limited quantity.
-    pub quantity: LimitedQuantity,
-    /// What it belongs to: a node of the thermal network, a cycle, a gear, a component or several (`bearings.*`). Default: the oil, every
-    /// cycle, the first gear, every component. A loss and an efficiency are those of the gearbox.
-    pub of: Option<String>,
-    /// Rating and symbol, for the quantity `rating`: `iso_281.L10h`; `gearloss models rating` lists them.
-    pub rating: Option<String>,
-    /// Least allowed value, with its unit: `20 degC`.
-    pub least: Option<Value>,
-    /// Greatest allowed value, with its unit: `110 degC`.
-    pub most: Option<Value>,
-    /// What follows if it is not kept: a warning, or an error with which `gearloss run` ends after it has written all results.
-    #[serde(default)]
-    pub severity: Severity,
-}
-
-/// What follows if a limit is not kept.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Severity {
-    /// A warning.
-    #[default]
-    Warning,
-    /// `gearloss run` ends with the exit code of a finding.
-    Error,
-}
-
-/// A quantity that can be limited.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum LimitedQuantity {
-    /// The temperature of the oil or a node: at a point, or the highest in any cycle (the lowest for a least value).
-    Temperature,
-    /// The loss at a point, or at the worst moment of any cycle.
-    Loss,
-    /// The efficiency at a point, or the energy delivered over the energy received in a cycle.
-    Efficiency,
-    /// The mean loss of a cycle.
-    MeanLoss,
-    /// The ratio of a gear: speed of the reference port over that of the first other port.
-    Ratio,
-    /// A quantity of a rating: at a point, or over each cycle a life after Palmgren and Miner, the minimum or the maximum of the others.
-    Rating,
-}
-
-impl LimitedQuantity {
-    /// Symbol of its unit; that of a rating is its own.
-    fn unit(self) -> &'static str {
-        match self {
-            Self::Temperature => "degC",
-            Self::MeanLoss | Self::Loss => "W",
-            Self::Ratio | Self::Rating | Self::Efficiency => "-",
-        }
-    }
-}
+use crate::codes;
+use crate::study::{LimitEntry, LimitedQuantity, Severity, Study};
 
 /// A limit with the value of the design or oil as described.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
@@ -136,11 +75,27 @@ enum Owner {
     },
 }
 
-/// The index of a cycle of an analysis.
-pub fn cycle(cx: &Context<'_>, path: &str, name: &str, duties: &Duties<'_>) -> Result<usize, Stopped> {
-    let names: Vec<&str> = duties.list.iter().map(|read| read.name.as_str()).collect();
-    let place = names.iter().position(|own| *own == name);
-    place.ok_or_else(|| cx.found(vec![dangling(path, "cycle of this analysis", name, &names)]))
+/// What the limits of a study are read for.
+#[derive(Clone, Copy)]
+pub struct Scope<'a> {
+    /// The language of all documents.
+    pub language: &'a Language,
+    /// The study.
+    pub study: &'a Study,
+    /// The transmission whose quantities are limited.
+    pub transmission: &'a Transmission,
+    /// Names of the cycles of the analysis; `None` at points.
+    pub cycles: Option<&'a [&'a str]>,
+}
+
+impl Scope<'_> {
+    fn wrong(&self, path: &str, message: impl Into<String>, help: &str) -> Findings {
+        self.found(Diagnostic::error(path, message.into()).help(help).code(codes::ANALYSIS))
+    }
+
+    fn found(&self, error: Diagnostic) -> Findings {
+        self.study.findings(vec![error])
+    }
 }
 
 impl Limit {
@@ -148,57 +103,37 @@ impl Limit {
     ///
     /// # Errors
     /// Everything that is wrong in the first wrong entry.
-    pub fn all(
-        cx: &Context<'_>,
-        path: &str,
-        entries: &Ordered<LimitEntry>,
-        duties: &Duties<'_>,
-        b: &Built<'_>,
-    ) -> Result<Vec<Self>, Stopped> {
-        let mut all = Self::of_study(cx, Some(duties), b)?;
+    pub fn all(scope: Scope<'_>, path: &str, entries: &Ordered<LimitEntry>) -> Result<Vec<Self>, Findings> {
+        let mut all = Self::of_study(scope)?;
         all.retain(|limit| entries.get(&limit.name).is_none());
         for (name, entry) in entries.iter() {
-            all.push(Self::new(
-                cx,
-                &format!("{path}.limits.{name}"),
-                name,
-                entry,
-                Some(duties),
-                b,
-            )?);
+            all.push(Self::new(scope, &format!("{path}.limits.{name}"), name, entry)?);
         }
         Ok(all)
     }
 
-    /// The limits of the study, with the cycles of an analysis if it has some.
+    /// The limits of the study.
     ///
     /// # Errors
     /// Everything that is wrong in the first wrong entry.
-    pub fn of_study(cx: &Context<'_>, duties: Option<&Duties<'_>>, b: &Built<'_>) -> Result<Vec<Self>, Stopped> {
-        let entries = cx.study.entry.limits.iter();
+    pub fn of_study(scope: Scope<'_>) -> Result<Vec<Self>, Findings> {
+        let entries = scope.study.entry.limits.iter();
         entries
-            .map(|(name, entry)| Self::new(cx, &format!("limits.{name}"), name, entry, duties, b))
+            .map(|(name, entry)| Self::new(scope, &format!("limits.{name}"), name, entry))
             .collect()
     }
 
-    fn new(
-        cx: &Context<'_>,
-        path: &str,
-        name: &str,
-        entry: &LimitEntry,
-        duties: Option<&Duties<'_>>,
-        b: &Built<'_>,
-    ) -> Result<Self, Stopped> {
-        let t = &b.transmission;
+    fn new(scope: Scope<'_>, path: &str, name: &str, entry: &LimitEntry) -> Result<Self, Findings> {
+        let t = scope.transmission;
         let rated = match (entry.quantity, &entry.rating) {
-            (LimitedQuantity::Rating, Some(rating)) => Some(known_rating(cx, &format!("{path}.rating"), rating)?),
+            (LimitedQuantity::Rating, Some(rating)) => Some(known_rating(scope, &format!("{path}.rating"), rating)?),
             (LimitedQuantity::Rating, None) => {
                 let help = "write for example `rating: iso_281.L10h`";
-                return Err(cx.wrong(path, "`rating` is missing", help));
+                return Err(scope.wrong(path, "`rating` is missing", help));
             }
             (_, Some(_)) => {
                 let message = "`rating` belongs to the quantity `rating`";
-                return Err(cx.wrong(
+                return Err(scope.wrong(
                     &format!("{path}.rating"),
                     message,
                     "write `quantity: rating`, or delete it",
@@ -211,41 +146,41 @@ impl Limit {
         let of = &format!("{path}.of");
         let of = match (entry.quantity, entry.of.as_deref()) {
             (LimitedQuantity::Temperature, None) => Owner::Oil,
-            (LimitedQuantity::Temperature, Some(node)) => Owner::Node(known_node(cx, of, node, t)?),
+            (LimitedQuantity::Temperature, Some(node)) => Owner::Node(known_node(scope, of, node)?),
             (LimitedQuantity::MeanLoss, None) => Owner::AllCycles,
-            (LimitedQuantity::MeanLoss, Some(name)) => known_cycle(cx, of, name, duties)?,
+            (LimitedQuantity::MeanLoss, Some(name)) => known_cycle(scope, of, name)?,
             (LimitedQuantity::Loss | LimitedQuantity::Efficiency, None) => Owner::Gearbox,
             (LimitedQuantity::Loss | LimitedQuantity::Efficiency, Some(_)) => {
-                return Err(cx.wrong(of, "a loss and an efficiency are those of the gearbox", "delete `of`"));
+                return Err(scope.wrong(of, "a loss and an efficiency are those of the gearbox", "delete `of`"));
             }
             (LimitedQuantity::Rating, own) => Owner::Rating {
                 rating: rated.map_or("", |(rating, _)| rating),
                 symbol: rated.map_or("", |(_, figure)| figure.symbol),
-                components: known_components(cx, of, own.unwrap_or("*"), t)?,
+                components: known_components(scope, of, own.unwrap_or("*"))?,
             },
             (LimitedQuantity::Ratio, None) => Owner::Gear(0),
             (LimitedQuantity::Ratio, Some(gear)) => {
                 let names: Vec<&str> = t.states().iter().map(|state| state.name.as_str()).collect();
                 let place = names.iter().position(|own| *own == gear);
-                Owner::Gear(place.ok_or_else(|| cx.found(vec![dangling(of, "gear state", gear, &names)]))?)
+                Owner::Gear(place.ok_or_else(|| scope.found(dangling(of, "gear state", gear, &names)))?)
             }
         };
-        let bound = |key: &str, value: &Option<Value>| -> Result<Option<f64>, Stopped> {
+        let bound = |key: &str, value: &Option<Value>| -> Result<Option<f64>, Findings> {
             let number = value.as_ref().map(|value| quantity(value, unit));
             let help = format!("write it as a {}", unit.dimension.name());
             let number = number.transpose();
-            number.map_err(|reason| cx.wrong(&format!("{path}.{key}"), reason, &help))
+            number.map_err(|reason| scope.wrong(&format!("{path}.{key}"), reason, &help))
         };
         let bounds = [bound("least", &entry.least)?, bound("most", &entry.most)?];
         match bounds {
-            [None, None] => Err(cx.wrong(
+            [None, None] => Err(scope.wrong(
                 path,
                 "a limit needs `least` or `most`",
                 "write for example `most: 110 degC`",
             )),
             [Some(least), Some(most)] if least > most => {
                 let message = format!("no value is above {least} and below {most}");
-                Err(cx.wrong(path, message, "exchange `least` and `most`"))
+                Err(scope.wrong(path, message, "exchange `least` and `most`"))
             }
             _ => Ok(Self {
                 name: name.to_owned(),
@@ -325,53 +260,57 @@ impl Limit {
 }
 
 /// A cycle of an analysis; one of the study that the analysis does not have limits nothing.
-fn known_cycle(cx: &Context<'_>, path: &str, name: &str, duties: Option<&Duties<'_>>) -> Result<Owner, Stopped> {
-    let place = duties.and_then(|duties| duties.list.iter().position(|read| read.name == name));
-    match (place, duties) {
-        (Some(place), _) => Ok(Owner::Cycle(place)),
-        (None, _) if path.starts_with("limits.") && cx.study.entry.cycles.get(name).is_some() => Ok(Owner::OtherCycle),
-        (None, Some(duties)) => cycle(cx, path, name, duties).map(Owner::Cycle),
-        (None, None) => {
-            let names: Vec<&str> = cx.study.entry.cycles.ids().collect();
-            Err(cx.found(vec![dangling(path, "cycle of this study", name, &names)]))
-        }
+fn known_cycle(scope: Scope<'_>, path: &str, name: &str) -> Result<Owner, Findings> {
+    let of_study = || scope.study.entry.cycles.ids().collect::<Vec<_>>();
+    if let Some(place) = scope
+        .cycles
+        .and_then(|cycles| cycles.iter().position(|own| *own == name))
+    {
+        return Ok(Owner::Cycle(place));
+    }
+    if path.starts_with("limits.") && of_study().contains(&name) {
+        return Ok(Owner::OtherCycle);
+    }
+    match scope.cycles {
+        Some(cycles) => Err(scope.found(dangling(path, "cycle of this analysis", name, cycles))),
+        None => Err(scope.found(dangling(path, "cycle of this study", name, &of_study()))),
     }
 }
 
 /// A pattern of components, which one of the gearbox meets. In a study with several gearboxes it may belong to another one.
-fn known_components(cx: &Context<'_>, path: &str, pattern: &str, t: &Transmission) -> Result<String, Stopped> {
-    let own = || t.parts().iter().map(|part| part.path.as_str());
-    if pattern == "*" || own().any(|part| meets(pattern, part)) || cx.study.gearboxes.len() > 1 {
+fn known_components(scope: Scope<'_>, path: &str, pattern: &str) -> Result<String, Findings> {
+    let own = || scope.transmission.parts().iter().map(|part| part.path.as_str());
+    if pattern == "*" || own().any(|part| meets(pattern, part)) || scope.study.gearboxes.len() > 1 {
         return Ok(pattern.to_owned());
     }
     let names: Vec<&str> = own().collect();
-    Err(cx.found(vec![dangling(path, "component", pattern, &names)]))
+    Err(scope.found(dangling(path, "component", pattern, &names)))
 }
 
-fn known_node(cx: &Context<'_>, path: &str, node: &str, t: &Transmission) -> Result<String, Stopped> {
-    let names: Vec<&str> = match t.network() {
+fn known_node(scope: Scope<'_>, path: &str, node: &str) -> Result<String, Findings> {
+    let names: Vec<&str> = match scope.transmission.network() {
         Some(network) => network.names().iter().map(String::as_str).collect(),
         None => vec!["oil"],
     };
     if names.contains(&node) {
         return Ok(node.to_owned());
     }
-    Err(cx.found(vec![dangling(path, "node", node, &names)]))
+    Err(scope.found(dangling(path, "node", node, &names)))
 }
 
 /// A rating and its quantity, of `RATING.SYMBOL`.
-fn known_rating(cx: &Context<'_>, path: &str, written: &str) -> Result<(&'static str, Figure), Stopped> {
+fn known_rating(scope: Scope<'_>, path: &str, written: &str) -> Result<(&'static str, Figure), Findings> {
     let (rating, symbol) = written.split_once('.').unwrap_or((written, ""));
-    let plugin = cx.language.registry().rating_named(rating).map_err(|error| {
-        cx.found(vec![Diagnostic {
+    let plugin = scope.language.registry().rating_named(rating).map_err(|error| {
+        scope.found(Diagnostic {
             path: path.to_owned(),
             ..error
-        }])
+        })
     })?;
     let figure = plugin.figures.iter().find(|figure| figure.symbol == symbol);
     let figure = figure.ok_or_else(|| {
         let symbols: Vec<&str> = plugin.figures.iter().map(|figure| figure.symbol).collect();
-        cx.found(vec![dangling(path, "quantity of this rating", symbol, &symbols)])
+        scope.found(dangling(path, "quantity of this rating", symbol, &symbols))
     })?;
     Ok((plugin.entry.name, *figure))
 }

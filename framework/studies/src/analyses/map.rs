@@ -26,7 +26,7 @@ use self::export::ExportData;
 use self::plan::{Planned, on_grid};
 use self::points::{RowsOf, Taken, Taker, UndefinedLoss};
 use self::shown::Selection;
-use super::limits::LimitColumn;
+use super::limits::at_points::LimitColumn;
 use super::{Analysis, Built, Context, Stopped};
 use crate::distinct::distinct;
 use crate::measured::Measured;
@@ -254,7 +254,7 @@ impl<'c> Rows<'c> {
     fn new(cx: &'c Context<'c>, entry: &MapEntry, bound: &[String], all: &[&Built<'_>]) -> Self {
         let parts = all.iter().flat_map(|built| built.transmission.parts());
         let parts: Vec<String> = distinct(parts.map(|part| &part.path)).into_iter().cloned().collect();
-        let limits = LimitColumn::all(cx);
+        let limits = LimitColumn::all(cx.language, cx.study);
         Self {
             table: RowsOf::none(bound, &parts, &limits).table(cx.name, []),
             limits,

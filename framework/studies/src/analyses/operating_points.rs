@@ -6,7 +6,7 @@ use gearloss_framework::thermal;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::limits::LimitColumn;
+use super::limits::at_points::LimitColumn;
 use super::numbers::{RPM, tidy};
 use super::rows::Solved;
 use super::shares::{Shares, together};
@@ -182,7 +182,7 @@ impl Analysis for OperatingPointsEntry {
         cx.begin()?;
         let built: Vec<&Built<'_>> = all.iter().flat_map(|s| &s.built).collect();
         let shares = together(built.iter().map(|b| &b.transmission), self.by);
-        let limits = LimitColumn::all(cx);
+        let limits = LimitColumn::all(cx.language, cx.study);
         Ok(OperatingPointsOutcome {
             head: cx.head(&built),
             operating_points: all.iter().map(|s| self.of_set(&listed, s, &shares, &limits)).collect(),

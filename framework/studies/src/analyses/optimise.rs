@@ -21,11 +21,11 @@ use self::search::Search;
 use self::variables::Variable;
 use super::duties::Duties;
 use super::inputs::Input;
-use super::limits::{self, Limit, LimitEntry};
+use super::limits::over_cycles::{cycle, limits_of};
 use super::trial::Trial;
 use super::{Analysis, Context, Stopped};
 use crate::register_analysis;
-use crate::study::{DriveEntry, Then, ToleranceEntry, Uses, Write};
+use crate::study::{DriveEntry, LimitEntry, Then, ToleranceEntry, Uses, Write};
 
 /// The design with the least mean loss of cycles under limits: which change saves most?
 ///
@@ -114,7 +114,7 @@ impl Analysis for OptimiseEntry {
         duties.check(cx, &path, b)?;
         let variables = Variable::all(cx, &path, &self.variables, b)?;
         let objectives = self.objectives(cx, &duties)?;
-        let limits = Limit::all(cx, &path, &self.limits, &duties, b)?;
+        let limits = limits_of(cx, &path, &self.limits, &duties, b)?;
         let inputs = Input::all(cx, &path, &self.inputs, b)?;
         let drives = Drives {
             cx,
@@ -164,8 +164,7 @@ impl OptimiseEntry {
         if self.minimise.is_empty() {
             return Ok((0..duties.list.len()).collect());
         }
-        let index =
-            |(i, name): (usize, &String)| limits::cycle(cx, &format!("{}.minimise.{i}", cx.path()), name, duties);
+        let index = |(i, name): (usize, &String)| cycle(cx, &format!("{}.minimise.{i}", cx.path()), name, duties);
         self.minimise.iter().enumerate().map(index).collect()
     }
 }

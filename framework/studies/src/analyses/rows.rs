@@ -12,7 +12,6 @@ use gearloss_framework::transmission::Transmission;
 use gearloss_framework::variants::Variants;
 use serde_json::Value;
 
-use super::limits::Watch;
 use super::trial::{Left, Trial, left, why};
 use super::{Built, Context, Stopped};
 
@@ -147,7 +146,7 @@ impl Context<'_> {
                 resolved,
                 transmission,
             };
-            Watch::new(self, &built)?;
+            self.watch(&built)?;
         }
         Ok(())
     }
@@ -160,7 +159,7 @@ impl Context<'_> {
         solved: &mut [(usize, String, PointResult)],
     ) -> Result<(), Stopped> {
         for (place, b) in built.iter().enumerate() {
-            let Some(watch) = Watch::new(self, b)? else { continue };
+            let Some(watch) = self.watch(b)? else { continue };
             let gears = solved.iter().filter(|row| row.0 == place).map(|row| row.1.clone());
             for gear in distinct(gears) {
                 let own = solved.iter_mut().enumerate();

@@ -8,7 +8,7 @@ use serde::Deserialize;
 use serde_json::Value;
 
 use super::axes::{speeds, torques};
-use super::limits::LimitColumn;
+use super::limits::at_points::LimitColumn;
 use super::numbers::{RPM, tidy};
 use super::ranges::published;
 use super::shares::{Shares, together};
@@ -83,7 +83,7 @@ impl Analysis for SweepEntry {
                 .collect(),
             None => Vec::new(),
         };
-        let limits = LimitColumn::all(cx);
+        let limits = LimitColumn::all(cx.language, cx.study);
         let sweep: Vec<SweepOfValue> = all.iter().map(|value| self.record(value, &shares, &limits)).collect();
         Ok(SweepOutcome {
             head: cx.head(&all.iter().map(|value| &value.built).collect::<Vec<_>>()),

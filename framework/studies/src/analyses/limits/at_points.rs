@@ -3,15 +3,18 @@
 use gearloss_framework::description::Ordered;
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::evaluate::{ComponentRating, Point, Ratings, Solution};
+use gearloss_framework::gearbox::{Findings, Gearbox};
+use gearloss_framework::language::Language;
 use gearloss_framework::rating::Figure;
+use gearloss_framework::resolve::Resolved;
 use gearloss_framework::thermal::network::Network;
 use gearloss_framework::transmission::Transmission;
 
 use super::reached::{Place, Reached};
-use super::{Limit, LimitEntry, LimitedQuantity, Owner, words};
+use super::{Limit, Owner, Scope, words};
 use crate::analyses::numbers::{RPM, tidy};
-use crate::analyses::{Built, Context, Stopped};
 use crate::points::{Numbered, PointResult, Points};
+use crate::study::{LimitEntry, LimitedQuantity, Study};
 
 /// The limits of the study that apply to points, for one gearbox with its models.
 pub struct Watch {
@@ -25,13 +28,13 @@ impl Watch {
     ///
     /// # Errors
     /// Wrong limits, and ratings that cannot be built.
-    pub fn new(cx: &Context<'_>, b: &Built<'_>) -> Result<Option<Self>, Stopped> {
-        let mut limits = Limit::of_study(cx, None, b)?;
+    pub fn new(scope: Scope<'_>, gearbox: &Gearbox, resolved: &Resolved) -> Result<Option<Self>, Findings> {
+        let mut limits = Limit::of_study(scope)?;
         limits.retain(|limit| limit.quantity != LimitedQuantity::MeanLoss);
         if limits.is_empty() {
             return Ok(None);
         }
-        let ratings = ratings(cx, &limits, b)?;
+        let ratings = ratings(scope, &limits, gearbox, resolved)?;
         Ok(Some(Self { limits, ratings }))
     }
 
@@ -116,11 +119,11 @@ pub struct LimitColumn {
 
 impl LimitColumn {
     /// The limits of a study at points, in the order of [`PointResult::limits`].
-    pub fn all(cx: &Context<'_>) -> Vec<Self> {
-        let entries = cx.study.entry.limits.iter();
+    pub fn all(language: &Language, study: &Study) -> Vec<Self> {
+        let entries = study.entry.limits.iter();
         let at_points = entries.filter(|(_, entry)| entry.quantity != LimitedQuantity::MeanLoss);
         let column = |(name, entry): (&str, &LimitEntry)| {
-            let figure = figure_of(cx, entry);
+            let figure = figure_of(language, entry);
             Self {
                 name: name.to_owned(),
                 words: words(entry, figure),
@@ -152,9 +155,9 @@ impl LimitColumn {
 }
 
 /// The quantity of a rating that an entry names.
-fn figure_of(cx: &Context<'_>, entry: &LimitEntry) -> Option<Figure> {
+fn figure_of(language: &Language, entry: &LimitEntry) -> Option<Figure> {
     let (rating, symbol) = entry.rating.as_ref()?.split_once('.')?;
-    let plugin = cx.language.registry().rating_named(rating).ok()?;
+    let plugin = language.registry().rating_named(rating).ok()?;
     plugin.figures.iter().find(|figure| figure.symbol == symbol).copied()
 }
 
@@ -162,12 +165,17 @@ fn figure_of(cx: &Context<'_>, entry: &LimitEntry) -> Option<Figure> {
 ///
 /// # Errors
 /// Ratings that cannot be built.
-pub fn ratings(cx: &Context<'_>, limits: &[Limit], b: &Built<'_>) -> Result<Option<Ratings>, Stopped> {
+pub fn ratings(
+    scope: Scope<'_>,
+    limits: &[Limit],
+    gearbox: &Gearbox,
+    resolved: &Resolved,
+) -> Result<Option<Ratings>, Findings> {
     if !limits.iter().any(Limit::is_rating) {
         return Ok(None);
     }
-    let mut ratings = b.gearbox.ratings(cx.language, &b.resolved, &b.transmission)?;
-    keep_limited(&mut ratings, limits, &b.transmission);
+    let mut ratings = gearbox.ratings(scope.language, resolved, scope.transmission)?;
+    keep_limited(&mut ratings, limits, scope.transmission);
     Ok(Some(ratings))
 }
 

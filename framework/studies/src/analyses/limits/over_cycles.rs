@@ -1,5 +1,7 @@
 //! Limited quantities over cycles.
 
+use gearloss_framework::attach::dangling;
+use gearloss_framework::description::Ordered;
 use gearloss_framework::evaluate::Ratings;
 use gearloss_framework::thermal::network::Network;
 use gearloss_framework::transmission::Transmission;
@@ -7,12 +9,40 @@ use serde_json::Value;
 
 use super::at_points::keep_limited;
 use super::reached::{Place, Reached};
-use super::{Limit, LimitedQuantity, Owner};
+use super::{Limit, Owner, Scope};
 use crate::analyses::cycle::RatedOverTime;
 use crate::analyses::cycle::ratings::over_cycle;
 use crate::analyses::duties::{Duties, nodes};
 use crate::analyses::trial::Trial;
+use crate::analyses::{Built, Context, Stopped};
 use crate::points::Driven;
+use crate::study::{LimitEntry, LimitedQuantity};
+
+/// The limits of an analysis of cycles at a path, after those of the study whose names it does not use.
+///
+/// # Errors
+/// Everything that is wrong in the first wrong entry.
+pub fn limits_of(
+    cx: &Context<'_>,
+    path: &str,
+    entries: &Ordered<LimitEntry>,
+    duties: &Duties<'_>,
+    b: &Built<'_>,
+) -> Result<Vec<Limit>, Stopped> {
+    let names: Vec<&str> = duties.list.iter().map(|read| read.name.as_str()).collect();
+    let scope = Scope {
+        cycles: Some(&names),
+        ..cx.scope(b)
+    };
+    Ok(Limit::all(scope, path, entries)?)
+}
+
+/// The index of a cycle of an analysis.
+pub fn cycle(cx: &Context<'_>, path: &str, name: &str, duties: &Duties<'_>) -> Result<usize, Stopped> {
+    let names: Vec<&str> = duties.list.iter().map(|read| read.name.as_str()).collect();
+    let place = names.iter().position(|own| *own == name);
+    place.ok_or_else(|| cx.found(vec![dangling(path, "cycle of this analysis", name, &names)]))
+}
 
 impl Limit {
     /// The limited value of a driven design, in the unit: of the worst moment, component and cycle. `rated` are the ratings over each cycle.

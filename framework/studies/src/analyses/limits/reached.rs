@@ -3,7 +3,8 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::{Limit, Severity};
+use super::Limit;
+use crate::study::Severity;
 
 /// A limit of the study over all points or cycles of an analysis with one model set.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]

@@ -9,7 +9,7 @@ use super::super::{Head, Outcome};
 use super::export::{ExportData, ExportName};
 use super::points::MapPoints;
 use super::shown::ShownMap;
-use crate::analyses::limits::LimitColumn;
+use crate::analyses::limits::at_points::LimitColumn;
 use crate::distinct::distinct;
 use crate::points::{Note, OilTemperature, WeakPoint};
 use crate::study::Envelope;

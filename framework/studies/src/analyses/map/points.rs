@@ -11,7 +11,7 @@ use serde::{Serialize, Serializer};
 use serde_json::Value;
 
 use super::super::Built;
-use super::super::limits::LimitColumn;
+use super::super::limits::at_points::LimitColumn;
 use super::super::numbers::{RPM, tidy, word};
 use super::shown::{Picked, Selection};
 use crate::points::{Field, Numbered, PointResult, SUMS, TotalLoss};

@@ -6,7 +6,8 @@ use serde_json::Value;
 
 use super::variables::Variable;
 use crate::analyses::duties::{Duties, Unfinished};
-use crate::analyses::limits::{self, Limit, mean_loss};
+use crate::analyses::limits::Limit;
+use crate::analyses::limits::over_cycles::{built, mean_loss, values, violation};
 use crate::analyses::trial::{Left, Trial, left};
 use crate::analyses::{Context, Stopped};
 
@@ -77,14 +78,14 @@ impl Drives<'_> {
     /// # Errors
     /// Why the gearbox cannot be built or driven.
     pub fn drive(&self, overrides: Vec<(String, Value)>) -> Result<Drive, String> {
-        let (t, ratings) = limits::built(&self.trial, self.limits, overrides)?;
+        let (t, ratings) = built(&self.trial, self.limits, overrides)?;
         let driven = self.duties.drive_all(self.cx, &t).map_err(Unfinished::text)?;
         Ok(Drive {
             losses: driven
                 .iter()
                 .map(|own| mean_loss(own).unwrap_or(f64::INFINITY))
                 .collect(),
-            limited: limits::values(self.limits, self.duties, &t, ratings.as_ref(), &driven)?,
+            limited: values(self.limits, self.duties, &t, ratings.as_ref(), &driven)?,
             left: driven.iter().flat_map(|own| left(&t, &own.seen)).collect(),
         })
     }
@@ -97,6 +98,6 @@ impl Drives<'_> {
 
     /// Sum of the violations of the limits.
     pub fn violation(&self, drive: &Drive) -> f64 {
-        limits::violation(self.limits, &drive.limited)
+        violation(self.limits, &drive.limited)
     }
 }

@@ -7,7 +7,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
 
-use crate::analyses::limits::LimitColumn;
+use crate::analyses::limits::at_points::LimitColumn;
 use crate::analyses::numbers::word;
 use crate::analyses::ranges::PublishedCoefficient;
 use crate::analyses::{Head, Outcome};
