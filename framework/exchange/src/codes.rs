@@ -17,7 +17,7 @@ gearloss_document::codes! {
     REXS_PART = "E0805", "part of a REXS model that gearbox files do not describe",
         cause: "The model contains worm, bevel or hypoid stages, shafts that are not parallel, or planets of one set that differ.",
         help: "Import a model without this part, or describe the gearbox by hand: `gearloss new gearbox` writes a template.";
-    REXS_DOUBT = "W0801", "doubtful value in a REXS model",
-        cause: "The file has another version than those that are known, or a value that is certainly wrong and has a usual value instead.",
-        help: "Check the values that the message names in the gearbox file.";
+    REXS_VERSION = "W0801", "unknown version of REXS",
+        cause: "The file has another version than those whose ids are known.",
+        help: "Check the report of the import for attributes that were not used.";
 }

@@ -38,8 +38,8 @@ pub use file::LONGEST_MODEL;
 use draft::{Coupling, Draft, Port};
 use file::Format;
 use loads::{Loads, gear_name};
-use map::{Map, id, one_line};
-use model::{Id, Model};
+use map::{Map, id, named, one_line};
+use model::Model;
 use source::{Source, counted};
 
 /// The newest version whose ids are known.
@@ -60,7 +60,7 @@ pub struct Imported {
     pub load_cases: Option<String>,
     /// What was taken, assumed, ignored and is missing, in lines.
     pub report: Vec<String>,
-    /// Doubtful values.
+    /// Warnings about the file.
     pub warnings: Findings,
 }
 
@@ -189,11 +189,18 @@ fn convert(source: &Source<'_>, title: String, language: &Language) -> Option<Im
                     "the version of the file is {shown}; 1.0 to {NEWEST} are known, and its ids were read as theirs"
                 ),
             )
-            .code(crate::codes::REXS_DOUBT)
+            .code(crate::codes::REXS_VERSION)
             .help("check the report for attributes that were not used"),
         );
     }
     let mut map = Map::new(source);
+    gears::check_stages(source);
+    if source.has_errors() {
+        return None;
+    }
+    map.find_supports();
+    map.connected = shafts::connected(&map);
+    map.sump = oil::sump(&map).map(|oil| id("lubricant", oil.id));
     shafts::check_axes(&map);
     map.forces = loads::forces(&map);
     let (gears, meshes, sets) = gears::gears(&mut map);
@@ -312,7 +319,7 @@ fn couplings(map: &Map<'_>, draft: &mut Draft) {
             .ids
             .iter()
             .filter_map(|id| source.component(*id))
-            .map(|c| map.named(c))
+            .map(named)
             .collect();
         draft.couplings.push(Coupling {
             id: name.clone(),
@@ -334,7 +341,7 @@ fn couplings(map: &Map<'_>, draft: &mut Draft) {
     if names.is_empty() {
         return;
     }
-    for gear in 0..count {
+    for (gear, number) in (0..count).zip(1..) {
         let engaged = names
             .iter()
             .filter(|(_, engaged)| match engaged {
@@ -343,7 +350,7 @@ fn couplings(map: &Map<'_>, draft: &mut Draft) {
             })
             .map(|(name, _)| name.clone())
             .collect();
-        draft.states.push((gear_name(gear as Id + 1), engaged));
+        draft.states.push((gear_name(number), engaged));
     }
 }
 
@@ -386,17 +393,7 @@ fn missing(map: &Map<'_>, draft: &mut Draft) {
 /// The lines of the report.
 fn report(map: &Map<'_>, cases: usize) -> Vec<String> {
     let source = map.source;
-    // Planets that are copies, and what is on them.
-    let copied: BTreeSet<Id> = source
-        .model
-        .components
-        .keys()
-        .copied()
-        .filter(|id| {
-            let on = map.shaft_of.get(id).copied().unwrap_or(*id);
-            map.members.of(on).is_some_and(|member| map.copies.contains(&member))
-        })
-        .collect();
+    let copied = map.copied_parts();
     let unused = source.unused(&copied);
     let total: usize = unused.values().sum();
     let mut lines = vec![format!(

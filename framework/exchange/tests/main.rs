@@ -1,1 +1,10 @@
-fn main() {}
+//! The tests of the exchange of files, as one program.
+#![allow(clippy::unwrap_used)]
+
+mod common;
+mod formats;
+mod fuzz;
+mod hostile;
+mod models;
+mod renames;
+mod written;

@@ -4,6 +4,7 @@
 const COMPONENTS: &[(&str, &str)] = &[
     ("flank_geometry", "cylindrical_gear_flank"),
     ("stage_gear_data", "cylindrical_stage_gear_data"),
+    ("fixed_coupling", "coupling"),
 ];
 
 /// Attributes: old id, id in 2.0, component types with that meaning of the old id; none for all.

@@ -1,11 +1,13 @@
 //! Bearings, with the catalogue of the program for their designations.
 
+use std::collections::BTreeSet;
+
 use gearloss_framework::language::Language;
 use gearloss_framework::resolve::{CatalogueTable, without_suffix};
 use serde_json::Value;
 
 use super::draft::Bearing;
-use super::map::{Map, id, one_line};
+use super::map::{Map, id, named, one_line};
 use super::model::{Component, Id};
 use super::units::Quantity;
 
@@ -41,11 +43,12 @@ const RIGID: f64 = 1e9;
 pub fn bearings(map: &Map<'_>, language: &Language) -> (Vec<Bearing>, Vec<(Vec<String>, String)>) {
     let source = map.source;
     let (mut bearings, mut assumed) = (Vec::new(), Vec::new());
+    let placed: BTreeSet<Id> = source
+        .relations("side")
+        .filter_map(|side| side.role("assembly"))
+        .collect();
     for component in source.model.components.values() {
-        let is_bearing = component.kind.contains("bearing")
-            && source
-                .relations("side")
-                .any(|side| side.role("assembly") == Some(component.id));
+        let is_bearing = component.kind.contains("bearing") && placed.contains(&component.id);
         let holds = component.kind == "concept_bearing" || component.kind.starts_with("rolling_bearing_with");
         if !is_bearing && holds {
             source.note(format!("{} has no relation `side` and was ignored", component.label()));
@@ -72,6 +75,7 @@ fn bearing(
     let (inside, outside) = (member(inner), member(outer));
     // A shaft around a fixed pin is supported by the housing, too; its thrust has the other sign.
     let (shaft, around, flipped) = match (inside, outside) {
+        (Some(inside), Some(outside)) if is_carried(map, outside, inside) => (outside, Some(inside), true),
         (Some(inside), around) => (inside, around, false),
         (None, Some(outside)) => (outside, None, true),
         (None, None) => {
@@ -105,7 +109,7 @@ fn bearing(
     };
     let own = id("bearing", component.id);
     let mut bearing = Bearing {
-        comment: map.named(component),
+        comment: named(component),
         shaft: map.member_name(shaft),
         outer: around.map(|member| map.member_name(member)),
         at: map.frame.coordinates(pose.origin)[0],
@@ -140,6 +144,14 @@ fn bearing(
     catalogue(map, language, component, &mut bearing);
     placeholders(map, [inner, outer], component, &mut bearing, assumed);
     Some(bearing)
+}
+
+/// True if a bearing between two shafts supports the outer one: `shaft` of a bearing is the one that it supports. Planets and loose gears are
+/// supported either way.
+fn is_carried(map: &Map<'_>, outer: Id, inner: Id) -> bool {
+    let is_free = |member: &Id| map.planets.contains(member) || map.loose.contains_key(member);
+    let count = |member: Id| map.housing_bearings.get(&member).copied().unwrap_or(0);
+    ![outer, inner].iter().any(is_free) && count(outer) < count(inner)
 }
 
 /// The directions in which a bearing takes thrust of its shaft.
@@ -257,12 +269,12 @@ fn catalogue(map: &Map<'_>, language: &Language, component: &Component, bearing:
     };
     let shown = one_line(written, 60);
     let table = language.catalogue("bearings");
-    let row = table.and_then(|table| match table.0.get_key_value(written) {
-        Some((name, row)) => Some((name.as_str(), "", row)),
-        None => {
-            let (base, suffix) = without_suffix(written, table.0.keys().map(String::as_str))?;
-            Some((base, suffix, table.0.get(base)?))
+    let row = table.and_then(|table| {
+        if let Some((name, row)) = table.0.get_key_value(written) {
+            return Some((name.as_str(), "", row));
         }
+        let (base, suffix) = without_suffix(written, table.0.keys().map(String::as_str))?;
+        Some((base, suffix, table.0.get(base)?))
     });
     let Some((base, suffix, row)) = row else {
         bearing.designation = Some(shown.clone());

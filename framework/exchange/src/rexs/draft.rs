@@ -74,6 +74,8 @@ pub struct Gear {
     pub z: i64,
     pub facewidth: f64,
     pub ring: bool,
+    /// Turns on its shaft until a coupling connects it.
+    pub loose: bool,
     pub hand: Option<&'static str>,
     pub profile_shift: Option<f64>,
     pub tip_diameter: Option<f64>,
@@ -119,6 +121,10 @@ pub struct Bearing {
     pub outer: Option<String>,
     pub at: f64,
     pub axial: &'static str,
+    /// Share of the thrust, if several bearings take it.
+    pub axial_share: Option<f64>,
+    /// Supports a shaft alone.
+    pub takes_moment: bool,
     pub designation: Option<String>,
     pub kind: Option<&'static str>,
     pub series: Option<String>,

@@ -21,7 +21,7 @@ pub enum Format {
 
 /// The text of a model.
 #[derive(Debug)]
-pub struct Text {
+pub struct Document {
     /// Name of the file, with that of the entry in an archive.
     pub name: String,
     pub text: String,
@@ -29,7 +29,7 @@ pub struct Text {
 }
 
 /// The text of a file.
-pub fn text(bytes: &[u8], name: &str) -> Result<Text, Diagnostic> {
+pub fn text(bytes: &[u8], name: &str) -> Result<Document, Diagnostic> {
     if bytes.starts_with(b"PK") {
         let (entry, bytes) = unpacked(bytes)?;
         return plain(&bytes, format!("{name}: {entry}"));
@@ -37,7 +37,7 @@ pub fn text(bytes: &[u8], name: &str) -> Result<Text, Diagnostic> {
     plain(bytes, name.to_owned())
 }
 
-fn plain(bytes: &[u8], name: String) -> Result<Text, Diagnostic> {
+fn plain(bytes: &[u8], name: String) -> Result<Document, Diagnostic> {
     if bytes.len() as u64 > LONGEST_MODEL {
         return Err(too_long());
     }
@@ -47,7 +47,7 @@ fn plain(bytes: &[u8], name: String) -> Result<Text, Diagnostic> {
     })?;
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     match format(text.as_bytes()) {
-        Some(format) => Ok(Text {
+        Some(format) => Ok(Document {
             name,
             text: text.to_owned(),
             format,

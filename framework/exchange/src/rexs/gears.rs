@@ -3,11 +3,13 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::draft::{Gear, Mesh, Set};
-use super::map::{Map, id};
+use super::map::{Map, id, named};
 use super::model::{Component, Id};
-use super::pair::{distance, matching_shift};
+use super::pair::{Basic, distance, matching_shift};
 use super::pose::{cross, dot, sum, unit};
+use super::source::Source;
 use super::units::Quantity;
+use super::yaml::number;
 use crate::codes;
 
 /// Difference of centre distances that is rounding. \[mm\]
@@ -50,7 +52,7 @@ pub fn read<'a>(map: &Map<'a>) -> BTreeMap<Id, ReadGear<'a>> {
             source.error(
                 component,
                 codes::REXS_MODEL,
-                "it is on no shaft: there is no relation `assembly` with it",
+                "it is on no shaft: there is no relation `assembly` or `side` with it",
                 "put the gear on a shaft in the program that exported the model",
             );
             continue;
@@ -134,27 +136,28 @@ fn flanks(map: &Map<'_>, gear: &Component) -> [Option<f64>; 2] {
     ]
 }
 
-/// All pairs of gears; stages that gearbox files do not describe are errors.
+/// Reports stages that gearbox files do not describe.
+pub fn check_stages(source: &Source<'_>) {
+    for stage in source.model.components.values() {
+        let what = match stage.kind.as_str() {
+            "worm_stage" => "worm stages",
+            "bevel_stage" => "bevel and hypoid stages",
+            _ => continue,
+        };
+        source.error(
+            stage,
+            codes::REXS_PART,
+            &format!("{what} are not described yet"),
+            "gearbox files describe spur and helical gears on parallel shafts; export a model of these stages alone",
+        );
+    }
+}
+
+/// All pairs of gears.
 fn pairs<'a>(map: &Map<'a>, gears: &BTreeMap<Id, ReadGear<'a>>) -> Vec<Pair<'a>> {
     let source = map.source;
     let mut pairs = Vec::new();
-    for stage in source.model.components.values() {
-        let refused = match stage.kind.as_str() {
-            "cylindrical_stage" => None,
-            "worm_stage" => Some("worm stages"),
-            "bevel_stage" => Some("bevel and hypoid stages"),
-            "rack_and_pinion_stage" | "beveloid_stage" => Some("rack and beveloid stages"),
-            _ => continue,
-        };
-        if let Some(what) = refused {
-            source.error(
-                stage,
-                codes::REXS_PART,
-                &format!("{what} are not described yet"),
-                "gearbox files describe spur and helical gears on parallel shafts; import a model of those stages",
-            );
-            continue;
-        }
+    for stage in source.components("cylindrical_stage") {
         let relation = source
             .relations("stage")
             .find(|relation| relation.role("stage") == Some(stage.id));
@@ -240,8 +243,8 @@ fn written_gear(map: &Map<'_>, gear: &ReadGear<'_>, hand: Option<&'static str>, 
         source.note(format!(
             "{}: {id} {} mm does not fit the reference diameter {} mm and was ignored",
             component.label(),
-            super::yaml::number(stated),
-            super::yaml::number((reference * 1e3).round() / 1e3)
+            number(stated),
+            number((reference * 1e3).round() / 1e3)
         ));
         None
     };
@@ -263,13 +266,14 @@ fn written_gear(map: &Map<'_>, gear: &ReadGear<'_>, hand: Option<&'static str>, 
         source.note(format!(
             "{}: the bulk temperature {} degC was not used: gearbox files state that of the oil",
             component.label(),
-            super::yaml::number(temperature)
+            number(temperature)
         ));
     }
     Gear {
         id: id(if gear.ring { "ring" } else { "gear" }, component.id),
-        comment: map.named(component),
-        shaft: map.member_name(gear.member),
+        comment: named(component),
+        shaft: map.member_name(map.loose.get(&gear.member).copied().unwrap_or(gear.member)),
+        loose: map.loose.contains_key(&gear.member),
         at: gear.at,
         z: gear.z,
         facewidth: gear.facewidth,
@@ -293,105 +297,31 @@ fn mesh(
     let source = map.source;
     // A ring is the second gear.
     let (a, b) = if a.ring { (b, a) } else { (a, b) };
-    let refuse = |message: &str| {
+    if let Some(message) = mismatch(a, b) {
         source.error(
             stage,
             codes::REXS_MODEL,
-            message,
+            &message,
             "correct the gears in the program that exported the model",
         );
-        None::<Mesh>
-    };
-    if a.ring {
-        return refuse("both of its gears have internal teeth");
+        return None;
     }
-    if a.member == b.member {
-        return refuse("both of its gears are on one shaft");
-    }
-    if (a.normal_module - b.normal_module).abs() > 1e-6 {
-        return refuse(&format!(
-            "its gears have the normal modules {} and {} mm",
-            a.normal_module, b.normal_module
-        ));
-    }
-    // Of an external pair the hands differ. The sign of a ring is not relied on.
-    let sum = if b.ring {
-        a.helix.abs() - b.helix.abs()
-    } else {
-        a.helix + b.helix
-    };
-    if sum.abs() > 1e-4 {
-        return refuse(&format!(
-            "its gears have the helix angles {} and {} deg",
-            a.helix, b.helix
-        ));
-    }
-    let (angle_a, angle_b) = (a.pressure_angle, b.pressure_angle);
-    if let (Some(a), Some(b)) = (angle_a, angle_b)
-        && (a - b).abs() > 1e-6
-    {
-        return refuse(&format!("its gears have the pressure angles {a} and {b} deg"));
-    }
-    let pressure_angle = angle_a.or(angle_b).unwrap_or_else(|| {
+    let pressure_angle = a.pressure_angle.or(b.pressure_angle).unwrap_or_else(|| {
         source.assume(format!(
             "{}: the file states no pressure angle; 20 deg was taken",
             stage.label()
         ));
         20.0
     });
-    let stated = source.positive(stage, "center_distance", Quantity::Length);
-    let of_axes = {
-        let [a, b] = [a.member, b.member].map(|id| map.poses.get(id));
-        let (a, b) = (a?, b?);
-        let between = super::pose::sum(b.origin, a.origin, -1.0);
-        let across = super::pose::sum(between, map.frame.x, -dot(between, map.frame.x));
-        dot(across, across).sqrt()
-    };
+    let actual = centre_distance(map, stage, a, b)?;
     let orbits = [a.member, b.member].iter().any(|member| map.planets.contains(member));
-    let actual = if let Some(stated) = stated.filter(|stated| (stated - of_axes).abs() > ROUNDING) {
-        source.note(format!(
-            "{}: center_distance is {} mm, but the axes are {:.4} mm apart, which counts",
-            stage.label(),
-            super::yaml::number(stated),
-            of_axes
-        ));
-        of_axes
-    } else {
-        stated.unwrap_or(of_axes)
-    };
-    let rad = |deg: f64| deg.to_radians();
-    let geometry = super::pair::Basic {
+    let geometry = Basic {
         z: [a.z as f64, if b.ring { -(b.z as f64) } else { b.z as f64 }],
         module: a.normal_module,
-        pressure_angle: rad(pressure_angle),
-        helix: rad(a.helix.abs()),
+        pressure_angle: pressure_angle.to_radians(),
+        helix: a.helix.abs().to_radians(),
     };
-    let shift_a = *shifts.entry(a.component.id).or_insert(a.shift);
-    let shift_b = *shifts.entry(b.component.id).or_insert(b.shift);
-    if let (Some(x1), Some(x2)) = (shift_a, shift_b) {
-        // The sign of a ring's shift differs between programs: that which fits the centre distance counts.
-        let signs: &[f64] = if b.ring && x2 != 0.0 { &[1.0, -1.0] } else { &[1.0] };
-        let fits = |x2: f64| distance(&geometry, x1 + x2).is_some_and(|a| (a - actual).abs() < 0.01 * geometry.module);
-        match signs.iter().map(|sign| sign * x2).find(|x2| fits(*x2)) {
-            Some(fitting) => {
-                shifts.insert(b.component.id, Some(fitting));
-            }
-            None => {
-                let needed = matching_shift(&geometry, actual);
-                source.note(format!(
-                    "{}: the profile shifts {} and {} do not give the centre distance {} mm{}; that of {} was left out and follows from the \
-                     centre distance",
-                    stage.label(),
-                    super::yaml::number(x1),
-                    super::yaml::number(x2),
-                    super::yaml::number(actual),
-                    needed.map_or_else(String::new, |sum| format!(", which needs a sum of {sum:.4}")),
-                    b.component.label()
-                ));
-                shifts.insert(b.component.id, None);
-            }
-        }
-    }
+    check_shifts(map, stage, [a, b], &geometry, actual, shifts);
     let material = |gear: &ReadGear<'_>| {
         map.referenced(gear.component.id, "material")
             .or_else(|| map.referenced(*map.shaft_of.get(&gear.component.id)?, "material"))
@@ -400,7 +330,7 @@ fn mesh(
     let oil = map.referenced(stage.id, "lubricant");
     Some(Mesh {
         id: id("stage", stage.id),
-        comment: map.named(stage),
+        comment: named(stage),
         gears: [a, b].map(|gear| id(if gear.ring { "ring" } else { "gear" }, gear.component.id)),
         normal_module: a.normal_module,
         pressure_angle,
@@ -408,8 +338,90 @@ fn mesh(
         centre_distance: orbits.then_some(actual),
         modulus,
         poisson,
-        lubricant: oil.map(|oil| id("lubricant", oil.id)),
+        lubricant: oil
+            .map(|oil| id("lubricant", oil.id))
+            .filter(|oil| Some(oil) != map.sump.as_ref()),
     })
+}
+
+/// Why two gears cannot mesh.
+fn mismatch(a: &ReadGear<'_>, b: &ReadGear<'_>) -> Option<String> {
+    if a.ring {
+        return Some("both of its gears have internal teeth".to_owned());
+    }
+    if a.member == b.member {
+        return Some("both of its gears are on one shaft".to_owned());
+    }
+    let differ = |what: &str, a: f64, b: f64, unit: &str| Some(format!("its gears have the {what} {a} and {b} {unit}"));
+    if (a.normal_module - b.normal_module).abs() > 1e-6 {
+        return differ("normal modules", a.normal_module, b.normal_module, "mm");
+    }
+    // Of an external pair the hands differ. The sign of a ring is not relied on.
+    let sum = if b.ring {
+        a.helix.abs() - b.helix.abs()
+    } else {
+        a.helix + b.helix
+    };
+    if sum.abs() > 1e-4 {
+        return differ("helix angles", a.helix, b.helix, "deg");
+    }
+    match (a.pressure_angle, b.pressure_angle) {
+        (Some(a), Some(b)) if (a - b).abs() > 1e-6 => differ("pressure angles", a, b, "deg"),
+        _ => None,
+    }
+}
+
+/// The distance of the axes, which the stage repeats. \[mm\]
+fn centre_distance(map: &Map<'_>, stage: &Component, a: &ReadGear<'_>, b: &ReadGear<'_>) -> Option<f64> {
+    let (from, to) = (map.poses.get(a.member)?, map.poses.get(b.member)?);
+    let [_, y, z] = map.frame.coordinates(sum(to.origin, from.origin, -1.0));
+    let of_axes = y.hypot(z);
+    let stated = map.source.positive(stage, "center_distance", Quantity::Length);
+    match stated {
+        Some(stated) if (stated - of_axes).abs() > ROUNDING => {
+            map.source.note(format!(
+                "{}: center_distance is {} mm, but the axes are {of_axes:.4} mm apart, which counts",
+                stage.label(),
+                number(stated)
+            ));
+            Some(of_axes)
+        }
+        _ => Some(stated.unwrap_or(of_axes)),
+    }
+}
+
+/// Keeps the profile shifts of a pair if they give its centre distance; otherwise that of the second gear is left out.
+fn check_shifts(
+    map: &Map<'_>,
+    stage: &Component,
+    [a, b]: [&ReadGear<'_>; 2],
+    geometry: &Basic,
+    actual: f64,
+    shifts: &mut BTreeMap<Id, Option<f64>>,
+) {
+    let shift_a = *shifts.entry(a.component.id).or_insert(a.shift);
+    let shift_b = *shifts.entry(b.component.id).or_insert(b.shift);
+    let (Some(x1), Some(x2)) = (shift_a, shift_b) else {
+        return;
+    };
+    // The sign of a ring's shift differs between programs: that which fits the centre distance counts.
+    let signs: &[f64] = if b.ring && x2 != 0.0 { &[1.0, -1.0] } else { &[1.0] };
+    let fits = |x2: f64| distance(geometry, x1 + x2).is_some_and(|a| (a - actual).abs() < 0.01 * geometry.module);
+    let fitting = signs.iter().map(|sign| sign * x2).find(|x2| fits(*x2));
+    shifts.insert(b.component.id, fitting);
+    if fitting.is_none() {
+        let needed = matching_shift(geometry, actual);
+        map.source.note(format!(
+            "{}: the profile shifts {} and {} do not give the centre distance {} mm{}; that of {} was left out and follows from the centre \
+             distance",
+            stage.label(),
+            number(x1),
+            number(x2),
+            number(actual),
+            needed.map_or_else(String::new, |sum| format!(", which needs a sum of {sum:.4}")),
+            b.component.label()
+        ));
+    }
 }
 
 /// Young's modulus and Poisson's ratio of a pair: one value for both gears that has the stiffness of the contact of both.
@@ -496,7 +508,7 @@ fn sets<'a>(map: &mut Map<'a>, gears: &BTreeMap<Id, ReadGear<'a>>, pairs: &[Pair
         map.copies.extend(trains.iter().skip(1).flatten());
         sets.push(Set {
             id: id("set", stage_id),
-            comment: map.named(stage),
+            comment: named(stage),
             carrier: map.member_name(carrier),
             planets: trains[0].iter().map(|planet| map.member_name(*planet)).collect(),
             count: trains.len(),

@@ -19,6 +19,11 @@ pub struct Builder {
 }
 
 impl Builder {
+    /// Name and version of the program that wrote the file.
+    pub fn set_application(&mut self, words: &[String; 2]) {
+        words.join(" ").trim().clone_into(&mut self.model.application);
+    }
+
     /// Adds a component.
     pub fn add(&mut self, component: Component) {
         let component = self.renamed(component);
@@ -39,11 +44,13 @@ impl Builder {
 
     /// A component with the newest names; an attribute may occur twice with the same value.
     pub fn renamed(&mut self, mut component: Component) -> Component {
-        component.kind = newest_component(&component.kind).to_owned();
+        let kind = newest_component(&component.kind).to_owned();
+        component.kind = kind;
         let mut seen: BTreeMap<String, Value> = BTreeMap::new();
         let mut twice = None;
         for attribute in &mut component.attributes {
-            attribute.id = newest_attribute(&component.kind, &attribute.id).to_owned();
+            let id = newest_attribute(&component.kind, &attribute.id).to_owned();
+            attribute.id = id;
             match seen.get(&attribute.id) {
                 Some(first) if *first != attribute.value => {
                     twice.get_or_insert((attribute.id.clone(), attribute.span));

@@ -107,13 +107,10 @@ impl<'a> Reader<'a> {
             return;
         };
         self.builder.model.version = model.version.unwrap_or_default();
-        self.builder.model.application = [
+        self.builder.set_application(&[
             model.application_id.unwrap_or_default(),
             model.application_version.unwrap_or_default(),
-        ]
-        .join(" ")
-        .trim()
-        .to_owned();
+        ]);
         for raw in self.list("`relations`", model.relations) {
             self.relation(raw);
         }

@@ -1,21 +1,10 @@
 //! Load cases: speeds, torques, forces, temperatures and durations.
 
-use super::map::{Map, id};
+use super::map::{Force, Map, id, named};
 use super::model::{Component, Id, LoadCase};
 use super::pose::Vector;
 use super::source::Source;
 use super::units::Quantity;
-
-/// An external force on a member in each load case.
-#[derive(Debug)]
-pub struct Force {
-    pub component: Id,
-    pub member: Id,
-    pub comment: String,
-    pub at: f64,
-    /// Force in N and bending moment in Nm, in the coordinates of gearbox files.
-    pub by_case: Vec<(Vector, [f64; 2])>,
-}
 
 /// Torque and speed of one load case.
 #[derive(Debug, Clone, PartialEq)]
@@ -96,7 +85,7 @@ fn all<'a>(source: &'a Source<'a>) -> Vec<(usize, Values<'a>)> {
 pub const MOST_CASES: usize = 10_000;
 
 /// The external forces and moments that are not zero in all load cases.
-pub fn forces<'a>(map: &Map<'a>) -> Vec<Force> {
+pub fn forces(map: &Map<'_>) -> Vec<Force> {
     let source = map.source;
     let cases = all(source);
     let mut forces = Vec::new();
@@ -135,7 +124,7 @@ pub fn forces<'a>(map: &Map<'a>) -> Vec<Force> {
         forces.push(Force {
             component: load.id,
             member,
-            comment: map.named(load),
+            comment: named(load),
             at: map.poses.get(load.id).map_or_else(
                 || super::shafts::along(map, pose, at),
                 |own| map.frame.coordinates(own.origin)[0],
@@ -150,14 +139,54 @@ pub fn forces<'a>(map: &Map<'a>) -> Vec<Force> {
 pub fn loads(map: &Map<'_>) -> Loads {
     let source = map.source;
     let cases = all(source);
-    // Members with loads that transmit torque; those whose torque is zero in all cases do not count.
+    let first = cases[0].1;
+    let mut members = ports(map, &cases);
+    let (speed_at, torque_at) = (speed_member(map, &first), torque_member(map, &first, &members));
+    order(map, &first, &mut members, speed_at, torque_at);
+    let count = members.len();
+    let named = members.into_iter().enumerate().map(|(i, member)| {
+        let name = match i {
+            0 => "input".to_owned(),
+            1 if count == 2 => "output".to_owned(),
+            _ => format!("output_{i}"),
+        };
+        (member, name)
+    });
+    let mut loads = Loads {
+        ports: named.collect(),
+        ..Loads::default()
+    };
+    let name = |member: Option<Id>| {
+        let port = loads.ports.iter().find(|(own, _)| Some(*own) == member)?;
+        Some((port.0, port.1.clone()))
+    };
+    let (Some(torque_at), Some(speed_at)) = (name(torque_at), name(speed_at)) else {
+        if torque_at.is_some() || speed_at.is_some() {
+            source.note("torque and speed are not both given where torque enters or leaves, so there is no study");
+        }
+        return loads;
+    };
+    if count != 2 {
+        source.note(format!(
+            "a study needs two ports, and the model has {count}, so there is no study"
+        ));
+        return loads;
+    }
+    read_cases(map, &cases, &mut loads, torque_at.0, speed_at.0);
+    (loads.torque_at, loads.speed_at) = (torque_at.1, speed_at.1);
+    loads
+}
+
+/// Members with loads that transmit torque; those whose torque is zero in all cases do not count.
+fn ports<'a>(map: &Map<'a>, cases: &[(usize, Values<'a>)]) -> Vec<Id> {
+    let source = map.source;
     let mut members: Vec<Id> = Vec::new();
     for load in source.components("external_load") {
         let zero = cases.iter().all(|(_, values)| {
             values.flag(load, "defines_torque") == Some(true) && torque(map, values, load, None) == Some(0.0)
         });
-        let transmits =
-            source.flag(load, "transmits_torque") == Some(true) || source.flag(load, "defines_torque") == Some(true);
+        let is_set = |id: &str| source.flag(load, id) == Some(true);
+        let transmits = is_set("transmits_torque") || is_set("defines_torque");
         let Some(member) = map.member_with(load.id).filter(|_| transmits) else {
             continue;
         };
@@ -170,8 +199,11 @@ pub fn loads(map: &Map<'_>) -> Loads {
             members.push(member);
         }
     }
-    let first = cases[0].1;
-    let (speed_at, torque_at) = (speed_member(map, &first), torque_member(map, &first, &members));
+    members
+}
+
+/// The input first: what drives, if torque and speed of one port say so, else the port of the speed.
+fn order<'a>(map: &Map<'a>, values: &Values<'a>, members: &mut [Id], speed_at: Option<Id>, torque_at: Option<Id>) {
     members.sort_by_key(|member| {
         let rank = if Some(*member) == speed_at {
             0
@@ -180,55 +212,28 @@ pub fn loads(map: &Map<'_>) -> Loads {
         };
         (rank, *member)
     });
-    // What drives is the input.
-    if let (Some(at), true) = (torque_at, members.len() == 2) {
-        let speed = speed_of(map, &first, at);
-        let torque = torque_of(map, &first, at, speed);
+    if let (Some(at), 2) = (torque_at, members.len()) {
+        let speed = speed_of(map, values, at);
+        let torque = torque_of(map, values, at, speed);
         if let (Some(speed), Some(torque)) = (speed, torque)
             && (speed * torque < 0.0) == (members[0] == at)
         {
             members.swap(0, 1);
         }
     }
-    let count = members.len();
-    let ports: Vec<(Id, String)> = members
-        .into_iter()
-        .enumerate()
-        .map(|(i, member)| {
-            let name = match i {
-                0 => "input".to_owned(),
-                1 if count == 2 => "output".to_owned(),
-                _ => format!("output_{i}"),
-            };
-            (member, name)
-        })
-        .collect();
-    let mut loads = Loads {
-        ports,
-        ..Loads::default()
-    };
-    let name = |member: Option<Id>| Some(loads.ports.iter().find(|(own, _)| Some(*own) == member)?.1.clone());
-    let (Some(at_torque), Some(at_speed)) = (name(torque_at), name(speed_at)) else {
-        if torque_at.is_some() || speed_at.is_some() {
-            source.note("torque and speed are not both given where torque enters or leaves, so there is no study");
-        }
-        return loads;
-    };
-    if loads.ports.len() != 2 {
-        source.note(
-            "a study states one torque and one speed, and the model has more than two ports, so there is no study",
-        );
-        return loads;
-    }
-    let (torque_at, speed_at) = (torque_at.unwrap_or_default(), speed_at.unwrap_or_default());
-    (loads.torque_at, loads.speed_at) = (at_torque, at_speed);
-    let several = source
+}
+
+/// Torque, speed, gear, temperature and duration of each load case.
+fn read_cases<'a>(map: &Map<'a>, cases: &[(usize, Values<'a>)], loads: &mut Loads, torque_at: Id, speed_at: Id) {
+    let source = map.source;
+    let filled = source
         .model
         .spectra
         .iter()
-        .filter(|spectrum| !spectrum.cases.is_empty())
-        .count()
-        > 1;
+        .filter(|spectrum| !spectrum.cases.is_empty());
+    let several = filled.count() > 1;
+    let unit = source.components("gear_unit").next();
+    let casing = source.components("gear_casing").next();
     for (number, (spectrum, values)) in cases.iter().enumerate().take(MOST_CASES) {
         let case_id = values.case.map_or(1, |case| case.id);
         let name = if several {
@@ -237,14 +242,12 @@ pub fn loads(map: &Map<'_>) -> Loads {
             case_id.to_string()
         };
         let speed = speed_of(map, values, speed_at);
-        let torque = torque_of(map, values, torque_at, if torque_at == speed_at { speed } else { None });
+        let torque = torque_of(map, values, torque_at, speed.filter(|_| torque_at == speed_at));
         let (Some(speed), Some(torque)) = (speed, torque) else {
             source.note(format!("load case {name} states no torque or no speed and was ignored"));
             continue;
         };
-        let unit = source.components("gear_unit").next();
         let of_unit = |id: &str, quantity| unit.and_then(|unit| values.number(unit, id, quantity));
-        let casing = source.components("gear_casing").next();
         loads.cases.push(Case {
             name,
             spectrum: *spectrum,
@@ -263,7 +266,6 @@ pub fn loads(map: &Map<'_>) -> Loads {
             cases.len()
         ));
     }
-    loads
 }
 
 /// The member whose speed is given.

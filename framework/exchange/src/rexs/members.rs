@@ -1,4 +1,4 @@
-//! Rigid bodies: shafts, side plates and pins that rigid couplings join are one member of a gearbox.
+//! Rigid bodies: shafts, side plates, pins and gears that rigid couplings join are one member of a gearbox.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -21,7 +21,7 @@ pub struct Joint {
     pub engaged: Option<Vec<bool>>,
 }
 
-/// All members. The name of a member is the smallest id of its shafts.
+/// All members. The id of a member is the smallest id of its shafts; that of a loose gear, if it has no shaft.
 #[derive(Debug)]
 pub struct Members {
     of: BTreeMap<Id, Id>,
@@ -61,105 +61,57 @@ impl Union {
     }
 }
 
+/// A coupling that does not join its sides for ever: id, sides, whether it is engaged in each gear.
+type Open = (Id, Id, Option<Id>, Option<Vec<bool>>);
+
 impl Members {
     pub fn new(source: &Source<'_>) -> Self {
         let mut union = Union::default();
-        let mut open: Vec<(Id, Id, Option<Id>, Option<Vec<bool>>)> = Vec::new();
-        let kind = |id: Id| source.component(id).map_or("", |component| component.kind.as_str());
-        let is_body = |id: Id| matches!(kind(id), "shaft" | "side_plate");
-        for relation in source.relations("side") {
-            let Some(coupling) = relation.role("assembly").and_then(|id| source.component(id)) else {
-                continue;
-            };
-            if !matches!(coupling.kind.as_str(), "coupling" | "switchable_coupling") {
-                continue;
-            }
-            let sides = [relation.role("inner_part"), relation.role("outer_part")];
-            let bodies: Vec<Id> = sides.into_iter().flatten().filter(|id| is_body(*id)).collect();
-            let switched = (coupling.kind == "switchable_coupling")
-                .then(|| source.flags(coupling, "is_engaged").unwrap_or_default());
-            match bodies.as_slice() {
-                [a, b] if switched.is_none() => {
-                    if is_rigid(source, coupling) {
-                        union.unite(*a, *b);
-                    } else {
-                        open.push((coupling.id, *a, Some(*b), None));
-                    }
-                }
-                [a, b] => open.push((coupling.id, *a, Some(*b), switched)),
-                [a] => open.push((coupling.id, *a, None, switched)),
-                _ => source.note(format!("{} joins no shafts and was ignored", coupling.label())),
+        let loose = loose_gears(source);
+        for relation in source.relations("assembly") {
+            if let (Some(shaft), Some(gear)) = (relation.role("assembly"), relation.role("part"))
+                && kind_of(source, shaft) == "shaft"
+                && is_gear(source, gear)
+                && !loose.contains(&gear)
+            {
+                union.unite(shaft, gear);
             }
         }
+        let open = couple(source, &mut union);
         let mut carriers_of = BTreeMap::new();
         for stage in source.components("planetary_stage") {
-            let shafts: Vec<Id> = carrier_shafts(source, stage.id).filter(|id| is_body(*id)).collect();
+            let shafts: Vec<Id> = carrier_shafts(source, stage.id)
+                .filter(|id| is_body(source, *id))
+                .collect();
             for pair in shafts.windows(2) {
                 union.unite(pair[0], pair[1]);
             }
             carriers_of.extend(shafts.first().map(|first| (stage.id, *first)));
         }
-        let mut planets_of: BTreeMap<Id, BTreeSet<Id>> = BTreeMap::new();
+        fix_pins(source, &mut union, &carriers_of);
+        let of = names(source, &mut union, &loose);
+        let mut planets: BTreeMap<Id, BTreeSet<Id>> = BTreeMap::new();
         for relation in source.relations("planet_shaft") {
             if let (Some(stage), Some(shaft)) = (relation.role("planetary_stage"), relation.role("shaft")) {
-                planets_of.entry(stage).or_default().insert(shaft);
+                planets.entry(stage).or_default().extend(of.get(&shaft));
             }
         }
-        // Pins that no coupling joins to anything are fixed in the carrier.
-        let coupled: BTreeSet<Id> = source
-            .relations("side")
-            .filter(|side| side.role("assembly").is_some_and(|id| kind(id) == "coupling"))
-            .flat_map(|side| [side.role("inner_part"), side.role("outer_part")])
-            .flatten()
-            .collect();
-        for relation in source.relations("planet_pin") {
-            let (Some(stage), Some(pin)) = (relation.role("planetary_stage"), relation.role("shaft")) else {
-                continue;
-            };
-            if let (false, Some(carrier)) = (coupled.contains(&pin), carriers_of.get(&stage)) {
-                union.unite(pin, *carrier);
-            }
-        }
-        let bodies: Vec<Id> = source
-            .model
-            .components
-            .keys()
-            .copied()
-            .filter(|id| is_body(*id))
-            .collect();
-        // A member is named after a shaft.
-        let mut names: BTreeMap<Id, Id> = BTreeMap::new();
-        for id in bodies.iter().filter(|id| kind(**id) == "shaft") {
-            names.entry(union.root(*id)).or_insert(*id);
-        }
-        let mut of = BTreeMap::new();
-        for id in &bodies {
-            let root = union.root(*id);
-            if let Some(name) = names.get(&root) {
-                of.insert(*id, *name);
-            }
-        }
+        let carriers = carriers_of
+            .iter()
+            .filter_map(|(stage, id)| Some((*stage, *of.get(id)?)));
         let mut members = Self {
-            joints: Vec::new(),
-            carriers: BTreeMap::new(),
-            planets: BTreeMap::new(),
+            carriers: carriers.collect(),
+            planets,
             of,
+            joints: Vec::new(),
         };
-        members.carriers = carriers_of
-            .iter()
-            .filter_map(|(stage, id)| Some((*stage, members.of(*id)?)))
-            .collect();
-        members.planets = planets_of
-            .iter()
-            .map(|(stage, ids)| (*stage, ids.iter().filter_map(|id| members.of(*id)).collect()))
-            .collect();
         for (id, first, second, engaged) in open {
             members.join(id, first, second, engaged);
         }
         members
     }
 
-    /// The member of a shaft or plate.
+    /// The member of a shaft, a plate or a gear.
     pub fn of(&self, id: Id) -> Option<Id> {
         self.of.get(&id).copied()
     }
@@ -169,7 +121,7 @@ impl Members {
         self.of.values().copied().collect()
     }
 
-    /// The shafts and plates of a member.
+    /// The shafts, plates and gears of a member.
     pub fn parts(&self, member: Id) -> impl Iterator<Item = Id> {
         self.of
             .iter()
@@ -201,6 +153,93 @@ impl Members {
             }),
         }
     }
+}
+
+fn kind_of<'a>(source: &Source<'a>, id: Id) -> &'a str {
+    source.component(id).map_or("", |component| component.kind.as_str())
+}
+
+fn is_gear(source: &Source<'_>, id: Id) -> bool {
+    matches!(kind_of(source, id), "cylindrical_gear" | "ring_gear")
+}
+
+/// True for what can be a part of a member.
+fn is_body(source: &Source<'_>, id: Id) -> bool {
+    matches!(kind_of(source, id), "shaft" | "side_plate") || is_gear(source, id)
+}
+
+/// A gear turns with the shaft that it is part of, unless a bearing or a clutch is between them.
+fn loose_gears(source: &Source<'_>) -> BTreeSet<Id> {
+    let mut loose = BTreeSet::new();
+    for side in source.relations("side") {
+        let between = side.role("assembly").map_or("", |id| kind_of(source, id));
+        if between == "switchable_coupling" || between.contains("bearing") {
+            let parts = [side.role("inner_part"), side.role("outer_part")];
+            loose.extend(parts.into_iter().flatten().filter(|id| is_gear(source, *id)));
+        }
+    }
+    loose
+}
+
+/// Unites what rigid couplings, fits, keys and splines join; the other couplings are returned.
+fn couple(source: &Source<'_>, union: &mut Union) -> Vec<Open> {
+    let mut open = Vec::new();
+    for relation in source.relations("side") {
+        let coupling = relation.role("assembly").and_then(|id| source.component(id));
+        let Some(coupling) = coupling.filter(|coupling| !coupling.kind.contains("bearing")) else {
+            continue;
+        };
+        let sides = [relation.role("inner_part"), relation.role("outer_part")];
+        let bodies: Vec<Id> = sides.into_iter().flatten().filter(|id| is_body(source, *id)).collect();
+        let switched =
+            (coupling.kind == "switchable_coupling").then(|| source.flags(coupling, "is_engaged").unwrap_or_default());
+        match bodies.as_slice() {
+            [a, b] if switched.is_none() && is_rigid(source, coupling) => union.unite(*a, *b),
+            [a, b] => open.push((coupling.id, *a, Some(*b), switched)),
+            [a] => open.push((coupling.id, *a, None, switched)),
+            _ => source.note(format!("{} joins no shafts and was ignored", coupling.label())),
+        }
+    }
+    open
+}
+
+/// Pins that no coupling joins to anything are fixed in the carrier.
+fn fix_pins(source: &Source<'_>, union: &mut Union, carriers: &BTreeMap<Id, Id>) {
+    let coupled: BTreeSet<Id> = source
+        .relations("side")
+        .filter(|side| {
+            side.role("assembly")
+                .is_some_and(|id| !kind_of(source, id).contains("bearing"))
+        })
+        .flat_map(|side| [side.role("inner_part"), side.role("outer_part")])
+        .flatten()
+        .collect();
+    for relation in source.relations("planet_pin") {
+        let (Some(stage), Some(pin)) = (relation.role("planetary_stage"), relation.role("shaft")) else {
+            continue;
+        };
+        if let (false, Some(carrier)) = (coupled.contains(&pin), carriers.get(&stage)) {
+            union.unite(pin, *carrier);
+        }
+    }
+}
+
+/// The member of each body: its first shaft, or a loose gear itself.
+fn names(source: &Source<'_>, union: &mut Union, loose: &BTreeSet<Id>) -> BTreeMap<Id, Id> {
+    let all = source.model.components.keys().copied();
+    let bodies: Vec<Id> = all.filter(|id| is_body(source, *id)).collect();
+    let mut names: BTreeMap<Id, Id> = BTreeMap::new();
+    let shafts = bodies.iter().filter(|id| kind_of(source, **id) == "shaft");
+    let gears = bodies
+        .iter()
+        .filter(|id| loose.contains(id) || kind_of(source, **id) == "ring_gear");
+    for id in shafts.chain(gears) {
+        names.entry(union.root(*id)).or_insert(*id);
+    }
+    let named = bodies
+        .iter()
+        .filter_map(|id| Some((*id, *names.get(&union.root(*id))?)));
+    named.collect()
 }
 
 /// Shafts of the carrier of a stage: stated as such, or parts of its planet carrier that are no pins.

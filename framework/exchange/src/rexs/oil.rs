@@ -1,7 +1,7 @@
 //! Oils, and what the housing states.
 
 use super::draft::{Draft, Lubricant};
-use super::map::{Map, id};
+use super::map::{Map, id, named};
 use super::model::Component;
 use super::units::Quantity;
 use crate::codes;
@@ -9,24 +9,33 @@ use crate::codes;
 /// Oil that stands in where the file has none.
 const PLACEHOLDER: &str = "ISO VG 220 mineral";
 
+/// The oil of the housing: that of the casing, else the first.
+pub fn sump<'a>(map: &Map<'a>) -> Option<&'a Component> {
+    let source = map.source;
+    let casing = source.components("gear_casing").next();
+    casing
+        .and_then(|casing| map.referenced(casing.id, "lubricant"))
+        .or_else(|| {
+            let first = source.components("lubricant").next()?;
+            source.assume(format!(
+                "the casing names no oil; {} is that of the sump",
+                first.label()
+            ));
+            Some(first)
+        })
+}
+
 /// Writes the oils and the housing into the draft.
 pub fn oils(map: &Map<'_>, draft: &mut Draft) {
     let source = map.source;
     for component in source.components("lubricant") {
         draft.lubricants.extend(oil(map, component));
     }
-    let casing = source.components("gear_casing").next();
-    let of_casing = casing.and_then(|casing| map.referenced(casing.id, "lubricant"));
-    let sump = of_casing.or_else(|| {
-        let first = source.components("lubricant").next()?;
-        source.assume(format!(
-            "the casing names no oil; {} is that of the sump",
-            first.label()
-        ));
-        Some(first)
-    });
-    let named = sump.map(|component| id("lubricant", component.id));
-    match named.filter(|name| draft.lubricants.iter().any(|oil| oil.id == *name)) {
+    match map
+        .sump
+        .clone()
+        .filter(|name| draft.lubricants.iter().any(|oil| oil.id == *name))
+    {
         Some(name) => draft.sump = name,
         None if source.has_errors() => {}
         None => {
@@ -43,7 +52,7 @@ pub fn oils(map: &Map<'_>, draft: &mut Draft) {
             source.missing(format!("the oil: {PLACEHOLDER} stands in as `lubricants.placeholder`"));
         }
     }
-    let Some(casing) = casing else {
+    let Some(casing) = source.components("gear_casing").next() else {
         return;
     };
     let vdi = |id: &str, quantity: Quantity| {
@@ -61,7 +70,7 @@ fn oil(map: &Map<'_>, component: &Component) -> Option<Lubricant> {
     let number = |id: &str, quantity: Quantity| source.positive(component, id, quantity);
     let mut oil = Lubricant {
         id: id("lubricant", component.id),
-        comment: map.named(component),
+        comment: named(component),
         kv40: number("viscosity_at_40_degree_celsius", Quantity::Viscosity),
         kv100: number("viscosity_at_100_degree_celsius", Quantity::Viscosity),
         density: number("density_at_15_degree_celsius", Quantity::Density),

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::draft::{Load, Section, Shaft};
-use super::map::Map;
+use super::map::{Map, named};
 use super::model::{Component, Id};
 use super::pose::{Pose, sum};
 use super::units::Quantity;
@@ -14,15 +14,16 @@ pub fn shafts(map: &Map<'_>) -> Vec<Shaft> {
     let source = map.source;
     let mut shafts = Vec::new();
     for member in map.members.all() {
-        if map.copies.contains(&member) || !map.connected.contains(&member) {
+        if map.copies.contains(&member) || !map.connected.contains(&member) || map.loose.contains_key(&member) {
             continue;
         }
         let parts: Vec<&Component> = map
             .members
             .parts(member)
             .filter_map(|id| source.component(id))
+            .filter(|part| part.id == member || !part.kind.ends_with("gear"))
             .collect();
-        let names: Vec<String> = parts.iter().map(|part| map.named(part)).collect();
+        let names: Vec<String> = parts.iter().map(|part| named(part)).collect();
         let mut comment = names.iter().take(6).cloned().collect::<Vec<_>>().join(" + ");
         if names.len() > 6 {
             comment.push_str(&format!(" + {} more", names.len() - 6));
@@ -34,13 +35,28 @@ pub fn shafts(map: &Map<'_>) -> Vec<Shaft> {
             id: map.member_name(member),
             comment,
             axis: coordinates.filter(|_| !is_planet).map(|at| [at[1], at[2]]),
-            sections: merged(parts.iter().flat_map(|part| sections(map, part)).collect()),
+            sections: merged(
+                parts
+                    .iter()
+                    .filter(|part| is_coaxial(map, member, part.id))
+                    .flat_map(|part| sections(map, part))
+                    .collect(),
+            ),
             mass: if map.gravity { mass(map, &parts) } else { None },
             loads: loads(map, member),
             unsupported: false,
         });
     }
     shafts
+}
+
+/// Pins of planets are parts of a carrier that are beside its axis.
+fn is_coaxial(map: &Map<'_>, member: Id, part: Id) -> bool {
+    let (Some(member), Some(part)) = (map.poses.get(member), map.poses.get(part)) else {
+        return false;
+    };
+    let [_, y, z] = map.frame.coordinates(sum(part.origin, member.origin, -1.0));
+    y.hypot(z) < 1e-2
 }
 
 /// All shafts have positions, and those of a gearbox are parallel.
@@ -202,9 +218,12 @@ pub fn connected(map: &Map<'_>) -> BTreeSet<Id> {
     let shaft_of: BTreeMap<Id, Id> = map.shaft_of.clone();
     for (part, shaft) in &shaft_of {
         let kind = source.component(*part).map_or("", |part| part.kind.as_str());
-        if matches!(kind, "cylindrical_gear" | "ring_gear" | "external_load") {
+        if kind == "external_load" {
             touch(Some(*shaft));
         }
+    }
+    for kind in ["cylindrical_gear", "ring_gear"] {
+        source.components(kind).for_each(|gear| touch(Some(gear.id)));
     }
     for relation in source.relations("side") {
         touch(relation.role("inner_part"));

@@ -3,17 +3,27 @@
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 
-use gearloss_document::Diagnostic;
+use gearloss_document::{Diagnostic, Severity};
 
 use super::aliases::newest_value;
 use super::model::{Attribute, Component, Id, Model, Relation, Value};
 use super::units::{Quantity, converted, known};
 use crate::codes;
 
+/// Largest value that is read; rigid couplings have stiffnesses of 1e23. Larger ones would give sums that are no numbers.
+const LARGEST: f64 = 1e30;
+/// Largest coordinate. \[mm\]
+const FARTHEST: f64 = 1e6;
+
+/// Most findings that are shown.
+const MOST_FINDINGS: usize = 20;
+
 /// A model that is read, with findings and the lines of the report.
 #[derive(Debug)]
 pub struct Source<'a> {
     pub model: &'a Model,
+    /// Components by type.
+    kinds: BTreeMap<&'a str, Vec<&'a Component>>,
     /// Relations by type.
     relations: BTreeMap<&'a str, Vec<&'a Relation>>,
     used: RefCell<BTreeSet<(Id, String)>>,
@@ -24,8 +34,6 @@ pub struct Source<'a> {
     pub assumptions: RefCell<Vec<String>>,
     /// What losses need and the model does not have.
     pub missing: RefCell<Vec<String>>,
-    /// Doubtful values by message, with the components that have them.
-    doubts: RefCell<BTreeMap<String, Vec<Id>>>,
 }
 
 /// Appends a line unless it is there already.
@@ -42,15 +50,19 @@ impl<'a> Source<'a> {
         for relation in &model.relations {
             relations.entry(&relation.kind).or_default().push(relation);
         }
+        let mut kinds: BTreeMap<&str, Vec<&Component>> = BTreeMap::new();
+        for component in model.components.values() {
+            kinds.entry(&component.kind).or_default().push(component);
+        }
         Self {
             model,
+            kinds,
             relations,
             used: RefCell::default(),
             found: RefCell::default(),
             notes: RefCell::default(),
             assumptions: RefCell::default(),
             missing: RefCell::default(),
-            doubts: RefCell::default(),
         }
     }
 
@@ -82,37 +94,26 @@ impl<'a> Source<'a> {
     }
 
     pub fn has_errors(&self) -> bool {
-        !self.found.borrow().is_empty()
+        self.found
+            .borrow()
+            .iter()
+            .any(|finding| finding.severity == Severity::Error)
     }
 
-    /// The findings; doubtful values as one warning for each kind.
+    /// The findings: the first of them, if there are many.
     pub fn findings(&self) -> Vec<Diagnostic> {
         let mut found = self.found.take();
-        for (message, ids) in self.doubts.take() {
-            let place = ids.first().and_then(|id| self.model.components.get(id));
-            let mut warning = Diagnostic::warning("", format!("{message} ({})", counted(ids.len(), "component")))
-                .code(codes::REXS_DOUBT)
-                .help("check the values in the gearbox file");
-            if let Some(component) = place {
-                warning = warning.at_span(component.span);
-            }
-            found.push(warning);
+        let more = found.len().saturating_sub(MOST_FINDINGS);
+        found.truncate(MOST_FINDINGS);
+        if let (1.., Some(last)) = (more, found.last_mut()) {
+            last.notes.push(format!("and {}", counted(more, "more finding")));
         }
         found
     }
 
-    pub fn doubt(&self, component: &Component, message: &str) {
-        let mut doubts = self.doubts.borrow_mut();
-        doubts.entry(message.to_owned()).or_default().push(component.id);
-    }
-
     /// All components of a type, by id.
-    pub fn components(&self, kind: &str) -> impl Iterator<Item = &'a Component> {
-        let kind = kind.to_owned();
-        self.model
-            .components
-            .values()
-            .filter(move |component| component.kind == kind)
+    pub fn components(&self, kind: &str) -> impl Iterator<Item = &'a Component> + use<'a, '_> {
+        self.kinds.get(kind).into_iter().flatten().copied()
     }
 
     pub fn component(&self, id: Id) -> Option<&'a Component> {
@@ -155,7 +156,7 @@ impl<'a> Source<'a> {
     }
 
     fn parsed(&self, component: &Component, attribute: &Attribute, text: &str, quantity: Quantity) -> Option<f64> {
-        let Some(value) = text.parse::<f64>().ok().filter(|value| value.is_finite()) else {
+        let Some(value) = text.parse::<f64>().ok().filter(|value| value.abs() <= LARGEST) else {
             let shown: String = text.chars().take(40).collect();
             self.value_error(
                 component,
@@ -213,26 +214,26 @@ impl<'a> Source<'a> {
             .collect()
     }
 
-    /// Three numbers. A truth value in the place of a vector, which some files have, counts as nothing.
+    /// Three numbers.
     pub fn vector(&self, component: &Component, id: &str) -> Option<[f64; 3]> {
-        let attribute = component.attribute(id)?;
-        if let Value::Text(text) = &attribute.value
-            && matches!(text.as_str(), "" | "true" | "false")
-        {
-            self.attribute(component, id);
-            self.doubt(
+        let attribute = self.attribute(component, id)?;
+        if matches!(&attribute.value, Value::Text(text) if text == "true" || text == "false") {
+            self.value_error(
                 component,
-                &format!("{id} is `{text}` and not a vector; the usual direction is taken"),
+                attribute,
+                "is a truth value and not a vector",
+                "the program that exported the JSON file lost its vectors and texts: export the model as XML",
             );
             return None;
         }
         let numbers = self.numbers(component, id, Quantity::Length)?;
         let vector = <[f64; 3]>::try_from(numbers).ok();
+        let vector = vector.filter(|vector| vector.iter().all(|x| x.abs() <= FARTHEST));
         if vector.is_none() {
             self.value_error(
                 component,
                 attribute,
-                "does not have three numbers",
+                "does not have three numbers of at most a kilometre",
                 "write three numbers",
             );
         }

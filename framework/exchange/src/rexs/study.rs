@@ -3,8 +3,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 
-use super::loads::{Case, Force, Loads, gear_name};
-use super::map::{Map, id};
+use super::loads::{Case, Loads, gear_name};
+use super::map::{Force, Map, id};
 use super::yaml::{number, quoted};
 
 /// A study and its table.

@@ -46,10 +46,7 @@ pub fn read(text: &str) -> (Model, Vec<Diagnostic>) {
         return (Model::default(), vec![found]);
     }
     builder.model.version = text_of(root, "version");
-    builder.model.application = [text_of(root, "applicationId"), text_of(root, "applicationVersion")]
-        .join(" ")
-        .trim()
-        .to_owned();
+    builder.set_application(&[text_of(root, "applicationId"), text_of(root, "applicationVersion")]);
     for part in elements(root) {
         match part.tag_name().name() {
             "relations" => elements(part).for_each(|node| relation(&mut builder, node)),
