@@ -257,14 +257,10 @@ fn data(map: &Map<'_>, component: &Component, bearing: &mut Bearing) {
 fn catalogue(map: &Map<'_>, language: &Language, component: &Component, bearing: &mut Bearing) {
     let source = map.source;
     let Some(written) = source.text(component, "catalogue_designation") else {
-        if let Some(found) = language
-            .catalogue("bearings")
+        let table = language.catalogue("bearings");
+        bearing.known = table
             .and_then(|table| in_name(&component.name, table))
-        {
-            bearing
-                .options
-                .push(format!("designation: {}", super::yaml::quoted(found)));
-        }
+            .map(str::to_owned);
         return;
     };
     let shown = one_line(written, 60);

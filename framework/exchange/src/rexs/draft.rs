@@ -144,8 +144,8 @@ pub struct Bearing {
     pub lubricant: Option<String>,
     /// Its own model; none is that of `models`.
     pub model: Option<&'static str>,
-    /// Options, without `#`.
-    pub options: Vec<String>,
+    /// A designation of the catalogue in the name of a bearing that states none.
+    pub known: Option<String>,
 }
 
 #[derive(Debug, Default)]

@@ -43,7 +43,16 @@ pub fn study(map: &Map<'_>, loads: &Loads, title: &str, gears: &BTreeSet<String>
             text.push_str(&spectrum.text);
         }
     }
-    text.push_str("\nanalyses:\n  load_cases:\n    type: operating_points\n    title: The load cases\n    data: { file: load_cases.csv }\n");
+    let gear = gears
+        .iter()
+        .next()
+        .map_or_else(String::new, |gear| format!("gear: {gear}, "));
+    let field = "{ of_rating: [0.1, 0.25, 0.5, 0.75, 1] }";
+    let _ = write!(
+        text,
+        "\n#grids: {{ field: {{ {gear}torque: {field}, speed: {field} }} }}\n"
+    );
+    text.push_str("analyses:\n  load_cases:\n    type: operating_points\n    title: The load cases\n    data: { file: load_cases.csv }\n");
     if !bound.is_empty() {
         text.push_str("    bind:                                  # what differs between the load cases, beside torque and speed\n");
         for bound in &bound {
@@ -62,15 +71,8 @@ pub fn study(map: &Map<'_>, loads: &Loads, title: &str, gears: &BTreeSet<String>
             quoted(&spectrum.title)
         );
     }
-    let gear = gears
-        .iter()
-        .next()
-        .map_or_else(String::new, |gear| format!("gear: {gear}, "));
-    let _ = write!(
-        text,
-        "  # Efficiency over torque and speed, as fractions of the `rating` of the gearbox:\n  \
-         #map: {{ type: map, grid: field }}            # with, at the top level:\n\
-         #grids: {{ field: {{ {gear}torque: {{ rating: torque, from: 0.1, to: 1, step: 0.1 }}, speed: {{ rating: speed, from: 0.1, to: 1, step: 0.1 }} }} }}\n"
+    text.push_str(
+        "  #map: { type: map, grid: field }         # efficiency over torque and speed, with `grids` above\n",
     );
     Some(Study {
         study: text,

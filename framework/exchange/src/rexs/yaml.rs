@@ -92,9 +92,17 @@ pub fn gearbox(draft: &Draft) -> String {
     sets(&mut text, draft);
     couplings(&mut text, draft);
     bearings(&mut text, &draft.bearings);
-    text.push_str(
-        "\n# REXS describes no seals without their own geometry; their friction is often a large part of the no-load loss.\n\
-         #seals: { input: { shaft: SHAFT, diameter: 40 mm, kind: radial_lip } }\n",
+    let seals = draft.ports.iter().map(|port| {
+        let seal = Entry::default()
+            .word("shaft", &port.shaft)
+            .word("diameter", "40 mm")
+            .word("kind", "radial_lip");
+        format!("{}: {}", port.name, seal.text())
+    });
+    let _ = write!(
+        text,
+        "\n# REXS has no component for seals; their friction is often a large part of the no-load loss.\n#seals: {{ {} }}\n",
+        seals.collect::<Vec<_>>().join(", ")
     );
     housing(&mut text, draft);
     models(&mut text, draft);
@@ -235,12 +243,15 @@ fn sets(text: &mut String, draft: &Draft) {
     }
     text.push_str("\n# One planet stands for all of its set.\nplanetary_sets:\n");
     for set in &draft.sets {
-        let entry = Entry::default()
-            .word("carrier", &set.carrier)
-            .word("planets", format!("[{}]", set.planets.join(", ")))
-            .word("count", set.count.to_string());
-        line(text, &set.id, entry, &set.comment);
-        text.push_str("    #load_sharing: 1.1   # K_gamma: load of the most loaded planet over the mean\n");
+        let _ = write!(
+            text,
+            "  {}:   # {}\n    carrier: {}\n    planets: [{}]\n    count: {}\n    #load_sharing: 1.1   # K_gamma: load of the most loaded planet over the mean\n",
+            set.id,
+            set.comment,
+            set.carrier,
+            set.planets.join(", "),
+            set.count
+        );
     }
 }
 
@@ -297,8 +308,12 @@ fn bearings(text: &mut String, bearings: &[Bearing]) {
             .word_if("lubricant", bearing.lubricant.as_ref())
             .word_if("model", bearing.model.map(model));
         line(text, &bearing.id, entry, &bearing.comment);
-        for option in &bearing.options {
-            let _ = writeln!(text, "    #{option}");
+        if let Some(known) = &bearing.known {
+            let known = quoted(known);
+            let _ = writeln!(
+                text,
+                "    # Its name has a designation of the catalogue: `designation: {known}` can replace kind, bore, outside and model."
+            );
         }
     }
 }
@@ -353,9 +368,10 @@ fn housing(text: &mut String, draft: &Draft) {
         text,
         "# REXS states no oil level, so no gear churns. With level, section and clearance, add `gear_drag` to `models`.\n\
          housing:\n  oil:\n    lubricant: {}\n    #level: -70 mm                                # at standstill, above the axis of `measured_from`\n    \
-         #measured_from: SHAFT\n    #volume: 2 l\n  #section: {{ area: 700 cm2, perimeter: 118 cm }}   # cross section of the gear case\n  \
+         #measured_from: {}\n    #volume: 2 l\n  #section: {{ area: 700 cm2, perimeter: 118 cm }}   # cross section of the gear case\n  \
          #clearance: {{ radial: 10 mm, axial: 12 mm }}      # gears to wall\n",
-        draft.sump
+        draft.sump,
+        draft.ports.first().map_or("shaft", |port| &port.shaft)
     );
     let oil = draft.oil_temperature.unwrap_or(80.0);
     let from = if draft.oil_temperature.is_some() {
@@ -385,7 +401,7 @@ fn models(text: &mut String, draft: &Draft) {
          #seal: { type: iso14179_2 }                          # needs `seals`\n",
     );
     if !draft.sets.is_empty() {
-        text.push_str("  #planetary_drag: { type: estimate }                  # drag of the carrier, accurate to a factor of three\n");
+        text.push_str("  #planetary_drag: { type: estimate, planet: none }    # drag of the carrier, accurate to a factor of three\n");
     }
 }
 
