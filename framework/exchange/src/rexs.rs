@@ -238,8 +238,8 @@ fn convert(source: &Source<'_>, title: String, language: &Language) -> Option<Im
     draft.from_file = vec!["shafts", "gears", "meshes", "bearings"];
     let gears: BTreeSet<String> = draft.states.iter().map(|(gear, _)| gear.clone()).collect();
     let study = study::study(&map, &loads, &title, &gears);
-    check::fit(&mut draft, language, source);
-    let report = report(&map, loads.cases.len());
+    let faults = check::fit(&mut draft, language, source);
+    let report = report(&map, loads.cases.len(), faults);
     draft.head = head(&draft.source);
     draft.report.clone_from(&report);
     let (study, load_cases) = study.map(|study| (study.study, study.table)).unzip();
@@ -391,7 +391,7 @@ fn missing(map: &Map<'_>, draft: &mut Draft) {
 }
 
 /// The lines of the report.
-fn report(map: &Map<'_>, cases: usize) -> Vec<String> {
+fn report(map: &Map<'_>, cases: usize, faults: Vec<String>) -> Vec<String> {
     let source = map.source;
     let copied = map.copied_parts();
     let unused = source.unused(&copied);
@@ -409,6 +409,7 @@ fn report(map: &Map<'_>, cases: usize) -> Vec<String> {
             lines.extend(entries.into_iter().map(|entry| format!("- {entry}")));
         }
     };
+    list("To correct before the gearbox can be solved", faults);
     list("Missing for losses", source.missing.take());
     list("Assumed", source.assumptions.take());
     list("Ignored or changed", source.notes.take());

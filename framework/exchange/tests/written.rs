@@ -408,6 +408,51 @@ fn thrust_that_two_bearings_take_is_divided() {
     gearbox(&imported.gearbox);
 }
 
+/// Times of the load cases are durations; that of the gear unit is the life of the gearbox.
+#[test]
+fn load_cases_may_state_times() {
+    let mut model = one_stage("0,100,0");
+    model.components[0].2 = attributes_of("operating_time=20000");
+    let case = |torque: &'static str, time: &'static str| [(14, torque), (1, time)];
+    model.case(1, &case("torque_around_u_axis=50", "operating_time=100"));
+    model.case(2, &case("torque_around_u_axis=60", "operating_time=100"));
+    let study = model.imported().study.unwrap();
+    has(
+        &study,
+        &[
+            "- { torque: 50 Nm, speed: 1000 rpm, time: 100 h }   # load case 1",
+            "- { torque: 60 Nm, speed: 1000 rpm, time: 100 h }   # load case 2",
+        ],
+    );
+    let mut model = one_stage("0,100,0");
+    model.components[0].2 = attributes_of("operating_time=20000");
+    model
+        .case(1, &[(14, "torque_around_u_axis=50")])
+        .case(2, &[(14, "torque_around_u_axis=60")]);
+    let imported = model.imported();
+    assert!(!imported.study.unwrap().contains("cycles:"));
+    has(
+        &imported.gearbox,
+        &["# - the load cases state no durations, so there is no load spectrum"],
+    );
+}
+
+/// What the file does not have and the program needs is said where the import ends.
+#[test]
+fn what_cannot_be_solved_is_said() {
+    let mut model = one_stage("0,100,0");
+    model.bearing(15, [10, 2], "70,0,0", "no_direction");
+    let imported = model.imported();
+    has(
+        &imported.gearbox,
+        &[
+            "# To correct before the gearbox can be solved:\n# - shafts.shaft_10.sections: no diameters between 0.000 mm and 50.000 mm",
+            "(help: add `sections:",
+        ],
+    );
+    assert!(imported.report.iter().any(|line| line.starts_with("To correct")));
+}
+
 #[test]
 fn shafts_that_carry_nothing_are_left_out() {
     let mut model = one_stage("0,100,0");

@@ -15,11 +15,13 @@ use super::yaml;
 /// Rounds of changes: each bearing and shaft has at most three, and a change may uncover an error of the next stage.
 const ROUNDS: usize = 10;
 
-/// Changes the models of bearings and the arrangement of bearings until they cause no error. Other errors remain for `check`.
-pub fn fit(draft: &mut Draft, language: &Language, source: &Source<'_>) {
+/// Changes the models of bearings and the arrangement of bearings until they cause no error. Other errors, which `check` reports too, are
+/// returned as lines.
+pub fn fit(draft: &mut Draft, language: &Language, source: &Source<'_>) -> Vec<String> {
     let mut reasons: BTreeMap<String, String> = BTreeMap::new();
+    let mut found = Vec::new();
     for _ in 0..ROUNDS {
-        let found = findings(&yaml::gearbox(draft), language);
+        found = findings(&yaml::gearbox(draft), language);
         let mut changed = false;
         for finding in &found {
             changed |= other_model(draft, finding, &mut reasons)
@@ -42,6 +44,7 @@ pub fn fit(draft: &mut Draft, language: &Language, source: &Source<'_>) {
             }
         }
     }
+    found.iter().map(ToString::to_string).collect()
 }
 
 /// The errors of a gearbox.

@@ -55,6 +55,12 @@ impl<'a> Values<'a> {
         self.source.number(self.holder(component, id), id, quantity)
     }
 
+    /// The time of a load case itself: that of the gear unit is the life of the gearbox.
+    fn own_time(&self, unit: &'a Component) -> Option<f64> {
+        let own = self.case?.components.get(&unit.id)?;
+        self.source.number(own, "operating_time", Quantity::Time)
+    }
+
     fn flag(&self, component: &'a Component, id: &str) -> Option<bool> {
         self.source.flag(self.holder(component, id), id)
     }
@@ -256,7 +262,7 @@ fn read_cases<'a>(map: &Map<'a>, cases: &[(usize, Values<'a>)], loads: &mut Load
             gear: of_unit("gear_shift_index", Quantity::Number).map(|gear| gear as i64),
             oil: casing.and_then(|casing| values.number(casing, "temperature_lubricant", Quantity::Temperature)),
             share: of_unit("operating_time_fraction", Quantity::Percent).filter(|share| *share >= 0.0),
-            time: of_unit("operating_time", Quantity::Time).filter(|time| *time >= 0.0),
+            time: unit.and_then(|unit| values.own_time(unit)).filter(|time| *time >= 0.0),
             number,
         });
     }

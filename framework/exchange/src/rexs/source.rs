@@ -300,8 +300,14 @@ impl<'a> Source<'a> {
         let used = self.used.borrow();
         let mut unused = BTreeMap::new();
         for component in self.model.components.values() {
+            // Everything is placed relative to the gear unit, whose own position has no meaning.
+            let is_origin =
+                |id: &str| component.kind == "gear_unit" && (id.ends_with("_vector") || id.starts_with("reference_c"));
             for attribute in &component.attributes {
-                if !ignored.contains(&component.id) && !used.contains(&(component.id, attribute.id.clone())) {
+                if !is_origin(&attribute.id)
+                    && !ignored.contains(&component.id)
+                    && !used.contains(&(component.id, attribute.id.clone()))
+                {
                     *unused.entry(attribute.id.clone()).or_default() += 1;
                 }
             }

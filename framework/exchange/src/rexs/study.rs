@@ -197,13 +197,9 @@ fn spectra(map: &Map<'_>, loads: &Loads, gears: &BTreeSet<String>) -> Vec<Cycle>
             cases.iter().map(|case| case.time).collect(),
         );
         let total: f64 = shares.iter().flatten().sum();
-        // Times of all cases that are equal are the life of the gearbox and not durations.
-        let same_time = times
-            .as_ref()
-            .is_some_and(|times| times.len() > 1 && times.iter().all(|time| *time == times[0]));
         let (weights, by_share) = match (shares, times) {
             (Some(shares), _) if total > 0.0 => (shares.iter().map(|share| share / total).collect::<Vec<f64>>(), true),
-            (_, Some(times)) if !same_time && times.iter().sum::<f64>() > 0.0 => (times, false),
+            (_, Some(times)) if times.iter().sum::<f64>() > 0.0 => (times, false),
             _ => {
                 if cases.len() > 1 {
                     source.note("the load cases state no durations, so there is no load spectrum");
