@@ -437,6 +437,56 @@ fn load_cases_may_state_times() {
     );
 }
 
+/// Data of the file count before those of the catalogue; a row of another size is another bearing.
+#[test]
+fn bearings_of_another_size_than_the_catalogue_are_their_own() {
+    let mut model = one_stage("0,100,0");
+    for (id, _, attributes) in &mut model.components {
+        if *id == 12 {
+            attributes.push_str(&attributes_of(
+                "inner_diameter=30 outer_diameter=80 width=16 radial_static_load_rating=11",
+            ));
+        }
+    }
+    let imported = model.imported();
+    has(
+        &imported.gearbox,
+        &[
+            "designation: \"6206 (file)\", kind: deep_groove_ball, series: \"62\", bore: 30 mm, outside: 80 mm, width: 16 mm, c0: 11000 N, axial: both }",
+            "the catalogue's `6206` has another kind or other dimensions than the file's `6206`; those of the file count",
+        ],
+    );
+    gearbox(&imported.gearbox);
+}
+
+/// A bearing whose data do not suffice for the usual model gets another one, or none, with the reason.
+#[test]
+fn models_of_bearings_follow_from_their_data() {
+    let mut model = one_stage("0,100,0");
+    for (id, _, attributes) in &mut model.components {
+        let data = match *id {
+            12 => "bearing_type=radial_needle_roller_bearing axial_force_absorption=both_directions",
+            13 => "bearing_type=radial_spherical_roller_bearing axial_force_absorption=no_direction",
+            _ => continue,
+        };
+        let place = place(if *id == 12 { "0,0,0" } else { "100,0,0" });
+        let sizes =
+            "inner_diameter=30 outer_diameter=62 width=16 radial_static_load_rating=20 radial_dynamic_load_rating=25";
+        *attributes = attributes_of(&format!("{place} {data} {sizes}"));
+    }
+    let imported = model.imported();
+    has(
+        &imported.gearbox,
+        &[
+            "c0: 20000 N, axial: both, model: { type: iso14179_2 } }",
+            "c0: 20000 N, axial: none, model: none }",
+            "# - bearing_12 (rolling_bearing_with_catalog_geometry 12): the model is iso14179_2, because skf publishes no row",
+            "# - bearing_13 (rolling_bearing_with_catalog_geometry 13): skf has no constants for series",
+        ],
+    );
+    gearbox(&imported.gearbox);
+}
+
 /// What the file does not have and the program needs is said where the import ends.
 #[test]
 fn what_cannot_be_solved_is_said() {

@@ -209,11 +209,11 @@ fn data(map: &Map<'_>, component: &Component, bearing: &mut Bearing) {
     }
     let force = |ids: [&str; 2]| {
         ids.into_iter()
-            .find_map(|id| source.positive(component, id, Quantity::Force))
+            .find_map(|id| source.positive(component, id, Quantity::LoadRating))
     };
     bearing.c = force(["radial_dynamic_load_rating", "axial_dynamic_load_rating"]);
     bearing.c0 = force(["radial_static_load_rating", "axial_static_load_rating"]);
-    bearing.pu = source.positive(component, "fatigue_limit_load", Quantity::Force);
+    bearing.pu = source.positive(component, "fatigue_limit_load", Quantity::LoadRating);
     let factor = |id: &str| source.positive(component, id, Quantity::Number);
     let factors = [
         factor("catalogue_value_e"),
@@ -297,6 +297,8 @@ fn catalogue(map: &Map<'_>, language: &Language, component: &Component, bearing:
     });
     let other_kind = matches!((bearing.kind, of_row("kind").and_then(Value::as_str)), (Some(a), Some(b)) if a != b);
     if differs || other_kind {
+        bearing.series = bearing.kind.and_then(|kind| series(kind, written)).map(str::to_owned);
+        // Under its own name the row would fill what the file omits.
         bearing.designation = Some(format!("{shown} (file)"));
         source.note(format!(
             "{}: the catalogue's `{base}` has another kind or other dimensions than the file's `{shown}`; those of the file count",

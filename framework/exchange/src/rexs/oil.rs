@@ -174,8 +174,8 @@ fn kind(map: &Map<'_>, component: &Component, density: Option<f64>) -> Option<&'
         return Some(kind);
     }
     source.assume(format!(
-        "{}: the file does not state the kind of oil; mineral was taken",
+        "{}: the file does not state the kind of oil; it counts as mineral",
         component.label()
     ));
-    Some("mineral")
+    None
 }

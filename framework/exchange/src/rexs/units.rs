@@ -11,6 +11,8 @@ pub enum Quantity {
     Angle,
     /// \[N\]
     Force,
+    /// Of a bearing; in kN unless stated. \[N\]
+    LoadRating,
     /// \[Nm\]
     Moment,
     /// \[W\]
@@ -48,8 +50,8 @@ pub enum Quantity {
 }
 
 use Quantity::{
-    Angle, Area, Conductivity, Density, Force, HeatCapacity, Length, Mass, Modulus, Moment, Number, Percent, Power,
-    Resistance, Roughness, Speed, Stiffness, Temperature, TiltingStiffness, Time, Viscosity,
+    Angle, Area, Conductivity, Density, Force, HeatCapacity, Length, LoadRating, Mass, Modulus, Moment, Number,
+    Percent, Power, Resistance, Roughness, Speed, Stiffness, Temperature, TiltingStiffness, Time, Viscosity,
 };
 
 /// Unit as written in REXS, without spaces; quantity; factor to the unit of gearbox files. The first unit of a quantity is that of the
@@ -65,6 +67,8 @@ const UNITS: &[(&str, Quantity, f64)] = &[
     ("rad", Angle, 180.0 / std::f64::consts::PI),
     ("N", Force, 1.0),
     ("kN", Force, 1e3),
+    ("kN", LoadRating, 1e3),
+    ("N", LoadRating, 1.0),
     ("Nm", Moment, 1.0),
     ("Nmm", Moment, 1e-3),
     ("kNm", Moment, 1e3),
@@ -137,6 +141,8 @@ mod tests {
             ("deg", 30.0, Angle, 30.0),
             ("kN", 22.4, Force, 22400.0),
             ("", 12.0, Length, 12.0),
+            ("none", 22.4, LoadRating, 22400.0),
+            ("N", 22400.0, LoadRating, 22400.0),
             ("none", 1500.0, Speed, 1500.0),
             ("K", 343.15, Temperature, 70.0),
             ("C", 70.0, Temperature, 70.0),

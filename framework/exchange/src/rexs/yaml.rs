@@ -397,7 +397,7 @@ fn housing(text: &mut String, draft: &Draft) {
 fn models(text: &mut String, draft: &Draft) {
     text.push_str(
         "\n# One loss model for each mechanism: `gearloss models bearing` lists them, `gearloss models --needs FILE` lists their missing inputs.\nmodels:\n  \
-         gear_mesh: { type: iso14179_2 }\n  bearing: { type: skf }\n  #gear_drag: { churning: { type: changenet_2011 } }   # needs the oil level\n  \
+         gear_mesh: { type: iso14179_2 }\n  bearing: { type: skf }\n  #gear_drag: { churning: { type: changenet_2011 } }   # needs level, volume, section and clearance\n  \
          #seal: { type: iso14179_2 }                          # needs `seals`\n",
     );
     if !draft.sets.is_empty() {
