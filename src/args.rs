@@ -39,7 +39,7 @@ pub enum Command {
     Schema(SchemaArgs),
     /// Fits a law to a table and prints it with its residuals.
     Fit(FitArgs),
-    /// Converts files of another program into a table.
+    /// Converts files of another program: a REXS model into a gearbox and a study, results of OpenFOAM into a table.
     Import(ImportArgs),
     /// Writes a commented template: gearbox, study or plugin.
     New(NewArgs),
@@ -179,6 +179,18 @@ pub struct ImportArgs {
 /// Files of another program.
 #[derive(Debug, Subcommand)]
 pub enum ImportFrom {
+    /// Gearbox, study and load cases from a REXS model (XML, JSON or archive; versions 1.0 to 2.0).
+    ///
+    /// Writes a commented gearbox.yaml, and study.yaml with load_cases.csv if the model has load cases. The end of gearbox.yaml lists what was
+    /// taken, assumed and ignored, and what is missing for losses.
+    Rexs {
+        /// REXS file: .rexs, .rexsj, .rexsz or another name; the content decides.
+        file: PathBuf,
+        /// Folder to write; created if it is missing. Existing files are an error [default: name of the file without its ending, in the
+        /// current folder].
+        #[arg(short, long, value_name = "FOLDER")]
+        output: Option<PathBuf>,
+    },
     /// Mean moments of OpenFOAM's `forces` function object, one run for each point of a table.
     OpenfoamForces {
         /// CSV file of the runs: one column for each axis of the table, such as `speed [rpm]`, `nu [mm2/s]`, `volume [ml]`, and `folder` as

@@ -45,6 +45,7 @@ use clap::Parser;
 use gearloss_plugins as _;
 
 pub use gearloss_document as document;
+pub use gearloss_exchange as exchange;
 pub use gearloss_framework as framework;
 pub use gearloss_numerics as numerics;
 pub use gearloss_report as report;

@@ -53,6 +53,7 @@ mod reference;
 mod repeat;
 mod report;
 mod results;
+mod rexs;
 mod rig;
 mod savings;
 mod schema;
@@ -72,7 +73,12 @@ mod wheels;
 /// A file that no `mod` line names would never be compiled, and its tests would never fail.
 #[test]
 fn every_file_of_tests_is_a_module_of_its_program() {
-    for folder in ["tests", "framework/numerics/tests", "plugins/tests"] {
+    for folder in [
+        "tests",
+        "framework/exchange/tests",
+        "framework/numerics/tests",
+        "plugins/tests",
+    ] {
         let mut files: Vec<String> = std::fs::read_dir(common::file(folder))
             .unwrap()
             .map(|entry| entry.unwrap().path())

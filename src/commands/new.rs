@@ -23,7 +23,7 @@ pub fn run(args: &NewArgs, out: &mut Out) -> Result<End, Failure> {
 }
 
 /// Writes a new file and prints its name; an existing file is an error.
-fn write(file: &Path, text: &str, out: &mut Out) -> Result<(), Failure> {
+pub(super) fn write(file: &Path, text: &str, out: &mut Out) -> Result<(), Failure> {
     use std::io::Write as _;
     let refuse = |what: String, help: String| Err(Failure::input(what, help));
     let folder = folder(file);
@@ -61,7 +61,13 @@ fn write(file: &Path, text: &str, out: &mut Out) -> Result<(), Failure> {
 }
 
 /// Writes the schema that the first line of a file names, for editors. An existing schema is kept, because other files may use it.
-fn write_schema(file: &Path, language: &Language, kind: Kind, name: &str, out: &mut Out) -> Result<(), Failure> {
+pub(super) fn write_schema(
+    file: &Path,
+    language: &Language,
+    kind: Kind,
+    name: &str,
+    out: &mut Out,
+) -> Result<(), Failure> {
     let schema = folder(file).join(name);
     let schema = schema.strip_prefix(".").unwrap_or(&schema);
     let text = published(language, kind)?;
@@ -91,7 +97,7 @@ fn folder(file: &Path) -> &Path {
 }
 
 /// A path quoted for a shell.
-fn word(path: &Path) -> String {
+pub(super) fn word(path: &Path) -> String {
     let text = path.display().to_string();
     if text.chars().all(|c| c.is_alphanumeric() || "/\\._-:+".contains(c)) {
         text
@@ -106,7 +112,7 @@ fn word(path: &Path) -> String {
 }
 
 /// Prints the commands to type next.
-fn print_next(commands: &[String], out: &mut Out) -> Result<(), Failure> {
+pub(super) fn print_next(commands: &[String], out: &mut Out) -> Result<(), Failure> {
     out.line("next:")?;
     for command in commands {
         out.line(format!("  gearloss {command}"))?;

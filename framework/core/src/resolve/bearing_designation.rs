@@ -174,6 +174,7 @@ const SUFFIXES: &[(&str, Meaning)] = &[
     ("X", Meaning::Other("boundary dimensions adapted to ISO")),
     ("Q", Meaning::Other("optimised contact and surface")),
     ("A", Meaning::Other("changed internal design")),
+    ("C", Meaning::Other("changed internal design")),
     ("S0", Meaning::Other("stabilised up to 150 degC")),
     ("S1", Meaning::Other("stabilised up to 200 degC")),
     ("MT33", Meaning::Other("grease filling")),

@@ -1,0 +1,7 @@
+//! Files of other programs.
+//!
+//! [`rexs::import`] converts a REXS model, the exchange format of gearbox programs, to the texts of a gearbox and a study. It reads bytes
+//! and returns texts; files are read and written by its caller.
+
+pub mod codes;
+pub mod rexs;

@@ -1,0 +1,48 @@
+//! Renamed ids: one table for all versions, from the change logs of REXS 1.0 to 2.0. Only ids that the import reads are listed.
+
+/// Component types that another type replaced: old, new.
+const COMPONENTS: &[(&str, &str)] = &[
+    ("flank_geometry", "cylindrical_gear_flank"),
+    ("stage_gear_data", "cylindrical_stage_gear_data"),
+    ("fixed_coupling", "coupling"),
+];
+
+/// Attributes: old id, id in 2.0, component types with that meaning of the old id; none for all.
+const ATTRIBUTES: &[(&str, &str, &[&str])] = &[
+    (
+        "name",
+        "catalogue_designation",
+        &[
+            "rolling_bearing_with_catalog_geometry",
+            "rolling_bearing_with_detailed_geometry",
+        ],
+    ),
+    ("dynamic_capacity", "radial_dynamic_load_rating", &[]),
+    ("static_capacity", "radial_static_load_rating", &[]),
+    ("load_duration", "operating_time", &[]),
+    ("load_duration_fraction", "operating_time_fraction", &[]),
+    (
+        "arithmetic_average_roughness_flank",
+        "arithmetic_mean_roughness_flank_iso_4287_1997",
+        &[],
+    ),
+];
+
+/// Values of enumerations that were spelled otherwise: old, new. Hyphens were replaced by underscores.
+pub fn newest_value(value: &str) -> String {
+    value.trim().replace('-', "_").to_ascii_lowercase()
+}
+
+/// The newest name of a component type.
+pub fn newest_component(kind: &str) -> &str {
+    let renamed = COMPONENTS.iter().find(|(old, _)| *old == kind);
+    renamed.map_or(kind, |(_, new)| new)
+}
+
+/// The newest id of an attribute of a component type.
+pub fn newest_attribute<'a>(component: &str, id: &'a str) -> &'a str {
+    let renamed = ATTRIBUTES
+        .iter()
+        .find(|(old, _, of)| *old == id && (of.is_empty() || of.contains(&component)));
+    renamed.map_or(id, |(_, new, _)| new)
+}

@@ -1,0 +1,165 @@
+//! The gearbox as it is going to be written: entries with their comments, in the units of gearbox files.
+
+/// A gearbox.
+#[derive(Debug, Default)]
+pub struct Draft {
+    pub title: String,
+    pub source: String,
+    /// Lines of the head, without `# `.
+    pub head: Vec<String>,
+    pub ports: Vec<Port>,
+    pub rating: Option<(f64, f64)>,
+    pub shafts: Vec<Shaft>,
+    pub gears: Vec<Gear>,
+    pub meshes: Vec<Mesh>,
+    pub sets: Vec<Set>,
+    pub couplings: Vec<Coupling>,
+    /// Gear and its engaged couplings.
+    pub states: Vec<(String, Vec<String>)>,
+    pub bearings: Vec<Bearing>,
+    pub lubricants: Vec<Lubricant>,
+    /// Oil of the housing.
+    pub sump: String,
+    pub oil_temperature: Option<f64>,
+    /// Heat transfer of the housing: area in cm2, coefficient in W/(m2 K).
+    pub heat: Option<(f64, f64)>,
+    /// Values that the file does not have, and why: paths, reason.
+    pub assumed: Vec<(Vec<String>, String)>,
+    /// Sections that come from the file.
+    pub from_file: Vec<&'static str>,
+    /// Lines at the end, without `# `.
+    pub report: Vec<String>,
+}
+
+#[derive(Debug)]
+pub struct Port {
+    pub name: String,
+    pub shaft: String,
+}
+
+#[derive(Debug, Default)]
+pub struct Shaft {
+    pub id: String,
+    pub comment: String,
+    pub axis: Option<[f64; 2]>,
+    pub sections: Vec<Section>,
+    pub mass: Option<(f64, f64)>,
+    pub loads: Vec<Load>,
+    /// Without bearings in this description.
+    pub unsupported: bool,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Section {
+    pub from: f64,
+    pub to: f64,
+    pub outer: f64,
+    pub inner: f64,
+}
+
+#[derive(Debug)]
+pub struct Load {
+    pub comment: String,
+    pub at: f64,
+    pub force: [f64; 3],
+    pub moment: [f64; 2],
+}
+
+#[derive(Debug)]
+pub struct Gear {
+    pub id: String,
+    pub comment: String,
+    pub shaft: String,
+    pub at: f64,
+    pub z: i64,
+    pub facewidth: f64,
+    pub ring: bool,
+    /// Turns on its shaft until a coupling connects it.
+    pub loose: bool,
+    pub hand: Option<&'static str>,
+    pub profile_shift: Option<f64>,
+    pub tip_diameter: Option<f64>,
+    pub root_diameter: Option<f64>,
+    pub ra: Option<f64>,
+}
+
+#[derive(Debug)]
+pub struct Mesh {
+    pub id: String,
+    pub comment: String,
+    pub gears: [String; 2],
+    pub normal_module: f64,
+    pub pressure_angle: f64,
+    pub helix_angle: f64,
+    pub centre_distance: Option<f64>,
+    pub modulus: Option<f64>,
+    pub poisson: Option<f64>,
+    pub lubricant: Option<String>,
+}
+
+#[derive(Debug)]
+pub struct Set {
+    pub id: String,
+    pub comment: String,
+    pub carrier: String,
+    pub planets: Vec<String>,
+    pub count: usize,
+}
+
+#[derive(Debug)]
+pub struct Coupling {
+    pub id: String,
+    pub comment: String,
+    pub between: [String; 2],
+}
+
+#[derive(Debug, Default)]
+pub struct Bearing {
+    pub id: String,
+    pub comment: String,
+    pub shaft: String,
+    pub outer: Option<String>,
+    pub at: f64,
+    pub axial: &'static str,
+    /// Share of the thrust, if several bearings take it.
+    pub axial_share: Option<f64>,
+    /// Supports a shaft alone.
+    pub takes_moment: bool,
+    pub designation: Option<String>,
+    pub kind: Option<&'static str>,
+    pub series: Option<String>,
+    pub bore: Option<f64>,
+    pub outside: Option<f64>,
+    pub width: Option<f64>,
+    pub c: Option<f64>,
+    pub c0: Option<f64>,
+    pub e: Option<f64>,
+    pub y: Option<f64>,
+    pub y0: Option<f64>,
+    pub pu: Option<f64>,
+    pub radial_stiffness: Option<f64>,
+    pub tilting_stiffness: Option<f64>,
+    pub lubrication: Option<&'static str>,
+    pub oil_height: Option<f64>,
+    pub lubricant: Option<String>,
+    /// Its own model; none is that of `models`.
+    pub model: Option<&'static str>,
+    /// A designation of the catalogue in the name of a bearing that states none.
+    pub known: Option<String>,
+}
+
+#[derive(Debug, Default)]
+pub struct Lubricant {
+    pub id: String,
+    pub comment: String,
+    pub designation: Option<String>,
+    pub kind: Option<&'static str>,
+    pub kv40: Option<f64>,
+    pub kv100: Option<f64>,
+    /// Temperature and viscosity.
+    pub points: Vec<(f64, f64)>,
+    /// At 15 degC.
+    pub density: Option<f64>,
+    pub heat_capacity: Option<f64>,
+    pub conductivity: Option<f64>,
+}

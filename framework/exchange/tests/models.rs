@@ -1,0 +1,353 @@
+//! The public models, imported and solved.
+
+use std::f64::consts::PI;
+
+use gearloss_document::files::InMemory;
+use gearloss_exchange::rexs::Imported;
+use gearloss_studies::analyses::cycle::CycleOutcome;
+use gearloss_studies::analyses::operating_points::{OperatingPoint, OperatingPointsOutcome};
+use gearloss_studies::points::{Field, Given, PointResult, Points, run_grid};
+use gearloss_studies::run::StudyRun;
+use gearloss_studies::study::Study;
+
+use crate::common::{PLANETARY, THREE_STAGE, TWO_STAGE, WORM, data, gearbox, imported, language, refused};
+
+/// One point of the first gear of an imported gearbox.
+fn point(imported: &Imported, gear: &str, torque: f64, rpm: f64) -> PointResult {
+    let (_, transmission) = gearbox(&imported.gearbox);
+    let given = Given::new(torque, rpm * PI / 30.0);
+    let points = Points::at_reference(&transmission, gear, Field::List(vec![given]));
+    let solved = run_grid(&transmission, &points, &|_| true).unwrap().unwrap();
+    solved.points[0].clone()
+}
+
+/// The study of a model with its files.
+fn study(imported: &Imported) -> Study {
+    let files = InMemory::new([
+        ("gearbox.yaml", imported.gearbox.as_str()),
+        ("study.yaml", imported.study.as_deref().unwrap()),
+        ("load_cases.csv", imported.load_cases.as_deref().unwrap()),
+    ])
+    .shared();
+    let study = Study::read_from(language(), &files, "study.yaml".as_ref());
+    study.unwrap_or_else(|found| panic!("{}", found.render()))
+}
+
+fn load_cases(study: &Study) -> Vec<OperatingPoint> {
+    let outcome = StudyRun::new(language(), study).analysis("load_cases").unwrap();
+    let outcome = outcome.get::<OperatingPointsOutcome>().unwrap();
+    outcome.operating_points[0].points.clone()
+}
+
+/// The line of an entry.
+fn line<'a>(text: &'a str, id: &str) -> &'a str {
+    let start = format!("  {id}: ");
+    text.lines()
+        .find(|line| line.starts_with(&start))
+        .unwrap_or_else(|| panic!("no {id}"))
+}
+
+fn has(text: &str, id: &str, keys: &[&str]) {
+    let line = line(text, id);
+    for key in keys {
+        assert!(line.contains(key), "{key} is not in {line}");
+    }
+}
+
+fn near(found: f64, expected: f64, tolerance: f64) {
+    assert!((found - expected).abs() <= tolerance, "{found} instead of {expected}");
+}
+
+#[test]
+fn the_two_stage_gearbox_has_its_geometry() {
+    let imported = imported(TWO_STAGE);
+    let text = &imported.gearbox;
+    assert!(text.contains("ports: { input: shaft_12, output: shaft_14 }"), "{text}");
+    for (gear, z, at, hand, shift) in [
+        ("gear_15", 27, 47, "right", "0.231415"),
+        ("gear_17", 51, 47, "left", "0.231415"),
+        ("gear_16", 23, 155, "left", "0.15074"),
+        ("gear_18", 34, 155, "right", "0.15074"),
+    ] {
+        let keys = [
+            format!("z: {z},"),
+            format!("at: {at} mm"),
+            format!("hand: {hand}"),
+            format!("profile_shift: {shift} }}"),
+        ];
+        has(text, gear, &keys.each_ref().map(String::as_str));
+    }
+    has(
+        text,
+        "stage_19",
+        &[
+            "[gear_15, gear_17]",
+            "normal_module: 4.5 mm",
+            "helix_angle: 21 deg",
+            "elastic_modulus: 210 GPa",
+        ],
+    );
+    has(
+        text,
+        "stage_20",
+        &["[gear_16, gear_18]", "normal_module: 6.5 mm", "helix_angle: 10 deg"],
+    );
+    for (bearing, shaft, at, axial) in [
+        (33, "shaft_12", "-5", "both"),
+        (34, "shaft_14", "103", "left"),
+        (35, "shaft_14", "230", "right"),
+        (36, "shaft_12, outer: shaft_14", "105", "none"),
+        (37, "shaft_13", "-5", "left"),
+        (38, "shaft_13", "225", "right"),
+    ] {
+        let keys = [
+            format!("shaft: {shaft}"),
+            format!("at: {at} mm"),
+            format!("axial: {axial}"),
+        ];
+        has(
+            text,
+            &format!("bearing_{bearing}"),
+            &keys.each_ref().map(String::as_str),
+        );
+    }
+    has(text, "bearing_33", &["designation: \"6210-2Z\"", "6210-2Z"]);
+    has(
+        text,
+        "lubricant_56",
+        &["kv40: 100 mm2/s", "kv100: 11 mm2/s", "value: 880 kg/m3"],
+    );
+    assert!(text.contains("oil: 70 degC"));
+    // The tip diameter of 1 mm is no tip diameter.
+    assert!(!text.contains("tip_diameter: 1 mm"));
+    assert!(
+        imported
+            .report
+            .iter()
+            .any(|line| line.contains("cylindrical_gear 16: tip_diameter 1 mm does not fit"))
+    );
+    let (_, transmission) = gearbox(text);
+    assert!(transmission.warnings.is_empty(), "{:?}", transmission.warnings);
+}
+
+/// Ratio 2.7922705; power in is power out and the loss; the loss is that of a description by hand.
+#[test]
+fn the_two_stage_gearbox_is_solved() {
+    let imported = imported(TWO_STAGE);
+    let solved = point(&imported, "only", 567.0, 543.0);
+    near(solved.output_speed.unwrap() * 30.0 / PI, 194.4654, 1e-3);
+    near(
+        solved.output_speed.unwrap(),
+        solved.speed / 2.792_270_531_400_965_7,
+        1e-9,
+    );
+    let (input, output, loss) = (solved.input.unwrap(), solved.output.unwrap(), solved.loss.unwrap());
+    near(input - output, loss, 1e-6 * input);
+    near(input, 567.0 * 543.0 * PI / 30.0, 1e-6 * input);
+    near(loss, 404.7132, 1e-3);
+}
+
+/// 20, 30, 35 and 15 % of the time, forces and temperatures of each case.
+#[test]
+fn the_two_stage_gearbox_has_its_load_cases() {
+    let imported = imported(TWO_STAGE);
+    let table = imported.load_cases.as_deref().unwrap();
+    let rows: Vec<&str> = table.lines().filter(|line| !line.starts_with('#')).collect();
+    assert_eq!(
+        rows,
+        [
+            "name,torque [Nm],speed [rpm],oil [degC],force_42_y [N],force_43_x [N],force_43_y [N]",
+            "1,567,543,70,456,0,123",
+            "2,345,3456,70,678,123,0",
+            "3,456,1234,70,876,0,345",
+            "4,789,789,70,1233,567,0",
+        ]
+    );
+    let study = study(&imported);
+    let cases = load_cases(&study);
+    assert_eq!(cases.len(), 4);
+    near(cases[0].loss_w.unwrap(), 404.7132, 1e-3);
+    let outcome = StudyRun::new(language(), &study)
+        .analysis("load_spectrum_losses")
+        .unwrap();
+    let cycle = outcome.get::<CycleOutcome>().unwrap();
+    let text = serde_json::to_string(cycle).unwrap();
+    assert!(text.contains("\"load_spectrum\""), "{text}");
+    let shares: Vec<&str> = imported
+        .study
+        .as_deref()
+        .unwrap()
+        .lines()
+        .filter(|line| line.contains("share: "))
+        .collect();
+    for (line, share) in shares.iter().zip(["0.2", "0.3", "0.35", "0.15"]) {
+        assert!(line.contains(&format!("share: {share},")), "{line}");
+    }
+    assert_eq!(shares.len(), 4);
+}
+
+/// Speeds and torque stand in the components; three bearings on one shaft need its sections.
+#[test]
+fn the_three_stage_gearbox_is_solved() {
+    let imported = imported(THREE_STAGE);
+    let text = &imported.gearbox;
+    assert_eq!(
+        text.matches("shaft: shaft_36, at: ").count(),
+        5,
+        "two gears and three bearings"
+    );
+    for (bearing, designation) in [
+        (20, "6305-2Z"),
+        (21, "6205"),
+        (32, "6202"),
+        (49, "6302"),
+        (51, "6303-C"),
+        (66, "6207"),
+        (67, "6308-2Z"),
+    ] {
+        has(
+            text,
+            &format!("bearing_{bearing}"),
+            &[&format!("designation: \"{designation}\"")],
+        );
+    }
+    has(
+        text,
+        "bearing_20",
+        &["c: 22400 N", "c0: 11400 N", "bore: 25 mm", "outside: 62 mm"],
+    );
+    has(
+        text,
+        "bearing_50",
+        &[
+            "\"NUP204-E-XL-TVP2\"",
+            "kind: cylindrical_roller",
+            "series: \"2\"",
+            "c: 32500 N",
+        ],
+    );
+    let missing = imported.report.iter().any(|line| line.starts_with("- the oil: "));
+    assert!(missing, "{:?}", imported.report);
+    assert!(!text.contains("model: none"), "all bearings have losses");
+    let solved = point(&imported, "only", 4.724_562_306_435_156, 1400.0);
+    near(
+        solved.output_speed.unwrap() * 30.0 / PI,
+        -1400.0 / 105.829_909_221_213_57,
+        1e-9,
+    );
+    assert!(solved.loss.unwrap() > 30.0);
+    let cases = load_cases(&study(&imported));
+    near(cases[0].torque_nm, 4.724_562_306_435_156, 1e-11);
+    let (_, transmission) = gearbox(text);
+    for ((_, mesh), distance) in transmission.meshes().zip([53.0, 57.0, 77.0]) {
+        near(mesh.pair.centre_distance * 1e3, distance, 6e-5);
+    }
+}
+
+#[test]
+fn the_planetary_gearbox_is_solved() {
+    let imported = imported(PLANETARY);
+    let text = &imported.gearbox;
+    let set = "  set_9:   # 9 \"Planetenstufe [9]\"\n    carrier: carrier_4\n    planets: [planet_229]\n    count: 3\n";
+    assert!(text.contains(set), "{text}");
+    has(
+        text,
+        "coupling_65",
+        &["[shaft_62, housing]", "65 \"Koppelung [65]\" + 66 \"Koppelung [66]\""],
+    );
+    assert!(text.contains("  gear_1: [coupling_65]\n"));
+    assert_eq!(
+        text.matches("planet_229").count(),
+        5,
+        "shaft, set, gear and two bearings:\n{text}"
+    );
+    has(text, "ring_58", &["z: 61", "kind: ring"]);
+    has(text, "stage_211", &["centre_distance: 78 mm"]);
+    let comment = text.lines().find(|line| line.starts_with("  carrier_4:")).unwrap();
+    for part in ["4 \"Steg 1", "6 \"Steg 2", "67 \"Wange", "68 \"Wange"] {
+        assert!(comment.contains(part), "{comment}");
+    }
+    let solved = point(&imported, "gear_1", 1591.549, 1500.0);
+    near(solved.speed / solved.output_speed.unwrap(), 4.588_235_294_117_647, 1e-9);
+    let (_, transmission) = gearbox(text);
+    assert!(transmission.warnings.is_empty(), "{:?}", transmission.warnings);
+}
+
+/// A file with the `#` of all options deleted.
+fn with_options(text: &str) -> String {
+    let mut all = String::new();
+    for line in text.lines() {
+        let rest = line.trim_start();
+        let option = rest
+            .strip_prefix('#')
+            .filter(|option| option.starts_with(|c: char| c.is_ascii_lowercase()));
+        let indent = &line[..line.len() - rest.len()];
+        all.push_str(&format!("{indent}{}\n", option.unwrap_or(rest)));
+    }
+    all
+}
+
+#[test]
+fn options_are_valid() {
+    for name in [TWO_STAGE, PLANETARY, THREE_STAGE] {
+        let mut imported = imported(name);
+        let options = with_options(&imported.gearbox);
+        for key in [
+            "\nseals:",
+            "\n    level:",
+            "\n  section:",
+            "\n  gear_drag:",
+            "\n  seal:",
+        ] {
+            assert!(options.contains(key) && !imported.gearbox.contains(key), "{key}");
+        }
+        imported.gearbox = options;
+        imported.study = imported.study.as_deref().map(with_options);
+        let gear = if name == PLANETARY { "gear_1" } else { "only" };
+        assert!(point(&imported, gear, 5.0, 100.0).loss.is_some());
+        let study = study(&imported);
+        assert!(StudyRun::new(language(), &study).analysis("map").is_ok());
+    }
+}
+
+#[test]
+fn worm_stages_are_refused_plainly() {
+    let found = refused(&data(WORM), WORM);
+    assert!(
+        found.contains("error[E0805]: worm_stage 3: worm stages are not described yet"),
+        "{found}"
+    );
+    assert!(found.contains(&format!("{WORM}:471:5")), "{found}");
+    assert!(found.ends_with("1 error\n"), "{found}");
+}
+
+/// A pinion beside the shaft line, a shaft that is turned around, and torque as power: the same gearbox.
+#[test]
+fn positions_relative_to_other_components_are_followed() {
+    let text = crate::common::text(TWO_STAGE);
+    // Shaft 12 moves by (1, 2, 3); gear 15 is placed relative to it.
+    let own = text.find("<component id=\"15\"").unwrap();
+    let end = own + text[own..].find("</component>").unwrap();
+    let gear = text[own..end].replace("<c>47</c>", "<c>117</c>").replace(
+        "reference_component_for_position\" unit=\"\">1<",
+        "reference_component_for_position\" unit=\"\">12<",
+    );
+    let moved = format!("{}{gear}{}", &text[..own], &text[end..]);
+    let original = imported(TWO_STAGE);
+    let again = gearloss_exchange::rexs::import(moved.as_bytes(), TWO_STAGE, language()).unwrap();
+    let of_gear = |text: &str| line(text, "gear_15").to_owned();
+    assert_eq!(of_gear(&again.gearbox), of_gear(&original.gearbox));
+}
+
+#[test]
+fn power_and_speed_give_the_torque() {
+    let text = crate::common::text(THREE_STAGE);
+    let power = 4.724_562_306_435_156 * 1400.0 * PI / 30.0 / 1000.0;
+    let changed = text.replace(
+        "<attribute id=\"torque_around_u_axis\" unit=\"N m\">4.724562306435156</attribute>",
+        &format!("<attribute id=\"power\" unit=\"kW\">{power}</attribute>"),
+    );
+    assert_ne!(changed, text);
+    let again = gearloss_exchange::rexs::import(changed.as_bytes(), THREE_STAGE, language()).unwrap();
+    assert_eq!(again.load_cases, imported(THREE_STAGE).load_cases);
+}
