@@ -8,6 +8,7 @@ mod lossy_gear;
 mod mat;
 mod matlab;
 mod modelica;
+pub mod network;
 mod slabs;
 mod vecto;
 

@@ -112,7 +112,16 @@ impl Writer {
             to.list(&axis.points, |to, x| to.real(*x));
         });
         self.number(table.channels as u32);
-        self.list(&table.values, |to, x| to.real(*x));
+        // Short numbers where they lose nothing.
+        let is_short = table.values.iter().all(|x| f64::from(*x as f32) == *x);
+        self.number(u32::from(is_short));
+        self.list(&table.values, |to, x| {
+            if is_short {
+                to.0.extend((*x as f32).to_le_bytes());
+            } else {
+                to.real(*x);
+            }
+        });
     }
 
     fn map(&mut self, map: &Map) {
@@ -256,11 +265,14 @@ impl Reader<'_> {
                 points: from.list(Self::real)?,
             })
         };
-        Some(Table {
-            axes: self.list(axis)?,
-            channels: self.number()? as usize,
-            values: self.list(Self::real)?,
-        })
+        let axes = self.list(axis)?;
+        let channels = self.number()? as usize;
+        let values = if self.flag()? {
+            self.list(|from| from.bytes().map(|own| f64::from(f32::from_le_bytes(own))))?
+        } else {
+            self.list(Self::real)?
+        };
+        Some(Table { axes, channels, values })
     }
 
     fn map(&mut self) -> Option<Map> {

@@ -3,7 +3,7 @@
 mod axes;
 mod entry;
 pub mod export;
-pub(super) mod exported;
+mod exported;
 mod outcome;
 mod plan;
 mod points;
@@ -27,6 +27,7 @@ use self::export::ExportData;
 use self::plan::{Planned, on_grid};
 use self::points::{RowsOf, Taken, Taker, UndefinedLoss};
 use self::shown::Selection;
+use super::units::libraries;
 use super::{Analysis, Built, Context, Stopped};
 use crate::distinct::distinct;
 use crate::measured::Measured;
@@ -120,7 +121,7 @@ impl MapEntry {
     /// The libraries of FMUs, if one is exported.
     fn libraries(&self, cx: &Context<'_>) -> Result<Vec<Library>, Stopped> {
         let is_needed = self.export.iter().any(|name| name.format().has_library());
-        exported::libraries(cx, &self.fmu_libraries, is_needed)
+        libraries(cx, &self.fmu_libraries, is_needed)
     }
 
     /// The points of the maps over the grid of the entry.

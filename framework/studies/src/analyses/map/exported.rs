@@ -1,15 +1,11 @@
 //! Solves the further points of a map that tables for other programs need.
 
-use gearloss_fmu::Library;
-use gearloss_framework::document::Diagnostic;
-use gearloss_framework::transmission::Transmission;
-
+use super::super::units::speed_ratio;
 use super::super::{Context, Stopped};
 use super::Map;
 use super::export::{ExportData, ExportName, Refusal};
 use super::plan::Planned;
 use super::shown::{LossAt, LossGrid};
-use crate::codes;
 use crate::points::{Given, Statistics, take_points};
 
 impl ExportData {
@@ -35,7 +31,7 @@ impl ExportData {
                 .map(|list| loss_torques(cx, map, list))
                 .collect::<Result<_, _>>()?,
             no_load,
-            ratio: ratio(map),
+            ratio: speed_ratio(&map.built.transmission, &map.gear),
             between_oils: None,
         })
     }
@@ -62,77 +58,6 @@ impl ExportData {
         }
         Ok(())
     }
-}
-
-/// The libraries of FMUs: that of the own platform, and those of the files.
-pub(crate) fn libraries(cx: &Context<'_>, files: &[String], is_needed: bool) -> Result<Vec<Library>, Stopped> {
-    let path = format!("{}.fmu_libraries", cx.path());
-    if !is_needed {
-        return match files {
-            [] => Ok(Vec::new()),
-            _ => Err(cx.wrong(&path, "no FMU is exported", "write `export: [fmu2]`, or delete it")),
-        };
-    }
-    let mut libraries: Vec<Library> = Library::own().into_iter().collect();
-    let mut found = Vec::new();
-    for file in files {
-        let read = cx.study.read_file(file).map_err(|e| format!("cannot read {file}: {e}"));
-        let library = read.and_then(|bytes| {
-            cx.keep_input(file, &bytes);
-            Library::read(bytes).map_err(|e| format!("{file} {e}"))
-        });
-        match library {
-            Ok(library) => {
-                libraries.retain(|own| own.platform != library.platform);
-                libraries.push(library);
-            }
-            Err(reason) => found.push(
-                Diagnostic::error(path.clone(), reason)
-                    .help("take the library out of the folder `binaries` of an FMU that gearloss wrote on the other platform")
-                    .code(codes::ANALYSIS),
-            ),
-        }
-    }
-    if !found.is_empty() {
-        return Err(cx.found(found));
-    }
-    if libraries.is_empty() {
-        return Err(cx.wrong(
-            &format!("{}.export", cx.path()),
-            "this program has no library for FMUs, because its own platform loads none",
-            "write `fmu_libraries: [FILE]` with a library out of an FMU that gearloss wrote on another platform",
-        ));
-    }
-    libraries.sort_by_key(|library| library.platform);
-    Ok(libraries)
-}
-
-/// Speed of the other port over that of the reference port, if there are two.
-fn ratio(map: &Map<'_>) -> Option<f64> {
-    speed_ratio(&map.built.transmission, &map.gear)
-}
-
-/// Speed of the other port over that of the reference port in a gear, if there are two ports and both turn.
-pub(crate) fn speed_ratio(t: &Transmission, gear: &str) -> Option<f64> {
-    let reference = &t.ports()[t.reference_port()];
-    let [other] = t
-        .ports()
-        .iter()
-        .filter(|port| port.name != reference.name)
-        .collect::<Vec<_>>()[..]
-    else {
-        return None;
-    };
-    let state = t.state(gear).ok()?;
-    let torques: &[&str] = if t.torques_needed(state) == 0 {
-        &[]
-    } else {
-        &[&reference.name]
-    };
-    let case = t.case(gear, &[&reference.name], torques).ok()?;
-    let speeds = t.speeds(&case, &[1.0]);
-    let ratio = speeds[other.member] / speeds[reference.member];
-    (ratio.is_finite() && ratio != 0.0).then_some(ratio)
 }
 
 /// Rejects unsuitable grids before computation.
