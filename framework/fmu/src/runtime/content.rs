@@ -368,3 +368,127 @@ impl Reader<'_> {
         })
     }
 }
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use alloc::vec;
+
+    use super::*;
+
+    /// A network with everything that a content can have.
+    pub fn network() -> Network {
+        let axis = |quantity, points: &[f64]| Axis {
+            quantity,
+            points: points.to_vec(),
+        };
+        let node = |name: &str, capacity, held| Node {
+            name: name.into(),
+            capacity,
+            held,
+            start: 20.0,
+        };
+        let source = |scale: f64| Source {
+            table: Table {
+                axes: vec![axis(0, &[0.0, 100.0]), axis(1, &[-10.0, 10.0])],
+                channels: 1,
+                values: vec![scale, scale, scale, 3.0 * scale],
+            },
+            nodes: vec![1],
+            over_speed: true,
+        };
+        Network {
+            nodes: vec![
+                node("ambient", 0.0, Some(20.0)),
+                node("sump", 1000.0, None),
+                node("cooled", 0.0, None),
+                node("plate", 50.0, Some(35.0)),
+            ],
+            oil: 1,
+            step: 1.0,
+            pumped: Some(1e-4),
+            oil_properties: Table {
+                axes: vec![axis(5, &[0.0, 100.0])],
+                channels: 2,
+                values: vec![900.0, 1800.0, 830.0, 2200.1],
+            },
+            exchangers: vec![Exchanger {
+                name: "cooler".into(),
+                from: 1,
+                to: 2,
+                oil: Flow::Share(1.0),
+                ua: 300.0,
+                arrangement: 0,
+                coolant_heat_capacity: 3600.0,
+                coolant_flow: 0.1,
+                coolant_temperature: 15.0,
+            }],
+            flows: vec![(2, 1, Flow::Share(1.0))],
+            sources: vec![(1, 7.0)],
+            gears: vec![GearOfNetwork {
+                name: "first".into(),
+                ratio: Some(-0.25),
+                losses: vec![source(0.1)],
+                motors: vec![source(0.01)],
+                links: vec![
+                    Link {
+                        between: [1, 0],
+                        conductance: Conductance::Given(5.0),
+                    },
+                    Link {
+                        between: [1, 3],
+                        conductance: Conductance::Table(Table {
+                            axes: vec![axis(2, &[0.0, 30.0])],
+                            channels: 1,
+                            values: vec![1.0, 4.0],
+                        }),
+                    },
+                ],
+            }],
+            vehicle_speed: true,
+            starts: vec![0.0, 0.0, 0.0, 20.0],
+        }
+    }
+
+    #[test]
+    fn a_content_is_read_as_it_was_written() {
+        let content = Content::Network(network());
+        let bytes = content.encode();
+        assert_eq!(Content::decode(&bytes), Some(content));
+        assert_eq!(token(&bytes).len(), 32);
+        let mut other = bytes.clone();
+        other[40] ^= 1;
+        assert_ne!(token(&bytes), token(&other));
+    }
+
+    /// A small generator of random numbers.
+    fn random(state: &mut u64) -> usize {
+        *state ^= *state << 13;
+        *state ^= *state >> 7;
+        *state ^= *state << 17;
+        *state as usize
+    }
+
+    /// Whatever the bytes are, nothing panics, and the memory is bounded by their number.
+    #[test]
+    fn changed_bytes_are_refused_or_simulated() {
+        let bytes = Content::Network(network()).encode();
+        let mut state = 88_172_645_463_325_252;
+        let mut sound = 0;
+        for _ in 0..100_000 {
+            let mut own = bytes.clone();
+            for _ in 0..=random(&mut state) % 3 {
+                let place = random(&mut state) % own.len();
+                own[place] = random(&mut state) as u8;
+            }
+            own.truncate(own.len() - random(&mut state) % 2);
+            if let Some(content) = Content::decode(&own) {
+                let mut model = crate::model::Model::new(content);
+                // A step length may have become tiny.
+                let _ = model.advance(1e-3);
+                let _ = model.get(1, crate::variables::Kind::Real);
+                sound += 1;
+            }
+        }
+        assert!(sound > 1000, "{sound}");
+    }
+}

@@ -185,8 +185,10 @@ impl Network {
                 && g.links.iter().all(link)
                 && g.ratio.is_none_or(|ratio| ratio.is_finite() && ratio != 0.0)
         };
-        let exchanger = |e: &Exchanger| known(e.from) && known(e.to) && e.arrangement < 3;
+        let exchanger = |e: &Exchanger| known(e.from) && known(e.to) && e.arrangement < 3 && e.ua.is_finite();
+        let node = |n: &Node| n.capacity.is_finite() && n.start.is_finite() && n.held.is_none_or(f64::is_finite);
         !self.gears.is_empty()
+            && self.nodes.iter().all(node)
             && known(self.oil)
             && self.starts.len() == 4
             && self.step.is_finite()
@@ -540,4 +542,120 @@ fn eliminate(matrix: &mut [f64], mut right: Vec<f64>) -> Option<Vec<f64>> {
         right[row] = sum / matrix[row * count + row];
     }
     right.iter().all(|t| t.is_finite()).then_some(right)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::content::Content;
+    use crate::content::tests::network;
+    use crate::model::{Fault, Model};
+
+    fn reference(model: &Model, wanted: Use) -> u32 {
+        model
+            .slots()
+            .iter()
+            .position(|slot| slot.use_ == wanted)
+            .unwrap_or(usize::MAX) as u32
+    }
+
+    fn set(model: &mut Model, wanted: Use, value: f64) {
+        let reference = reference(model, wanted);
+        assert_eq!(model.set(reference, Kind::Real, value), Ok(()), "{wanted:?}");
+    }
+
+    fn get(model: &mut Model, wanted: Use) -> f64 {
+        let reference = reference(model, wanted);
+        model.get(reference, Kind::Real).unwrap_or(f64::NAN)
+    }
+
+    /// Heat and conductances without tables: each backward step is T = (C T0/h + Q + G Ta)/(C/h + G).
+    #[test]
+    fn one_node_by_hand() {
+        let mut own = network();
+        own.exchangers.clear();
+        own.flows.clear();
+        own.nodes.truncate(2);
+        own.gears[0].links.truncate(1);
+        own.gears[0].motors.clear();
+        let mut model = Model::new(Content::Network(own));
+        set(&mut model, Use::Speed, 100.0);
+        set(&mut model, Use::Torque, 10.0);
+        set(&mut model, Use::Ambient, 10.0);
+        assert!((get(&mut model, Use::LossPower) - 30.0).abs() < 1e-12);
+        let mut temperature = 20.0;
+        for _ in 0..25 {
+            temperature = (1000.0 * temperature + 37.0 + 5.0 * 10.0) / 1005.0;
+        }
+        assert_eq!(model.advance(25.0), Ok(()));
+        assert!((get(&mut model, Use::Node(1)) - temperature).abs() < 1e-9);
+        // In a long time all heat goes to the ambient.
+        assert_eq!(model.advance(1e5), Ok(()));
+        assert!((get(&mut model, Use::Node(1)) - (10.0 + 37.0 / 5.0)).abs() < 1e-6);
+    }
+
+    #[test]
+    fn heat_of_the_exchanger_leaves_the_oil() {
+        let mut model = Model::new(Content::Network(network()));
+        assert_eq!(model.advance(1e5), Ok(()));
+        // Steady state at standstill: 7 W come in, and leave to ambient, plate and coolant.
+        let sump = get(&mut model, Use::Node(1));
+        let left = 5.0 * (sump - 20.0) + 1.0 * (sump - 35.0) + get(&mut model, Use::ExchangerHeat(0));
+        assert!((left - 7.0).abs() < 1e-5, "{left}");
+        // Counterflow with capacity flows of 210 and 540 W/K, 350 W/K between them (u6a of the network of the framework).
+        let exchanger = Exchanger {
+            ua: 350.0,
+            ..network().exchangers.remove(0)
+        };
+        assert!((exchanger.transfer([210.0, 540.0]) / 210.0 / 0.7432523 - 1.0).abs() < 1e-6);
+        let cross = Exchanger {
+            ua: 1.5,
+            arrangement: 2,
+            ..exchanger.clone()
+        };
+        assert!((cross.transfer([1.0, 1.0 / 0.6]) / 0.640193 - 1.0).abs() < 1e-5);
+        let parallel = Exchanger {
+            ua: 1.5,
+            arrangement: 1,
+            ..exchanger
+        };
+        assert!((parallel.transfer([1.0, 1.0 / 0.6]) / 0.568301 - 1.0).abs() < 1e-5);
+        assert_eq!(parallel.transfer([0.0, 1.0]), 0.0);
+    }
+
+    #[test]
+    fn outputs_follow_from_loss_and_ratio_in_both_senses() {
+        let mut model = Model::new(Content::Network(network()));
+        set(&mut model, Use::Speed, -50.0);
+        set(&mut model, Use::Torque, -10.0);
+        // Turned round, the load is that of 50 rad/s and 10 Nm: 0.2 Nm.
+        assert_eq!(get(&mut model, Use::LossTorque), 0.2);
+        assert_eq!(get(&mut model, Use::OutputSpeed), 12.5);
+        assert!((get(&mut model, Use::OutputTorque) * 12.5 - (500.0 - 10.0)).abs() < 1e-9);
+        assert!((get(&mut model, Use::Efficiency) - 0.98).abs() < 1e-12);
+        assert!(model.is_outside(), "the tables have one sense only");
+    }
+
+    #[test]
+    fn what_cannot_be_set_or_simulated_is_a_fault() {
+        let mut model = Model::new(Content::Network(network()));
+        let node = reference(&model, Use::Node(1));
+        assert_eq!(model.set(node, Kind::Real, 60.0), Ok(()));
+        model.start();
+        assert_eq!(model.set(node, Kind::Real, 70.0), Err(Fault::NotSettable));
+        assert_eq!(model.set(node, Kind::Integer, 1.0), Err(Fault::Unknown));
+        let held = reference(&model, Use::Node(3));
+        assert_eq!(model.set(held, Kind::Real, 70.0), Err(Fault::NotSettable));
+        let speed = reference(&model, Use::Speed);
+        assert_eq!(model.set(speed, Kind::Real, f64::INFINITY), Err(Fault::NotFinite));
+        for duration in [f64::NAN, -1.0, 1e12] {
+            assert_eq!(model.advance(duration), Err(Fault::NoSolution), "{duration}");
+        }
+        let state = model.state();
+        assert_eq!(model.advance(30.0), Ok(()));
+        assert_ne!(get(&mut model, Use::Node(1)), 60.0);
+        assert_eq!(model.restore(&state), Ok(()));
+        assert_eq!(get(&mut model, Use::Node(1)), 60.0);
+        assert_eq!(model.restore(&state[1..]), Err(Fault::State));
+    }
 }

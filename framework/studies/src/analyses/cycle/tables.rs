@@ -101,12 +101,10 @@ pub fn tabulate(
             case: case(t, gear).map_err(|list| b.gearbox.findings(list))?,
             flow: cx.study.entry.conditions.power_flow,
         };
-        let (losses, missing) = work
-            .losses(cx, gear)
-            .map_err(|why| match why {
-                Failed::Undefined(message) => failed(format!("gear {gear}: {message}")),
-                Failed::Stopped(stopped) => stopped,
-            })?;
+        let (losses, missing) = work.losses(cx, gear).map_err(|why| match why {
+            Failed::Undefined(message) => failed(format!("gear {gear}: {message}")),
+            Failed::Stopped(stopped) => stopped,
+        })?;
         filled += missing;
         all.push(fmu::GearOfNetwork {
             name: (*gear).clone(),
@@ -387,16 +385,16 @@ impl Sweep {
         fits
     }
 
-    /// Index along a coordinate of a combination of temperatures.
-    fn index(&self, combination: usize, coordinate: usize, points: usize) -> usize {
-        combination / points.pow(coordinate as u32) % points
-    }
-
     /// Place of a combination in the table of a group, whose last node varies fastest.
     fn place(&self, group: &Group, combination: usize, points: usize) -> usize {
-        let of = |node: &usize| self.coordinates[*node].map_or(0, |i| self.index(combination, i, points));
+        let of = |node: &usize| self.coordinates[*node].map_or(0, |i| index(combination, i, points));
         group.nodes.iter().fold(0, |place, node| place * points + of(node))
     }
+}
+
+/// Index along a coordinate of a combination of temperatures.
+fn index(combination: usize, coordinate: usize, points: usize) -> usize {
+    combination / points.pow(coordinate as u32) % points
 }
 
 /// A number with the precision of the tables.
@@ -561,7 +559,7 @@ impl Tabulated<'_> {
     ) -> Result<(Vec<Vec<f64>>, usize), String> {
         let Ranges { torques, speeds, .. } = self.ranges;
         let given: Vec<f64> = (0..sweep.count)
-            .map(|coordinate| own[sweep.index(combination, coordinate, own.len())])
+            .map(|coordinate| own[index(combination, coordinate, own.len())])
             .collect();
         // The other nodes hardly matter, and follow these.
         let mean = given.iter().sum::<f64>() / given.len().max(1) as f64;
