@@ -7,8 +7,9 @@ use std::path::Path;
 use super::common::file;
 
 /// Folders of sources, one for each crate.
-const CRATES: [&str; 7] = [
+const CRATES: [&str; 8] = [
     "framework/document/src",
+    "framework/fmu/src",
     "framework/numerics/src",
     "framework/core/src",
     "framework/studies/src",

@@ -440,5 +440,8 @@ def test_tables_are_complete_at_zero_torque(maps):
     (rows,) = re.findall(r"loss_tbl = \[\n(.*?)\];", script, re.DOTALL)
     first = [float(cell) for cell in rows.splitlines()[0].rstrip(";").split()]
     assert first == drag.tolist()
-    found = steady(maps / "drive-own-fmi2.fmu", input__speed=np.array([2000, 8000]) * RPM, input__torque=[0, 0])
-    np.testing.assert_allclose(found["loss.torque"], drag, rtol=1e-12)
+    found = steady(maps / "drive-own-fmi2.fmu", input__speed=np.array([2000, 8000, 0, 500]) * RPM, input__torque=[0] * 4)
+    np.testing.assert_allclose(found["loss.torque"][:2], drag, rtol=1e-12)
+    # From standstill, which the grid includes, to the lowest speed.
+    assert found["loss.torque"][2:].tolist() == [found["loss.torque"][0]] * 2
+    assert found["loss.power"][2] == 0 and not found["outside"].any()

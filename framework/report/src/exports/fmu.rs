@@ -181,13 +181,33 @@ fn about(gears: &[(&str, GridTable, Option<f64>)]) -> String {
 }
 
 /// The table of a gear: speed, torque and, if there are several, oil temperature.
-fn table(slabs: &GridTable) -> Table {
-    let (torques, speeds) = (&slabs.axes().torques, slabs.speeds());
-    let oils: Vec<f64> = slabs.slabs.iter().filter_map(|slab| slab.oil).collect();
+fn table(own: &GridTable) -> Table {
+    let (torques, mut speeds) = (&own.axes().torques, own.speeds());
+    let oils: Vec<f64> = own.slabs.iter().filter_map(|slab| slab.oil).collect();
+    let is_balanced = own.slabs[0].oil.is_none();
+    let mut values = Vec::new();
+    for (column, speed) in own.columns.iter().zip(&speeds) {
+        for t in 0..torques.len() {
+            for slab in &own.slabs {
+                let loss = slab.grid.loss(t, *column);
+                values.push(loss.and_then(|loss| loss.loss_torque).unwrap_or(0.0));
+                values.extend(loss.map_or([0.0; 6], |loss| loss.sums).map(|watts| watts / speed.abs()));
+                if is_balanced {
+                    values.push(loss.and_then(|loss| loss.oil).unwrap_or(0.0));
+                }
+            }
+        }
+    }
+    // A grid that begins at standstill includes it, with the loss torque of the lowest speed.
+    if own.axes().speeds[0] == 0.0 && speeds[0] > 0.0 {
+        let lowest = values[..values.len() / speeds.len()].to_vec();
+        values.splice(0..0, lowest);
+        speeds.insert(0, 0.0);
+    }
     let mut axes = vec![
         Axis {
             quantity: 0,
-            points: speeds.clone(),
+            points: speeds,
         },
         Axis {
             quantity: 1,
@@ -199,20 +219,6 @@ fn table(slabs: &GridTable) -> Table {
             quantity: 2,
             points: oils,
         });
-    }
-    let is_balanced = slabs.slabs[0].oil.is_none();
-    let mut values = Vec::new();
-    for (column, speed) in slabs.columns.iter().zip(&speeds) {
-        for t in 0..torques.len() {
-            for slab in &slabs.slabs {
-                let loss = slab.grid.loss(t, *column);
-                values.push(loss.and_then(|loss| loss.loss_torque).unwrap_or(0.0));
-                values.extend(loss.map_or([0.0; 6], |loss| loss.sums).map(|watts| watts / speed.abs()));
-                if is_balanced {
-                    values.push(loss.and_then(|loss| loss.oil).unwrap_or(0.0));
-                }
-            }
-        }
     }
     Table {
         axes,
