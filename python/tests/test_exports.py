@@ -29,7 +29,7 @@ grids:
   no_load: {{ gear: first, torque: [0 Nm, 1 Nm], speed: [2000 rpm, 8000 rpm] }}
 analyses:
   wide: {{ type: map, grid: wide, export: [fmu2, fmu3, mat, matlab, modelica], write: [csv] }}
-  drive: {{ type: map, grid: drive, export: [fmu2, mat, matlab, modelica], write: [csv] }}
+  drive: {{ type: map, grid: drive, export: [fmu2, mat, matlab, modelica, lossy_gear], write: [csv] }}
   no_load: {{ type: map, grid: no_load, write: [csv] }}
   random: {{ type: map, points: {{ file: random.csv }}, gear: first, write: [csv] }}
 """
@@ -442,6 +442,12 @@ def test_tables_are_complete_at_zero_torque(maps):
     assert first == drag.tolist()
     found = steady(maps / "drive-own-fmi2.fmu", input__speed=np.array([2000, 8000, 0, 500]) * RPM, input__torque=[0] * 4)
     np.testing.assert_allclose(found["loss.torque"][:2], drag, rtol=1e-12)
+    # The straight lines of LossyGear begin at the no-load loss: |w|, efficiencies and friction in drive and coast.
+    (rows,) = re.findall(r"= \[\n(.*?)\];", (maps / "losses_drive_own_first.mo").read_text(), re.DOTALL)
+    rows = np.array([[float(cell) for cell in row.split(",")] for row in rows.split(";")])
+    np.testing.assert_allclose(rows[:, 0], np.array([0, 2000, 8000]) * RPM, atol=1e-6)
+    np.testing.assert_allclose(rows[1:, 3], drag, atol=5e-9)
+    np.testing.assert_allclose(rows[1:, 4], drag, atol=5e-9)
     # From standstill, which the grid includes, to the lowest speed.
     assert found["loss.torque"][2:].tolist() == [found["loss.torque"][0]] * 2
     assert found["loss.power"][2] == 0 and not found["outside"].any()

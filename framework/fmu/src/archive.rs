@@ -113,3 +113,76 @@ fn zip(files: Vec<(String, Vec<u8>)>) -> Result<Vec<u8>, rawzip::Error> {
     }
     archive.finish()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::content::tests::network;
+
+    fn fmu(content: &Content, libraries: &[Library], version: Version) -> Vec<u8> {
+        let fmu = Fmu {
+            name: "warm up/own".into(),
+            description: "losses < 1 % & \"more\"".into(),
+            tool: "test".into(),
+            content,
+            shares: &[],
+            experiment: Experiment {
+                step: 0.5,
+                inputs: vec![vec![100.0, 5.0, 20.0, 0.0, 1e-4, 0.1, 15.0]; 3],
+            },
+            libraries,
+        };
+        fmu.bytes(version).expect("it is small")
+    }
+
+    /// Names and contents of an archive.
+    fn files(bytes: &[u8]) -> Vec<(String, Vec<u8>)> {
+        let archive = rawzip::ZipArchive::from_slice(bytes).expect("it is an archive");
+        let mut files = Vec::new();
+        for entry in archive.entries() {
+            let entry = entry.expect("its entries can be read");
+            let name = String::from_utf8_lossy(entry.file_path().as_ref()).into_owned();
+            let own = archive.get_entry(entry.wayfinder()).expect("it is there");
+            let content = miniz_oxide::inflate::decompress_to_vec(own.data()).expect("it is deflated");
+            assert_eq!(rawzip::crc32(&content), entry.crc32(), "{name}");
+            files.push((name, content));
+        }
+        files
+    }
+
+    #[test]
+    fn an_fmu_has_its_files_and_always_the_same_bytes() {
+        let content = Content::Network(network());
+        let libraries: Vec<Library> = Library::own().into_iter().collect();
+        for version in [Version::Two, Version::Three] {
+            let bytes = fmu(&content, &libraries, version);
+            assert_eq!(bytes, fmu(&content, &libraries, version));
+            let files = files(&bytes);
+            let of = |name: &str| {
+                let own = files.iter().find(|(own, _)| own == name);
+                own.map(|(_, content)| content.clone()).unwrap_or_default()
+            };
+            let resource = of("resources/network.bin");
+            assert_eq!(Content::decode(&resource), Some(content.clone()));
+            let xml = String::from_utf8(of("modelDescription.xml")).expect("it is text");
+            let token = String::from_utf8_lossy(&token(&resource)).into_owned();
+            for part in [
+                token.as_str(),
+                "losses &lt; 1 % &amp; &quot;more&quot;",
+                "modelIdentifier=\"warm_up_own\"",
+                "temperature.sump",
+            ] {
+                assert!(xml.contains(part), "{part}: {xml}");
+            }
+            assert!(!xml.contains("<ModelExchange"), "a network is for Co-Simulation");
+            // A head, and a row for each of the points.
+            for name in ["inputs.csv", "outputs.csv"] {
+                let text = of(&format!("extra/org.fmi-standard.fmi-ls-ref/{name}"));
+                assert_eq!(String::from_utf8_lossy(&text).lines().count(), 4, "{name}");
+            }
+            assert!(files.iter().all(|(name, _)| !name.contains('\\')));
+            let own = files.iter().filter(|(name, _)| name.starts_with("binaries/")).count();
+            assert_eq!(own, libraries.len());
+        }
+    }
+}

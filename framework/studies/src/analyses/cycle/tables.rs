@@ -280,8 +280,9 @@ impl Ranges {
         }
         let [per_side, speeds] = LOADS;
         // Denser near zero, where losses bend.
-        let share = |i: usize, count: usize| (i as f64 / count as f64).powf(1.5);
-        let side = |end: f64| (1..=per_side).map(move |i| 1.05 * end * share(i, per_side));
+        let power = |power: f64| move |i: usize, count: usize| (i as f64 / count as f64).powf(power);
+        let (share, dense) = (power(1.5), power(2.0));
+        let side = |end: f64| (1..=per_side).map(move |i| 1.05 * end * dense(i, per_side));
         let mut torques = vec![0.0];
         torques.extend(side(low).chain(side(high)).filter(|torque| *torque != 0.0));
         torques.sort_by(f64::total_cmp);
@@ -420,10 +421,12 @@ struct Group {
 }
 
 impl Tabulated<'_> {
-    /// Evenly spaced points of a range, ends included.
+    /// Points of a range of temperatures, ends included: denser where it is cold, where the viscosity of oils bends most.
     fn spaced([from, to]: [f64; 2], count: usize) -> Vec<f64> {
         let last = count.saturating_sub(1).max(1) as f64;
-        (0..count).map(|i| from + (to - from) * i as f64 / last).collect()
+        (0..count)
+            .map(|i| from + (to - from) * (i as f64 / last).powf(1.4))
+            .collect()
     }
 
     fn middle(&self) -> f64 {
