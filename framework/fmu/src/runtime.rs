@@ -7,4 +7,6 @@ pub mod math;
 pub mod model;
 pub mod network;
 pub mod table;
+#[cfg(any(test, clippy))]
+pub mod uri;
 pub mod variables;

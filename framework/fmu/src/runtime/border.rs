@@ -11,4 +11,4 @@ mod host;
 #[path = "instance.rs"]
 mod instance;
 
-use super::runtime::{content, model, variables};
+use super::runtime::{content, model, uri, variables};

@@ -8,9 +8,8 @@
 
 use core::ffi::{CStr, c_char, c_void};
 
-use super::instance::{
-    ERROR, Instance, Log, OK, Status, free_state, keep_state, list, list_mut, path_of, put, state, text,
-};
+use super::instance::{ERROR, Instance, Log, OK, Status, free_state, keep_state, list, list_mut, put, state, text};
+use super::uri::path_of;
 use super::variables::Kind;
 
 type Handle = *mut c_void;

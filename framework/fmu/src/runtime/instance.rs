@@ -272,32 +272,3 @@ pub unsafe fn text<'a>(pointer: *const c_char) -> Option<&'a [u8]> {
     // SAFETY: as promised by the caller.
     (!pointer.is_null()).then(|| unsafe { CStr::from_ptr(pointer) }.to_bytes())
 }
-
-/// The path of a `file:` URI; a text without a scheme is a path.
-pub fn path_of(uri: &[u8]) -> Option<Vec<u8>> {
-    let Some(rest) = uri.strip_prefix(b"file:") else {
-        return Some(uri.to_vec());
-    };
-    // `file:///path`, `file://localhost/path`, `file:/path`.
-    let rest = match rest.strip_prefix(b"//") {
-        Some(rest) => &rest[rest.iter().position(|byte| *byte == b'/')?..],
-        None => rest,
-    };
-    let digit = |byte: Option<&u8>| char::from(*byte?).to_digit(16);
-    let (mut path, mut i) = (Vec::new(), 0);
-    while let Some(byte) = rest.get(i) {
-        let escape = digit(rest.get(i + 1)).zip(digit(rest.get(i + 2)));
-        if let (b'%', Some((high, low))) = (byte, escape) {
-            path.push((high * 16 + low) as u8);
-            i += 3;
-        } else {
-            path.push(*byte);
-            i += 1;
-        }
-    }
-    // `/C:/folder` of Windows.
-    if cfg!(windows) && path.get(2) == Some(&b':') {
-        path.remove(0);
-    }
-    Some(path)
-}

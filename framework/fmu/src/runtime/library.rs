@@ -27,4 +27,5 @@ mod math;
 mod model;
 mod network;
 mod table;
+mod uri;
 mod variables;
