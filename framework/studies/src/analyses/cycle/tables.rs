@@ -24,8 +24,10 @@ use crate::points::{Driven, OilTemperature};
 
 /// Numbers of points over torque on each side of zero, and over speed.
 const LOADS: [usize; 2] = [10, 20];
-/// Number of points over each temperature, for tables over none, one, two or three.
-const TEMPERATURES: [usize; 4] = [1, 13, 7, 5];
+/// Numbers of points over the temperatures of the nodes on which a loss depends, the one that matters most first.
+const TEMPERATURES: [&[usize]; 4] = [&[], &[17], &[11, 5], &[9, 4, 4]];
+/// Number of points over a temperature of anything else.
+const SINGLE: usize = 13;
 /// Number of points over speed of the vehicle, and over oil flow.
 const VEHICLE: usize = 9;
 /// See [`VEHICLE`].
@@ -119,7 +121,7 @@ pub fn tabulate(
         });
     }
     let start = &driven[0].start;
-    let properties = Tabulated::spaced(ranges.temperatures, TEMPERATURES[1]);
+    let properties = Tabulated::spaced(ranges.temperatures, SINGLE);
     let content = fmu::Network {
         nodes: (0..network.names().len())
             .map(|i| fmu::Node {
@@ -336,27 +338,31 @@ impl From<String> for Failed {
     }
 }
 
-/// Groups that are tabulated together: each node has a coordinate, and every group depends on all coordinates.
+/// Groups that are tabulated together: the same combinations of temperatures, by rank of the nodes in each group.
 struct Sweep {
-    /// Number of coordinates.
-    count: usize,
     groups: Vec<usize>,
-    /// Coordinate of each node; absent if no group depends on it.
-    coordinates: Vec<Option<usize>>,
+    /// Rank of each node in the groups that depend on it; absent if none does.
+    ranks: Vec<Option<usize>>,
+    /// Temperatures by rank. \[degC\]
+    axes: Vec<Vec<f64>>,
 }
 
 impl Sweep {
     /// As few as possible for all groups.
-    fn all(groups: &[Group], nodes: usize) -> Vec<Self> {
+    fn all(groups: &[Group], nodes: usize, temperatures: [f64; 2]) -> Vec<Self> {
         let mut sweeps: Vec<Self> = Vec::new();
         for (place, group) in groups.iter().enumerate() {
             if sweeps.iter_mut().any(|sweep| sweep.join(place, group)) {
                 continue;
             }
+            let counts = TEMPERATURES[group.nodes.len()];
             let mut own = Self {
-                count: group.nodes.len(),
                 groups: Vec::new(),
-                coordinates: vec![None; nodes],
+                ranks: vec![None; nodes],
+                axes: counts
+                    .iter()
+                    .map(|count| Tabulated::spaced(temperatures, *count))
+                    .collect(),
             };
             own.join(place, group);
             sweeps.push(own);
@@ -364,38 +370,38 @@ impl Sweep {
         sweeps
     }
 
-    /// Adds a group if its nodes can have different coordinates; true if so.
+    /// Adds a group whose nodes have no other rank in the groups before; true if it is one.
     fn join(&mut self, place: usize, group: &Group) -> bool {
-        if group.nodes.len() != self.count {
+        let ranked = || group.nodes.iter().zip(0..);
+        let fits = ranked().all(|(node, rank)| self.ranks[*node].is_none_or(|own| own == rank));
+        if !fits || group.nodes.len() != self.axes.len() {
             return false;
         }
-        let mut coordinates = self.coordinates.clone();
-        for node in &group.nodes {
-            let known: Vec<usize> = group.nodes.iter().filter_map(|node| coordinates[*node]).collect();
-            if coordinates[*node].is_none() {
-                coordinates[*node] = (0..self.count).find(|free| !known.contains(free));
-            }
+        for (node, rank) in ranked() {
+            self.ranks[*node] = Some(rank);
         }
-        let mut own: Vec<usize> = group.nodes.iter().filter_map(|node| coordinates[*node]).collect();
-        own.sort_unstable();
-        let fits = own.iter().copied().eq(0..self.count);
-        if fits {
-            self.coordinates = coordinates;
-            self.groups.push(place);
-        }
-        fits
+        self.groups.push(place);
+        true
     }
 
-    /// Place of a combination in the table of a group, whose last node varies fastest.
-    fn place(&self, group: &Group, combination: usize, points: usize) -> usize {
-        let of = |node: &usize| self.coordinates[*node].map_or(0, |i| index(combination, i, points));
-        group.nodes.iter().fold(0, |place, node| place * points + of(node))
+    /// Number of combinations.
+    fn len(&self) -> usize {
+        self.axes.iter().map(Vec::len).product()
     }
-}
 
-/// Index along a coordinate of a combination of temperatures.
-fn index(combination: usize, coordinate: usize, points: usize) -> usize {
-    combination / points.pow(coordinate as u32) % points
+    /// Temperatures of all nodes in a combination; the last rank varies fastest. Nodes that hardly matter have the mean of the others, or
+    /// `middle`. \[degC\]
+    fn temperatures(&self, combination: usize, middle: f64) -> Vec<f64> {
+        let (mut rest, mut given) = (combination, vec![0.0; self.axes.len()]);
+        for (own, axis) in given.iter_mut().zip(&self.axes).rev() {
+            *own = axis[rest % axis.len()];
+            rest /= axis.len();
+        }
+        let mean = given.iter().sum::<f64>() / given.len().max(1) as f64;
+        let mean = if given.is_empty() { middle } else { mean };
+        let of = |rank: &Option<usize>| rank.map_or(mean, |rank| given[rank]);
+        self.ranks.iter().map(of).collect()
+    }
 }
 
 /// A number with the precision of the tables.
@@ -488,7 +494,6 @@ impl Tabulated<'_> {
             let mut nodes: Vec<usize> = (0..count).filter(|node| strength[*node] > MATTERS).collect();
             nodes.sort_by(|a, b| strength[*b].total_cmp(&strength[*a]));
             nodes.truncate(TEMPERATURES.len() - 1);
-            nodes.sort_unstable();
             match groups.iter_mut().find(|group| group.nodes == nodes) {
                 Some(group) => {
                     group.parts.push(part);
@@ -512,17 +517,17 @@ impl Tabulated<'_> {
         let groups = self.groups(&mut scratch)?;
         let mut filled = 0;
         let mut sources: Vec<Option<fmu::Source>> = groups.iter().map(|_| None).collect();
-        for sweep in Sweep::all(&groups, self.network.names().len()) {
-            let own = Self::spaced(self.ranges.temperatures, TEMPERATURES[sweep.count]);
-            let combinations = own.len().pow(sweep.count as u32);
+        for sweep in Sweep::all(&groups, self.network.names().len(), self.ranges.temperatures) {
+            let combinations = sweep.len();
             let label = format!("tables, gear {gear}");
             let solved = cx.each(&label, combinations, |combination| {
-                self.solve(&groups, &sweep, &own, combination)
+                self.solve(&groups, &sweep, combination)
             })?;
             for place in &sweep.groups {
                 let group = &groups[*place];
                 let mut axes = self.load_axes();
-                axes.extend(group.nodes.iter().map(|node| temperature_axis(*node, own.clone())));
+                let temperatures = group.nodes.iter().zip(&sweep.axes);
+                axes.extend(temperatures.map(|(node, axis)| temperature_axis(*node, axis.clone())));
                 let channels = group.heated.len();
                 sources[*place] = Some(fmu::Source {
                     table: Table {
@@ -539,10 +544,9 @@ impl Tabulated<'_> {
                 filled += missing;
                 for (place, losses) in sweep.groups.iter().zip(losses) {
                     let Some(source) = &mut sources[*place] else { continue };
-                    let own = sweep.place(&groups[*place], combination, own.len());
                     let channels = source.table.channels;
-                    for (load, values) in losses.chunks(channels).enumerate() {
-                        let at = (load * combinations + own) * channels;
+                    for (load, values) in losses.chunks(channels.max(1)).enumerate() {
+                        let at = (load * combinations + combination) * channels;
                         source.table.values[at..at + channels].copy_from_slice(values);
                     }
                 }
@@ -553,25 +557,9 @@ impl Tabulated<'_> {
 
     /// Heat over speed of each group of a sweep at all loads and one combination of temperatures: by speed, torque and heated node; and the
     /// number of loads without losses.
-    fn solve(
-        &self,
-        groups: &[Group],
-        sweep: &Sweep,
-        own: &[f64],
-        combination: usize,
-    ) -> Result<(Vec<Vec<f64>>, usize), String> {
+    fn solve(&self, groups: &[Group], sweep: &Sweep, combination: usize) -> Result<(Vec<Vec<f64>>, usize), String> {
         let Ranges { torques, speeds, .. } = self.ranges;
-        let given: Vec<f64> = (0..sweep.count)
-            .map(|coordinate| own[index(combination, coordinate, own.len())])
-            .collect();
-        // The other nodes hardly matter, and follow these.
-        let mean = given.iter().sum::<f64>() / given.len().max(1) as f64;
-        let mean = if given.is_empty() { self.middle() } else { mean };
-        let temperatures: Vec<f64> = sweep
-            .coordinates
-            .iter()
-            .map(|coordinate| coordinate.map_or(mean, |i| given[i]))
-            .collect();
+        let temperatures = sweep.temperatures(combination, self.middle());
         let loads: Vec<Load> = torques
             .iter()
             .flat_map(|torque| speeds[1..].iter().map(move |speed| (*torque, *speed)))
@@ -658,7 +646,7 @@ impl Tabulated<'_> {
         let is_same = speeds
             .iter()
             .all(|speed| both.iter().all(|torque| same((speed, torque))));
-        let temperatures = Self::spaced([cold, hot], if is_same { 1 } else { TEMPERATURES[1] });
+        let temperatures = Self::spaced([cold, hot], if is_same { 1 } else { SINGLE });
         let mut values = Vec::new();
         for speed in &speeds {
             for torque in &both {
@@ -690,7 +678,7 @@ impl Tabulated<'_> {
     fn other_motor(&self, motor: usize, stator: usize) -> Result<Table, String> {
         let Ranges { torques, speeds, .. } = self.ranges;
         let mut scratch = self.t.batch_scratch(&self.case);
-        let temperatures = Self::spaced(self.ranges.temperatures, TEMPERATURES[2]);
+        let temperatures = Self::spaced(self.ranges.temperatures, SINGLE);
         let mut values = vec![0.0; speeds.len() * torques.len() * temperatures.len() * 2];
         for (k, temperature) in temperatures.iter().enumerate() {
             let loads: Vec<Load> = torques
@@ -739,7 +727,7 @@ impl Tabulated<'_> {
     }
 
     fn conductance(&self, link: usize, ends: [usize; 2]) -> Result<fmu::Conductance, String> {
-        let temperatures = Self::spaced(self.ranges.temperatures, TEMPERATURES[1]);
+        let temperatures = Self::spaced(self.ranges.temperatures, SINGLE);
         let axes = [
             temperature_axis(ends[0], temperatures.clone()),
             temperature_axis(ends[1], temperatures),
