@@ -7,9 +7,10 @@ use std::path::Path;
 use super::common::file;
 
 /// Folders of sources, one for each crate.
-const CRATES: [&str; 8] = [
+const CRATES: [&str; 9] = [
     "framework/document/src",
     "framework/exchange/src",
+    "framework/fmu/src",
     "framework/numerics/src",
     "framework/core/src",
     "framework/studies/src",

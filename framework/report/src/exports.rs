@@ -3,8 +3,13 @@
 //! A format implements [`ExportFormat`](gearloss_studies::analyses::map::ExportFormat) and registers itself with
 //! [`register_export!`](gearloss_studies::register_export), in any crate.
 
+mod fmu;
 mod lossy_gear;
+mod mat;
 mod matlab;
+mod modelica;
+pub mod network;
+mod slabs;
 mod vecto;
 
 use crate::codes;
@@ -30,11 +35,7 @@ pub fn add(outcome: &MapOutcome, page: &mut Page) {
             match export.format().file(&own) {
                 Ok(None) => {}
                 Ok(Some(file)) => {
-                    let missed = map.export.between.map_or_else(String::new, |(worst, rms)| {
-                        format!(
-                            "; interpolation error of the loss torque between grid points: at most {worst:.4} Nm, {rms:.4} Nm rms"
-                        )
-                    });
+                    let missed = missed(&export.format().covered(&own));
                     page.line(format!(
                         "{}: {}: {}{missed}",
                         outcome.head.analysis, file.name, file.about
@@ -52,4 +53,15 @@ pub fn add(outcome: &MapOutcome, page: &mut Page) {
             }
         }
     }
+}
+
+/// The interpolation error of some maps, as the end of a sentence.
+fn missed(maps: &[&MapOfSet]) -> String {
+    let all = maps
+        .iter()
+        .flat_map(|map| [map.export.between, map.export.between_oils]);
+    let both = all.flatten().reduce(|a, b| (a.0.max(b.0), a.1.max(b.1)));
+    both.map_or_else(String::new, |(worst, rms)| {
+        format!("; interpolation error of the loss torque between grid points: at most {worst:.4} Nm, {rms:.4} Nm rms")
+    })
 }

@@ -35,6 +35,7 @@ pub mod thermal_limit;
 pub mod tournament;
 pub mod trial;
 pub mod uncertainty;
+pub(crate) mod units;
 
 use std::any::Any;
 use std::fmt;

@@ -8,10 +8,12 @@ mod parts;
 mod state;
 mod steady;
 mod stepping;
+mod tabulated;
 
 pub(crate) use build::Around;
 pub use circuit::Circuit;
 pub use march::{Heats, March, Moment, Passed, Stage};
-pub use parts::{Network, Surroundings};
+pub use parts::{Network, Rate, Surroundings};
 pub use steady::Steady;
 pub use stepping::{Scheme, StepSize};
+pub use tabulated::{ExchangerNumbers, LinkState, Load, NodeHeats};

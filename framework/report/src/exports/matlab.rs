@@ -3,8 +3,9 @@
 //! Source: documentation of the Powertrain Blockset's block Gearbox.
 
 use gearloss_studies::analyses::map::{Axes, ExportFile, ExportFormat, ExportMap, LossGrid, MapOfSet, Refusal};
-use gearloss_studies::analyses::numbers::tidy;
 use gearloss_studies::register_export;
+
+use super::slabs::{GridTable, Slab};
 
 register_export!(Matlab);
 
@@ -21,23 +22,15 @@ impl ExportFormat for Matlab {
     }
 
     fn fits(&self, axes: &Axes) -> Result<(), Refusal> {
-        if axes.torques.len() < 2 || axes.speeds.len() < 2 {
-            return Err(Refusal::new(
-                "a table needs at least two torques and two speeds",
-                "give the grid more points",
-            ));
-        }
-        Ok(())
+        GridTable::fit(axes)
+    }
+
+    fn covered<'a>(&self, map: &ExportMap<'a>) -> Vec<&'a MapOfSet> {
+        map.siblings.clone()
     }
 
     /// All temperatures of one table are in one file.
     fn file(&self, map: &ExportMap<'_>) -> Result<Option<ExportFile>, Refusal> {
-        if map.grid.has_gaps() {
-            return Err(Refusal::new(
-                "outside the envelope of the grid the efficiency would be zero",
-                "give a grid without envelope",
-            ));
-        }
         if map.number > 1 {
             return Ok(None);
         }
@@ -50,67 +43,19 @@ impl ExportFormat for Matlab {
     }
 }
 
-/// Oil temperature of a map; absent with a heat balance.
-struct Slab<'a> {
-    oil: Option<f64>,
-    grid: &'a LossGrid,
-}
-
-/// The maps of one table, sorted by temperature.
-fn slabs<'a>(maps: &[&'a MapOfSet]) -> Result<Vec<Slab<'a>>, Refusal> {
-    let slab = |map: &&'a MapOfSet| {
-        Some(Slab {
-            oil: map.oil.given(),
-            grid: map.shown.whole.as_ref()?,
-        })
-    };
-    let mut slabs: Vec<Slab<'a>> = maps.iter().filter_map(slab).collect();
-    if slabs.len() > 1 && slabs.iter().any(|slab| slab.oil.is_none()) {
-        return Err(Refusal::new(
-            "a table over oil temperature needs given temperatures, not a heat balance",
-            "fix the temperature, or bind `thermal.mode: [fixed]` and `thermal.oil: [40 degC, 80 degC]` in the grid",
-        ));
-    }
-    slabs.sort_by(|a, b| a.oil.unwrap_or(0.0).total_cmp(&b.oil.unwrap_or(0.0)));
-    if slabs.windows(2).any(|w| w[0].oil == w[1].oil) {
-        return Err(Refusal::new(
-            "two maps of one table have the same oil temperature",
-            "bind only `thermal.oil` in its grid",
-        ));
-    }
-    Ok(slabs)
-}
-
-/// Indices of the speeds of a table. Standstill has no loss torque and is omitted.
-fn speeds(slabs: &[Slab<'_>], axes: &Axes) -> Result<Vec<usize>, Refusal> {
-    let turns = |w: &usize| {
-        let mut grids = slabs.iter().map(|slab| slab.grid);
-        grids.any(|grid| (0..axes.torques.len()).any(|t| grid.loss_torque(t, *w).is_some()))
-    };
-    let columns: Vec<usize> = (0..axes.speeds.len()).filter(turns).collect();
-    if columns.len() < 2 {
-        return Err(Refusal::new(
-            "a table needs at least two speeds with a loss torque",
-            "give the grid more speeds above zero",
-        ));
-    }
-    Ok(columns)
-}
-
 /// Numbers as elements of a vector.
 fn list(values: impl Iterator<Item = f64>) -> String {
     values.map(|x| format!("{x}")).collect::<Vec<_>>().join(" ")
 }
 
-/// A table with one value for each grid point, with a third index if there are several temperatures, and the number of missing values.
+/// A table with one value for each grid point, with a third index if there are several temperatures.
 fn table(
     name: &str,
-    empty: &str,
-    slabs: &[Slab<'_>],
+    slabs: &[Slab],
     columns: &[usize],
-    value: fn(&LossGrid, usize, usize) -> Option<f64>,
-) -> (String, usize) {
-    let (mut text, mut missing) = (String::new(), 0);
+    value: impl Fn(&LossGrid, usize, usize) -> Option<f64>,
+) -> String {
+    let mut text = String::new();
     for (k, slab) in slabs.iter().enumerate() {
         let index = if slabs.len() > 1 {
             format!("(:,:,{})", k + 1)
@@ -119,46 +64,22 @@ fn table(
         };
         text.push_str(&format!("{name}{index} = [\n"));
         for t in 0..slab.grid.axes.torques.len() {
-            let row = columns.iter().map(|w| {
-                let value = value(slab.grid, t, *w);
-                missing += usize::from(value.is_none());
-                value.map_or_else(|| empty.to_owned(), |x| format!("{x}"))
-            });
-            text.push_str(&format!("  {};\n", row.collect::<Vec<_>>().join(" ")));
+            let row = columns.iter().map(|w| value(&slab.grid, t, *w).unwrap_or(0.0));
+            text.push_str(&format!("  {};\n", list(row)));
         }
         text.push_str("];\n");
     }
-    (text, missing)
+    text
 }
 
 /// The script with the vectors of efficiency and loss torque, and its description.
 fn script(map: &ExportMap<'_>) -> Result<(String, String), Refusal> {
-    let slabs = slabs(&map.siblings)?;
-    let axes = &map.grid.axes;
-    let columns = speeds(&slabs, axes)?;
-    let (eta, without_output) = table("eta_tbl", "0", &slabs, &columns, LossGrid::efficiency);
-    let (loss, without_loss) = table("loss_tbl", "", &slabs, &columns, LossGrid::loss_torque);
-    if without_loss > 0 {
-        return Err(Refusal::new(
-            format!("{without_loss} points of the grid have no loss torque; a table needs a value at every point"),
-            "omit torques and speeds at which the transmission is self-locking or a loss is undefined",
-        ));
-    }
-    let mut about = format!("{} torques, {} speeds, ", axes.torques.len(), columns.len());
-    let omitted = axes.speeds.len() - columns.len();
-    if omitted > 0 {
-        about.push_str(&format!("{omitted} speed without a loss torque omitted, "));
-    }
-    about.push_str(&match slabs[0].oil {
-        _ if slabs.len() > 1 => format!("{} oil temperatures", slabs.len()),
-        Some(oil) => format!("no temperature axis: all points at {} degC", tidy(oil)),
-        None => "no temperature axis: each point at its heat balance temperature".to_owned(),
-    });
-    if without_output > 0 {
-        about.push_str(&format!(
-            "; efficiency zero at {without_output} points without output power"
-        ));
-    }
+    let tables = GridTable::new(&map.siblings)?;
+    let (slabs, columns, about) = (&tables.slabs, &tables.columns, tables.about());
+    let axes = tables.axes();
+    // Without output power the efficiency is zero.
+    let eta = table("eta_tbl", slabs, columns, LossGrid::efficiency);
+    let loss = table("loss_tbl", slabs, columns, LossGrid::loss_torque);
     let temperatures = if slabs.len() > 1 {
         let kelvin = slabs.iter().filter_map(|slab| Some(slab.oil? + 273.15));
         format!("Temp_bpts = [{}]; % K\n", list(kelvin))

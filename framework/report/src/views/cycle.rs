@@ -10,6 +10,7 @@ use gearloss_studies::analyses::cycle::{
 use gearloss_studies::duty::Consumption;
 
 use crate::Figure;
+use crate::exports;
 use crate::page::Page;
 use crate::plot::{Line, Stroke};
 use crate::register_view;
@@ -25,6 +26,7 @@ fn show(outcome: &CycleOutcome, page: &mut Page) {
         figures(name, duty, page);
         ratings(name, duty, page);
     }
+    exports::network::add(outcome, page);
     pictures::draw(outcome, page);
 }
 

@@ -4,6 +4,7 @@ mod bands;
 mod outcome;
 pub(super) mod ratings;
 pub(super) mod results;
+mod tables;
 
 use gearloss_framework::attach::dangling;
 use gearloss_framework::description::Ordered;
@@ -18,6 +19,7 @@ use super::limits::at_points;
 use super::limits::over_cycles::{limits_of, reached};
 use super::numbers::tidy;
 use super::shares::{Shares, together};
+use super::units::libraries;
 use super::{Analysis, Built, Context, Head, Outcome, Stopped};
 use crate::codes;
 use crate::distinct::distinct;
@@ -27,6 +29,7 @@ use crate::study::{By, DriveEntry, ToleranceEntry, Uses, Write};
 use crate::table::Table;
 
 pub use ratings::RatedOverTime;
+pub use tables::NetworkTables;
 
 pub use outcome::{
     BandOfDuty, BrokenOff, CycleOutcome, DutyOfSet, EnergyOfDuty, EnergyPerDistance, HeatOfDuty, HeatOfExchanger,
@@ -56,9 +59,26 @@ pub struct CycleAnalysisEntry {
     /// other quantities.
     #[serde(default)]
     pub ratings: bool,
+    /// The thermal network for other programs, with tables instead of models.
+    #[serde(default)]
+    pub export: Vec<NetworkExport>,
+    /// Libraries of further platforms for `export`: files out of the folder `binaries` of FMUs that were written there. That of the own
+    /// platform is always included.
+    #[serde(default)]
+    pub fmu_libraries: Vec<String>,
     /// Formats to write; default: CSV, JSON and SVG.
     #[serde(default = "Write::every_format")]
     pub write: Vec<Write>,
+}
+
+/// A format of a thermal network.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum NetworkExport {
+    /// The temperatures over time as a Functional Mock-up Unit of FMI 2.0, for Co-Simulation.
+    Fmu2,
+    /// As `fmu2`, of FMI 3.0.
+    Fmu3,
 }
 
 fn samples() -> u32 {
@@ -92,10 +112,14 @@ impl Analysis for CycleAnalysisEntry {
         sums_energies(cx, &path, self.by)?;
         let duties = Duties::new(cx, &path, &self.drive.ride, self.drive.gear.as_ref())?;
         self.check_reference(cx, &path, &duties)?;
+        let libraries = libraries(cx, &self.fmu_libraries, !self.export.is_empty())?;
         let names = together(built.iter().map(|b| &b.transmission), self.by);
         for b in &built {
             duties.check(cx, &path, b)?;
             limits_of(cx, &path, &Ordered::default(), &duties, b)?;
+            if !self.export.is_empty() {
+                tables::network(cx, b, &duties)?;
+            }
             if cx.only_checks {
                 Input::all(cx, &path, &self.inputs, b)?;
             }
@@ -143,6 +167,13 @@ impl Analysis for CycleAnalysisEntry {
             }
         }
         range_differences(&mut cycles, count);
+        let mut networks = Vec::new();
+        let is_whole = driven.iter().all(|driven| driven.broken.is_none());
+        if !self.export.is_empty() && is_whole {
+            for (b, driven) in built.iter().zip(driven.chunks(count)) {
+                networks.push(tables::tabulate(cx, b, &duties, driven)?);
+            }
+        }
         let mut all_left = Vec::new();
         for (bands, own) in all_bands.into_iter().zip(cycles.chunks_mut(duties.list.len())) {
             bands.add_to(own);
@@ -156,6 +187,9 @@ impl Analysis for CycleAnalysisEntry {
                 .collect(),
             cycles,
             left: all_left,
+            networks,
+            exports: self.export.clone(),
+            libraries,
         })
     }
 

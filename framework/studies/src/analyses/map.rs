@@ -12,6 +12,7 @@ mod shown;
 use std::ops::Range;
 use std::sync::Arc;
 
+use gearloss_fmu::Library;
 use gearloss_framework::loss::Extent;
 use serde_json::Value;
 
@@ -20,13 +21,14 @@ pub use entry::MapEntry;
 pub use export::{ExportFile, ExportFormat, ExportMap, ExportName, Refusal};
 pub use outcome::{MapOfSet, MapOutcome, Mark, NotesOfSet, PartModel, SumMeaning};
 pub use points::MapPoints;
-pub use shown::{LossGrid, SHOWN, ShownGrid, ShownMap, ShownPoint};
+pub use shown::{LossAt, LossGrid, SHOWN, ShownGrid, ShownMap, ShownPoint};
 
 use self::export::ExportData;
 use self::plan::{Planned, on_grid};
 use self::points::{RowsOf, Taken, Taker, UndefinedLoss};
 use self::shown::Selection;
 use super::limits::at_points::LimitColumn;
+use super::units::libraries;
 use super::{Analysis, Built, Context, Stopped};
 use crate::distinct::distinct;
 use crate::measured::Measured;
@@ -74,6 +76,7 @@ impl MapEntry {
             cx.checked(&plan.built, &plan.points)?;
         }
         exported::check(cx, &self.export, &planned)?;
+        let libraries = self.libraries(cx)?;
         if cx.only_checks {
             self.measured(cx)?;
             return Err(Stopped::Checked);
@@ -107,7 +110,19 @@ impl MapEntry {
         for map in &mut maps {
             map.export = ExportData::solve(cx, &self.export, map)?;
         }
-        self.outcome(cx, rows, maps, Vec::new())
+        if !self.export.is_empty() {
+            ExportData::solve_between_oils(cx, &mut maps)?;
+        }
+        Ok(MapOutcome {
+            libraries,
+            ..self.outcome(cx, rows, maps, Vec::new())?
+        })
+    }
+
+    /// The libraries of FMUs, if one is exported.
+    fn libraries(&self, cx: &Context<'_>) -> Result<Vec<Library>, Stopped> {
+        let is_needed = self.export.iter().any(|name| name.format().has_library());
+        libraries(cx, &self.fmu_libraries, is_needed)
     }
 
     /// The points of the maps over the grid of the entry.
@@ -137,6 +152,7 @@ impl MapEntry {
                 "give `grid` instead of `points`",
             ));
         }
+        self.libraries(cx)?;
         let bind: Vec<&str> = self.bind.ids().collect();
         let listed = cx.read(&format!("{path}.points"), points, &bind)?;
         let file = &cx.data(&path, points)?.file;
@@ -223,6 +239,7 @@ impl MapEntry {
             marks: measured.rows.iter().map(mark).collect(),
             exports: self.export.clone(),
             lossy_gear_limit: self.lossy_gear_limit,
+            libraries: Vec::new(),
             table: rows.table,
         })
     }

@@ -50,7 +50,7 @@ pub struct Link {
 
 /// Quantity of a flow.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Rate {
+pub enum Rate {
     /// Mass flow times specific heat. \[W/K\]
     Given(f64),
     /// A share of the circulated oil flow.

@@ -1,11 +1,9 @@
 //! Numerical form of a network at one state: heat of parts and motors, and its circuit.
 
-use std::cell::Cell;
-
 use super::circuit::{Circuit, Exchange};
 use super::parts::{Law, Lawful, Network, Rate, Surroundings};
 use crate::evaluate::Snapshot;
-use crate::loss::{Notes, Seen, Undefined};
+use crate::loss::{Notes, Undefined};
 use crate::mechanism::heat_link::HeatLinkAt;
 use crate::transmission::{HeatPath, PartKind, Transmission};
 
@@ -101,7 +99,8 @@ impl Network {
                 Law::Given(given) => *given,
                 Law::Model(law) => {
                     let ends = link.between.map(|node| temperatures[node]);
-                    law.conductance(ends, speeds, around.vehicle_speed, mass, cells)
+                    let notes = Notes::new(cells, law.model.notes);
+                    law.conductance(ends, speeds, around.vehicle_speed, mass, notes)
                         .map_err(|e| (i, e))?
                 }
             };
@@ -128,13 +127,13 @@ impl Network {
 }
 
 impl Lawful {
-    fn conductance(
+    pub(super) fn conductance(
         &self,
         [first, second]: [f64; 2],
         speeds: &[f64],
         vehicle_speed: f64,
         oil_flow: f64,
-        cells: &[Cell<Seen>],
+        notes: Notes<'_>,
     ) -> Result<f64, Undefined> {
         let oil = self.lubricant.oil_at(0.5 * (first + second));
         let at = HeatLinkAt {
@@ -149,7 +148,7 @@ impl Lawful {
             heat_capacity: self.lubricant.heat_capacity(oil.temperature),
             conductivity: oil.conductivity,
             oil_flow,
-            notes: Notes::new(cells, self.model.notes),
+            notes,
         };
         let conductance = self.model.conductance(&at)?;
         if conductance.is_finite() && conductance >= 0.0 {

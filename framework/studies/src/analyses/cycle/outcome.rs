@@ -1,11 +1,14 @@
 //! The outcome of simulated cycles.
 
+use gearloss_fmu::Library;
 use gearloss_framework::flow::Status;
 use gearloss_framework::gearbox::Findings;
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use super::NetworkExport;
 use super::ratings::RatedOverTime;
+use super::tables::NetworkTables;
 use crate::analyses::Head;
 use crate::duty::Consumption;
 use crate::points::Note;
@@ -24,6 +27,15 @@ pub struct CycleOutcome {
     /// Why a cycle could not be simulated to its end.
     #[serde(skip)]
     pub failures: Vec<Findings>,
+    /// The thermal network of each model set, if it is exported.
+    #[serde(skip)]
+    pub networks: Vec<NetworkTables>,
+    /// Formats of the networks.
+    #[serde(skip)]
+    pub exports: Vec<NetworkExport>,
+    /// Libraries for the FMUs; empty unless one is exported.
+    #[serde(skip)]
+    pub libraries: Vec<Library>,
 }
 
 /// One cycle with one model set; the time series is in the table.

@@ -33,6 +33,10 @@ pub struct MapEntry {
     /// Loss tables for other programs, one file for each gear; requires a grid.
     #[serde(default)]
     pub export: Vec<ExportName>,
+    /// Libraries of further platforms for `fmu2` and `fmu3`: files out of the folder `binaries` of FMUs that were written there. That of the own
+    /// platform is always included.
+    #[serde(default)]
+    pub fmu_libraries: Vec<String>,
     /// Maximum relative deviation of the straight lines of a `lossy_gear` table from the loss torque at a grid point; above it there is an
     /// error. [-]
     #[serde(default = "quarter")]

@@ -11,7 +11,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::axes::Axes;
 use super::outcome::{MapOfSet, MapOutcome};
-use super::shown::LossGrid;
+use super::shown::{LossAt, LossGrid};
 use crate::points::Given;
 
 /// A format of loss tables.
@@ -31,6 +31,16 @@ pub trait ExportFormat: Sync {
     /// Additional points whose loss torque it needs; `rated` is the rated torque in Nm.
     fn further_points(&self, _grid: &LossGrid, _rated: Option<f64>) -> Vec<Given> {
         Vec::new()
+    }
+
+    /// Whether its file contains the library of FMUs for each platform.
+    fn has_library(&self) -> bool {
+        false
+    }
+
+    /// The maps in the file of a map, for the interpolation error that is reported with it.
+    fn covered<'a>(&self, map: &ExportMap<'a>) -> Vec<&'a MapOfSet> {
+        vec![map.map]
     }
 
     /// The file of a map; absent if the file of another map contains it.
@@ -87,6 +97,12 @@ pub struct ExportMap<'a> {
 }
 
 impl ExportMap<'_> {
+    /// The grid of one of the maps with a row at zero torque, where the loss is the no-load loss.
+    pub fn complete(map: &MapOfSet) -> Option<LossGrid> {
+        let grid = map.shown.whole.as_ref()?;
+        Some(grid.with_no_load(&map.export.no_load))
+    }
+
     /// Name of a file of this map only, without extension.
     pub fn own_name(&self) -> String {
         let name = self.shared_name();
@@ -177,11 +193,17 @@ impl JsonSchema for ExportName {
 /// Data of a map for tables of other programs, in addition to its points.
 #[derive(Debug, Clone, Default)]
 pub struct ExportData {
-    /// Deviation of linear interpolation from the loss torque midway between the points: maximum and root mean square.
-    /// [Nm]
+    /// Deviation of linear interpolation from the loss torque midway between the points, those at zero torque included: maximum and
+    /// root mean square. [Nm]
     pub between: Option<(f64, f64)>,
     /// The rated torque. [Nm]
     pub rated: Option<f64>,
     /// For each format the loss torques at its additional points; absent if there is none. [Nm]
     pub further: Vec<Vec<Option<f64>>>,
+    /// Losses at zero torque for each speed; empty if the grid has this torque.
+    pub no_load: Vec<LossAt>,
+    /// Speed of the other port over that of the reference port; absent unless there are two ports.
+    pub ratio: Option<f64>,
+    /// As `between`, midway also between this oil temperature and the next one among the maps of the same set and gear. [Nm]
+    pub between_oils: Option<(f64, f64)>,
 }

@@ -1,10 +1,11 @@
 //! Solves the further points of a map that tables for other programs need.
 
+use super::super::units::speed_ratio;
 use super::super::{Context, Stopped};
 use super::Map;
 use super::export::{ExportData, ExportName, Refusal};
 use super::plan::Planned;
-use super::shown::LossGrid;
+use super::shown::{LossAt, LossGrid};
 use crate::points::{Given, Statistics, take_points};
 
 impl ExportData {
@@ -14,13 +15,48 @@ impl ExportData {
         };
         let rated = map.built.transmission.rating.map(|rating| rating.torque);
         let further = formats.iter().map(|name| name.format().further_points(grid, rated));
+        let no_load = if grid.axes.torques.contains(&0.0) {
+            Vec::new()
+        } else {
+            losses(
+                cx,
+                map,
+                grid.axes.speeds.iter().map(|speed| Given::new(0.0, *speed)).collect(),
+            )?
+        };
         Ok(Self {
-            between: between(cx, map, grid)?,
+            between: between(cx, map, &[grid.with_no_load(&no_load)], None)?,
             rated,
             further: further
                 .map(|list| loss_torques(cx, map, list))
                 .collect::<Result<_, _>>()?,
+            no_load,
+            ratio: speed_ratio(&map.built.transmission, &map.gear),
+            between_oils: None,
         })
+    }
+
+    /// Deviations between the oil temperatures of the maps of one set and gear.
+    pub(super) fn solve_between_oils(cx: &Context<'_>, maps: &mut [Map<'_>]) -> Result<(), Stopped> {
+        for i in 0..maps.len() {
+            let Some(own) = maps[i].oil.given() else { continue };
+            let same = |map: &&Map<'_>| map.built.name == maps[i].built.name && map.gear == maps[i].gear;
+            let warmer = maps.iter().filter(same).filter_map(|map| Some((map.oil.given()?, map)));
+            let next = warmer.filter(|(oil, _)| *oil > own).min_by(|a, b| a.0.total_cmp(&b.0));
+            let Some((oil, next)) = next else { continue };
+            let complete = |map: &Map<'_>| {
+                let grid = map.shown.whole.as_ref()?;
+                Some(grid.with_no_load(&map.export.no_load))
+            };
+            let (Some(cold), Some(warm)) = (complete(&maps[i]), complete(next)) else {
+                continue;
+            };
+            if cold.axes.torques == warm.axes.torques && cold.axes.speeds == warm.axes.speeds {
+                let middle = Some(0.5 * (own + oil));
+                maps[i].export.between_oils = between(cx, &maps[i], &[cold, warm], middle)?;
+            }
+        }
+        Ok(())
     }
 }
 
@@ -52,35 +88,65 @@ pub(super) fn check(cx: &Context<'_>, formats: &[ExportName], planned: &[Planned
     Ok(())
 }
 
-/// Loss torques at points of a map's gear, in order; absent if there is none. \[Nm\]
-fn loss_torques(cx: &Context<'_>, map: &Map<'_>, list: Vec<Given>) -> Result<Vec<Option<f64>>, Stopped> {
+/// Losses at points of a map's gear, in order.
+fn losses(cx: &Context<'_>, map: &Map<'_>, list: Vec<Given>) -> Result<Vec<LossAt>, Stopped> {
     let mut losses = Vec::new();
     if list.is_empty() {
         return Ok(losses);
     }
     let points = cx.listed(&map.built.transmission, &map.gear, list);
     cx.solve_pieces(&map.built, &points, &take_points, &mut |piece| {
-        losses.extend(piece.points().map(|p| p.loss_torque));
+        losses.extend(piece.points().map(LossAt::from));
         Ok(())
     })?;
     Ok(losses)
 }
 
-/// Deviation of linear interpolation from the loss torque midway between the points of a table.
-fn between(cx: &Context<'_>, map: &Map<'_>, grid: &LossGrid) -> Result<Option<(f64, f64)>, Stopped> {
-    let axes = &grid.axes;
+/// Loss torques at points of a map's gear, in order; absent if there is none. \[Nm\]
+fn loss_torques(cx: &Context<'_>, map: &Map<'_>, list: Vec<Given>) -> Result<Vec<Option<f64>>, Stopped> {
+    Ok(losses(cx, map, list)?
+        .into_iter()
+        .map(|loss| loss.loss_torque)
+        .collect())
+}
+
+/// Deviation of linear interpolation from the loss torque midway between the points of grids with equal axes, and near zero torque, at an
+/// oil temperature.
+fn between(
+    cx: &Context<'_>,
+    map: &Map<'_>,
+    grids: &[LossGrid],
+    oil: Option<f64>,
+) -> Result<Option<(f64, f64)>, Stopped> {
+    let Some(axes) = grids.first().map(|grid| &grid.axes) else {
+        return Ok(None);
+    };
     let (mut list, mut means) = (Vec::new(), Vec::new());
     for i in 0..axes.torques.len().saturating_sub(1) {
+        let [low, high] = [axes.torques[i], axes.torques[i + 1]];
+        // The loss torque bends near zero torque.
+        let beside_zero = [(low, 0.125), (high, 0.875)];
+        let beside_zero = beside_zero.into_iter().filter(|(torque, _)| *torque == 0.0);
+        let shares: Vec<f64> = beside_zero.map(|(_, share)| share).chain([0.5]).collect();
         for k in 0..axes.speeds.len().saturating_sub(1) {
-            let corners = [(0, 0), (0, 1), (1, 0), (1, 1)].map(|(a, b)| grid.loss_torque(i + a, k + b));
-            let sum: Option<f64> = corners.into_iter().sum();
-            let Some(sum) = sum else { continue };
-            list.push(Given {
-                torque: 0.5 * (axes.torques[i] + axes.torques[i + 1]),
-                speed: 0.5 * (axes.speeds[k] + axes.speeds[k + 1]),
-                oil: None,
-            });
-            means.push(0.25 * sum);
+            // The mean over all corners at one torque.
+            let at = |torque: usize| {
+                let all = grids
+                    .iter()
+                    .flat_map(|grid| [k, k + 1].map(|speed| grid.loss_torque(torque, speed)));
+                Some(all.sum::<Option<f64>>()? / (2 * grids.len()) as f64)
+            };
+            let Some((first, last)) = at(i).zip(at(i + 1)) else {
+                continue;
+            };
+            for share in &shares {
+                list.push(Given {
+                    torque: low + share * (high - low),
+                    speed: 0.5 * (axes.speeds[k] + axes.speeds[k + 1]),
+                    oil,
+                });
+                means.push(first + share * (last - first));
+            }
         }
     }
     let losses = loss_torques(cx, map, list)?;

@@ -1,5 +1,6 @@
 //! Results of maps: records, tables as columns, and additional data for figures and texts.
 
+use gearloss_fmu::Library;
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
@@ -47,6 +48,9 @@ pub struct MapOutcome {
     /// Maximum relative deviation of the straight lines of a `lossy_gear` table.
     #[serde(skip)]
     pub lossy_gear_limit: f64,
+    /// Libraries for the FMUs; empty unless one is exported.
+    #[serde(skip)]
+    pub libraries: Vec<Library>,
 }
 
 /// A map with one model set, one gear and one combination of bound values.

@@ -94,32 +94,74 @@ struct Lines {
 pub struct Picked {
     /// Shown points with their positions.
     shown: Vec<(usize, ShownPoint)>,
-    /// Efficiency and loss torque at the grid points.
-    values: Vec<(usize, [Option<f64>; 2])>,
+    /// Losses at the grid points.
+    values: Vec<(usize, LossAt)>,
 }
 
-/// Efficiency and loss torque at all grid points.
+/// Losses at one point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LossAt {
+    /// Output power over input power.
+    pub efficiency: Option<f64>,
+    /// Loss over the speed of the reference port. \[Nm\]
+    pub loss_torque: Option<f64>,
+    /// Temperature of the oil. \[degC\]
+    pub oil: Option<f64>,
+    /// The usual sums of losses. \[W\]
+    pub sums: [f64; 6],
+}
+
+impl From<&PointResult> for LossAt {
+    fn from(point: &PointResult) -> Self {
+        Self {
+            efficiency: point.efficiency,
+            loss_torque: point.loss_torque,
+            oil: point.oil,
+            sums: point.sums,
+        }
+    }
+}
+
+/// Losses at all grid points.
 #[derive(Debug, Clone)]
 pub struct LossGrid {
     /// The axes.
     pub axes: Axes,
-    /// Efficiency and loss torque; absent outside the envelope.
-    values: Vec<Option<[Option<f64>; 2]>>,
+    /// Losses; absent outside the envelope.
+    values: Vec<Option<LossAt>>,
 }
 
 impl LossGrid {
     /// The efficiency at a grid point.
     pub fn efficiency(&self, torque: usize, speed: usize) -> Option<f64> {
-        self.values_at(torque, speed)?[0]
+        self.loss(torque, speed)?.efficiency
     }
 
     /// The loss torque at a grid point. \[Nm\]
     pub fn loss_torque(&self, torque: usize, speed: usize) -> Option<f64> {
-        self.values_at(torque, speed)?[1]
+        self.loss(torque, speed)?.loss_torque
     }
 
-    fn values_at(&self, torque: usize, speed: usize) -> Option<[Option<f64>; 2]> {
-        self.values[torque * self.axes.speeds.len() + speed]
+    /// Losses at a grid point; absent outside the envelope.
+    pub fn loss(&self, torque: usize, speed: usize) -> Option<&LossAt> {
+        self.values[torque * self.axes.speeds.len() + speed].as_ref()
+    }
+
+    /// The same grid with a row at zero torque, one value for each speed; without a value at every speed that has one elsewhere, and with a
+    /// grid that has such a row, the grid itself.
+    pub fn with_no_load(&self, row: &[LossAt]) -> Self {
+        let mut own = self.clone();
+        let Axes { torques, speeds, .. } = &self.axes;
+        let turns = |w: usize| (0..torques.len()).any(|t| self.loss_torque(t, w).is_some());
+        let has_all = row.len() == speeds.len() && (0..speeds.len()).all(|w| row[w].loss_torque.is_some() || !turns(w));
+        if torques.contains(&0.0) || !has_all {
+            return own;
+        }
+        let place = torques.partition_point(|torque| *torque < 0.0);
+        own.axes.torques.insert(place, 0.0);
+        let at = place * speeds.len();
+        own.values.splice(at..at, row.iter().copied().map(Some));
+        own
     }
 
     /// True if an envelope leaves positions empty.
@@ -160,7 +202,7 @@ impl Selection {
         for (number, point) in points {
             let place = field.place(*number);
             if self.whole {
-                picked.values.push((place, [point.efficiency, point.loss_torque]));
+                picked.values.push((place, (&**point).into()));
             }
             if let Some(shown) = self.place(place) {
                 picked.shown.push((shown, (&**point).into()));

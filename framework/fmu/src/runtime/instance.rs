@@ -1,0 +1,274 @@
+//! Instances as the other program sees them: pointers, texts, messages.
+
+use alloc::boxed::Box;
+use alloc::vec::Vec;
+use core::ffi::{CStr, c_char, c_void};
+
+use super::content::{Content, token};
+use super::host;
+use super::model::{Fault, Model};
+use super::variables::Kind;
+
+/// Maximum size of a content. \[bytes\]
+const LONGEST: usize = 1 << 30;
+
+/// Status of a call, the same numbers in both versions.
+pub type Status = i32;
+/// Everything is well.
+pub const OK: Status = 0;
+/// A warning.
+pub const WARNING: Status = 1;
+/// The call had no effect; the other program may try another step.
+pub const DISCARD: Status = 2;
+/// The instance cannot be used any more, or the call is not supported.
+pub const ERROR: Status = 3;
+
+/// Sends a message to the other program.
+pub trait Log {
+    /// Status, category, text.
+    fn send(&self, status: Status, category: &CStr, text: &CStr);
+}
+
+/// An instance.
+pub struct Instance<L> {
+    /// Its model.
+    pub model: Model,
+    /// Receiver of messages.
+    pub log: L,
+    /// Whether messages are wanted.
+    pub logging: bool,
+    /// Whether it was reported that an input is beyond the tables.
+    warned: bool,
+}
+
+impl<L: Log> Instance<L> {
+    /// An instance of the content in a folder of resources, if the token is that of the content.
+    ///
+    /// # Safety
+    /// The token is null or a text.
+    pub unsafe fn new(
+        folder: Option<Vec<u8>>,
+        expected: *const c_char,
+        is_steady: bool,
+        log: L,
+        logging: bool,
+    ) -> Option<Box<Self>> {
+        let fail = |text: &CStr| {
+            log.send(ERROR, c"logStatusError", text);
+            None
+        };
+        let Some(folder) = folder else {
+            return fail(c"the location of the resources is missing or not a local file");
+        };
+        let read = |name: &[u8]| {
+            let mut path = folder.clone();
+            if !matches!(path.last(), Some(b'/' | b'\\')) {
+                path.push(b'/');
+            }
+            path.extend_from_slice(name);
+            host::read(&path, LONGEST)
+        };
+        let Some(bytes) = read(b"map.bin").or_else(|| read(b"network.bin")) else {
+            return fail(c"neither map.bin nor network.bin can be read in the folder of resources");
+        };
+        // SAFETY: as promised by the caller.
+        let expected = unsafe { text(expected) };
+        if expected != Some(&token(&bytes)) {
+            return fail(c"the GUID or instantiation token is not that of the resources: the FMU was changed");
+        }
+        let Some(content) = Content::decode(&bytes) else {
+            return fail(c"the resources are damaged or of another version");
+        };
+        let model = Model::new(content);
+        if is_steady && model.is_network() {
+            return fail(c"a thermal network is simulated by its own steps: Co-Simulation only");
+        }
+        Some(Box::new(Self {
+            model,
+            log,
+            logging,
+            warned: false,
+        }))
+    }
+
+    /// Reports a fault.
+    pub fn result(&mut self, result: Result<(), Fault>) -> Status {
+        match result {
+            Ok(()) => OK,
+            Err(fault) => {
+                let (status, category) = match fault {
+                    Fault::NoSolution => (DISCARD, c"logStatusDiscard"),
+                    _ => (ERROR, c"logStatusError"),
+                };
+                self.log.send(status, category, fault.words());
+                status
+            }
+        }
+    }
+
+    /// Reads variables of a type.
+    pub fn get<T>(&mut self, references: &[u32], kind: Kind, values: &mut [T], convert: fn(f64) -> T) -> Status {
+        if references.len() != values.len() {
+            return ERROR;
+        }
+        let model = &mut self.model;
+        let result = references.iter().zip(values).try_for_each(|(reference, value)| {
+            *value = convert(model.get(*reference, kind)?);
+            Ok(())
+        });
+        self.warn();
+        self.result(result)
+    }
+
+    /// Writes variables of a type.
+    pub fn set<T: Copy>(&mut self, references: &[u32], kind: Kind, values: &[T], convert: fn(T) -> f64) -> Status {
+        if references.len() != values.len() {
+            return ERROR;
+        }
+        let model = &mut self.model;
+        let mut pairs = references.iter().zip(values);
+        let result = pairs.try_for_each(|(reference, value)| model.set(*reference, kind, convert(*value)));
+        self.result(result)
+    }
+
+    /// Simulates until the end of a step.
+    pub fn step(&mut self, time: f64, length: f64) -> Status {
+        let result = self.model.advance(length);
+        if result.is_ok() {
+            self.model.set_time(time + length);
+        }
+        self.warn();
+        self.result(result)
+    }
+
+    /// Back to the start values.
+    pub fn reset(&mut self) -> Status {
+        self.model.reset();
+        self.warned = false;
+        OK
+    }
+
+    /// Reports once that an input is beyond the tables.
+    fn warn(&mut self) {
+        if self.logging && !self.warned && self.model.is_outside() {
+            self.warned = true;
+            let text = c"an input is beyond the tables: their ends are used, and the variable `outside` is true";
+            self.log.send(WARNING, c"logStatusWarning", text);
+        }
+    }
+
+    /// Runs a call on an instance behind a pointer.
+    ///
+    /// # Safety
+    /// The pointer is null or of [`Instance::new`], not freed, and not in use by another thread.
+    pub unsafe fn with(pointer: *mut c_void, call: impl FnOnce(&mut Self) -> Status) -> Status {
+        // SAFETY: as promised by the caller.
+        match unsafe { pointer.cast::<Self>().as_mut() } {
+            Some(own) => call(own),
+            None => ERROR,
+        }
+    }
+
+    /// As a pointer; null if there is none.
+    pub fn into_pointer(own: Option<Box<Self>>) -> *mut c_void {
+        own.map_or(core::ptr::null_mut(), |own| Box::into_raw(own).cast())
+    }
+
+    /// Frees an instance.
+    ///
+    /// # Safety
+    /// As [`Instance::with`]; the pointer is not used afterwards.
+    pub unsafe fn free(pointer: *mut c_void) {
+        if !pointer.is_null() {
+            // SAFETY: as promised by the caller.
+            drop(unsafe { Box::from_raw(pointer.cast::<Self>()) });
+        }
+    }
+}
+
+/// Stores the state of an instance behind a pointer, whose memory is reused.
+///
+/// # Safety
+/// `to` is null or points to null or to a state of this function.
+pub unsafe fn keep_state(model: &Model, to: *mut *mut c_void) -> Status {
+    // SAFETY: as promised by the caller.
+    let Some(to) = (unsafe { to.as_mut() }) else {
+        return ERROR;
+    };
+    // SAFETY: as promised by the caller.
+    match unsafe { to.cast::<Vec<u8>>().as_mut() } {
+        Some(own) => *own = model.state(),
+        None => *to = Box::into_raw(Box::new(model.state())).cast(),
+    }
+    OK
+}
+
+/// The bytes of a state behind a pointer.
+///
+/// # Safety
+/// The pointer is null or of [`keep_state`].
+pub unsafe fn state<'a>(pointer: *mut c_void) -> Option<&'a Vec<u8>> {
+    // SAFETY: as promised by the caller.
+    unsafe { pointer.cast::<Vec<u8>>().as_ref() }
+}
+
+/// Frees a state and forgets its pointer.
+///
+/// # Safety
+/// As [`keep_state`].
+pub unsafe fn free_state(to: *mut *mut c_void) -> Status {
+    // SAFETY: as promised by the caller.
+    let Some(to) = (unsafe { to.as_mut() }) else {
+        return ERROR;
+    };
+    if !to.is_null() {
+        // SAFETY: as promised by the caller.
+        drop(unsafe { Box::from_raw(to.cast::<Vec<u8>>()) });
+        *to = core::ptr::null_mut();
+    }
+    OK
+}
+
+/// A list of the other program; empty if it is null.
+///
+/// # Safety
+/// The pointer is null or to as many elements.
+pub unsafe fn list<'a, T>(pointer: *const T, count: usize) -> &'a [T] {
+    if pointer.is_null() {
+        return &[];
+    }
+    // SAFETY: as promised by the caller.
+    unsafe { core::slice::from_raw_parts(pointer, count) }
+}
+
+/// A list of the other program to write to; empty if it is null.
+///
+/// # Safety
+/// As [`list`], and nothing else uses it.
+pub unsafe fn list_mut<'a, T>(pointer: *mut T, count: usize) -> &'a mut [T] {
+    if pointer.is_null() {
+        return &mut [];
+    }
+    // SAFETY: as promised by the caller.
+    unsafe { core::slice::from_raw_parts_mut(pointer, count) }
+}
+
+/// Writes a value unless the pointer is null.
+///
+/// # Safety
+/// The pointer is null or to such a value.
+pub unsafe fn put<T>(pointer: *mut T, value: T) {
+    // SAFETY: as promised by the caller.
+    if let Some(own) = unsafe { pointer.as_mut() } {
+        *own = value;
+    }
+}
+
+/// The bytes of a text; `None` if it is null.
+///
+/// # Safety
+/// The pointer is null or to a text that ends with a zero byte.
+pub unsafe fn text<'a>(pointer: *const c_char) -> Option<&'a [u8]> {
+    // SAFETY: as promised by the caller.
+    (!pointer.is_null()).then(|| unsafe { CStr::from_ptr(pointer) }.to_bytes())
+}

@@ -1,0 +1,255 @@
+//! Functional Mock-up Units of the losses of all gears of a model set.
+//!
+//! Source: the standards FMI 2.0 and FMI 3.0 (Modelica Association); `gearloss-fmu` writes them.
+
+use std::ptr;
+
+use gearloss_fmu::content::Content;
+use gearloss_fmu::map::{GearOfMap, Map, OilOfMap};
+use gearloss_fmu::table::{Axis, Table};
+use gearloss_fmu::{Experiment, Fmu, Version};
+use gearloss_studies::analyses::map::{Axes, ExportFile, ExportFormat, ExportMap, MapOfSet, Refusal};
+use gearloss_studies::analyses::numbers::{RPM, tidy};
+use gearloss_studies::register_export;
+
+use super::missed;
+use super::slabs::GridTable;
+
+register_export!(Fmu2);
+register_export!(Fmu3);
+
+struct Fmu2;
+struct Fmu3;
+
+/// Names and meanings of the shares of the loss, in the order of the usual sums.
+const SHARES: [(&str, &str); 6] = [
+    ("gears.load_dependent", "gears, load-dependent"),
+    ("gears.no_load", "gears, load-independent"),
+    ("bearings.load_dependent", "bearings, load-dependent"),
+    ("bearings.no_load", "bearings, load-independent"),
+    ("seals", "seals"),
+    ("others", "others"),
+];
+/// Number of points of the reference experiment.
+const REFERENCES: usize = 61;
+
+impl ExportFormat for Fmu2 {
+    fn name(&self) -> &'static str {
+        "fmu2"
+    }
+
+    fn meaning(&self) -> &'static str {
+        "Losses, efficiency and output over speed, torque, gear and oil temperature as a Functional Mock-up Unit of FMI 2.0, for \
+         Co-Simulation and Model Exchange."
+    }
+
+    fn fits(&self, axes: &Axes) -> Result<(), Refusal> {
+        GridTable::fit(axes)
+    }
+
+    fn has_library(&self) -> bool {
+        true
+    }
+
+    fn covered<'a>(&self, map: &ExportMap<'a>) -> Vec<&'a MapOfSet> {
+        of_set(map)
+    }
+
+    fn file(&self, map: &ExportMap<'_>) -> Result<Option<ExportFile>, Refusal> {
+        file(map, Version::Two)
+    }
+}
+
+impl ExportFormat for Fmu3 {
+    fn name(&self) -> &'static str {
+        "fmu3"
+    }
+
+    fn meaning(&self) -> &'static str {
+        "As `fmu2`, of FMI 3.0."
+    }
+
+    fn fits(&self, axes: &Axes) -> Result<(), Refusal> {
+        GridTable::fit(axes)
+    }
+
+    fn has_library(&self) -> bool {
+        true
+    }
+
+    fn covered<'a>(&self, map: &ExportMap<'a>) -> Vec<&'a MapOfSet> {
+        of_set(map)
+    }
+
+    fn file(&self, map: &ExportMap<'_>) -> Result<Option<ExportFile>, Refusal> {
+        file(map, Version::Three)
+    }
+}
+
+/// All maps of the model set.
+fn of_set<'a>(map: &ExportMap<'a>) -> Vec<&'a MapOfSet> {
+    let own = map.outcome.maps.iter();
+    own.filter(|other| other.model_set == map.map.model_set).collect()
+}
+
+/// The FMU of a model set, for its first map.
+fn file(map: &ExportMap<'_>, version: Version) -> Result<Option<ExportFile>, Refusal> {
+    let maps = of_set(map);
+    if !maps.first().is_some_and(|first| ptr::eq(*first, map.map)) {
+        return Ok(None);
+    }
+    let mut gears: Vec<(&str, GridTable, Option<f64>)> = Vec::new();
+    for own in &maps {
+        if !gears.iter().any(|(gear, ..)| *gear == own.gear) {
+            let of_gear: Vec<&MapOfSet> = maps.iter().copied().filter(|map| map.gear == own.gear).collect();
+            gears.push((&own.gear, GridTable::new(&of_gear)?, own.export.ratio));
+        }
+    }
+    let oil = |slabs: &GridTable| match slabs.slabs[0].oil {
+        _ if slabs.slabs.len() > 1 => OilOfMap::Given,
+        Some(_) => OilOfMap::Fixed,
+        None => OilOfMap::Balance,
+    };
+    let has_ratio = gears.iter().all(|(.., ratio)| ratio.is_some());
+    let first = &gears[0].1;
+    let content = Content::Map(Map {
+        oil: oil(first),
+        starts: vec![
+            middle(&first.speeds()),
+            middle(&first.axes().torques),
+            first.slabs[0].oil.unwrap_or(0.0),
+        ],
+        gears: gears
+            .iter()
+            .map(|(name, slabs, ratio)| GearOfMap {
+                name: (*name).to_owned(),
+                ratio: ratio.filter(|_| has_ratio),
+                table: table(slabs),
+            })
+            .collect(),
+    });
+    let about = about(&gears);
+    let name = format!("{}-{}", map.outcome.head.analysis, map.map.model_set).replace('/', "-");
+    let fmu = Fmu {
+        name: name.clone(),
+        description: format!("Losses by gearloss: {about}{}", missed(&maps)),
+        tool: format!("gearloss {}", env!("CARGO_PKG_VERSION")),
+        content: &content,
+        shares: &SHARES,
+        experiment: experiment(&gears, oil(first)),
+        libraries: &map.outcome.libraries,
+    };
+    let bytes = fmu.bytes(version).map_err(|reason| {
+        Refusal::new(
+            format!("the FMU cannot be written: {reason}"),
+            "give the grid fewer points",
+        )
+    })?;
+    let platforms: Vec<&str> = map
+        .outcome
+        .libraries
+        .iter()
+        .map(|own| own.platform.names()[2])
+        .collect();
+    Ok(Some(ExportFile {
+        name: format!("{name}-{}.fmu", if version == Version::Two { "fmi2" } else { "fmi3" }),
+        about: format!("{about}; for {}", platforms.join(", ")),
+        bytes,
+    }))
+}
+
+/// The value in the middle of an axis.
+fn middle(axis: &[f64]) -> f64 {
+    axis.get(axis.len() / 2).copied().unwrap_or(0.0)
+}
+
+/// Gears and axes in words.
+fn about(gears: &[(&str, GridTable, Option<f64>)]) -> String {
+    let of = |(name, slabs, _): &(&str, GridTable, Option<f64>)| {
+        let ends = |axis: &[f64]| [0, axis.len() - 1].map(|i| axis[i]);
+        let ([low, high], speeds) = (ends(&slabs.axes().torques), ends(&slabs.speeds()).map(|w| w * RPM));
+        format!(
+            "gear {name}: {} to {} Nm, {:.0} to {:.0} rpm, {}",
+            tidy(low),
+            tidy(high),
+            speeds[0],
+            speeds[1],
+            slabs.about()
+        )
+    };
+    gears.iter().map(of).collect::<Vec<_>>().join("; ")
+}
+
+/// The table of a gear: speed, torque and, if there are several, oil temperature.
+fn table(own: &GridTable) -> Table {
+    let (torques, mut speeds) = (&own.axes().torques, own.speeds());
+    let oils: Vec<f64> = own.slabs.iter().filter_map(|slab| slab.oil).collect();
+    let is_balanced = own.slabs[0].oil.is_none();
+    let mut values = Vec::new();
+    for (column, speed) in own.columns.iter().zip(&speeds) {
+        for t in 0..torques.len() {
+            for slab in &own.slabs {
+                let loss = slab.grid.loss(t, *column);
+                values.push(loss.and_then(|loss| loss.loss_torque).unwrap_or(0.0));
+                values.extend(loss.map_or([0.0; 6], |loss| loss.sums).map(|watts| watts / speed.abs()));
+                if is_balanced {
+                    values.push(loss.and_then(|loss| loss.oil).unwrap_or(0.0));
+                }
+            }
+        }
+    }
+    // A grid that begins at standstill includes it, with the loss torque of the lowest speed.
+    if own.axes().speeds[0] == 0.0 && speeds[0] > 0.0 {
+        let lowest = values[..values.len() / speeds.len()].to_vec();
+        values.splice(0..0, lowest);
+        speeds.insert(0, 0.0);
+    }
+    let mut axes = vec![
+        Axis {
+            quantity: 0,
+            points: speeds,
+        },
+        Axis {
+            quantity: 1,
+            points: torques.clone(),
+        },
+    ];
+    if oils.len() > 1 {
+        axes.push(Axis {
+            quantity: 2,
+            points: oils,
+        });
+    }
+    Table {
+        axes,
+        channels: 7 + usize::from(is_balanced),
+        values,
+    }
+}
+
+/// Points all over the axes, between the points of the grid: multiples of irrational numbers fill a range evenly.
+fn experiment(gears: &[(&str, GridTable, Option<f64>)], oil: OilOfMap) -> Experiment {
+    let within = |axis: &[f64], i: usize, factor: f64| {
+        let share = (i as f64 * factor).fract();
+        axis[0] + share * (axis[axis.len() - 1] - axis[0])
+    };
+    let row = |i: usize| {
+        let (_, slabs, _) = &gears[i % gears.len()];
+        let mut row = vec![
+            within(&slabs.speeds(), i, 0.618_033_988_75),
+            within(&slabs.axes().torques, i, 0.414_213_562_37),
+        ];
+        if oil == OilOfMap::Given {
+            let oils: Vec<f64> = slabs.slabs.iter().filter_map(|slab| slab.oil).collect();
+            row.push(within(&oils, i, 0.732_050_807_57));
+        }
+        if gears.len() > 1 {
+            row.push((i % gears.len() + 1) as f64);
+        }
+        row
+    };
+    Experiment {
+        step: 1.0,
+        inputs: (0..REFERENCES).map(row).collect(),
+    }
+}
