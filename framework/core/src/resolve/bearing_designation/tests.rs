@@ -110,8 +110,9 @@ fn suffixes_of_several_makers_state_the_same_keys() {
         assert!(keys(written).contains(&loose), "{written}");
     }
     let shields = ("seals", json!({ "design": "shield", "number": 2 }));
-    assert_eq!(keys("6208ZZ"), [shields.clone()]);
-    assert_eq!(keys("6208-2Z"), [shields]);
+    for written in ["6208ZZ", "6208-2Z"] {
+        assert_eq!(keys(written), std::slice::from_ref(&shields));
+    }
     assert!(keys("6308-TVP").is_empty() && found("6308-TVP").unwrap().changes().1.is_empty());
 }
 
