@@ -36,16 +36,20 @@ pub fn run(args: &CatalogueArgs, out: &mut Out) -> Result<End, Failure> {
         .filter(|(designation, _)| designation.to_lowercase().contains(&wanted))
         .map(|(designation, row)| (*designation, *row))
         .collect();
+    // The row of a designation with suffixes, without what they make invalid.
+    let mut changed: Vec<CatalogueRow> = Vec::new();
     if found.is_empty() {
         let read = read_designation(text, rows.keys().copied()).filter(|_| section != LUBRICANTS);
         let Some(read) = read else {
             return Err(nothing(text, &rows));
         };
         out.line(format!("{text}: {}", read.words()))?;
-        found.extend(
-            rows.get_key_value(read.base)
-                .map(|(designation, row)| (*designation, *row)),
-        );
+        let (_, invalid) = read.changes();
+        changed.extend(rows.get(read.base).map(|row| (*row).clone()));
+        for row in &mut changed {
+            row.values.retain(|(key, _)| !invalid.contains(&key.as_str()));
+        }
+        found.extend(changed.iter().map(|row| (text, row)));
     }
     out.text(&table(&found).render())?;
     Ok(End::Fine)

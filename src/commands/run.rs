@@ -185,6 +185,11 @@ pub(crate) fn all(
         done_so_far += 1;
     }
     shown.limits(width, &runner.broken.borrow(), out)?;
+    let limited = runner.limited.borrow();
+    let never = || study.entry.limits.iter().filter(|(name, _)| !limited.contains(*name));
+    for (name, _) in never() {
+        out.line(format!("note: no analysis knows the quantity of the limit `{name}`"))?;
+    }
     shown.outside(width, &runner.stated_ranges.borrow(), out)?;
     write::report(&runner, template.as_deref())?;
     held.finish();
@@ -210,7 +215,9 @@ pub(crate) fn all(
     }
     let broken = runner.broken.borrow();
     let errors = broken.iter().filter(|(_, limit)| limit.severity == Severity::Error);
-    let errors: Vec<&str> = distinct(errors.map(|(_, limit)| limit.limit.as_str()));
+    let errors = errors.map(|(_, limit)| limit.limit.as_str());
+    let unknown = never().filter(|(_, entry)| entry.severity == Severity::Error);
+    let errors: Vec<&str> = distinct(errors.chain(unknown.map(|(name, _)| name)));
     if failed == 0 && !errors.is_empty() {
         out.line(format!(
             "error: limits with `severity: error` are not kept: {}",

@@ -184,6 +184,7 @@ static UNITS: &[Unit] = &[
     unit("1/min", Dimension::AngularSpeed, PI / 30.0),
     unit("rad/s", Dimension::AngularSpeed, 1.0),
     unit("m/s", Dimension::Speed, 1.0),
+    unit("mm/min", Dimension::Speed, 1e-3 / 60.0),
     unit("km/h", Dimension::Speed, 1.0 / 3.6),
     unit("Nm", Dimension::Torque, 1.0),
     unit("N m", Dimension::Torque, 1.0),

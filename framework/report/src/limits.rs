@@ -11,7 +11,7 @@ pub fn add(limits: &[LimitReached], page: &mut Page) {
     if limits.is_empty() {
         return;
     }
-    let broken = limits.iter().filter(|limit| limit.beyond > 0);
+    let broken = limits.iter().filter(|limit| limit.is_broken());
     page.limits = broken.map(|limit| format!("limit {}", sentence(limit))).collect();
     let mut table = TextTable::new(&["limit", "models", "quantity", "allowed", "worst", "where", "beyond"]);
     for limit in limits {
@@ -20,9 +20,12 @@ pub fn add(limits: &[LimitReached], page: &mut Page) {
             limit.model_set.clone(),
             limit.quantity.clone(),
             bounds(limit),
-            format!("{}{}", short(limit.worst), after(&limit.unit)),
+            limit.worst.map_or_else(
+                || "unknown".to_owned(),
+                |worst| format!("{}{}", short(worst), after(&limit.unit)),
+            ),
             place(&limit.at),
-            format!("{} of {}", limit.beyond, limit.points),
+            format!("{} of {}{}", limit.beyond, limit.points, unknown(limit)),
         ]);
     }
     page.table(table.titled("Limits of the study"));
@@ -31,26 +34,41 @@ pub fn add(limits: &[LimitReached], page: &mut Page) {
 /// A broken limit with its worst value.
 pub fn sentence(limit: &LimitReached) -> String {
     let what = if limit.at.cycle.is_some() { "cycles" } else { "points" };
+    let Some(worst) = limit.worst else {
+        return format!(
+            "{}: {} is unknown at all {} {what}; the limit cannot be kept",
+            limit.limit, limit.quantity, limit.unknown
+        );
+    };
     let side = match limit.least {
-        Some(least) if limit.worst < least => "below",
+        Some(least) if worst < least => "below",
         _ => "above",
     };
     let bound = if side == "below" { limit.least } else { limit.most }.unwrap_or(f64::NAN);
     let unit = after(&limit.unit);
     format!(
-        "{}: {} is {}{unit}, {side} {}{unit}, {}; beyond the limit at {} of {} {what}{}",
+        "{}: {} is {}{unit}, {side} {}{unit}, {}; beyond the limit at {} of {} {what}{}{}",
         limit.limit,
         limit.quantity,
-        short(limit.worst),
+        short(worst),
         short(bound),
         place(&without_repetition(limit)),
         limit.beyond,
         limit.points,
+        unknown(limit),
         match limit.model_set.as_str() {
             OWN_MODELS => String::new(),
             set => format!(" with {set}"),
         }
     )
+}
+
+/// How often the quantity is unknown; nothing if it never is.
+fn unknown(limit: &LimitReached) -> String {
+    match limit.unknown {
+        0 => String::new(),
+        count => format!(", unknown at {count}"),
+    }
 }
 
 /// A unit after its number; nothing for `-`.

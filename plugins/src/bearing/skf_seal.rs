@@ -35,10 +35,10 @@ impl Code {
         use BearingKind as Kind;
         let code = match (design, kind) {
             (SealDesign::NonContact | SealDesign::Shield, _) => return Ok(None),
-            // Constants of RSL and RSH end at 52 mm.
+            // Constants of RSL and RSH end at 52 mm; those of RS1 are an upper estimate for RSL.
             (SealDesign::Rsl, Kind::DeepGrooveBall) if outside <= 52.0 => Self::RslDeepGroove,
             (SealDesign::Rsh, Kind::DeepGrooveBall) if outside <= 52.0 => Self::RshDeepGroove,
-            (SealDesign::Rs1 | SealDesign::Rsh, Kind::DeepGrooveBall) => Self::Rs1DeepGroove,
+            (SealDesign::Rs1 | SealDesign::Rsh | SealDesign::Rsl, Kind::DeepGrooveBall) => Self::Rs1DeepGroove,
             (SealDesign::Rs1, Kind::AngularContactBall | Kind::AngularContactBallDoubleRow) => Self::Rs1AngularContact,
             (SealDesign::Rs1, Kind::SelfAligningBall) => Self::Rs1SelfAligning,
             (SealDesign::Ls, Kind::CylindricalRoller | Kind::CylindricalRollerFullComplement) => Self::LsCylindrical,

@@ -1,6 +1,7 @@
 //! Shared state of the analyses of one run: study, result folder and report.
 
 use std::cell::{Cell, RefCell};
+use std::collections::BTreeSet;
 use std::ops::Deref;
 use std::path::PathBuf;
 
@@ -35,6 +36,8 @@ pub struct Run<'a> {
     pub(super) files: Files,
     /// Quantities outside their stated ranges, counted over all analyses.
     pub(super) left: Cell<usize>,
+    /// Limits whose quantity was known in an analysis.
+    pub(super) limited: RefCell<BTreeSet<String>>,
     /// Limits that are not kept, each with the name of its analysis.
     pub(super) broken: RefCell<Vec<(String, LimitReached)>>,
     /// The same for the end of the run.
@@ -127,6 +130,7 @@ impl<'a> Run<'a> {
             },
             report: RefCell::default(),
             left: Cell::new(0),
+            limited: RefCell::default(),
             broken: RefCell::default(),
             stated_ranges: RefCell::default(),
             tested: RefCell::default(),
@@ -199,7 +203,13 @@ impl Runner<'_> {
         let outside = outcome.notes().iter().filter(|note| note.outside > 0).count();
         let left = outside + outcome.left_at_samples().len() + outcome.unlisted();
         self.run.left.set(self.run.left.get() + left);
-        let broken = outcome.head().study_limits.iter().filter(|limit| limit.beyond > 0);
+        let limits = &outcome.head().study_limits;
+        let known = limits.iter().filter(|limit| limit.points > 0);
+        self.run
+            .limited
+            .borrow_mut()
+            .extend(known.map(|limit| limit.limit.clone()));
+        let broken = limits.iter().filter(|limit| limit.is_broken());
         let broken = broken.map(|limit| (self.name.to_owned(), limit.clone()));
         self.run.broken.borrow_mut().extend(broken);
         self.run.stated_ranges.borrow_mut().add_outcome(self.name, outcome);

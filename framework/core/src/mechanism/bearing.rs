@@ -217,7 +217,7 @@ pub struct BearingEntry {
     /// Limiting speed of the catalogue; for ratings. [rpm]
     #[schemars(range(min = 1.0, max = 1e6))]
     pub limiting_speed: Option<f64>,
-    /// Seals or shields of the bearing; default: from the designation, none.
+    /// Seals or shields of the bearing; default: from the designation, none. Only the model `skf` has their friction.
     pub seals: Option<BearingSeals>,
     /// Class of the radial internal clearance; default: from the designation. For reports and other programs: no model depends on it.
     pub clearance: Option<ClearanceClass>,

@@ -79,7 +79,7 @@ pub struct Designation<'a> {
 
 /// Suffixes with their meanings. At a place the longest that fits is taken.
 const SUFFIXES: &[(&str, Meaning)] = &[
-    // Contact seals: SKF, FAG (RSR, HRS), NSK (DU), NTN (LU), Koyo (RS, RK).
+    // Contact seals: SKF, FAG (RSR, HRS), NSK (DU), NTN (LU), Koyo (RS).
     ("2RS1", Meaning::Seals(Design::Rs1, 2)),
     ("RS1", Meaning::Seals(Design::Rs1, 1)),
     ("2RS", Meaning::Seals(Design::Rs1, 2)),
@@ -168,6 +168,7 @@ const SUFFIXES: &[(&str, Meaning)] = &[
     ("UA", Meaning::Other("for universal matching, small axial clearance")),
     ("GA", Meaning::Other("for universal matching, light preload")),
     ("N2", Meaning::Other("two locating slots")),
+    ("W33", Meaning::Other("lubrication groove and holes in the outer ring")),
     ("NR", Meaning::Other("snap ring groove with ring")),
     ("N", Meaning::Other("snap ring groove")),
     ("K", Meaning::Other("tapered bore")),
@@ -229,21 +230,31 @@ fn matched(written: &str, base: &str) -> Option<usize> {
 /// A catalogue that has cylindrical roller bearings as `NU205EC` also finds `NU 205`, because the basic designation is the same.
 pub fn read<'a>(written: &str, known: impl Iterator<Item = &'a str>) -> Option<Designation<'a>> {
     let of_base = |base: &'a str| {
-        // Catalogues add letters of the present design, which drawings omit or replace.
-        let short = base.trim_end_matches(|c: char| c.is_ascii_alphabetic());
-        let forms = [base, short].map(|form| matched(written, form).map(|end| (base, end, form.len())));
+        // `NU 205` and `32005` on drawings are `NU205EC` and `32005X` in catalogues. A letter after an angular contact ball bearing is its
+        // contact angle, which must be the same.
+        let short = base.strip_suffix("EC").or_else(|| base.strip_suffix('X'));
+        let forms = [Some(base), short]
+            .map(|form| form.and_then(|form| matched(written, form).map(|end| (base, end, form.len()))));
         forms.into_iter().flatten()
     };
     let mut found: Vec<(&str, usize, usize)> = known.flat_map(of_base).collect();
     found.sort_by_key(|(_, _, length)| std::cmp::Reverse(*length));
     found.into_iter().find_map(|(base, end, _)| {
         let rest = &written[end..];
-        let suffixes = if rest.trim_matches(separates).is_empty() {
+        let mut suffixes = if rest.trim_matches(separates).is_empty() {
             Vec::new()
         } else {
             suffixes(rest)?
         };
-        Some(Designation { base, suffixes })
+        let is_short = !written[..end].to_ascii_uppercase().ends_with("EC");
+        if base.ends_with("EC") && is_short {
+            suffixes.push(Suffix {
+                written: "without EC".to_owned(),
+                meaning: Meaning::Other("an older design has lower load ratings than these"),
+            });
+        }
+        let designation = Designation { base, suffixes };
+        designation.is_consistent().then_some(designation)
     })
 }
 
@@ -257,9 +268,9 @@ impl Suffix {
                     Design::Shield => format!("shields on {sides}, without friction"),
                     Design::NonContact => format!("non-contact seals on {sides}, without friction"),
                     _ if number == 2 => {
-                        "contact seals on both sides, filled with grease (state `lubrication: grease`)".to_owned()
+                        "contact seals on both sides, with friction in the model `skf` only, filled with grease (state `lubrication: grease`)".to_owned()
                     }
-                    _ => "a contact seal on one side".to_owned(),
+                    _ => "a contact seal on one side, with friction in the model `skf` only".to_owned(),
                 }
             }
             Meaning::Clearance("c1") => "radial clearance less than C2".to_owned(),
@@ -277,6 +288,20 @@ impl Suffix {
 }
 
 impl Designation<'_> {
+    /// Whether no two suffixes contradict each other, and none states another contact angle than the basic designation has.
+    fn is_consistent(&self) -> bool {
+        let count = |of: fn(Meaning) -> bool| self.suffixes.iter().filter(|own| of(own.meaning)).count();
+        let seals = count(|own| matches!(own, Meaning::Seals(..)));
+        let clearances = count(|own| matches!(own, Meaning::Clearance(_)));
+        // Tapered roller bearings: B, C and D have other angles.
+        let angle = self.base.starts_with('3')
+            && self
+                .suffixes
+                .iter()
+                .any(|own| matches!(own.written.as_str(), "B" | "C"));
+        seals <= 1 && clearances <= 1 && !angle
+    }
+
     /// Keys of a bearing that the suffixes state, and keys of the basic bearing that no longer hold.
     pub fn changes(&self) -> (Vec<(&'static str, Value)>, &'static [&'static str]) {
         let mut keys = Vec::new();
@@ -301,8 +326,9 @@ impl Designation<'_> {
 
     /// What differs from the bearing of the catalogue, as a sentence.
     pub fn words(&self) -> String {
-        let suffixes: Vec<String> = self.suffixes.iter().map(Suffix::words).collect();
-        format!("dimensions and ratings of `{}`; {}", self.base, suffixes.join("; "))
+        let base = format!("dimensions and ratings of `{}`", self.base);
+        let suffixes = self.suffixes.iter().map(Suffix::words);
+        std::iter::once(base).chain(suffixes).collect::<Vec<_>>().join("; ")
     }
 }
 

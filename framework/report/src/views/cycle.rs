@@ -125,7 +125,13 @@ fn consumption_text(own: &Consumption, page: &mut Page) {
             ", without losses of the motor"
         }
     ));
-    let Some(range) = own.range_km else { return };
+    if own.motor_beyond_map {
+        page.line("  note: the motor was outside its map, the loss at the edge of the map is used");
+    }
+    let Some(range) = own.range_km else {
+        page.line("  no range: more energy is recuperated than drawn");
+        return;
+    };
     let lost = own
         .range_lost_in_transmission_km
         .map(|km| format!("; the losses of the transmission cost {} km", short(km)));
@@ -138,9 +144,6 @@ fn consumption_text(own: &Consumption, page: &mut Page) {
         lost.unwrap_or_default(),
         difference.unwrap_or_default()
     ));
-    if own.motor_beyond_map {
-        page.line("  note: the motor was outside its map, the loss at the edge of the map is used");
-    }
 }
 
 /// The uncertainty band of the loss and of its shares, and the correlation with the inputs.

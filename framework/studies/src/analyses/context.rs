@@ -188,11 +188,8 @@ impl<'a> Context<'a> {
         // In the order of the sets, whichever was first.
         reached.sort_by_key(|(set, _)| built.iter().position(|b| b.name == *set));
         for (set, limits) in std::mem::take(&mut *reached) {
-            head.study_limits.extend(
-                limits
-                    .into_iter()
-                    .filter_map(|(limit, reached)| reached.record(&limit, &set)),
-            );
+            head.study_limits
+                .extend(limits.into_iter().map(|(limit, reached)| reached.record(&limit, &set)));
         }
         head
     }

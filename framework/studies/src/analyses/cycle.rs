@@ -157,7 +157,7 @@ impl Analysis for CycleAnalysisEntry {
             note_limits(cx, b, &duties, driven)?;
             for (read, driven) in duties.list.iter().zip(driven) {
                 let mut duty = results::duty(b, read, driven, &shares, self.reference.get(&read.name));
-                duty.consumption = duties.consumption(driven);
+                duty.consumption = duties.consumption(&b.transmission, driven);
                 if let Some(ratings) = &ratings {
                     let rated =
                         ratings::over_cycle(&b.transmission, ratings, &duties.ride(&b.transmission, read), driven);

@@ -119,8 +119,9 @@ impl<'a> Duties<'a> {
     }
 
     /// Energy of the vehicle over a simulated cycle; absent without a battery or without distance.
-    pub fn consumption(&self, driven: &Driven) -> Option<Consumption> {
-        self.battery.as_ref()?.consumption(driven)
+    pub fn consumption(&self, t: &Transmission, driven: &Driven) -> Option<Consumption> {
+        let oil = t.network().map_or(0, Network::oil);
+        self.battery.as_ref()?.consumption(driven, oil)
     }
 
     /// Number of all intervals.
@@ -397,7 +398,11 @@ fn battery_of(cx: &Context<'_>, path: &str, vehicle: &VehicleEntry) -> Result<Op
         return unused.map_or(Ok(None), Err);
     };
     let Some(file) = &vehicle.motor_map else {
-        return Ok(Some(Battery { entry, motor: None }));
+        return Ok(Some(Battery {
+            entry,
+            motor: None,
+            fixed_efficiency: vehicle.efficiency.is_some(),
+        }));
     };
     let at = format!("{path}.motor_map");
     let bytes = cx.study.read_file(file);
@@ -409,5 +414,6 @@ fn battery_of(cx: &Context<'_>, path: &str, vehicle: &VehicleEntry) -> Result<Op
     Ok(Some(Battery {
         entry,
         motor: Some(motor),
+        fixed_efficiency: vehicle.efficiency.is_some(),
     }))
 }

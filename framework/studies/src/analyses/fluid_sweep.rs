@@ -10,7 +10,7 @@ use serde_json::Value;
 
 use self::swept::Swept;
 use super::duties::{Duties, MeanLoss, Unfinished, mean_losses_of, sums_energies};
-use super::limits::over_cycles::{built, limits_of, values, violation};
+use super::limits::over_cycles::{built, limits_of, note_proposed, values, violation};
 use super::limits::{Limit, LimitRecord};
 use super::shares::together;
 use super::trial::{Left, Trial};
@@ -223,6 +223,7 @@ impl Analysis for FluidSweepEntry {
                 if self.refine { search.refine() } else { Ok(()) }
             })?;
             if driven.is_some() {
+                search.note_limits(b);
                 sets.push(search.result(b));
                 all_left.extend(search.left);
             }
@@ -339,6 +340,16 @@ impl Search<'_> {
             value: own.value,
             mean_loss_w: own.losses[duty].loss,
         })
+    }
+
+    /// Notes the limited values of the oil with the least loss among those that break the limits least.
+    fn note_limits(&self, b: &Built<'_>) {
+        let total = |own: &Fluid| own.losses.iter().map(|loss| loss.loss).sum::<f64>();
+        let broken = |own: &Fluid| violation(self.limits, &own.limited);
+        let better = |a: &&Fluid, b: &&Fluid| broken(a).total_cmp(&broken(b)).then(total(a).total_cmp(&total(b)));
+        if let Some(best) = self.fluids.iter().min_by(better) {
+            note_proposed(self.cx, &b.name, self.limits, &best.limited, "the best oil");
+        }
     }
 
     fn failed(&self, oil: &str, reason: &str) -> Stopped {

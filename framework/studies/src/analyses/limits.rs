@@ -146,6 +146,7 @@ impl Limit {
         let of = &format!("{path}.of");
         let of = match (entry.quantity, entry.of.as_deref()) {
             (LimitedQuantity::Temperature, None) => Owner::Oil,
+            (LimitedQuantity::Temperature, Some("oil")) => Owner::Oil,
             (LimitedQuantity::Temperature, Some(node)) => Owner::Node(known_node(scope, of, node)?),
             (LimitedQuantity::MeanLoss, None) => Owner::AllCycles,
             (LimitedQuantity::MeanLoss, Some(name)) => known_cycle(scope, of, name)?,
@@ -178,6 +179,13 @@ impl Limit {
                 "a limit needs `least` or `most`",
                 "write for example `most: 110 degC`",
             )),
+            bounds
+                if entry.quantity == LimitedQuantity::Efficiency
+                    && bounds.iter().flatten().any(|bound| !(0.0..=1.0).contains(bound)) =>
+            {
+                let help = "write it as a number, such as `least: 0.95`";
+                Err(scope.wrong(path, "an efficiency is between 0 and 1", help))
+            }
             [Some(least), Some(most)] if least > most => {
                 let message = format!("no value is above {least} and below {most}");
                 Err(scope.wrong(path, message, "exchange `least` and `most`"))

@@ -31,6 +31,8 @@ pub struct Battery {
     pub entry: BatteryEntry,
     /// Losses of the motor at the reference port, if the thermal network has no motor.
     pub motor: Option<MotorMap>,
+    /// True if a fixed efficiency of the vehicle replaces the losses of the transmission.
+    pub fixed_efficiency: bool,
 }
 
 /// Energy of a vehicle over a cycle.
@@ -48,7 +50,7 @@ pub struct Consumption {
     pub motor_beyond_map: bool,
     /// Range with the usable energy; absent if more is recuperated than drawn. [km]
     pub range_km: Option<f64>,
-    /// Range that the losses of the transmission cost; absent if a range is. [km]
+    /// Range that the losses of the transmission cost; absent without a range, or if a fixed efficiency replaces them. [km]
     pub range_lost_in_transmission_km: Option<f64>,
     /// Range minus that of the first model set in the same cycle; absent for the first. [km]
     pub range_difference_km: Option<f64>,
@@ -81,18 +83,19 @@ impl Energies {
 }
 
 impl Battery {
-    /// The consumption over a simulated cycle of a vehicle; absent without distance.
+    /// The consumption over a simulated cycle of a vehicle; absent without distance, and if the simulation broke off. `oil` is the number of the
+    /// oil among the temperatures.
     ///
     /// The motor takes the power of the reference port at the end of each interval. What the transmission costs is the consumption without its losses at
     /// the same wheels; where the brakes supply a part of the deceleration, the motor is at its limit and recuperates no more without them.
-    pub fn consumption(&self, driven: &Driven) -> Option<Consumption> {
-        let distance = distance(driven)?;
+    pub fn consumption(&self, driven: &Driven, oil: usize) -> Option<Consumption> {
+        let distance = distance(driven).filter(|_| driven.broken.is_none())?;
         let (mut real, mut ideal) = (Energies::default(), Energies::default());
         let mut beyond = driven.total.beyond_map;
         for stretch in &driven.stretches {
             let time = stretch.heats.duration;
             let shaft = stretch.torque * stretch.speed * time;
-            let (motor, outside) = self.motor_loss(stretch);
+            let (motor, outside) = self.motor_loss(stretch, oil);
             beyond |= outside;
             let other = motor + self.entry.auxiliaries * time;
             let loss = stretch.heats.parts.iter().sum::<f64>();
@@ -113,16 +116,20 @@ impl Battery {
             includes_motor: self.motor.is_some() || !driven.total.motors.is_empty(),
             motor_beyond_map: beyond,
             range_km,
-            range_lost_in_transmission_km: range_km.zip(range(&ideal)).map(|(real, ideal)| ideal - real),
+            range_lost_in_transmission_km: range_km
+                .zip(range(&ideal))
+                .filter(|_| !self.fixed_efficiency)
+                .map(|(real, ideal)| ideal - real),
             range_difference_km: None,
         })
     }
 
     /// Loss of the motor in an interval, and whether it is outside its map. \[J\]
-    fn motor_loss(&self, stretch: &Stretch) -> (f64, bool) {
+    fn motor_loss(&self, stretch: &Stretch, oil: usize) -> (f64, bool) {
         match &self.motor {
             Some(map) => {
-                let oil = stretch.temperatures.first().copied().unwrap_or(f64::NAN);
+                let oil = stretch.temperatures.get(oil).or(stretch.temperatures.first());
+                let oil = oil.copied().unwrap_or(f64::NAN);
                 let read = map.loss(stretch.speed, stretch.torque, oil);
                 (read.loss * stretch.heats.duration, read.outside)
             }

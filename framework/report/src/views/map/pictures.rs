@@ -123,7 +123,8 @@ fn limit_maps(outcome: &MapOutcome, names: &AxisNames, page: &mut Page) {
                 value.is_finite().then_some(value)
             };
             // Lives span decades, most of them far from their limit.
-            let cut = limit.least.map_or(f64::INFINITY, |least| CUT * least.abs());
+            let life = limit.least.filter(|_| column.unit == "h" && limit.most.is_none());
+            let cut = life.map_or(f64::INFINITY, |least| CUT * least);
             let values: Vec<Option<f64>> = places.iter().map(value).collect();
             let is_cut = values.iter().flatten().any(|value| *value > cut);
             let remark = if is_cut {

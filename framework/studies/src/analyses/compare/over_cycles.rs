@@ -106,7 +106,8 @@ pub(super) fn compare(
         for ((read, driven), of_base) in duties.list.iter().zip(own).zip(of_base) {
             let shares = [base, b].map(|b| Shares::new(&b.transmission, entry.by).under(&share_names));
             let mut own = comparison(read, [(base, of_base), (b, driven)], &shares);
-            let both = [of_base, driven].map(|driven| duties.consumption(driven));
+            let both = [(base, of_base), (b, driven)];
+            let both = both.map(|(b, driven)| duties.consumption(&b.transmission, driven));
             if let [Some(before), Some(now)] = both {
                 own.consumption_difference_kwh_per_100_km =
                     Some(now.consumption_kwh_per_100_km - before.consumption_kwh_per_100_km);

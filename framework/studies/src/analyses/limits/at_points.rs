@@ -82,17 +82,15 @@ impl Watch {
             let values: Vec<f64> = (self.limits.iter().zip(&mut reached))
                 .map(|(limit, reached)| {
                     let (value, part) = limit.at_point(t, point, &rated);
-                    if value.is_finite() {
-                        let place = || Place {
-                            component: part.map(|part| t.parts()[part].path.clone()),
-                            cycle: None,
-                            gear: Some(points.gear.clone()),
-                            torque_nm: Some(point.torque),
-                            speed_rpm: Some(tidy(point.speed * RPM)),
-                            oil_temperature_degc: Some(oil),
-                        };
-                        reached.note(limit, value, place);
-                    }
+                    let place = || Place {
+                        component: part.map(|part| t.parts()[part].path.clone()),
+                        cycle: None,
+                        gear: Some(points.gear.clone()),
+                        torque_nm: Some(point.torque),
+                        speed_rpm: Some(tidy(point.speed * RPM)),
+                        oil_temperature_degc: Some(oil),
+                    };
+                    reached.note(limit, value, place);
                     value
                 })
                 .collect();

@@ -70,9 +70,10 @@ impl Limit {
                     Owner::Node(name) => nodes(t, driven.first()?).iter().position(|own| own == name)?,
                     _ => t.network().map_or(0, Network::oil),
                 };
+                let of_node = |all: &Vec<f64>| all.get(node).or(all.first()).copied();
                 let all = driven.iter().flat_map(|own| {
                     let ends = own.stretches.iter().map(|stretch| &stretch.temperatures);
-                    ends.filter_map(|all| all.get(node).or(all.first()).copied())
+                    std::iter::once(&own.start).chain(ends).filter_map(of_node)
                 });
                 Some(self.worst(all))
             }
@@ -129,9 +130,7 @@ pub fn reached(
                 Owner::Cycle(_) => mean_loss(driven),
                 _ => limit.value(t, own, rated.get(k).map_or(&[], std::slice::from_ref)),
             };
-            let Some(value) = value.filter(|value| value.is_finite()) else {
-                continue;
-            };
+            let value = value.unwrap_or(f64::NAN);
             let mut parts = rated.get(k).into_iter().flatten().filter(|own| limit.limits(own));
             let component = parts.find(|own| own.value == value).map(|own| own.component.clone());
             let place = Place {
@@ -144,6 +143,20 @@ pub fn reached(
         reached
     };
     limits.iter().map(of_limit).collect()
+}
+
+/// Notes the limited values of the design or oil that an analysis proposes.
+pub fn note_proposed(cx: &Context<'_>, set: &str, limits: &[Limit], values: &[f64], what: &str) {
+    let note = |(limit, value): (&Limit, &f64)| {
+        let mut reached = Reached::default();
+        let place = || Place {
+            cycle: Some(format!("all cycles with {what}")),
+            ..Place::default()
+        };
+        reached.note(limit, *value, place);
+        reached
+    };
+    cx.note_limits(set, limits, limits.iter().zip(values).map(note).collect());
 }
 
 /// A gearbox with overrides, and its ratings if limits need them.

@@ -25,10 +25,12 @@ pub struct LimitReached {
     pub severity: Severity,
     /// Number of points, or of cycles, at which the quantity is known.
     pub points: usize,
+    /// Number of points with a power flow, or of cycles, at which it is unknown.
+    pub unknown: usize,
     /// Number of them at which the limit is not kept.
     pub beyond: usize,
-    /// Value farthest beyond the limit, or closest to it.
-    pub worst: f64,
+    /// Value farthest beyond the limit, or closest to it; null if it is never known.
+    pub worst: Option<f64>,
     /// Where that is.
     pub at: Place,
 }
@@ -54,6 +56,7 @@ pub struct Place {
 #[derive(Debug, Clone, Default)]
 pub struct Reached {
     points: usize,
+    unknown: usize,
     beyond: usize,
     worst: Option<(f64, Place)>,
 }
@@ -66,8 +69,12 @@ impl Place {
 }
 
 impl Reached {
-    /// Adds a finite value.
+    /// Adds a value; one that is not finite is unknown.
     pub fn note(&mut self, limit: &Limit, value: f64, place: impl Fn() -> Place) {
+        if !value.is_finite() {
+            self.unknown += 1;
+            return;
+        }
         self.points += 1;
         self.beyond += usize::from(limit.violation(value) > 0.0);
         self.keep_worst(limit, value, &place);
@@ -76,6 +83,7 @@ impl Reached {
     /// Adds other points.
     pub fn merge(&mut self, limit: &Limit, other: Self) {
         self.points += other.points;
+        self.unknown += other.unknown;
         self.beyond += other.beyond;
         if let Some((value, place)) = other.worst {
             self.keep_worst(limit, value, &|| place.clone());
@@ -96,10 +104,12 @@ impl Reached {
         }
     }
 
-    /// The record; none without points.
-    pub fn record(self, limit: &Limit, model_set: &str) -> Option<LimitReached> {
-        let (worst, at) = self.worst?;
-        Some(LimitReached {
+    /// The record.
+    pub fn record(self, limit: &Limit, model_set: &str) -> LimitReached {
+        let (worst, at) = self
+            .worst
+            .map_or((None, Place::default()), |(value, at)| (Some(value), at));
+        LimitReached {
             limit: limit.name.clone(),
             model_set: model_set.to_owned(),
             quantity: limit.words.clone(),
@@ -108,9 +118,17 @@ impl Reached {
             most: limit.bounds[1],
             severity: limit.severity,
             points: self.points,
+            unknown: self.unknown,
             beyond: self.beyond,
             worst,
             at,
-        })
+        }
+    }
+}
+
+impl LimitReached {
+    /// Whether it is not kept: beyond its bounds somewhere, or nowhere known.
+    pub fn is_broken(&self) -> bool {
+        self.beyond > 0 || (self.points == 0 && self.unknown > 0)
     }
 }

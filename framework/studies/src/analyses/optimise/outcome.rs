@@ -9,6 +9,7 @@ use super::band::Band;
 use super::changes::Change;
 use super::drives::{Drive, Drives};
 use super::search::Search;
+use crate::analyses::limits::over_cycles::note_proposed;
 use crate::analyses::limits::{Limit, LimitRecord};
 use crate::analyses::trial::Left;
 use crate::analyses::{Built, Context, Head, Outcome, TextFile};
@@ -201,6 +202,8 @@ pub fn put_together(
         .iter()
         .position(|(_, own)| std::ptr::eq(own, b.gearbox));
     let gearbox = gearbox.and_then(|i| cx.study.entry.gearboxes.iter().nth(i));
+    let proposed = best.unwrap_or(present);
+    note_proposed(cx, &b.name, drives.limits, &proposed.limited, "the best design");
     OptimiseOutcome {
         head: cx.head(&[b]),
         model_set: b.name.clone(),
