@@ -34,6 +34,7 @@ mod laws;
 mod library;
 mod limits;
 mod locked;
+mod lsp;
 mod measured;
 mod mistakes;
 mod modules;

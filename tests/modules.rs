@@ -7,10 +7,11 @@ use std::path::Path;
 use super::common::file;
 
 /// Folders of sources, one for each crate.
-const CRATES: [&str; 7] = [
+const CRATES: [&str; 8] = [
     "framework/document/src",
     "framework/numerics/src",
     "framework/core/src",
+    "framework/editor/src",
     "framework/studies/src",
     "framework/report/src",
     "plugins/src",
