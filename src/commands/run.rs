@@ -105,11 +105,7 @@ pub(crate) fn all(
                     section.failed = text.lines().next().map(str::to_owned);
                     section.blocks.push(Block::Text(text));
                 });
-                let rest = match failure {
-                    Failure::Found(findings) => reported.new_findings(findings).map(Failure::Found),
-                    other => Some(other),
-                };
-                if let Some(text) = rest.and_then(|rest| rest.text()) {
+                if let Some(text) = unreported(&reported, failure) {
                     Out::error().text(&text)?;
                 }
             }
@@ -186,6 +182,14 @@ fn head(language: &Language, study: &Study, shown: Shown, out: &mut Out) -> Resu
         Out::error().line(format!("note: {note}"))?;
     }
     Ok(())
+}
+
+/// The text of a failure without what was reported before the analyses.
+fn unreported(reported: &Reported, failure: Failure) -> Option<String> {
+    match failure {
+        Failure::Found(findings) => Some(reported.new_findings(findings)?.render()),
+        other => other.text(),
+    }
 }
 
 /// Notes that the conditions replace a temperature of a gearbox.
