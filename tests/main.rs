@@ -67,6 +67,7 @@ mod surface;
 mod temperature;
 mod topologies;
 mod variants;
+mod vscode;
 mod web;
 mod wheels;
 

@@ -75,11 +75,7 @@ fn keys_and_values_are_suggested_in_whole_and_in_broken_documents() {
         ("models: { bearing: { type: |", "skf harris", "type drive"),
         ("models:\n  bearing: |", "skf none", "drive"),
         ("models:\n  bearing:\n    type: sk|", "skf harris", "drive"),
-        (
-            "bearings:\n  B1:\n    model: { type: constant, | }",
-            "value",
-            "type",
-        ),
+        ("bearings:\n  B1:\n    model: { type: constant, | }", "value", "type"),
         // Resolved paths.
         ("extends: base.yaml\nset: { bear| }", "bearings shafts", "drive"),
         ("extends: base.yaml\nset:\n  shafts.|", "drive wheel *", "shafts"),
