@@ -209,12 +209,20 @@ impl Completer<'_, '_> {
             }
         }
         self.units(place);
-        self.names(place);
-        // A name may be one of a list: written in brackets.
-        if place.is_list() && !cursor.flow && cursor.typed == Typed::Value && !place.words().is_empty() {
-            for item in &mut self.found {
-                item.insert = format!("[{}]", item.insert.trim_start());
-            }
+        if !place.is_list() || place.is_text() {
+            return self.names(place);
+        }
+        // One entry of a list, in its brackets.
+        let Some(item) = place.child(&Step::Index(0), None) else {
+            return;
+        };
+        let before = self.found.len();
+        for word in item.words() {
+            self.push(word.word, Suggested::Word, "", word.doc, None);
+        }
+        self.names(&item);
+        for own in self.found.iter_mut().skip(before) {
+            own.insert = format!("{}[{}]", self.cursor.blank, own.insert.trim_start());
         }
     }
 
@@ -261,8 +269,6 @@ impl Completer<'_, '_> {
         let workspace = self.workspace;
         let gearbox = workspace.root(DocumentKind::Gearbox, None);
         let targets = targets(place.refers);
-        let brackets = place.is_list() && !self.cursor.flow && !place.is_text();
-        let before = self.found.len();
         for target in targets {
             match target {
                 FILE => self.files(),
@@ -296,15 +302,6 @@ impl Completer<'_, '_> {
                 }
             }
         }
-        if brackets && self.cursor.typed == Typed::Value && !self.in_list() {
-            for item in self.found.iter_mut().skip(before) {
-                item.insert = format!("{}[{}]", self.cursor.blank, item.insert.trim_start());
-            }
-        }
-    }
-
-    fn in_list(&self) -> bool {
-        matches!(self.cursor.steps.last(), Some(Step::Index(_)))
     }
 
     /// The gearboxes that the record around the cursor names.
@@ -496,6 +493,9 @@ pub(crate) fn detail_of(place: &Place<'_>, required: bool) -> String {
 pub(crate) fn shown(value: &Value) -> String {
     match value {
         Value::String(text) => text.clone(),
+        Value::Number(number) => number
+            .as_f64()
+            .map_or_else(|| number.to_string(), |number| number.to_string()),
         other => other.to_string(),
     }
 }

@@ -318,7 +318,14 @@ impl<W: Write> Server<'_, '_, W> {
                 self.uris.remove(&path);
                 self.check(None);
             }
-            ("textDocument/didSave" | "workspace/didChangeWatchedFiles", path) => self.check(path.as_deref()),
+            ("textDocument/didSave", path) => self.check(path.as_deref()),
+            ("workspace/didChangeWatchedFiles", _) => {
+                let changes = params["changes"].as_array().into_iter().flatten();
+                for file in changes.filter_map(|change| uri::path(change["uri"].as_str()?)) {
+                    self.workspace.know(file);
+                }
+                self.check(None);
+            }
             _ => {}
         }
     }

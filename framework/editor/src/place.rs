@@ -168,9 +168,10 @@ impl<'s> Place<'s> {
         own.or(other).unwrap_or_default()
     }
 
-    /// Default, in the documented unit; that of a record is those of its keys.
+    /// Default, in the documented unit; that of a record is those of its keys, and an empty list says nothing.
     pub fn default(&self) -> Option<&'s Value> {
-        self.field.get("default").filter(|default| !default.is_object())
+        let empty = |default: &&Value| default.is_object() || default.as_array().is_some_and(Vec::is_empty);
+        self.field.get("default").filter(|default| !empty(default))
     }
 
     fn strings(&self, key: &str) -> Option<&'s str> {

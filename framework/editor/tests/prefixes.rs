@@ -8,10 +8,10 @@ use gearloss_studies::analyses::progress::Silent;
 
 use super::common::{examples, language, opened};
 
-/// Every how many bytes each question is asked; `FULL=1` asks each at every byte.
+/// Every how many bytes answers and findings are asked for; `FULL=1` asks for answers at every byte.
 fn steps() -> [usize; 2] {
     if std::env::var_os("FULL").is_some() {
-        [1, 1]
+        [1, 97]
     } else {
         [7, 997]
     }
@@ -37,6 +37,11 @@ fn no_beginning_of_an_example_makes_the_engine_panic_or_wait() {
             }
             let took = start.elapsed();
             assert!(took < Duration::from_secs(5), "{} at {end}: {took:?}", file.display());
+        }
+        // The cursor inside of the whole text.
+        workspace.open(&file, text.as_str());
+        for at in (3..=text.len()).step_by(step) {
+            workspace.completion(&file, at);
         }
         for end in (0..=text.len()).step_by(step_of_findings) {
             if let Some(beginning) = text.get(..end) {
