@@ -161,3 +161,56 @@ fn the_outline_has_sections_and_ids() {
     assert_eq!(ids, ["drive", "wheel"]);
     assert!(shafts.children[0].is_id);
 }
+
+/// Text after renaming what is at the first occurrence of a word.
+fn renamed(files: &[(&str, &str)], file: &str, before: &str, new: &str) -> Vec<(String, String)> {
+    let workspace = in_memory(files);
+    let (_, text) = files.iter().find(|(name, _)| *name == file).unwrap();
+    let edits = workspace.rename(Path::new(file), at(text, before), new).unwrap();
+    let changed = edits.iter().map(|own| {
+        let (name, text) = files.iter().find(|(name, _)| *name == own.file).unwrap();
+        let mut text = (*text).to_owned();
+        for edit in own.edits.iter().rev() {
+            text.replace_range(edit.range.from..edit.range.to, &edit.insert);
+        }
+        ((*name).to_owned(), text)
+    });
+    changed.collect()
+}
+
+#[test]
+fn ids_of_a_study_and_sets_of_a_product_are_renamed() {
+    let study = "gearloss: study/1
+gearboxes: { one: box.yaml }
+grids: { small: { torque: 1 Nm, speed: 1 rpm } }
+analyses:
+  a: { type: map, grid: small, model_sets: [one/joint, joint] }
+  fit: { type: identify, then: fitted }
+  b: { type: map, grid: small, model_sets: [fitted] }
+answered_by: [a]
+";
+    let gearbox = "gearloss: gearbox/1\nmodel_sets: { joint: {}, other: { extends: joint } }\n";
+    let files = [("study.yaml", study), ("box.yaml", gearbox)];
+    for (file, before, new, expected) in [
+        ("study.yaml", "small: {", "tiny", study.replace("small", "tiny")),
+        ("study.yaml", "one: box", "ev", study.replace("one", "ev")),
+        ("study.yaml", "fitted }", "found", study.replace("fitted", "found")),
+        (
+            "study.yaml",
+            "a]",
+            "losses",
+            study.replace("  a:", "  losses:").replace("[a]", "[losses]"),
+        ),
+        ("box.yaml", "joint: {}", "both", study.replace("joint", "both")),
+    ] {
+        let changed = renamed(&files, file, before, new);
+        let (_, text) = changed.iter().find(|(name, _)| name == "study.yaml").unwrap();
+        assert_eq!(*text, expected, "{before}");
+        if file == "box.yaml" {
+            assert!(
+                changed.contains(&("box.yaml".to_owned(), gearbox.replace("joint", "both"))),
+                "{changed:?}"
+            );
+        }
+    }
+}
