@@ -211,3 +211,17 @@ fn an_empty_document_may_become_either_kind() {
     let items = complete("|");
     assert!(labels(&items).contains(&"gearloss: gearbox/1") && labels(&items).contains(&"gearloss: study/1"));
 }
+
+#[test]
+fn a_catalogue_of_the_user_is_suggested_and_explained() {
+    let (text, at) = cursor("catalogues: { bearings: own.csv }\nbearings: { B1: { designation: | } }\n");
+    let own = "designation,kind,bore [mm],outside [mm]\nOWN 7,deep_groove_ball,25,52\n";
+    let workspace = in_memory(&[("f/a.yaml", &text), ("f/own.csv", own)]);
+    let items = workspace.completion(Path::new("f/a.yaml"), at);
+    let row = items.iter().find(|item| item.label == "OWN 7").unwrap();
+    assert!(row.detail.contains("outside 52 mm"), "{row:?}");
+    let written = text.replace("designation: ", "designation: OWN 7");
+    let workspace = in_memory(&[("f/a.yaml", &written), ("f/own.csv", own)]);
+    let hover = workspace.hover(Path::new("f/a.yaml"), at + 1).unwrap();
+    assert!(hover.text.contains("`outside`: 52 mm"), "{hover:?}");
+}
