@@ -43,6 +43,16 @@ pub enum Command {
     Import(ImportArgs),
     /// Writes a commented template: gearbox, study or plugin.
     New(NewArgs),
+    /// Serves editors on standard input and output: findings, completion, explanations, renaming (Language Server Protocol).
+    Lsp(LspArgs),
+}
+
+/// Arguments of `lsp`.
+#[derive(Debug, ClapArgs)]
+pub struct LspArgs {
+    /// Uses the standard streams, which is the only way: for editors that always state it.
+    #[arg(long)]
+    pub stdio: bool,
 }
 
 /// Arguments of `fit`.

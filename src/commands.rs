@@ -6,6 +6,7 @@ pub mod eval;
 pub mod explain;
 pub mod fit;
 pub mod import;
+pub mod lsp;
 pub mod merge;
 pub mod models;
 pub mod new;

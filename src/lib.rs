@@ -45,6 +45,7 @@ use clap::Parser;
 use gearloss_plugins as _;
 
 pub use gearloss_document as document;
+pub use gearloss_editor as editor;
 pub use gearloss_exchange as exchange;
 pub use gearloss_framework as framework;
 pub use gearloss_numerics as numerics;
@@ -149,5 +150,10 @@ fn run(args: Args) -> Result<End, Failure> {
         Command::Fit(args) => commands::fit::run(&args, &mut out),
         Command::Import(args) => commands::import::run(&args, &mut out),
         Command::New(args) => commands::new::run(&args, &mut out),
+        Command::Lsp(_) => {
+            // Two threads of the server write to it.
+            drop(out);
+            commands::lsp::run()
+        }
     }
 }

@@ -129,15 +129,6 @@ impl Out {
         }
     }
 
-    /// No output.
-    pub fn nowhere() -> Self {
-        Self {
-            to: Box::new(io::sink()),
-            terminal: false,
-            closed: true,
-        }
-    }
-
     /// Whether the output is a terminal.
     pub fn is_terminal(&self) -> bool {
         self.terminal

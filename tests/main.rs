@@ -34,6 +34,7 @@ mod laws;
 mod library;
 mod limits;
 mod locked;
+mod lsp;
 mod measured;
 mod mistakes;
 mod modules;
@@ -67,6 +68,7 @@ mod surface;
 mod temperature;
 mod topologies;
 mod variants;
+mod vscode;
 mod web;
 mod wheels;
 

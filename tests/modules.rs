@@ -7,12 +7,13 @@ use std::path::Path;
 use super::common::file;
 
 /// Folders of sources, one for each crate.
-const CRATES: [&str; 9] = [
+const CRATES: [&str; 10] = [
     "framework/document/src",
     "framework/exchange/src",
     "framework/fmu/src",
     "framework/numerics/src",
     "framework/core/src",
+    "framework/editor/src",
     "framework/studies/src",
     "framework/report/src",
     "plugins/src",

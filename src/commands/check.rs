@@ -6,15 +6,18 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use gearloss_framework::document::{did_you_mean, read_yaml};
-use gearloss_framework::files::{LONGEST_TEXT, read_text};
+use gearloss_framework::files::{Disk, LONGEST_TEXT, read_text};
 use gearloss_framework::gearbox::{Findings, Gearbox};
 use gearloss_framework::language::Language;
 use gearloss_framework::registry::Evidence;
 use gearloss_report::check::{checked_text, resolved_text};
+use gearloss_studies::analyses::progress::{Progress, Silent, Steps};
 use gearloss_studies::checked::CheckedGearbox;
+use gearloss_studies::checked_study::CheckedStudy;
 
 use super::set;
 use crate::args::{CheckArgs, ChoiceArgs, Format};
+use crate::interrupt;
 use crate::output::{End, Failure, Out};
 
 pub fn run(args: &CheckArgs, out: &mut Out) -> Result<End, Failure> {
@@ -32,7 +35,7 @@ pub fn run(args: &CheckArgs, out: &mut Out) -> Result<End, Failure> {
     for file in &args.files {
         if is_study(file) {
             belongs_to_gearboxes(args, file)?;
-            let looked = super::run::look_over(language, file);
+            let looked = study(language, file);
             for findings in &looked.warnings {
                 for warning in &findings.list {
                     out.text(&format!("{}\n\n", findings.sources.render(warning)))?;
@@ -44,7 +47,8 @@ pub fn run(args: &CheckArgs, out: &mut Out) -> Result<End, Failure> {
             for note in &looked.notes {
                 out.line(format!("  note: {note}"))?;
             }
-            for failure in looked.refused {
+            for stopped in looked.refused {
+                let failure = Failure::from(stopped);
                 match failure.text() {
                     Some(text) => wrong.push_str(&text),
                     None => return Err(failure),
@@ -101,6 +105,24 @@ pub fn grade(name: &str) -> Result<Evidence, Failure> {
         };
         Failure::input(format!("`{name}` is not an evidence grade"), help)
     })
+}
+
+/// A study, checked as `run` would.
+fn study(language: &Language, file: &Path) -> CheckedStudy {
+    CheckedStudy::read(language, &Disk::shared(), file, &UntilInterrupted)
+}
+
+/// No progress, until Ctrl-C.
+struct UntilInterrupted;
+
+impl Progress for UntilInterrupted {
+    fn begin(&self, label: &str, count: usize) -> Box<dyn Steps + '_> {
+        Silent.begin(label, count)
+    }
+
+    fn should_continue(&self) -> bool {
+        !interrupt::pressed()
+    }
 }
 
 fn is_study(file: &Path) -> bool {

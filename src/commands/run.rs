@@ -22,9 +22,9 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use gearloss_framework::files::LONGEST_TEXT;
-use gearloss_framework::gearbox::Findings;
 use gearloss_framework::language::Language;
 use gearloss_report::page::Block;
+use gearloss_studies::checked_study::Reported;
 use gearloss_studies::distinct::distinct;
 use gearloss_studies::study::Severity;
 use gearloss_studies::study::{Cautions, Study};
@@ -49,78 +49,6 @@ pub(super) fn read(language: &Language, file: &Path) -> Result<Study, Failure> {
     let study = Study::read(language, file)?;
     study.check(language)?;
     Ok(study)
-}
-
-/// Findings of a study before it runs.
-#[derive(Default)]
-pub(super) struct Looked {
-    /// Errors that `run` reports before it computes, by analysis, without repetition.
-    pub refused: Vec<Failure>,
-    /// Warnings of its gearboxes.
-    pub warnings: Vec<Findings>,
-    /// Components of its gearboxes without a model.
-    pub notes: Vec<String>,
-}
-
-/// Findings that were reported before the analyses began: path and message.
-#[derive(Default)]
-struct Reported(Vec<(String, String)>);
-
-impl Reported {
-    fn add(&mut self, findings: &Findings) {
-        let list = findings.list.iter();
-        self.0
-            .extend(list.map(|finding| (finding.path.clone(), finding.message.clone())));
-    }
-
-    /// The part of a failure that was not reported yet.
-    fn unreported(&self, failure: Failure) -> Option<Failure> {
-        let Failure::Found(mut findings) = failure else {
-            return Some(failure);
-        };
-        findings.list.retain(|finding| {
-            let known = |(path, message): &(String, String)| finding.path == *path && finding.message == *message;
-            !self.0.iter().any(known)
-        });
-        (!findings.list.is_empty()).then_some(Failure::Found(findings))
-    }
-}
-
-/// Checks a study as `run` would.
-pub(super) fn look_over(language: &Language, file: &Path) -> Looked {
-    let study = match read(language, file) {
-        Ok(study) => study,
-        Err(failure) => {
-            return Looked {
-                refused: vec![failure],
-                ..Looked::default()
-            };
-        }
-    };
-    let runner = Run::for_check(language, &study);
-    let mut reported = Reported::default();
-    let mut refused: Vec<Failure> = Vec::new();
-    if let Some(findings) = study.data_findings() {
-        reported.add(&findings);
-        refused.push(findings.into());
-    }
-    for (name, analysis) in study.entry.analyses.iter() {
-        if let Err(failure) = runner.attempt(name, analysis, &mut Out::nowhere()) {
-            let Some(failure) = reported.unreported(failure) else {
-                continue;
-            };
-            let text = failure.text();
-            if refused.iter().all(|other| other.text() != text) {
-                refused.push(failure);
-            }
-        }
-    }
-    let Cautions { warnings, notes } = study.cautions(language);
-    Looked {
-        refused,
-        warnings,
-        notes,
-    }
 }
 
 /// Runs all analyses and writes the report; uses the results of tasks that other processes have computed.
@@ -177,7 +105,7 @@ pub(crate) fn all(
                     section.failed = text.lines().next().map(str::to_owned);
                     section.blocks.push(Block::Text(text));
                 });
-                if let Some(text) = reported.unreported(failure).and_then(|rest| rest.text()) {
+                if let Some(text) = unreported(&reported, failure) {
                     Out::error().text(&text)?;
                 }
             }
@@ -261,6 +189,14 @@ fn head(language: &Language, study: &Study, shown: Shown, out: &mut Out) -> Resu
         Out::error().line(format!("note: {note}"))?;
     }
     Ok(())
+}
+
+/// The text of a failure without what was reported before the analyses.
+fn unreported(reported: &Reported, failure: Failure) -> Option<String> {
+    match failure {
+        Failure::Found(findings) => Some(reported.new_findings(findings)?.render()),
+        other => other.text(),
+    }
 }
 
 /// Notes that the conditions replace a temperature of a gearbox.

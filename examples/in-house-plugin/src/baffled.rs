@@ -11,6 +11,7 @@ pub struct Params {
     /// Drag without the baffle.
     pub free: ModelRef<GearDrag>,
     /// CSV file of the factor: columns of the quantities that it depends on, such as `speed [rpm]`, then `factor [-]`.
+    #[schemars(extend("x-refers-to" = "file"))]
     pub factor: String,
 }
 

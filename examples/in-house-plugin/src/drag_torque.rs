@@ -9,11 +9,14 @@ use gearloss::studies::prelude::*;
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct DragTorqueEntry {
     /// Gearbox; default: the first.
+    #[schemars(extend("x-refers-to" = "gearboxes"))]
     pub gearbox: Option<String>,
     /// Gear; default: the first.
+    #[schemars(extend("x-refers-to" = "gear_states"))]
     pub gear: Option<String>,
     /// Model sets; default: the models of the gearbox.
     #[serde(default)]
+    #[schemars(extend("x-refers-to" = "model_sets"))]
     pub model_sets: Vec<String>,
     /// Speed at the port that the conditions name. [rpm]
     #[schemars(range(min = 1.0, max = 1e6))]

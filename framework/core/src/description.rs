@@ -36,15 +36,19 @@ pub struct GearboxEntry {
     /// Source of the description.
     pub source: Option<String>,
     /// A gearbox file that this one extends; `set` changes it.
+    #[schemars(extend("x-refers-to" = "file"))]
     pub extends: Option<String>,
     /// Changes to the file named in `extends`: resolved path to value.
     #[serde(default)]
+    #[schemars(extend("x-keys" = "path"))]
     pub set: Ordered<Value>,
     /// Shafts at which torque and speed are given or measured: name to shaft.
+    #[schemars(extend("x-refers-to" = "shafts"))]
     pub ports: Ordered<String>,
     /// Ports with equal speed that count as one port, `wheels`: both wheels of a driven axle on a straight road. Its torque is the
     /// sum of theirs, which the transmission splits; if the split is not determined, it is equal.
     #[schemars(length(min = 2))]
+    #[schemars(extend("x-refers-to" = "ports"))]
     pub wheels: Option<Vec<String>>,
     /// Shafts, planet bodies and carriers: all rotating members except idler gears.
     pub shafts: Ordered<ShaftEntry>,
@@ -87,6 +91,7 @@ pub struct GearboxEntry {
     pub imported_loads: Option<ImportedLoads>,
     /// Catalogues of this gearbox, as files: catalogue to file.
     #[serde(default)]
+    #[schemars(extend("x-refers-to" = "file"))]
     pub catalogues: Ordered<String>,
     /// Design torque and speed, the largest values; axes of grids may use fractions of them.
     pub rating: Option<RatingEntry>,

@@ -103,6 +103,7 @@ struct FunctionParams {
 struct TableParams {
     /// CSV file: a column for each axis, named as a quantity with its unit, such as `speed [rpm]`, then a column for the result, or
     /// several that are added. One row for each point of the grid.
+    #[schemars(extend("x-refers-to" = "file"))]
     file: Option<String>,
     /// Axes of a table in the document, instead of `file`: increasing values by quantity, such as `{ speed: [0, 1000] }`, in the
     /// units listed by `gearloss models`.

@@ -14,16 +14,20 @@ use crate::table::{Axis, Interpolation, Outside, Reading, Table, clamped};
 pub struct MotorEntry {
     /// CSV file, relative to this one: `speed [rpm]`, `torque [Nm]`, and `efficiency [-]` or `loss [W]`; with `temperature [degC]`, one
     /// map for each temperature. Rows with negative torque are for generating.
+    #[schemars(extend("x-refers-to" = "file"))]
     pub map: String,
     /// Share of the losses that occurs in the rotor.
     #[serde(default)]
     pub rotor_share: RotorShare,
     /// Port that the motor drives.
     #[serde(default = "input")]
+    #[schemars(extend("x-refers-to" = "ports"))]
     pub port: String,
     /// Node of the thermal network that is the rotor.
+    #[schemars(extend("x-refers-to" = ["thermal.network.nodes", "ambient"]))]
     pub rotor: String,
     /// Node of the thermal network that is the stator.
+    #[schemars(extend("x-refers-to" = ["thermal.network.nodes", "ambient"]))]
     pub stator: String,
 }
 

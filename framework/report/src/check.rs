@@ -1,6 +1,5 @@
 //! A checked gearbox: text and record; findings as records.
 
-use gearloss_framework::codes;
 use gearloss_framework::document::{Diagnostic, PlacedDiagnostic, Sources};
 use gearloss_framework::language::Language;
 use gearloss_framework::transmission::{GearState, Transmission};
@@ -11,7 +10,6 @@ use serde_json::{Map, Value, json};
 use crate::card::{card, stage_lines};
 use crate::page::outside;
 use crate::point::remarks;
-use crate::text::significant;
 
 /// The resolved description as a document, with warnings and derived geometry as comments; `file` is the name of the gearbox.
 ///
@@ -115,35 +113,9 @@ pub fn checked_json(checked: &CheckedGearbox, with_resolved: bool) -> Map<String
     built
 }
 
-/// Warnings of a checked gearbox with their places, overloaded bearings among them.
+/// Warnings of a valid gearbox with file, line and column.
 pub fn warnings(checked: &CheckedGearbox) -> Vec<PlacedDiagnostic> {
-    let transmission = &checked.transmission;
-    let overloaded = overloaded(transmission).into_iter().map(|note| {
-        let message = format!(
-            "{} {} at the rated torque is below 1",
-            note.name,
-            significant(note.least)
-        );
-        checked.gearbox.places.place(
-            Diagnostic::warning(note.path, message)
-                .help("use a larger bearing, or check the rating")
-                .code(codes::OVERLOADED),
-        )
-    });
-    let outside = out_of_bounds(checked).into_iter().map(|own| {
-        let sentence = own.quantity.sentence().unwrap_or_default();
-        checked.gearbox.places.place(
-            Diagnostic::warning(own.component, format!("at the rated torque, {sentence}"))
-                .help(format!(
-                    "change the component, or state another bound under `ratings.{}`",
-                    own.rating
-                ))
-                .code(codes::RATED_OUTSIDE),
-        )
-    });
-    let found = overloaded.chain(outside);
-    let warnings: Vec<Diagnostic> = transmission.warnings.iter().cloned().chain(found).collect();
-    placed(&warnings, &checked.gearbox.sources)
+    placed(&checked.warnings(), &checked.gearbox.sources)
 }
 
 /// The ratio from the reference port to each other port for each gear.

@@ -1,14 +1,20 @@
 //! A gearbox that was checked: what it is built from, and what deserves attention.
 
+use std::path::Path;
+
+use gearloss_framework::codes;
 use gearloss_framework::coefficients::{Changed, changed_from_source};
+use gearloss_framework::document::Diagnostic;
 use gearloss_framework::evaluate::{Point, PowerFlow, Ratings, Solution};
+use gearloss_framework::files::SharedSource;
 use gearloss_framework::gearbox::{Findings, Gearbox};
 use gearloss_framework::language::Language;
 use gearloss_framework::loss::Extent;
 use gearloss_framework::registry::Evidence;
-use gearloss_framework::resolve::Resolved;
+use gearloss_framework::resolve::{Choice, Resolved};
 use gearloss_framework::transmission::Transmission;
 
+use crate::analyses::numbers::significant;
 use crate::points::{Note, STATIC_SAFETY, WeakPoint, evidence, merge, notes};
 use crate::ratings::{RatedQuantity, rated};
 
@@ -43,6 +49,46 @@ impl CheckedGearbox {
             resolved,
             transmission,
         })
+    }
+
+    /// Reads a gearbox of a source with all its model sets, resolves and builds it.
+    ///
+    /// # Errors
+    /// Everything that reading, resolving and building find.
+    pub fn read(language: &Language, files: &SharedSource, file: &Path, choice: &Choice) -> Result<Self, Findings> {
+        let gearbox = Gearbox::read_from(language, files, file)?;
+        gearbox.check_sets(language)?;
+        let resolved = gearbox.resolve(language, choice)?;
+        Self::new(language, gearbox, resolved)
+    }
+
+    /// Warnings of building with their places, and what is overloaded or outside its bound at the rated torque and speed.
+    pub fn warnings(&self) -> Vec<Diagnostic> {
+        let overloaded = overloaded(&self.transmission).into_iter().map(|note| {
+            let message = format!(
+                "{} {} at the rated torque is below 1",
+                note.name,
+                significant(note.least)
+            );
+            self.gearbox.places.place(
+                Diagnostic::warning(note.path, message)
+                    .help("use a larger bearing, or check the rating")
+                    .code(codes::OVERLOADED),
+            )
+        });
+        let outside = out_of_bounds(self).into_iter().map(|own| {
+            let sentence = own.quantity.sentence().unwrap_or_default();
+            self.gearbox.places.place(
+                Diagnostic::warning(own.component, format!("at the rated torque, {sentence}"))
+                    .help(format!(
+                        "change the component, or state another bound under `ratings.{}`",
+                        own.rating
+                    ))
+                    .code(codes::RATED_OUTSIDE),
+            )
+        });
+        let built = self.transmission.warnings.iter().cloned();
+        built.chain(overloaded).chain(outside).collect()
     }
 
     /// The lowest grade of evidence.

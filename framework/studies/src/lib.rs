@@ -20,6 +20,7 @@ pub mod tasks;
 // What `check` finds and `models --needs` lists.
 pub mod bearings;
 pub mod checked;
+pub mod checked_study;
 pub mod needs;
 
 // What analyses share: points, varied quantities, identification, fits of columns, lists without repetition.

@@ -36,6 +36,7 @@ pub use steady::{SteadyEntry, SteadyLimitsEntry, Stretch};
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct MeasuredEntry {
     /// CSV file relative to the study, or a list of files with the same quantities.
+    #[schemars(extend("x-refers-to" = "file"))]
     pub file: MeasuredFiles,
     /// Note for the report: origin of these data, or that they are synthetic.
     pub about: Option<String>,

@@ -59,10 +59,12 @@ pub struct StudyEntry {
     pub question: Option<String>,
     /// Analyses whose results answer the question, the most important first; default: the first three with a result in one sentence.
     #[serde(default)]
+    #[schemars(extend("x-refers-to" = "analyses"))]
     pub answered_by: Vec<String>,
     /// Operating point for forces, power balance and evidence of losses in the report; default: maximum torque and speed of the first grid.
     pub report_at: Option<ReportAt>,
     /// Gearbox files by name, relative to the study.
+    #[schemars(extend("x-refers-to" = "file"))]
     pub gearboxes: Ordered<String>,
     /// Conditions of all analyses.
     #[serde(default)]
@@ -103,6 +105,7 @@ pub enum StudyFormat {
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct ReportAt {
     /// Gear; default: the first.
+    #[schemars(extend("x-refers-to" = "gear_states"))]
     pub gear: Option<String>,
     /// Torque. [Nm]
     #[schemars(range(min = -1e9, max = 1e9))]
@@ -117,13 +120,16 @@ pub struct ReportAt {
 pub struct Conditions {
     /// Port of the given torque, which is applied to the transmission.
     #[serde(default = "input")]
+    #[schemars(extend("x-refers-to" = "ports"))]
     pub torque_at: String,
     /// Port with given speed.
     #[serde(default = "input")]
+    #[schemars(extend("x-refers-to" = "ports"))]
     pub speed_at: String,
     /// Ports of the gearbox that turn at one speed and are combined into one port, `wheels`: both wheels of a driven axle on a straight
     /// road. Default: from the gearbox.
     #[schemars(length(min = 2))]
+    #[schemars(extend("x-refers-to" = "ports"))]
     pub wheels: Option<Vec<String>>,
     /// Oil temperature; default: from the gearbox, given or by heat balance at each point. [degC]
     #[schemars(range(min = -60.0, max = 250.0))]
@@ -133,6 +139,7 @@ pub struct Conditions {
     pub power_flow: PowerFlow,
     /// Overrides: resolved path to value.
     #[serde(default)]
+    #[schemars(extend("x-keys" = "path"))]
     pub set: Ordered<Value>,
 }
 
@@ -158,6 +165,7 @@ fn input() -> String {
 pub struct Grid {
     /// Gear, or several; default: the first.
     #[serde(default)]
+    #[schemars(extend("x-refers-to" = "gear_states"))]
     pub gear: Gears,
     /// Torques: one, a list, or from, to and step; or fractions of the rating of the gearbox.
     pub torque: TorqueAxis,
@@ -168,6 +176,7 @@ pub struct Grid {
     /// Further varied values in addition to torque and speed: resolved path to values, such as `housing.oil.volume: [60 ml, 90 ml]`. Every
     /// combination is solved.
     #[serde(default)]
+    #[schemars(extend("x-keys" = "path"))]
     pub bind: Ordered<Value>,
 }
 

@@ -23,6 +23,7 @@ pub struct Params {
     #[schemars(range(min = 0.0, max = 1.0))]
     pub value: Option<f64>,
     /// CSV file with the efficiency over one to four quantities, such as `torque [Nm]` and `speed [rpm]`.
+    #[schemars(extend("x-refers-to" = "file"))]
     pub file: Option<String>,
     /// Extrapolation of the table.
     #[serde(default)]

@@ -24,6 +24,7 @@ pub struct Params {
     #[schemars(range(min = 0.0, max = 1.0))]
     pub lambda_l: Option<f64>,
     /// CSV file with lambda_L over one to four quantities.
+    #[schemars(extend("x-refers-to" = "file"))]
     pub file: Option<String>,
     /// Extrapolation of the table.
     #[serde(default)]

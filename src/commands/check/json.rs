@@ -2,15 +2,16 @@
 
 use std::path::Path;
 
-use gearloss_framework::document::{Diagnostic, PlacedDiagnostic, Severity, Sources};
+use gearloss_framework::document::{PlacedDiagnostic, Severity};
 use gearloss_framework::gearbox::Findings;
 use gearloss_framework::language::Language;
 use gearloss_framework::registry::Evidence;
 use gearloss_report::check::{checked_json, placed, warnings};
+use gearloss_studies::analyses::Stopped;
+use gearloss_studies::checked_study::CheckedStudy;
 use serde_json::{Value, json};
 
 use crate::args::{CheckArgs, ChoiceArgs};
-use crate::commands::run::Looked;
 use crate::output::{End, Failure, Out};
 
 /// Prints one document for all files. Errors appear in the document and in the exit code, not on standard error.
@@ -22,7 +23,7 @@ pub fn run(language: &Language, args: &CheckArgs, deny: Option<Evidence>, out: &
         let is_study = super::is_study(file);
         let checked = if is_study {
             super::belongs_to_gearboxes(args, file)?;
-            study(crate::commands::run::look_over(language, file))?
+            study(super::study(language, file))?
         } else {
             gearbox(language, file, &args.choice, args.resolved).unwrap_or_else(|findings| Checked {
                 findings: placed(&findings.list, &findings.sources),
@@ -78,27 +79,24 @@ struct Checked {
 }
 
 /// Errors and warnings that `run` would report for a study.
-fn study(looked: Looked) -> Result<Checked, Failure> {
-    let mut checked = Checked {
-        wrong: !looked.refused.is_empty(),
-        ..Checked::default()
-    };
-    for failure in looked.refused {
-        match failure {
-            Failure::Found(findings) => checked.findings.extend(placed(&findings.list, &findings.sources)),
-            Failure::Input(text) => {
-                let finding = Diagnostic::error("", text.trim().trim_start_matches("error: "));
-                let finding = finding.code(gearloss_studies::codes::STUDY);
-                checked.findings.extend(placed(&[finding], &Sources::default()));
-            }
-            Failure::Interrupted => return Err(Failure::Interrupted),
+fn study(checked: CheckedStudy) -> Result<Checked, Failure> {
+    let mut findings = Vec::new();
+    for stopped in &checked.refused {
+        if matches!(stopped, Stopped::Interrupted) {
+            return Err(Failure::Interrupted);
         }
+        let found = stopped.findings().iter();
+        findings.extend(found.flat_map(|findings| placed(&findings.list, &findings.sources)));
     }
-    for found in &looked.warnings {
-        checked.findings.extend(placed(&found.list, &found.sources));
+    for found in &checked.warnings {
+        findings.extend(placed(&found.list, &found.sources));
     }
-    checked.notes = looked.notes;
-    Ok(checked)
+    Ok(Checked {
+        findings,
+        notes: checked.notes,
+        wrong: !checked.refused.is_empty(),
+        ..Checked::default()
+    })
 }
 
 fn gearbox(language: &Language, file: &Path, choice: &ChoiceArgs, print: bool) -> Result<Checked, Findings> {

@@ -13,7 +13,7 @@ use gearloss_report::tested::Tested;
 use gearloss_report::text::capitalised;
 use gearloss_studies::analyses::limits::reached::LimitReached;
 use gearloss_studies::analyses::progress::{Progress, Steps};
-use gearloss_studies::analyses::{AnalysisEntry, Context, Outcome, Stopped};
+use gearloss_studies::analyses::{AnalysisEntry, Context, Outcome};
 use gearloss_studies::run::StudyRun;
 use gearloss_studies::study::{Study, Write};
 use gearloss_studies::tasks::TaskResults;
@@ -49,8 +49,6 @@ pub struct Run<'a> {
     tasks: Option<&'a dyn TaskResults>,
     /// What is printed.
     pub(super) shown: Shown,
-    /// True for `check`: an analysis stops before it computes and reports its errors.
-    only_checks: bool,
 }
 
 /// One analysis of a run.
@@ -135,24 +133,12 @@ impl<'a> Run<'a> {
             stated_ranges: RefCell::default(),
             tested: RefCell::default(),
             tasks,
-            only_checks: false,
-        }
-    }
-
-    /// For `check`, which neither computes nor writes.
-    pub(super) fn for_check(language: &'a Language, study: &'a Study) -> Self {
-        Self {
-            bars: Bars { shown: false },
-            only_checks: true,
-            ..Self::new(language, study, PathBuf::new(), None, Shown::Nothing)
         }
     }
 
     /// The context of an analysis; the study is that of [`StudyRun::study_for_analysis`].
     pub(super) fn context<'r>(&'r self, study: &'r Study, name: &'r str) -> Context<'r> {
-        let cx = Context::new(self.language, study, name, &self.bars);
-        let cx = if self.only_checks { cx.checking() } else { cx };
-        cx.with_tasks(self.tasks)
+        Context::new(self.language, study, name, &self.bars).with_tasks(self.tasks)
     }
 
     /// Runs an analysis and adds its section to the report.
@@ -181,7 +167,6 @@ impl<'a> Run<'a> {
                 }
                 Ok(())
             }
-            Err(Stopped::Checked) => Ok(()),
             Err(stopped) => Err(stopped.into()),
         }
     }

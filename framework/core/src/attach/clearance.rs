@@ -15,6 +15,7 @@ pub enum Clearance {}
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct ClearancePlace {
     /// The two shafts or idler gears; `housing` makes it a brake.
+    #[schemars(extend("x-refers-to" = ["shafts", "gears", "housing"]))]
     pub between: [String; 2],
     /// Position along the shaft; matters only for the oil level of a tilted housing. [mm]
     #[serde(default)]

@@ -7,6 +7,7 @@ use serde::Deserialize;
 #[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
 pub struct Common {
     /// Oil; default: that of the housing.
+    #[schemars(extend("x-refers-to" = "lubricants"))]
     pub lubricant: Option<String>,
     /// Oil temperature at the component minus that of the sump. [K]
     #[serde(default)]

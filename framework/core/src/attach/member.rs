@@ -15,6 +15,7 @@ pub enum OnMember {}
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct MemberPlace {
     /// Shaft or idler gear.
+    #[schemars(extend("x-refers-to" = ["shafts", "gears"]))]
     pub shaft: String,
     /// Position along the shaft; matters only for the oil level of a tilted housing. [mm]
     #[serde(default)]

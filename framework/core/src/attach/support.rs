@@ -15,8 +15,10 @@ pub enum Support {}
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct SupportPlace {
     /// Member in the bore: a shaft.
+    #[schemars(extend("x-refers-to" = "shafts"))]
     pub shaft: String,
     /// Member around the bearing, such as an idler gear; default: the housing.
+    #[schemars(extend("x-refers-to" = ["shafts", "gears"]))]
     pub outer: Option<String>,
     /// Position along the shaft. [mm]
     #[schemars(range(min = -1e5, max = 1e5))]
@@ -102,6 +104,7 @@ impl Default for Factor {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct FactorOver {
     /// Port of the torque.
+    #[schemars(extend("x-refers-to" = "ports"))]
     pub port: String,
     /// Torques, increasing. [Nm]
     #[schemars(inner(range(min = 0.0, max = 1e9)), length(min = 2))]

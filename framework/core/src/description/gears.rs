@@ -13,6 +13,7 @@ use crate::mechanism::{ModelRef, NamedSlots};
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct GearEntry {
     /// Shaft, carrier or planet body that carries the gear.
+    #[schemars(extend("x-refers-to" = "shafts"))]
     pub shaft: String,
     /// Middle of the face width along the shaft. [mm]
     #[serde(default)]
@@ -52,6 +53,7 @@ pub struct GearEntry {
     #[schemars(range(min = -1e4, max = 1e4))]
     pub level: Option<f64>,
     /// Oil; default: that of the housing.
+    #[schemars(extend("x-refers-to" = "lubricants"))]
     pub lubricant: Option<String>,
     /// Oil temperature at the gear minus that of the sump. [K]
     #[serde(default)]
@@ -136,6 +138,7 @@ pub struct Surface {
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct MeshEntry {
     /// First and second gear. A ring gear is the second.
+    #[schemars(extend("x-refers-to" = "gears"))]
     pub gears: [String; 2],
     /// Normal module. [mm]
     #[schemars(range(min = 0.05, max = 100.0))]
@@ -166,6 +169,7 @@ pub struct MeshEntry {
     #[serde(default = "yes")]
     pub tip_shortening: bool,
     /// Oil; default: that of the housing.
+    #[schemars(extend("x-refers-to" = "lubricants"))]
     pub lubricant: Option<String>,
     /// Oil temperature in the mesh minus that of the sump. [K]
     #[serde(default)]
@@ -194,6 +198,7 @@ fn yes() -> bool {
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct PlanetarySetEntry {
     /// Shaft of the carrier.
+    #[schemars(extend("x-refers-to" = "shafts"))]
     pub carrier: String,
     /// Number of equal, equally spaced planets: their transverse forces on central members cancel. [-]
     #[schemars(range(min = 2, max = 50))]
@@ -205,9 +210,11 @@ pub struct PlanetarySetEntry {
     pub load_sharing: f64,
     /// Shafts that are the planet bodies; each represents all of its equal copies.
     #[schemars(length(min = 1))]
+    #[schemars(extend("x-refers-to" = "shafts"))]
     pub planets: Vec<String>,
     /// Reference shaft of the drag model, which takes its moment, such as the input; default: the carrier. A table over its speed is
     /// valid for the ratio to the carrier at which it was made.
+    #[schemars(extend("x-refers-to" = "shafts"))]
     pub reference: Option<String>,
     /// Size of the gearbox in its family, for drag tables with that axis. [mm]
     #[schemars(range(min = 1.0, max = 10000.0))]
@@ -216,6 +223,7 @@ pub struct PlanetarySetEntry {
     #[schemars(range(min = 0.001, max = 10000.0))]
     pub ratio: Option<f64>,
     /// Oil; default: that of the housing.
+    #[schemars(extend("x-refers-to" = "lubricants"))]
     pub lubricant: Option<String>,
     /// Oil temperature at the set minus that of the sump. [K]
     #[serde(default)]
@@ -237,10 +245,13 @@ fn equal() -> f64 {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct DifferentialEntry {
     /// Shaft that is the case.
+    #[schemars(extend("x-refers-to" = "shafts"))]
     pub case: String,
     /// Left side shaft.
+    #[schemars(extend("x-refers-to" = "shafts"))]
     pub left: String,
     /// Right side shaft.
+    #[schemars(extend("x-refers-to" = "shafts"))]
     pub right: String,
     /// Both sides have equal speed unless a point prescribes their speeds.
     #[serde(default = "yes")]

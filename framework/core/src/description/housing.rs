@@ -32,6 +32,7 @@ pub struct HousingEntry {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct OilEntry {
     /// Oil, one of `lubricants`.
+    #[schemars(extend("x-refers-to" = "lubricants"))]
     pub lubricant: String,
     /// Volume. [l]
     #[schemars(range(min = 0.001, max = 1e4))]
@@ -40,6 +41,7 @@ pub struct OilEntry {
     #[schemars(range(min = -1e4, max = 1e4))]
     pub level: Option<f64>,
     /// Datum: the axis of this shaft at x = 0; default: the origin of the housing.
+    #[schemars(extend("x-refers-to" = "shafts"))]
     pub measured_from: Option<String>,
     /// Oil height while rotating: a height, or heights over the speed of a shaft.
     pub running_level: Option<Running>,
@@ -63,6 +65,7 @@ pub enum Running {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct LevelOver {
     /// Shaft of the speed.
+    #[schemars(extend("x-refers-to" = "shafts"))]
     pub shaft: String,
     /// Speeds, increasing from zero or above. [rpm]
     #[schemars(inner(range(min = 0.0, max = 1e6)), length(min = 2))]

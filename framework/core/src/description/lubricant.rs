@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
 pub struct LubricantEntry {
     /// Designation in a catalogue of lubricants, such as `ISO VG 100 PAO`; fills the omitted keys.
+    #[schemars(extend("x-refers-to" = "catalogue"))]
     pub designation: Option<String>,
     /// Kind; selects typical properties. Default: that of the catalogue, else mineral.
     pub kind: Option<LubricantKind>,

@@ -67,13 +67,16 @@ pub struct NodeEntry {
     /// Parts whose loss heats the node and whose oil has its temperature, such as `bearings.B1` or `gears.*.drag`. A part named by
     /// several nodes heats each by an equal share and has the oil temperature of the first.
     #[serde(default)]
+    #[schemars(extend("x-refers-to" = "component"))]
     pub parts: Vec<String>,
     /// Parts whose oil has the temperature of the node, wherever their heat goes.
     #[serde(default)]
+    #[schemars(extend("x-refers-to" = "component"))]
     pub oil_of: Vec<String>,
     /// Gears whose bodies the node represents. The model of a mesh divides its heat between both gears, and a friction law uses the
     /// temperatures of both.
     #[serde(default)]
+    #[schemars(extend("x-refers-to" = "gears"))]
     pub gears: Vec<String>,
     /// The node is the oil of the housing: parts that no node names have its temperature and heat it.
     #[serde(default)]
@@ -85,6 +88,7 @@ pub struct NodeEntry {
 pub struct LinkEntry {
     /// The nodes at both ends.
     #[schemars(length(min = 2, max = 2))]
+    #[schemars(extend("x-refers-to" = ["thermal.network.nodes", "ambient"]))]
     pub between: Vec<String>,
     /// Conductance; not with `model`. [W/K]
     #[schemars(range(min = 0.0, max = 1e9))]
@@ -93,10 +97,13 @@ pub struct LinkEntry {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub model: Option<ModelRef<HeatLink>>,
     /// Shaft or idler gear whose speed the model uses; default: that of `gear`.
+    #[schemars(extend("x-refers-to" = ["shafts", "gears"]))]
     pub shaft: Option<String>,
     /// Gear whose geometry the model uses, and whose speed if no shaft is named.
+    #[schemars(extend("x-refers-to" = "gears"))]
     pub gear: Option<String>,
     /// Oil whose properties the model uses; default: that of the housing.
+    #[schemars(extend("x-refers-to" = "lubricants"))]
     pub lubricant: Option<String>,
 }
 
@@ -104,8 +111,10 @@ pub struct LinkEntry {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct FlowEntry {
     /// Upstream node.
+    #[schemars(extend("x-refers-to" = ["thermal.network.nodes", "ambient"]))]
     pub from: String,
     /// Downstream node.
+    #[schemars(extend("x-refers-to" = ["thermal.network.nodes", "ambient"]))]
     pub to: String,
     /// Mass flow times specific heat; not with `share`. [W/K]
     #[schemars(range(min = 0.0, max = 1e9))]
@@ -119,8 +128,10 @@ pub struct FlowEntry {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct ExchangerEntry {
     /// Node of the incoming oil.
+    #[schemars(extend("x-refers-to" = ["thermal.network.nodes", "ambient"]))]
     pub from: String,
     /// Node of the oil after the exchanger.
+    #[schemars(extend("x-refers-to" = ["thermal.network.nodes", "ambient"]))]
     pub to: String,
     /// Mass flow times specific heat of the oil; default: `oil_flow`. [W/K]
     #[schemars(range(min = 0.0, max = 1e9))]
@@ -162,5 +173,6 @@ pub struct NodeSource {
     #[schemars(range(min = 0.0, max = 1e6))]
     pub heat: f64,
     /// Node that it enters.
+    #[schemars(extend("x-refers-to" = ["thermal.network.nodes", "ambient"]))]
     pub into: String,
 }

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 #[serde(untagged)]
 pub enum GearStateEntry {
     /// The engaged couplings and clutches; nothing else is fixed.
+    #[schemars(extend("x-refers-to" = "clearances"))]
     Engaged(Vec<String>),
     /// Engaged couplings and clutches, with rules for members that nothing else drives.
     Full(GearStateRecord),
@@ -18,9 +19,11 @@ pub enum GearStateEntry {
 pub struct GearStateRecord {
     /// Engaged couplings and clutches.
     #[serde(default)]
+    #[schemars(extend("x-refers-to" = "clearances"))]
     pub engaged: Vec<String>,
     /// Shafts or idler gears that no port drives in this gear and that are stationary.
     #[serde(default)]
+    #[schemars(extend("x-refers-to" = ["shafts", "gears"]))]
     pub standstill: Vec<String>,
 }
 
@@ -45,9 +48,11 @@ impl GearStateEntry {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct TorqueShare {
     /// Shaft or idler gear whose torque is split.
+    #[schemars(extend("x-refers-to" = ["shafts", "gears"]))]
     pub member: String,
     /// Meshes that share it.
     #[schemars(length(min = 2))]
+    #[schemars(extend("x-refers-to" = "meshes"))]
     pub meshes: Vec<String>,
     /// Shares, one for each mesh; their sum is one. [-]
     #[schemars(inner(range(min = 0.0, max = 1.0)), length(min = 2))]
@@ -58,6 +63,7 @@ pub struct TorqueShare {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct AssumedEntry {
     /// Path patterns; `*` matches one id.
+    #[schemars(extend("x-refers-to" = "path"))]
     pub paths: Vec<String>,
     /// The reason, or the source.
     pub because: String,
@@ -67,8 +73,10 @@ pub struct AssumedEntry {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct ImportedLoads {
     /// CSV file with the columns `gear`, `torque [Nm]`, `component`, `radial [N]`, `axial [N]` and optionally `tilting [Nm]`.
+    #[schemars(extend("x-refers-to" = "file"))]
     pub file: String,
     /// Port of the torque in the file.
+    #[schemars(extend("x-refers-to" = "ports"))]
     pub port: String,
 }
 

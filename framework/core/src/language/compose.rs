@@ -214,7 +214,7 @@ fn sets(registry: &Registry) -> Value {
     let mut fields = Map::new();
     fields.insert(
         "extends".to_owned(),
-        json!({ "type": "string", "description": "Model set that this one extends." }),
+        json!({ "type": "string", "description": "Model set that this one extends.", "x-refers-to": "model_sets" }),
     );
     fields.insert(
         "components".to_owned(),

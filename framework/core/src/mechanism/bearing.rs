@@ -172,6 +172,7 @@ pub enum ClearanceClass {
 #[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
 pub struct BearingEntry {
     /// Designation in a bearing catalogue; fills the omitted keys.
+    #[schemars(extend("x-refers-to" = "catalogue"))]
     pub designation: Option<String>,
     /// Kind of the bearing.
     pub kind: Option<BearingKind>,

@@ -20,11 +20,14 @@ use crate::table::Table;
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct BalanceEntry {
     /// Gearbox; default: the first.
+    #[schemars(extend("x-refers-to" = "gearboxes"))]
     pub gearbox: Option<String>,
     /// Gear; default: the first.
+    #[schemars(extend("x-refers-to" = "gear_states"))]
     pub gear: Option<String>,
     /// Model sets; default: the models of the gearbox. `PRODUCT/SET` selects another gearbox, `PRODUCT/own` its default models.
     #[serde(default)]
+    #[schemars(extend("x-refers-to" = "model_sets"))]
     pub model_sets: Vec<String>,
     /// Torque. [Nm]
     #[schemars(range(min = -1e9, max = 1e9))]
@@ -34,6 +37,7 @@ pub struct BalanceEntry {
     pub speed: f64,
     /// Overrides for this analysis: resolved path to value.
     #[serde(default)]
+    #[schemars(extend("x-keys" = "path"))]
     pub set: Ordered<Value>,
     /// Formats to write; default: CSV, JSON and SVG.
     #[serde(default = "Write::every_format")]

@@ -21,11 +21,14 @@ pub use self::bars::{Along, As, BreakdownOfSet, BreakdownOutcome, Common, Losses
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct BreakdownEntry {
     /// Gearbox; default: the first.
+    #[schemars(extend("x-refers-to" = "gearboxes"))]
     pub gearbox: Option<String>,
     /// Gear; default: the first.
+    #[schemars(extend("x-refers-to" = "gear_states"))]
     pub gear: Option<String>,
     /// Model sets; default: the models of the gearbox. `PRODUCT/SET` selects another gearbox, `PRODUCT/own` its default models.
     #[serde(default)]
+    #[schemars(extend("x-refers-to" = "model_sets"))]
     pub model_sets: Vec<String>,
     /// Grouping of losses.
     #[serde(default)]
@@ -43,6 +46,7 @@ pub struct BreakdownEntry {
     /// Speeds.
     pub speed: SpeedAxis,
     /// Measured points. The mean of those within 2 % of torque and speed and 5 K of oil temperature of a bar is drawn next to it.
+    #[schemars(extend("x-refers-to" = "measurements"))]
     pub measured: Option<Data>,
     /// Formats to write; default: CSV and JSON.
     #[serde(default = "Write::data")]

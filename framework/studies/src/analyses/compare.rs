@@ -27,25 +27,33 @@ use crate::table::Table;
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct CompareEntry {
     /// Gearbox of sets without a product; default: the first.
+    #[schemars(extend("x-refers-to" = "gearboxes"))]
     pub gearbox: Option<String>,
     /// Grid; not with `data` or `drive`.
+    #[schemars(extend("x-refers-to" = "grids"))]
     pub grid: Option<String>,
     /// Cycles; not with `data` or `grid`.
     pub drive: Option<RideEntry>,
     /// Base of the comparison; not with `data`. `PRODUCT/SET` selects another gearbox, `own` or `PRODUCT/own` its default models.
+    #[schemars(extend("x-refers-to" = "model_sets"))]
     pub base: Option<String>,
     /// Measured points that the sets are compared with.
+    #[schemars(extend("x-refers-to" = "measurements"))]
     pub data: Option<Data>,
     /// Columns of the data that change a value of the gearbox: column to resolved path.
     #[serde(default)]
+    #[schemars(extend("x-refers-to" = "path"))]
     pub bind: Ordered<String>,
     /// Gear of the data without a column `gear`; default: the first.
+    #[schemars(extend("x-refers-to" = "gear_states"))]
     pub gear: Option<String>,
     /// Model sets to compare; `PRODUCT/SET` selects another gearbox.
     #[serde(default)]
+    #[schemars(extend("x-refers-to" = "model_sets"))]
     pub against: Vec<String>,
     /// Variants of the base to compare, each with its changed values: resolved path to value. Not with `data`.
     #[serde(default)]
+    #[schemars(extend("x-keys" = "path"))]
     pub variants: Ordered<Ordered<Value>>,
     /// Grouping of the losses of cycles.
     #[serde(default)]

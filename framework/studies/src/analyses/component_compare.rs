@@ -25,17 +25,22 @@ use crate::table::Table;
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct ComponentCompareEntry {
     /// Gearbox; default: the first.
+    #[schemars(extend("x-refers-to" = "gearboxes"))]
     pub gearbox: Option<String>,
     /// Gear; default: the first.
+    #[schemars(extend("x-refers-to" = "gear_states"))]
     pub gear: Option<String>,
     /// Path of the component, such as `bearings.B1`, `meshes.M1` or `gears.G4.drag.churning`.
+    #[schemars(extend("x-refers-to" = "component"))]
     pub component: String,
     /// Models by name, each as in a gearbox: `{ type: skf }`. The other components keep their models.
     pub models: Ordered<Value>,
     /// Model set of all other components; default: the models of the gearbox.
+    #[schemars(extend("x-refers-to" = "model_sets"))]
     pub model_set: Option<String>,
     /// Overrides for this analysis: resolved path to value, such as `meshes.M2.drag.churning: none`.
     #[serde(default)]
+    #[schemars(extend("x-keys" = "path"))]
     pub set: Ordered<Value>,
     /// Torques.
     pub torque: TorqueAxis,
@@ -43,6 +48,7 @@ pub struct ComponentCompareEntry {
     pub speed: SpeedAxis,
     /// Measured points: torque and speed at the study's ports, and the loss of the component. Each is compared with every model
     /// at that torque and speed.
+    #[schemars(extend("x-refers-to" = "measurements"))]
     pub measured: Option<Data>,
     /// Formats to write; default: CSV and JSON.
     #[serde(default = "Write::data")]

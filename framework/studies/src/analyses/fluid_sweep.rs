@@ -29,6 +29,7 @@ pub struct FluidSweepEntry {
     #[serde(flatten)]
     pub drive: DriveEntry,
     /// Oil; default: the oil of the housing.
+    #[schemars(extend("x-refers-to" = "lubricants"))]
     pub lubricant: Option<String>,
     /// Viscosities at 100 degC of hypothetical oils with one viscosity index; values below 2 mm2/s, for which the index is not defined, are
     /// marked. [mm2/s]

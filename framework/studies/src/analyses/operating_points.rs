@@ -21,18 +21,23 @@ use crate::table::Table;
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct OperatingPointsEntry {
     /// Gearbox; default: the first.
+    #[schemars(extend("x-refers-to" = "gearboxes"))]
     pub gearbox: Option<String>,
     /// Gear; default: the first.
+    #[schemars(extend("x-refers-to" = "gear_states"))]
     pub gear: Option<String>,
     /// Model sets; default: the models of the gearbox. `PRODUCT/SET` selects another gearbox, `PRODUCT/own` its default models.
     #[serde(default)]
+    #[schemars(extend("x-refers-to" = "model_sets"))]
     pub model_sets: Vec<String>,
     /// The points, one row each: torque, speed and a name, the columns of `bind`, and measured loss, oil and surface temperature, each with
     /// its accuracy. With `faulty_rows: keep` cells of measured columns may be empty.
+    #[schemars(extend("x-refers-to" = "measurements"))]
     pub data: Data,
     /// Columns that change a value of the gearbox: column to resolved path, such as `volume: housing.oil.volume`. The unit is in the
     /// header: `volume [ml]`.
     #[serde(default)]
+    #[schemars(extend("x-refers-to" = "path"))]
     pub bind: Ordered<String>,
     /// Grouping of losses.
     #[serde(default)]

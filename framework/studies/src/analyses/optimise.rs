@@ -41,6 +41,7 @@ pub struct OptimiseEntry {
     pub variables: Ordered<VariableEntry>,
     /// Cycles whose mean losses are minimised; default: all. The others are for limits.
     #[serde(default)]
+    #[schemars(extend("x-refers-to" = "cycles"))]
     pub minimise: Vec<String>,
     /// Limits by name, which a design must keep.
     #[serde(default)]
@@ -65,6 +66,7 @@ pub struct OptimiseEntry {
     #[schemars(range(min = 8, max = 65536))]
     pub samples: u32,
     /// Name of a model set with the best design, for later analyses.
+    #[schemars(extend("x-defines" = "model_sets"))]
     pub then: Option<String>,
     /// Formats to write; default: CSV, JSON and SVG.
     #[serde(default = "Write::every_format")]

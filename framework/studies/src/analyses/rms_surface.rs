@@ -32,16 +32,21 @@ pub use self::outcome::{
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct RmsSurfaceEntry {
     /// Gearbox of sets without a product; default: the first.
+    #[schemars(extend("x-refers-to" = "gearboxes"))]
     pub gearbox: Option<String>,
     /// Measured points. Points without a value at any pair are omitted at all pairs, so that all pairs use the same points.
+    #[schemars(extend("x-refers-to" = "measurements"))]
     pub data: Data,
     /// Columns of the data that change a value of the gearbox: column to resolved path.
     #[serde(default)]
+    #[schemars(extend("x-refers-to" = "path"))]
     pub bind: Ordered<String>,
     /// Gear of the data without a column `gear`; default: the first.
+    #[schemars(extend("x-refers-to" = "gear_states"))]
     pub gear: Option<String>,
     /// Model sets to compare with the data; `PRODUCT/SET` selects another gearbox, `PRODUCT/own` its default models.
     #[schemars(length(min = 1))]
+    #[schemars(extend("x-refers-to" = "model_sets"))]
     pub against: Vec<String>,
     /// Compared quantity.
     #[serde(default)]
@@ -65,6 +70,7 @@ pub struct RmsSurfaceEntry {
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct SurfaceAxisEntry {
     /// Resolved path; with `*` all matches change together.
+    #[schemars(extend("x-refers-to" = "path"))]
     pub path: String,
     /// How several quantities change together.
     #[serde(default)]

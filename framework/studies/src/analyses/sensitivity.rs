@@ -41,11 +41,14 @@ const RESAMPLES: usize = 200;
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct SensitivityEntry {
     /// Gearbox; default: the first.
+    #[schemars(extend("x-refers-to" = "gearboxes"))]
     pub gearbox: Option<String>,
     /// Grid with one gear.
+    #[schemars(extend("x-refers-to" = "grids"))]
     pub grid: String,
     /// Model sets; default: the models of the gearbox. `PRODUCT/SET` selects another gearbox, `PRODUCT/own` its default models.
     #[serde(default)]
+    #[schemars(extend("x-refers-to" = "model_sets"))]
     pub model_sets: Vec<String>,
     /// The varied quantities. `local` starts from the value of the gearbox (the first if a path matches several different values). A name
     /// refers to a parameter of the study.

@@ -18,14 +18,18 @@ use crate::study::{By, SpeedAxis, Uses, Write};
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct SpinLossEntry {
     /// Gearbox; default: the first.
+    #[schemars(extend("x-refers-to" = "gearboxes"))]
     pub gearbox: Option<String>,
     /// Gears, including neutral; default: all.
     #[serde(default)]
+    #[schemars(extend("x-refers-to" = "gear_states"))]
     pub gears: Vec<String>,
     /// Model sets; default: the models of the gearbox. `PRODUCT/SET` selects another gearbox, `PRODUCT/own` its default models.
     #[serde(default)]
+    #[schemars(extend("x-refers-to" = "model_sets"))]
     pub model_sets: Vec<String>,
     /// Driven port; default: that of the conditions. `output` is towing.
+    #[schemars(extend("x-refers-to" = "ports"))]
     pub turned_at: Option<String>,
     /// Grouping of losses.
     #[serde(default)]

@@ -24,13 +24,17 @@ pub use self::outcome::{NotesOfSet, PointOfSweep, SecondValue, SweepOfValue, Swe
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct SweepEntry {
     /// Gearbox; default: the first.
+    #[schemars(extend("x-refers-to" = "gearboxes"))]
     pub gearbox: Option<String>,
     /// Gear; default: the first.
+    #[schemars(extend("x-refers-to" = "gear_states"))]
     pub gear: Option<String>,
     /// Model sets; default: the models of the gearbox. `PRODUCT/SET` selects another gearbox, `PRODUCT/own` its default models.
     #[serde(default)]
+    #[schemars(extend("x-refers-to" = "model_sets"))]
     pub model_sets: Vec<String>,
     /// Resolved path that is varied, such as `lubricants.sump.viscosity.kv100`, or `thermal.oil` for the temperature.
+    #[schemars(extend("x-refers-to" = "path"))]
     pub path: String,
     /// Values, each as in a gearbox: `[4 mm2/s, 6 mm2/s]`.
     #[schemars(length(min = 1))]
@@ -53,6 +57,7 @@ pub struct SweepEntry {
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct SecondEntry {
     /// Resolved path that is varied.
+    #[schemars(extend("x-refers-to" = "path"))]
     pub path: String,
     /// Values, each as in a gearbox.
     #[schemars(length(min = 1))]

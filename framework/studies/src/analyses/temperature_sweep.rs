@@ -15,11 +15,14 @@ use crate::study::{By, SpeedAxis, TemperatureAxis, TorqueAxis, Uses, Write};
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct TemperatureSweepEntry {
     /// Gearbox; default: the first.
+    #[schemars(extend("x-refers-to" = "gearboxes"))]
     pub gearbox: Option<String>,
     /// Gear; default: the first.
+    #[schemars(extend("x-refers-to" = "gear_states"))]
     pub gear: Option<String>,
     /// Model sets; default: the models of the gearbox. `PRODUCT/SET` selects another gearbox, `PRODUCT/own` its default models.
     #[serde(default)]
+    #[schemars(extend("x-refers-to" = "model_sets"))]
     pub model_sets: Vec<String>,
     /// Grouping of losses.
     #[serde(default)]

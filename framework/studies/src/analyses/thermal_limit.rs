@@ -20,11 +20,14 @@ use crate::table::Table;
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct ThermalLimitEntry {
     /// Gearbox; default: the first.
+    #[schemars(extend("x-refers-to" = "gearboxes"))]
     pub gearbox: Option<String>,
     /// Gear; default: the first.
+    #[schemars(extend("x-refers-to" = "gear_states"))]
     pub gear: Option<String>,
     /// Model sets; default: the models of the gearbox. `PRODUCT/SET` selects another gearbox, `PRODUCT/own` its default models.
     #[serde(default)]
+    #[schemars(extend("x-refers-to" = "model_sets"))]
     pub model_sets: Vec<String>,
     /// Limits of the oil temperature. [degC]
     #[schemars(inner(range(min = 0.0, max = 250.0)), length(min = 1))]

@@ -35,17 +35,22 @@ const MOST: usize = 200_000;
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct TournamentEntry {
     /// Gearbox; default: the first.
+    #[schemars(extend("x-refers-to" = "gearboxes"))]
     pub gearbox: Option<String>,
     /// Gear of the data; default: the first. A grid has its own.
+    #[schemars(extend("x-refers-to" = "gear_states"))]
     pub gear: Option<String>,
     /// Model set of all other components; default: the models of the gearbox.
+    #[schemars(extend("x-refers-to" = "model_sets"))]
     pub model_set: Option<String>,
     /// The mechanisms whose models are varied.
     #[schemars(length(min = 1))]
     pub mechanisms: Vec<CandidatesEntry>,
     /// Grid with one gear; not with `data`.
+    #[schemars(extend("x-refers-to" = "grids"))]
     pub grid: Option<String>,
     /// Measured points for the ranking.
+    #[schemars(extend("x-refers-to" = "measurements"))]
     pub data: Option<Data>,
     /// Accuracy of the loss at points without an accuracy of loss, loss torque, efficiency or torque meters in the file. Default (assumed):
     /// 5 % of the loss and 1 % of the root mean square of all losses.
@@ -85,6 +90,7 @@ fn shown() -> u32 {
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct CandidatesEntry {
     /// Mechanism, such as `bearing`.
+    #[schemars(extend("x-refers-to" = "mechanism"))]
     pub mechanism: String,
     /// Slot, if a gear has several models of the mechanism: `churning` of `gear_drag`.
     pub slot: Option<String>,

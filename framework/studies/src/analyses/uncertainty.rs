@@ -21,11 +21,14 @@ use crate::table::Table;
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct UncertaintyEntry {
     /// Gearbox; default: the first.
+    #[schemars(extend("x-refers-to" = "gearboxes"))]
     pub gearbox: Option<String>,
     /// Grid with one gear.
+    #[schemars(extend("x-refers-to" = "grids"))]
     pub grid: String,
     /// Model sets; default: the models of the gearbox. `PRODUCT/SET` selects another gearbox, `PRODUCT/own` its default models.
     #[serde(default)]
+    #[schemars(extend("x-refers-to" = "model_sets"))]
     pub model_sets: Vec<String>,
     /// The uncertain inputs. A name refers to a parameter of the study, uniformly distributed.
     #[schemars(length(min = 1), with = "Vec<NameOr<ToleranceEntry>>")]

@@ -25,6 +25,7 @@ pub enum CycleEntry {
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct ShippedCycleEntry {
     /// Name of the cycle, such as `wltc_class3b`.
+    #[schemars(extend("x-refers-to" = "shipped_cycle"))]
     pub shipped: String,
     /// Number of repetitions. [-]
     #[serde(default = "one_time")]
@@ -42,6 +43,7 @@ pub struct ShippedCycleEntry {
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct FileCycleEntry {
     /// CSV file, relative to the study.
+    #[schemars(extend("x-refers-to" = "file"))]
     pub file: String,
     /// Note for the report: origin of these data, or that they are synthetic.
     pub about: Option<String>,
@@ -58,6 +60,7 @@ pub struct FileCycleEntry {
     pub units: Ordered<String>,
     /// Port at which torque and speed were recorded.
     #[serde(default = "input")]
+    #[schemars(extend("x-refers-to" = "ports"))]
     pub port: String,
     /// Cell separator; default: detected.
     pub separator: Option<Separator>,
@@ -105,6 +108,7 @@ pub struct SpectrumCycleEntry {
     pub spectrum: Spectrum,
     /// Port of torque and speed.
     #[serde(default = "input")]
+    #[schemars(extend("x-refers-to" = "ports"))]
     pub port: String,
     /// Total time for `share`; not used with `time`. [s]
     #[serde(default = "hour")]

@@ -43,6 +43,7 @@ pub struct SpectrumPoint {
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct SpectrumFile {
     /// CSV file, relative to the study.
+    #[schemars(extend("x-refers-to" = "file"))]
     pub file: String,
     /// Note for the report: origin of these data, or that they are synthetic.
     pub about: Option<String>,

@@ -46,6 +46,7 @@ pub struct VehicleEntry {
     pub battery: Option<BatteryEntry>,
     /// Losses of the motor at the reference port, for gearboxes without a motor in a thermal network: CSV file relative to the study with
     /// `speed [rpm]`, `torque [Nm]`, and `efficiency [-]` or `loss [W]`. Needs `battery`.
+    #[schemars(extend("x-refers-to" = "file"))]
     pub motor_map: Option<String>,
 }
 

@@ -32,6 +32,7 @@ pub enum FileEntry {
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct OwnFileEntry {
     /// CSV file, relative to the study.
+    #[schemars(extend("x-refers-to" = "file"))]
     pub file: String,
     /// Name of the file in messages and tables; default: the file name.
     pub name: Option<String>,

@@ -9,11 +9,14 @@ use gearloss_framework::thermal::network::Scheme;
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct DriveEntry {
     /// Gearbox; default: the first.
+    #[schemars(extend("x-refers-to" = "gearboxes"))]
     pub gearbox: Option<String>,
     /// Gear of cycles without a gear; default: the first.
+    #[schemars(extend("x-refers-to" = "gear_states"))]
     pub gear: Option<String>,
     /// Model sets; default: the models of the gearbox. `PRODUCT/SET` selects another gearbox, `PRODUCT/own` its default models.
     #[serde(default)]
+    #[schemars(extend("x-refers-to" = "model_sets"))]
     pub model_sets: Vec<String>,
     /// Cycles and settings of the simulation.
     #[serde(flatten)]
@@ -25,8 +28,10 @@ pub struct DriveEntry {
 pub struct RideEntry {
     /// Names under `cycles` of the study.
     #[schemars(length(min = 1))]
+    #[schemars(extend("x-refers-to" = "cycles"))]
     pub cycles: Vec<String>,
     /// Name under `vehicles` of the study, for cycles with a vehicle speed only; default: the first.
+    #[schemars(extend("x-refers-to" = "vehicles"))]
     pub vehicle: Option<String>,
     /// Start temperature of nodes without one; default: ambient temperature. [degC]
     #[schemars(range(min = -60.0, max = 250.0))]

@@ -15,6 +15,7 @@ pub use hold_out::{FoldsBy, FoldsEntry, HoldOutEntry, HoldOutRows};
 pub struct IdentifiedEntry {
     /// Resolved path; with `*` all matches change together. Of the rig: `rig.torque_offset_in`, `rig.torque_offset_out`,
     /// `rig.support_in.torque`, `rig.support_out.torque`.
+    #[schemars(extend("x-refers-to" = "path"))]
     pub path: String,
     /// How several quantities change together.
     #[serde(default)]
@@ -74,6 +75,7 @@ pub struct PriorEntry {
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct OverEntry {
     /// Port of the torque.
+    #[schemars(extend("x-refers-to" = "ports"))]
     pub port: String,
     /// Torques, ascending. [Nm]
     #[schemars(inner(range(min = 0.0, max = 1e9)), length(min = 2, max = 20))]

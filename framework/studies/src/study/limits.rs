@@ -11,6 +11,7 @@ pub struct LimitEntry {
     pub quantity: LimitedQuantity,
     /// What it belongs to: a node of the thermal network, a cycle, a gear, a component or several (`bearings.*`). Default: the oil, every
     /// cycle, the first gear, every component. A loss and an efficiency are those of the gearbox.
+    #[schemars(extend("x-refers-to" = ["component", "thermal.network.nodes", "cycles", "gear_states"]))]
     pub of: Option<String>,
     /// Rating and symbol, for the quantity `rating`: `iso_281.L10h`; `gearloss models rating` lists them.
     pub rating: Option<String>,

@@ -14,6 +14,7 @@ use gearloss_framework::document::{Diagnostic, did_you_mean};
 #[serde(untagged)]
 pub enum NamesOrParameters {
     /// Names of parameters from `parameters` of the study.
+    #[schemars(extend("x-refers-to" = "parameters"))]
     Names(#[schemars(length(min = 1))] Vec<String>),
     /// The parameters by name.
     Own(Ordered<IdentifiedEntry>),
@@ -25,6 +26,7 @@ pub enum NamesOrParameters {
 #[serde(untagged)]
 pub enum NameOr<T> {
     /// Name of a parameter from `parameters` of the study; its range is `from` and `to`.
+    #[schemars(extend("x-refers-to" = "parameters"))]
     Name(String),
     /// The quantity and its range.
     Own(T),

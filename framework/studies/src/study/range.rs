@@ -10,6 +10,7 @@ use crate::varied::Tie;
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct RangeEntry {
     /// Resolved path; with `*` all matches change together.
+    #[schemars(extend("x-refers-to" = "path"))]
     pub path: String,
     /// How several quantities change together.
     #[serde(default)]

@@ -12,16 +12,21 @@ use crate::study::{Data, FoldsEntry, HoldOutEntry, IdentifiedEntry, NamesOrParam
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct IdentifyEntry {
     /// Gearbox; default: the first.
+    #[schemars(extend("x-refers-to" = "gearboxes"))]
     pub gearbox: Option<String>,
     /// Model sets, each fitted separately; default: the models of the gearbox. `PRODUCT/SET` selects another gearbox.
     #[serde(default)]
+    #[schemars(extend("x-refers-to" = "model_sets"))]
     pub model_sets: Vec<String>,
     /// Measured points.
+    #[schemars(extend("x-refers-to" = "measurements"))]
     pub data: Data,
     /// Columns of the data that change a value of the gearbox: column to resolved path.
     #[serde(default)]
+    #[schemars(extend("x-refers-to" = "path"))]
     pub bind: Ordered<String>,
     /// Gear of rows without a column `gear`; default: the first.
+    #[schemars(extend("x-refers-to" = "gear_states"))]
     pub gear: Option<String>,
     /// Fitted quantities; several are fitted simultaneously.
     #[serde(default = "residuals")]
@@ -56,6 +61,7 @@ pub struct IdentifyEntry {
     /// Proposed measurements.
     pub next: Option<NextEntry>,
     /// Name of a model set for later analyses: the fitted set with the identified values.
+    #[schemars(extend("x-defines" = "model_sets"))]
     pub then: Option<String>,
     /// Formats to write; default: CSV, JSON and SVG.
     #[serde(default = "Write::every_format")]
@@ -138,6 +144,7 @@ fn seed() -> u32 {
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct NextEntry {
     /// Grid of the points that the rig can run, with one gear.
+    #[schemars(extend("x-refers-to" = "grids"))]
     pub grid: String,
     /// Oil temperatures at which the rig can run them; default: from the study. [degC]
     #[serde(default)]

@@ -11,21 +11,28 @@ use crate::study::{Data, Write};
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct MapEntry {
     /// Gearbox; default: the first.
+    #[schemars(extend("x-refers-to" = "gearboxes"))]
     pub gearbox: Option<String>,
     /// Grid; not with `points`.
+    #[schemars(extend("x-refers-to" = "grids"))]
     pub grid: Option<String>,
     /// File of points instead of a grid, for example of measured data: torque, speed, and optionally gear and oil temperature of each
     /// point.
+    #[schemars(extend("x-refers-to" = "measurements"))]
     pub points: Option<Data>,
     /// Columns of the points that change a value of the gearbox: column to resolved path.
     #[serde(default)]
+    #[schemars(extend("x-refers-to" = "path"))]
     pub bind: Ordered<String>,
     /// Gear of points without a column `gear`; default: the first.
+    #[schemars(extend("x-refers-to" = "gear_states"))]
     pub gear: Option<String>,
     /// Measured points that are drawn into the figures.
+    #[schemars(extend("x-refers-to" = "measurements"))]
     pub measured: Option<Data>,
     /// Model sets; default: the models of the gearbox. `PRODUCT/SET` selects another gearbox, `PRODUCT/own` its default models.
     #[serde(default)]
+    #[schemars(extend("x-refers-to" = "model_sets"))]
     pub model_sets: Vec<String>,
     /// Formats to write; default: CSV and JSON. Figures show efficiency, loss and, with a heat balance, temperature.
     #[serde(default = "Write::data")]

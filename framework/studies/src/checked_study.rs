@@ -1,0 +1,105 @@
+//! A study that is checked without computing anything: what `run` would refuse or warn about.
+
+use std::path::Path;
+
+use gearloss_framework::files::SharedSource;
+use gearloss_framework::gearbox::Findings;
+use gearloss_framework::language::Language;
+
+use crate::analyses::progress::Progress;
+use crate::analyses::{Context, Stopped};
+use crate::run::StudyRun;
+use crate::study::{Cautions, Study};
+
+/// Findings of a study before it runs.
+#[derive(Debug, Default)]
+pub struct CheckedStudy {
+    /// Errors that `run` reports before it computes, by analysis, without repetition.
+    pub refused: Vec<Stopped>,
+    /// Warnings of its gearboxes.
+    pub warnings: Vec<Findings>,
+    /// Components of its gearboxes without a model, and coefficients that differ from their source.
+    pub notes: Vec<String>,
+}
+
+impl CheckedStudy {
+    /// Reads a study of a source with its gearboxes, and checks every analysis. Nothing is computed. The caller can interrupt it; then
+    /// the last of [`CheckedStudy::refused`] is [`Stopped::Interrupted`].
+    pub fn read(language: &Language, files: &SharedSource, file: &Path, progress: &dyn Progress) -> Self {
+        let study = Study::read_from(language, files, file).and_then(|study| {
+            study.check(language)?;
+            Ok(study)
+        });
+        match study {
+            Ok(study) => Self::new(language, &study, progress),
+            Err(findings) => Self {
+                refused: vec![findings.into()],
+                ..Self::default()
+            },
+        }
+    }
+
+    fn new(language: &Language, study: &Study, progress: &dyn Progress) -> Self {
+        let run = StudyRun::new(language, study);
+        let mut reported = Reported::default();
+        let mut refused: Vec<Stopped> = Vec::new();
+        if let Some(findings) = study.data_findings() {
+            reported.add(&findings);
+            refused.push(findings.into());
+        }
+        for name in study.entry.analyses.ids() {
+            if !progress.should_continue() {
+                refused.push(Stopped::Interrupted);
+                break;
+            }
+            let own = run.study_for_analysis();
+            let Err(stopped) = run.run(&Context::new(language, &own, name, progress).checking()) else {
+                continue;
+            };
+            let Some(stopped) = reported.unreported(stopped) else {
+                continue;
+            };
+            let text = stopped.to_string();
+            if refused.iter().all(|other| other.to_string() != text) {
+                refused.push(stopped);
+            }
+        }
+        let Cautions { warnings, notes } = study.cautions(language);
+        Self {
+            refused,
+            warnings,
+            notes,
+        }
+    }
+}
+
+/// Findings that were reported before the analyses began: path and message.
+#[derive(Debug, Default)]
+pub struct Reported(Vec<(String, String)>);
+
+impl Reported {
+    /// Findings that are reported now.
+    pub fn add(&mut self, findings: &Findings) {
+        let list = findings.list.iter();
+        self.0
+            .extend(list.map(|finding| (finding.path.clone(), finding.message.clone())));
+    }
+
+    /// The findings that were not reported yet; `None` if all were.
+    pub fn new_findings(&self, mut findings: Findings) -> Option<Findings> {
+        findings.list.retain(|finding| {
+            let known = |(path, message): &(String, String)| finding.path == *path && finding.message == *message;
+            !self.0.iter().any(known)
+        });
+        (!findings.list.is_empty()).then_some(findings)
+    }
+
+    /// The part of the reason of an analysis that was not reported yet.
+    fn unreported(&self, stopped: Stopped) -> Option<Stopped> {
+        match stopped {
+            Stopped::Checked => None,
+            Stopped::Found(findings) => self.new_findings(findings).map(Stopped::Found),
+            other => Some(other),
+        }
+    }
+}
