@@ -64,7 +64,7 @@ fn about(all: &[&BearingLoads]) -> String {
         .sum();
     let bearings = all.first().and_then(|loads| loads.cases.first());
     let bearings = bearings.map_or(0, |case| case.bearings.len());
-    let mut about = format!("{bearings} bearings, {cases} load cases of {intervals} intervals");
+    let mut about = format!("bearings: {bearings}, load cases: {cases}, intervals: {intervals}");
     let deviation = all.iter().filter_map(|loads| loads.deviation).reduce(f64::max);
     if let Some(deviation) = deviation {
         about.push_str(&format!(
@@ -89,7 +89,8 @@ fn csv(all: &[BearingLoads], name: &str) -> std::io::Result<Vec<u8>> {
             rows.extend(case.bearings.iter().map(|bearing| (loads, number, case, bearing)));
         }
     }
-    let yz = |row: &Row<'_>, axis: usize| Some(row.3.load?.radial_yz_n?[axis]);
+    // Minus zero is zero.
+    let yz = |row: &Row<'_>, axis: usize| Some(row.3.load?.radial_yz_n?[axis] + 0.0);
     let table = Table::of(name, rows)
         .text("model_set", "Model set", |row: &Row<'_>| &row.0.model_set)
         .text("cycle", "Duty cycle", |row| &row.0.cycle)
