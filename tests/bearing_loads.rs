@@ -57,7 +57,7 @@ fn loads_of_a_spectrum_are_those_of_solve() {
         let solved = solved(torque, speed);
         let mut compared = 0;
         for row in rows.iter().filter(|row| cell(row, "load_case") == case) {
-            let loads = solved["loads"].as_array().unwrap();
+            let loads = solved["supports"].as_array().unwrap();
             let own = loads
                 .iter()
                 .find(|load| load["support"] == cell(row, "bearing"))
