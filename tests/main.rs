@@ -6,6 +6,7 @@
 mod analyses;
 mod api;
 mod batched;
+mod bearing_loads;
 mod cards;
 mod coefficients;
 mod common;

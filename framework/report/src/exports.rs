@@ -3,12 +3,14 @@
 //! A format implements [`ExportFormat`](gearloss_studies::analyses::map::ExportFormat) and registers itself with
 //! [`register_export!`](gearloss_studies::register_export), in any crate.
 
+pub mod bearing_loads;
 mod fmu;
 mod lossy_gear;
 mod mat;
 mod matlab;
 mod modelica;
 pub mod network;
+mod rexs_loads;
 mod slabs;
 mod vecto;
 

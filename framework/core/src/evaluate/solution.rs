@@ -247,6 +247,28 @@ impl Solution<'_> {
         self.scratch.models.conditions.loads[support]
     }
 
+    /// The radial force of each support on its inner member, y and z, with its factor; the mean over the planets if it is on one, where y
+    /// points away from the axis of the carrier. `None` if the load is imported, which has no direction. \[N\]
+    pub fn radial_forces(&self) -> Vec<Option<[f64; 2]>> {
+        let t = self.transmission;
+        let models = &self.scratch.models;
+        let forces = t.loads.on_inner(&models.tangential, &models.conditions.speeds);
+        let of_support = |(support, force): (usize, [f64; 2])| {
+            let imported = t.imported.as_ref();
+            if imported.is_some_and(|own| own.tables[self.case.state][support].is_some()) {
+                return None;
+            }
+            let length = force[0].hypot(force[1]);
+            let factor = if length > 0.0 {
+                self.load(support).radial / length
+            } else {
+                1.0
+            };
+            Some(force.map(|part| part * factor))
+        };
+        forces.into_iter().enumerate().map(of_support).collect()
+    }
+
     /// Torque of one copy of a mesh on its first gear, signed. \[Nm\]
     pub fn mesh_torque(&self, mesh: usize) -> f64 {
         self.scratch.models.tangential[mesh] * self.transmission.meshes[mesh].seat.pair.working_radius[0]

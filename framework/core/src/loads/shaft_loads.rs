@@ -11,6 +11,8 @@ use crate::real::Real;
 pub struct ShaftLoads {
     /// Reactions by support.
     pub(super) cases: Vec<Cases>,
+    /// Supports whose outer member is the carried one.
+    pub(super) turned: Vec<bool>,
     /// Members from the supported to the supporting, without those whose thrust passes through their supports.
     pub(super) order: Vec<Axially>,
 }
@@ -111,7 +113,9 @@ impl ShaftLoads {
         let n = layout.members.len();
         let mut own: Vec<Vec<(usize, SupportLayout)>> = vec![Vec::new(); n];
         let mut carrier_of: Vec<Vec<usize>> = vec![Vec::new(); n];
+        let mut turned = Vec::new();
         for (i, support) in layout.supports.iter().enumerate() {
+            turned.push(carried(layout, support).0 != support.inner);
             let support = from_the_carried(layout, support);
             carrier_of[support.inner].extend(support.outer);
             own[support.inner].push((i, support));
@@ -185,6 +189,7 @@ impl ShaftLoads {
                 .iter()
                 .map(|reactions| Cases::new(reactions, layout.meshes.len(), &planets))
                 .collect(),
+            turned,
             order,
         })
     }
@@ -243,6 +248,18 @@ impl ShaftLoads {
         let still = vec![0.0; carriers.map(|(carrier, _)| carrier + 1).max().unwrap_or(0)];
         let sum = |cases: &Cases| cases.sum(|reaction| reaction.force, tangential, &still);
         self.cases.iter().map(sum).collect()
+    }
+
+    /// The force of each support on its inner member, y and z, at the speeds of all members (rad/s). On a planet, y points away from the
+    /// axis of the carrier. \[N\]
+    pub fn on_inner(&self, tangential: &[f64], speeds: &[f64]) -> Vec<[f64; 2]> {
+        let supports = self.cases.iter().zip(&self.turned);
+        supports
+            .map(|(cases, turned)| {
+                let force = cases.sum(|reaction| reaction.force, tangential, speeds);
+                if *turned { force.map(|part| -part) } else { force }
+            })
+            .collect()
     }
 }
 

@@ -2,7 +2,7 @@
 
 use gearloss_fmu::{Fmu, Version};
 use gearloss_framework::document::Diagnostic;
-use gearloss_studies::analyses::cycle::{CycleOutcome, NetworkExport, NetworkTables};
+use gearloss_studies::analyses::cycle::{CycleExport, CycleOutcome, NetworkTables};
 
 use crate::codes;
 use crate::page::Page;
@@ -13,8 +13,9 @@ pub fn add(outcome: &CycleOutcome, page: &mut Page) {
     for format in &outcome.exports {
         for network in &outcome.networks {
             let (version, suffix) = match format {
-                NetworkExport::Fmu2 => (Version::Two, "fmi2"),
-                NetworkExport::Fmu3 => (Version::Three, "fmi3"),
+                CycleExport::Fmu2 => (Version::Two, "fmi2"),
+                CycleExport::Fmu3 => (Version::Three, "fmi3"),
+                CycleExport::BearingLoads | CycleExport::RexsLoads => continue,
             };
             let analysis = &outcome.head.analysis;
             let name = format!("{analysis}-{}", network.model_set).replace('/', "-");

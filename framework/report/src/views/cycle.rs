@@ -27,6 +27,7 @@ fn show(outcome: &CycleOutcome, page: &mut Page) {
         ratings(name, duty, page);
     }
     exports::network::add(outcome, page);
+    exports::bearing_loads::add(outcome, page);
     pictures::draw(outcome, page);
 }
 

@@ -1,7 +1,9 @@
 //! Simulated cycles: losses, energy, temperatures.
 
 mod bands;
+mod bearings;
 mod outcome;
+mod points;
 pub(super) mod ratings;
 pub(super) mod results;
 mod tables;
@@ -28,6 +30,7 @@ use crate::register_analysis;
 use crate::study::{By, DriveEntry, ToleranceEntry, Uses, Write};
 use crate::table::Table;
 
+pub use bearings::{BearingLoad, BearingLoads, Load, LoadCase};
 pub use ratings::RatedOverTime;
 pub use tables::NetworkTables;
 
@@ -59,26 +62,42 @@ pub struct CycleAnalysisEntry {
     /// other quantities.
     #[serde(default)]
     pub ratings: bool,
-    /// The thermal network for other programs, with tables instead of models.
+    /// Results for other programs: the thermal network with tables instead of models, loads and speeds of the bearings.
     #[serde(default)]
-    pub export: Vec<NetworkExport>,
+    pub export: Vec<CycleExport>,
+    /// Number of classes of torque, and of speed, for `bearing_loads` and `rexs_loads` of a cycle in time; 0: every interval is a load case.
+    /// Default: 20. [-]
+    #[schemars(range(min = 0, max = 1000))]
+    pub load_classes: Option<u32>,
     /// Libraries of further platforms for `export`: files out of the folder `binaries` of FMUs that were written there. That of the own
     /// platform is always included.
     #[serde(default)]
+    #[schemars(inner(extend("x-refers-to" = "file")))]
     pub fmu_libraries: Vec<String>,
     /// Formats to write; default: CSV, JSON and SVG.
     #[serde(default = "Write::every_format")]
     pub write: Vec<Write>,
 }
 
-/// A format of a thermal network.
+/// A format of results of cycles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-pub enum NetworkExport {
+pub enum CycleExport {
     /// The temperatures over time as a Functional Mock-up Unit of FMI 2.0, for Co-Simulation.
     Fmu2,
     /// As `fmu2`, of FMI 3.0.
     Fmu3,
+    /// Loads and speeds of the bearings by load case as CSV, for programs of life and noise.
+    BearingLoads,
+    /// The same as load cases of a REXS 1.7 model of the bearings.
+    RexsLoads,
+}
+
+impl CycleExport {
+    /// True if it contains the thermal network.
+    fn is_network(self) -> bool {
+        matches!(self, Self::Fmu2 | Self::Fmu3)
+    }
 }
 
 fn samples() -> u32 {
@@ -112,13 +131,27 @@ impl Analysis for CycleAnalysisEntry {
         sums_energies(cx, &path, self.by)?;
         let duties = Duties::new(cx, &path, &self.drive.ride, self.drive.gear.as_ref())?;
         self.check_reference(cx, &path, &duties)?;
-        let libraries = libraries(cx, &self.fmu_libraries, !self.export.is_empty())?;
+        let needs_network = self.export.iter().any(|format| format.is_network());
+        let needs_loads = self.export.iter().any(|format| !format.is_network());
+        if self.load_classes.is_some() && !needs_loads {
+            let help = "delete it, or write `export: [bearing_loads]` or `[rexs_loads]`";
+            return Err(cx.wrong(&format!("{path}.load_classes"), "no export has load cases", help));
+        }
+        let libraries = libraries(cx, &self.fmu_libraries, needs_network)?;
         let names = together(built.iter().map(|b| &b.transmission), self.by);
         for b in &built {
             duties.check(cx, &path, b)?;
             limits_of(cx, &path, &Ordered::default(), &duties, b)?;
-            if !self.export.is_empty() {
+            if needs_network {
                 tables::network(cx, b, &duties)?;
+            }
+            if needs_loads && b.transmission.supports().is_empty() {
+                let message = format!("`{}` has no bearings, so there are no bearing loads", b.name);
+                return Err(cx.wrong(
+                    &format!("{path}.export"),
+                    message,
+                    "describe `bearings`, or delete the export",
+                ));
             }
             if cx.only_checks {
                 Input::all(cx, &path, &self.inputs, b)?;
@@ -169,9 +202,20 @@ impl Analysis for CycleAnalysisEntry {
         range_differences(&mut cycles, count);
         let mut networks = Vec::new();
         let is_whole = driven.iter().all(|driven| driven.broken.is_none());
-        if !self.export.is_empty() && is_whole {
+        if needs_network && is_whole {
             for (b, driven) in built.iter().zip(driven.chunks(count)) {
                 networks.push(tables::tabulate(cx, b, &duties, driven)?);
+            }
+        }
+        let mut loads = Vec::new();
+        if needs_loads && is_whole {
+            let classes = self.load_classes.unwrap_or(bearings::CLASSES);
+            for (b, driven) in built.iter().zip(driven.chunks(count)) {
+                let t = &b.transmission;
+                for (read, driven) in duties.list.iter().zip(driven) {
+                    let own = bearings::bearing_loads(t, &b.name, (read, &duties.ride(t, read), driven), classes);
+                    loads.push(own.map_err(|list| b.gearbox.findings(list))?);
+                }
             }
         }
         let mut all_left = Vec::new();
@@ -188,6 +232,7 @@ impl Analysis for CycleAnalysisEntry {
             cycles,
             left: all_left,
             networks,
+            loads,
             exports: self.export.clone(),
             libraries,
         })

@@ -6,7 +6,8 @@ use gearloss_framework::gearbox::Findings;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::NetworkExport;
+use super::CycleExport;
+use super::bearings::BearingLoads;
 use super::ratings::RatedOverTime;
 use super::tables::NetworkTables;
 use crate::analyses::Head;
@@ -30,9 +31,12 @@ pub struct CycleOutcome {
     /// The thermal network of each model set, if it is exported.
     #[serde(skip)]
     pub networks: Vec<NetworkTables>,
-    /// Formats of the networks.
+    /// Loads of the bearings by model set and cycle, if they are exported.
     #[serde(skip)]
-    pub exports: Vec<NetworkExport>,
+    pub loads: Vec<BearingLoads>,
+    /// Formats of the exports.
+    #[serde(skip)]
+    pub exports: Vec<CycleExport>,
     /// Libraries for the FMUs; empty unless one is exported.
     #[serde(skip)]
     pub libraries: Vec<Library>,

@@ -3,13 +3,13 @@
 use std::collections::BTreeMap;
 
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::evaluate::{Point, Ratings, Scratch};
-use gearloss_framework::flow::Tolerance;
+use gearloss_framework::evaluate::Ratings;
 use gearloss_framework::rating::{Bound, Figure, Over, over_time};
-use gearloss_framework::transmission::{Case, Transmission};
+use gearloss_framework::transmission::Transmission;
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use super::points::Points;
 use crate::points::{Driven, Ride};
 
 /// A quantity of a rating over a whole cycle.
@@ -56,42 +56,25 @@ pub fn over_cycle(
     ride: &Ride<'_>,
     driven: &Driven,
 ) -> Result<Vec<RatedOverTime>, Vec<Diagnostic>> {
-    let port = t.ports()[t.reference_port()].name.as_str();
-    let mut cases: BTreeMap<&str, (Case, Scratch)> = BTreeMap::new();
+    let mut points = Points::new(t, ride.flow);
     // By component, rating and order of the quantity in it.
     let mut courses: BTreeMap<(usize, &'static str, usize), Course> = BTreeMap::new();
-    for (i, (stretch, interval)) in driven.stretches.iter().zip(ride.intervals).enumerate() {
-        let gear = interval.given.gear.as_deref().unwrap_or(ride.gear);
-        if !cases.contains_key(gear) {
-            let state = t.state(gear).map_err(|error| vec![error])?;
-            let torques = &[port][..t.torques_needed(state).min(1)];
-            let case = t.case(gear, &[port], torques)?;
-            let scratch = t.scratch(&case);
-            cases.insert(gear, (case, scratch));
-        }
-        let Some((case, scratch)) = cases.get_mut(gear) else {
-            continue;
-        };
-        let point = Point {
-            speeds: &[stretch.speed],
-            torques: &[stretch.torque][..case.torque_ports.len()],
-            flow: ride.flow,
-            tolerance: Tolerance::default(),
-        };
-        let solution = t.evaluate(case, &point, &stretch.temperatures, scratch);
-        for own in ratings.at(&solution) {
-            let Ok(rated) = &own.result else { continue };
-            for figure in rated.figures() {
-                let order = own.plugin.figures.iter().position(|known| *known == figure.figure);
-                let key = (own.part, own.plugin.entry.name, order.unwrap_or(usize::MAX));
-                let course = courses.entry(key).or_insert_with(|| Course {
-                    figure: figure.figure,
-                    bound: figure.bound,
-                    values: Vec::new(),
-                });
-                course.values.push((i, figure.value));
+    for (i, at) in Points::of(ride, driven).into_iter().enumerate() {
+        points.solve(&at, |solution| {
+            for own in ratings.at(solution) {
+                let Ok(rated) = &own.result else { continue };
+                for figure in rated.figures() {
+                    let order = own.plugin.figures.iter().position(|known| *known == figure.figure);
+                    let key = (own.part, own.plugin.entry.name, order.unwrap_or(usize::MAX));
+                    let course = courses.entry(key).or_insert_with(|| Course {
+                        figure: figure.figure,
+                        bound: figure.bound,
+                        values: Vec::new(),
+                    });
+                    course.values.push((i, figure.value));
+                }
             }
-        }
+        })?;
     }
     let durations: Vec<f64> = driven.stretches.iter().map(|stretch| stretch.heats.duration).collect();
     let time: f64 = durations.iter().sum();

@@ -1,0 +1,175 @@
+//! Loads of the bearings over cycles for other programs: the same as `solve` gives at the same points.
+
+use std::process::Command;
+
+use serde_json::Value;
+
+use crate::common::study::{Ran, number, of_gearbox, run_texts};
+
+const GEARBOX: &str = "examples/two-speed-ev/gearbox.yaml";
+const SPECTRUM: &str = "torque [Nm],speed [rpm],time [s]\n40,4000,1800\n-15,3000,600\n0,0,60\n";
+const DRIVE: &str =
+    "time [s],torque [Nm],speed [rpm]\n0,10,1000\n1,20,2000\n2,30,3000\n3,20,3500\n4,-10,3000\n5,0,0\n6,0,0\n";
+
+fn ran(more: &str) -> Ran {
+    let study = format!(
+        "cycles:\n  loads: {{ spectrum: {{ file: loads.csv }} }}\n  drive: {{ file: drive.csv }}\nanalyses:\n  c: {{ type: cycle, gear: first, {more} }}\n"
+    );
+    run_texts(
+        &of_gearbox(GEARBOX, &study),
+        &[("loads.csv", SPECTRUM), ("drive.csv", DRIVE)],
+    )
+}
+
+/// Cells by the names of their columns.
+fn rows(text: &str) -> Vec<Vec<(String, String)>> {
+    let mut reader = csv::Reader::from_reader(text.as_bytes());
+    let names: Vec<String> = reader.headers().unwrap().iter().map(str::to_owned).collect();
+    let row = |record: csv::StringRecord| names.iter().cloned().zip(record.iter().map(str::to_owned)).collect();
+    reader.records().map(|record| row(record.unwrap())).collect()
+}
+
+fn cell<'a>(row: &'a [(String, String)], name: &str) -> &'a str {
+    &row.iter().find(|(own, _)| own == name).unwrap().1
+}
+
+fn value(row: &[(String, String)], name: &str) -> f64 {
+    cell(row, name).parse().unwrap()
+}
+
+fn solved(torque: &str, speed: &str) -> Value {
+    let output = Command::new(env!("CARGO_BIN_EXE_gearloss"))
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .args(["solve", GEARBOX, "--gear", "first", "--format", "json"])
+        .args([format!("--torque={torque} Nm"), format!("--speed={speed} rpm")])
+        .output()
+        .unwrap();
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+#[test]
+fn loads_of_a_spectrum_are_those_of_solve() {
+    let ran = ran("cycles: [loads], export: [bearing_loads]");
+    let rows = rows(ran.file("c-bearing_loads.csv"));
+    // Eight bearings in each of three load cases.
+    assert_eq!(rows.len(), 24);
+    for (case, torque, speed) in [("1", "40", "4000"), ("2", "-15", "3000")] {
+        let solved = solved(torque, speed);
+        let mut compared = 0;
+        for row in rows.iter().filter(|row| cell(row, "load_case") == case) {
+            let loads = solved["supports"].as_array().unwrap();
+            let own = loads
+                .iter()
+                .find(|load| load["support"] == cell(row, "bearing"))
+                .unwrap();
+            for name in ["radial_n", "axial_n", "tilting_nm"] {
+                let (ours, theirs) = (value(row, name), number(&own[name]));
+                assert!(
+                    (ours - theirs).abs() <= 1e-9 * theirs.abs().max(1.0),
+                    "{row:?} {name}: {theirs}"
+                );
+            }
+            let length = value(row, "radial_y_n").hypot(value(row, "radial_z_n"));
+            assert!((length - value(row, "radial_n")).abs() < 1e-6, "{row:?}");
+            assert_eq!(value(row, "oil_degc"), 100.0);
+            compared += 1;
+        }
+        assert_eq!(compared, 8);
+    }
+}
+
+#[test]
+fn the_forces_on_a_shaft_balance_its_teeth() {
+    let ran = ran("cycles: [loads], export: [bearing_loads]");
+    let rows = rows(ran.file("c-bearing_loads.csv"));
+    let of = |bearing: &str, name: &str| {
+        let row = rows
+            .iter()
+            .find(|row| cell(row, "load_case") == "1" && cell(row, "bearing") == bearing);
+        value(row.unwrap(), name)
+    };
+    // The force of the mate on the pinion of the input shaft turns it back: 40 Nm at a working radius of 69 mm * 16 / 99.
+    let tangential = 40.0 / (0.069 * 16.0 / 99.0);
+    let sum = ["radial_y_n", "radial_z_n"].map(|name| of("bearings.B1", name) + of("bearings.B2", name));
+    let normal = sum[0].hypot(sum[1]);
+    let to_mate = [92.0 - 133.4, 69.0 - 124.2_f64];
+    let length = to_mate[0].hypot(to_mate[1]);
+    // The bearings push the pinion towards its mate against the separating force, and hold it against the tangential one.
+    let radial = (sum[0] * to_mate[0] + sum[1] * to_mate[1]) / length;
+    assert!(radial > 0.0, "{sum:?}");
+    assert!(
+        ((normal * normal - radial * radial).sqrt() / tangential - 1.0).abs() < 0.02,
+        "{sum:?}"
+    );
+    assert_eq!(
+        (of("bearings.B1", "inner_rpm"), of("bearings.B1", "outer_rpm")),
+        (4000.0, 0.0)
+    );
+}
+
+#[test]
+fn intervals_of_a_cycle_are_load_cases_or_sorted_into_classes() {
+    let each = ran("cycles: [drive], load_classes: 0, export: [bearing_loads]");
+    let each = rows(each.file("c-bearing_loads.csv"));
+    assert_eq!(each.len(), 6 * 8);
+    let classes = ran("cycles: [drive], load_classes: 2, export: [bearing_loads]");
+    assert!(
+        classes.text.contains("% from those of the intervals"),
+        "{}",
+        classes.text
+    );
+    let classes = rows(classes.file("c-bearing_loads.csv"));
+    assert!(classes.len() < each.len());
+    let time = |rows: &[Vec<(String, String)>]| rows.iter().map(|row| value(row, "duration_s")).sum::<f64>();
+    assert!((time(&each) - time(&classes)).abs() < 1e-9);
+    let fine = ran("cycles: [drive], load_classes: 1000, export: [bearing_loads]");
+    assert!(fine.text.contains("at most 0.00 %"), "{}", fine.text);
+}
+
+#[test]
+fn rexs_has_the_same_loads() {
+    let ran = ran("cycles: [loads, drive], export: [bearing_loads, rexs_loads]");
+    let csv = rows(ran.file("c-bearing_loads.csv"));
+    let set = cell(&csv[0], "model_set").to_owned();
+    let text = ran.file(&format!("c-{set}-bearing_loads.rexs"));
+    let document = roxmltree::Document::parse(text).unwrap();
+    let spectra: Vec<_> = document
+        .descendants()
+        .filter(|node| node.has_tag_name("load_spectrum"))
+        .collect();
+    assert_eq!(spectra.len(), 2);
+    let components = document.descendants().filter(|node| node.has_tag_name("load_case"));
+    let bearings: Vec<_> = components
+        .flat_map(|case| {
+            case.children()
+                .filter(|node| node.attribute("type") == Some("rolling_bearing_with_catalog_geometry"))
+        })
+        .collect();
+    assert_eq!(bearings.len(), csv.len());
+    for (node, row) in bearings.iter().zip(&csv) {
+        for (id, column, factor) in [
+            ("force_acting_on_inner_component_v", "radial_y_n", 1.0),
+            ("force_acting_on_inner_component_w", "radial_z_n", 1.0),
+            ("axial_force", "axial_n", 1e-3),
+            ("speed_inner_ring", "inner_rpm", 1.0),
+            ("temperature_lubricant", "oil_degc", 1.0),
+        ] {
+            let own = node.children().find(|child| child.attribute("id") == Some(id));
+            let own: Option<f64> = own.map(|own| own.text().unwrap().parse().unwrap());
+            let expected = Some(cell(row, column)).filter(|cell| !cell.is_empty());
+            let expected = expected.map(|cell| cell.parse::<f64>().unwrap() * factor);
+            let difference = own.zip(expected).map(|(a, b)| (a - b).abs() / b.abs().max(1.0));
+            assert_eq!(
+                (own.is_some(), difference.is_none_or(|x| x < 1e-9)),
+                (expected.is_some(), true),
+                "{id} {row:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn classes_without_an_export_of_loads_are_refused() {
+    let ran = ran("cycles: [drive], load_classes: 5");
+    assert!(ran.text.contains("no export has load cases"), "{}", ran.text);
+}
