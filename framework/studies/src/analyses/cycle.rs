@@ -72,7 +72,7 @@ pub struct CycleAnalysisEntry {
     /// Libraries of further platforms for `export`: files out of the folder `binaries` of FMUs that were written there. That of the own
     /// platform is always included.
     #[serde(default)]
-    #[schemars(inner(extend("x-refers-to" = "file")))]
+    #[schemars(extend("x-refers-to" = "file"))]
     pub fmu_libraries: Vec<String>,
     /// Formats to write; default: CSV, JSON and SVG.
     #[serde(default = "Write::every_format")]

@@ -43,7 +43,7 @@ pub struct MapEntry {
     /// Libraries of further platforms for `fmu2` and `fmu3`: files out of the folder `binaries` of FMUs that were written there. That of the own
     /// platform is always included.
     #[serde(default)]
-    #[schemars(inner(extend("x-refers-to" = "file")))]
+    #[schemars(extend("x-refers-to" = "file"))]
     pub fmu_libraries: Vec<String>,
     /// Maximum relative deviation of the straight lines of a `lossy_gear` table from the loss torque at a grid point; above it there is an
     /// error. [-]
