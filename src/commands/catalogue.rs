@@ -22,7 +22,7 @@ pub fn run(args: &CatalogueArgs, out: &mut Out) -> Result<End, Failure> {
     let own = args
         .file
         .as_deref()
-        .map(|file| own_catalogue(file, section, &language))
+        .map(|file| own_catalogue(file, section, language))
         .transpose()?;
     let shipped = language.catalogue(section);
     let rows: BTreeMap<&str, &CatalogueRow> = match &own {

@@ -26,7 +26,6 @@ use gearloss_framework::language::Language;
 use gearloss_report::page::Block;
 use gearloss_studies::checked_study::Reported;
 use gearloss_studies::distinct::distinct;
-use gearloss_studies::study::Severity;
 use gearloss_studies::study::{Cautions, Study};
 use gearloss_studies::tasks::TaskResults;
 
@@ -113,10 +112,10 @@ pub(crate) fn all(
         done_so_far += 1;
     }
     shown.limits(width, &runner.broken.borrow(), out)?;
-    let limited = runner.limited.borrow();
-    let never = || study.entry.limits.iter().filter(|(name, _)| !limited.contains(*name));
-    for (name, _) in never() {
-        out.line(format!("note: no analysis knows the quantity of the limit `{name}`"))?;
+    if failed == 0 && finished.is_none() {
+        for name in runner.limits_never_known(|_| true) {
+            out.line(format!("note: no analysis knows the quantity of the limit `{name}`"))?;
+        }
     }
     shown.outside(width, &runner.stated_ranges.borrow(), out)?;
     write::report(&runner, template.as_deref())?;
@@ -141,11 +140,7 @@ pub(crate) fn all(
         ))?;
         return Ok(End::Finding);
     }
-    let broken = runner.broken.borrow();
-    let errors = broken.iter().filter(|(_, limit)| limit.severity == Severity::Error);
-    let errors = errors.map(|(_, limit)| limit.limit.as_str());
-    let unknown = never().filter(|(_, entry)| entry.severity == Severity::Error);
-    let errors: Vec<&str> = distinct(errors.chain(unknown.map(|(name, _)| name)));
+    let errors = runner.limits_not_kept();
     if failed == 0 && !errors.is_empty() {
         out.line(format!(
             "error: limits with `severity: error` are not kept: {}",

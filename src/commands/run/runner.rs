@@ -14,8 +14,9 @@ use gearloss_report::text::capitalised;
 use gearloss_studies::analyses::limits::reached::LimitReached;
 use gearloss_studies::analyses::progress::{Progress, Steps};
 use gearloss_studies::analyses::{AnalysisEntry, Context, Outcome};
+use gearloss_studies::distinct::distinct;
 use gearloss_studies::run::StudyRun;
-use gearloss_studies::study::{Study, Write};
+use gearloss_studies::study::{LimitEntry, Severity, Study, Write};
 use gearloss_studies::tasks::TaskResults;
 use indicatif::{ProgressBar, ProgressStyle};
 
@@ -139,6 +140,23 @@ impl<'a> Run<'a> {
     /// The context of an analysis; the study is that of [`StudyRun::study_for_analysis`].
     pub(super) fn context<'r>(&'r self, study: &'r Study, name: &'r str) -> Context<'r> {
         Context::new(self.language, study, name, &self.bars).with_tasks(self.tasks)
+    }
+
+    /// Limits of the study whose quantity no analysis knows.
+    pub(super) fn limits_never_known(&self, wanted: impl Fn(&LimitEntry) -> bool) -> Vec<String> {
+        let limited = self.limited.borrow();
+        let entries = self.study.entry.limits.iter();
+        let never = entries.filter(|(name, entry)| !limited.contains(*name) && wanted(entry));
+        never.map(|(name, _)| name.to_owned()).collect()
+    }
+
+    /// Limits of the severity `error` that are not kept or never known.
+    pub(super) fn limits_not_kept(&self) -> Vec<String> {
+        let broken = self.broken.borrow();
+        let broken = broken.iter().filter(|(_, limit)| limit.severity == Severity::Error);
+        let broken = broken.map(|(_, limit)| limit.limit.clone());
+        let unknown = self.limits_never_known(|entry| entry.severity == Severity::Error);
+        distinct(broken.chain(unknown))
     }
 
     /// Runs an analysis and adds its section to the report.

@@ -15,7 +15,7 @@ use gearloss_framework::gearbox::Findings;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::duties::{Duties, sums_energies};
+use super::duties::{Duties, Read, sums_energies};
 use super::inputs::Input;
 use super::limits::at_points;
 use super::limits::over_cycles::{limits_of, reached};
@@ -182,22 +182,8 @@ impl Analysis for CycleAnalysisEntry {
         let driven = driven.ok_or_else(|| cx.why_ended())?;
         let mut cycles = Vec::new();
         for (b, driven) in built.iter().zip(driven.chunks(count)) {
-            let shares = Shares::new(&b.transmission, self.by).under(&names);
-            let ratings = self
-                .ratings
-                .then(|| b.gearbox.ratings(cx.language, &b.resolved, &b.transmission));
-            let ratings = ratings.transpose()?;
             note_limits(cx, b, &duties, driven)?;
-            for (read, driven) in duties.list.iter().zip(driven) {
-                let mut duty = results::duty(b, read, driven, &shares, self.reference.get(&read.name));
-                duty.consumption = duties.consumption(&b.transmission, driven);
-                if let Some(ratings) = &ratings {
-                    let rated =
-                        ratings::over_cycle(&b.transmission, ratings, &duties.ride(&b.transmission, read), driven);
-                    duty.ratings = Some(rated.map_err(|list| b.gearbox.findings(list))?);
-                }
-                cycles.push(duty);
-            }
+            cycles.extend(self.results(cx, b, &duties, driven, &names)?);
         }
         range_differences(&mut cycles, count);
         let mut networks = Vec::new();
@@ -209,13 +195,8 @@ impl Analysis for CycleAnalysisEntry {
         }
         let mut loads = Vec::new();
         if needs_loads && is_whole {
-            let classes = self.load_classes.unwrap_or(bearings::CLASSES);
             for (b, driven) in built.iter().zip(driven.chunks(count)) {
-                let t = &b.transmission;
-                for (read, driven) in duties.list.iter().zip(driven) {
-                    let own = bearings::bearing_loads(t, &b.name, (read, &duties.ride(t, read), driven), classes);
-                    loads.push(own.map_err(|list| b.gearbox.findings(list))?);
-                }
+                loads.extend(self.loads(b, &duties, driven)?);
             }
         }
         let mut all_left = Vec::new();
@@ -244,6 +225,43 @@ impl Analysis for CycleAnalysisEntry {
 }
 
 impl CycleAnalysisEntry {
+    /// The results of the cycles with one set.
+    fn results(
+        &self,
+        cx: &Context<'_>,
+        b: &Built<'_>,
+        duties: &Duties<'_>,
+        driven: &[Driven],
+        names: &[String],
+    ) -> Result<Vec<DutyOfSet>, Stopped> {
+        let t = &b.transmission;
+        let shares = Shares::new(t, self.by).under(names);
+        let ratings = self.ratings.then(|| b.gearbox.ratings(cx.language, &b.resolved, t));
+        let ratings = ratings.transpose()?;
+        let mut cycles = Vec::new();
+        for (read, driven) in duties.list.iter().zip(driven) {
+            let mut duty = results::duty(b, read, driven, &shares, self.reference.get(&read.name));
+            duty.consumption = duties.consumption(t, driven);
+            if let Some(ratings) = &ratings {
+                let rated = ratings::over_cycle(t, ratings, &duties.ride(t, read), driven);
+                duty.ratings = Some(rated.map_err(|list| b.gearbox.findings(list))?);
+            }
+            cycles.push(duty);
+        }
+        Ok(cycles)
+    }
+
+    /// The bearing loads of the cycles with one set.
+    fn loads(&self, b: &Built<'_>, duties: &Duties<'_>, driven: &[Driven]) -> Result<Vec<BearingLoads>, Stopped> {
+        let t = &b.transmission;
+        let classes = self.load_classes.unwrap_or(bearings::CLASSES);
+        let of_cycle = |(read, driven): (&Read, &Driven)| {
+            let own = bearings::bearing_loads(t, &b.name, (read, &duties.ride(t, read), driven), classes);
+            own.map_err(|list| Stopped::from(b.gearbox.findings(list)))
+        };
+        duties.list.iter().zip(driven).map(of_cycle).collect()
+    }
+
     /// Rejects reference losses of cycles that the analysis does not have.
     fn check_reference(&self, cx: &Context<'_>, path: &str, duties: &Duties<'_>) -> Result<(), Stopped> {
         let names: Vec<&str> = duties.list.iter().map(|read| read.name.as_str()).collect();
