@@ -37,7 +37,7 @@ pub fn sentence(limit: &LimitReached) -> String {
     let Some(worst) = limit.worst else {
         return format!(
             "{}: {} is unknown at all {} {what}; the limit cannot be kept",
-            limit.limit, limit.quantity, limit.unknown
+            limit.limit, limit.quantity, limit.points_unknown
         );
     };
     let side = match limit.least {
@@ -65,7 +65,7 @@ pub fn sentence(limit: &LimitReached) -> String {
 
 /// How often the quantity is unknown; nothing if it never is.
 fn unknown(limit: &LimitReached) -> String {
-    match limit.unknown {
+    match limit.points_unknown {
         0 => String::new(),
         count => format!(", unknown at {count}"),
     }

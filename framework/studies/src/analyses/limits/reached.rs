@@ -26,7 +26,7 @@ pub struct LimitReached {
     /// Number of points, or of cycles, at which the quantity is known.
     pub points: usize,
     /// Number of points with a power flow, or of cycles, at which it is unknown.
-    pub unknown: usize,
+    pub points_unknown: usize,
     /// Number of them at which the limit is not kept.
     pub beyond: usize,
     /// Value farthest beyond the limit, or closest to it; null if it is never known.
@@ -118,7 +118,7 @@ impl Reached {
             most: limit.bounds[1],
             severity: limit.severity,
             points: self.points,
-            unknown: self.unknown,
+            points_unknown: self.unknown,
             beyond: self.beyond,
             worst,
             at,
@@ -129,6 +129,6 @@ impl Reached {
 impl LimitReached {
     /// Whether it is not kept: beyond its bounds somewhere, or nowhere known.
     pub fn is_broken(&self) -> bool {
-        self.beyond > 0 || (self.points == 0 && self.unknown > 0)
+        self.beyond > 0 || (self.points == 0 && self.points_unknown > 0)
     }
 }
