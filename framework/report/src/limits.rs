@@ -87,11 +87,6 @@ pub fn in_unit(unit: &str) -> String {
     }
 }
 
-/// Whether a value is beyond a limit.
-pub fn is_beyond(limit: &LimitReached, value: f64) -> bool {
-    limit.least.is_some_and(|least| value < least) || limit.most.is_some_and(|most| value > most)
-}
-
 /// The bounds as words of a title.
 pub fn bounds(limit: &LimitReached) -> String {
     let unit = after(&limit.unit);

@@ -150,6 +150,13 @@ pub enum SealDesign {
     Shield,
 }
 
+impl SealDesign {
+    /// Whether the seals touch.
+    pub fn is_contact(self) -> bool {
+        !matches!(self, Self::NonContact | Self::Shield)
+    }
+}
+
 /// Class of the radial internal clearance (DIN 620-4, ISO 5753).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]

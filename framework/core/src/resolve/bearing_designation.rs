@@ -5,11 +5,13 @@
 
 use serde_json::{Value, json};
 
+use crate::mechanism::bearing::SealDesign;
+
 /// What a suffix means.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Meaning {
     /// Seals or shields: design and number.
-    Seals(Design, u32),
+    Seals(SealDesign, u32),
     /// Class of the radial internal clearance, as the key `clearance` has it.
     Clearance(&'static str),
     /// Cage: its material and design in words.
@@ -18,45 +20,6 @@ pub enum Meaning {
     Precision(&'static str),
     /// Anything else, in words.
     Other(&'static str),
-}
-
-/// Design of seals, as the key `seals.design` has it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Design {
-    /// Contact seals with steel insert, as RS1.
-    Rs1,
-    /// Contact seals with a recess in the inner ring, as RSH.
-    Rsh,
-    /// Contact seals of low friction, as RSL.
-    Rsl,
-    /// Contact seals of cylindrical roller bearings, as LS.
-    Ls,
-    /// Contact seals of spherical roller and toroidal roller bearings, as CS.
-    Cs,
-    /// Non-contact seals, as RZ.
-    NonContact,
-    /// Shields, as Z.
-    Shield,
-}
-
-impl Design {
-    /// Name of the key.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Rs1 => "rs1",
-            Self::Rsh => "rsh",
-            Self::Rsl => "rsl",
-            Self::Ls => "ls",
-            Self::Cs => "cs",
-            Self::NonContact => "non_contact",
-            Self::Shield => "shield",
-        }
-    }
-
-    /// Whether the seals touch.
-    pub fn is_contact(self) -> bool {
-        !matches!(self, Self::NonContact | Self::Shield)
-    }
 }
 
 /// A suffix with its meaning.
@@ -80,43 +43,43 @@ pub struct Designation<'a> {
 /// Suffixes with their meanings. At a place the longest that fits is taken.
 const SUFFIXES: &[(&str, Meaning)] = &[
     // Contact seals: SKF, FAG (RSR, HRS), NSK (DU), NTN (LU), Koyo (RS).
-    ("2RS1", Meaning::Seals(Design::Rs1, 2)),
-    ("RS1", Meaning::Seals(Design::Rs1, 1)),
-    ("2RS", Meaning::Seals(Design::Rs1, 2)),
-    ("RS", Meaning::Seals(Design::Rs1, 1)),
-    ("2RSR", Meaning::Seals(Design::Rs1, 2)),
-    ("RSR", Meaning::Seals(Design::Rs1, 1)),
-    ("2HRS", Meaning::Seals(Design::Rs1, 2)),
-    ("HRS", Meaning::Seals(Design::Rs1, 1)),
-    ("DDU", Meaning::Seals(Design::Rs1, 2)),
-    ("DU", Meaning::Seals(Design::Rs1, 1)),
-    ("LLU", Meaning::Seals(Design::Rs1, 2)),
-    ("LU", Meaning::Seals(Design::Rs1, 1)),
-    ("2RSH", Meaning::Seals(Design::Rsh, 2)),
-    ("RSH", Meaning::Seals(Design::Rsh, 1)),
-    ("2RSH2", Meaning::Seals(Design::Rsh, 2)),
-    ("RSH2", Meaning::Seals(Design::Rsh, 1)),
-    ("2RSL", Meaning::Seals(Design::Rsl, 2)),
-    ("RSL", Meaning::Seals(Design::Rsl, 1)),
-    ("2RST", Meaning::Seals(Design::Rsl, 2)),
-    ("2LS", Meaning::Seals(Design::Ls, 2)),
-    ("LS", Meaning::Seals(Design::Ls, 1)),
-    ("2CS", Meaning::Seals(Design::Cs, 2)),
-    ("2CS2", Meaning::Seals(Design::Cs, 2)),
-    ("2CS5", Meaning::Seals(Design::Cs, 2)),
+    ("2RS1", Meaning::Seals(SealDesign::Rs1, 2)),
+    ("RS1", Meaning::Seals(SealDesign::Rs1, 1)),
+    ("2RS", Meaning::Seals(SealDesign::Rs1, 2)),
+    ("RS", Meaning::Seals(SealDesign::Rs1, 1)),
+    ("2RSR", Meaning::Seals(SealDesign::Rs1, 2)),
+    ("RSR", Meaning::Seals(SealDesign::Rs1, 1)),
+    ("2HRS", Meaning::Seals(SealDesign::Rs1, 2)),
+    ("HRS", Meaning::Seals(SealDesign::Rs1, 1)),
+    ("DDU", Meaning::Seals(SealDesign::Rs1, 2)),
+    ("DU", Meaning::Seals(SealDesign::Rs1, 1)),
+    ("LLU", Meaning::Seals(SealDesign::Rs1, 2)),
+    ("LU", Meaning::Seals(SealDesign::Rs1, 1)),
+    ("2RSH", Meaning::Seals(SealDesign::Rsh, 2)),
+    ("RSH", Meaning::Seals(SealDesign::Rsh, 1)),
+    ("2RSH2", Meaning::Seals(SealDesign::Rsh, 2)),
+    ("RSH2", Meaning::Seals(SealDesign::Rsh, 1)),
+    ("2RSL", Meaning::Seals(SealDesign::Rsl, 2)),
+    ("RSL", Meaning::Seals(SealDesign::Rsl, 1)),
+    ("2RST", Meaning::Seals(SealDesign::Rsl, 2)),
+    ("2LS", Meaning::Seals(SealDesign::Ls, 2)),
+    ("LS", Meaning::Seals(SealDesign::Ls, 1)),
+    ("2CS", Meaning::Seals(SealDesign::Cs, 2)),
+    ("2CS2", Meaning::Seals(SealDesign::Cs, 2)),
+    ("2CS5", Meaning::Seals(SealDesign::Cs, 2)),
     // Non-contact seals: SKF, FAG (BRS), NSK (VV), NTN (LLB).
-    ("2RZ", Meaning::Seals(Design::NonContact, 2)),
-    ("RZ", Meaning::Seals(Design::NonContact, 1)),
-    ("2BRS", Meaning::Seals(Design::NonContact, 2)),
-    ("VV", Meaning::Seals(Design::NonContact, 2)),
-    ("LLB", Meaning::Seals(Design::NonContact, 2)),
-    ("LB", Meaning::Seals(Design::NonContact, 1)),
+    ("2RZ", Meaning::Seals(SealDesign::NonContact, 2)),
+    ("RZ", Meaning::Seals(SealDesign::NonContact, 1)),
+    ("2BRS", Meaning::Seals(SealDesign::NonContact, 2)),
+    ("VV", Meaning::Seals(SealDesign::NonContact, 2)),
+    ("LLB", Meaning::Seals(SealDesign::NonContact, 2)),
+    ("LB", Meaning::Seals(SealDesign::NonContact, 1)),
     // Shields.
-    ("2Z", Meaning::Seals(Design::Shield, 2)),
-    ("ZZ", Meaning::Seals(Design::Shield, 2)),
-    ("2ZR", Meaning::Seals(Design::Shield, 2)),
-    ("ZR", Meaning::Seals(Design::Shield, 1)),
-    ("Z", Meaning::Seals(Design::Shield, 1)),
+    ("2Z", Meaning::Seals(SealDesign::Shield, 2)),
+    ("ZZ", Meaning::Seals(SealDesign::Shield, 2)),
+    ("2ZR", Meaning::Seals(SealDesign::Shield, 2)),
+    ("ZR", Meaning::Seals(SealDesign::Shield, 1)),
+    ("Z", Meaning::Seals(SealDesign::Shield, 1)),
     // Radial internal clearance.
     ("C1", Meaning::Clearance("c1")),
     ("C2", Meaning::Clearance("c2")),
@@ -265,8 +228,8 @@ impl Suffix {
             Meaning::Seals(design, number) => {
                 let sides = if number == 2 { "both sides" } else { "one side" };
                 match design {
-                    Design::Shield => format!("shields on {sides}, without friction"),
-                    Design::NonContact => format!("non-contact seals on {sides}, without friction"),
+                    SealDesign::Shield => format!("shields on {sides}, without friction"),
+                    SealDesign::NonContact => format!("non-contact seals on {sides}, without friction"),
                     _ if number == 2 => {
                         "contact seals on both sides, with friction in the model `skf` only, filled with grease (state `lubrication: grease`)".to_owned()
                     }
@@ -309,7 +272,7 @@ impl Designation<'_> {
         for suffix in &self.suffixes {
             match suffix.meaning {
                 Meaning::Seals(design, number) => {
-                    keys.push(("seals", json!({ "design": design.name(), "number": number })));
+                    keys.push(("seals", json!({ "design": design, "number": number })));
                     if design.is_contact() {
                         // The catalogue states them for the open bearing; rubbing seals permit less.
                         invalid = &["reference_speed", "limiting_speed"];

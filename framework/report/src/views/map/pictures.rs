@@ -6,7 +6,7 @@ use gearloss_studies::points::OilTemperature;
 
 use super::panels::panels;
 use crate::figure::{Best, Hatching, jumps};
-use crate::limits::{bounds, in_unit, is_beyond};
+use crate::limits::{bounds, in_unit};
 use crate::page::Page;
 use crate::picture::Screen;
 use crate::text::extremes;
@@ -147,7 +147,7 @@ fn limit_maps(outcome: &MapOutcome, names: &AxisNames, page: &mut Page) {
                 y: torque_axis(axes, names),
                 hatched: values
                     .iter()
-                    .map(|value| value.is_some_and(|value| is_beyond(limit, value)))
+                    .map(|value| value.is_some_and(|value| limit.is_beyond(value)))
                     .collect(),
                 hatching: Hatching::Limit,
                 values: values

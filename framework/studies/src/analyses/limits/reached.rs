@@ -127,6 +127,11 @@ impl Reached {
 }
 
 impl LimitReached {
+    /// Whether a value is beyond the limit.
+    pub fn is_beyond(&self, value: f64) -> bool {
+        self.least.is_some_and(|least| value < least) || self.most.is_some_and(|most| value > most)
+    }
+
     /// Whether it is not kept: beyond its bounds somewhere, or nowhere known.
     pub fn is_broken(&self) -> bool {
         self.beyond > 0 || (self.points == 0 && self.points_unknown > 0)
