@@ -1,0 +1,257 @@
+// What the page asks and what the program answers: the JSON of `framework/workbench/src/request.rs` and `answer.rs`.
+//
+// Every request is one JSON object. Files are paths relative to the opened folder with `/`. A request carries the texts that the page
+// holds and that may differ from the disk, so the program keeps no state for a page and two tabs do not see each other's text.
+// Offsets in texts count bytes of UTF-8.
+
+import type { Picture } from "../types.ts";
+
+/** Unsaved texts by file. */
+export type Texts = Record<string, string>;
+
+export interface Place {
+  line: number; // from zero
+  utf8: number;
+  utf16: number;
+}
+
+export interface TextRange {
+  from: number; // byte
+  to: number;
+  start: Place;
+  end: Place;
+}
+
+export interface FileRange {
+  file: string;
+  range: TextRange;
+}
+
+export interface Finding {
+  severity: "error" | "warning";
+  code: string;
+  path: string;
+  message: string;
+  help: string | null;
+  notes: string[];
+  place: FileRange | null;
+  related: (FileRange & { message: string })[];
+}
+
+export interface Completion {
+  label: string;
+  kind: string;
+  detail: string;
+  documentation: string;
+  insert: string;
+  range: TextRange;
+  required: boolean;
+}
+
+/** Requests of the editor. */
+export type EditRequest =
+  | { request: "findings" | "symbols"; file: string }
+  | { request: "completion" | "hover" | "definition" | "references"; file: string; offset: number }
+  | { request: "rename"; file: string; offset: number; name: string };
+
+export type EditAnswer =
+  | { answer: "findings"; value: Finding[] }
+  | { answer: "completion"; value: Completion[] }
+  | { answer: "hover"; value: { text: string; range: TextRange } | null } // Markdown
+  | { answer: "places"; value: FileRange[] }
+  | { answer: "edits"; value: { file: string; edits: { range: TextRange; insert: string }[] }[] }
+  | { answer: "no_rename"; value: { message: string; help: string } }
+  | { answer: "symbols"; value: EditSymbol[] }
+  | { answer: "interrupted" };
+
+export interface EditSymbol {
+  name: string;
+  detail: string;
+  is_id: boolean;
+  range: TextRange;
+  key: TextRange;
+  children: EditSymbol[];
+}
+
+/** A speed or torque that a gear needs, with the range of its slider. */
+export interface Input {
+  quantity: "torque" | "speed";
+  port: string;
+  unit: string; // "Nm", "rpm"
+  from: number;
+  to: number;
+  value: number;
+}
+
+/** What a point of a gearbox is made of. */
+export interface Controls {
+  title: string;
+  gears: { name: string; inputs: Input[] }[];
+  /** Names of model sets; `""` is the models of the gearbox itself and is always the first. */
+  model_sets: string[];
+  /** How the oil temperature is found if none is given, and the one in the file for `fixed`. */
+  oil: { mode: "fixed" | "balance" | "network"; value: number | null };
+}
+
+/** A point of a gearbox. */
+export interface PointOf {
+  gearbox: string; // file
+  gear: string;
+  inputs: { quantity: "torque" | "speed"; port: string; value: number }[]; // Nm, rpm
+  /** degC; null: as the file says (fixed temperature, balance or network). */
+  oil_temperature: number | null;
+  model_set: string;
+}
+
+export interface ConvergenceStep {
+  temperature: number; // degC
+  residual: number; // W
+}
+
+/** How the temperature was found. */
+export interface Convergence {
+  /** `fixed`: no search, no steps. */
+  of: "fixed" | "balance" | "network";
+  /** A sentence on the end, such as `converged at 71.3 degC`. */
+  outcome: string;
+  /** Number of steps at the start that only scan the range for all solutions. */
+  scanned: number;
+  steps: ConvergenceStep[];
+  /** Loss and dissipated heat over temperature, for `balance`; else null. */
+  picture: Picture | null;
+}
+
+export interface PointAnswer {
+  /** The record of `gearloss solve --format json`. */
+  point: Record<string, any>;
+  /** The text of `gearloss solve`. */
+  text: string;
+  status: string;
+  loss: number | null; // W
+  efficiency: number | null; // 0..1
+  oil: number | null; // degC
+  /** Loss of each component, the largest first. */
+  losses: { path: string; mechanism: string; model: string; loss: number | null; load_dependent: number | null }[];
+  /** Loss of each part of the drawing, for colouring. [W] */
+  drawing: [path: string, loss: number][];
+  /** From the input to the output power. */
+  waterfall: Picture | null;
+  convergence: Convergence;
+  /** Notes, the worst first: outside stated ranges, missing models, evidence. */
+  remarks: string[];
+}
+
+export interface MapOf {
+  gearbox: string;
+  gear: string;
+  model_set: string;
+  oil_temperature: number | null;
+  torque: { from: number; to: number }; // Nm
+  speed: { from: number; to: number }; // rpm
+  /** Torques and speeds, each; at most 60. */
+  count: number;
+}
+
+/** Pictures and texts of one analysis, as in the report. */
+export interface Section {
+  name: string;
+  title: string;
+  about: string;
+  note: string | null;
+  failed: string | null;
+  headline: string | null;
+  key_figures: { label: string; value: string; unit: string; detail: string }[];
+  limits: string[];
+  careful: string[];
+  verdicts: string[];
+  outside: string[];
+  blocks: ({ text: string } | { table: { title: string; head: string[]; rows: string[][] } })[];
+  pictures: Picture[];
+}
+
+/** A field of a form, at a path of the description. */
+export interface Field {
+  path: string;
+  label: string;
+  kind: "text" | "integer" | "quantity" | "bearing" | "oil";
+  /** What is in the template, such as `25 mm`. */
+  value: string;
+  help: string;
+}
+
+export interface Layout {
+  name: string;
+  about: string;
+  groups: { title: string; fields: Field[] }[];
+}
+
+export interface CatalogueRow {
+  designation: string;
+  data: [key: string, value: string][];
+  confidence: string;
+  origin: string;
+}
+
+export type Request =
+  | { request: "folder" }
+  | { request: "read"; file: string }
+  | { request: "save"; file: string; text: string; hash: string | null } // hash of the file as read; null: a new file
+  | { request: "edit"; texts: Texts; edit: EditRequest }
+  | { request: "controls"; texts: Texts; gearbox: string }
+  | ({ request: "point"; texts: Texts } & PointOf)
+  | { request: "drawing"; texts: Texts; gearbox: string }
+  | ({ request: "explain"; texts: Texts; part: string } & PointOf)
+  | ({ request: "map"; texts: Texts } & MapOf)
+  | { request: "analyses"; texts: Texts; study: string }
+  | { request: "run"; texts: Texts; study: string; analyses: string[] } // none named: all, and the report
+  | { request: "new"; layout: string; values: Record<string, string> } // path to what was typed
+  | { request: "catalogue"; of: "bearings" | "oils"; text: string }
+  | { request: "watch"; files: Record<string, string> }; // file to the hash that the page knows
+
+export interface Answers {
+  folder: {
+    name: string;
+    version: string;
+    files: { file: string; kind: "gearbox" | "study" | "other" }[];
+    /** The file that the command line names. */
+    open: string | null;
+    layouts: Layout[];
+  };
+  read: { text: string; hash: string };
+  save: { saved: string } | { changed: { text: string | null; hash: string | null } }; // changed: what is on the disk instead
+  edit: EditAnswer;
+  controls: Controls;
+  point: PointAnswer;
+  /** Where each part of the drawing (`data-part`) is described. */
+  drawing: { svg: string; places: Record<string, FileRange> };
+  explain: { text: string };
+  map: Section;
+  analyses: { name: string; title: string; type: string; about: string }[];
+  new: { text: string };
+  catalogue: CatalogueRow[];
+}
+
+/** What cannot be answered: findings of `check`, or one sentence. */
+export interface Fault {
+  message: string;
+  help: string | null;
+  findings: Finding[];
+}
+
+/** An answer to every request but `run` and `watch`. */
+export type Answer<R extends keyof Answers> = { value: Answers[R] } | { fault: Fault };
+
+/** A line of the stream that answers `run`. */
+export type RunEvent =
+  | { event: "begin"; analysis: string; title: string }
+  | { event: "progress"; analysis: string; label: string; done: number; count: number }
+  | { event: "section"; section: Section }
+  | { event: "report"; address: string } // of the page of the report
+  | { event: "fault"; fault: Fault }
+  | { event: "end"; failed: number };
+
+/** A line of the stream that answers `watch`; it has at least one line in five seconds. */
+export type WatchEvent =
+  | { event: "alive" }
+  | { event: "changed"; file: string; text: string; hash: string }
+  | { event: "removed"; file: string };
