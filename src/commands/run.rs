@@ -23,7 +23,6 @@ use std::time::Instant;
 
 use gearloss_framework::files::LONGEST_TEXT;
 use gearloss_framework::language::Language;
-use gearloss_report::page::Block;
 use gearloss_studies::checked_study::Reported;
 use gearloss_studies::distinct::distinct;
 use gearloss_studies::study::{Cautions, Study};
@@ -100,10 +99,7 @@ pub(crate) fn all(
                 failed += 1;
                 write::remove(&runner, name);
                 shown.headline(width, name, "failed", start, out)?;
-                runner.in_section(|section| {
-                    section.failed = text.lines().next().map(str::to_owned);
-                    section.blocks.push(Block::Text(text));
-                });
+                runner.report.borrow_mut().fail(text);
                 if let Some(text) = unreported(&reported, failure) {
                     Out::error().text(&text)?;
                 }
@@ -117,7 +113,7 @@ pub(crate) fn all(
             out.line(format!("note: no analysis knows the quantity of the limit `{name}`"))?;
         }
     }
-    shown.outside(width, &runner.stated_ranges.borrow(), out)?;
+    shown.outside(width, runner.report.borrow().stated_ranges(), out)?;
     write::report(&runner, template.as_deref())?;
     held.finish();
     let report = runner.files.folder.join(write::REPORT);

@@ -1,5 +1,6 @@
 //! The report of a study: one HTML page that works offline, with interactive figures and their data.
 
+mod collect;
 mod gearbox;
 mod point;
 
@@ -20,6 +21,8 @@ pub use gearbox::gearbox_page;
 
 use crate::page::{Block, KeyFigure, Page};
 use crate::picture::{Picture, Screen};
+use crate::stated_ranges::StatedRanges;
+use crate::tested::Tested;
 use crate::text::{TextTable, capitalised};
 
 /// The built-in template.
@@ -45,6 +48,10 @@ pub struct Report {
     pub worst: Vec<String>,
     /// Gearboxes in their order.
     pub gearboxes: Vec<GearboxPage>,
+    /// Quantities outside their stated ranges, as the outcomes add them.
+    ranges: StatedRanges,
+    /// Measured points, and limits that may be beyond them.
+    tested: Tested,
 }
 
 /// One analysis.

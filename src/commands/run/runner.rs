@@ -7,10 +7,6 @@ use std::path::PathBuf;
 
 use gearloss_framework::language::Language;
 use gearloss_report::html::{Report, Section};
-use gearloss_report::page::Page;
-use gearloss_report::stated_ranges::StatedRanges;
-use gearloss_report::tested::Tested;
-use gearloss_report::text::capitalised;
 use gearloss_studies::analyses::limits::reached::LimitReached;
 use gearloss_studies::analyses::progress::{Progress, Steps};
 use gearloss_studies::analyses::{AnalysisEntry, Context, Outcome};
@@ -41,10 +37,6 @@ pub struct Run<'a> {
     pub(super) limited: RefCell<BTreeSet<String>>,
     /// Limits that are not kept, each with the name of its analysis.
     pub(super) broken: RefCell<Vec<(String, LimitReached)>>,
-    /// The same for the end of the run.
-    pub(super) stated_ranges: RefCell<StatedRanges>,
-    /// Measured points, and limits that may be beyond them.
-    pub(super) tested: RefCell<Tested>,
     pub(super) analyses: StudyRun<'a>,
     /// Results of tasks that other processes have computed.
     tasks: Option<&'a dyn TaskResults>,
@@ -131,8 +123,6 @@ impl<'a> Run<'a> {
             left: Cell::new(0),
             limited: RefCell::default(),
             broken: RefCell::default(),
-            stated_ranges: RefCell::default(),
-            tested: RefCell::default(),
             tasks,
         }
     }
@@ -161,13 +151,7 @@ impl<'a> Run<'a> {
 
     /// Runs an analysis and adds its section to the report.
     pub(super) fn attempt(&self, name: &str, analysis: &AnalysisEntry, out: &mut Out) -> Result<(), Failure> {
-        self.report.borrow_mut().sections.push(Section {
-            name: name.to_owned(),
-            title: analysis.title.clone().unwrap_or_else(|| title(name)),
-            about: analysis.kind().meaning(),
-            note: analysis.note.clone(),
-            ..Section::default()
-        });
+        self.report.borrow_mut().begin(name, analysis);
         let tables = Tables::new(&self.files, analysis.formats());
         let study = self.analyses.study_for_analysis();
         let runner = Runner {
@@ -195,11 +179,6 @@ impl<'a> Run<'a> {
     }
 }
 
-/// The name of an analysis as a title: `rig_fit` becomes `Rig fit`.
-fn title(name: &str) -> String {
-    capitalised(&name.replace('_', " "))
-}
-
 impl Runner<'_> {
     /// Prints an outcome, writes its files and adds it to the report.
     fn present(&self, analysis: &AnalysisEntry, outcome: &dyn Outcome, out: &mut Out) -> Result<(), Failure> {
@@ -215,9 +194,7 @@ impl Runner<'_> {
         let broken = limits.iter().filter(|limit| limit.is_broken());
         let broken = broken.map(|limit| (self.name.to_owned(), limit.clone()));
         self.run.broken.borrow_mut().extend(broken);
-        self.run.stated_ranges.borrow_mut().add_outcome(self.name, outcome);
-        self.run.tested.borrow_mut().add_outcome(self.name, outcome);
-        let mut page = Page::from_outcome(outcome);
+        let mut page = self.run.report.borrow_mut().page(self.name, outcome);
         self.run.shown.page(&page, out)?;
         let formats = analysis.formats();
         for file in outcome.files() {

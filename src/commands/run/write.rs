@@ -6,7 +6,7 @@ use std::path::Path;
 
 use gearloss_framework::files::open_regular;
 use gearloss_report::Figure;
-use gearloss_report::html::{Frame, gearbox_page};
+use gearloss_report::html::Frame;
 use gearloss_report::xlsx;
 use gearloss_studies::analyses::Outcome;
 use gearloss_studies::analyses::head::{FNV_BASIS, fnv1a_from, hexadecimal};
@@ -40,20 +40,7 @@ pub fn report(run: &Run<'_>, template: Option<&str>) -> Result<(), Failure> {
     let study = run.analyses.study_for_analysis();
     let context = run.context(&study, "report");
     let mut report = run.report.borrow_mut();
-    for (name, gearbox) in &study.gearboxes {
-        report.gearboxes.push(gearbox_page(&context, name, gearbox)?);
-    }
-    report.answers.clone_from(&run.study.entry.answered_by);
-    let ranges = run.stated_ranges.borrow();
-    (report.outside, report.worst) = (ranges.table(), ranges.worst());
-    for section in &mut report.sections {
-        section.marks = ranges.rows_of(&section.name);
-    }
-    for (name, warning) in run.tested.borrow().warnings() {
-        for section in report.sections.iter_mut().filter(|section| section.name == name) {
-            section.careful.insert(0, warning.clone());
-        }
-    }
+    report.complete(&context)?;
     let frame = Frame::new(run.study, run.language, env!("CARGO_PKG_VERSION"));
     keep(run, REPORT, Ok(report.html(&frame, template)?.into_bytes()))
 }
