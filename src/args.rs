@@ -3,7 +3,9 @@
 use std::path::PathBuf;
 
 use crate::shard::Shard;
+use clap::builder::{PossibleValue, PossibleValuesParser};
 use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
+use gearloss_workbench::form::LAYOUTS;
 
 /// Power losses, efficiency and operating temperature of transmissions.
 #[derive(Debug, Parser)]
@@ -45,6 +47,22 @@ pub enum Command {
     New(NewArgs),
     /// Serves editors on standard input and output: findings, completion, explanations, renaming (Language Server Protocol).
     Lsp(LspArgs),
+    /// Opens the workbench in the browser: a local page to edit, see and solve gearboxes and studies.
+    Open(OpenArgs),
+}
+
+/// Arguments of `open`.
+#[derive(Debug, ClapArgs)]
+pub struct OpenArgs {
+    /// File or folder; default: the current folder.
+    #[arg(value_name = "PATH", default_value = ".")]
+    pub path: PathBuf,
+    /// Does not open the browser; the printed address is for one on this computer.
+    #[arg(long)]
+    pub no_browser: bool,
+    /// Stays when the last page is closed; otherwise it ends a minute later.
+    #[arg(long)]
+    pub keep: bool,
 }
 
 /// Arguments of `lsp`.
@@ -131,26 +149,18 @@ pub enum NewWhat {
 #[command(override_usage = "gearloss new gearbox [OPTIONS] <LAYOUT>")]
 pub struct NewGearboxArgs {
     /// Layout of shafts and gears.
-    #[arg(value_enum)]
-    pub layout: Option<Layout>,
+    #[arg(value_parser = layouts())]
+    pub layout: Option<String>,
     /// File to write; an existing file is an error.
     #[arg(short, long, value_name = "FILE", default_value = "gearbox.yaml")]
     pub output: PathBuf,
 }
 
-/// Layout of shafts and gears.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Layout {
-    /// Reducer with one helical stage.
-    SingleStage,
-    /// Reducer with two helical stages on parallel shafts.
-    TwoStage,
-    /// Planetary set: sun input, fixed ring, carrier output, planets on needle cages.
-    Planetary,
-    /// Two speeds and neutral: idler gears on needle cages with a synchronizer.
-    TwoSpeed,
-    /// Two countershafts in parallel between coaxial shafts.
-    DualCountershaft,
+/// Names of layouts with what they are.
+fn layouts() -> PossibleValuesParser {
+    LAYOUTS
+        .map(|layout| PossibleValue::new(layout.name).help(layout.about))
+        .into()
 }
 
 /// Arguments of `new study`.

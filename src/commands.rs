@@ -1,5 +1,6 @@
 //! The commands, one file each.
 
+mod browser;
 pub mod catalogue;
 pub mod check;
 pub mod eval;
@@ -10,6 +11,7 @@ pub mod lsp;
 pub mod merge;
 pub mod models;
 pub mod new;
+pub mod open;
 mod point;
 pub mod run;
 pub mod schema;

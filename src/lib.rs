@@ -155,5 +155,6 @@ fn run(args: Args) -> Result<End, Failure> {
             drop(out);
             commands::lsp::run()
         }
+        Command::Open(args) => commands::open::run(&args, &mut out),
     }
 }

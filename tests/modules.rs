@@ -7,7 +7,7 @@ use std::path::Path;
 use super::common::file;
 
 /// Folders of sources, one for each crate.
-const CRATES: [&str; 10] = [
+const CRATES: [&str; 11] = [
     "framework/document/src",
     "framework/exchange/src",
     "framework/fmu/src",
@@ -16,6 +16,7 @@ const CRATES: [&str; 10] = [
     "framework/editor/src",
     "framework/studies/src",
     "framework/report/src",
+    "framework/workbench/src",
     "plugins/src",
     "src",
 ];

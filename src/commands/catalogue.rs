@@ -1,12 +1,11 @@
 //! `catalogue`: designations of bearings and oils for gearbox files.
 
-use std::collections::BTreeMap;
 use std::path::Path;
 
 use gearloss_framework::document::did_you_mean;
 use gearloss_framework::files::LONGEST_DATA;
 use gearloss_framework::language::LUBRICANTS;
-use gearloss_framework::resolve::{CatalogueRow, CatalogueTable, read_designation};
+use gearloss_framework::resolve::{CatalogueRow, CatalogueTable};
 use gearloss_studies::distinct::distinct;
 
 use super::read_file;
@@ -24,43 +23,19 @@ pub fn run(args: &CatalogueArgs, out: &mut Out) -> Result<End, Failure> {
         .as_deref()
         .map(|file| own_catalogue(file, section, language))
         .transpose()?;
-    let shipped = language.catalogue(section);
-    let rows: BTreeMap<&str, &CatalogueRow> = match &own {
-        Some(own) => by_designation(own),
-        None => shipped.map(by_designation).unwrap_or_default(),
+    let Some(all) = own.as_ref().or_else(|| language.catalogue(section)) else {
+        return Err(Failure::input("no catalogue is linked", "link a crate with catalogues"));
     };
     let text = args.text.as_deref().unwrap_or_default();
-    let wanted = text.to_lowercase();
-    let mut found: Vec<(&str, &CatalogueRow)> = rows
-        .iter()
-        .filter(|(designation, _)| designation.to_lowercase().contains(&wanted))
-        .map(|(designation, row)| (*designation, *row))
-        .collect();
-    // The row of a designation with suffixes, without what they make invalid.
-    let mut changed: Vec<CatalogueRow> = Vec::new();
-    if found.is_empty() {
-        let read = read_designation(text, rows.keys().copied()).filter(|_| section != LUBRICANTS);
-        let Some(read) = read else {
-            return Err(nothing(text, &rows));
-        };
-        out.line(format!("{text}: {}", read.words()))?;
-        let (_, invalid) = read.changes();
-        changed.extend(rows.get(read.base).map(|row| (*row).clone()));
-        for row in &mut changed {
-            row.values.retain(|(key, _)| !invalid.contains(&key.as_str()));
-        }
-        found.extend(changed.iter().map(|row| (text, row)));
+    let hits = all.search(text, section != LUBRICANTS);
+    if hits.rows.is_empty() {
+        return Err(nothing(text, all));
     }
-    out.text(&table(&found).render())?;
+    if let Some(about) = &hits.about {
+        out.line(format!("{text}: {about}"))?;
+    }
+    out.text(&table(&hits.rows).render())?;
     Ok(End::Fine)
-}
-
-fn by_designation(table: &CatalogueTable) -> BTreeMap<&str, &CatalogueRow> {
-    table
-        .0
-        .iter()
-        .map(|(designation, row)| (designation.as_str(), row))
-        .collect()
 }
 
 /// A catalogue of a user. Every row must state what a component needs, because a gearbox reads only the rows that it names.
@@ -93,8 +68,8 @@ fn own_catalogue(
 }
 
 /// No row has the text.
-fn nothing(text: &str, rows: &BTreeMap<&str, &CatalogueRow>) -> Failure {
-    let help = did_you_mean(text, rows.keys().copied()).map_or_else(
+fn nothing(text: &str, all: &CatalogueTable) -> Failure {
+    let help = did_you_mean(text, all.0.keys().map(String::as_str)).map_or_else(
         || {
             "shorten the text, or omit it to list all; other parts state their own data, or come from a CSV under `catalogues` of the gearbox"
                 .to_owned()
@@ -105,7 +80,7 @@ fn nothing(text: &str, rows: &BTreeMap<&str, &CatalogueRow>) -> Failure {
 }
 
 /// Rows with their data, confidence and origin.
-fn table(found: &[(&str, &CatalogueRow)]) -> Table {
+fn table(found: &[(String, CatalogueRow)]) -> Table {
     let keys = found.iter().flat_map(|(_, row)| &row.values);
     let keys: Vec<&str> = distinct(keys.map(|(key, _)| key.as_str()));
     let mut head = vec!["designation"];
@@ -113,7 +88,7 @@ fn table(found: &[(&str, &CatalogueRow)]) -> Table {
     head.extend(["confidence", "origin"]);
     let mut table = Table::new(&head);
     for (designation, row) in found {
-        let mut cells = vec![(*designation).to_owned()];
+        let mut cells = vec![designation.clone()];
         for key in &keys {
             let value = row.values.iter().find(|(own, _)| own == key).map(|(_, value)| value);
             cells.push(value.map_or_else(String::new, |v| v.as_str().map_or_else(|| v.to_string(), str::to_owned)));

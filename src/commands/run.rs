@@ -3,7 +3,6 @@
 mod console;
 mod folder;
 mod manifest;
-mod open;
 mod result_files;
 mod runner;
 mod shard;
@@ -28,7 +27,7 @@ use gearloss_studies::distinct::distinct;
 use gearloss_studies::study::{Cautions, Study};
 use gearloss_studies::tasks::TaskResults;
 
-use super::read_file;
+use super::{browser, read_file};
 use crate::args::{ResultArgs, RunArgs};
 use crate::interrupt;
 use crate::output::{End, Failure, Out};
@@ -120,7 +119,7 @@ pub(crate) fn all(
     shown.report(&report, out)?;
     // The results are there even if nothing can open them.
     if args.shown.open
-        && let Some(text) = open::report(&report).err().and_then(|failure| failure.text())
+        && let Some(text) = browser::open(&report).err().and_then(|failure| failure.text())
     {
         Out::error().text(&text)?;
     }

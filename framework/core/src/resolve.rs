@@ -16,7 +16,7 @@ use std::collections::BTreeMap;
 use serde_json::{Map, Value};
 
 pub use bearing_designation::{Designation, read as read_designation};
-pub use catalogue::{CatalogueRow, CatalogueTable};
+pub use catalogue::{CatalogueHits, CatalogueRow, CatalogueTable};
 pub use choice::{Choice, ModelSet, OWN_MODELS, called_own, expand_set, sets_of};
 pub use paths::{lookup, matches};
 

@@ -56,6 +56,15 @@ pub struct Related {
     pub message: String,
 }
 
+impl Finding {
+    /// Findings with their ranges.
+    pub fn placed(findings: &Findings) -> Vec<Self> {
+        let mut found = Found::default();
+        found.add(findings);
+        found.list
+    }
+}
+
 impl Workspace<'_> {
     /// The findings of `gearloss check` for a file, in its order; `None` if the caller interrupted it.
     pub fn findings(&self, path: &Path, progress: &dyn Progress) -> Option<Vec<Finding>> {

@@ -9,6 +9,7 @@
 mod complete;
 mod cursor;
 mod findings;
+pub mod folder;
 mod hover;
 mod ids;
 pub mod lsp;

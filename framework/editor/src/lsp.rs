@@ -4,7 +4,6 @@
 //! client has cancelled before their turn are not computed.
 
 mod checker;
-mod folder;
 mod frame;
 mod show;
 mod uri;
@@ -22,6 +21,7 @@ use serde_json::{Value, json};
 
 use self::checker::Checker;
 use self::frame::{Frame, read_frame, write_frame};
+use crate::folder;
 use crate::text::{Encoding, Lines};
 use crate::workspace::Workspace;
 

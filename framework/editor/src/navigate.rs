@@ -49,6 +49,18 @@ struct Symbol {
 }
 
 impl Workspace<'_> {
+    /// Where a gearbox, or a file that it extends, describes a component: its key.
+    pub fn place_of(&self, gearbox: impl AsRef<Path>, component: &str) -> Option<FileRange> {
+        self.chain(gearbox.as_ref()).into_iter().find_map(|document| {
+            let (section, id) = component.rsplit_once('.')?;
+            let entries = self::section(&document.outline, section)?.entries();
+            let entry = entries.iter().find(|entry| entry.key == id)?;
+            Some(FileRange {
+                file: document.path.display().to_string(),
+                range: document.lines.range(&document.text, &entry.span),
+            })
+        })
+    }
     /// The name at a byte.
     fn name_at(&self, document: &Document, offset: usize) -> Option<Occurrence> {
         let all = self.occurrences(document).into_iter();

@@ -18,6 +18,7 @@ use serde::Serialize;
 use serde_json::Value;
 
 pub use gearbox::gearbox_page;
+pub use point::{losses_of_parts, place as point_of_report, waterfall};
 
 use crate::page::{Block, KeyFigure, Page};
 use crate::picture::{Picture, Screen};

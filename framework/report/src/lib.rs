@@ -25,7 +25,7 @@ mod deviations;
 pub mod figure;
 pub mod picture;
 pub mod plot;
-mod schematic;
+pub mod schematic;
 
 // Tables as files, also for other programs.
 pub mod csv;

@@ -27,7 +27,7 @@ pub use ratings::{rating_lines, ratings_text};
 
 use crate::page::outside;
 use crate::text::{TextTable, fixed, number, significant};
-use crate::views::balance::balance_text;
+pub use crate::views::balance::{balance_text, over_temperature};
 
 /// Lines on what has no model, on changed coefficients, and on the lowest evidence grade.
 pub fn remarks(resolved: &Resolved, changed: &[impl Display], evidence: &[WeakPoint]) -> Vec<String> {

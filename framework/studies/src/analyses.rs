@@ -211,6 +211,11 @@ impl AnalysisKind {
         paragraph.replace('\n', " ")
     }
 
+    /// Value of the key `type`.
+    pub fn type_name(&self) -> &'static str {
+        self.name
+    }
+
     /// The schema of its outcome.
     pub fn outcome_schema(&self, generator: &mut SchemaGenerator) -> Schema {
         (self.outcome)(generator)

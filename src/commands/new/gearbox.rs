@@ -2,54 +2,19 @@
 
 use std::path::Path;
 
-use clap::ValueEnum;
 use gearloss_framework::language::Kind;
+use gearloss_workbench::form::{LAYOUTS, Layout};
 
 use super::{print_next, word, write, write_schema};
-use crate::args::{Layout, NewGearboxArgs};
+use crate::args::NewGearboxArgs;
 use crate::output::{End, Failure, Out};
 
-/// A template with a typical operating point.
-struct Start {
-    text: &'static str,
-    point: &'static str,
-}
-
-impl Start {
-    fn for_layout(layout: Layout) -> Self {
-        let (text, point) = match layout {
-            Layout::SingleStage => (
-                include_str!("layouts/single-stage.yaml"),
-                "--torque \"90 Nm\" --speed \"1500 rpm\"",
-            ),
-            Layout::TwoStage => (
-                include_str!("layouts/two-stage.yaml"),
-                "--torque \"45 Nm\" --speed \"1500 rpm\"",
-            ),
-            Layout::Planetary => (
-                include_str!("layouts/planetary.yaml"),
-                "--gear reducing --torque \"60 Nm\" --speed \"3000 rpm\"",
-            ),
-            Layout::TwoSpeed => (
-                include_str!("layouts/two-speed.yaml"),
-                "--gear first --torque \"80 Nm\" --speed \"3000 rpm\"",
-            ),
-            Layout::DualCountershaft => (
-                include_str!("layouts/dual-countershaft.yaml"),
-                "--torque \"400 Nm\" --speed \"1500 rpm\"",
-            ),
-        };
-        Self { text, point }
-    }
-}
-
 pub fn run(args: &NewGearboxArgs, out: &mut Out) -> Result<End, Failure> {
-    let Some(layout) = args.layout else {
+    let Some(layout) = args.layout.as_deref().and_then(Layout::named) else {
         return Err(unnamed());
     };
-    let start = Start::for_layout(layout);
     let file = args.output.as_path();
-    write(file, start.text, out)?;
+    write(file, layout.text, out)?;
     write_schema(
         file,
         super::super::language()?,
@@ -61,7 +26,7 @@ pub fn run(args: &NewGearboxArgs, out: &mut Out) -> Result<End, Failure> {
     print_next(
         &[
             format!("check {name}"),
-            format!("solve {name} {}", start.point),
+            format!("solve {name} {}", layout.point),
             study_of(file),
         ],
         out,
@@ -84,9 +49,8 @@ fn study_of(file: &Path) -> String {
 
 fn unnamed() -> Failure {
     let mut help = "choose one: gearloss new gearbox LAYOUT, with".to_owned();
-    for layout in Layout::value_variants().iter().filter_map(ValueEnum::to_possible_value) {
-        let about = layout.get_help().map(ToString::to_string).unwrap_or_default();
-        help += &format!("\n      {:<19}{about}", layout.get_name());
+    for layout in LAYOUTS {
+        help += &format!("\n      {:<19}{}", layout.name, layout.about);
     }
     Failure::input("no layout is given", help)
 }

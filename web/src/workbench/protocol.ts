@@ -105,15 +105,17 @@ export interface PointOf {
 
 export interface ConvergenceStep {
   temperature: number; // degC
-  residual: number; // W
+  residual: number; // in `unit` of the convergence
 }
 
 /** How the temperature was found. */
 export interface Convergence {
   /** `fixed`: no search, no steps. */
   of: "fixed" | "balance" | "network";
-  /** A sentence on the end, such as `converged at 71.3 degC`. */
+  /** The end of the search, in one or several lines. */
   outcome: string;
+  /** Of the residual: W, or for a network K, the largest difference of a node from the temperature that its heat brings about. */
+  unit: "W" | "K";
   /** Number of steps at the start that only scan the range for all solutions. */
   scanned: number;
   steps: ConvergenceStep[];
@@ -165,7 +167,8 @@ export interface Section {
   careful: string[];
   verdicts: string[];
   outside: string[];
-  blocks: ({ text: string } | { table: { title: string; head: string[]; rows: string[][] } })[];
+  /** The first row of a table is its head. */
+  blocks: ({ text: string } | { table: { title: string; rows: string[][] } })[];
   pictures: Picture[];
 }
 

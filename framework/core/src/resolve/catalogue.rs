@@ -30,7 +30,42 @@ pub struct CatalogueRow {
 #[derive(Debug, Clone, Default)]
 pub struct CatalogueTable(pub BTreeMap<String, CatalogueRow>);
 
+/// Rows whose designations contain a text.
+#[derive(Debug, Clone, Default)]
+pub struct CatalogueHits {
+    /// Rows by designation.
+    pub rows: Vec<(String, CatalogueRow)>,
+    /// What the suffixes of the text mean, if it is a designation with suffixes of a row.
+    pub about: Option<String>,
+}
+
 impl CatalogueTable {
+    /// The rows whose designations contain a text. If there is none and suffixes are read, the row of the designation without its
+    /// suffixes, without what they make invalid.
+    pub fn search(&self, text: &str, with_suffixes: bool) -> CatalogueHits {
+        let wanted = text.to_lowercase();
+        let rows = self.0.iter();
+        let rows = rows.filter(|(designation, _)| designation.to_lowercase().contains(&wanted));
+        let mut hits = CatalogueHits {
+            rows: rows
+                .map(|(designation, row)| (designation.clone(), row.clone()))
+                .collect(),
+            about: None,
+        };
+        if hits.rows.is_empty()
+            && with_suffixes
+            && let Some(read) = bearing_designation::read(text, self.0.keys().map(String::as_str))
+            && let Some(row) = self.0.get(read.base)
+        {
+            let (_, invalid) = read.changes();
+            let mut row = row.clone();
+            row.values.retain(|(key, _)| !invalid.contains(&key.as_str()));
+            hits.rows.push((text.to_owned(), row));
+            hits.about = Some(read.words());
+        }
+        hits
+    }
+
     /// Adds the rows of another; existing rows take precedence.
     pub fn extend(&mut self, other: Self) {
         for (designation, row) in other.0 {

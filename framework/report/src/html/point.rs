@@ -17,7 +17,7 @@ use crate::picture::{Picture, Screen, Waterfall};
 use crate::text::{fixed, number};
 
 /// The point of the report: from the study, or the largest torque and speed of its first grid.
-fn place(runner: &Context<'_>, t: &Transmission) -> Option<(String, Given)> {
+pub fn place(runner: &Context<'_>, t: &Transmission) -> Option<(String, Given)> {
     let entry = &runner.study.entry;
     let given = |torque, speed| Given {
         torque,
@@ -99,7 +99,7 @@ pub fn page(runner: &Context<'_>, sets: &[Built<'_>], assumed: &[AssumedEntry]) 
         }
         if solution.has_flow() {
             rests.push(rest_on(b, &solution, assumed));
-            pictures.extend(waterfall(b, &solution));
+            pictures.extend(waterfall(&b.name, &solution));
         }
     }
     tables.push(table(
@@ -126,7 +126,7 @@ pub fn page(runner: &Context<'_>, sets: &[Built<'_>], assumed: &[AssumedEntry]) 
 }
 
 /// Losses by the parts of the drawing: those of a mesh and its drags belong to both of its gears in equal parts.
-fn losses_of_parts(t: &Transmission, solution: &Solution<'_>) -> Vec<(String, f64)> {
+pub fn losses_of_parts(t: &Transmission, solution: &Solution<'_>) -> Vec<(String, f64)> {
     let mut list: Vec<(String, f64)> = Vec::new();
     let mut add = |path: &str, watts: f64| match list.iter_mut().find(|(own, _)| own == path) {
         Some((_, sum)) => *sum += watts,
@@ -149,15 +149,15 @@ fn losses_of_parts(t: &Transmission, solution: &Solution<'_>) -> Vec<(String, f6
     list
 }
 
-/// The losses of all components between the input and the output.
-fn waterfall(b: &Built<'_>, solution: &Solution<'_>) -> Option<Picture> {
+/// The losses of all components between the input and the output, with the name of the model set.
+pub fn waterfall(set: &str, solution: &Solution<'_>) -> Option<Picture> {
     let ends = [("input", solution.input_power()?), ("output", solution.output_power()?)];
     let losses = solution.parts().filter_map(|(part, loss)| {
         let watts = loss.watts();
         (watts.is_finite() && watts > 0.0).then(|| (part.path.clone(), part.mechanism.to_owned(), watts))
     });
     Some(Picture::Screen(Screen::Waterfall(Waterfall {
-        title: format!("From the input to the output, {}", b.name),
+        title: format!("From the input to the output, {set}"),
         unit: "W".to_owned(),
         ends: ends.map(|(name, power)| (name.to_owned(), power)),
         losses: losses.collect(),

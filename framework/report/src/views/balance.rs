@@ -97,24 +97,9 @@ pub fn balance_text(balance: &BalanceOfPoint, above: bool) -> String {
 }
 /// Losses and heat over temperature; temperature and residual over the steps after the scan.
 fn figures(name: &str, balance: &BalanceOfPoint, page: &mut Page) {
-    let history = &balance.history;
-    let figure = |title: String, x: &str, y: &str, lines: Vec<Line>| Figure::Lines {
-        title,
-        x: x.to_owned(),
-        y: y.to_owned(),
-        lines,
-    };
-    let mut sorted: Vec<&BalanceStep> = history.iter().collect();
-    sorted.sort_by(|a, b| a.oil_temperature_degc.total_cmp(&b.oil_temperature_degc));
-    let line = |name: &str, y: fn(&BalanceStep) -> f64| Line {
-        name: name.to_owned(),
-        points: sorted.iter().map(|s| Some((s.oil_temperature_degc, y(s)))).collect(),
-        stroke: Stroke::Marked,
-    };
-    let curves = [line("loss", |s| s.loss_w), line("heat", |s| s.heat_w)];
     let title = format!("{name}: losses and transferred heat");
-    page.figure(name, figure(title, "oil temperature in degC", "W", curves.to_vec()));
-    let steps = &history[balance.scan..];
+    page.figure(name, over_temperature(&title, balance));
+    let steps = &balance.history[balance.scan..];
     let line = |name: &str, y: &dyn Fn(&BalanceStep) -> Option<f64>| Line {
         name: name.to_owned(),
         points: steps
@@ -138,4 +123,26 @@ fn figures(name: &str, balance: &BalanceOfPoint, page: &mut Page) {
     let title = format!("{name}: residual over the steps after the scan");
     let figure = figure(title, "step", "log10 of residual / loss", residual.to_vec());
     page.figure(format!("{name}-residual"), figure);
+}
+
+/// Losses and transferred heat over the oil temperature.
+pub fn over_temperature(title: &str, balance: &BalanceOfPoint) -> Figure {
+    let mut sorted: Vec<&BalanceStep> = balance.history.iter().collect();
+    sorted.sort_by(|a, b| a.oil_temperature_degc.total_cmp(&b.oil_temperature_degc));
+    let line = |name: &str, y: fn(&BalanceStep) -> f64| Line {
+        name: name.to_owned(),
+        points: sorted.iter().map(|s| Some((s.oil_temperature_degc, y(s)))).collect(),
+        stroke: Stroke::Marked,
+    };
+    let curves = vec![line("loss", |s| s.loss_w), line("heat", |s| s.heat_w)];
+    figure(title.to_owned(), "oil temperature in degC", "W", curves)
+}
+
+fn figure(title: String, x: &str, y: &str, lines: Vec<Line>) -> Figure {
+    Figure::Lines {
+        title,
+        x: x.to_owned(),
+        y: y.to_owned(),
+        lines,
+    }
 }

@@ -47,8 +47,19 @@ pub struct Steady {
     pub residual: f64,
     /// Number of loss evaluations.
     pub evaluations: usize,
+    /// Every iteration, in order.
+    pub history: Vec<NetworkStep>,
     /// Why there is no steady state.
     pub undefined: Option<Unbalanced>,
+}
+
+/// One iteration of the search for a steady state.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NetworkStep {
+    /// Oil temperature of the housing at which the losses were evaluated. \[degC\]
+    pub oil: f64,
+    /// Largest difference of a node from the temperature that its heat there would bring about. \[K\]
+    pub change: f64,
 }
 
 impl Transmission {
@@ -143,6 +154,7 @@ impl<'m> Seeking<'m> {
                 motors: Vec::new(),
                 residual: 0.0,
                 evaluations: 0,
+                history: Vec::new(),
                 undefined: None,
             },
         }
@@ -174,6 +186,10 @@ impl<'m> Seeking<'m> {
         };
         let guess = &steady.temperatures;
         let change = farthest(&after, guess);
+        steady.history.push(NetworkStep {
+            oil: guess[network.oil()],
+            change,
+        });
         let settled = change <= SETTLED && self.search.least <= self.moment.point.tolerance.power;
         // Evaluated at the maximum temperature, a node would be warmer still: there is no steady state in the range.
         let beyond = |(guess, after): (&f64, &f64)| *guess >= ASKED[1] && *after > ASKED[1];

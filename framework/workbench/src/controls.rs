@@ -1,0 +1,164 @@
+//! What a point of a gearbox is made of: gears with their torques and speeds, model sets, oil temperature.
+
+use std::path::Path;
+
+use gearloss_framework::description::ThermalMode;
+use gearloss_framework::files::SharedSource;
+use gearloss_framework::language::Language;
+use gearloss_framework::transmission::Transmission;
+use gearloss_report::html::point_of_report;
+use gearloss_studies::analyses::Context;
+use gearloss_studies::analyses::numbers::RPM;
+use gearloss_studies::analyses::progress::Silent;
+use gearloss_studies::study::Study;
+use serde::Serialize;
+use serde_json::Value;
+
+use crate::answer::Fault;
+use crate::chosen::Chosen;
+use crate::request::Quantity;
+
+/// Torque and speed up to which the sliders reach if nothing states any. \[Nm, rpm\]
+const USUAL: [f64; 2] = [100.0, 3000.0];
+
+/// What a point of a gearbox is made of.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Controls {
+    /// Title of the gearbox.
+    pub title: String,
+    /// Gear states.
+    pub gears: Vec<GearControls>,
+    /// Model sets; the first, empty one stands for the models of the gearbox itself.
+    pub model_sets: Vec<String>,
+    /// Origin of the oil temperature.
+    pub oil: OilControls,
+}
+
+/// A gear state with what has to be given.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct GearControls {
+    /// Name.
+    pub name: String,
+    /// Torques and speeds.
+    pub inputs: Vec<InputControls>,
+}
+
+/// A torque or speed with the range of its slider.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct InputControls {
+    /// Quantity.
+    pub quantity: Quantity,
+    /// Port.
+    pub port: String,
+    /// Unit of the numbers.
+    pub unit: &'static str,
+    /// Lower end.
+    pub from: f64,
+    /// Upper end.
+    pub to: f64,
+    /// First value.
+    pub value: f64,
+}
+
+/// Origin of the oil temperature.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct OilControls {
+    /// `fixed`, `balance` or `network`.
+    pub mode: ThermalMode,
+    /// Temperature of `fixed`. [degC]
+    pub value: Option<f64>,
+}
+
+/// The controls of a gearbox. `studies` lists files that may state where it is used.
+pub fn controls(
+    language: &Language,
+    files: &SharedSource,
+    gearbox: &str,
+    studies: &dyn Fn() -> Vec<String>,
+) -> Result<Controls, Fault> {
+    let chosen = Chosen::read(language, files, gearbox, "")?;
+    let transmission = &chosen.transmission;
+    let ends = transmission.rating.as_ref().map(|rating| [rating.torque, rating.speed]);
+    let ends = ends.or_else(|| {
+        let mut studies = studies().into_iter();
+        studies.find_map(|study| in_study(language, files, &study, gearbox, transmission))
+    });
+    let mode = thermal_mode(&chosen.resolved.value);
+    Ok(Controls {
+        title: transmission.title().to_owned(),
+        gears: gears(transmission, ends.unwrap_or(USUAL)),
+        model_sets: model_sets(language, &chosen.gearbox.value),
+        oil: OilControls {
+            value: Some(transmission.oil_temperature).filter(|_| mode == ThermalMode::Fixed),
+            mode,
+        },
+    })
+}
+
+fn thermal_mode(resolved: &Value) -> ThermalMode {
+    serde_json::from_value(resolved["thermal"]["mode"].clone()).unwrap_or(ThermalMode::Fixed)
+}
+
+/// Half of the range at the ports that `solve` assumes.
+fn gears(transmission: &Transmission, [torque, speed]: [f64; 2]) -> Vec<GearControls> {
+    let ports = transmission.ports();
+    let input = |quantity, port: usize, unit, to: f64| InputControls {
+        quantity,
+        port: ports[port].name.clone(),
+        unit,
+        from: 0.0,
+        to,
+        value: 0.5 * to,
+    };
+    let states = transmission.states().iter().enumerate();
+    let states = states.map(|(number, state)| {
+        // The port of reference first, as in `solve`.
+        let reference = transmission.reference_port();
+        let others = (0..ports.len()).filter(|port| *port != reference);
+        let at_torques = [reference]
+            .into_iter()
+            .chain(others)
+            .take(transmission.torques_needed(number));
+        let torques = at_torques.map(|port| input(Quantity::Torque, port, "Nm", torque));
+        let speeds = state
+            .speed_ports
+            .iter()
+            .map(|port| input(Quantity::Speed, *port, "rpm", speed));
+        GearControls {
+            name: state.name.clone(),
+            inputs: torques.chain(speeds).collect(),
+        }
+    });
+    states.collect()
+}
+
+/// Model sets of a gearbox and those that are shipped.
+fn model_sets(language: &Language, gearbox: &Value) -> Vec<String> {
+    let own = gearbox["model_sets"].as_object();
+    let own = own.into_iter().flatten().map(|(name, _)| name.clone());
+    let mut names = vec![String::new()];
+    for name in own.chain(language.shipped_sets().keys().cloned()) {
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    names
+}
+
+/// The greatest torque and speed at which a study uses a gearbox. \[Nm, rpm\]
+fn in_study(
+    language: &Language,
+    files: &SharedSource,
+    study: &str,
+    gearbox: &str,
+    transmission: &Transmission,
+) -> Option<[f64; 2]> {
+    let read = Study::read_from(language, files, Path::new(study)).ok()?;
+    let name = Path::new(gearbox).file_name()?;
+    let uses = |file: &str| Path::new(file).file_name() == Some(name);
+    read.entry.gearboxes.iter().find(|(_, file)| uses(file))?;
+    let cx = Context::new(language, &read, "workbench", &Silent);
+    let (_, given) = point_of_report(&cx, transmission)?;
+    let ends = [given.torque.abs(), given.speed.abs() * RPM];
+    ends.iter().all(|end| *end > 0.0).then_some(ends)
+}

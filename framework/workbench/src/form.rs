@@ -1,0 +1,37 @@
+//! Forms of new gearboxes. A form writes the template of a layout with the values that were typed: after that the text is what counts.
+
+mod fields;
+mod layouts;
+mod written;
+
+pub use fields::{Field, FieldKind, Group};
+pub use layouts::{LAYOUTS, Layout};
+pub use written::written;
+
+use serde::Serialize;
+
+/// A layout with its form.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Form {
+    /// Name of the layout.
+    pub name: &'static str,
+    /// What it is.
+    pub about: &'static str,
+    /// Fields in their order.
+    pub groups: Vec<Group>,
+}
+
+/// The forms of all layouts.
+pub fn forms() -> Vec<Form> {
+    let forms = LAYOUTS.iter().map(|layout| Form {
+        name: layout.name,
+        about: layout.about,
+        groups: fields::groups(layout),
+    });
+    forms.collect()
+}
+
+/// The name of the field of a centre distance.
+fn distance(mesh: &str) -> String {
+    format!("meshes.{mesh}.centre_distance")
+}

@@ -1,0 +1,208 @@
+//! The fields of a form, from the template of its layout.
+
+use gearloss_editor::outline::{self, Content, Node};
+use serde::Serialize;
+
+use super::distance;
+use super::layouts::Layout;
+
+/// Fields under one heading.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Group {
+    /// Heading.
+    pub title: String,
+    /// Fields.
+    pub fields: Vec<Field>,
+}
+
+/// A value to be typed.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Field {
+    /// Path in the description.
+    pub path: String,
+    /// What it is.
+    pub label: String,
+    /// How it is typed.
+    pub kind: FieldKind,
+    /// Value of the template.
+    pub value: String,
+    /// What it means.
+    pub help: String,
+}
+
+/// How a value is typed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum FieldKind {
+    /// Any text.
+    Text,
+    /// A whole number.
+    Integer,
+    /// A number with a unit.
+    Quantity,
+    /// Designation of a bearing.
+    Bearing,
+    /// Designation of an oil.
+    Oil,
+}
+
+/// The value at a path of a document.
+pub(super) fn at<'n>(document: &'n Node, path: &str) -> Option<&'n Node> {
+    path.split('.').try_fold(document, |node, key| node.get(key))
+}
+
+/// The groups of the form of a layout.
+pub(super) fn groups(layout: &Layout) -> Vec<Group> {
+    let document = outline::read(layout.text, None);
+    let form = Reader {
+        layout,
+        document: &document,
+    };
+    let mut groups = vec![form.group(
+        "Gearbox",
+        vec![
+            form.field("title", "Title", FieldKind::Text, ""),
+            form.field("rating.torque", "Maximum torque", FieldKind::Quantity, "at the input"),
+            form.field("rating.speed", "Maximum speed", FieldKind::Quantity, "at the input"),
+        ],
+    )];
+    groups.extend(form.meshes());
+    groups.push(form.bearings());
+    groups.push(form.group(
+        "Oil",
+        vec![
+            form.field("lubricants.sump.designation", "Oil", FieldKind::Oil, "of the catalogue"),
+            form.field("housing.oil.volume", "Volume", FieldKind::Quantity, ""),
+            form.field(
+                "housing.oil.level",
+                "Level at standstill",
+                FieldKind::Quantity,
+                "above the axis that the text names; below it if negative",
+            ),
+            form.field("thermal.oil", "Oil temperature", FieldKind::Quantity, ""),
+            form.field("surface.ra", "Roughness Ra of the flanks", FieldKind::Quantity, ""),
+        ],
+    ));
+    groups.push(form.places());
+    groups.retain(|group| !group.fields.is_empty());
+    groups
+}
+
+struct Reader<'a> {
+    layout: &'a Layout,
+    document: &'a Node,
+}
+
+impl Reader<'_> {
+    #[allow(clippy::unused_self)]
+    fn group(&self, title: &str, fields: Vec<Option<Field>>) -> Group {
+        Group {
+            title: title.to_owned(),
+            fields: fields.into_iter().flatten().collect(),
+        }
+    }
+
+    /// A field, if the template has its value.
+    fn field(&self, path: &str, label: &str, kind: FieldKind, help: &str) -> Option<Field> {
+        let value = at(self.document, path)?.text()?;
+        Some(Field {
+            path: path.to_owned(),
+            label: label.to_owned(),
+            kind,
+            value: value.to_owned(),
+            help: help.to_owned(),
+        })
+    }
+
+    /// Ids of a section without the second of twins.
+    fn ids(&self, section: &str) -> Vec<&str> {
+        let entries = at(self.document, section).map(Node::entries).unwrap_or_default();
+        let ids = entries.iter().map(|entry| entry.key.as_str());
+        let is_second = |id: &str| self.layout.twins.is_some_and(|[_, second]| id.contains(second));
+        // Bearings of twins are named by their first letter.
+        let is_bearing_of_second = |id: &str| {
+            let shaft = at(self.document, &format!("{section}.{id}.shaft")).and_then(Node::text);
+            shaft.is_some_and(is_second)
+        };
+        ids.filter(|id| !is_second(id) && !is_bearing_of_second(id)).collect()
+    }
+
+    fn meshes(&self) -> Vec<Group> {
+        let mut shown: Vec<String> = Vec::new();
+        let mut groups = Vec::new();
+        for mesh in self.ids("meshes") {
+            let gears = match at(self.document, &format!("meshes.{mesh}.gears")).map(|node| &node.content) {
+                Some(Content::List(gears)) => gears.iter().filter_map(Node::text).collect::<Vec<_>>(),
+                _ => Vec::new(),
+            };
+            let mut fields = Vec::new();
+            let new: Vec<&str> = gears
+                .iter()
+                .copied()
+                .filter(|gear| !shown.iter().any(|own| own == gear))
+                .collect();
+            for (key, label, kind) in [
+                ("z", "Teeth", FieldKind::Integer),
+                ("facewidth", "Face width", FieldKind::Quantity),
+                ("profile_shift", "Profile shift", FieldKind::Text),
+                ("tip_diameter", "Tip diameter", FieldKind::Quantity),
+            ] {
+                for gear in &new {
+                    let help = if key == "profile_shift" {
+                        "that of the mating gear follows from the centre distance"
+                    } else {
+                        ""
+                    };
+                    fields.push(self.field(
+                        &format!("gears.{gear}.{key}"),
+                        &format!("{label} of {gear}"),
+                        kind,
+                        help,
+                    ));
+                }
+            }
+            shown.extend(new.iter().map(ToString::to_string));
+            let of_mesh = |key: &str, label: &str, help: &str| {
+                self.field(&format!("meshes.{mesh}.{key}"), label, FieldKind::Quantity, help)
+            };
+            fields.push(of_mesh("normal_module", "Normal module", ""));
+            fields.push(of_mesh("pressure_angle", "Pressure angle", ""));
+            fields.push(of_mesh("helix_angle", "Helix angle", ""));
+            let known = self.layout.distances.iter().find(|known| known.mesh == mesh);
+            fields.push(known.map(|known| Field {
+                path: distance(mesh),
+                label: "Centre distance".to_owned(),
+                kind: FieldKind::Quantity,
+                value: format!("{} mm", known.value),
+                help: "determines the places of the axes".to_owned(),
+            }));
+            groups.push(self.group(&format!("Mesh {mesh}: {}", gears.join(" and ")), fields));
+        }
+        groups
+    }
+
+    fn bearings(&self) -> Group {
+        let fields = self.ids("bearings").into_iter().map(|id| {
+            let shaft = at(self.document, &format!("bearings.{id}.shaft")).and_then(Node::text);
+            let help = shaft.map_or_else(String::new, |shaft| format!("on shaft {shaft}"));
+            let path = format!("bearings.{id}.designation");
+            self.field(&path, &format!("Bearing {id}"), FieldKind::Bearing, &help)
+        });
+        let seals = self.ids("seals").into_iter().map(|id| {
+            let path = format!("seals.{id}.diameter");
+            self.field(&path, &format!("Diameter of seal {id}"), FieldKind::Quantity, "")
+        });
+        self.group("Bearings and seals", fields.chain(seals).collect())
+    }
+
+    fn places(&self) -> Group {
+        let mut fields = Vec::new();
+        for (section, what) in [("gears", "gear"), ("bearings", "bearing")] {
+            for id in self.ids(section) {
+                let path = format!("{section}.{id}.at");
+                fields.push(self.field(&path, &format!("Position of {what} {id}"), FieldKind::Quantity, ""));
+            }
+        }
+        self.group("Positions along the shafts (middle of the face)", fields)
+    }
+}

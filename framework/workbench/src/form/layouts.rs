@@ -1,0 +1,114 @@
+//! The common layouts of gearboxes: commented templates with what their forms need to know.
+
+/// A layout of shafts and gears.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Layout {
+    /// Name.
+    pub name: &'static str,
+    /// What it is.
+    pub about: &'static str,
+    /// The commented gearbox.
+    pub text: &'static str,
+    /// Options of `gearloss solve` for a typical point.
+    pub point: &'static str,
+    /// A word in names of components, and the one in the names of those with the same data.
+    pub(super) twins: Option<[&'static str; 2]>,
+    /// Centre distances.
+    pub(super) distances: &'static [Distance],
+}
+
+/// A centre distance, which determines the places of axes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Distance {
+    /// The mesh in whose group it is shown.
+    pub mesh: &'static str,
+    /// What it is in the template. \[mm\]
+    pub value: f64,
+    /// Where it is written: a path, for an axis with the number of the coordinate, and how many of it are added there.
+    pub cells: &'static [(&'static str, Option<usize>, f64)],
+}
+
+/// All layouts.
+pub const LAYOUTS: [Layout; 5] = [
+    Layout {
+        name: "single-stage",
+        about: "Reducer with one helical stage",
+        text: include_str!("layouts/single-stage.yaml"),
+        point: "--torque \"90 Nm\" --speed \"1500 rpm\"",
+        twins: None,
+        distances: &[Distance {
+            mesh: "stage",
+            value: 98.0,
+            cells: &[("shafts.pinion_shaft.axis", Some(0), 1.0)],
+        }],
+    },
+    Layout {
+        name: "two-stage",
+        about: "Reducer with two helical stages on parallel shafts",
+        text: include_str!("layouts/two-stage.yaml"),
+        point: "--torque \"45 Nm\" --speed \"1500 rpm\"",
+        twins: None,
+        distances: &[
+            Distance {
+                mesh: "first",
+                value: 91.0,
+                cells: &[("shafts.input.axis", Some(0), 1.0)],
+            },
+            Distance {
+                mesh: "second",
+                value: 118.0,
+                cells: &[
+                    ("shafts.input.axis", Some(0), 1.0),
+                    ("shafts.intermediate.axis", Some(0), 1.0),
+                ],
+            },
+        ],
+    },
+    Layout {
+        name: "planetary",
+        about: "Planetary set: sun input, fixed ring, carrier output, planets on needle cages",
+        text: include_str!("layouts/planetary.yaml"),
+        point: "--gear reducing --torque \"60 Nm\" --speed \"3000 rpm\"",
+        twins: None,
+        distances: &[Distance {
+            mesh: "sun_planet",
+            value: 40.5,
+            cells: &[
+                ("meshes.sun_planet.centre_distance", None, 1.0),
+                ("meshes.planet_ring.centre_distance", None, 1.0),
+            ],
+        }],
+    },
+    Layout {
+        name: "two-speed",
+        about: "Two speeds and neutral: idler gears on needle cages with a synchronizer",
+        text: include_str!("layouts/two-speed.yaml"),
+        point: "--gear first --torque \"80 Nm\" --speed \"3000 rpm\"",
+        twins: None,
+        distances: &[Distance {
+            mesh: "M1",
+            value: 100.0,
+            // The input is above the output, at an angle.
+            cells: &[("shafts.input.axis", Some(0), 0.8), ("shafts.input.axis", Some(1), 0.6)],
+        }],
+    },
+    Layout {
+        name: "dual-countershaft",
+        about: "Two countershafts in parallel between coaxial shafts",
+        text: include_str!("layouts/dual-countershaft.yaml"),
+        point: "--torque \"400 Nm\" --speed \"1500 rpm\"",
+        twins: Some(["left", "right"]),
+        distances: &[Distance {
+            mesh: "in_left",
+            value: 112.5,
+            cells: &[("shafts.left.axis", Some(0), -1.0), ("shafts.right.axis", Some(0), 1.0)],
+        }],
+    },
+];
+
+impl Layout {
+    /// The layout of a name.
+    pub fn named(name: &str) -> Option<&'static Self> {
+        LAYOUTS.iter().find(|layout| layout.name == name)
+    }
+}

@@ -1,0 +1,162 @@
+//! A template with typed values.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use gearloss_editor::outline::{self, Content, Node};
+use gearloss_framework::document::{Diagnostic, Unit, parse_quantity};
+
+use super::distance;
+use super::fields::{FieldKind, at, groups};
+use super::layouts::Layout;
+use crate::answer::Fault;
+
+/// The template of a layout with typed values, by path of the field. What was not typed keeps the value of the template.
+///
+/// # Errors
+/// An unknown path; a value that is no text of one line, or a centre distance that is no length.
+pub fn written(layout: &Layout, values: &BTreeMap<String, String>) -> Result<String, Fault> {
+    let document = outline::read(layout.text, None);
+    let fields: Vec<_> = groups(layout).into_iter().flat_map(|group| group.fields).collect();
+    let mut changes: Vec<(Range<usize>, String)> = Vec::new();
+    for (path, typed) in values {
+        let typed = typed.trim();
+        let wrong =
+            |message: &str, help: &str| Err(Fault::of_field(Diagnostic::error(path.as_str(), message).help(help)));
+        let Some(field) = fields.iter().find(|field| field.path == *path) else {
+            return wrong("the form has no such field", "choose a field of the form");
+        };
+        if typed.is_empty() {
+            return wrong(
+                "the value is missing",
+                &format!("write a value such as {}", field.value),
+            );
+        }
+        if typed.contains(['\n', '\r']) {
+            return wrong("the value has several lines", "write one line");
+        }
+        if layout.distances.iter().any(|own| distance(own.mesh) == *path) {
+            continue;
+        }
+        for path in twins(layout, path) {
+            if let Some(node) = at(&document, &path) {
+                changes.push((node.span.clone(), scalar(typed, field.kind)));
+            }
+        }
+    }
+    axes(layout, &document, values, &mut changes)?;
+    Ok(replaced(layout.text, changes))
+}
+
+/// A path, and that of its twin.
+fn twins(layout: &Layout, path: &str) -> Vec<String> {
+    let mut paths = vec![path.to_owned()];
+    let Some([first, second]) = layout.twins else {
+        return paths;
+    };
+    if path.contains(first) {
+        paths.push(path.replace(first, second));
+    }
+    // Bearings of twins: `L1` and `R1`.
+    let letters = [first, second].map(|word| word.chars().next().unwrap_or_default().to_ascii_uppercase());
+    let own = format!("bearings.{}", letters[0]);
+    if let Some(rest) = path.strip_prefix(&own) {
+        paths.push(format!("bearings.{}{rest}", letters[1]));
+    }
+    paths
+}
+
+/// Writes the coordinates that follow from centre distances.
+fn axes(
+    layout: &Layout,
+    document: &Node,
+    values: &BTreeMap<String, String>,
+    changes: &mut Vec<(Range<usize>, String)>,
+) -> Result<(), Fault> {
+    let mut sums: Vec<(&str, Option<usize>, f64)> = Vec::new();
+    let mut is_typed = false;
+    for own in layout.distances {
+        let path = distance(own.mesh);
+        let value = match values.get(&path) {
+            None => own.value,
+            Some(typed) => {
+                is_typed = true;
+                millimetres(&path, typed.trim())?
+            }
+        };
+        for (path, number, share) in own.cells {
+            match sums.iter_mut().find(|(p, n, _)| p == path && n == number) {
+                Some((_, _, sum)) => *sum += share * value,
+                None => sums.push((path, *number, share * value)),
+            }
+        }
+    }
+    if !is_typed {
+        return Ok(());
+    }
+    for (path, number, sum) in sums {
+        let node = at(document, path);
+        let cell = node.and_then(|node| match (&node.content, number) {
+            (Content::List(cells), Some(number)) => cells.get(number),
+            (_, None) => Some(node),
+            _ => None,
+        });
+        if let Some(cell) = cell {
+            // Sums of decimal fractions have rounding errors in their last digits.
+            changes.push((cell.span.clone(), format!("{} mm", (sum * 1e6).round() / 1e6)));
+        }
+    }
+    Ok(())
+}
+
+/// A length. \[mm\]
+fn millimetres(path: &str, typed: &str) -> Result<f64, Fault> {
+    let unit = Unit::of_symbol("mm").unwrap_or(Unit::ONE);
+    let wrong = |message: String, help: String| Fault::of_field(Diagnostic::error(path, message).help(help));
+    let length = parse_quantity(typed, unit).map_err(|fault| {
+        let help = fault.help.unwrap_or_else(|| "write a length such as 100 mm".to_owned());
+        wrong(fault.message, help)
+    })?;
+    if length > 0.0 && length.is_finite() {
+        Ok(length * 1e3)
+    } else {
+        Err(wrong(
+            format!("{typed} is not a distance"),
+            "write a length above zero such as 100 mm".to_owned(),
+        ))
+    }
+}
+
+/// A value as YAML: plain if nothing in it has a meaning there.
+fn scalar(typed: &str, kind: FieldKind) -> String {
+    let is_plain = |c: char| c.is_alphanumeric() || " .,+-/%°²³()_".contains(c);
+    let begins = typed
+        .chars()
+        .next()
+        .is_some_and(|c| c.is_alphanumeric() || "+-.".contains(c));
+    // A comma separates entries in braces; a designation of digits alone would be a number.
+    let plain = begins && typed.chars().all(is_plain) && !typed.contains(", ") && !typed.contains(',');
+    match kind {
+        FieldKind::Bearing => quoted(typed),
+        _ if plain => typed.to_owned(),
+        _ => quoted(typed),
+    }
+}
+
+fn quoted(text: &str) -> String {
+    serde_json::Value::from(text).to_string()
+}
+
+fn replaced(text: &str, mut changes: Vec<(Range<usize>, String)>) -> String {
+    changes.sort_by_key(|(range, _)| range.start);
+    let mut new = String::with_capacity(text.len());
+    let mut end = 0;
+    for (range, value) in changes {
+        if range.start >= end {
+            new.push_str(&text[end..range.start]);
+            new.push_str(&value);
+            end = range.end;
+        }
+    }
+    new + &text[end..]
+}

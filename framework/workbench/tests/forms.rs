@@ -1,0 +1,148 @@
+//! Forms of new gearboxes.
+
+use std::collections::BTreeMap;
+
+use gearloss_framework::gearbox::Gearbox;
+use gearloss_framework::resolve::Choice;
+use gearloss_workbench::form::{FieldKind, LAYOUTS, Layout, forms, written};
+use gearloss_workbench::store::Memory;
+use serde_json::json;
+
+use super::common::{first_point, language, session, value};
+
+fn values(list: &[(&str, &str)]) -> BTreeMap<String, String> {
+    let list = list.iter();
+    list.map(|(path, value)| ((*path).to_owned(), (*value).to_owned()))
+        .collect()
+}
+
+/// Without changes, and with the values of the template typed again, a form writes the template.
+#[test]
+fn a_form_without_changes_is_its_template() {
+    for layout in LAYOUTS {
+        assert_eq!(
+            written(&layout, &BTreeMap::new()).unwrap(),
+            layout.text,
+            "{}",
+            layout.name
+        );
+        let form = forms().into_iter().find(|form| form.name == layout.name).unwrap();
+        let fields: Vec<_> = form.groups.iter().flat_map(|group| &group.fields).collect();
+        assert!(fields.len() > 20, "{}: {} fields", layout.name, fields.len());
+        let same: BTreeMap<String, String> = fields.iter().map(|f| (f.path.clone(), f.value.clone())).collect();
+        assert_eq!(same.len(), fields.len(), "{}: a path occurs twice", layout.name);
+        assert_eq!(written(&layout, &same).unwrap(), layout.text, "{}", layout.name);
+    }
+}
+
+/// Every field has an effect, on what its path names.
+#[test]
+fn every_field_is_written() {
+    for layout in LAYOUTS {
+        let form = forms().into_iter().find(|form| form.name == layout.name).unwrap();
+        for field in form.groups.iter().flat_map(|group| &group.fields) {
+            let typed = match field.kind {
+                FieldKind::Text if field.path == "title" => "Getriebe: \"neu\", #2".to_owned(),
+                FieldKind::Text => "0.123".to_owned(),
+                FieldKind::Integer => "33".to_owned(),
+                FieldKind::Quantity => {
+                    let (_, unit) = field.value.split_once(' ').unwrap();
+                    format!("12.5 {unit}")
+                }
+                FieldKind::Bearing => "6213".to_owned(),
+                FieldKind::Oil => "ISO VG 68 PAO".to_owned(),
+            };
+            let text = written(&layout, &values(&[(&field.path, &typed)])).unwrap();
+            assert_ne!(text, layout.text, "{}: {}", layout.name, field.path);
+            let gearbox = Gearbox::of_text(language(), &text, "gearbox.yaml", "").unwrap();
+            if field.path == "title" {
+                assert_eq!(gearbox.value["title"], "Getriebe: \"neu\", #2");
+            }
+            if field.kind == FieldKind::Bearing {
+                let id = field.path.split('.').nth(1).unwrap();
+                assert_eq!(gearbox.value["bearings"][id]["designation"], "6213");
+            }
+        }
+    }
+}
+
+/// Centre distances move the axes.
+#[test]
+fn centre_distances_become_axes() {
+    let axis = |layout: &str, typed: &[(&str, &str)], shaft: &str| {
+        let text = written(Layout::named(layout).unwrap(), &values(typed)).unwrap();
+        let gearbox = Gearbox::of_text(language(), &text, "gearbox.yaml", "").unwrap();
+        let axis = &gearbox.value["shafts"][shaft]["axis"];
+        [0, 1].map(|i| (axis[i].as_f64().unwrap() * 1e9).round() / 1e6)
+    };
+    let typed = [
+        ("meshes.first.centre_distance", "95 mm"),
+        ("meshes.second.centre_distance", "0.12 m"),
+    ];
+    assert_eq!(axis("two-stage", &typed, "input"), [215.0, 0.0]);
+    assert_eq!(axis("two-stage", &typed, "intermediate"), [120.0, 0.0]);
+    let typed = [("meshes.M1.centre_distance", "105 mm")];
+    assert_eq!(axis("two-speed", &typed, "input"), [84.0, 63.0]);
+    let typed = [("meshes.in_left.centre_distance", "110.1 mm")];
+    assert_eq!(axis("dual-countershaft", &typed, "left"), [-110.1, 0.0]);
+    assert_eq!(axis("dual-countershaft", &typed, "right"), [110.1, 0.0]);
+}
+
+/// The two countershafts have the same data.
+#[test]
+fn twins_are_written_together() {
+    let typed = [
+        ("gears.left_wheel.z", "46"),
+        ("bearings.L1.designation", "6309"),
+        ("meshes.left_out.normal_module", "3.1 mm"),
+    ];
+    let text = written(Layout::named("dual-countershaft").unwrap(), &values(&typed)).unwrap();
+    let gearbox = Gearbox::of_text(language(), &text, "gearbox.yaml", "").unwrap();
+    assert_eq!(gearbox.value["gears"]["right_wheel"]["z"], 46);
+    assert_eq!(gearbox.value["bearings"]["R1"]["designation"], "6309");
+    assert_eq!(
+        gearbox.value["meshes"]["right_out"],
+        gearbox.value["meshes"]["right_out"]
+    );
+    assert_eq!(
+        gearbox.value["meshes"]["left_out"]["normal_module"],
+        gearbox.value["meshes"]["right_out"]["normal_module"]
+    );
+}
+
+/// A field that is wrong is named.
+#[test]
+fn wrong_values_name_their_field() {
+    let layout = Layout::named("two-stage").unwrap();
+    for (path, typed, message) in [
+        ("gears.G1.z", " ", "missing"),
+        ("gears.G9.z", "20", "no such field"),
+        ("title", "one\ntwo", "lines"),
+        ("meshes.first.centre_distance", "ten mm", "ten"),
+        ("meshes.first.centre_distance", "-3 mm", "distance"),
+        ("meshes.first.centre_distance", "3 kg", "kg"),
+    ] {
+        let fault = written(layout, &values(&[(path, typed)])).unwrap_err();
+        assert_eq!(fault.findings[0].path, path);
+        assert!(fault.message.contains(message), "{}", fault.message);
+        assert!(fault.help.is_some(), "{path}");
+    }
+}
+
+/// From a form to a solved point, for every layout.
+#[test]
+fn a_new_gearbox_is_solved() {
+    for layout in LAYOUTS {
+        let session = session(Memory::new("new", []));
+        let text = value(
+            &session,
+            json!({ "request": "new", "layout": layout.name, "values": {} }),
+        );
+        let texts = json!({ "new.yaml": text["text"] });
+        let answer = value(&session, first_point(&session, &texts, "new.yaml"));
+        let efficiency = answer["efficiency"].as_f64().unwrap();
+        assert!((0.9..1.0).contains(&efficiency), "{}: {efficiency}", layout.name);
+        let gearbox = Gearbox::of_text(language(), layout.text, "gearbox.yaml", "").unwrap();
+        gearbox.resolve(language(), &Choice::default()).unwrap();
+    }
+}
