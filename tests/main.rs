@@ -72,6 +72,7 @@ mod variants;
 mod vscode;
 mod web;
 mod wheels;
+mod workbench;
 
 /// A file that no `mod` line names would never be compiled, and its tests would never fail.
 #[test]

@@ -144,7 +144,7 @@ impl FileSource for Recorder {
 }
 
 /// A path without `.`, and without `..` where a folder is before it.
-fn without_dots(path: &Path) -> PathBuf {
+pub fn without_dots(path: &Path) -> PathBuf {
     let mut plain = PathBuf::new();
     for component in path.components() {
         match component {

@@ -132,7 +132,11 @@ pub fn parse_quantity(text: &str, unit: &'static Unit) -> Result<f64, QuantityFa
 }
 
 fn example(unit: &Unit) -> String {
-    format!("`20 {}`", unit.symbol)
+    if unit.dimension == Dimension::None {
+        "`20`".to_owned()
+    } else {
+        format!("`20 {}`", unit.symbol)
+    }
 }
 
 #[cfg(test)]

@@ -357,7 +357,7 @@ impl<W: Write> Server<'_, '_, W> {
     fn check(&self, first: Option<&Path>) {
         let mut paths: Vec<PathBuf> = self.workspace.opened().map(Path::to_owned).collect();
         if let Some(first) = first {
-            let first = crate::workspace::plain(first);
+            let first = gearloss_document::files::without_dots(first);
             paths.sort_by_key(|path| *path != first);
         }
         let jobs = paths.into_iter().map(|path| {
@@ -397,5 +397,5 @@ fn document(params: &Value) -> Result<PathBuf, Refused> {
     let written = written.ok_or_else(|| Refused::new(INVALID_PARAMS, "`textDocument.uri` is missing"))?;
     // A document without a file has its URI as its name.
     let path = uri::path(written).unwrap_or_else(|| PathBuf::from(written));
-    Ok(crate::workspace::plain(&path))
+    Ok(gearloss_document::files::without_dots(&path))
 }

@@ -2,10 +2,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use gearloss_document::files::{FileSource, LONGEST_TEXT, SharedSource};
+use gearloss_document::files::{FileSource, LONGEST_TEXT, SharedSource, without_dots};
 use gearloss_framework::language::Language;
 
 use crate::ids::{Name, Occurrence, occurrences};
@@ -51,27 +51,12 @@ struct Overlay {
 
 impl FileSource for Overlay {
     fn read(&self, path: &Path, longest: u64) -> io::Result<Vec<u8>> {
-        match self.open.get(&plain(path)) {
+        match self.open.get(&without_dots(path)) {
             Some(text) if text.len() as u64 <= longest => Ok(text.as_bytes().to_vec()),
             Some(_) => Err(io::Error::other(format!("it has more than {} MB", longest >> 20))),
             None => self.source.read(path, longest),
         }
     }
-}
-
-/// A path without `.`, and without `..` where a folder is before it.
-pub(crate) fn plain(path: &Path) -> PathBuf {
-    let mut plain = PathBuf::new();
-    for component in path.components() {
-        match component {
-            Component::CurDir => {}
-            Component::ParentDir if plain.file_name().is_some() => {
-                plain.pop();
-            }
-            other => plain.push(other),
-        }
-    }
-    plain
 }
 
 /// The gearboxes of a study: name and file.
@@ -86,7 +71,7 @@ pub(crate) fn gearboxes(study: &Document) -> Vec<(String, PathBuf)> {
 
 /// The path of a file that a document names.
 pub(crate) fn named(document: &Path, file: &str) -> PathBuf {
-    plain(&document.parent().unwrap_or(Path::new("")).join(file))
+    without_dots(&document.parent().unwrap_or(Path::new("")).join(file))
 }
 
 impl<'l> Workspace<'l> {
@@ -103,17 +88,17 @@ impl<'l> Workspace<'l> {
 
     /// Opens a document, or replaces its text.
     pub fn open(&mut self, path: impl AsRef<Path>, text: impl Into<Arc<str>>) {
-        self.open.insert(plain(path.as_ref()), text.into());
+        self.open.insert(without_dots(path.as_ref()), text.into());
     }
 
     /// Closes a document: from now on it is the file of the source.
     pub fn close(&mut self, path: impl AsRef<Path>) {
-        self.open.remove(&plain(path.as_ref()));
+        self.open.remove(&without_dots(path.as_ref()));
     }
 
     /// A file of the folder that is not open: documents among them are searched for uses of an id, and all are suggested as files.
     pub fn know(&mut self, path: impl AsRef<Path>) {
-        self.known.insert(plain(path.as_ref()));
+        self.known.insert(without_dots(path.as_ref()));
     }
 
     /// True unless a text has keys, but not that of a gearbox or study: an editor may open any YAML file.
@@ -138,7 +123,7 @@ impl<'l> Workspace<'l> {
 
     /// The text of an open document.
     pub fn text(&self, path: impl AsRef<Path>) -> Option<&Arc<str>> {
-        self.open.get(&plain(path.as_ref()))
+        self.open.get(&without_dots(path.as_ref()))
     }
 
     /// The files with the unsaved texts over them.
@@ -154,7 +139,7 @@ impl<'l> Workspace<'l> {
     }
 
     pub(crate) fn document(&self, path: &Path) -> Option<Document> {
-        let path = plain(path);
+        let path = without_dots(path);
         let text: Arc<str> = match self.open.get(&path) {
             Some(text) => Arc::clone(text),
             None => self.source.read_text(&path, LONGEST_TEXT).ok()?.into(),
@@ -192,7 +177,7 @@ impl<'l> Workspace<'l> {
     /// A gearbox and those that it extends, the nearest first.
     pub(crate) fn chain(&self, path: &Path) -> Vec<Document> {
         let mut chain: Vec<Document> = Vec::new();
-        let mut next = Some(plain(path));
+        let mut next = Some(without_dots(path));
         while let Some(path) = next.take() {
             if chain.len() >= LONGEST_CHAIN || chain.iter().any(|known| known.path == path) {
                 break;

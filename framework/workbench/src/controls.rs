@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use gearloss_framework::description::ThermalMode;
-use gearloss_framework::files::SharedSource;
+use gearloss_framework::files::{SharedSource, without_dots};
 use gearloss_framework::language::Language;
 use gearloss_framework::transmission::Transmission;
 use gearloss_report::html::point_of_report;
@@ -78,7 +78,10 @@ pub fn controls(
 ) -> Result<Controls, Fault> {
     let chosen = Chosen::read(language, files, gearbox, "")?;
     let transmission = &chosen.transmission;
-    let ends = transmission.rating.as_ref().map(|rating| [rating.torque, rating.speed]);
+    let ends = transmission
+        .rating
+        .as_ref()
+        .map(|rating| [rating.torque, rating.speed * RPM]);
     let ends = ends.or_else(|| {
         let mut studies = studies().into_iter();
         studies.find_map(|study| in_study(language, files, &study, gearbox, transmission))
@@ -107,8 +110,8 @@ fn gears(transmission: &Transmission, [torque, speed]: [f64; 2]) -> Vec<GearCont
         port: ports[port].name.clone(),
         unit,
         from: 0.0,
-        to,
-        value: 0.5 * to,
+        to: rounded(to),
+        value: rounded(0.5 * to),
     };
     let states = transmission.states().iter().enumerate();
     let states = states.map(|(number, state)| {
@@ -130,6 +133,11 @@ fn gears(transmission: &Transmission, [torque, speed]: [f64; 2]) -> Vec<GearCont
         }
     });
     states.collect()
+}
+
+/// With the digits that a slider needs; conversion of units leaves rounding errors.
+fn rounded(value: f64) -> f64 {
+    format!("{value:.4e}").parse().unwrap_or(value)
 }
 
 /// Model sets of a gearbox and those that are shipped.
@@ -154,8 +162,8 @@ fn in_study(
     transmission: &Transmission,
 ) -> Option<[f64; 2]> {
     let read = Study::read_from(language, files, Path::new(study)).ok()?;
-    let name = Path::new(gearbox).file_name()?;
-    let uses = |file: &str| Path::new(file).file_name() == Some(name);
+    let folder = Path::new(study).parent()?;
+    let uses = |file: &str| without_dots(&folder.join(file)) == without_dots(Path::new(gearbox));
     read.entry.gearboxes.iter().find(|(_, file)| uses(file))?;
     let cx = Context::new(language, &read, "workbench", &Silent);
     let (_, given) = point_of_report(&cx, transmission)?;

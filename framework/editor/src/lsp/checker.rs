@@ -7,6 +7,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Condvar, Mutex, PoisonError};
 
 use gearloss_document::Severity;
+use gearloss_document::files::without_dots;
 use gearloss_studies::analyses::progress::{Progress, Silent, Steps};
 use serde_json::{Value, json};
 
@@ -14,7 +15,7 @@ use super::{Output, show, uri};
 use crate::findings::Finding;
 use crate::ids::Name;
 use crate::text::{Encoding, Lines};
-use crate::workspace::{Workspace, named, plain};
+use crate::workspace::{Workspace, named};
 
 /// A document to be checked.
 pub struct Job {
@@ -138,11 +139,11 @@ impl Work<'_> {
         let own = finding
             .place
             .as_ref()
-            .filter(|place| plain(Path::new(&place.file)) == *path);
+            .filter(|place| without_dots(Path::new(&place.file)) == *path);
         let other = finding.place.as_ref().filter(|_| own.is_none());
         let range = match own {
             Some(place) => show::range(&place.range, self.encoding),
-            None => self.naming(path, other.map(|place| plain(Path::new(&place.file))).as_deref()),
+            None => self.naming(path, other.map(|place| without_dots(Path::new(&place.file))).as_deref()),
         };
         let mut message = String::new();
         if let Some(place) = other {
@@ -163,7 +164,7 @@ impl Work<'_> {
         let related = related.chain(finding.related.iter().map(|own| (&own.place, own.message.as_str())));
         let related: Vec<Value> = related
             .map(|(place, message)| {
-                let uri = self.uri(&plain(Path::new(&place.file)));
+                let uri = self.uri(&without_dots(Path::new(&place.file)));
                 json!({ "location": { "uri": uri, "range": show::range(&place.range, self.encoding) }, "message": message })
             })
             .collect();
