@@ -25,3 +25,7 @@ pub mod seal;
 pub mod sets;
 pub mod synchronizer;
 pub mod tooth_friction;
+
+/// Names this crate where `use gearloss_plugins as _;` is not enough: the linker of WebAssembly drops a crate of which nothing is called.
+#[inline(never)]
+pub fn link() {}

@@ -5,7 +5,7 @@ use std::path::Path;
 use gearloss_framework::document::did_you_mean;
 use gearloss_framework::files::LONGEST_DATA;
 use gearloss_framework::language::LUBRICANTS;
-use gearloss_framework::resolve::{CatalogueRow, CatalogueTable};
+use gearloss_framework::resolve::{CatalogueRow, CatalogueTable, known_start};
 use gearloss_studies::distinct::distinct;
 
 use super::read_file;
@@ -69,6 +69,12 @@ fn own_catalogue(
 
 /// No row has the text.
 fn nothing(text: &str, all: &CatalogueTable) -> Failure {
+    if let Some(known) = known_start(text, all.0.keys().map(String::as_str)) {
+        return Failure::input(
+            format!("no designation contains `{text}`: {known}"),
+            "omit what is not known, or write its data into the gearbox",
+        );
+    }
     let help = did_you_mean(text, all.0.keys().map(String::as_str)).map_or_else(
         || {
             "shorten the text, or omit it to list all; other parts state their own data, or come from a CSV under `catalogues` of the gearbox"

@@ -18,6 +18,7 @@ use serde_json::{Map, Value};
 pub use bearing_designation::{Designation, read as read_designation};
 pub use catalogue::{CatalogueHits, CatalogueRow, CatalogueTable};
 pub use choice::{Choice, ModelSet, OWN_MODELS, called_own, expand_set, sets_of};
+pub use designation::known_start;
 pub use paths::{lookup, matches};
 
 pub use paths::{meets, no_match};

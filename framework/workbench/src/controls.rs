@@ -105,34 +105,62 @@ fn thermal_mode(resolved: &Value) -> ThermalMode {
 /// Half of the range at the ports that `solve` assumes.
 fn gears(transmission: &Transmission, [torque, speed]: [f64; 2]) -> Vec<GearControls> {
     let ports = transmission.ports();
-    let input = |quantity, port: usize, unit, to: f64| InputControls {
+    let input = |quantity, port: usize, to: f64, value: f64| InputControls {
         quantity,
         port: ports[port].name.clone(),
-        unit,
-        from: 0.0,
-        to: rounded(to),
-        value: rounded(0.5 * to),
+        unit: match quantity {
+            Quantity::Torque => "Nm",
+            Quantity::Speed => "rpm",
+        },
+        from: rounded(value.min(0.0) * 2.0),
+        to: rounded(to.max(2.0 * value)),
+        value: rounded(value),
     };
     let states = transmission.states().iter().enumerate();
     let states = states.map(|(number, state)| {
         // The port of reference first, as in `solve`.
         let reference = transmission.reference_port();
         let others = (0..ports.len()).filter(|port| *port != reference);
-        let at_torques = [reference]
-            .into_iter()
-            .chain(others)
-            .take(transmission.torques_needed(number));
-        let torques = at_torques.map(|port| input(Quantity::Torque, port, "Nm", torque));
-        let speeds = state
-            .speed_ports
+        let at_torques = [reference].into_iter().chain(others);
+        let at_torques: Vec<usize> = at_torques.take(transmission.torques_needed(number)).collect();
+        let torques = at_torques
             .iter()
-            .map(|port| input(Quantity::Speed, *port, "rpm", speed));
+            .map(|port| input(Quantity::Torque, *port, torque, 0.5 * torque));
+        let shares = shares(transmission, &state.name, &state.speed_ports, &at_torques);
+        let speeds = state.speed_ports.iter().zip(shares);
+        let speeds = speeds.map(|(port, share)| input(Quantity::Speed, *port, speed, 0.5 * speed * share));
         GearControls {
             name: state.name.clone(),
             inputs: torques.chain(speeds).collect(),
         }
     });
     states.collect()
+}
+
+/// Speeds at the ports of a gear state relative to the first of them: those at which the members turn slowest in the sum of squares, so
+/// that both outputs of a differential turn alike and what the first does not drive stands.
+fn shares(transmission: &Transmission, gear: &str, speed_ports: &[usize], torque_ports: &[usize]) -> Vec<f64> {
+    let names = |ports: &[usize]| -> Vec<&str> {
+        ports
+            .iter()
+            .map(|port| transmission.ports()[*port].name.as_str())
+            .collect()
+    };
+    let mut shares = vec![0.0; speed_ports.len()];
+    let Some(first) = shares.first_mut() else { return shares };
+    *first = 1.0;
+    let Ok(case) = transmission.case(gear, &names(speed_ports), &names(torque_ports)) else {
+        return shares;
+    };
+    for port in 1..speed_ports.len() {
+        let mut unit = vec![0.0; speed_ports.len()];
+        unit[port] = 1.0;
+        let (so_far, of_port) = (transmission.speeds(&case, &shares), transmission.speeds(&case, &unit));
+        let product = |a: &[f64], b: &[f64]| -> f64 { a.iter().zip(b).map(|(a, b)| a * b).sum() };
+        let share = -product(&so_far, &of_port) / product(&of_port, &of_port);
+        shares[port] = if share.is_finite() { share } else { 0.0 };
+    }
+    shares
 }
 
 /// With the digits that a slider needs; conversion of units leaves rounding errors.

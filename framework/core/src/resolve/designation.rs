@@ -31,11 +31,28 @@ fn length(row: &CatalogueRow, key: &str) -> Option<f64> {
     value.as_str().and_then(|text| text.strip_suffix(" mm"))?.parse().ok()
 }
 
+/// The known designation at the start of a longer one, as a sentence with what is behind it.
+pub fn known_start<'a>(designation: &str, known: impl Iterator<Item = &'a str>) -> Option<String> {
+    let starts = |own: &&str| {
+        let start = designation.get(..own.len());
+        // A digit behind it would make it another designation.
+        let goes_on = |c: char| c.is_ascii_digit() && own.ends_with(|c: char| c.is_ascii_digit());
+        start.is_some_and(|start| start.eq_ignore_ascii_case(own)) && !designation[own.len()..].starts_with(goes_on)
+    };
+    let own = known.filter(starts).max_by_key(|own| own.len())?;
+    let rest = designation[own.len()..].trim();
+    (!rest.is_empty()).then(|| format!("`{own}` is known, but not what `{rest}` behind it means"))
+}
+
 /// Adds suggestions for the designation to an error; `here` lists what can be stated instead.
 ///
 /// Another size is not a misspelling: if other rows have the encoded bore, they are suggested in addition to those with the most
 /// similar names.
 pub(super) fn suggest(error: Diagnostic, designation: &str, rows: &[(&str, &CatalogueRow)], here: &str) -> Diagnostic {
+    let error = match known_start(designation, rows.iter().map(|(name, _)| *name)) {
+        Some(known) => error.note(known),
+        None => error,
+    };
     let close = nearest(designation, rows);
     let has_bores = rows.iter().any(|(_, row)| length(row, "bore").is_some());
     let Some(bore) = stated_bore(designation).filter(|_| has_bores) else {
