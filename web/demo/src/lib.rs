@@ -3,6 +3,9 @@
 //! [`allocate`] gives the place of a request, [`answer`] that of its answer: four bytes with its length, least first, then its text.
 //! [`release`] frees an answer. There is one thread, so a run of a study is answered by all of its events at once.
 
+// Natively there is nothing to build.
+#![cfg(target_family = "wasm")]
+
 use std::alloc::{Layout, alloc, dealloc};
 use std::cell::{OnceCell, RefCell};
 use std::sync::{Arc, Mutex, PoisonError};
