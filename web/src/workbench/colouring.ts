@@ -14,7 +14,7 @@ const style = HighlightStyle.define([
 ]);
 
 const look = EditorView.theme({
-  "&": { height: "100%", color: "var(--gl-ink)", backgroundColor: "var(--gl-ground)", fontSize: "13px" },
+  "&": { height: "100%", color: "var(--gl-ink)", backgroundColor: "var(--gl-ground)", fontSize: "12.5px" },
   "&.cm-focused": { outline: "none" },
   ".cm-scroller": { fontFamily: "var(--mono)", lineHeight: "1.5" },
   ".cm-content": { caretColor: "var(--gl-ink)", padding: "4px 0" },

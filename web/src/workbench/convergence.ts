@@ -57,17 +57,19 @@ export class ConvergencePane {
       html(host, "p", { class: "quiet" }, "The oil temperature is given, so no temperature is searched.");
       return;
     }
-    const room = Math.max(300, host.clientHeight - outcome.offsetHeight - 14);
-    const { picture, steps } = convergence;
+    const room = host.clientHeight - outcome.offsetHeight - 24;
+    const { picture, steps, scanned } = convergence;
     if (steps.length) {
       const box = html(host, "div", { class: "steps" });
-      this.drawn.push(draw(box, stepsPicture(convergence), { ...this.books, height: picture ? 140 : Math.min(300, room - 130) }));
-      html(host, "p", { class: "quiet" }, `${steps.length} steps${convergence.scanned ? `, of which the first ${convergence.scanned} scan the range for all solutions` : ""}`);
+      box.title = `${steps.length} steps${scanned ? `, of which the first ${scanned} scan the range for all solutions` : ""}`;
+      // Both charts together take a bit more than half of the pane, without their axes.
+      const plots = picture ? 0.54 * room - 120 : room - 124;
+      this.drawn.push(draw(box, stepsPicture(convergence), { ...this.books, height: Math.max(90, Math.min(320, plots)) }));
     }
     if (picture) {
       const box = html(host, "div", { class: "balance" });
       const used = [...host.children].reduce((sum, e) => sum + (e as HTMLElement).offsetHeight, 0);
-      this.drawn.push(draw(box, picture, { ...this.books, height: Math.max(150, Math.min(260, host.clientHeight - used - 56)) }));
+      this.drawn.push(draw(box, picture, { ...this.books, height: Math.max(140, Math.min(280, host.clientHeight - used - 60)) }));
     }
   }
 

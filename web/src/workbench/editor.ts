@@ -67,7 +67,7 @@ export class Editor {
         autocompletion({ override: [(context) => this.complete(context)], activateOnTypingDelay: 40, icons: false, maxRenderedOptions: 200, defaultKeymap: true }),
         hoverTooltip((_, position) => this.hover(position), { hoverTime: 350 }),
         EditorState.allowMultipleSelections.of(true),
-        EditorView.contentAttributes.of({ "aria-label": "text of the file", spellcheck: "false" }),
+        EditorView.contentAttributes.of({ "aria-label": "text of the file", spellcheck: "false", tabindex: "0" }),
         Prec.high(
           keymap.of([
             { key: "F12", run: () => this.definition(this.view.state.selection.main.head) },

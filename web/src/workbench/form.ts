@@ -73,7 +73,7 @@ export function newGearbox(layouts: Layout[], transport: Transport, taken: () =>
       if (finding.help) html(at.error, "span", {}, ` help: ${finding.help}`);
     }
     state.dataset.state = "bad";
-    html(state, "span", {}, fault.findings.length ? "The gearbox is not complete: see the marked fields." : fault.message);
+    html(state, "span", {}, fault.findings.length ? "The gearbox has errors." : fault.message);
     if (fault.help) html(state, "span", {}, ` help: ${fault.help}`);
     for (const finding of elsewhere) describeFinding(html(state, "div", { class: "finding-tip" }), finding);
   };
@@ -83,12 +83,25 @@ export function newGearbox(layouts: Layout[], transport: Transport, taken: () =>
     try {
       const answer = await newest.ask({ request: "new", layout: select.value, values });
       if (!answer) return;
+      preview.textContent = answer.text;
+      delete preview.dataset.stale;
+      // A value that cannot be a value of its field, or does not fit the others, is a finding of the text.
+      const file = "new-gearbox.yaml";
+      const checked = await newest.ask({ request: "edit", texts: { [file]: answer.text }, edit: { request: "findings", file } });
+      if (!checked) return;
+      const findings = checked.answer === "findings" ? checked.value : [];
+      const errors = findings.filter((f) => f.severity === "error");
+      if (errors.length) {
+        text = null;
+        faults({ message: "", help: null, findings: errors });
+        ok.disabled = true;
+        return;
+      }
       text = answer.text;
       faults(null);
-      preview.textContent = text;
-      delete preview.dataset.stale;
       state.dataset.state = "good";
       state.textContent = "The text of this gearbox has no errors.";
+      for (const finding of findings) describeFinding(html(state, "div", { class: "finding-tip warning" }), finding);
     } catch (fault) {
       text = null;
       preview.dataset.stale = "";

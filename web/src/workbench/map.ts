@@ -49,7 +49,7 @@ export class MapPane {
     new ResizeObserver(() => {
       if (Math.abs(this.body.clientHeight - height) < 6) return;
       height = this.body.clientHeight;
-      this.drawn?.redraw({ height: this.height() });
+      this.fit();
     }).observe(this.body);
   }
 
@@ -66,9 +66,21 @@ export class MapPane {
     this.status.textContent = text;
   }
 
-  private height(): number {
-    return Math.max(200, this.body.clientHeight - 62);
+  /** Height of the plot with which the picture fills the pane: controls and legends take a part, which is known after drawing. */
+  private fit(): void {
+    const room = this.body.clientHeight;
+    if (!this.drawn || room < 80) return;
+    for (let round = 0; round < 3; round++) {
+      const used = this.body.firstElementChild?.getBoundingClientRect().height ?? room;
+      if (used <= room && used > room - 12) return;
+      const next = Math.max(150, this.plot - (used - room) - 2);
+      if (next === this.plot) return;
+      this.plot = next;
+      this.drawn.redraw({ height: next });
+    }
   }
+
+  private plot = 260;
 
   show(section: Section, pinned: Section | null): void {
     this.section = section;
@@ -81,10 +93,11 @@ export class MapPane {
     const tab = this.drawn ? this.tabShown() : this.tab;
     this.drawn?.remove();
     this.body.replaceChildren();
-    this.drawn = draw(this.body, this.picture, { ...this.books, height: this.height(), pick: (x, y) => this.picked(x, y) });
+    this.drawn = draw(this.body, this.picture, { ...this.books, height: this.plot, pick: (x, y) => this.picked(x, y) });
     if (tab > 0) this.body.querySelectorAll<HTMLElement>(".gl-tabs [role=tab]")[tab]?.click();
     (document.activeElement as HTMLElement | null)?.closest(".map-body") && (document.activeElement as HTMLElement).blur();
     this.tab = tab;
+    this.fit();
     this.body.dataset.drawn = difference ? "difference" : "map";
     this.mark(this.place);
   }

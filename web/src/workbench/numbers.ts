@@ -21,11 +21,9 @@ export class Numbers {
   show(answer: PointAnswer, pinned: PointAnswer | null): void {
     this.host.replaceChildren();
     const tile = (name: string, label: string, value: number | null, text: (v: number) => string, unit: string, deltas: string[]) => {
-      const element = html(this.host, "div", { class: "number", "data-number": name, "data-value": value === null ? "" : JSON.stringify(value) });
-      html(element, "dt", {}, label);
-      const line = html(element, "dd");
-      html(line, "span", { class: "value" }, value === null ? "–" : text(value));
-      if (value !== null) line.append(" ", Object.assign(document.createElement("span"), { className: "unit", textContent: unit }));
+      const element = html(this.host, "div", { class: "tile-now", "data-number": name, "data-value": value === null ? "" : JSON.stringify(value) });
+      html(element, "dt", {}, `${label} ${unit}`);
+      html(element, "dd", { class: "value" }, value === null ? "–" : text(value));
       for (const delta of deltas) html(element, "dd", { class: "delta" }, delta);
     };
     const both = (key: "efficiency" | "loss" | "oil"): [number, number] | null => {

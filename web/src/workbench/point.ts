@@ -86,7 +86,7 @@ export class PointPane {
       this.build();
       this.notice("range");
     });
-    select("models", "Models", controls.model_sets.map((m) => [m, m || "of the gearbox"]), chosen.model_set, (set) => {
+    select("models", "Models", controls.model_sets.map((m) => [m, m || "as in the file"]), chosen.model_set, (set) => {
       chosen.model_set = set;
       this.notice("range");
     });
@@ -101,7 +101,7 @@ export class PointPane {
       slider.element.dataset.port = input.port;
       return { input, slider };
     });
-    const asFile = { fixed: `as in the file${controls.oil.value === null ? "" : ` (${controls.oil.value} °C)`}`, balance: "from the energy balance of the file", network: "from the thermal network of the file" }[controls.oil.mode];
+    const asFile = `as in the file (${controls.oil.mode === "fixed" ? (controls.oil.value === null ? "fixed" : `${controls.oil.value} °C`) : controls.oil.mode})`;
     const box = html(host, "div", { class: "oil" });
     const label = html(box, "label");
     html(label, "span", {}, "Oil temperature");

@@ -58,7 +58,8 @@ export function drawSection(host: HTMLElement, section: Section, books: { compon
       html(box, "p", { class: "text" }, words(block.text));
       continue;
     }
-    const { title, head, rows } = block.table;
+    const { title } = block.table;
+    const [head = [], ...rows] = block.table.rows;
     const details = html(box, "details", rows.length <= 12 ? { open: "" } : {});
     html(details, "summary", {}, words(title) || `Table, ${rows.length} rows`);
     const frame = html(details, "div", { class: "table" });

@@ -34,7 +34,8 @@ export class Slider {
     start: SliderValue,
     private readonly changed: (what: "value" | "range") => void,
   ) {
-    this.own = { ...start };
+    // What is solved is what the field shows.
+    this.own = { ...start, value: Number(plain(start.value)) };
     const id = unique("slider");
     this.element = html(parent, "div", { class: "slider" });
     html(this.element, "label", { for: `${id}-number`, class: "slider-name" }, label);

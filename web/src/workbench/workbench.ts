@@ -4,6 +4,7 @@ import { ColourBook } from "../colours.ts";
 import { type Drawn, draw } from "../draw.ts";
 import { words } from "../format.ts";
 import { html } from "../svg.ts";
+import { componentOf, componentsOf } from "./components.ts";
 import { ConvergencePane } from "./convergence.ts";
 import { askName, showDifference } from "./dialogs.ts";
 import { merged } from "./diff.ts";
@@ -13,7 +14,7 @@ import { Editor } from "./editor.ts";
 import { Files, kindOf } from "./files.ts";
 import { FindingsList } from "./findings.ts";
 import { newGearbox } from "./form.ts";
-import { drawLosses } from "./losses.ts";
+import { drawLosses, nameOf } from "./losses.ts";
 import { MapPane } from "./map.ts";
 import { Notices } from "./notices.ts";
 import { Numbers } from "./numbers.ts";
@@ -57,6 +58,8 @@ export class Workbench {
   private mapOf: { key: string; of: MapOf; section: Answers["map"] } | null = null;
   private waterfall: Drawn | null = null;
   private part: string | null = null;
+  /** Of several components of the part the one that is explained. */
+  private component: string | null = null;
   /** Time of the last change by the user. */
   private event = performance.now();
   private generation = 0;
@@ -83,9 +86,9 @@ export class Workbench {
     const box = (selector: string) => document.querySelector<HTMLElement>(selector)!;
     divide(box("main"), { name: "split-text", label: "width of the text", vertical: true, ends: [18, 70], start: 37 });
     divide(box(".pane-text"), { name: "split-findings", label: "height of the text above the findings", vertical: false, ends: [30, 90], start: 82 });
-    divide(box(".right"), { name: "split-top", label: "height of the operating point", vertical: false, ends: [20, 80], start: 52 });
+    divide(box(".right"), { name: "split-top", label: "height of the operating point", vertical: false, ends: [20, 80], start: 57 });
     divide(box(".top-row"), { name: "split-point", label: "width of the operating point", vertical: true, ends: [18, 45], start: 31 });
-    divide(box(".top-row"), { name: "split-losses", label: "width of the losses", vertical: true, ends: [46, 85], start: 67 });
+    divide(box(".top-row"), { name: "split-losses", label: "width of the losses", vertical: true, ends: [46, 85], start: 65 });
 
     this.editor = new Editor(at("editor"), {
       files: this.files,
@@ -107,7 +110,6 @@ export class Workbench {
       { id: "bars", title: "Losses" },
       { id: "waterfall", title: "Waterfall" },
       { id: "text", title: "Tables" },
-      { id: "notes", title: "Notes" },
     ], () => this.showLosses());
     this.convergence = new ConvergencePane(at("convergence"), this.books);
     this.results = new Tabs(at("results-tabs"), at("results-body"), "results", [
@@ -542,6 +544,8 @@ export class Workbench {
     at("point-message").hidden = true;
     this.numbers.show(answer, this.pin?.answer ?? null);
     at("status").textContent = words(answer.status);
+    at("notes").hidden = answer.remarks.length === 0;
+    at("remarks").replaceChildren(...answer.remarks.map((remark) => html(null, "li", {}, words(remark))));
     this.point.suggestedOil = answer.oil === null ? null : Math.round(answer.oil);
     this.showLosses();
     this.convergence.show(answer.convergence);
@@ -556,7 +560,6 @@ export class Workbench {
     if (!this.answer) return;
     const { answer } = this.answer;
     const panel = (id: string) => this.losses.panels.get(id)!;
-    this.losses.title("notes", answer.remarks.length ? `Notes (${answer.remarks.length})` : "Notes");
     switch (this.losses.chosen) {
       case "bars":
         drawLosses(panel("bars"), answer, this.pin?.answer ?? null, this.part, (path) => this.chooseLoss(path));
@@ -573,32 +576,27 @@ export class Workbench {
         html(panel("text"), "pre", {}, answer.text);
         break;
       }
-      case "notes": {
-        panel("notes").replaceChildren();
-        if (answer.remarks.length === 0) html(panel("notes"), "p", { class: "quiet" }, "No notes on this point.");
-        const list = html(panel("notes"), "ul", { class: "remarks" });
-        for (const remark of answer.remarks) html(list, "li", {}, words(remark));
-      }
     }
   }
 
   private chooseLoss(path: string): void {
-    const part = /^[a-z_]+\.[^.]+/.exec(path)?.[0] ?? path;
+    const part = componentOf(path);
     this.drawing.mark(part);
-    this.choosePart(path, this.drawing.placeOf(part) ?? null);
+    this.choosePart(path, this.drawing.placeOf(part));
   }
 
   private choosePart(part: string | null, place: FileRange | null): void {
     this.part = part;
-    const panel = at("explain");
-    panel.hidden = part === null;
+    this.component = null;
+    at("explain").hidden = part === null;
     if (part === null) {
       this.drawing.mark(null);
       this.showLosses();
       return;
     }
-    at("explain-title").textContent = words(part);
+    at("explain-title").textContent = nameOf(part);
     at("explain-text").textContent = "";
+    at("explain-choice").replaceChildren();
     if (place) void this.goTo(place);
     for (const row of document.querySelectorAll<HTMLElement>(".losses tr[data-path]")) row.classList.toggle("chosen", row.dataset.path === part);
     void this.explain();
@@ -606,12 +604,29 @@ export class Workbench {
 
   private async explain(): Promise<void> {
     const [part, of] = [this.part, this.point.point()];
-    if (!part || !of) return;
+    if (!part || !of || !this.answer) return;
+    const components = componentsOf(part, this.answer.answer);
+    const component = components.find((c) => c === this.component) ?? components[0];
+    const choice = at("explain-choice");
+    choice.replaceChildren();
+    if (components.length > 1)
+      for (const own of components) {
+        const button = html(choice, "button", { type: "button", "aria-pressed": String(own === component) }, words(own));
+        button.addEventListener("click", () => {
+          this.component = own;
+          void this.explain();
+        });
+      }
+    const text = at("explain-text");
+    if (!component) {
+      text.textContent = "This part has no loss of its own.";
+      return;
+    }
     try {
-      const answer = await this.newestOf("explain").ask({ request: "explain", texts: this.files.texts(), part, ...of });
-      if (answer && part === this.part) at("explain-text").textContent = answer.text;
+      const answer = await this.newestOf("explain").ask({ request: "explain", texts: this.files.texts(), part: component, ...of });
+      if (answer && part === this.part) text.textContent = answer.text;
     } catch (fault) {
-      if (fault instanceof Refused) at("explain-text").textContent = fault.message;
+      if (fault instanceof Refused) text.textContent = fault.message;
       else void this.lost(fault);
     }
   }
