@@ -544,6 +544,7 @@ await step("Unsaved text after a reload", async () => {
   await pause(500);
   await page.reload({ waitUntil: "load" });
   await ready(page);
+  check(await page.evaluate((file) => document.querySelector(".file.current")?.dataset.file === file, gearbox), "the files are not open again");
   await until(page, "the draft is offered", () => [...document.querySelectorAll(".notice")].some((n) => n.textContent.includes("not saved")));
   await image(page, "draft");
   await page.evaluate(() => [...document.querySelectorAll(".notice button")].find((b) => b.textContent === "Restore").click());

@@ -46,8 +46,8 @@ export function searches(input: HTMLInputElement, of: "bearings" | "oils", ask: 
     rows.forEach((row, k) => {
       const item = html(list, "li", { role: "option", id: `${id}-${k}`, "aria-selected": "false" });
       html(item, "b", {}, row.designation);
-      html(item, "span", {}, row.data.map(([key, value]) => `${key} ${words(value)}`).join(", "));
-      html(item, "small", {}, [row.confidence, row.origin].filter(Boolean).join(" · "));
+      html(item, "span", {}, row.data.slice(0, 7).map(([key, value]) => `${key} ${words(value)}`).join(", "));
+      html(item, "small", {}, [row.confidence && `confidence ${row.confidence}`, row.origin].filter(Boolean).join(", "));
       item.addEventListener("pointerdown", (event) => {
         event.preventDefault();
         take(k);

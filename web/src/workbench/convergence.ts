@@ -69,7 +69,7 @@ export class ConvergencePane {
     if (picture) {
       const box = html(host, "div", { class: "balance" });
       const used = [...host.children].reduce((sum, e) => sum + (e as HTMLElement).offsetHeight, 0);
-      this.drawn.push(draw(box, picture, { ...this.books, height: Math.max(140, Math.min(280, host.clientHeight - used - 60)) }));
+      this.drawn.push(draw(box, picture, { ...this.books, height: Math.max(140, Math.min(280, host.clientHeight - used - 68)) }));
     }
   }
 

@@ -19,7 +19,7 @@ export function differenceOf(a: Picture, b: Picture): Picture | null {
       return panel && own ? panel.map((v, n) => less(v, own[n])) : null;
     });
     const unit = { "%": "points", degC: "K" }[quantity.unit] ?? quantity.unit;
-    return [{ ...quantity, unit, name: `${quantity.name}, difference`, diverging: true, best: null, panels }];
+    return [{ ...quantity, unit, diverging: true, best: null, panels }];
   });
   return quantities.length ? { ...a, quantities, breakdown: null } : null;
 }

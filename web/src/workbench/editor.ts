@@ -21,8 +21,6 @@ export interface EditorHooks {
   files: Files;
   /** Asks the language services; null if the answer is not needed any more. */
   ask(request: EditRequest): Promise<EditAnswer | null>;
-  /** The user changed the text. */
-  typed(file: string): void;
   /** Shows a place, in this or another file. */
   goTo(place: FileRange): void;
   /** A name for what is under the cursor; null if the user does not want it. */
@@ -36,7 +34,6 @@ export class Editor {
   readonly view: EditorView;
   current: string | null = null;
   private readonly states = new Map<string, EditorState>();
-  private quiet = false;
 
   constructor(
     host: HTMLElement,
@@ -87,9 +84,7 @@ export class Editor {
           },
         }),
         EditorView.updateListener.of((update) => {
-          if (!update.docChanged || !this.current) return;
-          this.hooks.files.setText(this.current, update.state.doc.toString());
-          if (!this.quiet) this.hooks.typed(this.current);
+          if (update.docChanged && this.current) this.hooks.files.setText(this.current, update.state.doc.toString());
         }),
       ],
     });
@@ -129,9 +124,7 @@ export class Editor {
   change(file: string, changes: { from: number; to: number; insert: string }[]): void {
     const spec = { changes, annotations: [isolateHistory.of("full"), Transaction.userEvent.of("input.program")] };
     if (file === this.current) {
-      this.quiet = true;
       this.view.dispatch(spec);
-      this.quiet = false;
       return;
     }
     const state = this.stateOf(file).update(spec).state;
@@ -162,7 +155,6 @@ export class Editor {
         to,
         severity: finding.severity,
         message: finding.message,
-        source: finding.code,
         renderMessage: () => {
           const element = document.createElement("div");
           element.className = "finding-tip";
@@ -212,13 +204,15 @@ export class Editor {
         label: completion.label,
         detail: completion.detail || undefined,
         type: KINDS[completion.kind] ?? "text",
-        info: completion.documentation
-          ? () => {
-              const element = document.createElement("div");
-              render(element, completion.documentation);
-              return element;
-            }
-          : undefined,
+        info:
+          completion.documentation || completion.detail.length > 40
+            ? () => {
+                const element = document.createElement("div");
+                if (completion.detail.length > 40) element.append(Object.assign(document.createElement("p"), { textContent: completion.detail }));
+                render(element, completion.documentation);
+                return element;
+              }
+            : undefined,
         apply: (view, _, start, end) => {
           const at = start + own - from;
           view.dispatch({

@@ -19,6 +19,15 @@ export function kindOf(text: string): Kind {
   return found ? (found[1] as Kind) : "other";
 }
 
+/** The last part of a path, with its folder if another file ends in the same way. */
+export function shortName(file: string, all: string[]): string {
+  const end = (path: string, parts: number) => path.split("/").slice(-parts).join("/");
+  for (let parts = 1; ; parts++) {
+    const name = end(file, parts);
+    if (name === file || all.every((other) => other === file || end(other, parts) !== name)) return name;
+  }
+}
+
 export class Files {
   readonly open = new Map<string, OpenFile>();
   private readonly listeners: ((file: OpenFile) => void)[] = [];

@@ -70,7 +70,7 @@ export function newGearbox(layouts: Layout[], transport: Transport, taken: () =>
       }
       at.input.setAttribute("aria-invalid", "true");
       html(at.error, "span", {}, finding.message);
-      if (finding.help) html(at.error, "span", {}, ` help: ${finding.help}`);
+      if (finding.help) html(at.error, "span", {}, `help: ${finding.help}`);
     }
     state.dataset.state = "bad";
     html(state, "span", {}, fault.findings.length ? "The gearbox has errors." : fault.message);

@@ -11,7 +11,7 @@ import { merged } from "./diff.ts";
 import { Drafts } from "./drafts.ts";
 import { DrawingPane } from "./drawing.ts";
 import { Editor } from "./editor.ts";
-import { Files, kindOf } from "./files.ts";
+import { Files, kindOf, shortName } from "./files.ts";
 import { FindingsList } from "./findings.ts";
 import { newGearbox } from "./form.ts";
 import { drawLosses, nameOf } from "./losses.ts";
@@ -23,11 +23,15 @@ import { divide, narrowTabs } from "./panes.ts";
 import { Pin } from "./pins.ts";
 import { PointPane } from "./point.ts";
 import type { Answers, FileRange, Finding, MapOf, PointAnswer, PointOf } from "./protocol.ts";
+import { store, stored } from "./storage.ts";
 import { StudyPane } from "./study.ts";
 import { Tabs } from "./tabs.ts";
 import { theme } from "./theme.ts";
 import { Gone, Locked, Newest, Refused, type Transport } from "./transport.ts";
 import { Watch } from "./watch.ts";
+
+/** Files that this tab has open, for a reload. */
+const OPEN = "gearloss-workbench-open";
 
 const at = (id: string) => document.getElementById(id)!;
 
@@ -85,7 +89,7 @@ export class Workbench {
     ]);
     const box = (selector: string) => document.querySelector<HTMLElement>(selector)!;
     divide(box("main"), { name: "split-text", label: "width of the text", vertical: true, ends: [18, 70], start: 37 });
-    divide(box(".pane-text"), { name: "split-findings", label: "height of the text above the findings", vertical: false, ends: [30, 90], start: 82 });
+    divide(box(".pane-text"), { name: "split-findings", label: "height of the text above the findings", vertical: false, ends: [30, 90], start: 85 });
     divide(box(".right"), { name: "split-top", label: "height of the operating point", vertical: false, ends: [20, 80], start: 57 });
     divide(box(".top-row"), { name: "split-point", label: "width of the operating point", vertical: true, ends: [18, 45], start: 31 });
     divide(box(".top-row"), { name: "split-losses", label: "width of the losses", vertical: true, ends: [46, 85], start: 65 });
@@ -93,7 +97,6 @@ export class Workbench {
     this.editor = new Editor(at("editor"), {
       files: this.files,
       ask: (edit) => this.newestOf(`edit ${edit.request}`).ask({ request: "edit", texts: this.files.texts(), edit }).catch((fault) => this.lost(fault)),
-      typed: () => (this.event = performance.now()),
       goTo: (place) => void this.goTo(place),
       newName: (old, place) => askName("Rename", "New name", old, place),
       say: (text) => this.notices.say(text),
@@ -177,16 +180,20 @@ export class Workbench {
     this.drafts = await Drafts.open(this.folder.name);
     this.offerDrafts();
     const { files, open } = this.folder;
-    const first = open ?? files.find((f) => f.kind === "gearbox")?.file ?? files.find((f) => f.kind === "study")?.file ?? null;
+    const before = stored<{ folder: string; files: string[]; current: string | null } | null>(OPEN, null, sessionStorage);
+    const again = before?.folder === this.folder.name ? before.files.filter((f) => files.some((own) => own.file === f)) : [];
+    const first = again.find((f) => f === before?.current) ?? again[0] ?? open ?? files.find((f) => f.kind === "gearbox")?.file ?? files.find((f) => f.kind === "study")?.file ?? null;
+    for (const file of again) await this.open(file);
     if (first) await this.open(first, true);
     // A study brings its gearbox, and a gearbox its study, if they are beside each other.
     const folderOf = (file: string) => file.slice(0, file.lastIndexOf("/") + 1);
     const beside = (kind: string) => files.find((f) => f.kind === kind && folderOf(f.file) === folderOf(first ?? ""))?.file;
-    for (const kind of ["gearbox", "study"]) {
+    for (const kind of again.length ? [] : ["gearbox", "study"]) {
       const other = beside(kind);
       if (other && ![...this.files.open.values()].some((f) => kindOf(f.text) === kind)) await this.open(other);
     }
     document.documentElement.dataset.ready = "";
+    this.showTabs();
     if (!first) this.notices.show("empty", { text: "The folder has no gearbox.", actions: [{ label: "New gearbox", act: () => at("new").click(), primary: true }] });
   }
 
@@ -268,7 +275,7 @@ export class Workbench {
     for (const { file } of this.files.open.values()) {
       const unsaved = this.files.isUnsaved(file);
       const item = html(bar, "span", { class: `file${file === this.editor.current ? " current" : ""}`, "data-file": file });
-      const button = html(item, "button", { type: "button", "aria-current": file === this.editor.current ? "true" : undefined, title: unsaved ? `${file}, not saved` : file }, file.slice(file.lastIndexOf("/") + 1));
+      const button = html(item, "button", { type: "button", "aria-current": file === this.editor.current ? "true" : undefined, title: unsaved ? `${file}, not saved` : file }, shortName(file, [...this.files.open.keys()]));
       if (unsaved) html(button, "span", { class: "unsaved", "aria-label": "not saved" }, "●");
       button.addEventListener("click", () => {
         this.show(file);
@@ -278,6 +285,7 @@ export class Workbench {
       close.addEventListener("click", () => this.close(file));
     }
     const current = this.editor.current;
+    if (document.documentElement.dataset.ready === "") store(OPEN, { folder: this.folder.name, files: [...this.files.open.keys()], current }, sessionStorage);
     (at("save") as HTMLButtonElement).disabled = !current || !this.files.isUnsaved(current);
     this.showOthers();
   }
@@ -444,6 +452,7 @@ export class Workbench {
 
   private changed(file: string): void {
     this.generation++;
+    this.event = performance.now();
     this.keep.call();
     this.showTabs();
     const current = this.editor.current;
@@ -477,7 +486,8 @@ export class Workbench {
 
   private async findFindings(): Promise<void> {
     const file = this.editor.current;
-    if (!file) return;
+    // Tables have no findings of their own: the file that reads them has.
+    if (!file || !/\.ya?ml$/i.test(file)) return;
     const begun = this.event;
     try {
       const answer = await this.newestOf("findings").ask({ request: "edit", texts: this.files.texts(), edit: { request: "findings", file } });

@@ -18,7 +18,7 @@ async function load(name) {
 
 const { differenceOf } = await load("difference");
 const { changes, merged, replacement, rows } = await load("diff");
-const { Files, kindOf } = await load("files");
+const { Files, kindOf, shortName } = await load("files");
 const { fieldOf, freeName } = await load("form");
 const { rowsOf } = await load("losses");
 const { blocks, pieces } = await load("markdown");
@@ -193,6 +193,9 @@ test("files know what is not saved", () => {
   assert.deepEqual(files.texts(), {});
   assert.equal(kindOf('# a\ngearloss: "study/1"\n'), "study");
   assert.equal(kindOf("a: 1"), "other");
+  assert.equal(shortName("a/g.yaml", ["a/g.yaml", "s.yaml"]), "g.yaml");
+  assert.equal(shortName("a/g.yaml", ["a/g.yaml", "b/g.yaml"]), "a/g.yaml");
+  assert.equal(shortName("g.yaml", ["g.yaml", "b/g.yaml"]), "g.yaml");
 });
 
 test("faults of a form belong to their fields", () => {
