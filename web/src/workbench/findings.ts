@@ -28,6 +28,13 @@ export class FindingsList {
     this.list = html(host, "ul", { class: "findings", "aria-labelledby": "findings-head" });
   }
 
+  /** Without a file. */
+  none(): void {
+    this.head.textContent = "Findings";
+    delete this.head.dataset.state;
+    this.list.replaceChildren();
+  }
+
   show(file: string, findings: Finding[]): void {
     const count = (severity: string) => findings.filter((f) => f.severity === severity).length;
     const [errors, warnings] = [count("error"), count("warning")];

@@ -286,6 +286,8 @@ export class Workbench {
     }
     const current = this.editor.current;
     if (document.documentElement.dataset.ready === "") store(OPEN, { folder: this.folder.name, files: [...this.files.open.keys()], current }, sessionStorage);
+    at("no-file").hidden = current !== null;
+    at("editor").hidden = current === null;
     (at("save") as HTMLButtonElement).disabled = !current || !this.files.isUnsaved(current);
     this.showOthers();
   }
@@ -316,7 +318,10 @@ export class Workbench {
     }
     const next = [...this.files.open.keys()][0];
     if (was && next) this.show(next);
-    else this.showTabs();
+    else {
+      this.showTabs();
+      if (was) this.findingsList.none();
+    }
     this.rewatch.call();
   }
 
@@ -551,7 +556,9 @@ export class Workbench {
     if (!this.answer) return;
     const { answer } = this.answer;
     delete document.documentElement.dataset.stale;
-    at("point-message").hidden = true;
+    const message = at("point-message");
+    message.hidden = answer.loss !== null;
+    message.textContent = answer.loss === null ? `There is no result at this point (${words(answer.status)}). ${words(answer.convergence.outcome)}` : "";
     this.numbers.show(answer, this.pin?.answer ?? null);
     at("status").textContent = words(answer.status);
     at("notes").hidden = answer.remarks.length === 0;
