@@ -611,6 +611,19 @@ await step("The program ends", async () => {
   check(kept, "the browser does not keep the text");
   check(await page.evaluate(() => [...document.querySelectorAll(".notice button")].some((b) => b.textContent.startsWith("Download"))), "no offer to download the text");
   await image(page, "ended");
+
+  // Started again, the program has the address of before, and the next page offers the text.
+  const again = await start();
+  if (new URL(again.address).port === new URL(address).port) {
+    await until(page, "the page knows that it has no access", () => /started again/.test(document.getElementById("notices").textContent));
+    const next = await open(1440, 900, "light", again.address);
+    await ready(next);
+    await until(next, "the text of the page before is offered", () => [...document.querySelectorAll(".notice")].some((n) => n.textContent.includes("gearbox.yaml") && n.textContent.includes("not saved")));
+    await next.evaluate(() => [...document.querySelectorAll(".notice button")].find((b) => b.textContent === "Restore").click());
+    await until(next, "the text of the page before is restored", () => document.querySelector(".cm-content").textContent.includes("and after it"));
+    await next.close({ runBeforeUnload: false });
+  } else figures.other_port = true;
+  again.child.kill();
 });
 
 await browser.close();

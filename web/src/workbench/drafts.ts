@@ -39,6 +39,12 @@ export class Drafts {
     return new Drafts(folder, tab, new Set(held.map((lock) => lock.name ?? "")));
   }
 
+  /** Lets other tabs offer the drafts of this one, whose program has ended; or keeps them for this tab again. */
+  share(is: boolean): void {
+    if (is) unlock();
+    else void locked(this.tab);
+  }
+
   private key(file: string, tab = this.tab): string {
     return JSON.stringify([PREFIX, this.folder, tab, file]);
   }
@@ -81,13 +87,16 @@ export class Drafts {
 
 const lockOf = (tab: string) => `gearloss-tab-${tab}`;
 
-/** Holds the lock of a tab until the page ends; false if another page has it. */
+/** Gives the lock of this tab back. */
+let unlock: () => void = () => undefined;
+
+/** Holds the lock of a tab until the page ends or gives it back; false if another page has it. */
 function locked(tab: string): Promise<boolean> {
   if (!navigator.locks) return Promise.resolve(true);
   return new Promise((done) => {
     void navigator.locks.request(lockOf(tab), { ifAvailable: true }, (lock) => {
       done(lock !== null);
-      return lock ? new Promise(() => undefined) : undefined;
+      return lock ? new Promise<void>((end) => (unlock = end)) : undefined;
     });
   });
 }

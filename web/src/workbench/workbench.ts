@@ -747,6 +747,7 @@ export class Workbench {
   private up(): void {
     if (!this.isDown) return;
     this.isDown = false;
+    this.drafts?.share(false);
     this.notices.hide("down");
     this.check.call();
     this.control.call();
@@ -772,6 +773,7 @@ export class Workbench {
     if (this.isDown) return;
     this.isDown = true;
     this.keep.flush();
+    this.drafts?.share(true);
     const unsaved = this.files.unsaved().length > 0;
     this.notices.show("down", {
       text: `The program has ended. ${unsaved ? "Texts that are not saved are kept in this browser. " : ""}The page tries to connect again; start the program with gearloss open.`,
@@ -787,6 +789,7 @@ export class Workbench {
     }
     const unsaved = this.files.unsaved().length > 0;
     this.keep.flush();
+    this.drafts?.share(true);
     this.notices.show("down", {
       text: "The program was started again and does not know this page. Open the address that it printed; texts that are not saved are offered there.",
       kind: "bad",
