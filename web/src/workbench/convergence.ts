@@ -63,13 +63,13 @@ export class ConvergencePane {
       const box = html(host, "div", { class: "steps" });
       box.title = `${steps.length} steps${scanned ? `, of which the first ${scanned} scan the range for all solutions` : ""}`;
       // Both charts together take a bit more than half of the pane, without their axes.
-      const plots = picture ? 0.54 * room - 120 : room - 124;
+      const plots = picture ? 0.53 * room - 120 : room - 124;
       this.drawn.push(draw(box, stepsPicture(convergence), { ...this.books, height: Math.max(90, Math.min(320, plots)) }));
     }
     if (picture) {
       const box = html(host, "div", { class: "balance" });
       const used = [...host.children].reduce((sum, e) => sum + (e as HTMLElement).offsetHeight, 0);
-      this.drawn.push(draw(box, picture, { ...this.books, height: Math.max(140, Math.min(280, host.clientHeight - used - 68)) }));
+      this.drawn.push(draw(box, picture, { ...this.books, height: Math.max(115, Math.min(280, host.clientHeight - used - 50)) }));
     }
   }
 

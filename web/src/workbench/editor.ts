@@ -10,7 +10,7 @@ import { EditorState, Prec, Transaction } from "@codemirror/state";
 import { EditorView, drawSelection, highlightActiveLine, highlightActiveLineGutter, hoverTooltip, keymap, lineNumbers } from "@codemirror/view";
 import { colouring } from "./colouring.ts";
 import { replacement } from "./diff.ts";
-import { describeFinding } from "./findings.ts";
+import { describeFinding, once } from "./findings.ts";
 import type { Files } from "./files.ts";
 import { render } from "./markdown.ts";
 import { byteOf, unitsOf } from "./offsets.ts";
@@ -42,7 +42,7 @@ export class Editor {
     this.view = new EditorView({ parent: host, state: this.fresh("") });
   }
 
-  private fresh(text: string): EditorState {
+  private fresh(text: string, file = ""): EditorState {
     return EditorState.create({
       doc: text,
       extensions: [
@@ -59,7 +59,7 @@ export class Editor {
         closeBrackets(),
         highlightSelectionMatches(),
         search({ top: true }),
-        yaml(),
+        /\.ya?ml$/i.test(file) ? yaml() : [],
         colouring,
         autocompletion({ override: [(context) => this.complete(context)], activateOnTypingDelay: 40, icons: false, maxRenderedOptions: 200, defaultKeymap: true }),
         hoverTooltip((_, position) => this.hover(position), { hoverTime: 350 }),
@@ -100,7 +100,7 @@ export class Editor {
     this.keep();
     this.current = file;
     const text = this.hooks.files.get(file)?.text ?? "";
-    this.view.setState(this.states.get(file) ?? this.fresh(text));
+    this.view.setState(this.states.get(file) ?? this.fresh(text, file));
   }
 
   close(file: string): void {
@@ -134,7 +134,7 @@ export class Editor {
 
   private stateOf(file: string): EditorState {
     if (file === this.current) return this.view.state;
-    const own = this.states.get(file) ?? this.fresh(this.hooks.files.get(file)?.text ?? "");
+    const own = this.states.get(file) ?? this.fresh(this.hooks.files.get(file)?.text ?? "", file);
     this.states.set(file, own);
     return own;
   }
@@ -143,7 +143,7 @@ export class Editor {
   mark(file: string, findings: Finding[]): void {
     const state = this.stateOf(file);
     const text = state.doc.toString();
-    const here = findings.filter((f) => f.place?.file === file);
+    const here = once(findings).filter((f) => f.place?.file === file);
     const ends = unitsOf(text, here.flatMap((f) => [f.place!.range.from, f.place!.range.to]));
     const diagnostics = here.map((finding, k): Diagnostic => {
       let [from, to] = [ends[2 * k], ends[2 * k + 1]];

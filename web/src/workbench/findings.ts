@@ -16,6 +16,15 @@ export function describeFinding(parent: Element, finding: Finding): void {
   html(parent, "p", { class: "code" }, [finding.severity, finding.code, finding.path].filter(Boolean).join(" · "));
 }
 
+/** Findings without repetitions: several analyses of a study may report the same one. */
+export function once(findings: Finding[]): Finding[] {
+  const seen = new Set<string>();
+  return findings.filter((f) => {
+    const key = JSON.stringify([f.severity, f.message, f.help, f.place?.file, f.place?.range.from]);
+    return !seen.has(key) && seen.add(key);
+  });
+}
+
 export class FindingsList {
   private readonly list: HTMLElement;
   private readonly head: HTMLElement;
@@ -35,7 +44,8 @@ export class FindingsList {
     this.list.replaceChildren();
   }
 
-  show(file: string, findings: Finding[]): void {
+  show(file: string, all: Finding[]): void {
+    const findings = once(all);
     const count = (severity: string) => findings.filter((f) => f.severity === severity).length;
     const [errors, warnings] = [count("error"), count("warning")];
     const several = (n: number, word: string) => (n === 0 ? "" : `${n} ${word}${n === 1 ? "" : "s"}`);
@@ -48,7 +58,7 @@ export class FindingsList {
       const item = html(this.list, "li", { class: finding.severity });
       const button = html(item, "button", { type: "button" });
       const { place } = finding;
-      const where = place ? `${place.file === file ? "" : `${place.file}, `}line ${place.range.start.line + 1}` : finding.path;
+      const where = place ? `${place.file === file ? "" : `${place.file} `}line ${place.range.start.line + 1}` : finding.path;
       html(button, "span", { class: "where" }, where);
       const text = html(button, "span", { class: "what" });
       text.append(finding.message);

@@ -68,7 +68,7 @@ export class MapPane {
 
   /** Height of the plot with which the picture fills the pane: controls and legends take a part, which is known after drawing. */
   private fit(): void {
-    const room = this.body.clientHeight;
+    const room = this.body.clientHeight - 5;
     if (!this.drawn || room < 80) return;
     for (let round = 0; round < 3; round++) {
       const used = this.body.firstElementChild?.getBoundingClientRect().height ?? room;

@@ -47,13 +47,15 @@ export class PointPane {
     const kept = this.chosen ?? stored<Record<string, Chosen>>(KEY, {}, sessionStorage)[this.gearbox ?? ""] ?? null;
     const gear = controls.gears.find((g) => g.name === kept?.gear) ?? controls.gears[0];
     this.controls = controls;
-    this.chosen = {
+    const chosen: Chosen = {
       gear: gear?.name ?? "",
       model_set: kept && controls.model_sets.includes(kept.model_set) ? kept.model_set : (controls.model_sets[0] ?? ""),
       oil: kept?.oil ?? null,
       oil_range: kept?.oil_range ?? [0, 120],
       inputs: kept?.inputs ?? {},
     };
+    // The fields that are shown write into this object.
+    this.chosen = Object.assign(this.chosen ?? chosen, chosen);
     const shape = JSON.stringify(controls);
     if (shape !== this.shape) {
       this.shape = shape;

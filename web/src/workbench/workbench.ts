@@ -284,6 +284,7 @@ export class Workbench {
       const close = html(item, "button", { type: "button", class: "close", "aria-label": `Close ${file}` }, "×");
       close.addEventListener("click", () => this.close(file));
     }
+    bar.querySelector(".current")?.scrollIntoView({ inline: "nearest", block: "nearest" });
     const current = this.editor.current;
     if (document.documentElement.dataset.ready === "") store(OPEN, { folder: this.folder.name, files: [...this.files.open.keys()], current }, sessionStorage);
     at("no-file").hidden = current !== null;
@@ -687,7 +688,12 @@ export class Workbench {
       this.markMap();
     } catch (fault) {
       this.mapShown = "";
-      if (fault instanceof Refused) this.map.say(fault.fault.findings.length ? "the gearbox has errors" : fault.message);
+      if (fault instanceof Refused) {
+        // With an error in the text the map before it stays.
+        const isText = fault.fault.findings.length > 0;
+        this.map.say(isText ? "the gearbox has errors" : "");
+        if (!isText) this.map.message(`${fault.message}${fault.fault.help ? `; ${fault.fault.help}` : ""}`);
+      }
       else {
         this.map.say("");
         void this.lost(fault);
