@@ -1,4 +1,4 @@
-//! Reports in a browser, and the library that draws their pictures: its tests, its types, its bundles.
+//! Reports and the workbench in a browser, and the library that draws their pictures: its tests, its types, its bundles.
 
 use crate::common;
 use crate::editor::install::packages;
@@ -74,6 +74,31 @@ fn reports_work_in_a_browser() {
     }
 }
 
+/// From an error while one types to a gearbox from a form: `web/test/workbench.mjs` uses the page of `gearloss open` and says what fails.
+#[test]
+fn the_workbench_works_in_a_browser() {
+    if let Err(reason) = tools() {
+        return skipped(&format!("the workbench was not opened: {reason}"));
+    }
+    let Some(browser) = browser() else {
+        return skipped("the workbench was not opened: no browser; on Debian `apt-get install chromium` brings one");
+    };
+    let output = Command::new("node")
+        .arg("test/workbench.mjs")
+        .current_dir(web())
+        .env("BROWSER", browser)
+        .env("PROGRAM", env!("CARGO_BIN_EXE_gearloss"))
+        .output()
+        .unwrap();
+    let (text, errors) = (
+        String::from_utf8_lossy(&output.stdout),
+        String::from_utf8_lossy(&output.stderr),
+    );
+    assert!(output.status.success(), "{text}{errors}");
+    let figures: Value = serde_json::from_str(text.lines().last().unwrap_or_default()).unwrap();
+    assert!(figures["error_ms"].as_u64().is_some_and(|ms| ms < 300), "{figures}");
+}
+
 /// The committed bundles are those of the sources, whose types and tests hold.
 #[test]
 fn the_bundles_are_made_from_their_sources() {
@@ -95,9 +120,15 @@ fn the_bundles_are_made_from_their_sources() {
         );
         assert!(output.status.success(), "{arguments:?}: {text}{errors}");
     }
-    for name in ["report.js", "report.css"] {
+    for (crate_folder, name) in [
+        ("report/src/html", "report.js"),
+        ("report/src/html", "report.css"),
+        ("workbench/src/page", "workbench.js"),
+        ("workbench/src/page", "workbench.css"),
+        ("workbench/src/page", "workbench.html"),
+    ] {
         let made = std::fs::read(folder.join(name)).unwrap();
-        let committed = std::fs::read(web().join("../framework/report/src/html").join(name)).unwrap();
+        let committed = std::fs::read(web().join("../framework").join(crate_folder).join(name)).unwrap();
         assert!(
             made == committed,
             "{name} differs from its sources; run `npm run build` in web/"

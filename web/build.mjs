@@ -1,27 +1,47 @@
-// Bundles the script and the style of the report page into the crate that includes them, or into a folder given as argument.
+// Bundles scripts and styles of the report page and of the workbench into the crates that include them, or into a folder given as argument.
 import { build } from "esbuild";
-import { readFile, stat } from "node:fs/promises";
+import { copyFile, mkdir, readFile, stat, writeFile } from "node:fs/promises";
 
-const target = process.argv[2] ?? new URL("../framework/report/src/html/", import.meta.url).pathname;
+const given = process.argv[2];
+const path = (name) => new URL(name, import.meta.url).pathname;
 const common = { bundle: true, minify: true, charset: "utf8", legalComments: "none", logLevel: "warning" };
 
-await build({
-  ...common,
-  entryPoints: [new URL("src/report.ts", import.meta.url).pathname],
-  outfile: `${target}report.js`,
-  format: "iife",
-  target: "es2022",
-});
-await build({
-  ...common,
-  entryPoints: [new URL("src/report.css", import.meta.url).pathname],
-  outfile: `${target}report.css`,
-  target: ["chrome111", "firefox113", "safari16.4"],
-});
+/** The licence of the packages that the workbench contains: all of them have the same one, with several owners. */
+async function licence(inputs) {
+  const folders = new Set(Object.keys(inputs).flatMap((file) => /^(?:.*\/)?node_modules\/((?:@[^/]+\/)?[^/]+)/.exec(file)?.[1] ?? []));
+  const owners = new Set();
+  const names = [];
+  let terms = "";
+  for (const folder of [...folders].sort()) {
+    const { version, license } = JSON.parse(await readFile(path(`node_modules/${folder}/package.json`), "utf8"));
+    const text = await readFile(path(`node_modules/${folder}/LICENSE`), "utf8");
+    if (license !== "MIT") throw new Error(`${folder} has the licence ${license}`);
+    names.push(`${folder} ${version}`);
+    owners.add(/^Copyright.*$/m.exec(text)[0]);
+    terms = text.slice(text.indexOf("Permission")).trim();
+  }
+  if (names.length === 0) return "";
+  return `/*! Contains ${names.join(", ")}\n\nMIT License\n\n${[...owners].sort().join("\n")}\n\n${terms} */\n`;
+}
 
+async function bundle(source, name, target) {
+  await mkdir(target, { recursive: true });
+  const entry = path(`src/${source}`);
+  const script = await build({ ...common, entryPoints: [`${entry}.ts`], outfile: `${target}${name}.js`, format: "iife", target: "es2022", metafile: true, write: false });
+  await writeFile(`${target}${name}.js`, (await licence(script.metafile.inputs)) + script.outputFiles[0].text);
+  await build({ ...common, entryPoints: [`${entry.replace(/main$/, name)}.css`], outfile: `${target}${name}.css`, target: ["chrome111", "firefox113", "safari16.4"] });
+}
+
+const report = given ?? path("../framework/report/src/html/");
+await bundle("report", "report", report);
 for (const name of ["report.js", "report.css"]) {
-  const text = await readFile(target + name, "utf8");
+  const text = await readFile(report + name, "utf8");
   // The text stands inside an element of the page, which it must not end.
   if (/<\/(script|style)|<!--/i.test(text)) throw new Error(`${name} contains the end of its element`);
-  console.log(`${name} ${(await stat(target + name)).size} bytes`);
+  console.log(`${name} ${(await stat(report + name)).size} bytes`);
 }
+
+const workbench = given ?? path("../framework/workbench/src/page/");
+await bundle("workbench/main", "workbench", workbench);
+await copyFile(path("src/workbench/workbench.html"), `${workbench}workbench.html`);
+for (const name of ["workbench.js", "workbench.css", "workbench.html"]) console.log(`${name} ${(await stat(workbench + name)).size} bytes`);

@@ -17,6 +17,8 @@ export { ColourBook };
 export interface Drawn {
   /** Draws again, with changed options if there are any. */
   redraw(options?: Options): void;
+  /** Moves the mark on each map of the picture to a place, in the units of its axes; null removes it. */
+  mark(place: [x: number, y: number] | null): void;
   /** Removes the picture. */
   remove(): void;
 }
@@ -107,12 +109,19 @@ export function draw(element: HTMLElement, picture: Picture, options: Options = 
   const books = { components: options.components ?? new ColourBook(), series: options.series ?? new ColourBook() };
   const state: Record<string, unknown> = {};
   let drawnWidth = 0;
+  let movers: ((x: number, y: number) => void)[] = [];
+  let marked: [number, number] | null = null;
+  const mark = () => {
+    for (const move of movers) move(...(marked ?? ([NaN, NaN] as [number, number])));
+  };
   const again = () => {
     const width = Math.max(260, Math.floor(current.width ?? element.clientWidth ?? 0));
     drawnWidth = width;
     root.replaceChildren();
     if (current.title) html(root, "p", { class: "gl-title" }, words(picture.title));
-    paint({ root, width, height: current.height, ...books, state, again }, picture);
+    movers = [];
+    paint({ root, width, height: current.height, ...books, state, again, pick: current.pick, movers }, picture);
+    mark();
   };
   again();
   const observer =
@@ -127,6 +136,10 @@ export function draw(element: HTMLElement, picture: Picture, options: Options = 
     redraw(changed) {
       if (changed) current = { ...current, ...changed };
       again();
+    },
+    mark(place) {
+      marked = place;
+      mark();
     },
     remove() {
       observer?.disconnect();

@@ -70,7 +70,7 @@ function panes(stage: Stage, title: string, xName: string, given: Pane[], severa
   const pad = whole[1] > whole[0] ? 0 : Math.abs(whole[0]) * 0.05 || 1;
   const dotted = !several && all.some((l) => l.stroke === "dots");
   const x: [number, number] = zoom ?? (pad || !dotted ? [whole[0] - pad, whole[1] + pad] : padded(whole));
-  const each = several ? Math.max(stage.height ? 70 : 110, Math.min(150, (stage.height ?? 420) / Math.max(1, list.length))) : (stage.height ?? Math.round(Math.min(0.58 * stage.width, 400))) - 68;
+  const each = several ? Math.max(stage.height ? 45 : 110, Math.min(150, (stage.height ?? 420) / Math.max(1, list.length))) : (stage.height ?? Math.round(Math.min(0.58 * stage.width, 400))) - 68;
   const gap = 26;
   const height = 26 + list.length * each + (list.length - 1) * gap + 42;
   const element = canvas(stage, height, title);

@@ -5,7 +5,7 @@ import { ColourScale } from "./colours.ts";
 import { valueAt } from "./contours.ts";
 import { decimalsOf, fixed, nameOf, significant, unitOf, withUnit, words } from "./format.ts";
 import { colourBar, drawField, fieldScale, gridOf, halo, pointScale } from "./field.ts";
-import { Entry, Frame, Stage, Tooltip, axes, canvas, fitted, hatching, html, leftMargin, legend, onScreen, pointer, svg, textWidth } from "./svg.ts";
+import { Entry, Frame, Stage, Tooltip, axes, canvas, fitted, hatching, html, leftMargin, legend, movable, onScreen, pointer, svg, textWidth } from "./svg.ts";
 import type { Cloud, FieldMap } from "./types.ts";
 
 /** Coordinates as ascending numbers, with the order of their values; absent if they are texts. */
@@ -57,6 +57,7 @@ function contourMap(stage: Stage, map: FieldMap, x: number[], y: number[]): void
   const grid = gridOf(xs, ys, values, map.jumps);
   const dashed = map.unseen && map.unseen > 0 ? [-map.unseen, map.unseen] : [];
   const shown = drawField(frame, grid, { sx, sy, colours, best: map.best, outside, marks: map.marks, dashed, crossed });
+  stage.movers.push(movable(frame, sx, sy));
   const key = html(stage.root, "div", { class: "gl-key" });
   colourBar(key, colours, words(map.unit), Math.min(stage.width, 480));
   const entries: Entry[] = [];
@@ -77,6 +78,10 @@ function contourMap(stage: Stage, map: FieldMap, x: number[], y: number[]): void
     tip.show({ head: "", rows }, event.clientX, event.clientY);
   });
   element.addEventListener("pointerleave", () => tip.hide());
+  element.addEventListener("click", (event) => {
+    const [px, py] = pointer(element, event);
+    if (px >= frame.left && px <= frame.right && py >= frame.top && py <= frame.bottom) stage.pick?.(sx.invert(px), sy.invert(py));
+  });
 }
 
 /** A value with as many decimals as four digits of the largest value have. */

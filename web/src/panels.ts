@@ -4,7 +4,7 @@ import { Grid, valueAt } from "./contours.ts";
 import { significant, withUnit, words } from "./format.ts";
 import { colourBar, drawField, fieldScale, gridOf } from "./field.ts";
 import { note, place, resolved } from "./map.ts";
-import { Entry, Frame, Scale, Stage, TEXT, Tooltip, axes, canvas, fitted, html, leftMargin, legend, onScreen, pointer, svg, textWidth, unique } from "./svg.ts";
+import { Entry, Frame, Scale, Stage, TEXT, Tooltip, axes, canvas, fitted, html, leftMargin, legend, movable, onScreen, pointer, svg, textWidth, unique } from "./svg.ts";
 import type { PanelQuantity, Panels } from "./types.ts";
 
 /** Title of a quantity with its unit. */
@@ -86,6 +86,7 @@ export function drawPanels(stage: Stage, panels: Panels): void {
       explained.powers ||= look.powers;
       if (look.allOutside) explained.allOutside++;
     }
+    stage.movers.push(movable(frame, sx, sy));
     const cross = svg(element, "path", { class: "gl-cross", d: "" });
     shown.push({ index, name, svg: element, frame, sx, sy, readout, cross });
   }
@@ -102,7 +103,7 @@ export function drawPanels(stage: Stage, panels: Panels): void {
     const which = explained.allOutside === shown.length ? (shown.length > 1 ? "all panels" : "the map") : `${explained.allOutside} panels`;
     html(foot, "p", { class: "gl-note" }, `At every point of ${which} a model is outside one of its stated ranges (†).`);
   }
-  const detail = panels.breakdown ? html(body, "div", { class: "gl-detail", "aria-live": "polite" }) : null;
+  const detail = panels.breakdown && !stage.pick ? html(body, "div", { class: "gl-detail", "aria-live": "polite" }) : null;
   if (detail) html(foot, "p", { class: "gl-note gl-hint" }, "Click, or press Enter at the cursor: losses at that point.");
   follow(stage, panels, quantity, shown, detail);
 }
@@ -200,12 +201,14 @@ function follow(stage: Stage, panels: Panels, quantity: PanelQuantity, shown: Sh
     element.addEventListener("blur", clear);
     element.addEventListener("click", (event) => {
       const at = inside(event);
-      if (at) breakdown(own, nearest(xs, at[0]), nearest(ys, at[1]));
+      if (!at) return;
+      if (stage.pick) stage.pick(...at);
+      else breakdown(own, nearest(xs, at[0]), nearest(ys, at[1]));
     });
     let [i, j] = [Math.floor(xs.length / 2), Math.floor(ys.length / 2)];
     element.addEventListener("keydown", (event) => {
       const step = ({ ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] } as Record<string, [number, number]>)[event.key];
-      if (event.key === "Enter") return breakdown(own, i, j);
+      if (event.key === "Enter") return stage.pick ? stage.pick(xs[i], ys[j]) : breakdown(own, i, j);
       if (event.key === "Escape") return clear();
       if (!step) return;
       event.preventDefault();

@@ -74,6 +74,8 @@ export interface Options {
   width?: number;
   /** Draws the title above the picture. */
   title?: boolean;
+  /** A click on a map gives its coordinates instead of the losses there. */
+  pick?: (x: number, y: number) => void;
 }
 
 /** Where a picture is drawn. */
@@ -88,6 +90,10 @@ export interface Stage {
   state: Record<string, unknown>;
   /** Draws again. */
   again: () => void;
+  /** Called for a click on a map. */
+  pick?: (x: number, y: number) => void;
+  /** Each map of the picture adds what moves the mark to a place of it. */
+  movers: ((x: number, y: number) => void)[];
 }
 
 /** The box of a plot in an SVG element. */
@@ -311,6 +317,20 @@ export function onScreen(element: SVGSVGElement, x: number, y: number): [number,
   const box = element.getBoundingClientRect();
   const view = element.viewBox.baseVal;
   return [box.left + (x * box.width) / (view.width || 1), box.top + (y * box.height) / (view.height || 1)];
+}
+
+/** Adds a mark that can be moved to a place of a plot without drawing the plot again. */
+export function movable({ svg: element, left, right, top, bottom }: Frame, sx: Scale, sy: Scale): (x: number, y: number) => void {
+  const group = svg(element, "g", { class: "gl-here", visibility: "hidden" });
+  svg(group, "circle", { r: 7, class: "gl-here-outer" });
+  svg(group, "circle", { r: 7, class: "gl-here-inner" });
+  svg(group, "circle", { r: 1.6, class: "gl-here-centre" });
+  return (x, y) => {
+    const [px, py] = [sx(x), sy(y)];
+    const inside = px >= left - 0.5 && px <= right + 0.5 && py >= top - 0.5 && py <= bottom + 0.5;
+    group.setAttribute("visibility", inside ? "visible" : "hidden");
+    if (inside) group.setAttribute("transform", `translate(${px.toFixed(1)} ${py.toFixed(1)})`);
+  };
 }
 
 /** A pattern of lines; returns its reference. */

@@ -1,0 +1,166 @@
+// A new gearbox from a form: a layout, its fields, and the text that they give.
+
+import { html, unique } from "../svg.ts";
+import { words } from "../format.ts";
+import { searches } from "./catalogue.ts";
+import { describeFinding } from "./findings.ts";
+import { Quiet } from "./pace.ts";
+import type { Fault, Field, Finding, Layout } from "./protocol.ts";
+import { Newest, Refused, type Transport } from "./transport.ts";
+
+/** The field that a finding belongs to: its path is that of the field, or inside of it, or around it. */
+export function fieldOf(path: string, fields: string[]): string | null {
+  if (fields.includes(path)) return path;
+  const inside = fields.filter((f) => path.startsWith(`${f}.`) || path.startsWith(`${f}[`));
+  if (inside.length) return inside.sort((a, b) => b.length - a.length)[0];
+  const around = fields.filter((f) => f.startsWith(`${path}.`) || f.startsWith(`${path}[`));
+  return path && around.length === 1 ? around[0] : null;
+}
+
+/** A name that no file of the folder has. */
+export function freeName(wanted: string, taken: string[]): string {
+  if (!taken.includes(wanted)) return wanted;
+  const [, stem, end] = /^(.*?)(\.[^./]*)?$/.exec(wanted)!;
+  for (let k = 2; ; k++) {
+    const name = `${stem}-${k}${end ?? ""}`;
+    if (!taken.includes(name)) return name;
+  }
+}
+
+export function newGearbox(layouts: Layout[], transport: Transport, taken: () => string[], create: (file: string, text: string) => void): void {
+  const dialog = html(document.body, "dialog", { class: "form-dialog", "aria-labelledby": "form-title" });
+  const head = html(dialog, "header");
+  html(head, "h2", { id: "form-title" }, "New gearbox");
+  const choice = html(head, "label", { class: "layout-choice" });
+  html(choice, "span", {}, "Layout");
+  const select = html(choice, "select", { id: "layout" });
+  for (const { name } of layouts) html(select, "option", { value: name }, name);
+  const about = html(head, "p", { class: "quiet" });
+  const body = html(dialog, "div", { class: "form-body" });
+  const fields = html(body, "form", { class: "fields", autocomplete: "off", novalidate: "" });
+  const side = html(body, "div", { class: "form-side" });
+  const state = html(side, "p", { class: "form-state", role: "status" });
+  const preview = html(side, "pre", { class: "preview", tabindex: 0, role: "region", "aria-label": "text of the gearbox" });
+  const foot = html(dialog, "footer", { class: "dialog-actions" });
+  const named = html(foot, "label");
+  html(named, "span", {}, "File");
+  const name = html(named, "input", { type: "text", spellcheck: "false", id: "form-file" });
+  const ok = html(foot, "button", { type: "button", class: "primary", id: "form-create" }, "Create");
+  const cancel = html(foot, "button", { type: "button" }, "Cancel");
+
+  const newest = new Newest(transport);
+  const catalogue = new Newest(transport);
+  const inputs = new Map<string, { field: Field; input: HTMLInputElement; error: HTMLElement }>();
+  let text: string | null = null;
+
+  const faults = (fault: Fault | null) => {
+    for (const { input, error } of inputs.values()) {
+      error.replaceChildren();
+      input.removeAttribute("aria-invalid");
+    }
+    state.replaceChildren();
+    if (!fault) return;
+    const elsewhere: Finding[] = [];
+    for (const finding of fault.findings) {
+      const path = fieldOf(finding.path, [...inputs.keys()]);
+      const at = path === null ? undefined : inputs.get(path);
+      if (!at) {
+        elsewhere.push(finding);
+        continue;
+      }
+      at.input.setAttribute("aria-invalid", "true");
+      html(at.error, "span", {}, finding.message);
+      if (finding.help) html(at.error, "span", {}, `help: ${finding.help}`);
+    }
+    state.dataset.state = "bad";
+    html(state, "span", {}, fault.findings.length ? "The gearbox has errors." : fault.message);
+    if (fault.help) html(state, "span", {}, ` help: ${fault.help}`);
+    for (const finding of elsewhere) describeFinding(html(state, "div", { class: "finding-tip" }), finding);
+  };
+  const ask = async () => {
+    const values: Record<string, string> = {};
+    for (const [path, { field, input }] of inputs) if (input.value !== field.value) values[path] = input.value;
+    try {
+      const answer = await newest.ask({ request: "new", layout: select.value, values });
+      if (!answer) return;
+      preview.textContent = answer.text;
+      delete preview.dataset.stale;
+      // A value that cannot be a value of its field, or does not fit the others, is a finding of the text.
+      const file = "new-gearbox.yaml";
+      const checked = await newest.ask({ request: "edit", texts: { [file]: answer.text }, edit: { request: "findings", file } });
+      if (!checked) return;
+      const findings = checked.answer === "findings" ? checked.value : [];
+      const errors = findings.filter((f) => f.severity === "error");
+      if (errors.length) {
+        text = null;
+        faults({ message: "", help: null, findings: errors });
+        ok.disabled = true;
+        return;
+      }
+      text = answer.text;
+      faults(null);
+      state.dataset.state = "good";
+      state.textContent = "The text of this gearbox has no errors.";
+      for (const finding of findings) describeFinding(html(state, "div", { class: "finding-tip warning" }), finding);
+    } catch (fault) {
+      text = null;
+      preview.dataset.stale = "";
+      faults(fault instanceof Refused ? fault.fault : { message: fault instanceof Error ? fault.message : String(fault), help: null, findings: [] });
+    }
+    ok.disabled = text === null;
+  };
+  const soon = new Quiet(120, () => void ask());
+  const changed = () => {
+    ok.disabled = true;
+    soon.call();
+  };
+  const build = () => {
+    const layout = layouts.find((l) => l.name === select.value)!;
+    about.textContent = layout.about;
+    fields.replaceChildren();
+    inputs.clear();
+    for (const group of layout.groups) {
+      const set = html(fields, "fieldset");
+      html(set, "legend", {}, group.title);
+      for (const field of group.fields) {
+        const id = unique("field");
+        const line = html(set, "div", { class: "field", "data-path": field.path });
+        html(line, "label", { for: id }, words(field.label));
+        const input = html(line, "input", { id, type: "text", value: field.value, spellcheck: "false", "aria-describedby": `${id}-help ${id}-error`, inputmode: field.kind === "integer" ? "numeric" : undefined });
+        html(line, "span", { class: "field-help", id: `${id}-help` }, words(field.help));
+        const error = html(line, "span", { class: "field-error", id: `${id}-error`, "aria-live": "polite" });
+        inputs.set(field.path, { field, input, error });
+        input.addEventListener("input", changed);
+        if (field.kind === "bearing" || field.kind === "oil") searches(input, field.kind === "bearing" ? "bearings" : "oils", (of, part) => catalogue.ask({ request: "catalogue", of, text: part }), changed);
+      }
+    }
+    name.value = freeName("gearbox.yaml", taken());
+    text = null;
+    changed();
+  };
+  const finish = () => {
+    if (text === null) return;
+    const file = name.value.trim();
+    if (!file || taken().includes(file)) {
+      state.dataset.state = "bad";
+      state.textContent = file ? `${file} exists already. Choose another name.` : "The file needs a name.";
+      name.focus();
+      return;
+    }
+    dialog.close();
+    create(/\.ya?ml$/.test(file) ? file : `${file}.yaml`, text);
+  };
+  select.addEventListener("change", build);
+  fields.addEventListener("submit", (event) => event.preventDefault());
+  ok.addEventListener("click", finish);
+  cancel.addEventListener("click", () => dialog.close());
+  dialog.addEventListener("close", () => {
+    soon.cancel();
+    newest.abort();
+    catalogue.abort();
+    dialog.remove();
+  });
+  build();
+  dialog.showModal();
+  select.focus();
+}

@@ -1,0 +1,177 @@
+// The operating point: gear, model set, inputs of the gear and oil temperature.
+
+import { html } from "../svg.ts";
+import { words } from "../format.ts";
+import type { Controls, Input, PointOf } from "./protocol.ts";
+import { Slider, type SliderValue } from "./sliders.ts";
+import { store, stored } from "./storage.ts";
+
+/** What was chosen for a gearbox; kept for a reload. */
+interface Chosen {
+  gear: string;
+  model_set: string;
+  oil: number | null;
+  oil_range: [number, number];
+  /** By gear, quantity and port. */
+  inputs: Record<string, SliderValue>;
+}
+
+const KEY = "gearloss-workbench-points";
+
+export class PointPane {
+  private controls: Controls | null = null;
+  private chosen: Chosen | null = null;
+  private gearbox: string | null = null;
+  private shape = "";
+  private sliders: { input: Input; slider: Slider }[] = [];
+  private oil: Slider | null = null;
+
+  constructor(
+    private readonly host: HTMLElement,
+    private readonly changed: (what: "value" | "range") => void,
+  ) {}
+
+  /** Forgets the controls of another gearbox. */
+  begin(gearbox: string): void {
+    if (this.gearbox === gearbox) return;
+    this.gearbox = gearbox;
+    this.controls = null;
+    this.chosen = null;
+    this.shape = "";
+    this.host.replaceChildren();
+  }
+
+  /** Shows the controls; what was chosen stays as far as it exists. True if the point is another one. */
+  show(controls: Controls): boolean {
+    const before = JSON.stringify(this.point());
+    const kept = this.chosen ?? stored<Record<string, Chosen>>(KEY, {}, sessionStorage)[this.gearbox ?? ""] ?? null;
+    const gear = controls.gears.find((g) => g.name === kept?.gear) ?? controls.gears[0];
+    this.controls = controls;
+    const chosen: Chosen = {
+      gear: gear?.name ?? "",
+      model_set: kept && controls.model_sets.includes(kept.model_set) ? kept.model_set : (controls.model_sets[0] ?? ""),
+      oil: kept?.oil ?? null,
+      oil_range: kept?.oil_range ?? [0, 120],
+      inputs: kept?.inputs ?? {},
+    };
+    // The fields that are shown write into this object.
+    this.chosen = Object.assign(this.chosen ?? chosen, chosen);
+    const shape = JSON.stringify(controls);
+    if (shape !== this.shape) {
+      this.shape = shape;
+      this.build();
+    }
+    return before !== JSON.stringify(this.point());
+  }
+
+  private key(gear: string, input: Input): string {
+    return `${gear} ${input.quantity} ${input.port}`;
+  }
+
+  private build(): void {
+    const { host, controls, chosen } = this;
+    if (!controls || !chosen) return;
+    // The focus survives if what had it is still there.
+    const focused = host.contains(document.activeElement) ? (document.activeElement as HTMLElement).dataset.name : undefined;
+    host.replaceChildren();
+    const row = html(host, "div", { class: "selects" });
+    const select = (name: string, label: string, options: [value: string, text: string][], value: string, act: (value: string) => void) => {
+      const own = html(row, "label");
+      html(own, "span", {}, label);
+      const element = html(own, "select", { "data-name": name });
+      for (const [v, text] of options) html(element, "option", { value: v }, text);
+      element.value = value;
+      element.addEventListener("change", () => act(element.value));
+    };
+    select("gear", "Gear", controls.gears.map((g) => [g.name, g.name]), chosen.gear, (gear) => {
+      chosen.gear = gear;
+      this.build();
+      this.notice("range");
+    });
+    select("models", "Models", controls.model_sets.map((m) => [m, m || "as in the file"]), chosen.model_set, (set) => {
+      chosen.model_set = set;
+      this.notice("range");
+    });
+    const gear = controls.gears.find((g) => g.name === chosen.gear);
+    this.sliders = (gear?.inputs ?? []).map((input) => {
+      const start = chosen.inputs[this.key(chosen.gear, input)] ?? input;
+      const slider = new Slider(host, words(`${input.quantity === "torque" ? "Torque" : "Speed"}, ${input.port}`), input.unit, start, (what) => {
+        chosen.inputs[this.key(chosen.gear, input)] = slider.state;
+        this.notice(what);
+      });
+      slider.element.dataset.quantity = input.quantity;
+      slider.element.dataset.port = input.port;
+      return { input, slider };
+    });
+    const asFile = `as in the file (${controls.oil.mode === "fixed" ? (controls.oil.value === null ? "fixed" : `${controls.oil.value} °C`) : controls.oil.mode})`;
+    const box = html(host, "div", { class: "oil" });
+    const label = html(box, "label");
+    html(label, "span", {}, "Oil temperature");
+    const mode = html(label, "select", { "data-name": "oil" });
+    html(mode, "option", { value: "file" }, asFile);
+    html(mode, "option", { value: "given" }, "given");
+    mode.value = chosen.oil === null ? "file" : "given";
+    const place = html(box, "div");
+    const sliderOfOil = () => {
+      place.replaceChildren();
+      this.oil = null;
+      if (chosen.oil === null) return;
+      const [from, to] = chosen.oil_range;
+      const slider = new Slider(place, "Given temperature", "°C", { from, to, value: chosen.oil }, (what) => {
+        const { from, to, value } = slider.state;
+        chosen.oil = value;
+        chosen.oil_range = [from, to];
+        this.notice(what);
+      });
+      slider.element.dataset.quantity = "oil";
+      this.oil = slider;
+    };
+    mode.addEventListener("change", () => {
+      chosen.oil = mode.value === "given" ? (this.suggestedOil ?? controls.oil.value ?? 60) : null;
+      sliderOfOil();
+      this.notice("value");
+    });
+    sliderOfOil();
+    if (focused) host.querySelector<HTMLElement>(`[data-name="${focused}"]`)?.focus();
+  }
+
+  /** Temperature with which "given" begins: the one that was found last. */
+  suggestedOil: number | null = null;
+
+  private notice(what: "value" | "range"): void {
+    if (this.gearbox) store(KEY, { ...stored<Record<string, Chosen>>(KEY, {}, sessionStorage), [this.gearbox]: this.chosen }, sessionStorage);
+    this.changed(what);
+  }
+
+  point(): PointOf | null {
+    const { controls, chosen, gearbox } = this;
+    if (!controls || !chosen || !gearbox) return null;
+    const inputs = this.sliders.map(({ input, slider }) => ({ quantity: input.quantity, port: input.port, value: slider.state.value }));
+    return { gearbox, gear: chosen.gear, inputs, oil_temperature: this.oil?.state.value ?? null, model_set: chosen.model_set };
+  }
+
+  /** Ranges of the sliders for a map; null without one torque and one speed. */
+  ranges(): { torque: { from: number; to: number }; speed: { from: number; to: number } } | null {
+    const of = (quantity: string) => this.sliders.find((s) => s.input.quantity === quantity)?.slider.state;
+    const [torque, speed] = [of("torque"), of("speed")];
+    if (!torque || !speed) return null;
+    const ends = ({ from, to }: SliderValue) => ({ from: Math.min(from, to), to: Math.max(from, to) });
+    return { torque: ends(torque), speed: ends(speed) };
+  }
+
+  /** Values of speed and torque, for the mark on the map. */
+  place(): { torque: number; speed: number } | null {
+    const of = (quantity: string) => this.sliders.find((s) => s.input.quantity === quantity)?.slider.state.value;
+    const [torque, speed] = [of("torque"), of("speed")];
+    return torque === undefined || speed === undefined ? null : { torque, speed };
+  }
+
+  /** Moves the sliders. */
+  moveTo(place: { torque: number; speed: number }): void {
+    for (const { input, slider } of this.sliders) {
+      slider.value = place[input.quantity];
+      if (this.chosen) this.chosen.inputs[this.key(this.chosen.gear, input)] = slider.state;
+    }
+    this.notice("value");
+  }
+}

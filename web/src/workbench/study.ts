@@ -1,0 +1,169 @@
+// Analyses of a study: run all or one, progress, cancel, results as in the report.
+
+import type { Drawn } from "../draw.ts";
+import { words } from "../format.ts";
+import { html } from "../svg.ts";
+import type { ColourBook } from "../colours.ts";
+import { describeFinding } from "./findings.ts";
+import type { Answers, Fault, FileRange, RunEvent, Texts } from "./protocol.ts";
+import { drawSection } from "./sections.ts";
+import { type Transport, Refused, isAbort } from "./transport.ts";
+
+export class StudyPane {
+  private readonly list: HTMLElement;
+  private readonly bar: HTMLElement;
+  private readonly all: HTMLButtonElement;
+  private readonly cancel: HTMLButtonElement;
+  private readonly progress: HTMLProgressElement;
+  private readonly status: HTMLElement;
+  private readonly report: HTMLElement;
+  private readonly results: HTMLElement;
+  private study: string | null = null;
+  private running: AbortController | null = null;
+  private drawn: Drawn[] = [];
+  private shape = "";
+
+  constructor(
+    host: HTMLElement,
+    private readonly transport: Transport,
+    private readonly texts: () => Texts,
+    private readonly books: { components: ColourBook; series: ColourBook },
+    private readonly goTo: (place: FileRange) => void,
+    private readonly failed: (fault: unknown) => void,
+  ) {
+    const side = html(host, "div", { class: "study-side" });
+    this.bar = html(side, "div", { class: "bar-line" });
+    this.all = html(this.bar, "button", { type: "button", class: "primary" }, "Run all");
+    this.all.addEventListener("click", () => void this.run([]));
+    this.cancel = html(this.bar, "button", { type: "button", hidden: "" }, "Cancel");
+    this.cancel.addEventListener("click", () => this.running?.abort());
+    this.report = html(this.bar, "span", { class: "report-link" });
+    this.progress = html(side, "progress", { max: 1, value: 0, "aria-label": "progress of the analysis", hidden: "" });
+    this.status = html(side, "p", { class: "quiet", role: "status" });
+    this.list = html(side, "ul", { class: "analyses" });
+    this.results = html(host, "div", { class: "study-results", tabindex: 0, role: "region", "aria-label": "results of the study" });
+    this.none();
+  }
+
+  /** Without a study. */
+  none(): void {
+    this.study = null;
+    this.shape = "";
+    this.all.disabled = true;
+    this.list.replaceChildren();
+    this.status.textContent = "Open a study to see its analyses.";
+  }
+
+  show(study: string, analyses: Answers["analyses"]): void {
+    const shape = JSON.stringify([study, analyses]);
+    if (shape === this.shape) return;
+    this.shape = shape;
+    if (study !== this.study) {
+      this.clear();
+      this.report.replaceChildren();
+    }
+    this.study = study;
+    this.all.disabled = this.running !== null || analyses.length === 0;
+    if (!this.running) this.status.textContent = `${study}: ${analyses.length} analyses`;
+    this.list.replaceChildren();
+    for (const { name, title, type, about } of analyses) {
+      const item = html(this.list, "li", { title: about });
+      const text = html(item, "div");
+      html(text, "b", {}, words(title || name));
+      html(text, "span", { class: "quiet" }, ` ${name} · ${type}`);
+      const button = html(item, "button", { type: "button", "aria-label": `Run ${name}` }, "Run");
+      button.disabled = this.running !== null;
+      button.addEventListener("click", () => void this.run([name]));
+    }
+  }
+
+  fault(fault: Fault): void {
+    if (!this.running) this.status.textContent = fault.message;
+  }
+
+  private clear(): void {
+    for (const own of this.drawn) own.remove();
+    this.drawn = [];
+    this.results.replaceChildren();
+  }
+
+  private begin(): AbortController {
+    const own = new AbortController();
+    this.running = own;
+    this.clear();
+    this.report.replaceChildren();
+    this.cancel.hidden = false;
+    this.progress.hidden = false;
+    this.progress.removeAttribute("value");
+    for (const button of [this.all, ...this.list.querySelectorAll("button")]) button.disabled = true;
+    this.status.textContent = "Starting";
+    return own;
+  }
+
+  private end(text: string): void {
+    this.running = null;
+    this.cancel.hidden = true;
+    this.progress.hidden = true;
+    for (const button of [this.all, ...this.list.querySelectorAll("button")]) button.disabled = false;
+    this.status.textContent = text;
+  }
+
+  private async run(analyses: string[]): Promise<void> {
+    if (!this.study || this.running) return;
+    const own = this.begin();
+    const begun = performance.now();
+    let end = "";
+    try {
+      for await (const event of this.transport.stream<RunEvent>({ request: "run", texts: this.texts(), study: this.study, analyses }, own.signal)) {
+        end = this.take(event) ?? end;
+      }
+      this.end(end ? `${end}, ${((performance.now() - begun) / 1000).toFixed(1)} s` : "The program ended the run without a result.");
+    } catch (fault) {
+      if (isAbort(fault)) return this.end("Cancelled.");
+      this.end(fault instanceof Error ? fault.message : String(fault));
+      if (fault instanceof Refused) this.wrong(fault.fault);
+      else this.failed(fault);
+    }
+  }
+
+  /** Shows an event; returns what is said at the end. */
+  private take(event: RunEvent): string | null {
+    switch (event.event) {
+      case "begin":
+        this.status.textContent = words(event.title || event.analysis);
+        this.progress.removeAttribute("value");
+        return null;
+      case "progress":
+        this.status.textContent = `${event.analysis}: ${event.label} ${event.done} of ${event.count}`;
+        if (event.count > 0) this.progress.value = event.done / event.count;
+        return null;
+      case "section":
+        this.drawn.push(...drawSection(this.results, event.section, this.books));
+        return null;
+      case "report": {
+        const link = html(this.report, "a", { href: event.address, target: "_blank", rel: "noopener" }, "Open the report");
+        link.dataset.report = "";
+        return null;
+      }
+      case "fault":
+        this.wrong(event.fault);
+        return null;
+      case "end":
+        return event.failed ? `${event.failed} failed` : "Finished";
+    }
+  }
+
+  private wrong(fault: Fault): void {
+    const box = html(this.results, "div", { class: "failed", role: "alert" });
+    html(box, "p", {}, fault.message);
+    if (fault.help) html(box, "p", {}, `help: ${fault.help}`);
+    for (const finding of fault.findings) {
+      const item = html(box, "div", { class: "finding-tip" });
+      describeFinding(item, finding);
+      const { place } = finding;
+      if (!place) continue;
+      const button = html(item, "button", { type: "button" }, `${place.file}, line ${place.range.start.line + 1}`);
+      button.addEventListener("click", () => this.goTo(place));
+    }
+  }
+}

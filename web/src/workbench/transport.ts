@@ -1,0 +1,130 @@
+// How the page reaches the program. The page knows only the interface, so that a program inside of the page can take its place.
+
+import type { Answers, Fault, Request } from "./protocol.ts";
+
+type Named<N> = Extract<Request, { request: N }>;
+type Single = Exclude<Request["request"], "run" | "watch">;
+
+export interface Transport {
+  /** The answer to one request. Rejects with `Refused`, `Locked`, `Gone`, or an `AbortError`. */
+  ask<N extends Single & keyof Answers>(request: Named<N>, signal?: AbortSignal): Promise<Answers[N]>;
+  /** The events that answer `run` and `watch`, one after the other. */
+  stream<E>(request: Named<"run"> | Named<"watch">, signal?: AbortSignal): AsyncIterable<E>;
+}
+
+/** The program answers that it cannot. */
+export class Refused extends Error {
+  constructor(readonly fault: Fault) {
+    super(fault.message);
+  }
+}
+
+/** The token is absent or not that of the program. */
+export class Locked extends Error {}
+
+/** The program does not answer any more. */
+export class Gone extends Error {}
+
+export function isAbort(fault: unknown): boolean {
+  return fault instanceof DOMException && fault.name === "AbortError";
+}
+
+/** Over HTTP, with a token. */
+export class Http implements Transport {
+  constructor(private readonly token: string | null) {}
+
+  private async send(request: Request, signal?: AbortSignal): Promise<Response> {
+    if (!this.token) throw new Locked("no token");
+    let response: Response;
+    try {
+      response = await fetch("/api", {
+        method: "POST",
+        headers: { "Content-Type": "application/json", Authorization: `Bearer ${this.token}` },
+        body: JSON.stringify(request),
+        cache: "no-store",
+        signal,
+      });
+    } catch (fault) {
+      if (isAbort(fault)) throw fault;
+      throw new Gone("no answer");
+    }
+    if (response.status === 401 || response.status === 403) throw new Locked(`status ${response.status}`);
+    return response;
+  }
+
+  async ask<N extends Single & keyof Answers>(request: Named<N>, signal?: AbortSignal): Promise<Answers[N]> {
+    const response = await this.send(request, signal);
+    let answer: { value: Answers[N] } | { fault: Fault };
+    try {
+      answer = await response.json();
+    } catch (fault) {
+      if (isAbort(fault)) throw fault;
+      if (response.ok) throw new Gone("the answer ends early");
+      throw new Refused({ message: `the program answers with status ${response.status}`, help: null, findings: [] });
+    }
+    if ("fault" in answer) throw new Refused(answer.fault);
+    return answer.value;
+  }
+
+  async *stream<E>(request: Named<"run"> | Named<"watch">, signal?: AbortSignal): AsyncIterable<E> {
+    const response = await this.send(request, signal);
+    if (!response.ok || !response.body) throw new Refused({ message: `the program answers with status ${response.status}`, help: null, findings: [] });
+    const reader = response.body.pipeThrough(new TextDecoderStream()).getReader();
+    let rest = "";
+    for (;;) {
+      let part: ReadableStreamReadResult<string>;
+      try {
+        part = await reader.read();
+      } catch (fault) {
+        if (isAbort(fault) || signal?.aborted) throw new DOMException("aborted", "AbortError");
+        throw new Gone("the stream ends early");
+      }
+      if (part.done) break;
+      const lines = (rest + part.value).split("\n");
+      rest = lines.pop() ?? "";
+      for (const line of lines) if (line.trim()) yield JSON.parse(line) as E;
+    }
+    if (rest.trim()) yield JSON.parse(rest) as E;
+  }
+}
+
+/** One kind of request, of which only the newest counts: a new one aborts the one before. */
+export class Newest {
+  private running: AbortController | null = null;
+
+  constructor(private readonly transport: Transport) {}
+
+  /** The answer, or null if a newer request took its place. */
+  async ask<N extends Single & keyof Answers>(request: Named<N>): Promise<Answers[N] | null> {
+    this.abort();
+    const own = new AbortController();
+    this.running = own;
+    try {
+      const answer = await this.transport.ask(request, own.signal);
+      return this.running === own ? answer : null;
+    } catch (fault) {
+      if (isAbort(fault) || this.running !== own) return null;
+      throw fault;
+    } finally {
+      if (this.running === own) this.running = null;
+    }
+  }
+
+  abort(): void {
+    this.running?.abort();
+    this.running = null;
+  }
+}
+
+const KEY = "gearloss-token";
+
+/** The token of the address, which it leaves, or the one of this tab. */
+export function tokenOfPage(): string | null {
+  const given = /^#t=([0-9a-fA-F]+)$/.exec(location.hash)?.[1];
+  if (given) {
+    history.replaceState(null, "", location.pathname + location.search);
+    sessionStorage.setItem(KEY, given);
+    return given;
+  }
+  return sessionStorage.getItem(KEY);
+}

@@ -1,0 +1,228 @@
+// Tests of the parts of the workbench that need no browser. They are bundled first, because node reads no TypeScript.
+
+import assert from "node:assert/strict";
+import { mkdtemp, rm } from "node:fs/promises";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { after, test } from "node:test";
+import { build } from "esbuild";
+
+const folder = await mkdtemp(join(tmpdir(), "gearloss-workbench-"));
+after(() => rm(folder, { recursive: true }));
+
+async function load(name) {
+  const outfile = join(folder, `${name}.mjs`);
+  await build({ entryPoints: [new URL(`../../src/workbench/${name}.ts`, import.meta.url).pathname], outfile, bundle: true, format: "esm", logLevel: "error" });
+  return import(outfile);
+}
+
+const { differenceOf } = await load("difference");
+const { changes, merged, replacement, rows } = await load("diff");
+const { Files, kindOf, shortName } = await load("files");
+const { fieldOf, freeName } = await load("form");
+const { rowsOf } = await load("losses");
+const { blocks, pieces } = await load("markdown");
+const { signed } = await load("numbers");
+const { byteOf, unitOf, unitsOf } = await load("offsets");
+const { Pace, Quiet } = await load("pace");
+const { stepOf } = await load("sliders");
+const { fit, fitting } = await load("suggestions");
+
+test("bytes and UTF-16 units agree with the encoder, with umlauts, signs of three bytes and emoji", () => {
+  const text = "oil: Öl\n# ≤ 3 °C 🙂 ﬀ\nshafts: { ä: 1 }\n";
+  for (let unit = 0; unit <= text.length; unit++) {
+    const code = text.charCodeAt(unit);
+    if (code >= 0xdc00 && code < 0xe000) continue;
+    const byte = Buffer.byteLength(text.slice(0, unit));
+    assert.equal(byteOf(text, unit), byte, `unit ${unit}`);
+    assert.equal(unitOf(text, byte), unit, `byte ${byte}`);
+  }
+  const inside = Buffer.byteLength(text.slice(0, text.indexOf("🙂"))) + 2;
+  assert.equal(unitOf(text, inside), text.indexOf("🙂"));
+  assert.equal(unitOf(text, 10_000), text.length);
+  const bytes = [20, 3, 0, 11, 10_000, 7];
+  assert.deepEqual(unitsOf(text, bytes), bytes.map((b) => unitOf(text, b)));
+});
+
+test("changes lead from one text to the other", () => {
+  const apply = (a, b) => {
+    const out = [];
+    let at = 0;
+    for (const c of changes(a, b)) {
+      out.push(...a.slice(at, c.a[0]), ...b.slice(...c.b));
+      at = c.a[1];
+    }
+    return [...out, ...a.slice(at)];
+  };
+  let seed = 7;
+  const random = (n) => (seed = (seed * 1103515245 + 12345) % 2147483648) % n;
+  for (let round = 0; round < 3000; round++) {
+    const list = () => Array.from({ length: random(12) }, () => "abcd"[random(4)]);
+    const [a, b] = [list(), list()];
+    assert.deepEqual(apply(a, b), b, `${a} to ${b}`);
+  }
+  assert.deepEqual(changes(["a", "b", "c"], ["a", "x", "c"]), [{ a: [1, 2], b: [1, 2] }]);
+  assert.deepEqual(changes(["a"], ["a"]), []);
+});
+
+test("changes of both sides are merged if they do not touch", () => {
+  const base = "a\nb\nc\nd\ne\n";
+  assert.equal(merged(base, "A\nb\nc\nd\ne\n", "a\nb\nc\nd\nE\nf\n"), "A\nb\nc\nd\nE\nf\n");
+  assert.equal(merged(base, "a\nc\nd\ne\n", "a\nb\nc\nd\nx\ne\n"), "a\nc\nd\nx\ne\n");
+  assert.equal(merged(base, base, "x\n"), "x\n");
+  assert.equal(merged(base, "x\n", base), "x\n");
+  assert.equal(merged(base, "a\nB\nc\nd\ne\n", "a\nB\nc\nd\ne\n"), "a\nB\nc\nd\ne\n", "the same change");
+  assert.equal(merged(base, "a\nB\nc\nd\ne\n", "a\n2\nc\nd\ne\n"), null, "the same line");
+  assert.equal(merged(base, "a\nB\nc\nd\ne\n", "a\nb\nC\nd\ne\n"), null, "adjacent lines");
+});
+
+test("the smallest replacement leads to the other text", () => {
+  for (const [a, b] of [["", "x"], ["abc", "abc"], ["aaa", "aa"], ["abcd", "abXcd"], ["x", ""], ["abab", "ab"]]) {
+    const { from, to, insert } = replacement(a, b);
+    assert.equal(a.slice(0, from) + insert + a.slice(to), b);
+  }
+  assert.deepEqual(rows("a\nb", "a\nc").map((r) => r.kind), ["same", "removed", "added"]);
+});
+
+test("explanations are Markdown without HTML", () => {
+  const found = blocks("**oil** temperature `theta`\n\n- one\n- two `x`\n\n```yaml\na: <b>1</b>\n```\n# Head\n| a | b |\n|---|---|\n| 1 | 2 |");
+  assert.deepEqual(found.map((b) => b.kind), ["paragraph", "list", "code", "heading", "table"]);
+  assert.equal(found[2].text, "a: <b>1</b>");
+  assert.equal(found[1].items.length, 2);
+  assert.equal(found[4].rows.length, 2);
+  assert.deepEqual(pieces("a `b*c*` **d** *e* 2*3*4 [f](http://g) <i>h</i>"), [
+    { text: "a " }, { text: "b*c*", style: "code" }, { text: " " }, { text: "d", style: "bold" }, { text: " " }, { text: "e", style: "emphasis" }, { text: " 2*3*4 " }, { text: "f" }, { text: " <i>h</i>" },
+  ]);
+  assert.deepEqual(pieces("mean_mu_mz \\*"), [{ text: "mean_mu_mz " }, { text: "*" }]);
+});
+
+/** A clock whose time is set by hand. */
+function clock() {
+  let time = 0;
+  let timers = [];
+  return {
+    now: () => time,
+    later: (act, ms) => {
+      const own = { act, at: time + ms };
+      timers.push(own);
+      return own;
+    },
+    cancel: (own) => (timers = timers.filter((t) => t !== own)),
+    async go(ms) {
+      const end = time + ms;
+      for (;;) {
+        const next = timers.filter((t) => t.at <= end).sort((a, b) => a.at - b.at)[0];
+        if (!next) break;
+        time = next.at;
+        timers = timers.filter((t) => t !== next);
+        next.act();
+        for (let k = 0; k < 5; k++) await null;
+      }
+      time = end;
+      for (let k = 0; k < 5; k++) await null;
+    },
+  };
+}
+
+test("a quiet act comes once after the last call", async () => {
+  const time = clock();
+  let count = 0;
+  const quiet = new Quiet(400, () => count++, time);
+  for (let k = 0; k < 5; k++) {
+    quiet.call();
+    await time.go(300);
+  }
+  assert.equal(count, 0);
+  await time.go(100);
+  assert.equal(count, 1);
+  quiet.call();
+  quiet.flush();
+  assert.equal(count, 2);
+  await time.go(1000);
+  assert.equal(count, 2);
+});
+
+test("an act also comes while changes go on, and not before the one before ends or patience does", async () => {
+  const time = clock();
+  const begun = [];
+  const ends = [];
+  const pace = new Pace(20, 200, () => {
+    begun.push(time.now());
+    return new Promise((done) => ends.push(done));
+  }, time);
+  for (let k = 0; k < 10; k++) {
+    pace.call();
+    await time.go(10);
+  }
+  assert.deepEqual(begun, [20], "the second one waits for the first");
+  ends[0]();
+  await time.go(0);
+  assert.deepEqual(begun, [20, 100]);
+  pace.call();
+  await time.go(500);
+  assert.deepEqual(begun, [20, 100, 300], "after its patience it does not wait any more");
+  ends[1]();
+  ends[2]();
+  await time.go(500);
+  pace.call();
+  await time.go(20);
+  assert.equal(begun.length, 4);
+});
+
+test("suggestions fit what is typed", () => {
+  assert.equal(fit("6208", '"62'), 0);
+  assert.equal(fit("NU 208", "208"), 1);
+  assert.equal(fit("iso14179_2", "i142"), 2);
+  assert.equal(fit("skf", "x"), null);
+  const range = (from, to) => ({ from, to });
+  const of = (label, r) => ({ label, kind: "word", detail: "", documentation: "", insert: label, range: r, required: false });
+  const text = "ä: bea";
+  const found = fitting(text, 6, [of("abear", range(4, 7)), of("bearing", range(4, 7)), of("oil", range(4, 7))]);
+  assert.deepEqual(found.map((f) => [f.completion.label, f.from, f.to]), [["bearing", 3, 6], ["abear", 3, 6]]);
+});
+
+test("files know what is not saved", () => {
+  const files = new Files();
+  files.add("a.yaml", "gearloss: gearbox/1\n", "1");
+  files.add("b.yaml", "new", null);
+  assert.deepEqual(files.unsaved().map((f) => f.file), ["b.yaml"]);
+  files.setText("a.yaml", "x");
+  assert.deepEqual(files.texts(), { "a.yaml": "x", "b.yaml": "new" });
+  files.setSaved("a.yaml", "x", "2");
+  files.setSaved("b.yaml", "new", "3");
+  assert.deepEqual(files.texts(), {});
+  assert.equal(kindOf('# a\ngearloss: "study/1"\n'), "study");
+  assert.equal(kindOf("a: 1"), "other");
+  assert.equal(shortName("a/g.yaml", ["a/g.yaml", "s.yaml"]), "g.yaml");
+  assert.equal(shortName("a/g.yaml", ["a/g.yaml", "b/g.yaml"]), "a/g.yaml");
+  assert.equal(shortName("g.yaml", ["g.yaml", "b/g.yaml"]), "g.yaml");
+});
+
+test("faults of a form belong to their fields", () => {
+  const fields = ["gears.a.z", "gears.b.z", "bearings.B1.designation", "oil"];
+  assert.equal(fieldOf("gears.a.z", fields), "gears.a.z");
+  assert.equal(fieldOf("oil.viscosity", fields), "oil");
+  assert.equal(fieldOf("bearings.B1", fields), "bearings.B1.designation");
+  assert.equal(fieldOf("gears", fields), null);
+  assert.equal(fieldOf("", fields), null);
+  assert.equal(freeName("g.yaml", ["g.yaml", "g-2.yaml"]), "g-3.yaml");
+});
+
+test("differences have signs, losses their pinned ones", () => {
+  assert.equal(signed(-1.25, (v) => v.toFixed(1)), "\u22121.3");
+  assert.equal(signed(0.001, (v) => v.toFixed(1)), "±0.0");
+  const loss = (path, w) => ({ path, mechanism: "bearing", model: "skf", loss: w, load_dependent: null });
+  assert.deepEqual(rowsOf([loss("a", 1), loss("b", 3)], [loss("a", 2), loss("c", 4)]).map((r) => [r.path, r.loss, r.pinned]), [["b", 3, null], ["a", 1, 2], ["c", null, 4]]);
+  assert.equal(stepOf(0, 100), 0.5);
+  assert.equal(stepOf(0, 20000), 100);
+  assert.equal(stepOf(5, 5), 1);
+});
+
+test("the difference of two maps needs the same points", () => {
+  const panels = (values, x = [1, 2]) => ({ kind: "panels", title: "", rows: ["a"], columns: ["b"], x: ["speed in rpm", x], y: ["torque in Nm", [1, 2]], slider: null, quantities: [{ name: "efficiency", unit: "%", diverging: false, best: "highest", jumps: true, panels: [values] }], outside: [[]], marks: [], marked: "", powers: [], envelope: [], breakdown: null });
+  const found = differenceOf(panels([1, 2, 3, null]), panels([1, 1, 1, 1]));
+  assert.deepEqual(found.quantities[0].panels, [[0, 1, 2, null]]);
+  assert.equal(found.quantities[0].unit, "points");
+  assert.equal(found.quantities[0].diverging, true);
+  assert.equal(differenceOf(panels([1, 2, 3, 4]), panels([1, 2, 3, 4], [1, 3])), null);
+});

@@ -1,0 +1,647 @@
+// Starts `gearloss open` on a copy of the examples and uses the page as an engineer would: node test/workbench.mjs. Prints one line of JSON with figures.
+// PROGRAM is the path of gearloss; BROWSER names the browser; CAPTURE a folder for images.
+
+import { execFileSync, spawn } from "node:child_process";
+import { cp, mkdir, mkdtemp, readFile, rm, writeFile } from "node:fs/promises";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import puppeteer from "puppeteer-core";
+
+const program = process.env.PROGRAM;
+if (!program) throw new Error("PROGRAM names the program gearloss");
+const capture = process.env.CAPTURE;
+if (capture) await mkdir(capture, { recursive: true });
+const axe = await readFile(new URL("../node_modules/axe-core/axe.min.js", import.meta.url), "utf8");
+const examples = new URL("../../examples/", import.meta.url).pathname;
+const root = await mkdtemp(join(tmpdir(), "gearloss-workbench-"));
+const folder = join(root, "gearboxes");
+for (const name of ["planetary-reducer", "two-speed-ev"]) await cp(join(examples, name), join(folder, name), { recursive: true, filter: (file) => !file.includes("/results") });
+
+const faults = [];
+const figures = {};
+const check = (is, text) => {
+  if (!is) faults.push(text);
+  return is;
+};
+const pause = (ms) => new Promise((done) => setTimeout(done, ms));
+
+/** Starts the program; returns it with its address. */
+async function start() {
+  const child = spawn(program, ["open", folder, "--no-browser", "--keep"], { stdio: ["ignore", "pipe", "pipe"] });
+  let text = "";
+  const address = await new Promise((done, fail) => {
+    const read = (data) => {
+      text += data;
+      const found = /http:\/\/\S+#t=[0-9a-f]+/.exec(text);
+      if (found) done(found[0]);
+    };
+    child.stdout.on("data", read);
+    child.stderr.on("data", read);
+    child.on("exit", () => fail(new Error(`the program ended: ${text}`)));
+  });
+  return { child, address };
+}
+
+/** A part of the test; one that cannot go on does not end the others. */
+async function step(name, act) {
+  try {
+    await act();
+  } catch (fault) {
+    faults.push(`${name}: ${fault.stack}`);
+  }
+}
+
+const { child, address } = await start();
+process.on("exit", () => child.kill());
+const browser = await puppeteer.launch({ executablePath: process.env.BROWSER ?? "/usr/bin/chromium", args: ["--no-sandbox"], headless: true });
+/** After the end of the program the browser reports failed requests. */
+let ended = false;
+
+async function open(width = 1440, height = 900, scheme = "light", url = address) {
+  const page = await browser.newPage();
+  page.on("console", (message) => {
+    if (!ended && !message.text().includes("ERR_ABORTED")) faults.push(`console: ${message.text()}`);
+  });
+  page.on("pageerror", (fault) => faults.push(`error: ${fault.stack}`));
+  page.on("request", (request) => {
+    const at = new URL(request.url());
+    if (!/^(data|blob):$/.test(at.protocol) && at.hostname !== "127.0.0.1") faults.push(`request: ${at}`);
+  });
+  page.on("dialog", (dialog) => void dialog.accept());
+  await page.setViewport({ width, height });
+  await page.emulateMediaFeatures([{ name: "prefers-color-scheme", value: scheme }]);
+  await page.goto(url, { waitUntil: "load" });
+  return page;
+}
+
+const until = async (page, what, test, ...args) => {
+  try {
+    await page.waitForFunction(test, { timeout: 15000, polling: 20 }, ...args);
+    return true;
+  } catch {
+    faults.push(`${what}: not within 15 s`);
+    return false;
+  }
+};
+const ready = (page) => until(page, "the page is ready", () => document.documentElement.dataset.ready === "" && document.querySelector("[data-number=loss]")?.dataset.value);
+const image = async (page, name) => {
+  if (capture) await page.screenshot({ path: join(capture, `${name}.png`) });
+};
+const serious = async (page, what) => {
+  await page.evaluate(axe);
+  const found = await page.evaluate(async () => {
+    const result = await window.axe.run(document, { resultTypes: ["violations"] });
+    return result.violations.map((v) => `${v.id} (${v.impact}): ${v.nodes.slice(0, 3).map((n) => n.target.join(" ")).join("; ")} (${v.nodes.length})`);
+  });
+  for (const line of found) faults.push(`axe, ${what}: ${line}`);
+};
+/** Texts of the page that are smaller than 12 pixels. */
+const small = (page) =>
+  page.evaluate(() => {
+    const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+    const found = new Set();
+    for (let node = walker.nextNode(); node; node = walker.nextNode()) {
+      const parent = node.parentElement;
+      // The drawing has its own scale.
+      if (!node.nodeValue.trim() || !parent.checkVisibility() || parent.closest(".drawing-box, script, style")) continue;
+      if (parseFloat(getComputedStyle(parent).fontSize) < 12) found.add(`${parent.tagName}.${parent.className}`);
+    }
+    return [...found];
+  });
+
+const textOf = (page) => page.evaluate(() => document.querySelector(".cm-content").cmTile?.view?.state.doc.toString() ?? document.querySelector(".cm-content").cmView?.view?.state.doc.toString());
+/** The cursor at a line and column of the shown file, by keys. */
+async function cursor(page, line, column) {
+  await page.focus(".cm-content");
+  await page.keyboard.down("Control");
+  await page.keyboard.press("Home");
+  await page.keyboard.up("Control");
+  for (let k = 0; k < line; k++) await page.keyboard.press("ArrowDown");
+  for (let k = 0; k < column; k++) await page.keyboard.press("ArrowRight");
+}
+const press = async (page, key, ...held) => {
+  for (const own of held) await page.keyboard.down(own);
+  await page.keyboard.press(key);
+  for (const own of held.reverse()) await page.keyboard.up(own);
+};
+const openFile = async (page, file) => {
+  await page.select("#open-other", file);
+  await until(page, `${file} is open`, (name) => document.querySelector(".file.current")?.dataset.file === name, file);
+};
+const value = (page, name) => page.evaluate((own) => JSON.parse(document.querySelector(`[data-number=${own}]`).dataset.value), name);
+const solved = (page) => page.evaluate(() => Number(document.getElementById("point-pane").dataset.solved));
+const quiet = async (page) => {
+  // Nothing was solved for a while.
+  for (let last = -1, now = await solved(page), k = 0; last !== now && k < 40; k++) {
+    last = now;
+    await pause(350);
+    now = await solved(page);
+  }
+};
+/** What the command line answers for the point of the page. */
+async function solve(page) {
+  const point = await page.evaluate(() => ({
+    gear: document.querySelector("[data-name=gear]").value,
+    models: document.querySelector("[data-name=models]").value,
+    inputs: [...document.querySelectorAll("#controls .slider")].map((s) => [s.dataset.quantity, s.dataset.port, s.querySelector(".slider-number").value]),
+  }));
+  const file = await page.evaluate(() => document.getElementById("gearbox-title").title);
+  const args = point.inputs.filter(([q]) => q !== "oil").flatMap(([quantity, port, v]) => [`--${quantity}`, `${port}=${v} ${quantity === "torque" ? "Nm" : "rpm"}`]);
+  return JSON.parse(execFileSync(process.env.SOLVER ?? program, ["solve", join(folder, file), "--gear", point.gear, ...(point.models ? ["--models", point.models] : []), ...args, "--format", "json"], { encoding: "utf8", stdio: ["ignore", "pipe", "ignore"], maxBuffer: 1 << 26 }));
+}
+async function same(page, what) {
+  await quiet(page);
+  const line = await solve(page);
+  const [loss, efficiency] = [await value(page, "loss"), await value(page, "efficiency")];
+  check(loss === line.loss_w, `${what}: loss ${loss} W in the page, ${line.loss_w} W by solve`);
+  check(efficiency === line.efficiency, `${what}: efficiency ${efficiency} in the page, ${line.efficiency} by solve`);
+  return line;
+}
+const median = (list) => [...list].sort((a, b) => a - b)[Math.floor(list.length / 2)];
+
+// First screen with the planetary example.
+const page = await open();
+const begun = Date.now();
+await ready(page);
+figures.first_numbers_ms = Date.now() - begun;
+check(!(await page.evaluate(() => location.href)).includes("#"), "the token stays in the address");
+await quiet(page);
+check(await page.evaluate(() => document.scrollingElement.scrollHeight <= innerHeight && document.scrollingElement.scrollWidth <= innerWidth), "the page scrolls at 1440 x 900");
+await step("First screen with the planetary example", async () => {
+  const monitor = await page.evaluate(() => {
+    const host = document.getElementById("convergence");
+    const shown = (selector) => [...host.querySelectorAll(`${selector} [data-line]`)].map((e) => e.dataset.line);
+    return { of: host.dataset.of, steps: Number(host.dataset.steps), lines: shown(".steps"), balance: shown(".balance"), outcome: host.querySelector(".outcome")?.textContent };
+  });
+  check(monitor.of === "balance" && monitor.steps > 3, `convergence monitor: ${JSON.stringify(monitor)}`);
+  check(monitor.lines.includes("scan") && monitor.lines.includes("search"), `the scan is not distinguished: ${monitor.lines}`);
+  check(monitor.balance.length >= 2, "the balance is not drawn");
+  check(/converged/.test(monitor.outcome ?? ""), `outcome: ${monitor.outcome}`);
+  figures.steps = monitor.steps;
+  await same(page, "planetary reducer");
+});
+await image(page, "planetary");
+
+// A click on a bearing selects its line and explains it; so do the keys.
+await step("A click on a bearing selects its line and explains it; so do the keys", async () => {
+  const hit = await page.evaluate(() => {
+    const box = document.querySelector('[data-part="bearings.I2"] rect').getBoundingClientRect();
+    return [box.x + box.width / 2, box.y + box.height / 4];
+  });
+  await page.mouse.click(...hit);
+  await until(page, "the line of the bearing", () => /^\s*I2:/.test(document.querySelector(".cm-activeLine")?.textContent ?? ""));
+  await until(page, "explanation of the bearing", () => document.getElementById("explain-text").textContent.includes("bearings.I2"));
+  await image(page, "explain");
+  await page.evaluate(() => document.querySelector('[data-part="bearings.I2"]').focus());
+  await page.keyboard.press("ArrowRight");
+  await page.keyboard.press("Enter");
+  await until(page, "a part chosen by keys", () => document.querySelector("[data-part].chosen")?.dataset.part !== "bearings.I2");
+  await page.click("#explain-close");
+});
+
+// A study: one analysis, then its report.
+await step("A study", async () => {
+  await page.click("[data-tab=study]");
+  await until(page, "analyses", () => document.querySelectorAll(".analyses li").length > 2);
+  await page.click(".analyses li:last-child button");
+  await until(page, "section of one analysis", () => document.querySelector(".study-results .section svg") && document.querySelector(".study-side .primary:not(:disabled)"));
+  await page.evaluate(() => {
+    const bar = document.querySelector(".study-side progress");
+    window.progressed = false;
+    new MutationObserver(() => (window.progressed ||= !bar.hidden)).observe(bar, { attributes: true });
+  });
+  await page.click(".study-side .primary");
+  await until(page, "report", () => document.querySelector("[data-report]"));
+  await until(page, "end of the run", () => /Finished/.test(document.querySelector(".study-side [role=status]").textContent));
+  check(await page.evaluate(() => window.progressed), "no progress is shown");
+  figures.sections = await page.evaluate(() => document.querySelectorAll(".study-results .section").length);
+  await image(page, "study");
+  const target = browser.waitForTarget((t) => t.opener() === page.target(), { timeout: 10000 });
+  await page.click("[data-report]");
+  const report = await (await target).page();
+  await until(report, "the report opens", () => document.querySelector("h1, h2") !== null && document.querySelector("svg") !== null);
+  await report.close();
+  // Cancel.
+  await page.click(".study-side .primary");
+  await page.evaluate(() => [...document.querySelectorAll(".study-side button")].find((b) => b.textContent === "Cancel").click());
+  await until(page, "cancelled", () => /Cancelled|Finished/.test(document.querySelector(".study-side [role=status]").textContent));
+  await page.click("[data-tab=drawing]");
+});
+
+// The two-speed transmission: errors while typing.
+const gearbox = "two-speed-ev/gearbox.yaml";
+const source = (await readFile(join(folder, gearbox), "utf8")).split("\n");
+await openFile(page, gearbox);
+await until(page, "numbers of the other gearbox", () => document.getElementById("gearbox-title").title.includes("two-speed") && document.querySelectorAll("#controls .slider").length === 2);
+await quiet(page);
+await until(page, "drawing of the other gearbox", () => document.querySelector('[data-part="bearings.B5"]'));
+await step("The two-speed transmission", async () => {
+  const times = [];
+  for (const typed of ["frobs: 1\n", "# Öl ≤ 90 °C 🙂\nfrobs: 1\n", "wibble: { a: 1 }\n"]) {
+    await cursor(page, 2, 0);
+    await page.evaluate(() => {
+      window.marked = null;
+      let from = 0;
+      document.querySelector(".cm-content").addEventListener("beforeinput", () => (from = performance.now()), { once: true, capture: true });
+      const seen = () => {
+        if (window.marked === null && document.querySelector(".cm-lintRange-error") && /help:/.test(document.querySelector(".findings")?.textContent ?? "")) window.marked = performance.now() - from;
+      };
+      window.watcher = new MutationObserver(seen);
+      window.watcher.observe(document.querySelector(".pane-text"), { childList: true, subtree: true, attributes: true });
+    });
+    await page.keyboard.sendCharacter(typed);
+    await until(page, "an error is underlined", () => window.marked !== null);
+    times.push(await page.evaluate(() => (window.watcher.disconnect(), window.marked)));
+    const marked = await page.evaluate(() => document.querySelector(".cm-lintRange-error").textContent);
+    check(/^(frobs|wibble)/.test(marked), `the mark is at "${marked}"`);
+    if (times.length === 1) {
+      const box = await (await page.$(".cm-lintRange-error")).boundingBox();
+      await page.mouse.move(box.x + 4, box.y + box.height / 2);
+      await until(page, "tooltip with help", () => /help:/.test(document.querySelector(".cm-tooltip .finding-tip")?.textContent ?? ""));
+      await image(page, "error");
+      await page.mouse.move(700, 5);
+      // The list leads to the place.
+      await press(page, "End", "Control");
+      await page.click(".findings button");
+      await until(page, "the list leads to the error", () => /^frobs/.test(document.querySelector(".cm-activeLine")?.textContent ?? ""));
+    }
+    await page.focus(".cm-content");
+    await press(page, "z", "Control");
+    await until(page, "the error is gone", () => !document.querySelector(".cm-lintRange-error"));
+  }
+  figures.error_ms = Math.round(Math.max(...times));
+  check(Math.max(...times) < 300, `an error is underlined after ${times.map(Math.round)} ms`);
+});
+
+// Completion of a designation.
+await step("Completion of a designation", async () => {
+  const line = source.findIndex((l) => /^\s*B5:.*designation: "/.test(l));
+  const column = source[line].indexOf('designation: "') + 'designation: "'.length;
+  await cursor(page, line, column);
+  for (let k = 0; k < /\d+/.exec(source[line].slice(column))[0].length; k++) await page.keyboard.press("Delete");
+  await page.keyboard.type("620", { delay: 30 });
+  await until(page, "completion of a designation", () => [...document.querySelectorAll(".cm-tooltip-autocomplete li")].some((l) => l.textContent.startsWith("6208")));
+  await image(page, "completion");
+  await pause(150);
+  const down = await page.$$eval(".cm-tooltip-autocomplete li", (list) => list.findIndex((l) => l.textContent.startsWith("6208")));
+  for (let k = 0; k < down; k++) await page.keyboard.press("ArrowDown");
+  await page.keyboard.press("Enter");
+  await pause(100);
+  const text = await textOf(page);
+  check(text.split("\n")[line].includes('designation: "6208"'), `completed line: ${text.split("\n")[line]}`);
+  await quiet(page);
+  check(await page.evaluate(() => document.querySelector(".file.current .unsaved") !== null), "no mark for unsaved text");
+  // Hover explains.
+  const place = await page.evaluate(() => {
+    const found = [...document.querySelectorAll(".cm-line")].find((l) => /^\s*B5:/.test(l.textContent));
+    const walker = document.createTreeWalker(found, NodeFilter.SHOW_TEXT);
+    for (let node = walker.nextNode(); node; node = walker.nextNode()) {
+      const k = node.nodeValue.indexOf("designation");
+      if (k < 0) continue;
+      const range = document.createRange();
+      range.setStart(node, k + 2);
+      range.setEnd(node, k + 3);
+      const box = range.getBoundingClientRect();
+      return [box.x + 2, box.y + box.height / 2];
+    }
+    return [0, 0];
+  });
+  await page.mouse.move(...place);
+  await until(page, "hover", () => document.querySelector(".cm-tooltip .hover-text")?.textContent.length > 10);
+  await page.mouse.move(700, 5);
+  await page.focus(".cm-content");
+  for (let k = 0; k < 12; k++) await press(page, "z", "Control");
+  await until(page, "undone", () => !document.querySelector(".file.current .unsaved"));
+});
+
+// Definition and renaming.
+await step("Definition and renaming", async () => {
+  const line = source.findIndex((l) => /^\s*B1:.*shaft: input/.test(l));
+  await cursor(page, line, source[line].indexOf("shaft: input") + 9);
+  await page.keyboard.press("F12");
+  await until(page, "definition", () => /^\s*input:/.test(document.querySelector(".cm-activeLine")?.textContent ?? ""));
+  await page.keyboard.press("F2");
+  await until(page, "dialog of renaming", () => document.querySelector("dialog[open] input"));
+  await page.keyboard.type("drive_shaft");
+  await page.keyboard.press("Enter");
+  await until(page, "renamed", () => /renamed/.test(document.getElementById("notices").textContent));
+  check((await textOf(page)).includes("shaft: drive_shaft"), "the id is not renamed everywhere");
+  await quiet(page);
+  await page.focus(".cm-content");
+  await press(page, "z", "Control");
+  await until(page, "renaming undone", () => !document.querySelector(".file.current .unsaved"));
+});
+
+// Dragged torque: numbers of the command line, and how fast.
+await step("Dragged torque", async () => {
+  await quiet(page);
+  const slider = await page.$(".slider[data-quantity=torque] input[type=range]");
+  const box = await slider.boundingBox();
+  await page.evaluate(() => {
+    window.latencies = [];
+    window.watcher = new MutationObserver(() => window.latencies.push(Number(document.getElementById("point-pane").dataset.latency)));
+    window.watcher.observe(document.getElementById("point-pane"), { attributes: true, attributeFilter: ["data-solved"] });
+  });
+  const y = box.y + box.height / 2;
+  await page.mouse.move(box.x + box.width / 2, y);
+  await page.mouse.down();
+  for (let k = 0; k <= 40; k++) {
+    await page.mouse.move(box.x + box.width * (0.5 + 0.35 * Math.sin(k / 6)), y);
+    await pause(16);
+  }
+  await page.mouse.up();
+  await quiet(page);
+  const latencies = await page.evaluate(() => (window.watcher.disconnect(), window.latencies));
+  figures.drag_solves = latencies.length;
+  figures.drag_median_ms = Math.round(median(latencies));
+  figures.drag_longest_ms = Math.round(Math.max(...latencies));
+  check(latencies.length > 5, `only ${latencies.length} solves while the torque is dragged`);
+  check(median(latencies) < 100, `solved after ${figures.drag_median_ms} ms`);
+  await same(page, "after dragging the torque");
+  // A key stroke in the text.
+  const line = source.findIndex((l) => /\bra:\s*\d/.test(l));
+  const strokes = [];
+  if (line >= 0) {
+    await cursor(page, line, source[line].search(/(?<=\bra:\s*)\d/) + 3);
+    for (const key of ["1", "Backspace", "2", "Backspace"]) {
+      const before = await solved(page);
+      await page.keyboard.press(key);
+      await page.keyboard.press("Escape");
+      await until(page, "solved after a key stroke", (n) => Number(document.getElementById("point-pane").dataset.solved) > n, before);
+      strokes.push(await page.evaluate(() => Number(document.getElementById("point-pane").dataset.latency)));
+      await pause(400);
+    }
+    figures.stroke_median_ms = Math.round(median(strokes));
+    check(median(strokes) < 100, `solved ${strokes.map(Math.round)} ms after a key stroke`);
+  }
+  await until(page, "as before", () => !document.querySelector(".file.current .unsaved"));
+});
+
+// Other gear, model set and given oil temperature.
+await step("Other gear, model set and given oil temperature", async () => {
+  await page.select("[data-name=gear]", "second");
+  await same(page, "second gear");
+  await page.select("[data-name=gear]", "neutral");
+  await quiet(page);
+  check(await page.evaluate(() => document.querySelectorAll(".slider[data-quantity=speed]").length === 2), "neutral has not two speeds");
+  await page.select("[data-name=gear]", "first");
+  await quiet(page);
+  const before = await value(page, "loss");
+  // After a change of the text the fields still write what is solved.
+  await cursor(page, 0, 0);
+  await page.keyboard.sendCharacter("# \n");
+  await quiet(page);
+  await page.select("[data-name=models]", "joint");
+  await same(page, "another model set");
+  check((await value(page, "loss")) !== before, "another model set changes nothing");
+  await page.select("[data-name=models]", "");
+  await quiet(page);
+  await page.focus(".cm-content");
+  await press(page, "z", "Control");
+  await page.select("[data-name=oil]", "given");
+  await page.focus(".slider[data-quantity=oil] .slider-number");
+  await press(page, "a", "Control");
+  await page.keyboard.type("40");
+  await quiet(page);
+  check((await value(page, "oil")) === 40 && (await value(page, "loss")) !== before, "a given oil temperature changes nothing");
+  check(/searched/.test(await page.$eval("#convergence", (e) => e.textContent)), "the monitor does not say that nothing is searched");
+  await page.select("[data-name=oil]", "file");
+  await quiet(page);
+});
+
+// Pin, change, difference; the map.
+await step("Pin, change, difference; the map", async () => {
+  await page.click("[data-tab=map]");
+  await until(page, "map", () => document.querySelector(".map-body[data-drawn=map] svg .gl-field, .map-body[data-drawn=map] svg path"));
+  await until(page, "the point on the map", () => document.querySelector(".map-body .gl-here")?.getAttribute("visibility") === "visible");
+  const before = await page.evaluate(() => [...document.querySelectorAll(".slider-number")].map((i) => i.value).join());
+  const box = await (await page.$(".map-body .gl-panels svg")).boundingBox();
+  await page.mouse.click(box.x + 0.7 * box.width, box.y + 0.4 * box.height);
+  await until(page, "a click on the map moves the point", (old) => [...document.querySelectorAll(".slider-number")].map((i) => i.value).join() !== old, before);
+  await page.mouse.move(700, 5);
+  await same(page, "after a click on the map");
+  await image(page, "map");
+  await page.click("#pin");
+  const pinned = [await value(page, "loss"), await value(page, "efficiency")];
+  await openFile(page, gearbox).catch(() => undefined);
+  const line = source.findIndex((l) => /^\s*B3:.*designation: "6305"/.test(l));
+  await cursor(page, line, source[line].indexOf('"6305"') + 1);
+  for (let k = 0; k < 4; k++) await page.keyboard.press("Delete");
+  await page.keyboard.type("6205");
+  await page.keyboard.press("Escape");
+  await quiet(page);
+  const [loss, efficiency] = [await value(page, "loss"), await value(page, "efficiency")];
+  check(loss !== pinned[0], "another bearing has the same loss");
+  const deltas = await page.$$eval(".tile-now .delta", (list) => list.map((e) => e.textContent));
+  const number = (text) => Number(text.replace("−", "-").replace(/[+±\u202f]/g, "").split(" ")[0]);
+  check(Math.abs(number(deltas[0]) - 100 * (efficiency - pinned[1])) < 6e-4, `delta of the efficiency ${deltas[0]}, not ${100 * (efficiency - pinned[1])}`);
+  check(Math.abs(number(deltas[1]) / (loss - pinned[0]) - 1) < 6e-3, `delta of the loss ${deltas[1]}, not ${loss - pinned[0]}`);
+  check((await page.$$(".losses .bar-pinned i")).length > 3, "the bars do not show both states");
+  await until(page, "the map follows", () => document.querySelector(".map-body")?.dataset.drawn);
+  await page.click(".panel-map input[type=checkbox]");
+  await until(page, "map of the difference", () => document.querySelector(".map-body[data-drawn=difference] svg"));
+  await pause(300);
+  await image(page, "pinned");
+  await serious(page, "pinned");
+  await page.click("#unpin");
+  check((await page.$$(".tile-now .delta")).length === 0, "deltas after unpinning");
+  await quiet(page);
+  await page.focus(".cm-content");
+  for (let k = 0; k < 10; k++) await press(page, "z", "Control");
+  await until(page, "the text as before", () => !document.querySelector(".file.current .unsaved"));
+  await page.click("[data-tab=drawing]");
+});
+
+// A new gearbox from the form.
+await step("A new gearbox from the form", async () => {
+  await page.click("#new");
+  await until(page, "form", () => document.querySelector(".form-dialog[open] .field") && !document.getElementById("form-create").disabled);
+  const fill = async (label, text) => {
+    const path = await page.evaluate((own) => [...document.querySelectorAll(".field")].find((f) => f.querySelector("label").textContent.startsWith(own))?.dataset.path ?? null, label);
+    if (!check(path !== null, `the form has no field ${label}`)) return null;
+    const selector = `.field[data-path="${path}"] input`;
+    await page.focus(selector);
+    await press(page, "a", "Control");
+    await page.keyboard.type(text, { delay: 15 });
+    return selector;
+  };
+  const teeth = await fill("Teeth of wheel", "many");
+  await until(page, "fault at the field", () => [...document.querySelectorAll(".field-error")].some((e) => e.textContent));
+  check(await page.$eval(teeth, (e) => e.getAttribute("aria-invalid") === "true"), "the fault is not at its field");
+  await image(page, "form-fault");
+  await fill("Teeth of wheel", "77");
+  const bearing = await fill("Bearing P1", "6307");
+  await until(page, "bearings of the catalogue", () => [...document.querySelectorAll(".hits:not([hidden]) li b")].some((b) => b.textContent === "6307"));
+  await image(page, "form");
+  await page.keyboard.press("ArrowDown");
+  await page.keyboard.press("Enter");
+  check((await page.$eval(bearing, (e) => e.value)).startsWith("6307"), "the hit is not taken");
+  const oil = await page.evaluate(() => [...document.querySelectorAll(".field label")].find((l) => /^Oil$/.test(l.textContent))?.parentElement.dataset.path ?? null);
+  check(oil !== null, "the form has no oil");
+  await until(page, "the form is right", () => !document.getElementById("form-create").disabled);
+  await serious(page, "form");
+  await page.$eval("#form-file", (e) => (e.value = "drawn-from-data-sheet.yaml"));
+  await page.click("#form-create");
+  await until(page, "the new gearbox is open", () => document.querySelector(".file.current")?.dataset.file === "drawn-from-data-sheet.yaml");
+  await until(page, "the new gearbox is solved", () => document.getElementById("gearbox-title").title === "drawn-from-data-sheet.yaml" && document.querySelector("[data-number=loss]")?.dataset.value && document.documentElement.dataset.stale === undefined);
+  const text = await textOf(page);
+  check(text.includes("z: 77") && text.includes('"6307"'), "the text lacks what was filled in");
+  await until(page, "the new gearbox is drawn", () => document.querySelector('[data-part="bearings.P1"]'));
+  await image(page, "new");
+  await press(page, "s", "Control");
+  await until(page, "saved", () => !document.querySelector(".file.current .unsaved"));
+  check((await readFile(join(folder, "drawn-from-data-sheet.yaml"), "utf8")) === text, "the saved file has another text");
+  await same(page, "the new gearbox");
+  await page.click("[data-tab=map]");
+  await until(page, "map of the new gearbox", () => document.querySelector(".map-body[data-drawn] svg"));
+  await page.click("[data-tab=drawing]");
+});
+
+// Two tabs do not see each other's text.
+await step("Two tabs do not see each other's text", async () => {
+  const other = await open();
+  await ready(other);
+  await openFile(other, gearbox);
+  await quiet(other);
+  const before = await value(other, "loss");
+  await page.bringToFront();
+  await page.click(`.file[data-file="${gearbox}"] button`);
+  await cursor(page, 0, 0);
+  await page.keyboard.sendCharacter("# of the first tab\n");
+  await quiet(page);
+  check(!(await textOf(other)).includes("of the first tab"), "the other tab sees the text");
+  check((await value(other, "loss")) === before, "the other tab has other numbers");
+  check(!(await other.evaluate(() => document.querySelector(".file.current .unsaved") !== null)), "the other tab has unsaved text");
+
+  // Saved in one tab, the file is replaced in the other one.
+  await press(page, "s", "Control");
+  await until(page, "saved", () => !document.querySelector(".file.current .unsaved"));
+  await other.bringToFront();
+  await until(other, "the saved text comes to the other tab", () => document.querySelector(".cm-content").textContent.includes("of the first tab"));
+  await other.close();
+  await page.bringToFront();
+});
+
+// The disk: silently, then merged.
+await step("The disk", async () => {
+  const file = join(folder, gearbox);
+  await writeFile(file, source.join("\n"));
+  await until(page, "a change on the disk is taken", () => !document.querySelector(".cm-content").textContent.includes("of the first tab"));
+  await page.focus(".cm-content");
+  await press(page, "z", "Control");
+  await until(page, "the change can be undone", () => document.querySelector(".cm-content").textContent.includes("of the first tab"));
+  await press(page, "y", "Control");
+  await until(page, "the change is done again", () => !document.querySelector(".file.current .unsaved"));
+  await cursor(page, 0, 0);
+  await page.keyboard.sendCharacter("# mine\n");
+  await pause(100);
+  await writeFile(file, [...source, "# theirs", ""].join("\n"));
+  await until(page, "the page asks", () => [...document.querySelectorAll(".notice button")].some((b) => b.textContent === "Merge both"));
+  await page.evaluate(() => [...document.querySelectorAll(".notice button")].find((b) => b.textContent === "Show both").click());
+  await until(page, "both texts", () => document.querySelector("dialog[open] .difference .added"));
+  await image(page, "difference");
+  await page.evaluate(() => [...document.querySelectorAll("dialog[open] button")].find((b) => b.textContent === "Merge both").click());
+  await pause(200);
+  const text = await textOf(page);
+  check(text.startsWith("# mine\n") && text.includes("# theirs"), "the texts are not merged");
+  await press(page, "s", "Control");
+  await until(page, "saved after the merge", () => !document.querySelector(".file.current .unsaved"));
+  check((await readFile(file, "utf8")).includes("# theirs"), "the change of the disk is lost");
+});
+
+// Unsaved text after a reload.
+await step("Unsaved text after a reload", async () => {
+  await cursor(page, 0, 0);
+  await page.keyboard.sendCharacter("# kept over a reload\n");
+  await pause(500);
+  await page.reload({ waitUntil: "load" });
+  await ready(page);
+  check(await page.evaluate((file) => document.querySelector(".file.current")?.dataset.file === file, gearbox), "the files are not open again");
+  await until(page, "the draft is offered", () => [...document.querySelectorAll(".notice")].some((n) => n.textContent.includes("not saved")));
+  await image(page, "draft");
+  await page.evaluate(() => [...document.querySelectorAll(".notice button")].find((b) => b.textContent === "Restore").click());
+  await until(page, "the draft is restored", () => document.querySelector(".cm-content").textContent.includes("kept over a reload"));
+});
+
+// Accessibility, colours, size of texts.
+await step("Accessibility, colours, size of texts", async () => {
+  await page.click("[data-tab=drawing]");
+  await quiet(page);
+  await serious(page, "light");
+  for (const text of await small(page)) faults.push(`text below 12 px: ${text}`);
+  const ground = () => page.evaluate(() => getComputedStyle(document.querySelector(".pane")).backgroundColor);
+  const light = await ground();
+  await page.click("#theme");
+  check((await ground()) !== light, "the button does not change the colours");
+  await pause(200);
+  await serious(page, "dark by the button");
+  await image(page, "dark");
+  await page.click("#theme");
+  const dark = await open(1440, 900, "dark");
+  await dark.evaluate(() => localStorage.removeItem("gearloss-theme"));
+  await dark.reload({ waitUntil: "load" });
+  await ready(dark);
+  check((await dark.evaluate(() => getComputedStyle(document.querySelector(".pane")).backgroundColor)) !== light, "no dark colours by the system");
+  await dark.click("[data-tab=map]");
+  await until(dark, "map in dark colours", () => document.querySelector(".map-body[data-drawn] svg"));
+  await serious(dark, "dark by the system");
+  await dark.close();
+  const narrow = await open(800, 900);
+  await ready(narrow);
+  for (const name of ["text", "point", "losses", "convergence", "results"]) {
+    await narrow.click(`.narrow [data-pane=${name}]`);
+    const shown = await narrow.$$eval(".pane", (list) => list.filter((e) => e.checkVisibility()).map((e) => e.className));
+    check(shown.length === 1 && shown[0].includes(name), `narrow: ${name} shows ${shown}`);
+    await image(narrow, `narrow-${name}`);
+  }
+  check(await narrow.evaluate(() => document.scrollingElement.scrollWidth <= innerWidth), "at 800 px the page is wider");
+  await serious(narrow, "narrow");
+  await narrow.close();
+  const context = await browser.createBrowserContext();
+  const bare = await context.newPage();
+  await bare.goto(address.replace(/#.*/, ""), { waitUntil: "load" });
+  check((await bare.evaluate(() => document.body.innerText)).includes("gearloss open"), "without a token the page does not say how to open it");
+  await context.close();
+});
+
+// The program ends: the text is kept.
+await step("The program ends", async () => {
+  await page.bringToFront();
+  await cursor(page, 0, 0);
+  await page.keyboard.sendCharacter("# typed before the end\n");
+  await pause(100);
+  ended = true;
+  const gone = new Promise((done) => child.on("exit", done));
+  child.kill("SIGTERM");
+  await Promise.race([gone, pause(5000)]);
+  await until(page, "the page says that the program has ended", () => /has ended/.test(document.getElementById("notices").textContent));
+  await page.focus(".cm-content");
+  await page.keyboard.type("# and after it ");
+  await pause(600);
+  check((await textOf(page)).startsWith("# typed before the end\n# and after it "), "the text is lost");
+  const kept = await page.evaluate(() => Object.values(localStorage).some((v) => v.includes("typed before the end\\n# and after it")));
+  check(kept, "the browser does not keep the text");
+  check(await page.evaluate(() => [...document.querySelectorAll(".notice button")].some((b) => b.textContent.startsWith("Download"))), "no offer to download the text");
+  await image(page, "ended");
+
+  // Started again, the program has the address of before, and the next page offers the text.
+  const again = await start();
+  if (new URL(again.address).port === new URL(address).port) {
+    await until(page, "the page knows that it has no access", () => /started again/.test(document.getElementById("notices").textContent));
+    const next = await open(1440, 900, "light", again.address);
+    await ready(next);
+    await until(next, "the text of the page before is offered", () => [...document.querySelectorAll(".notice")].some((n) => n.textContent.includes("gearbox.yaml") && n.textContent.includes("not saved")));
+    await next.evaluate(() => [...document.querySelectorAll(".notice button")].find((b) => b.textContent === "Restore").click());
+    await until(next, "the text of the page before is restored", () => document.querySelector(".cm-content").textContent.includes("and after it"));
+    await next.close({ runBeforeUnload: false });
+  } else figures.other_port = true;
+  again.child.kill();
+});
+
+await browser.close();
+if (child.exitCode === null) child.kill("SIGKILL");
+await rm(root, { recursive: true, force: true });
+console.log(JSON.stringify({ ...figures, faults: faults.length }));
+for (const fault of new Set(faults)) console.error(fault);
+process.exitCode = faults.length ? 1 : 0;
+
