@@ -1,11 +1,13 @@
-//! Forms of new gearboxes. A form writes the template of a layout with the values that were typed: after that the text is what counts.
+//! New documents: forms of gearboxes, and studies. A form writes the template of a layout with the values that were typed: after that the text is what counts.
 
 mod fields;
 mod layouts;
+mod study;
 mod written;
 
 pub use fields::{Field, FieldKind, Group};
 pub use layouts::{LAYOUTS, Layout};
+pub use study::NewStudy;
 pub use written::written;
 
 use serde::Serialize;

@@ -98,6 +98,13 @@ pub enum Request {
         /// What was typed, by path.
         values: BTreeMap<String, String>,
     },
+    /// The text of a new study of a gearbox.
+    NewStudy {
+        /// Unsaved texts.
+        texts: Texts,
+        /// File.
+        gearbox: String,
+    },
     /// Rows of a catalogue.
     Catalogue {
         /// Catalogue.

@@ -1,11 +1,12 @@
 //! Answers to requests.
 
 use std::fmt::Debug;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use gearloss_editor::{Answer as EditAnswer, Request as EditRequest, Workspace};
 use gearloss_framework::files::SharedSource;
+use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::{LUBRICANTS, Language};
 use gearloss_framework::resolve::CatalogueRow;
 use gearloss_studies::analyses::progress::Progress;
@@ -14,7 +15,7 @@ use serde_json::{Value, json};
 use crate::answer::Fault;
 use crate::controls::controls;
 use crate::drawing::drawing;
-use crate::form::{Layout, forms, written};
+use crate::form::{Layout, NewStudy, forms, written};
 use crate::map::map;
 use crate::point::{explain, point};
 use crate::request::{CatalogueOf, Request, Texts};
@@ -87,6 +88,12 @@ impl<'l> Session<'l> {
                 let layout = known
                     .ok_or_else(|| Fault::new(format!("there is no layout `{layout}`"), "choose one of the list"))?;
                 Ok(json!({ "text": written(layout, values)? }))
+            }
+            Request::NewStudy { texts, gearbox } => {
+                let file = Path::new(gearbox);
+                let read = Gearbox::read_from(language, &self.opened(texts).1, file)?;
+                let name = file.file_name().unwrap_or_default();
+                Ok(json!({ "text": NewStudy::new(language, &read)?.text(Path::new(name)) }))
             }
             Request::Catalogue { of, text } => Ok(self.catalogue(*of, text)),
             Request::Run { .. } | Request::Watch { .. } => {

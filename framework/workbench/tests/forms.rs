@@ -129,6 +129,28 @@ fn wrong_values_name_their_field() {
     }
 }
 
+/// From a form to a study that has no findings, for every layout.
+#[test]
+fn a_new_gearbox_has_a_study() {
+    for layout in LAYOUTS {
+        let session = session(Memory::new("new", []));
+        let mut texts = json!({ "new.yaml": layout.text });
+        let study = value(
+            &session,
+            json!({ "request": "new_study", "texts": texts, "gearbox": "new.yaml" }),
+        );
+        texts["study.yaml"] = study["text"].clone();
+        let edit = json!({ "request": "findings", "file": "study.yaml" });
+        let found = value(&session, json!({ "request": "edit", "texts": texts, "edit": edit }));
+        let errors = found["value"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .filter(|finding| finding["severity"] == "error");
+        assert_eq!(errors.count(), 0, "{}: {found}", layout.name);
+    }
+}
+
 /// From a form to a solved point, for every layout.
 #[test]
 fn a_new_gearbox_is_solved() {

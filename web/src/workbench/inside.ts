@@ -25,14 +25,14 @@ const BROKEN: Fault = {
 
 /** Answers requests by a compiled program. */
 export class Inside implements Transport {
-  private program: Program;
+  private program: Promise<Program>;
 
   constructor(private readonly code: WebAssembly.Module) {
     this.program = this.begun();
   }
 
   /** A program at its start; its files are those of the examples. */
-  private begun(): Program {
+  private async begun(): Promise<Program> {
     // Functions for browsers that crates bring along; nothing here calls them.
     const imports: WebAssembly.Imports = {};
     for (const { module, name } of WebAssembly.Module.imports(this.code)) {
@@ -40,14 +40,14 @@ export class Inside implements Transport {
         throw new Error(`${name} is not available`);
       };
     }
-    const program = new WebAssembly.Instance(this.code, imports).exports as unknown as Program;
+    const program = (await WebAssembly.instantiate(this.code, imports)).exports as unknown as Program;
     // Models register themselves before anything is called.
     program.__wasm_call_ctors?.();
     return program;
   }
 
-  private call(request: Request): { value: unknown } | { fault: Fault } {
-    const { program } = this;
+  private async call(request: Request): Promise<{ value: unknown } | { fault: Fault }> {
+    const program = await this.program;
     try {
       const text = new TextEncoder().encode(JSON.stringify(request));
       const place = program.allocate(text.length);
@@ -71,7 +71,7 @@ export class Inside implements Transport {
     // The page draws first, and a newer request takes the place of this one.
     await new Promise((done) => setTimeout(done));
     signal?.throwIfAborted();
-    const answer = this.call(request as Request);
+    const answer = await this.call(request as Request);
     if ("fault" in answer) throw new Refused(answer.fault);
     return answer.value as Answers[N];
   }
@@ -87,7 +87,7 @@ export class Inside implements Transport {
     }
     await new Promise((done) => setTimeout(done, 50));
     signal?.throwIfAborted();
-    const answer = this.call(request);
+    const answer = await this.call(request);
     if ("fault" in answer) throw new Refused(answer.fault);
     for (const event of answer.value as { event: string; html?: string; address?: string }[]) {
       if (event.event === "report") event.address = URL.createObjectURL(new Blob([event.address ?? ""], { type: "text/html" }));

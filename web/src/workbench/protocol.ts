@@ -208,6 +208,7 @@ export type Request =
   | { request: "analyses"; texts: Texts; study: string }
   | { request: "run"; texts: Texts; study: string; analyses: string[] } // none named: all, and the report
   | { request: "new"; layout: string; values: Record<string, string> } // path to what was typed
+  | { request: "new_study"; texts: Texts; gearbox: string } // to be saved in the folder of the gearbox
   | { request: "catalogue"; of: "bearings" | "oils"; text: string }
   | { request: "watch"; files: Record<string, string> }; // file to the hash that the page knows
 
@@ -231,6 +232,7 @@ export interface Answers {
   map: Section;
   analyses: { name: string; title: string; type: string; about: string }[];
   new: { text: string };
+  new_study: { text: string };
   catalogue: CatalogueRow[];
 }
 
