@@ -1,28 +1,11 @@
 // Bundles scripts and styles of the report page and of the workbench into the crates that include them, or into a folder given as argument.
 import { build } from "esbuild";
 import { copyFile, mkdir, readFile, stat, writeFile } from "node:fs/promises";
+import { licence } from "./licence.mjs";
 
 const given = process.argv[2];
 const path = (name) => new URL(name, import.meta.url).pathname;
 const common = { bundle: true, minify: true, charset: "utf8", legalComments: "none", logLevel: "warning" };
-
-/** The licence of the packages that the workbench contains: all of them have the same one, with several owners. */
-async function licence(inputs) {
-  const folders = new Set(Object.keys(inputs).flatMap((file) => /^(?:.*\/)?node_modules\/((?:@[^/]+\/)?[^/]+)/.exec(file)?.[1] ?? []));
-  const owners = new Set();
-  const names = [];
-  let terms = "";
-  for (const folder of [...folders].sort()) {
-    const { version, license } = JSON.parse(await readFile(path(`node_modules/${folder}/package.json`), "utf8"));
-    const text = await readFile(path(`node_modules/${folder}/LICENSE`), "utf8");
-    if (license !== "MIT") throw new Error(`${folder} has the licence ${license}`);
-    names.push(`${folder} ${version}`);
-    owners.add(/^Copyright.*$/m.exec(text)[0]);
-    terms = text.slice(text.indexOf("Permission")).trim();
-  }
-  if (names.length === 0) return "";
-  return `/*! Contains ${names.join(", ")}\n\nMIT License\n\n${[...owners].sort().join("\n")}\n\n${terms} */\n`;
-}
 
 async function bundle(source, name, target) {
   await mkdir(target, { recursive: true });

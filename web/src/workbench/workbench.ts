@@ -400,10 +400,15 @@ export class Workbench {
   }
 
   private async goTo(place: FileRange): Promise<void> {
+    await this.selectPlace(place, true);
+    this.showPane("text");
+  }
+
+  /** Selects a place in the text, and leaves the focus where it is or not. */
+  private async selectPlace(place: FileRange, focus: boolean): Promise<void> {
     if (!(await this.open(place.file))) return;
     if (this.editor.current !== place.file) this.show(place.file);
-    this.showPane("text");
-    this.editor.select(place.range.from, place.range.to);
+    this.editor.select(place.range.from, place.range.to, focus);
   }
 
   // Drafts.
@@ -615,7 +620,7 @@ export class Workbench {
     at("explain-title").textContent = nameOf(part);
     at("explain-text").textContent = "";
     at("explain-choice").replaceChildren();
-    if (place) void this.goTo(place);
+    if (place) void this.selectPlace(place, false);
     for (const row of document.querySelectorAll<HTMLElement>(".losses tr[data-path]")) row.classList.toggle("chosen", row.dataset.path === part);
     void this.explain();
   }
