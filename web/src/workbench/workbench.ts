@@ -88,7 +88,7 @@ export class Workbench {
       ["results", "Results"],
     ]);
     const box = (selector: string) => document.querySelector<HTMLElement>(selector)!;
-    divide(box("main"), { name: "split-text", label: "width of the text", vertical: true, ends: [18, 70], start: 37 });
+    divide(box(".workbench"), { name: "split-text", label: "width of the text", vertical: true, ends: [18, 70], start: 37 });
     divide(box(".pane-text"), { name: "split-findings", label: "height of the text above the findings", vertical: false, ends: [30, 90], start: 85 });
     divide(box(".right"), { name: "split-top", label: "height of the operating point", vertical: false, ends: [20, 80], start: 57 });
     divide(box(".top-row"), { name: "split-point", label: "width of the operating point", vertical: true, ends: [18, 45], start: 31 });
@@ -619,6 +619,7 @@ export class Workbench {
     }
     at("explain-title").textContent = nameOf(part);
     at("explain-text").textContent = "";
+    delete at("explain-text").dataset.of;
     at("explain-choice").replaceChildren();
     if (place) void this.selectPlace(place, false);
     for (const row of document.querySelectorAll<HTMLElement>(".losses tr[data-path]")) row.classList.toggle("chosen", row.dataset.path === part);
@@ -647,7 +648,13 @@ export class Workbench {
     }
     try {
       const answer = await this.newestOf("explain").ask({ request: "explain", texts: this.files.texts(), part: component, ...of });
-      if (answer && part === this.part) text.textContent = answer.text;
+      if (!answer || part !== this.part) return;
+      const isNew = text.dataset.of !== component;
+      text.textContent = answer.text;
+      text.dataset.of = component;
+      // What concerns the point comes first; the component is what was asked for. A later answer keeps the place.
+      const line = answer.text.split("\n").findIndex((l) => l.startsWith(`${component}:`));
+      if (isNew) text.scrollTop = Math.max(0, line) * parseFloat(getComputedStyle(text).lineHeight);
     } catch (fault) {
       if (fault instanceof Refused) text.textContent = fault.message;
       else void this.lost(fault);
