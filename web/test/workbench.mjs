@@ -192,6 +192,7 @@ await step("A click on a bearing selects its line and explains it; so do the key
   await page.mouse.click(...hit);
   await until(page, "the line of the bearing", () => /^\s*I2:/.test(document.querySelector(".cm-activeLine")?.textContent ?? ""));
   await until(page, "explanation of the bearing", () => document.getElementById("explain-text").textContent.includes("bearings.I2"));
+  await serious(page, "explanation");
   await image(page, "explain");
   await page.evaluate(() => document.querySelector('[data-part="bearings.I2"]').focus());
   await page.keyboard.press("ArrowRight");
@@ -217,6 +218,7 @@ await step("A study", async () => {
   await until(page, "end of the run", () => /Finished/.test(document.querySelector(".study-side [role=status]").textContent));
   check(await page.evaluate(() => window.progressed), "no progress is shown");
   figures.sections = await page.evaluate(() => document.querySelectorAll(".study-results .section").length);
+  await serious(page, "study");
   await image(page, "study");
   const target = browser.waitForTarget((t) => t.opener() === page.target(), { timeout: 10000 });
   await page.click("[data-report]");
@@ -542,6 +544,7 @@ await step("The disk", async () => {
   await until(page, "the page asks", () => [...document.querySelectorAll(".notice button")].some((b) => b.textContent === "Merge both"));
   await page.evaluate(() => [...document.querySelectorAll(".notice button")].find((b) => b.textContent === "Show both").click());
   await until(page, "both texts", () => document.querySelector("dialog[open] .difference .added"));
+  await serious(page, "difference");
   await image(page, "difference");
   await page.evaluate(() => [...document.querySelectorAll("dialog[open] button")].find((b) => b.textContent === "Merge both").click());
   await pause(200);
@@ -550,6 +553,39 @@ await step("The disk", async () => {
   await press(page, "s", "Control");
   await until(page, "saved after the merge", () => !document.querySelector(".file.current .unsaved"));
   check((await readFile(file, "utf8")).includes("# theirs"), "the change of the disk is lost");
+
+  // Both sides change one line: the page offers no merge. Lines of the disk may end with CR LF.
+  const choose = (label) => page.evaluate((own) => [...document.querySelectorAll(".notice button")].find((b) => b.textContent === own)?.click(), label);
+  const asked = () => until(page, "the page asks again", () => [...document.querySelectorAll(".notice button")].some((b) => b.textContent === "Keep mine"));
+  const first = (line, end = "\n") => [line, ...source.slice(1)].join(end);
+  await writeFile(file, first("# base", "\r\n"));
+  await until(page, "lines with CR LF", () => document.querySelector(".cm-content").textContent.startsWith("# base") && !document.querySelector(".file.current .unsaved"));
+  await cursor(page, 0, 2);
+  await page.keyboard.type("my ");
+  await pause(150);
+  await writeFile(file, first("# their base", "\r\n"));
+  await asked();
+  check(!(await page.evaluate(() => [...document.querySelectorAll(".notice button")].some((b) => b.textContent === "Merge both"))), "a merge of one line is offered");
+  await choose("Keep mine");
+  await press(page, "s", "Control");
+  await until(page, "saved mine", () => !document.querySelector(".file.current .unsaved"));
+  check((await readFile(file, "utf8")) === first("# my base", "\r\n"), "what was kept is not what is saved");
+  await cursor(page, 0, 2);
+  await page.keyboard.type("own ");
+  await pause(150);
+  await writeFile(file, first("# of the disk"));
+  await asked();
+  await choose("Take the disk's");
+  await until(page, "the text of the disk", () => document.querySelector(".cm-content").textContent.startsWith("# of the disk") && !document.querySelector(".file.current .unsaved"));
+  // Saved before the page has noticed the change of the disk: nothing is overwritten.
+  await cursor(page, 0, 2);
+  await page.keyboard.type("quick ");
+  await writeFile(file, first("# slow"));
+  await press(page, "s", "Control");
+  await asked();
+  check((await readFile(file, "utf8")) === first("# slow"), "a file that has changed is overwritten");
+  await choose("Take the disk's");
+  await until(page, "the text of the disk again", () => document.querySelector(".cm-content").textContent.startsWith("# slow"));
 });
 
 // Unsaved text after a reload.

@@ -11,7 +11,12 @@ export interface OpenFile {
   /** Hash of that text; null for a file that is not on the disk. */
   hash: string | null;
   text: string;
+  /** True if lines end with `\r\n` on the disk. In the page they end with `\n`, as in the editor, which counts a break as one character. */
+  crlf: boolean;
 }
+
+/** A text with the line ends of the page. */
+export const plainLines = (text: string) => text.replace(/\r\n/g, "\n");
 
 /** What a text is, by its first key. */
 export function kindOf(text: string): Kind {
@@ -38,7 +43,8 @@ export class Files {
   }
 
   add(file: string, text: string, hash: string | null): OpenFile {
-    const own: OpenFile = { file, saved: hash === null ? "" : text, hash, text };
+    const plain = plainLines(text);
+    const own: OpenFile = { file, saved: hash === null ? "" : plain, hash, text: plain, crlf: hash !== null && plain !== text };
     this.open.set(file, own);
     this.changed(own);
     return own;
@@ -59,10 +65,12 @@ export class Files {
     this.changed(own);
   }
 
+  /** Notes what is on the disk. */
   setSaved(file: string, text: string, hash: string | null): void {
     const own = this.open.get(file);
     if (!own) return;
-    own.saved = text;
+    own.saved = plainLines(text);
+    if (hash !== null) own.crlf = own.saved !== text;
     own.hash = hash;
     this.changed(own);
   }
@@ -76,9 +84,16 @@ export class Files {
     return [...this.open.values()].filter((f) => this.isUnsaved(f.file));
   }
 
-  /** Texts that differ from the disk. */
+  /** Texts that differ from the disk; also those that differ in their line ends alone, so that offsets are those of the page. */
   texts(): Texts {
-    return Object.fromEntries(this.unsaved().map((f) => [f.file, f.text]));
+    const differ = [...this.open.values()].filter((f) => f.crlf || this.isUnsaved(f.file));
+    return Object.fromEntries(differ.map((f) => [f.file, f.text]));
+  }
+
+  /** The text as it is written to the disk. */
+  onDisk(file: string): string {
+    const own = this.open.get(file);
+    return !own ? "" : own.crlf ? own.text.replace(/\n/g, "\r\n") : own.text;
   }
 
   /** All texts, to keep a state that does not depend on the disk. */

@@ -53,6 +53,7 @@ export function drawSection(host: HTMLElement, section: Section, books: { compon
     const list = html(details, "ul");
     for (const text of section.outside) html(list, "li", {}, words(text));
   }
+  let tables = 0;
   for (const block of section.blocks) {
     if ("text" in block) {
       html(box, "p", { class: "text" }, words(block.text));
@@ -63,7 +64,7 @@ export function drawSection(host: HTMLElement, section: Section, books: { compon
     const details = html(box, "details", rows.length <= 12 ? { open: "" } : {});
     html(details, "summary", {}, words(title) || `Table, ${rows.length} rows`);
     const frame = html(details, "div", { class: "table" });
-    const scroll = html(frame, "div", { class: "scroll", tabindex: 0, role: "region", "aria-label": title || "table" });
+    const scroll = html(frame, "div", { class: "scroll", tabindex: 0, role: "region", "aria-label": `${section.name}, table ${++tables}${title ? `: ${title}` : ""}` });
     const table = html(scroll, "table");
     const line = html(html(table, "thead"), "tr");
     for (const cell of head) html(line, "th", { scope: "col" }, words(cell));

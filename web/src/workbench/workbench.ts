@@ -11,7 +11,7 @@ import { merged } from "./diff.ts";
 import { Drafts } from "./drafts.ts";
 import { DrawingPane } from "./drawing.ts";
 import { Editor } from "./editor.ts";
-import { Files, kindOf, shortName } from "./files.ts";
+import { Files, kindOf, plainLines, shortName } from "./files.ts";
 import { FindingsList } from "./findings.ts";
 import { newGearbox } from "./form.ts";
 import { drawLosses, nameOf } from "./losses.ts";
@@ -329,7 +329,7 @@ export class Workbench {
   private async save(file = this.editor.current): Promise<boolean> {
     const own = file ? this.files.get(file) : undefined;
     if (!file || !own || !this.files.isUnsaved(file)) return true;
-    const text = own.text;
+    const text = this.files.onDisk(file);
     try {
       const answer = await this.transport.ask({ request: "save", file, text, hash: own.hash });
       if ("changed" in answer) {
@@ -350,11 +350,12 @@ export class Workbench {
     }
   }
 
-  private changedOnDisk(file: string, disk: string, hash: string): void {
+  private changedOnDisk(file: string, written: string, hash: string): void {
     const own = this.files.get(file);
     if (!own || own.hash === hash) return;
+    const disk = plainLines(written);
     if (own.text === disk || !this.files.isUnsaved(file)) {
-      this.files.setSaved(file, disk, hash);
+      this.files.setSaved(file, written, hash);
       this.editor.replace(file, disk);
       this.notices.hide(`disk ${file}`);
       this.rewatch.call();
@@ -364,7 +365,7 @@ export class Workbench {
     // Until it is decided the file on the disk is not overwritten: the hash stays.
     const decide = (text: string | null) => {
       this.notices.hide(`disk ${file}`);
-      this.files.setSaved(file, disk, hash);
+      this.files.setSaved(file, written, hash);
       if (text !== null) this.editor.replace(file, text);
       this.rewatch.call();
     };

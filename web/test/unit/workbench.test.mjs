@@ -198,6 +198,20 @@ test("files know what is not saved", () => {
   assert.equal(shortName("g.yaml", ["g.yaml", "b/g.yaml"]), "g.yaml");
 });
 
+test("line ends of the disk are written again, and do not shift offsets", () => {
+  const files = new Files();
+  files.add("w.yaml", "a: 1\r\nb: 2\r\n", "1");
+  assert.equal(files.get("w.yaml").text, "a: 1\nb: 2\n");
+  assert.equal(files.isUnsaved("w.yaml"), false);
+  assert.deepEqual(files.texts(), { "w.yaml": "a: 1\nb: 2\n" });
+  files.setText("w.yaml", "a: 3\nb: 2\n");
+  assert.equal(files.onDisk("w.yaml"), "a: 3\r\nb: 2\r\n");
+  files.setSaved("w.yaml", files.onDisk("w.yaml"), "2");
+  assert.equal(files.isUnsaved("w.yaml"), false);
+  files.setSaved("w.yaml", "a: 3\nb: 2\n", "3");
+  assert.deepEqual(files.texts(), {});
+});
+
 test("faults of a form belong to their fields", () => {
   const fields = ["gears.a.z", "gears.b.z", "bearings.B1.designation", "oil"];
   assert.equal(fieldOf("gears.a.z", fields), "gears.a.z");
