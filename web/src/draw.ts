@@ -19,6 +19,8 @@ export interface Drawn {
   redraw(options?: Options): void;
   /** Moves the mark on each map of the picture to a place, in the units of its axes; null removes it. */
   mark(place: [x: number, y: number] | null): void;
+  /** The tab that is shown. */
+  tab(): number;
   /** Removes the picture. */
   remove(): void;
 }
@@ -107,7 +109,7 @@ export function draw(element: HTMLElement, picture: Picture, options: Options = 
   const root = html(element, "div", { class: "gl" });
   let current = options;
   const books = { components: options.components ?? new ColourBook(), series: options.series ?? new ColourBook() };
-  const state: Record<string, unknown> = {};
+  const state: Record<string, unknown> = { tab: options.tab };
   let drawnWidth = 0;
   let movers: ((x: number, y: number) => void)[] = [];
   let marked: [number, number] | null = null;
@@ -140,6 +142,9 @@ export function draw(element: HTMLElement, picture: Picture, options: Options = 
     mark(place) {
       marked = place;
       mark();
+    },
+    tab() {
+      return Number(state.tab ?? 0);
     },
     remove() {
       observer?.disconnect();

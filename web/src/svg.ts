@@ -74,6 +74,8 @@ export interface Options {
   width?: number;
   /** Draws the title above the picture. */
   title?: boolean;
+  /** The tab that is shown first, for a picture that takes the place of another one. */
+  tab?: number;
   /** A click on a map gives its coordinates instead of the losses there. */
   pick?: (x: number, y: number) => void;
 }

@@ -426,6 +426,22 @@ await step("Pin, change, difference; the map", async () => {
   await page.mouse.move(700, 5);
   await same(page, "after a click on the map");
   await image(page, "map");
+  // The map follows the text: it keeps its tab, and the focus stays in the text.
+  await page.click(".map-body [role=tab]:nth-child(2)");
+  await cursor(page, 0, 0);
+  const surface = source.findIndex((l) => /\bra:\s*\d/.test(l));
+  await cursor(page, surface, source[surface].search(/(?<=\bra:\s*)\d/) + 3);
+  const status = await page.$eval(".panel-map .status", (e) => e.textContent);
+  await page.evaluate(() => (window.drawnMap = document.querySelector(".map-body > .gl")));
+  await page.keyboard.type("1");
+  await page.keyboard.press("Escape");
+  await until(page, "the map follows the text", () => document.querySelector(".map-body > .gl") !== window.drawnMap);
+  check(await page.evaluate(() => document.activeElement?.classList.contains("cm-content")), `the map takes the focus (${status})`);
+  check(await page.$eval(".map-body [role=tab]:nth-child(2)", (e) => e.getAttribute("aria-selected") === "true"), "the map forgets its tab");
+  await page.keyboard.press("Backspace");
+  await page.keyboard.press("Escape");
+  await page.click(".map-body [role=tab]:nth-child(1)");
+  await quiet(page);
   await page.click("#pin");
   const pinned = [await value(page, "loss"), await value(page, "efficiency")];
   await openFile(page, gearbox).catch(() => undefined);

@@ -90,24 +90,17 @@ export class MapPane {
     const difference = pinned ? (other ? differenceOf(own, other) : null) : null;
     if (pinned && !difference) return this.message("The pinned map has other points.");
     this.picture = difference ?? own;
-    const tab = this.drawn ? this.tabShown() : this.tab;
+    this.tab = this.drawn?.tab() ?? this.tab;
     this.drawn?.remove();
     this.body.replaceChildren();
-    this.drawn = draw(this.body, this.picture, { ...this.books, height: this.plot, pick: (x, y) => this.picked(x, y) });
-    if (tab > 0) this.body.querySelectorAll<HTMLElement>(".gl-tabs [role=tab]")[tab]?.click();
-    (document.activeElement as HTMLElement | null)?.closest(".map-body") && (document.activeElement as HTMLElement).blur();
-    this.tab = tab;
+    this.drawn = draw(this.body, this.picture, { ...this.books, height: this.plot, tab: this.tab, pick: (x, y) => this.picked(x, y) });
     this.fit();
     this.body.dataset.drawn = difference ? "difference" : "map";
     this.mark(this.place);
   }
 
-  private tabShown(): number {
-    return Math.max(0, [...this.body.querySelectorAll(".gl-tabs [role=tab]")].findIndex((t) => t.getAttribute("aria-selected") === "true"));
-  }
-
   message(text: string): void {
-    if (this.drawn) this.tab = this.tabShown();
+    this.tab = this.drawn?.tab() ?? this.tab;
     this.drawn?.remove();
     this.drawn = null;
     this.picture = null;
