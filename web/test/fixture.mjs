@@ -140,7 +140,7 @@ function drawing() {
 function sections(all) {
   const table = (title, head, rows) => ({ table: { title, rows: [head, ...rows] } });
   const key = (label, value, unit, detail = "") => ({ label, value, unit, detail });
-  const section = (name, title, about, pictures, rest = {}) => ({ name, title, about, note: null, failed: false, headline: null, key_figures: [], careful: [], verdicts: [], blocks: [], pictures, ...rest });
+  const section = (name, title, about, pictures, rest = {}) => ({ name, title, about, note: null, failed: false, headline: null, key_figures: [], limits: [], careful: [], outside: [], verdicts: [], blocks: [], pictures, ...rest });
   const rows = range(6, (k) => [`${[3.6, 5, 7, 10, 14, 20][k]}`, ...range(6, (i) => (95.8 + 0.4 * k + 0.12 * i - 0.02 * i * i * (k - 2)).toFixed(2))]);
   void all;
   return [
