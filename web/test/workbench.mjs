@@ -513,6 +513,14 @@ await step("A new gearbox from the form", async () => {
   await until(page, "saved", () => !document.querySelector(".file.current .unsaved"));
   check((await readFile(join(folder, "drawn-from-data-sheet.yaml"), "utf8")) === text, "the saved file has another text");
   await same(page, "the new gearbox");
+  await page.click("[data-tab=study]");
+  await page.evaluate(() => [...document.querySelectorAll(".study-side button")].find((b) => b.textContent === "New study").click());
+  await until(page, "a new study", () => document.querySelector(".file.current")?.dataset.file === "study.yaml" && /^study.yaml: \d+ analyses/.test(document.querySelector(".study-side [role=status]").textContent));
+  await page.click(".analyses li:first-child button");
+  await until(page, "result of the new study", () => document.querySelector(".study-results .section svg") && document.querySelector(".study-side .primary:not(:disabled)"));
+  await image(page, "new-study");
+  check((await page.$$(".findings .error")).length === 0, "the new study has errors");
+  await page.click('.file[data-file="drawn-from-data-sheet.yaml"] button');
   await page.click("[data-tab=map]");
   await until(page, "map of the new gearbox", () => document.querySelector(".map-body[data-drawn] svg"));
   await page.click("[data-tab=drawing]");

@@ -8,7 +8,7 @@ import type { ColourBook } from "../colours.ts";
 import type { Convergence } from "./protocol.ts";
 
 /** Both values over the number of the step; the scan at the start is a line of its own. */
-export function stepsPicture({ steps, scanned }: Convergence): Picture {
+export function stepsPicture({ steps, scanned, unit }: Convergence): Picture {
   const lines = (value: (k: number) => number): Line[] => {
     const points = steps.map((_, k): [number, number] => [k + 1, value(k)]);
     const [scan, search] = [points.slice(0, scanned), points.slice(scanned)];
@@ -23,7 +23,7 @@ export function stepsPicture({ steps, scanned }: Convergence): Picture {
     x: "step",
     panes: [
       { y: "temperature in degC", lines: lines((k) => steps[k].temperature) },
-      { y: "residual in W", lines: lines((k) => steps[k].residual) },
+      { y: `residual in ${unit}`, lines: lines((k) => steps[k].residual) },
     ],
   };
 }

@@ -14,6 +14,7 @@ export class StudyPane {
   private readonly bar: HTMLElement;
   private readonly all: HTMLButtonElement;
   private readonly cancel: HTMLButtonElement;
+  private readonly fresh: HTMLButtonElement;
   private readonly progress: HTMLProgressElement;
   private readonly status: HTMLElement;
   private readonly report: HTMLElement;
@@ -30,6 +31,7 @@ export class StudyPane {
     private readonly books: { components: ColourBook; series: ColourBook },
     private readonly goTo: (place: FileRange) => void,
     private readonly failed: (fault: unknown) => void,
+    create: () => void,
   ) {
     const side = html(host, "div", { class: "study-side" });
     this.bar = html(side, "div", { class: "bar-line" });
@@ -37,6 +39,8 @@ export class StudyPane {
     this.all.addEventListener("click", () => void this.run([]));
     this.cancel = html(this.bar, "button", { type: "button", hidden: "" }, "Cancel");
     this.cancel.addEventListener("click", () => this.running?.abort());
+    this.fresh = html(this.bar, "button", { type: "button", title: "A study of the gearbox of the operating point" }, "New study");
+    this.fresh.addEventListener("click", create);
     this.report = html(this.bar, "span", { class: "report-link" });
     this.progress = html(side, "progress", { max: 1, value: 0, "aria-label": "progress of the analysis", hidden: "" });
     this.status = html(side, "p", { class: "quiet", role: "status" });
@@ -51,7 +55,7 @@ export class StudyPane {
     this.shape = "";
     this.all.disabled = true;
     this.list.replaceChildren();
-    this.status.textContent = "Open a study to see its analyses.";
+    this.status.textContent = "Open a study to see its analyses, or begin a new one for the gearbox.";
   }
 
   show(study: string, analyses: Answers["analyses"]): void {
@@ -93,6 +97,7 @@ export class StudyPane {
     this.clear();
     this.report.replaceChildren();
     this.cancel.hidden = false;
+    this.fresh.hidden = true;
     this.progress.hidden = false;
     this.progress.removeAttribute("value");
     for (const button of [this.all, ...this.list.querySelectorAll("button")]) button.disabled = true;
@@ -103,6 +108,7 @@ export class StudyPane {
   private end(text: string): void {
     this.running = null;
     this.cancel.hidden = true;
+    this.fresh.hidden = false;
     this.progress.hidden = true;
     for (const button of [this.all, ...this.list.querySelectorAll("button")]) button.disabled = false;
     this.status.textContent = text;

@@ -13,7 +13,7 @@ import { DrawingPane } from "./drawing.ts";
 import { Editor } from "./editor.ts";
 import { Files, kindOf, plainLines, shortName } from "./files.ts";
 import { FindingsList } from "./findings.ts";
-import { newGearbox } from "./form.ts";
+import { freeName, newGearbox } from "./form.ts";
 import { drawLosses, nameOf } from "./losses.ts";
 import { MapPane } from "./map.ts";
 import { Notices } from "./notices.ts";
@@ -126,7 +126,7 @@ export class Workbench {
     const drawingPanel = this.results.panels.get("drawing")!;
     drawingPanel.append(at("drawing"), at("explain"));
     this.map = new MapPane(this.results.panels.get("map")!, this.books, (place) => this.point.moveTo(place), () => void this.readMap());
-    this.study = new StudyPane(this.results.panels.get("study")!, transport, () => this.files.texts(), this.books, (place) => void this.goTo(place), (fault) => void this.lost(fault));
+    this.study = new StudyPane(this.results.panels.get("study")!, transport, () => this.files.texts(), this.books, (place) => void this.goTo(place), (fault) => void this.lost(fault), () => void this.newStudy());
     this.watch = new Watch(transport, {
       files: () => Object.fromEntries([...this.files.open.values()].flatMap((f) => (f.hash === null ? [] : [[f.file, f.hash]]))),
       changed: (file, text, hash) => this.changedOnDisk(file, text, hash),
@@ -258,6 +258,21 @@ export class Workbench {
     this.files.add(file, text, null);
     this.show(file);
     this.results.choose("drawing");
+  }
+
+  /** A study of the gearbox of the operating point, as a new file beside it. */
+  private async newStudy(): Promise<void> {
+    const gearbox = this.gearbox;
+    if (!gearbox) return this.notices.say("Open a gearbox first: a study needs one.");
+    try {
+      const { text } = await this.transport.ask({ request: "new_study", texts: this.files.texts(), gearbox });
+      const file = freeName(`${gearbox.slice(0, gearbox.lastIndexOf("/") + 1)}study.yaml`, this.names());
+      this.files.add(file, text, null);
+      this.show(file);
+    } catch (fault) {
+      if (fault instanceof Refused) this.notices.say(fault.message);
+      else void this.lost(fault);
+    }
   }
 
   /** Shows an open file. */
