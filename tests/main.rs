@@ -37,6 +37,7 @@ mod limits;
 mod locked;
 mod lsp;
 mod measured;
+mod measured_formats;
 mod mistakes;
 mod modules;
 mod mutated;
