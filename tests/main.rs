@@ -29,6 +29,7 @@ mod fuzz;
 mod golden;
 mod hold_out;
 mod identify;
+mod import_bearings;
 mod invariants;
 mod json;
 mod laws;

@@ -5,6 +5,8 @@ use serde_json::Value;
 
 use crate::common::study::{Ran, of_gearbox, run_files};
 
+// Some of its blocks are for the tests of that crate.
+#[allow(dead_code)]
 #[path = "../framework/document/src/data/mdf/builder.rs"]
 mod builder;
 

@@ -190,7 +190,7 @@ fn separator(header: &str) -> Separator {
 }
 
 /// `name [unit]`, `name (unit)`, `name / unit`, or a bare name.
-fn name_and_unit(header: &str) -> (String, Option<String>) {
+pub fn name_and_unit(header: &str) -> (String, Option<String>) {
     let header = header.trim();
     for (open, close) in [('[', ']'), ('(', ')')] {
         if let Some((name, rest)) = header.split_once(open) {

@@ -11,7 +11,7 @@ mod samples;
 use super::cells::{Decimal, Table, written};
 use super::{MeasuredFault, fault};
 use crate::did_you_mean;
-use blocks::{Block, File};
+use blocks::{Block, MdfFile};
 use channel::{Channel, Value};
 
 /// Most cells of a table: samples times channels.
@@ -55,7 +55,7 @@ struct Group<'a> {
 /// # Errors
 /// If the file is of another version, not finalized, damaged or beyond limits, or if the group is unknown or not stated.
 pub fn table(bytes: &[u8], wanted: Option<&str>, notes: &mut Vec<String>) -> Result<Table, MeasuredFault> {
-    let file = File::open(bytes)?;
+    let file = MdfFile::from_bytes(bytes)?;
     let groups = groups(&file)?;
     let group = chosen(&file, &groups, wanted)?;
     let part = match group.name.as_str() {
@@ -81,7 +81,7 @@ pub fn table(bytes: &[u8], wanted: Option<&str>, notes: &mut Vec<String>) -> Res
 }
 
 /// All groups with channels, in the order of the file.
-fn groups<'a>(file: &File<'a>) -> Result<Vec<Group<'a>>, MeasuredFault> {
+fn groups<'a>(file: &MdfFile<'a>) -> Result<Vec<Group<'a>>, MeasuredFault> {
     let mut groups = Vec::new();
     let header = file.block(64, *b"##HD")?;
     for data_group in file.list(header.link(0), *b"##DG")? {
@@ -103,7 +103,7 @@ fn groups<'a>(file: &File<'a>) -> Result<Vec<Group<'a>>, MeasuredFault> {
 }
 
 fn chosen<'g, 'a>(
-    file: &File<'a>,
+    file: &MdfFile<'a>,
     groups: &'g [Group<'a>],
     wanted: Option<&str>,
 ) -> Result<&'g Group<'a>, MeasuredFault> {
@@ -168,7 +168,7 @@ fn chosen<'g, 'a>(
 }
 
 /// The samples of a group.
-fn cells(file: &File<'_>, group: &Group<'_>) -> Result<Table, MeasuredFault> {
+fn cells(file: &MdfFile<'_>, group: &Group<'_>) -> Result<Table, MeasuredFault> {
     let data_bytes = group.block.u32(24)? as usize;
     let mut channels: Vec<Channel> = Vec::new();
     let mut unread = Vec::new();

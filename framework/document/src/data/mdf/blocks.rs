@@ -14,7 +14,7 @@ const LONGEST_TEXT: usize = 1000;
 const HEAD: u64 = 24;
 
 /// An MDF file in memory.
-pub(super) struct File<'a> {
+pub(super) struct MdfFile<'a> {
     bytes: &'a [u8],
     /// Blocks and bytes of texts that may still be read.
     blocks: Cell<usize>,
@@ -72,9 +72,9 @@ fn number(bytes: &[u8]) -> u64 {
     bytes.iter().rev().fold(0, |sum, byte| (sum << 8) | u64::from(*byte))
 }
 
-impl<'a> File<'a> {
+impl<'a> MdfFile<'a> {
     /// Checks version and state of a file.
-    pub(super) fn open(bytes: &'a [u8]) -> Result<Self, MeasuredFault> {
+    pub(super) fn from_bytes(bytes: &'a [u8]) -> Result<Self, MeasuredFault> {
         let version = bytes
             .get(8..16)
             .map(|text| String::from_utf8_lossy(text).trim_matches(['\0', ' ']).to_owned());

@@ -1,6 +1,6 @@
 //! A channel: where its value is in a record, and what it means.
 
-use super::blocks::{Block, File, cut};
+use super::blocks::{Block, MdfFile, cut};
 use super::conversion::Conversion;
 use crate::data::MeasuredFault;
 
@@ -44,7 +44,7 @@ pub(super) struct Channel {
 impl Channel {
     /// Reads a channel of a group whose records have `record` bytes; the inner error says why its values are not read.
     pub(super) fn read(
-        file: &File<'_>,
+        file: &MdfFile<'_>,
         block: &Block<'_>,
         name: String,
         record: usize,

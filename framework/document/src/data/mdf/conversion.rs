@@ -1,6 +1,6 @@
 //! From the stored number of a channel to its value: the block `CC`.
 
-use super::blocks::File;
+use super::blocks::MdfFile;
 use super::channel::Value;
 use crate::data::MeasuredFault;
 
@@ -30,7 +30,7 @@ pub(super) struct Conversion {
 
 impl Conversion {
     /// Reads a conversion; the inner error says why it is not read.
-    pub(super) fn read(file: &File<'_>, at: u64) -> Result<Result<Self, &'static str>, MeasuredFault> {
+    pub(super) fn read(file: &MdfFile<'_>, at: u64) -> Result<Result<Self, &'static str>, MeasuredFault> {
         if at == 0 {
             return Ok(Ok(Self {
                 rule: Rule::Same,

@@ -1,6 +1,6 @@
 //! The records of a channel group: data blocks in a row, packed or not, sorted or with the records of several groups.
 
-use super::blocks::{Block, File};
+use super::blocks::{Block, MdfFile};
 use super::{damaged, limit};
 use crate::data::MeasuredFault;
 
@@ -35,7 +35,7 @@ impl Records {
 }
 
 /// The records of a group.
-pub(super) fn records(file: &File<'_>, data_group: &Block<'_>, group: &Block<'_>) -> Result<Records, MeasuredFault> {
+pub(super) fn records(file: &MdfFile<'_>, data_group: &Block<'_>, group: &Block<'_>) -> Result<Records, MeasuredFault> {
     let before = usize::from(data_group.u8(0)?);
     if ![0, 1, 2, 4, 8].contains(&before) {
         return Err(damaged(format!("record numbers of {before} bytes")));
@@ -116,7 +116,7 @@ fn places(data: &[u8], before: usize, groups: &[Block<'_>], wanted: u64) -> Resu
 }
 
 /// The data of a data group: one block, or a list of blocks.
-fn data(file: &File<'_>, at: u64) -> Result<Vec<u8>, MeasuredFault> {
+fn data(file: &MdfFile<'_>, at: u64) -> Result<Vec<u8>, MeasuredFault> {
     let mut all = Vec::new();
     if at == 0 {
         return Ok(all);
