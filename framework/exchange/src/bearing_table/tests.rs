@@ -13,18 +13,20 @@ fn lines(text: &str) -> Vec<&str> {
 
 fn refused(text: &str, options: &Options) -> String {
     let found = read(text, options).unwrap_err();
-    found
+    let lines: Vec<String> = found
         .iter()
-        .map(|fault| format!("{} | {:?}\n", fault.message, fault.help))
-        .collect()
+        .map(|fault| format!("{} | {:?}", fault.message, fault.help))
+        .collect();
+    lines.join("\n")
 }
 
 fn warned(catalogue: &Catalogue) -> String {
-    catalogue
+    let lines: Vec<&str> = catalogue
         .warnings
         .iter()
-        .map(|warning| format!("{}\n", warning.message))
-        .collect()
+        .map(|warning| warning.message.as_str())
+        .collect();
+    lines.join("\n")
 }
 
 /// Headings in English with symbols, units in a row, thousands with commas, and a row that begins a section.

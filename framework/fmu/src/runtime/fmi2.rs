@@ -10,7 +10,7 @@ use core::ffi::{CStr, c_char, c_void};
 
 use super::instance::{ERROR, Instance, Log, OK, Status, free_state, keep_state, list, list_mut, put, state, text};
 use super::uri::path_of;
-use super::variables::Kind;
+use super::variables::{Causality, Kind};
 
 type Handle = *mut c_void;
 type Name = *const c_char;
@@ -100,7 +100,7 @@ pub unsafe extern "C" fn fmi2SetDebugLogging(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2Instantiate(
     name: Name,
-    kind: i32,
+    _kind: i32,
     guid: Name,
     resources: Name,
     callbacks: *const Callbacks,
@@ -119,13 +119,7 @@ pub unsafe extern "C" fn fmi2Instantiate(
             environment,
             name,
         };
-        Own::into_pointer(Own::new(
-            text(resources).and_then(path_of),
-            guid,
-            kind == 0,
-            log,
-            logging != 0,
-        ))
+        Own::into_pointer(Own::new(text(resources).and_then(path_of), guid, log, logging != 0))
     }
 }
 
@@ -420,40 +414,39 @@ pub unsafe extern "C" fn fmi2SetTime(c: Handle, time: f64) -> Status {
     }
 }
 
-/// There are no continuous states for Model Exchange.
-unsafe fn no_states(c: Handle, count: usize) -> Status {
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetContinuousStates(c: Handle, values: *const f64, count: usize) -> Status {
+    // SAFETY: the standard.
+    unsafe { with(c, |own| own.set_continuous(list(values, count))) }
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetDerivatives(c: Handle, values: *mut f64, count: usize) -> Status {
+    // SAFETY: the standard.
+    unsafe {
+        with(c, |own| {
+            own.get_continuous(Causality::Derivative, list_mut(values, count))
+        })
+    }
+}
+
+/// There are no event indicators.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetEventIndicators(c: Handle, _values: *mut f64, count: usize) -> Status {
     // SAFETY: the standard.
     unsafe { with(c, |_| if count == 0 { OK } else { ERROR }) }
 }
 
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetContinuousStates(c: Handle, _values: *const f64, count: usize) -> Status {
+pub unsafe extern "C" fn fmi2GetContinuousStates(c: Handle, values: *mut f64, count: usize) -> Status {
     // SAFETY: the standard.
-    unsafe { no_states(c, count) }
+    unsafe { with(c, |own| own.get_continuous(Causality::State, list_mut(values, count))) }
 }
 
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetDerivatives(c: Handle, _values: *mut f64, count: usize) -> Status {
+pub unsafe extern "C" fn fmi2GetNominalsOfContinuousStates(c: Handle, values: *mut f64, count: usize) -> Status {
     // SAFETY: the standard.
-    unsafe { no_states(c, count) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetEventIndicators(c: Handle, _values: *mut f64, count: usize) -> Status {
-    // SAFETY: the standard.
-    unsafe { no_states(c, count) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetContinuousStates(c: Handle, _values: *mut f64, count: usize) -> Status {
-    // SAFETY: the standard.
-    unsafe { no_states(c, count) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetNominalsOfContinuousStates(c: Handle, _values: *mut f64, count: usize) -> Status {
-    // SAFETY: the standard.
-    unsafe { no_states(c, count) }
+    unsafe { with(c, |own| own.get_nominals(list_mut(values, count))) }
 }
 
 /// Inputs are constant over a step, as the model description says.

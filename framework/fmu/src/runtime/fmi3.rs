@@ -9,7 +9,7 @@
 use core::ffi::{CStr, c_char, c_void};
 
 use super::instance::{ERROR, Instance, Log, OK, Status, free_state, keep_state, list, list_mut, put, state, text};
-use super::variables::Kind;
+use super::variables::{Causality, Kind};
 
 type Handle = *mut c_void;
 type Name = *const c_char;
@@ -42,22 +42,13 @@ unsafe fn with(c: Handle, call: impl FnOnce(&mut Own) -> Status) -> Status {
 unsafe fn instance(
     token: Name,
     resources: Name,
-    is_steady: bool,
     logging: bool,
     environment: *mut c_void,
     logger: Option<Logger>,
 ) -> Handle {
     let log = Receiver { logger, environment };
     // SAFETY: the standard.
-    unsafe {
-        Own::into_pointer(Own::new(
-            text(resources).map(<[u8]>::to_vec),
-            token,
-            is_steady,
-            log,
-            logging,
-        ))
-    }
+    unsafe { Own::into_pointer(Own::new(text(resources).map(<[u8]>::to_vec), token, log, logging)) }
 }
 
 /// Fine without variables of a type that no variable has.
@@ -93,7 +84,7 @@ pub unsafe extern "C" fn fmi3InstantiateModelExchange(
     logger: Option<Logger>,
 ) -> Handle {
     // SAFETY: the standard.
-    unsafe { instance(token, resources, true, logging, environment, logger) }
+    unsafe { instance(token, resources, logging, environment, logger) }
 }
 
 #[unsafe(no_mangle)]
@@ -112,7 +103,7 @@ pub unsafe extern "C" fn fmi3InstantiateCoSimulation(
     _update: *const c_void,
 ) -> Handle {
     // SAFETY: the standard.
-    unsafe { instance(token, resources, false, logging, environment, logger) }
+    unsafe { instance(token, resources, logging, environment, logger) }
 }
 
 /// Not provided, as the model description says.
@@ -883,37 +874,38 @@ pub unsafe extern "C" fn fmi3SetTime(c: Handle, time: f64) -> Status {
 }
 
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3SetContinuousStates(c: Handle, _values: *const f64, count: usize) -> Status {
+pub unsafe extern "C" fn fmi3SetContinuousStates(c: Handle, values: *const f64, count: usize) -> Status {
     // SAFETY: the standard.
-    unsafe { none(c, count) }
+    unsafe { with(c, |own| own.set_continuous(list(values, count))) }
 }
 
-/// There are no continuous states and no event indicators.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetContinuousStateDerivatives(c: Handle, _values: *mut f64, count: usize) -> Status {
+pub unsafe extern "C" fn fmi3GetContinuousStateDerivatives(c: Handle, values: *mut f64, count: usize) -> Status {
     // SAFETY: the standard.
-    unsafe { none(c, count) }
+    unsafe {
+        with(c, |own| {
+            own.get_continuous(Causality::Derivative, list_mut(values, count))
+        })
+    }
 }
 
-/// There are no continuous states and no event indicators.
+/// There are no event indicators.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3GetEventIndicators(c: Handle, _values: *mut f64, count: usize) -> Status {
     // SAFETY: the standard.
     unsafe { none(c, count) }
 }
 
-/// There are no continuous states and no event indicators.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetContinuousStates(c: Handle, _values: *mut f64, count: usize) -> Status {
+pub unsafe extern "C" fn fmi3GetContinuousStates(c: Handle, values: *mut f64, count: usize) -> Status {
     // SAFETY: the standard.
-    unsafe { none(c, count) }
+    unsafe { with(c, |own| own.get_continuous(Causality::State, list_mut(values, count))) }
 }
 
-/// There are no continuous states and no event indicators.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetNominalsOfContinuousStates(c: Handle, _values: *mut f64, count: usize) -> Status {
+pub unsafe extern "C" fn fmi3GetNominalsOfContinuousStates(c: Handle, values: *mut f64, count: usize) -> Status {
     // SAFETY: the standard.
-    unsafe { none(c, count) }
+    unsafe { with(c, |own| own.get_nominals(list_mut(values, count))) }
 }
 
 #[unsafe(no_mangle)]
@@ -931,8 +923,8 @@ pub unsafe extern "C" fn fmi3GetNumberOfEventIndicators(c: Handle, to: *mut usiz
 pub unsafe extern "C" fn fmi3GetNumberOfContinuousStates(c: Handle, to: *mut usize) -> Status {
     // SAFETY: the standard.
     unsafe {
-        with(c, |_| {
-            put(to, 0);
+        with(c, |own| {
+            put(to, own.model.state_count());
             OK
         })
     }

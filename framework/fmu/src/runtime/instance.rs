@@ -7,7 +7,7 @@ use core::ffi::{CStr, c_char, c_void};
 use super::content::{Content, token};
 use super::host;
 use super::model::{Fault, Model};
-use super::variables::Kind;
+use super::variables::{Causality, Kind};
 
 /// Maximum size of a content. \[bytes\]
 const LONGEST: usize = 1 << 30;
@@ -46,13 +46,7 @@ impl<L: Log> Instance<L> {
     ///
     /// # Safety
     /// The token is null or a text.
-    pub unsafe fn new(
-        folder: Option<Vec<u8>>,
-        expected: *const c_char,
-        is_steady: bool,
-        log: L,
-        logging: bool,
-    ) -> Option<Box<Self>> {
+    pub unsafe fn new(folder: Option<Vec<u8>>, expected: *const c_char, log: L, logging: bool) -> Option<Box<Self>> {
         let fail = |text: &CStr| {
             log.send(ERROR, c"logStatusError", text);
             None
@@ -80,9 +74,6 @@ impl<L: Log> Instance<L> {
             return fail(c"the resources are damaged or of another version");
         };
         let model = Model::new(content);
-        if is_steady && model.is_network() {
-            return fail(c"a thermal network is simulated by its own steps: Co-Simulation only");
-        }
         Some(Box::new(Self {
             model,
             log,
@@ -129,6 +120,28 @@ impl<L: Log> Instance<L> {
         let mut pairs = references.iter().zip(values);
         let result = pairs.try_for_each(|(reference, value)| model.set(*reference, kind, convert(*value)));
         self.result(result)
+    }
+
+    /// Reads the continuous states or their derivatives.
+    pub fn get_continuous(&mut self, wanted: Causality, values: &mut [f64]) -> Status {
+        let result = self.model.write_continuous(wanted, values);
+        self.warn();
+        self.result(result)
+    }
+
+    /// Sets the continuous states.
+    pub fn set_continuous(&mut self, values: &[f64]) -> Status {
+        let result = self.model.set_continuous(values);
+        self.result(result)
+    }
+
+    /// The nominal values of the continuous states, which are one unless the model description states others.
+    pub fn get_nominals(&self, values: &mut [f64]) -> Status {
+        if values.len() != self.model.state_count() {
+            return ERROR;
+        }
+        values.fill(1.0);
+        OK
     }
 
     /// Simulates until the end of a step.
