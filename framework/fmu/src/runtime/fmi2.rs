@@ -266,80 +266,14 @@ pub unsafe extern "C" fn fmi2SetString(
     unsafe { with(c, |_| if count == 0 { OK } else { ERROR }) }
 }
 
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetFMUstate(c: Handle, to: *mut *mut c_void) -> Status {
-    // SAFETY: the standard.
-    unsafe { with(c, |own| keep_state(&own.model, to)) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetFMUstate(c: Handle, from: *mut c_void) -> Status {
-    // SAFETY: the standard.
-    unsafe {
-        with(c, |own| match state(from) {
-            Some(bytes) => {
-                let result = own.model.restore(bytes);
-                own.result(result)
-            }
-            None => ERROR,
-        })
-    }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2FreeFMUstate(c: Handle, to: *mut *mut c_void) -> Status {
-    // SAFETY: the standard.
-    unsafe { with(c, |_| free_state(to)) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SerializedFMUstateSize(c: Handle, from: *mut c_void, size: *mut usize) -> Status {
-    // SAFETY: the standard.
-    unsafe {
-        with(c, |_| match state(from) {
-            Some(bytes) => {
-                put(size, bytes.len());
-                OK
-            }
-            None => ERROR,
-        })
-    }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SerializeFMUstate(c: Handle, from: *mut c_void, to: *mut u8, size: usize) -> Status {
-    // SAFETY: the standard.
-    unsafe {
-        with(c, |_| match state(from).zip(Some(list_mut(to, size))) {
-            Some((bytes, to)) if to.len() == bytes.len() => {
-                to.copy_from_slice(bytes);
-                OK
-            }
-            _ => ERROR,
-        })
-    }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2DeSerializeFMUstate(
-    c: Handle,
-    from: *const u8,
-    size: usize,
-    to: *mut *mut c_void,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe {
-        with(c, |own| {
-            // The copy checks the bytes without touching the instance.
-            let mut copy = own.model.clone();
-            let result = copy.restore(list(from, size));
-            match own.result(result) {
-                OK => keep_state(&copy, to),
-                status => status,
-            }
-        })
-    }
-}
+super::instance::state_functions!(
+    fmi2GetFMUstate,
+    fmi2SetFMUstate,
+    fmi2FreeFMUstate,
+    fmi2SerializedFMUstateSize,
+    fmi2SerializeFMUstate,
+    fmi2DeSerializeFMUstate
+);
 
 /// Not provided, as the model description says.
 #[unsafe(no_mangle)]

@@ -327,220 +327,33 @@ pub unsafe extern "C" fn fmi3SetBoolean(
     }
 }
 
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetFloat32(
-    c: Handle,
-    _references: *const u32,
-    count: usize,
-    _values: *mut f32,
-    _value_count: usize,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe { none(c, count) }
+/// Functions of a type that no variable has.
+macro_rules! without_variables {
+    ($($get:ident, $set:ident: $of:ty;)*) => {$(
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $get(c: Handle, _: *const u32, count: usize, _: *mut $of, _: usize) -> Status {
+            // SAFETY: the standard.
+            unsafe { none(c, count) }
+        }
+
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $set(c: Handle, _: *const u32, count: usize, _: *const $of, _: usize) -> Status {
+            // SAFETY: the standard.
+            unsafe { none(c, count) }
+        }
+    )*};
 }
 
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3SetFloat32(
-    c: Handle,
-    _references: *const u32,
-    count: usize,
-    _values: *const f32,
-    _value_count: usize,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe { none(c, count) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetInt8(
-    c: Handle,
-    _references: *const u32,
-    count: usize,
-    _values: *mut i8,
-    _value_count: usize,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe { none(c, count) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3SetInt8(
-    c: Handle,
-    _references: *const u32,
-    count: usize,
-    _values: *const i8,
-    _value_count: usize,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe { none(c, count) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetUInt8(
-    c: Handle,
-    _references: *const u32,
-    count: usize,
-    _values: *mut u8,
-    _value_count: usize,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe { none(c, count) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3SetUInt8(
-    c: Handle,
-    _references: *const u32,
-    count: usize,
-    _values: *const u8,
-    _value_count: usize,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe { none(c, count) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetInt16(
-    c: Handle,
-    _references: *const u32,
-    count: usize,
-    _values: *mut i16,
-    _value_count: usize,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe { none(c, count) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3SetInt16(
-    c: Handle,
-    _references: *const u32,
-    count: usize,
-    _values: *const i16,
-    _value_count: usize,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe { none(c, count) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetUInt16(
-    c: Handle,
-    _references: *const u32,
-    count: usize,
-    _values: *mut u16,
-    _value_count: usize,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe { none(c, count) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3SetUInt16(
-    c: Handle,
-    _references: *const u32,
-    count: usize,
-    _values: *const u16,
-    _value_count: usize,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe { none(c, count) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetUInt32(
-    c: Handle,
-    _references: *const u32,
-    count: usize,
-    _values: *mut u32,
-    _value_count: usize,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe { none(c, count) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3SetUInt32(
-    c: Handle,
-    _references: *const u32,
-    count: usize,
-    _values: *const u32,
-    _value_count: usize,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe { none(c, count) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetInt64(
-    c: Handle,
-    _references: *const u32,
-    count: usize,
-    _values: *mut i64,
-    _value_count: usize,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe { none(c, count) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3SetInt64(
-    c: Handle,
-    _references: *const u32,
-    count: usize,
-    _values: *const i64,
-    _value_count: usize,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe { none(c, count) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetUInt64(
-    c: Handle,
-    _references: *const u32,
-    count: usize,
-    _values: *mut u64,
-    _value_count: usize,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe { none(c, count) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3SetUInt64(
-    c: Handle,
-    _references: *const u32,
-    count: usize,
-    _values: *const u64,
-    _value_count: usize,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe { none(c, count) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetString(
-    c: Handle,
-    _references: *const u32,
-    count: usize,
-    _values: *mut Name,
-    _value_count: usize,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe { none(c, count) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3SetString(
-    c: Handle,
-    _references: *const u32,
-    count: usize,
-    _values: *const Name,
-    _value_count: usize,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe { none(c, count) }
+without_variables! {
+    fmi3GetFloat32, fmi3SetFloat32: f32;
+    fmi3GetInt8, fmi3SetInt8: i8;
+    fmi3GetUInt8, fmi3SetUInt8: u8;
+    fmi3GetInt16, fmi3SetInt16: i16;
+    fmi3GetUInt16, fmi3SetUInt16: u16;
+    fmi3GetUInt32, fmi3SetUInt32: u32;
+    fmi3GetInt64, fmi3SetInt64: i64;
+    fmi3GetUInt64, fmi3SetUInt64: u64;
+    fmi3GetString, fmi3SetString: Name;
 }
 
 #[unsafe(no_mangle)]
@@ -710,80 +523,14 @@ pub unsafe extern "C" fn fmi3GetVariableDependencies(
     ERROR
 }
 
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetFMUState(c: Handle, to: *mut *mut c_void) -> Status {
-    // SAFETY: the standard.
-    unsafe { with(c, |own| keep_state(&own.model, to)) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3SetFMUState(c: Handle, from: *mut c_void) -> Status {
-    // SAFETY: the standard.
-    unsafe {
-        with(c, |own| match state(from) {
-            Some(bytes) => {
-                let result = own.model.restore(bytes);
-                own.result(result)
-            }
-            None => ERROR,
-        })
-    }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3FreeFMUState(c: Handle, to: *mut *mut c_void) -> Status {
-    // SAFETY: the standard.
-    unsafe { with(c, |_| free_state(to)) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3SerializedFMUStateSize(c: Handle, from: *mut c_void, size: *mut usize) -> Status {
-    // SAFETY: the standard.
-    unsafe {
-        with(c, |_| match state(from) {
-            Some(bytes) => {
-                put(size, bytes.len());
-                OK
-            }
-            None => ERROR,
-        })
-    }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3SerializeFMUState(c: Handle, from: *mut c_void, to: *mut u8, size: usize) -> Status {
-    // SAFETY: the standard.
-    unsafe {
-        with(c, |_| match state(from).zip(Some(list_mut(to, size))) {
-            Some((bytes, to)) if to.len() == bytes.len() => {
-                to.copy_from_slice(bytes);
-                OK
-            }
-            _ => ERROR,
-        })
-    }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3DeserializeFMUState(
-    c: Handle,
-    from: *const u8,
-    size: usize,
-    to: *mut *mut c_void,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe {
-        with(c, |own| {
-            // The copy checks the bytes without touching the instance.
-            let mut copy = own.model.clone();
-            let result = copy.restore(list(from, size));
-            match own.result(result) {
-                OK => keep_state(&copy, to),
-                status => status,
-            }
-        })
-    }
-}
+super::instance::state_functions!(
+    fmi3GetFMUState,
+    fmi3SetFMUState,
+    fmi3FreeFMUState,
+    fmi3SerializedFMUStateSize,
+    fmi3SerializeFMUState,
+    fmi3DeserializeFMUState
+);
 
 /// Not provided, as the model description says.
 #[unsafe(no_mangle)]

@@ -285,3 +285,79 @@ pub unsafe fn text<'a>(pointer: *const c_char) -> Option<&'a [u8]> {
     // SAFETY: as promised by the caller.
     (!pointer.is_null()).then(|| unsafe { CStr::from_ptr(pointer) }.to_bytes())
 }
+
+/// The functions of the state of an instance, which are the same in both versions but for their names.
+macro_rules! state_functions {
+    ($get:ident, $set:ident, $free:ident, $size:ident, $serialize:ident, $deserialize:ident) => {
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $get(c: Handle, to: *mut *mut c_void) -> Status {
+            // SAFETY: the standard.
+            unsafe { with(c, |own| keep_state(&own.model, to)) }
+        }
+
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $set(c: Handle, from: *mut c_void) -> Status {
+            // SAFETY: the standard.
+            unsafe {
+                with(c, |own| match state(from) {
+                    Some(bytes) => {
+                        let result = own.model.restore(bytes);
+                        own.result(result)
+                    }
+                    None => ERROR,
+                })
+            }
+        }
+
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $free(c: Handle, to: *mut *mut c_void) -> Status {
+            // SAFETY: the standard.
+            unsafe { with(c, |_| free_state(to)) }
+        }
+
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $size(c: Handle, from: *mut c_void, size: *mut usize) -> Status {
+            // SAFETY: the standard.
+            unsafe {
+                with(c, |_| match state(from) {
+                    Some(bytes) => {
+                        put(size, bytes.len());
+                        OK
+                    }
+                    None => ERROR,
+                })
+            }
+        }
+
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $serialize(c: Handle, from: *mut c_void, to: *mut u8, size: usize) -> Status {
+            // SAFETY: the standard.
+            unsafe {
+                with(c, |_| match state(from).zip(Some(list_mut(to, size))) {
+                    Some((bytes, to)) if to.len() == bytes.len() => {
+                        to.copy_from_slice(bytes);
+                        OK
+                    }
+                    _ => ERROR,
+                })
+            }
+        }
+
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $deserialize(c: Handle, from: *const u8, size: usize, to: *mut *mut c_void) -> Status {
+            // SAFETY: the standard.
+            unsafe {
+                with(c, |own| {
+                    // The copy checks the bytes without touching the instance.
+                    let mut copy = own.model.clone();
+                    let result = copy.restore(list(from, size));
+                    match own.result(result) {
+                        OK => keep_state(&copy, to),
+                        status => status,
+                    }
+                })
+            }
+        }
+    };
+}
+pub(super) use state_functions;
