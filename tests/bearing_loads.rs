@@ -233,7 +233,7 @@ fn rexs_has_the_ids_units_and_values_of_version_1_7() {
     );
     let children: Vec<&str> = model
         .children()
-        .filter(|node| node.is_element())
+        .filter(roxmltree::Node::is_element)
         .map(|node| node.tag_name().name())
         .collect();
     assert_eq!(children, ["relations", "components", "load_spectrum", "load_spectrum"]);
@@ -243,16 +243,20 @@ fn rexs_has_the_ids_units_and_values_of_version_1_7() {
         (id, kind)
     };
     let components = model.children().find(|node| node.has_tag_name("components")).unwrap();
-    let known: Vec<(String, String)> = components.children().filter(|node| node.is_element()).map(of).collect();
+    let known: Vec<(String, String)> = components
+        .children()
+        .filter(roxmltree::Node::is_element)
+        .map(of)
+        .collect();
     let mut ids: Vec<&String> = known.iter().map(|(id, _)| id).collect();
     ids.dedup();
     assert_eq!(ids.len(), 9);
     let mut seen = std::collections::BTreeSet::new();
     for case in document.descendants().filter(|node| node.has_tag_name("load_case")) {
-        for component in case.children().filter(|node| node.is_element()) {
+        for component in case.children().filter(roxmltree::Node::is_element) {
             let own = of(component);
             assert!(known.contains(&own), "{own:?}");
-            for attribute in component.children().filter(|node| node.is_element()) {
+            for attribute in component.children().filter(roxmltree::Node::is_element) {
                 let key = (
                     own.1.as_str(),
                     attribute.attribute("id").unwrap(),

@@ -55,7 +55,7 @@ pub struct MeasuredEntry {
     pub group: Option<String>,
     /// Cell separator; default: detected.
     pub separator: Option<Separator>,
-    /// Decimal sign; default: detected.
+    /// Decimal sign; default: detected. In a workbook that of numbers stored as texts, a point unless stated.
     pub decimal: Option<Decimal>,
     /// Encoding; default: UTF-8, or Latin-1 if that fails.
     pub encoding: Option<Encoding>,

@@ -188,14 +188,15 @@ fn cells(file: &MdfFile<'_>, group: &Group<'_>) -> Result<Table, MeasuredFault> 
             "choose another group or file",
         ));
     }
-    let records = samples::records(file, &group.parent, &group.block)?;
-    if (records.len() as u64).saturating_mul(channels.len() as u64) > MOST_CELLS {
+    // Before anything is unpacked: a small file may state many.
+    if group.samples.saturating_mul(channels.len() as u64) > MOST_CELLS {
         return Err(limit(format!(
             "{} samples of {} channels in one group; at most {MOST_CELLS} cells are read",
-            records.len(),
+            group.samples,
             channels.len()
         )));
     }
+    let records = samples::records(file, &group.parent, &group.block)?;
     let mut rows = Vec::with_capacity(records.len());
     let mut length = 0;
     for (index, record) in records.iter().enumerate() {

@@ -60,7 +60,7 @@ pub struct SpectrumFile {
     pub group: Option<String>,
     /// Cell separator; default: detected.
     pub separator: Option<Separator>,
-    /// Decimal sign; default: detected.
+    /// Decimal sign; default: detected. In a workbook that of numbers stored as texts, a point unless stated.
     pub decimal: Option<Decimal>,
     /// Encoding; default: UTF-8, or Latin-1 if that fails.
     pub encoding: Option<Encoding>,
@@ -193,6 +193,8 @@ mod tests {
             about: None,
             columns: Ordered::default(),
             units: Ordered::default(),
+            sheet: None,
+            group: None,
             separator: None,
             decimal: None,
             encoding: None,

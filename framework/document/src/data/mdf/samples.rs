@@ -5,7 +5,7 @@ use super::{damaged, limit};
 use crate::data::MeasuredFault;
 
 /// Longest data of a data group. \[byte\]
-const LONGEST_DATA: usize = 256 << 20;
+const LONGEST_DATA: usize = 128 << 20;
 
 /// The records of a group: bytes of the channels, then of their validity.
 pub(super) struct Records {
