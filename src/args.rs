@@ -211,6 +211,30 @@ pub enum ImportFrom {
         #[arg(short, long, value_name = "FOLDER")]
         output: Option<PathBuf>,
     },
+    /// Catalogue of bearings from a maker's table: CSV or workbook, English or German headings, decimal comma or point.
+    ///
+    /// Prints what was taken and what is missing, and warns of implausible rows. The catalogue is used by `catalogues: { bearings: FILE }` of a
+    /// gearbox.
+    Bearings {
+        /// Table: CSV or .xlsx; the content decides.
+        file: PathBuf,
+        /// Assigns a column: `"c=Dyn. load rating [kN]"`. Keys: designation, kind, series, bore, outside, width, c, c0, e, y, y0, pu,
+        /// calculation_factor, minimum_load_factor, reference_speed, limiting_speed. Can be repeated.
+        #[arg(long, value_name = "KEY=HEADING")]
+        columns: Vec<String>,
+        /// Kind of all bearings, if no column states it, such as deep_groove_ball [default: from the series in the designation].
+        #[arg(long)]
+        kind: Option<String>,
+        /// Decimal sign [default: detected].
+        #[arg(long, value_enum)]
+        decimal: Option<DecimalArg>,
+        /// Sheet of a workbook [default: the first].
+        #[arg(long, value_name = "NAME")]
+        sheet: Option<String>,
+        /// Catalogue to write; an existing file is an error [default: NAME-catalogue.csv in the current folder].
+        #[arg(short, long, value_name = "FILE")]
+        output: Option<PathBuf>,
+    },
     /// Mean moments of OpenFOAM's `forces` function object, one run for each point of a table.
     OpenfoamForces {
         /// CSV file of the runs: one column for each axis of the table, such as `speed [rpm]`, `nu [mm2/s]`, `volume [ml]`, and `folder` as
@@ -232,6 +256,15 @@ pub enum ImportFrom {
         #[arg(short, long, value_name = "FILE")]
         output: PathBuf,
     },
+}
+
+/// Decimal sign of a table.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum DecimalArg {
+    /// `1.5`
+    Point,
+    /// `1,5`
+    Comma,
 }
 
 /// An axis of coordinates.

@@ -173,3 +173,111 @@ fn classes_without_an_export_of_loads_are_refused() {
     let ran = ran("cycles: [drive], load_classes: 5");
     assert!(ran.text.contains("no export has load cases"), "{}", ran.text);
 }
+
+/// Component, attribute, unit and type of its value in version 1.7 of REXS (`rexs_schema_1.7.xml` of the FVA, Apache-2.0): each attribute is
+/// mapped to the component there.
+const REXS_1_7: [(&str, &str, Option<&str>, &str); 9] = [
+    ("gear_unit", "gear_shift_index", None, "integer"),
+    ("gear_unit", "operating_time", Some("h"), "floating_point"),
+    ("gear_unit", "operating_time_fraction", Some("%"), "floating_point"),
+    (
+        "rolling_bearing_with_catalog_geometry",
+        "axial_force",
+        Some("kN"),
+        "floating_point",
+    ),
+    (
+        "rolling_bearing_with_catalog_geometry",
+        "force_acting_on_inner_component_v",
+        Some("N"),
+        "floating_point",
+    ),
+    (
+        "rolling_bearing_with_catalog_geometry",
+        "force_acting_on_inner_component_w",
+        Some("N"),
+        "floating_point",
+    ),
+    (
+        "rolling_bearing_with_catalog_geometry",
+        "speed_inner_ring",
+        Some("1 / min"),
+        "floating_point",
+    ),
+    (
+        "rolling_bearing_with_catalog_geometry",
+        "speed_outer_ring",
+        Some("1 / min"),
+        "floating_point",
+    ),
+    (
+        "rolling_bearing_with_catalog_geometry",
+        "temperature_lubricant",
+        Some("C"),
+        "floating_point",
+    ),
+];
+
+/// Elements, ids, units and values are those of the schema, and the importer says what the model is.
+#[test]
+fn rexs_has_the_ids_units_and_values_of_version_1_7() {
+    let ran = ran("cycles: [loads, drive], export: [bearing_loads, rexs_loads]");
+    let csv = rows(ran.file("c-bearing_loads.csv"));
+    let set = cell(&csv[0], "model_set").to_owned();
+    let text = ran.file(&format!("c-{set}-bearing_loads.rexs"));
+    let document = roxmltree::Document::parse(text).unwrap();
+    let model = document.root_element();
+    assert_eq!(
+        (model.tag_name().name(), model.attribute("version")),
+        ("model", Some("1.7"))
+    );
+    let children: Vec<&str> = model
+        .children()
+        .filter(roxmltree::Node::is_element)
+        .map(|node| node.tag_name().name())
+        .collect();
+    assert_eq!(children, ["relations", "components", "load_spectrum", "load_spectrum"]);
+    let of = |node: roxmltree::Node<'_, '_>| {
+        let [id, kind] = ["id", "type"].map(|name| node.attribute(name).unwrap().to_owned());
+        assert!(id.parse::<u32>().unwrap() > 0);
+        (id, kind)
+    };
+    let components = model.children().find(|node| node.has_tag_name("components")).unwrap();
+    let known: Vec<(String, String)> = components
+        .children()
+        .filter(roxmltree::Node::is_element)
+        .map(of)
+        .collect();
+    let mut ids: Vec<&String> = known.iter().map(|(id, _)| id).collect();
+    ids.dedup();
+    assert_eq!(ids.len(), 9);
+    let mut seen = std::collections::BTreeSet::new();
+    for case in document.descendants().filter(|node| node.has_tag_name("load_case")) {
+        for component in case.children().filter(roxmltree::Node::is_element) {
+            let own = of(component);
+            assert!(known.contains(&own), "{own:?}");
+            for attribute in component.children().filter(roxmltree::Node::is_element) {
+                let key = (
+                    own.1.as_str(),
+                    attribute.attribute("id").unwrap(),
+                    attribute.attribute("unit"),
+                );
+                let schema = REXS_1_7.iter().find(|(kind, id, unit, _)| (*kind, *id, *unit) == key);
+                let (.., value) = schema.unwrap_or_else(|| panic!("{key:?}"));
+                let text = attribute.text().unwrap();
+                assert!(text.parse::<f64>().unwrap().is_finite());
+                assert!(*value != "integer" || text.parse::<i64>().is_ok(), "{key:?} {text}");
+                seen.insert(key.1.to_owned());
+            }
+        }
+    }
+    assert_eq!(seen.len(), REXS_1_7.len());
+    let findings =
+        gearloss_exchange::rexs::import(text.as_bytes(), "loads.rexs", &crate::common::language()).unwrap_err();
+    let told = findings.render();
+    assert!(told.contains("the model has no gears"), "{told}");
+    assert!(
+        told.contains("it has loads of 8 bearings in") && told.contains("no gears, shafts, positions and relations"),
+        "{told}"
+    );
+}

@@ -350,10 +350,48 @@ def test_longer_steps_are_divided(network):
     assert ends[0] == pytest.approx(ends[1], abs=1e-6)
 
 
-def test_a_network_is_for_cosimulation_only(network):
+def test_temperatures_are_states_of_model_exchange(network):
+    start = {"input.speed": 700.0, "input.torque": 60.0, "vehicle.speed": 20.0, "temperature.sump": 50.0}
     for fmu in files(network[0], ["warm-own"]):
         description = fmpy.read_model_description(str(fmu))
-        assert description.modelExchange is None and description.coSimulation is not None
+        assert description.modelExchange is not None and description.coSimulation is not None
+        names = [variable.name for variable in description.modelVariables if variable.derivative is not None]
+        assert "der(temperature.sump)" in names
+        common = {"stop_time": 600, "start_values": start}
+        exact = fmpy.simulate_fmu(str(fmu), fmi_type="ModelExchange", output_interval=1, relative_tolerance=1e-7, **common)
+        assert exact["temperature.sump"][0] == 50.0
+        gaps = []
+        for step in (1.0, 0.25):
+            own = fmpy.simulate_fmu(str(fmu), fmi_type="CoSimulation", output_interval=step, **common)[:: round(1 / step)]
+            nodes = [name for name in own.dtype.names if name.startswith("temperature.")]
+            assert len(nodes) >= 10 and len(own) == len(exact)
+            gaps.append(max(float(np.abs(own[name] - exact[name]).max()) for name in nodes))
+        # Backward Euler steps approach the solution of the other program in proportion to their length; the largest gap is that of a
+        # light node just after the start.
+        assert gaps[0] < 1 and gaps[1] < 0.35 * gaps[0], gaps
+
+
+def test_a_network_in_model_exchange_follows_its_cosimulation_over_a_cycle(network):
+    results, _ = network
+    cycle = table(results / "warm.csv")
+    count = 600
+    inputs = np.zeros(2 * count, dtype=[("time", "f8"), ("input.speed", "f8"), ("input.torque", "f8"), ("vehicle.speed", "f8")])
+    times = cycle["time_s"][: count + 1]
+    # Constant over each interval: two rows at each of its ends.
+    inputs["time"] = np.ravel(np.column_stack([times[:-1], times[1:]]))
+    for name, values in (
+        ("input.speed", cycle["speed_rpm"] * RPM),
+        ("input.torque", cycle["torque_nm"]),
+        ("vehicle.speed", np.nan_to_num(cycle["vehicle_speed_m_s"])),
+    ):
+        inputs[name] = np.repeat(values[:count], 2)
+    for fmu in files(results, ["warm-own"]):
+        common = {"stop_time": float(count), "output_interval": 1, "input": inputs, "record_events": False}
+        own = fmpy.simulate_fmu(str(fmu), fmi_type="CoSimulation", **common)
+        other = fmpy.simulate_fmu(str(fmu), fmi_type="ModelExchange", relative_tolerance=1e-6, **common)
+        assert own["time"] == pytest.approx(other["time"])
+        gap = np.abs(own["temperature.sump"] - other["temperature.sump"])
+        assert gap.max() < 0.1, gap.max()
 
 
 def test_equal_results_give_equal_bytes(maps, program, tmp_path):

@@ -45,10 +45,20 @@ fn own_catalogue(
     language: &gearloss_framework::language::Language,
 ) -> Result<CatalogueTable, Failure> {
     let text = read_file(file, LONGEST_DATA, "check the file name")?;
+    checked(&text, &file.display().to_string(), section, language)
+}
+
+/// The catalogue in a text, with every value checked.
+pub(super) fn checked(
+    text: &str,
+    file: &str,
+    section: &str,
+    language: &gearloss_framework::language::Language,
+) -> Result<CatalogueTable, Failure> {
     let help =
         "a catalogue has the column `designation` and keys of the section with their units, such as `bore [mm],c0 [N]`";
-    let wrong = |message: String| Failure::input(format!("{}: {message}", file.display()), help);
-    let table = CatalogueTable::from_csv(&text).map_err(wrong)?;
+    let wrong = |message: String| Failure::input(format!("{file}: {message}"), help);
+    let table = CatalogueTable::from_csv(text).map_err(wrong)?;
     let mut faults = Vec::new();
     for (designation, row) in &table.0 {
         for (key, value) in &row.values {

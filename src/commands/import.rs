@@ -1,5 +1,6 @@
 //! `import`: gearboxes, studies and tables from files of other programs.
 
+mod bearings;
 mod openfoam;
 mod rexs;
 
@@ -9,6 +10,7 @@ use crate::output::{End, Failure, Out};
 pub fn run(args: &ImportArgs, out: &mut Out) -> Result<End, Failure> {
     match &args.from {
         ImportFrom::Rexs { file, output } => rexs::run(file, output.as_deref(), out),
+        from @ ImportFrom::Bearings { .. } => bearings::run(from, out),
         from @ ImportFrom::OpenfoamForces { .. } => openfoam::run(from, out),
     }
 }

@@ -154,8 +154,14 @@ pub fn run_file(study: &str) -> Ran {
 
 /// Runs a study with files beside it.
 pub fn run_texts(study: &str, files: &[(&str, &str)]) -> Ran {
-    let texts = files.iter().copied().chain([("study.yaml", study)]);
-    let source: SharedSource = Arc::new(TextsAndDisk(InMemory::new(texts)));
+    run_files(study, files)
+}
+
+/// As [`run_texts`], with files of any content.
+pub fn run_files(study: &str, files: &[(&str, impl AsRef<[u8]>)]) -> Ran {
+    let contents = files.iter().map(|(name, content)| (*name, content.as_ref().to_vec()));
+    let texts = InMemory::new(contents.chain([("study.yaml", study.as_bytes().to_vec())]));
+    let source: SharedSource = Arc::new(TextsAndDisk(texts));
     run(&source, Path::new("study.yaml"))
 }
 

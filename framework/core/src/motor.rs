@@ -12,7 +12,7 @@ use crate::table::{Axis, Interpolation, Outside, Reading, Table, clamped};
 /// An electric motor that heats its rotor and its stator.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct MotorEntry {
-    /// CSV file, relative to this one: `speed [rpm]`, `torque [Nm]`, and `efficiency [-]` or `loss [W]`; with `temperature [degC]`, one
+    /// CSV file, workbook or MDF file, relative to this one: `speed [rpm]`, `torque [Nm]`, and `efficiency [-]` or `loss [W]`; with `temperature [degC]`, one
     /// map for each temperature. Rows with negative torque are for generating.
     #[schemars(extend("x-refers-to" = "file"))]
     pub map: String,
@@ -147,7 +147,7 @@ const COLUMNS: &str = "a map has columns `speed [rpm],torque [Nm],loss [W]`, or 
 const LEAST_FILLED: f64 = 0.3;
 
 impl MotorMap {
-    /// Reads the bytes of a CSV file: `speed [rpm]`, `torque [Nm]`, `efficiency [-]` or `loss [W]`, and optionally `temperature
+    /// Reads the bytes of a CSV file, a workbook or an MDF file: `speed [rpm]`, `torque [Nm]`, `efficiency [-]` or `loss [W]`, and optionally `temperature
     /// [degC]`. If both are given, the loss is used. Rows with an efficiency and without speed or torque carry no information and
     /// are skipped.
     ///
@@ -156,14 +156,18 @@ impl MotorMap {
     pub fn read(bytes: &[u8]) -> Result<Self, Vec<MeasuredFault>> {
         let none = Ordered::default();
         let sheet = Sheet::open(bytes, Form::default(), &QUANTITIES, (&none, &none)).map_err(in_header)?;
+        Self::from_sheet(&sheet).map_err(|faults| sheet.table.placed(faults))
+    }
+
+    fn from_sheet(sheet: &Sheet) -> Result<Self, Vec<MeasuredFault>> {
         let mut lacks = Vec::new();
         for (place, what) in [(SPEED, "speed"), (TORQUE, "torque")] {
             if !sheet.holds(place) {
-                lacks.push(lacking(&sheet, &format!("the {what}")));
+                lacks.push(lacking(sheet, &format!("the {what}")));
             }
         }
         if !sheet.holds(EFFICIENCY) && !sheet.holds(LOSS) {
-            lacks.push(lacking(&sheet, "the efficiency or the loss"));
+            lacks.push(lacking(sheet, "the efficiency or the loss"));
         }
         if !lacks.is_empty() {
             return Err(lacks);
@@ -172,7 +176,7 @@ impl MotorMap {
         let mut faulty = Vec::new();
         let mut silent = 0;
         for row in 0..sheet.table.rows.len() {
-            match node(&sheet, row) {
+            match node(sheet, row) {
                 Ok(Some((node, generating))) => quadrants[usize::from(generating)].push(node),
                 Ok(None) => silent += 1,
                 Err(reason) => faulty.push(reason),

@@ -1,7 +1,9 @@
 //! Data files: from bytes to cells, and the columns of quantities.
 
 pub mod cells;
+mod mdf;
 pub mod sheet;
+mod workbook;
 
 use crate::{Unit, did_you_mean};
 

@@ -1,5 +1,6 @@
 //! Documents: from YAML text to nodes with places, and to values in SI by one walk along a compiled schema that collects all errors.
 
+pub mod archive;
 mod by_type;
 mod code;
 pub mod codes;

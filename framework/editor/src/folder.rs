@@ -38,7 +38,7 @@ pub fn files(folder: &Path, depth: usize) -> Vec<PathBuf> {
                 continue;
             }
             let extension = path.extension().and_then(|extension| extension.to_str());
-            if kind.is_file() && matches!(extension, Some("yaml" | "yml" | "csv")) {
+            if kind.is_file() && matches!(extension, Some("yaml" | "yml" | "csv" | "xlsx" | "mf4")) {
                 found.push(path);
             }
         }

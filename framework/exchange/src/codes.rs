@@ -17,7 +17,13 @@ gearloss_document::codes! {
     REXS_PART = "E0805", "part of a REXS model that gearbox files do not describe",
         cause: "The model contains worm, bevel or hypoid stages, shafts that are not parallel, or planets of one set that differ.",
         help: "Import a model without this part, or describe the gearbox by hand: `gearloss new gearbox` writes a template.";
+    BEARING_TABLE = "E0806", "table of bearings cannot be read",
+        cause: "A heading is not known, a unit is stated nowhere, a cell is not a number, or the decimal sign is not clear.",
+        help: "Assign columns with `--columns \"c=HEADING [kN]\"`, state `--decimal`, or correct the cell.";
     REXS_VERSION = "W0801", "unknown version of REXS",
         cause: "The file has another version than those whose ids are known.",
         help: "Check the report of the import for attributes that were not used.";
+    BEARING_IMPLAUSIBLE = "W0802", "implausible bearing in a table",
+        cause: "A row contradicts itself, or has ratings or speeds that no bearing of its size has: usually a wrong column or unit.",
+        help: "Check the columns and units of the table.";
 }

@@ -205,11 +205,7 @@ fn convert(source: &Source<'_>, title: String, language: &Language) -> Option<Im
     map.forces = loads::forces(&map);
     let (gears, meshes, sets) = gears::gears(&mut map);
     if gears.is_empty() && !source.has_errors() {
-        source.report(
-            Diagnostic::error("", "the model has no gears")
-                .code(crate::codes::REXS_PART)
-                .help("give a REXS model of a gearbox with cylindrical stages"),
-        );
+        source.report(no_gears(source));
     }
     let mut draft = Draft {
         source: format!(
@@ -441,4 +437,21 @@ fn report(map: &Map<'_>, cases: usize, faults: Vec<String>) -> Vec<String> {
         lines.push(line);
     }
     lines
+}
+
+/// The finding of a model without gears, such as one of loads of bearings.
+fn no_gears(source: &Source<'_>) -> Diagnostic {
+    let found = Diagnostic::error("", "the model has no gears")
+        .code(crate::codes::REXS_PART)
+        .help("give a REXS model of a gearbox with cylindrical stages");
+    let cases: usize = source.model.spectra.iter().map(|spectrum| spectrum.cases.len()).sum();
+    let bearings = source.components("rolling_bearing_with_catalog_geometry").count();
+    if cases == 0 || bearings == 0 {
+        return found;
+    }
+    found.note(format!(
+        "it has loads of {} in {}, for programs that calculate their life: no gears, shafts, positions and relations",
+        counted(bearings, "bearing"),
+        counted(cases, "load case")
+    ))
 }

@@ -174,7 +174,9 @@ mod tests {
             ] {
                 assert!(xml.contains(part), "{part}: {xml}");
             }
-            assert!(!xml.contains("<ModelExchange"), "a network is for Co-Simulation");
+            assert!(xml.contains("<ModelExchange") && xml.contains("<CoSimulation"));
+            // The sump has a heat capacity, the oil behind the cooler has none.
+            assert_eq!(xml.matches("der(temperature.").count(), 1, "{xml}");
             // A head, and a row for each of the points.
             for name in ["inputs.csv", "outputs.csv"] {
                 let text = of(&format!("extra/org.fmi-standard.fmi-ls-ref/{name}"));

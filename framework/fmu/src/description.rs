@@ -17,7 +17,7 @@ pub struct Info {
 type Unit = (&'static str, &'static str, Option<(&'static str, f64)>);
 
 /// Units with their powers of kg, m, s, K and rad, the factor and offset to them, and a display unit with its factor.
-const UNITS: [Unit; 8] = [
+const UNITS: [Unit; 9] = [
     ("s", r#"s="1""#, None),
     (
         "rad/s",
@@ -27,6 +27,7 @@ const UNITS: [Unit; 8] = [
     ("N.m", r#"kg="1" m="2" s="-2""#, None),
     ("W", r#"kg="1" m="2" s="-3""#, None),
     ("degC", r#"K="1" offset="273.15""#, None),
+    ("K/s", r#"K="1" s="-1""#, None),
     ("m3/s", r#"m="3" s="-1""#, Some(("l/min", 60000.0))),
     ("kg/s", r#"kg="1" s="-1""#, None),
     ("m/s", r#"m="1" s="-1""#, Some(("km/h", 3.6))),
@@ -112,6 +113,14 @@ pub fn info(fmu: &Fmu<'_>, slot: &Slot) -> Info {
                 &format!("Temperature of {name}"),
             )
         }
+        Use::Rate(node) => {
+            let name = nodes.get(node as usize).map_or("", |node| &node.name);
+            plain(
+                &format!("der(temperature.{})", part(name)),
+                Some("K/s"),
+                &format!("Change of the temperature of {name}"),
+            )
+        }
         Use::ExchangerHeat(i) => plain(
             &format!("heat.{}", part(exchanger(i))),
             Some("W"),
@@ -176,9 +185,11 @@ pub fn xml(fmu: &Fmu<'_>, version: Version, token: &str) -> String {
         "modelIdentifier=\"{}\" canGetAndSet{state}=\"true\" canSerialize{state}=\"true\"",
         fmu.identifier()
     );
-    if matches!(fmu.content, Content::Map(_)) {
-        xml.push_str(&format!("  <ModelExchange {own}/>\n"));
-    }
+    let steps = match version {
+        Version::Two => "completedIntegratorStepNotNeeded=\"true\"",
+        Version::Three => "needsCompletedIntegratorStep=\"false\"",
+    };
+    xml.push_str(&format!("  <ModelExchange {own} {steps}/>\n"));
     xml.push_str(&format!(
         "  <CoSimulation {own} canHandleVariableCommunicationStepSize=\"true\"/>\n"
     ));
@@ -193,7 +204,11 @@ pub fn xml(fmu: &Fmu<'_>, version: Version, token: &str) -> String {
         fmu.experiment.step
     ));
     for (reference, slot) in slots.iter().enumerate() {
-        xml.push_str(&variable(fmu, version, reference, slot));
+        let state = match slot.use_ {
+            Use::Rate(node) => slots.iter().position(|other| other.use_ == Use::Node(node)),
+            _ => None,
+        };
+        xml.push_str(&variable(fmu, version, (reference, slot), state));
     }
     xml.push_str("  </ModelVariables>\n  <ModelStructure>\n");
     xml.push_str(&structure(version, &slots));
@@ -215,13 +230,23 @@ fn units(fmu: &Fmu<'_>, slots: &[Slot]) -> String {
     xml + "  </UnitDefinitions>\n"
 }
 
-/// The element of a variable.
-fn variable(fmu: &Fmu<'_>, version: Version, reference: usize, slot: &Slot) -> String {
+/// FMI 2.0 counts variables from one, FMI 3.0 uses value references.
+fn number(version: Version, reference: usize) -> usize {
+    if version == Version::Two {
+        reference + 1
+    } else {
+        reference
+    }
+}
+
+/// The element of a variable; `state` is the place of that of which it is the derivative.
+fn variable(fmu: &Fmu<'_>, version: Version, (reference, slot): (usize, &Slot), state: Option<usize>) -> String {
     let info = info(fmu, slot);
     let causality = match slot.causality {
         Causality::Independent => "independent",
         Causality::Input => "input",
         Causality::Output | Causality::State => "output",
+        Causality::Derivative => "local",
     };
     let variability = if slot.kind == Kind::Real {
         "continuous"
@@ -234,7 +259,7 @@ fn variable(fmu: &Fmu<'_>, version: Version, reference: usize, slot: &Slot) -> S
         escaped(&info.description)
     );
     match slot.causality {
-        Causality::Output => common.push_str(" initial=\"calculated\""),
+        Causality::Output | Causality::Derivative => common.push_str(" initial=\"calculated\""),
         Causality::State => common.push_str(" initial=\"exact\""),
         Causality::Input | Causality::Independent => {}
     }
@@ -244,6 +269,9 @@ fn variable(fmu: &Fmu<'_>, version: Version, reference: usize, slot: &Slot) -> S
     }
     if matches!(slot.causality, Causality::Input | Causality::State) {
         own.push_str(&format!(" start=\"{}\"", slot.start));
+    }
+    if let Some(state) = state {
+        own.push_str(&format!(" derivative=\"{}\"", number(version, state)));
     }
     if let Some(unit) = info.unit {
         own.push_str(&format!(" unit=\"{unit}\""));
@@ -272,67 +300,63 @@ fn variable(fmu: &Fmu<'_>, version: Version, reference: usize, slot: &Slot) -> S
     }
 }
 
-/// Whether an output depends on an input or a start value at the same time.
-fn depends(output: Use, on: Use) -> bool {
-    let is_load = matches!(on, Use::Speed | Use::Torque | Use::Gear);
-    match output {
-        Use::OutputSpeed => matches!(on, Use::Speed | Use::Gear),
-        Use::ExchangerHeat(i) => match on {
-            Use::CoolantFlow(own) | Use::CoolantTemperature(own) => own == i,
-            Use::OilFlow | Use::Node(_) => true,
-            _ => false,
-        },
-        Use::Outside => true,
-        Use::LossTorque
-        | Use::LossPower
-        | Use::Efficiency
-        | Use::OutputTorque
-        | Use::MotorLoss
-        | Use::Share(_)
-        | Use::OilTemperature => is_load || matches!(on, Use::OilTemperature | Use::Node(_)),
-        _ => false,
+/// Whether an output depends on an input or a state at the same time. Losses and temperatures without heat capacity may depend on all.
+fn depends(output: &Slot, on: &Slot) -> bool {
+    match output.use_ {
+        Use::OutputSpeed => matches!(on.use_, Use::Speed | Use::Gear),
+        _ if output.causality == Causality::State => output.use_ == on.use_,
+        _ => true,
     }
 }
 
-/// Outputs and initial unknowns with what they depend on.
+/// Outputs, derivatives and initial unknowns with what they depend on.
 fn structure(version: Version, slots: &[Slot]) -> String {
-    // FMI 2.0 counts variables from one, FMI 3.0 uses value references.
-    let number = |reference: usize| {
-        if version == Version::Two {
-            reference + 1
-        } else {
-            reference
+    let list = |output: &Slot| {
+        let knowns = slots.iter().enumerate();
+        let knowns = knowns.filter(|(_, slot)| matches!(slot.causality, Causality::Input | Causality::State));
+        let own = knowns.filter(|(_, slot)| depends(output, slot));
+        own.map(|(i, _)| number(version, i).to_string())
+            .collect::<Vec<_>>()
+            .join(" ")
+    };
+    let part = |wanted: fn(Causality) -> bool, group: &str, element: &str| {
+        let of = slots.iter().enumerate().filter(|(_, slot)| wanted(slot.causality));
+        let lines: Vec<String> = of
+            .map(|(i, slot)| {
+                let on = list(slot);
+                match version {
+                    Version::Two => format!(
+                        "      <Unknown index=\"{}\" dependencies=\"{on}\"/>\n",
+                        number(version, i)
+                    ),
+                    Version::Three => format!("    <{element} valueReference=\"{i}\" dependencies=\"{on}\"/>\n"),
+                }
+            })
+            .collect();
+        match version {
+            Version::Two if lines.is_empty() => String::new(),
+            Version::Two => format!("    <{group}>\n{}    </{group}>\n", lines.concat()),
+            Version::Three => lines.concat(),
         }
     };
-    let list = |output: &Slot, known: fn(Causality) -> bool| {
-        let knowns = slots.iter().enumerate().filter(|(_, slot)| known(slot.causality));
-        let own = knowns.filter(|(_, slot)| depends(output.use_, slot.use_));
-        own.map(|(i, _)| number(i).to_string()).collect::<Vec<_>>().join(" ")
-    };
-    let mut xml = String::new();
-    let (open, output, close, initial) = match version {
-        Version::Two => ("    <Outputs>\n", "Unknown index", "    </Outputs>\n", "Unknown index"),
-        Version::Three => ("", "Output valueReference", "", "InitialUnknown valueReference"),
-    };
-    xml.push_str(open);
-    let outputs =
-        |wanted: fn(Causality) -> bool| slots.iter().enumerate().filter(move |(_, slot)| wanted(slot.causality));
-    for (i, slot) in outputs(|c| matches!(c, Causality::Output | Causality::State)) {
-        let on = list(slot, |c| c == Causality::Input);
-        xml.push_str(&format!("      <{output}=\"{}\" dependencies=\"{on}\"/>\n", number(i)));
-    }
-    xml.push_str(close);
-    if version == Version::Two {
-        xml.push_str("    <InitialUnknowns>\n");
-    }
-    for (i, slot) in outputs(|c| c == Causality::Output) {
-        let on = list(slot, |c| matches!(c, Causality::Input | Causality::State));
-        xml.push_str(&format!("      <{initial}=\"{}\" dependencies=\"{on}\"/>\n", number(i)));
-    }
-    if version == Version::Two {
-        xml.push_str("    </InitialUnknowns>\n");
-    }
-    xml
+    [
+        part(
+            |c| matches!(c, Causality::Output | Causality::State),
+            "Outputs",
+            "Output",
+        ),
+        part(
+            |c| c == Causality::Derivative,
+            "Derivatives",
+            "ContinuousStateDerivative",
+        ),
+        part(
+            |c| matches!(c, Causality::Output | Causality::Derivative),
+            "InitialUnknowns",
+            "InitialUnknown",
+        ),
+    ]
+    .concat()
 }
 
 /// A page about the variables.
@@ -344,7 +368,8 @@ pub fn page(fmu: &Fmu<'_>) -> String {
             Causality::Independent => "time",
             Causality::Input => "input",
             Causality::Output => "output",
-            Causality::State => "output, with a start value",
+            Causality::State => "output, with a start value; a state in Model Exchange",
+            Causality::Derivative => "derivative of a state",
         };
         format!(
             "<tr><td>{}<td>{direction}<td>{}<td>{}\n",

@@ -35,7 +35,7 @@ pub use steady::{SteadyEntry, SteadyLimitsEntry, Stretch};
 /// Files of measured points and their settings.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct MeasuredEntry {
-    /// CSV file relative to the study, or a list of files with the same quantities.
+    /// CSV file, workbook (.xlsx) or MDF file (.mf4) relative to the study, or a list of files with the same quantities.
     #[schemars(extend("x-refers-to" = "file"))]
     pub file: MeasuredFiles,
     /// Note for the report: origin of these data, or that they are synthetic.
@@ -49,9 +49,13 @@ pub struct MeasuredEntry {
     /// Unit of each quantity, unless the header or a row of units states it: `efficiency: "%"`.
     #[serde(default)]
     pub units: Ordered<String>,
+    /// Sheet of a workbook (.xlsx); default: the first one.
+    pub sheet: Option<String>,
+    /// Channel group of an MDF file (.mf4), by its name or its number from 1 on; needed if several have samples.
+    pub group: Option<String>,
     /// Cell separator; default: detected.
     pub separator: Option<Separator>,
-    /// Decimal sign; default: detected.
+    /// Decimal sign; default: detected. In a workbook that of numbers stored as texts, a point unless stated.
     pub decimal: Option<Decimal>,
     /// Encoding; default: UTF-8, or Latin-1 if that fails.
     pub encoding: Option<Encoding>,

@@ -22,7 +22,23 @@ use crate::rating::{Rating, RatingSlot};
 pub struct Files {
     folder: PathBuf,
     source: SharedSource,
-    read: Mutex<BTreeMap<PathBuf, Arc<str>>>,
+    read: Mutex<BTreeMap<PathBuf, FileContent>>,
+}
+
+/// A file that was read: as a text, or as bytes that may be a workbook.
+#[derive(Debug, Clone)]
+enum FileContent {
+    Text(Arc<str>),
+    Bytes(Arc<[u8]>),
+}
+
+impl FileContent {
+    fn bytes(&self) -> Arc<[u8]> {
+        match self {
+            Self::Text(text) => Arc::from(Arc::clone(text)),
+            Self::Bytes(bytes) => Arc::clone(bytes),
+        }
+    }
 }
 
 /// No files but those that are given by [`Files::put`].
@@ -66,7 +82,7 @@ impl Files {
     pub fn text(&self, name: &str) -> Result<Arc<str>, String> {
         let path = self.folder.join(name);
         let mut read = self.read.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-        if let Some(text) = read.get(&path) {
+        if let Some(FileContent::Text(text)) = read.get(&path) {
             return Ok(Arc::clone(text));
         }
         let text: Arc<str> = self
@@ -74,8 +90,27 @@ impl Files {
             .read_text(&path, LONGEST_DATA)
             .map_err(|e| format!("cannot read {}: {e}", path.display()))?
             .into();
-        read.insert(path, Arc::clone(&text));
+        read.insert(path, FileContent::Text(Arc::clone(&text)));
         Ok(text)
+    }
+
+    /// The bytes of a file.
+    ///
+    /// # Errors
+    /// The reason why it cannot be read, with the path that was tried.
+    pub fn bytes(&self, name: &str) -> Result<Arc<[u8]>, String> {
+        let path = self.folder.join(name);
+        let mut read = self.read.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        if let Some(content) = read.get(&path) {
+            return Ok(content.bytes());
+        }
+        let bytes: Arc<[u8]> = self
+            .source
+            .read(&path, LONGEST_DATA)
+            .map_err(|e| format!("cannot read {}: {e}", path.display()))?
+            .into();
+        read.insert(path, FileContent::Bytes(Arc::clone(&bytes)));
+        Ok(bytes)
     }
 
     /// Provides a text for a file that need not exist.
@@ -84,7 +119,7 @@ impl Files {
         self.read
             .lock()
             .unwrap_or_else(std::sync::PoisonError::into_inner)
-            .insert(path, text.into());
+            .insert(path, FileContent::Text(text.into()));
     }
 
     /// Provides several files: names with their text.
@@ -94,11 +129,11 @@ impl Files {
         }
     }
 
-    /// All files read so far, with their text.
-    pub fn all(&self) -> Vec<(PathBuf, Arc<str>)> {
+    /// All files read so far, with their content.
+    pub fn all(&self) -> Vec<(PathBuf, Arc<[u8]>)> {
         let read = self.read.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
         read.iter()
-            .map(|(path, text)| (path.clone(), Arc::clone(text)))
+            .map(|(path, content)| (path.clone(), content.bytes()))
             .collect()
     }
 }

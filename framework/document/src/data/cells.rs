@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{MeasuredFault, fault};
+use super::{FaultPlace, MeasuredFault, fault, mdf, workbook};
 use crate::Unit;
 
 /// Cell separator.
@@ -62,7 +62,11 @@ pub enum Encoding {
 
 /// The stated format of a file; unstated properties are detected.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct Form {
+pub struct Form<'a> {
+    /// Sheet of a workbook; otherwise the first one.
+    pub sheet: Option<&'a str>,
+    /// Channel group of an MDF file; needed if it has several with samples.
+    pub group: Option<&'a str>,
     /// Cell separator.
     pub separator: Option<Separator>,
     /// The decimal sign.
@@ -73,16 +77,59 @@ pub struct Form {
 
 /// Cells with their lines.
 pub struct Table {
+    /// Sheet or channel group of the file, if it has such.
+    pub part: Option<String>,
     /// Headers.
     pub names: Vec<String>,
     /// Unit of each column if the header or a row of units states it.
     pub units: Vec<Option<String>>,
-    /// Line of the header.
+    /// Columns that the file has and that cannot be read, with the reason.
+    pub unread: Vec<(String, String)>,
+    /// Line of the header; zero in a file whose header is in no line.
     pub header_line: u64,
-    /// Cells of each row with its line.
+    /// Cells of each row with its line, row of the sheet, or number of the sample.
     pub rows: Vec<(u64, Vec<String>)>,
     /// The decimal sign.
     pub decimal: Decimal,
+}
+
+impl Table {
+    /// A name of the file with the sheet or channel group.
+    pub fn named(&self, file: &str) -> String {
+        match &self.part {
+            Some(part) => format!("{file}: {part}"),
+            None => file.to_owned(),
+        }
+    }
+
+    /// Adds sheet or channel group to errors.
+    pub fn placed(&self, faults: Vec<MeasuredFault>) -> Vec<MeasuredFault> {
+        let Some(part) = &self.part else {
+            return faults;
+        };
+        let placed = |wrong: MeasuredFault| MeasuredFault {
+            message: format!("{part}: {}", wrong.message),
+            ..wrong
+        };
+        faults.into_iter().map(placed).collect()
+    }
+
+    /// That there is no column of this name, and why if the file has it; with all columns.
+    pub fn lacks(&self, header: &str) -> String {
+        let names = self.names.join(", ");
+        match self.unread.iter().find(|(name, _)| name == header) {
+            Some((_, why)) => format!("`{header}` cannot be read: {why}; there are: {names}"),
+            None => format!("there is no column `{header}`; there are: {names}"),
+        }
+    }
+
+    /// The line of the header before an error; empty if it is in no line.
+    pub fn at_header(&self) -> String {
+        match self.header_line {
+            0 => String::new(),
+            line => format!("line {line}: "),
+        }
+    }
 }
 
 /// The number in a cell, or an error with its content.
@@ -96,10 +143,21 @@ pub fn number(
         let at = format!("line {line}, column {} `{header}`", place + 1);
         if cell.is_empty() {
             format!("{at}: empty")
+        } else if let Some(date) = cell.strip_prefix(workbook::DATE) {
+            format!("{at}: a date or time, stored as `{date}`: give the cell the format of a number")
         } else {
             format!("{at}: `{cell}` is not a number")
         }
     })
+}
+
+/// A number as in a file with decimal points; reading it gives the same number.
+pub(super) fn written(number: f64) -> String {
+    if number.fract() == 0.0 && number.abs() < 9e15 {
+        return (number as i64).to_string();
+    }
+    // Small and large numbers have an exponent.
+    format!("{number:?}")
 }
 
 fn decoded(bytes: &[u8], encoding: Option<Encoding>, notes: &mut Vec<String>) -> Result<String, MeasuredFault> {
@@ -132,7 +190,7 @@ fn separator(header: &str) -> Separator {
 }
 
 /// `name [unit]`, `name (unit)`, `name / unit`, or a bare name.
-fn name_and_unit(header: &str) -> (String, Option<String>) {
+pub fn name_and_unit(header: &str) -> (String, Option<String>) {
     let header = header.trim();
     for (open, close) in [('[', ']'), ('(', ')')] {
         if let Some((name, rest)) = header.split_once(open) {
@@ -163,11 +221,76 @@ fn line_of(text: &str, at: &csv::Position) -> u64 {
             .count() as u64
 }
 
-/// Reads the cells of a text and notes the detected format.
+/// Reads the cells of a file and notes the detected format. The content decides what it is: a workbook, an MDF file, or else a text.
 ///
 /// # Errors
 /// The first error with its line.
-pub fn table(bytes: &[u8], form: Form, notes: &mut Vec<String>) -> Result<Table, MeasuredFault> {
+pub fn table(bytes: &[u8], form: Form<'_>, notes: &mut Vec<String>) -> Result<Table, MeasuredFault> {
+    let (is_workbook, is_mdf) = (workbook::is_workbook(bytes), mdf::is_mdf(bytes));
+    let (unused, what) = if is_workbook || is_mdf {
+        let stated = [
+            ("separator", form.separator.is_some()),
+            ("encoding", form.encoding.is_some()),
+            ("decimal", is_mdf && form.decimal.is_some()),
+            ("sheet", is_mdf && form.sheet.is_some()),
+            ("group", is_workbook && form.group.is_some()),
+        ];
+        (stated.to_vec(), if is_mdf { "an MDF file" } else { "a workbook" })
+    } else {
+        let stated = [("sheet", form.sheet.is_some()), ("group", form.group.is_some())];
+        (stated.to_vec(), "a text file (CSV)")
+    };
+    if let Some((key, _)) = unused.into_iter().find(|(_, stated)| *stated) {
+        return Err(MeasuredFault {
+            place: FaultPlace::Entry(key.to_owned()),
+            message: format!("{what} has no `{key}`"),
+            help: format!("delete `{key}`"),
+        });
+    }
+    if is_workbook {
+        of_workbook(bytes, form, notes)
+    } else if is_mdf {
+        mdf::table(bytes, form.group, notes)
+    } else {
+        of_text(bytes, form, notes)
+    }
+}
+
+/// The cells of a sheet. Rows that begin with `#` are comments, as in texts.
+fn of_workbook(bytes: &[u8], form: Form<'_>, notes: &mut Vec<String>) -> Result<Table, MeasuredFault> {
+    let sheet = workbook::sheet(bytes, form.sheet, notes)?;
+    let part = format!("sheet `{}`", sheet.name);
+    let mut rows = sheet.rows;
+    rows.retain(|(_, cells)| {
+        !cells
+            .iter()
+            .find(|cell| !cell.is_empty())
+            .is_some_and(|cell| cell.starts_with('#'))
+    });
+    if form.decimal == Some(Decimal::Comma) {
+        // Numbers that are stored as texts; others have a point in any language of the spreadsheet.
+        let texts = rows
+            .iter_mut()
+            .flat_map(|(_, cells)| cells)
+            .filter(|cell| cell.contains(','));
+        texts.for_each(|cell| {
+            if Decimal::Comma.number(cell).is_some() {
+                *cell = cell.replace(',', ".");
+            }
+        });
+    }
+    let in_part = |wrong: MeasuredFault| MeasuredFault {
+        message: format!("{part}: {}", wrong.message),
+        ..wrong
+    };
+    let headed = headed(rows, notes, "delete it, or give its column a header").map_err(in_part)?;
+    Ok(Table {
+        part: Some(part),
+        ..headed
+    })
+}
+
+fn of_text(bytes: &[u8], form: Form<'_>, notes: &mut Vec<String>) -> Result<Table, MeasuredFault> {
     let text = decoded(bytes, form.encoding, notes)?;
     let Some(first) = text
         .lines()
@@ -201,6 +324,16 @@ pub fn table(bytes: &[u8], form: Form, notes: &mut Vec<String>) -> Result<Table,
         }
         rows.push((line, record.iter().map(str::to_owned).collect()));
     }
+    let help = "if a decimal comma splits numbers, state `separator` or quote such cells";
+    let headed = headed(rows, notes, help)?;
+    Ok(Table {
+        decimal: decimal(&headed.rows, form, notes)?,
+        ..headed
+    })
+}
+
+/// Takes the header and a row of units from the rows. `too_long` is the help for a row with more cells than the header.
+fn headed(mut rows: Vec<(u64, Vec<String>)>, notes: &mut Vec<String>, too_long: &str) -> Result<Table, MeasuredFault> {
     if rows.is_empty() {
         return Err(fault("the file is empty", "choose another file"));
     }
@@ -225,12 +358,14 @@ pub fn table(bytes: &[u8], form: Form, notes: &mut Vec<String>) -> Result<Table,
         if cells.len() > names.len() {
             return Err(fault(
                 format!("line {line}: {} cells, but the header has {}", cells.len(), names.len()),
-                "if a decimal comma splits numbers, state `separator` or quote such cells",
+                too_long,
             ));
         }
     }
     Ok(Table {
-        decimal: decimal(&rows, form, notes)?,
+        part: None,
+        unread: Vec::new(),
+        decimal: Decimal::Point,
         names,
         units,
         header_line,
@@ -239,7 +374,7 @@ pub fn table(bytes: &[u8], form: Form, notes: &mut Vec<String>) -> Result<Table,
 }
 
 /// The decimal sign: a comma if numbers contain commas and none contains a point.
-fn decimal(rows: &[(u64, Vec<String>)], form: Form, notes: &mut Vec<String>) -> Result<Decimal, MeasuredFault> {
+fn decimal(rows: &[(u64, Vec<String>)], form: Form<'_>, notes: &mut Vec<String>) -> Result<Decimal, MeasuredFault> {
     if let Some(stated) = form.decimal {
         return Ok(stated);
     }

@@ -33,13 +33,12 @@ impl Sheet {
     /// Reads the bytes and finds a column for each requested quantity: the one given in `columns`, or the one with the same name.
     pub fn open(
         bytes: &[u8],
-        form: Form,
+        form: Form<'_>,
         wanted: &[Wanted],
         (columns, units): (&Ordered<String>, &Ordered<String>),
     ) -> Result<Self, Vec<MeasuredFault>> {
         let mut notes = Vec::new();
         let table = table(bytes, form, &mut notes).map_err(|f| vec![f])?;
-        let names = || table.names.join(", ");
         let mut found = Vec::new();
         for key in columns.ids().chain(units.ids()) {
             if wanted.iter().all(|(name, _)| *name != key) {
@@ -67,7 +66,7 @@ impl Sheet {
                     match scale((name, due), stated.map(String::as_str), header) {
                         Ok(unit) => Some(unit),
                         Err(f) => {
-                            let message = format!("line {}, {}", table.header_line, f.message);
+                            let message = format!("{}{}", table.at_header().replace(": ", ", "), f.message);
                             found.push(fault(message, f.help));
                             return None;
                         }
@@ -81,11 +80,7 @@ impl Sheet {
             });
             if let (Some(header), true) = (written, !table.names.contains(&header.to_owned())) {
                 found.push(fault(
-                    format!(
-                        "line {}: there is no column `{header}`; there are: {}",
-                        table.header_line,
-                        names()
-                    ),
+                    format!("{}{}", table.at_header(), table.lacks(header)),
                     match did_you_mean(header, table.names.iter().map(String::as_str)) {
                         Some(close) => format!("write `{close}`"),
                         None => "choose one of them".to_owned(),
@@ -101,7 +96,7 @@ impl Sheet {
                 columns: places,
             })
         } else {
-            Err(found)
+            Err(table.placed(found))
         }
     }
 
@@ -180,8 +175,8 @@ impl Sheet {
     pub fn lacks(&self, what: &str, name: &str) -> MeasuredFault {
         fault(
             format!(
-                "line {}: there is no column for {what}; there are: {}",
-                self.table.header_line,
+                "{}there is no column for {what}; there are: {}",
+                self.table.at_header(),
                 self.table.names.join(", ")
             ),
             format!("state one under `columns: {{ {name}: ... }}`"),

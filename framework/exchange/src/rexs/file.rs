@@ -1,14 +1,12 @@
 //! The text of a model from the bytes of a file, decided by content: XML, JSON, or an archive with one of them.
 
 use gearloss_document::Diagnostic;
-use rawzip::{CompressionMethod, ZipArchive};
+use gearloss_document::archive::{Archive, ArchiveFault};
 
 use crate::codes;
 
 /// Longest text of a model; files of programs have up to about 10 MB. \[byte\]
 pub const LONGEST_MODEL: u64 = 64 << 20;
-/// Largest ratio of the text to its packed bytes. Models reach about 20.
-const LARGEST_RATIO: u64 = 200;
 /// Most entries of an archive.
 const MOST_ENTRIES: usize = 1000;
 
@@ -67,75 +65,34 @@ fn format(bytes: &[u8]) -> Option<Format> {
 
 /// Name and bytes of the only model in an archive.
 fn unpacked(bytes: &[u8]) -> Result<(String, Vec<u8>), Diagnostic> {
-    let broken = |fault: rawzip::Error| {
-        error(format!("the archive cannot be read: {fault}"))
-            .help("export or copy the file again; it may be incomplete")
-    };
-    let archive = ZipArchive::from_slice(bytes).map_err(broken)?;
-    let mut entries = archive.entries();
+    let archive = Archive::open(bytes, MOST_ENTRIES).map_err(|fault| match fault {
+        ArchiveFault::Entries(most) => {
+            limit(format!("the archive has more than {most} entries")).help("give the model itself")
+        }
+        fault => error(format!("the archive cannot be read: {fault}"))
+            .help("export or copy the file again; it may be incomplete"),
+    })?;
     let mut models: Vec<(String, Vec<u8>)> = Vec::new();
     let mut total = 0;
-    for count in 0.. {
-        let Some(entry) = entries.next_entry().map_err(broken)? else {
-            break;
-        };
-        if count == MOST_ENTRIES {
-            return Err(
-                limit(format!("the archive has more than {MOST_ENTRIES} entries")).help("give the model itself")
-            );
-        }
-        let name = String::from_utf8_lossy(entry.file_path().as_bytes()).into_owned();
-        if entry.is_dir() || !can_be_model(&name) {
-            continue;
-        }
-        let encrypted = entry.flags().is_encrypted();
-        let method = entry.compression_method();
-        let (packed, length) = (entry.compressed_size_hint(), entry.uncompressed_size_hint());
+    for (name, entry) in &archive.entries {
         // Files beside the model may be anything, as long as they are not unpacked.
-        if encrypted || !(method == CompressionMethod::DEFLATE || method == CompressionMethod::STORE) {
-            if named_as_model(&name) {
-                let how = if encrypted {
-                    "encrypted"
-                } else {
-                    "packed by another method than deflate"
-                };
-                return Err(error(format!("`{name}` in the archive is {how}"))
-                    .help("unpack the archive and give the model in it"));
-            }
+        let packed_otherwise = entry.encrypted || !entry.has_known_method();
+        if !can_be_model(name) || (packed_otherwise && !named_as_model(name)) {
             continue;
         }
-        if length > LONGEST_MODEL || length / LARGEST_RATIO > packed {
-            return Err(limit(format!(
-                "`{name}` in the archive says that it unpacks from {packed} to {length} bytes; at most {} MB and {LARGEST_RATIO} times its size are read",
-                LONGEST_MODEL >> 20
-            ))
-            .help("export the model without results, or unpack it and give the model"));
+        // One that is too long by itself is refused below, by its name.
+        if entry.length <= LONGEST_MODEL {
+            total += entry.length;
         }
-        total += length;
         if total > LONGEST_MODEL {
             return Err(too_long());
         }
-        let local = archive.get_entry(entry.wayfinder()).map_err(broken)?;
-        let data = local.data();
-        let content = if method == CompressionMethod::STORE {
-            data.to_vec()
-        } else {
-            // One byte more than said shows that there is more.
-            miniz_oxide::inflate::decompress_to_vec_with_limit(data, length as usize + 1).map_err(|fault| {
-                error(format!("`{name}` in the archive cannot be unpacked: {fault}"))
-                    .help("export or copy the file again; it may be incomplete")
-            })?
-        };
-        let expected = local.claim_verifier();
-        if content.len() as u64 != length || rawzip::crc32(&content) != expected.crc {
-            return Err(error(format!(
-                "`{name}` in the archive is damaged: length or checksum is wrong"
-            ))
-            .help("export or copy the file again"));
-        }
+        let content = archive
+            .unpack(*entry, LONGEST_MODEL)
+            .map_err(|fault| unpacking(name, &fault))?;
         let begins = content.strip_prefix("\u{feff}".as_bytes()).unwrap_or(&content);
-        if named_as_model(&name) || format(begins).is_some_and(|format| is_model(begins, format)) {
-            models.push((name, content));
+        if named_as_model(name) || format(begins).is_some_and(|format| is_model(begins, format)) {
+            models.push((name.clone(), content));
         }
     }
     match models.len() {
@@ -149,6 +106,22 @@ fn unpacked(bytes: &[u8]) -> Result<(String, Vec<u8>), Diagnostic> {
                 names.join(", ")
             ))
             .help("unpack the archive and give one of them"))
+        }
+    }
+}
+
+/// The finding of an entry that cannot be unpacked.
+fn unpacking(name: &str, fault: &ArchiveFault) -> Diagnostic {
+    let message = format!("`{name}` in the archive cannot be unpacked: {fault}");
+    match fault {
+        ArchiveFault::Length { .. } => {
+            limit(message).help("export the model without results, or unpack it and give the model")
+        }
+        ArchiveFault::Encrypted | ArchiveFault::Method => {
+            error(message).help("unpack the archive and give the model in it")
+        }
+        ArchiveFault::Damaged(_) | ArchiveFault::Entries(_) => {
+            error(message).help("export or copy the file again; it may be incomplete")
         }
     }
 }

@@ -10,7 +10,7 @@ use core::ffi::{CStr, c_char, c_void};
 
 use super::instance::{ERROR, Instance, Log, OK, Status, free_state, keep_state, list, list_mut, put, state, text};
 use super::uri::path_of;
-use super::variables::Kind;
+use super::variables::{Causality, Kind};
 
 type Handle = *mut c_void;
 type Name = *const c_char;
@@ -100,7 +100,7 @@ pub unsafe extern "C" fn fmi2SetDebugLogging(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2Instantiate(
     name: Name,
-    kind: i32,
+    _kind: i32,
     guid: Name,
     resources: Name,
     callbacks: *const Callbacks,
@@ -119,13 +119,7 @@ pub unsafe extern "C" fn fmi2Instantiate(
             environment,
             name,
         };
-        Own::into_pointer(Own::new(
-            text(resources).and_then(path_of),
-            guid,
-            kind == 0,
-            log,
-            logging != 0,
-        ))
+        Own::into_pointer(Own::new(text(resources).and_then(path_of), guid, log, logging != 0))
     }
 }
 
@@ -272,80 +266,14 @@ pub unsafe extern "C" fn fmi2SetString(
     unsafe { with(c, |_| if count == 0 { OK } else { ERROR }) }
 }
 
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetFMUstate(c: Handle, to: *mut *mut c_void) -> Status {
-    // SAFETY: the standard.
-    unsafe { with(c, |own| keep_state(&own.model, to)) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetFMUstate(c: Handle, from: *mut c_void) -> Status {
-    // SAFETY: the standard.
-    unsafe {
-        with(c, |own| match state(from) {
-            Some(bytes) => {
-                let result = own.model.restore(bytes);
-                own.result(result)
-            }
-            None => ERROR,
-        })
-    }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2FreeFMUstate(c: Handle, to: *mut *mut c_void) -> Status {
-    // SAFETY: the standard.
-    unsafe { with(c, |_| free_state(to)) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SerializedFMUstateSize(c: Handle, from: *mut c_void, size: *mut usize) -> Status {
-    // SAFETY: the standard.
-    unsafe {
-        with(c, |_| match state(from) {
-            Some(bytes) => {
-                put(size, bytes.len());
-                OK
-            }
-            None => ERROR,
-        })
-    }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SerializeFMUstate(c: Handle, from: *mut c_void, to: *mut u8, size: usize) -> Status {
-    // SAFETY: the standard.
-    unsafe {
-        with(c, |_| match state(from).zip(Some(list_mut(to, size))) {
-            Some((bytes, to)) if to.len() == bytes.len() => {
-                to.copy_from_slice(bytes);
-                OK
-            }
-            _ => ERROR,
-        })
-    }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2DeSerializeFMUstate(
-    c: Handle,
-    from: *const u8,
-    size: usize,
-    to: *mut *mut c_void,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe {
-        with(c, |own| {
-            // The copy checks the bytes without touching the instance.
-            let mut copy = own.model.clone();
-            let result = copy.restore(list(from, size));
-            match own.result(result) {
-                OK => keep_state(&copy, to),
-                status => status,
-            }
-        })
-    }
-}
+super::instance::state_functions!(
+    fmi2GetFMUstate,
+    fmi2SetFMUstate,
+    fmi2FreeFMUstate,
+    fmi2SerializedFMUstateSize,
+    fmi2SerializeFMUstate,
+    fmi2DeSerializeFMUstate
+);
 
 /// Not provided, as the model description says.
 #[unsafe(no_mangle)]
@@ -420,40 +348,39 @@ pub unsafe extern "C" fn fmi2SetTime(c: Handle, time: f64) -> Status {
     }
 }
 
-/// There are no continuous states for Model Exchange.
-unsafe fn no_states(c: Handle, count: usize) -> Status {
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetContinuousStates(c: Handle, values: *const f64, count: usize) -> Status {
+    // SAFETY: the standard.
+    unsafe { with(c, |own| own.set_continuous(list(values, count))) }
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetDerivatives(c: Handle, values: *mut f64, count: usize) -> Status {
+    // SAFETY: the standard.
+    unsafe {
+        with(c, |own| {
+            own.get_continuous(Causality::Derivative, list_mut(values, count))
+        })
+    }
+}
+
+/// There are no event indicators.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetEventIndicators(c: Handle, _values: *mut f64, count: usize) -> Status {
     // SAFETY: the standard.
     unsafe { with(c, |_| if count == 0 { OK } else { ERROR }) }
 }
 
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetContinuousStates(c: Handle, _values: *const f64, count: usize) -> Status {
+pub unsafe extern "C" fn fmi2GetContinuousStates(c: Handle, values: *mut f64, count: usize) -> Status {
     // SAFETY: the standard.
-    unsafe { no_states(c, count) }
+    unsafe { with(c, |own| own.get_continuous(Causality::State, list_mut(values, count))) }
 }
 
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetDerivatives(c: Handle, _values: *mut f64, count: usize) -> Status {
+pub unsafe extern "C" fn fmi2GetNominalsOfContinuousStates(c: Handle, values: *mut f64, count: usize) -> Status {
     // SAFETY: the standard.
-    unsafe { no_states(c, count) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetEventIndicators(c: Handle, _values: *mut f64, count: usize) -> Status {
-    // SAFETY: the standard.
-    unsafe { no_states(c, count) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetContinuousStates(c: Handle, _values: *mut f64, count: usize) -> Status {
-    // SAFETY: the standard.
-    unsafe { no_states(c, count) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetNominalsOfContinuousStates(c: Handle, _values: *mut f64, count: usize) -> Status {
-    // SAFETY: the standard.
-    unsafe { no_states(c, count) }
+    unsafe { with(c, |own| own.get_nominals(list_mut(values, count))) }
 }
 
 /// Inputs are constant over a step, as the model description says.

@@ -9,7 +9,7 @@
 use core::ffi::{CStr, c_char, c_void};
 
 use super::instance::{ERROR, Instance, Log, OK, Status, free_state, keep_state, list, list_mut, put, state, text};
-use super::variables::Kind;
+use super::variables::{Causality, Kind};
 
 type Handle = *mut c_void;
 type Name = *const c_char;
@@ -42,22 +42,13 @@ unsafe fn with(c: Handle, call: impl FnOnce(&mut Own) -> Status) -> Status {
 unsafe fn instance(
     token: Name,
     resources: Name,
-    is_steady: bool,
     logging: bool,
     environment: *mut c_void,
     logger: Option<Logger>,
 ) -> Handle {
     let log = Receiver { logger, environment };
     // SAFETY: the standard.
-    unsafe {
-        Own::into_pointer(Own::new(
-            text(resources).map(<[u8]>::to_vec),
-            token,
-            is_steady,
-            log,
-            logging,
-        ))
-    }
+    unsafe { Own::into_pointer(Own::new(text(resources).map(<[u8]>::to_vec), token, log, logging)) }
 }
 
 /// Fine without variables of a type that no variable has.
@@ -93,7 +84,7 @@ pub unsafe extern "C" fn fmi3InstantiateModelExchange(
     logger: Option<Logger>,
 ) -> Handle {
     // SAFETY: the standard.
-    unsafe { instance(token, resources, true, logging, environment, logger) }
+    unsafe { instance(token, resources, logging, environment, logger) }
 }
 
 #[unsafe(no_mangle)]
@@ -112,7 +103,7 @@ pub unsafe extern "C" fn fmi3InstantiateCoSimulation(
     _update: *const c_void,
 ) -> Handle {
     // SAFETY: the standard.
-    unsafe { instance(token, resources, false, logging, environment, logger) }
+    unsafe { instance(token, resources, logging, environment, logger) }
 }
 
 /// Not provided, as the model description says.
@@ -336,220 +327,33 @@ pub unsafe extern "C" fn fmi3SetBoolean(
     }
 }
 
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetFloat32(
-    c: Handle,
-    _references: *const u32,
-    count: usize,
-    _values: *mut f32,
-    _value_count: usize,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe { none(c, count) }
+/// Functions of a type that no variable has.
+macro_rules! without_variables {
+    ($($get:ident, $set:ident: $of:ty;)*) => {$(
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $get(c: Handle, _: *const u32, count: usize, _: *mut $of, _: usize) -> Status {
+            // SAFETY: the standard.
+            unsafe { none(c, count) }
+        }
+
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $set(c: Handle, _: *const u32, count: usize, _: *const $of, _: usize) -> Status {
+            // SAFETY: the standard.
+            unsafe { none(c, count) }
+        }
+    )*};
 }
 
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3SetFloat32(
-    c: Handle,
-    _references: *const u32,
-    count: usize,
-    _values: *const f32,
-    _value_count: usize,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe { none(c, count) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetInt8(
-    c: Handle,
-    _references: *const u32,
-    count: usize,
-    _values: *mut i8,
-    _value_count: usize,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe { none(c, count) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3SetInt8(
-    c: Handle,
-    _references: *const u32,
-    count: usize,
-    _values: *const i8,
-    _value_count: usize,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe { none(c, count) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetUInt8(
-    c: Handle,
-    _references: *const u32,
-    count: usize,
-    _values: *mut u8,
-    _value_count: usize,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe { none(c, count) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3SetUInt8(
-    c: Handle,
-    _references: *const u32,
-    count: usize,
-    _values: *const u8,
-    _value_count: usize,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe { none(c, count) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetInt16(
-    c: Handle,
-    _references: *const u32,
-    count: usize,
-    _values: *mut i16,
-    _value_count: usize,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe { none(c, count) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3SetInt16(
-    c: Handle,
-    _references: *const u32,
-    count: usize,
-    _values: *const i16,
-    _value_count: usize,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe { none(c, count) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetUInt16(
-    c: Handle,
-    _references: *const u32,
-    count: usize,
-    _values: *mut u16,
-    _value_count: usize,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe { none(c, count) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3SetUInt16(
-    c: Handle,
-    _references: *const u32,
-    count: usize,
-    _values: *const u16,
-    _value_count: usize,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe { none(c, count) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetUInt32(
-    c: Handle,
-    _references: *const u32,
-    count: usize,
-    _values: *mut u32,
-    _value_count: usize,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe { none(c, count) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3SetUInt32(
-    c: Handle,
-    _references: *const u32,
-    count: usize,
-    _values: *const u32,
-    _value_count: usize,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe { none(c, count) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetInt64(
-    c: Handle,
-    _references: *const u32,
-    count: usize,
-    _values: *mut i64,
-    _value_count: usize,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe { none(c, count) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3SetInt64(
-    c: Handle,
-    _references: *const u32,
-    count: usize,
-    _values: *const i64,
-    _value_count: usize,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe { none(c, count) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetUInt64(
-    c: Handle,
-    _references: *const u32,
-    count: usize,
-    _values: *mut u64,
-    _value_count: usize,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe { none(c, count) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3SetUInt64(
-    c: Handle,
-    _references: *const u32,
-    count: usize,
-    _values: *const u64,
-    _value_count: usize,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe { none(c, count) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetString(
-    c: Handle,
-    _references: *const u32,
-    count: usize,
-    _values: *mut Name,
-    _value_count: usize,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe { none(c, count) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3SetString(
-    c: Handle,
-    _references: *const u32,
-    count: usize,
-    _values: *const Name,
-    _value_count: usize,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe { none(c, count) }
+without_variables! {
+    fmi3GetFloat32, fmi3SetFloat32: f32;
+    fmi3GetInt8, fmi3SetInt8: i8;
+    fmi3GetUInt8, fmi3SetUInt8: u8;
+    fmi3GetInt16, fmi3SetInt16: i16;
+    fmi3GetUInt16, fmi3SetUInt16: u16;
+    fmi3GetUInt32, fmi3SetUInt32: u32;
+    fmi3GetInt64, fmi3SetInt64: i64;
+    fmi3GetUInt64, fmi3SetUInt64: u64;
+    fmi3GetString, fmi3SetString: Name;
 }
 
 #[unsafe(no_mangle)]
@@ -719,80 +523,14 @@ pub unsafe extern "C" fn fmi3GetVariableDependencies(
     ERROR
 }
 
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetFMUState(c: Handle, to: *mut *mut c_void) -> Status {
-    // SAFETY: the standard.
-    unsafe { with(c, |own| keep_state(&own.model, to)) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3SetFMUState(c: Handle, from: *mut c_void) -> Status {
-    // SAFETY: the standard.
-    unsafe {
-        with(c, |own| match state(from) {
-            Some(bytes) => {
-                let result = own.model.restore(bytes);
-                own.result(result)
-            }
-            None => ERROR,
-        })
-    }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3FreeFMUState(c: Handle, to: *mut *mut c_void) -> Status {
-    // SAFETY: the standard.
-    unsafe { with(c, |_| free_state(to)) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3SerializedFMUStateSize(c: Handle, from: *mut c_void, size: *mut usize) -> Status {
-    // SAFETY: the standard.
-    unsafe {
-        with(c, |_| match state(from) {
-            Some(bytes) => {
-                put(size, bytes.len());
-                OK
-            }
-            None => ERROR,
-        })
-    }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3SerializeFMUState(c: Handle, from: *mut c_void, to: *mut u8, size: usize) -> Status {
-    // SAFETY: the standard.
-    unsafe {
-        with(c, |_| match state(from).zip(Some(list_mut(to, size))) {
-            Some((bytes, to)) if to.len() == bytes.len() => {
-                to.copy_from_slice(bytes);
-                OK
-            }
-            _ => ERROR,
-        })
-    }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3DeserializeFMUState(
-    c: Handle,
-    from: *const u8,
-    size: usize,
-    to: *mut *mut c_void,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe {
-        with(c, |own| {
-            // The copy checks the bytes without touching the instance.
-            let mut copy = own.model.clone();
-            let result = copy.restore(list(from, size));
-            match own.result(result) {
-                OK => keep_state(&copy, to),
-                status => status,
-            }
-        })
-    }
-}
+super::instance::state_functions!(
+    fmi3GetFMUState,
+    fmi3SetFMUState,
+    fmi3FreeFMUState,
+    fmi3SerializedFMUStateSize,
+    fmi3SerializeFMUState,
+    fmi3DeserializeFMUState
+);
 
 /// Not provided, as the model description says.
 #[unsafe(no_mangle)]
@@ -883,37 +621,38 @@ pub unsafe extern "C" fn fmi3SetTime(c: Handle, time: f64) -> Status {
 }
 
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3SetContinuousStates(c: Handle, _values: *const f64, count: usize) -> Status {
+pub unsafe extern "C" fn fmi3SetContinuousStates(c: Handle, values: *const f64, count: usize) -> Status {
     // SAFETY: the standard.
-    unsafe { none(c, count) }
+    unsafe { with(c, |own| own.set_continuous(list(values, count))) }
 }
 
-/// There are no continuous states and no event indicators.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetContinuousStateDerivatives(c: Handle, _values: *mut f64, count: usize) -> Status {
+pub unsafe extern "C" fn fmi3GetContinuousStateDerivatives(c: Handle, values: *mut f64, count: usize) -> Status {
     // SAFETY: the standard.
-    unsafe { none(c, count) }
+    unsafe {
+        with(c, |own| {
+            own.get_continuous(Causality::Derivative, list_mut(values, count))
+        })
+    }
 }
 
-/// There are no continuous states and no event indicators.
+/// There are no event indicators.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3GetEventIndicators(c: Handle, _values: *mut f64, count: usize) -> Status {
     // SAFETY: the standard.
     unsafe { none(c, count) }
 }
 
-/// There are no continuous states and no event indicators.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetContinuousStates(c: Handle, _values: *mut f64, count: usize) -> Status {
+pub unsafe extern "C" fn fmi3GetContinuousStates(c: Handle, values: *mut f64, count: usize) -> Status {
     // SAFETY: the standard.
-    unsafe { none(c, count) }
+    unsafe { with(c, |own| own.get_continuous(Causality::State, list_mut(values, count))) }
 }
 
-/// There are no continuous states and no event indicators.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetNominalsOfContinuousStates(c: Handle, _values: *mut f64, count: usize) -> Status {
+pub unsafe extern "C" fn fmi3GetNominalsOfContinuousStates(c: Handle, values: *mut f64, count: usize) -> Status {
     // SAFETY: the standard.
-    unsafe { none(c, count) }
+    unsafe { with(c, |own| own.get_nominals(list_mut(values, count))) }
 }
 
 #[unsafe(no_mangle)]
@@ -931,8 +670,8 @@ pub unsafe extern "C" fn fmi3GetNumberOfEventIndicators(c: Handle, to: *mut usiz
 pub unsafe extern "C" fn fmi3GetNumberOfContinuousStates(c: Handle, to: *mut usize) -> Status {
     // SAFETY: the standard.
     unsafe {
-        with(c, |_| {
-            put(to, 0);
+        with(c, |own| {
+            put(to, own.model.state_count());
             OK
         })
     }

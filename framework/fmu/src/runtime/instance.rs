@@ -7,7 +7,7 @@ use core::ffi::{CStr, c_char, c_void};
 use super::content::{Content, token};
 use super::host;
 use super::model::{Fault, Model};
-use super::variables::Kind;
+use super::variables::{Causality, Kind};
 
 /// Maximum size of a content. \[bytes\]
 const LONGEST: usize = 1 << 30;
@@ -46,13 +46,7 @@ impl<L: Log> Instance<L> {
     ///
     /// # Safety
     /// The token is null or a text.
-    pub unsafe fn new(
-        folder: Option<Vec<u8>>,
-        expected: *const c_char,
-        is_steady: bool,
-        log: L,
-        logging: bool,
-    ) -> Option<Box<Self>> {
+    pub unsafe fn new(folder: Option<Vec<u8>>, expected: *const c_char, log: L, logging: bool) -> Option<Box<Self>> {
         let fail = |text: &CStr| {
             log.send(ERROR, c"logStatusError", text);
             None
@@ -80,9 +74,6 @@ impl<L: Log> Instance<L> {
             return fail(c"the resources are damaged or of another version");
         };
         let model = Model::new(content);
-        if is_steady && model.is_network() {
-            return fail(c"a thermal network is simulated by its own steps: Co-Simulation only");
-        }
         Some(Box::new(Self {
             model,
             log,
@@ -129,6 +120,28 @@ impl<L: Log> Instance<L> {
         let mut pairs = references.iter().zip(values);
         let result = pairs.try_for_each(|(reference, value)| model.set(*reference, kind, convert(*value)));
         self.result(result)
+    }
+
+    /// Reads the continuous states or their derivatives.
+    pub fn get_continuous(&mut self, wanted: Causality, values: &mut [f64]) -> Status {
+        let result = self.model.write_continuous(wanted, values);
+        self.warn();
+        self.result(result)
+    }
+
+    /// Sets the continuous states.
+    pub fn set_continuous(&mut self, values: &[f64]) -> Status {
+        let result = self.model.set_continuous(values);
+        self.result(result)
+    }
+
+    /// The nominal values of the continuous states, which are one unless the model description states others.
+    pub fn get_nominals(&self, values: &mut [f64]) -> Status {
+        if values.len() != self.model.state_count() {
+            return ERROR;
+        }
+        values.fill(1.0);
+        OK
     }
 
     /// Simulates until the end of a step.
@@ -272,3 +285,79 @@ pub unsafe fn text<'a>(pointer: *const c_char) -> Option<&'a [u8]> {
     // SAFETY: as promised by the caller.
     (!pointer.is_null()).then(|| unsafe { CStr::from_ptr(pointer) }.to_bytes())
 }
+
+/// The functions of the state of an instance, which are the same in both versions but for their names.
+macro_rules! state_functions {
+    ($get:ident, $set:ident, $free:ident, $size:ident, $serialize:ident, $deserialize:ident) => {
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $get(c: Handle, to: *mut *mut c_void) -> Status {
+            // SAFETY: the standard.
+            unsafe { with(c, |own| keep_state(&own.model, to)) }
+        }
+
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $set(c: Handle, from: *mut c_void) -> Status {
+            // SAFETY: the standard.
+            unsafe {
+                with(c, |own| match state(from) {
+                    Some(bytes) => {
+                        let result = own.model.restore(bytes);
+                        own.result(result)
+                    }
+                    None => ERROR,
+                })
+            }
+        }
+
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $free(c: Handle, to: *mut *mut c_void) -> Status {
+            // SAFETY: the standard.
+            unsafe { with(c, |_| free_state(to)) }
+        }
+
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $size(c: Handle, from: *mut c_void, size: *mut usize) -> Status {
+            // SAFETY: the standard.
+            unsafe {
+                with(c, |_| match state(from) {
+                    Some(bytes) => {
+                        put(size, bytes.len());
+                        OK
+                    }
+                    None => ERROR,
+                })
+            }
+        }
+
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $serialize(c: Handle, from: *mut c_void, to: *mut u8, size: usize) -> Status {
+            // SAFETY: the standard.
+            unsafe {
+                with(c, |_| match state(from).zip(Some(list_mut(to, size))) {
+                    Some((bytes, to)) if to.len() == bytes.len() => {
+                        to.copy_from_slice(bytes);
+                        OK
+                    }
+                    _ => ERROR,
+                })
+            }
+        }
+
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $deserialize(c: Handle, from: *const u8, size: usize, to: *mut *mut c_void) -> Status {
+            // SAFETY: the standard.
+            unsafe {
+                with(c, |own| {
+                    // The copy checks the bytes without touching the instance.
+                    let mut copy = own.model.clone();
+                    let result = copy.restore(list(from, size));
+                    match own.result(result) {
+                        OK => keep_state(&copy, to),
+                        status => status,
+                    }
+                })
+            }
+        }
+    };
+}
+pub(super) use state_functions;

@@ -13,6 +13,8 @@ pub struct Model {
     values: Vec<f64>,
     /// Whether outputs follow from the present inputs.
     current: bool,
+    /// Whether the temperatures of algebraic nodes were found at the present inputs.
+    solved: bool,
     /// Whether the start values can no longer be set.
     started: bool,
 }
@@ -26,7 +28,7 @@ pub enum Fault {
     NotSettable,
     /// The value is infinite or not a number.
     NotFinite,
-    /// No temperatures were found for a step.
+    /// No temperatures were found for a step, or at this time.
     NoSolution,
     /// A state has another size.
     State,
@@ -39,9 +41,7 @@ impl Fault {
             Self::Unknown => c"there is no variable with this value reference and type",
             Self::NotSettable => c"this variable cannot be set, or not after the initialization",
             Self::NotFinite => c"the value is infinite or not a number",
-            Self::NoSolution => {
-                c"no temperatures were found for this step; it may be too long, or its size is not a number"
-            }
+            Self::NoSolution => c"no temperatures were found; the step may be too long, or its size is not a number",
             Self::State => c"the state does not belong to this FMU",
         }
     }
@@ -62,6 +62,7 @@ impl Model {
             values: Vec::new(),
             slots,
             current: false,
+            solved: true,
             started: false,
         };
         model.reset();
@@ -71,11 +72,6 @@ impl Model {
     /// The variables.
     pub fn slots(&self) -> &[Slot] {
         &self.slots
-    }
-
-    /// Whether it has temperatures that change over time.
-    pub fn is_network(&self) -> bool {
-        matches!(self.content, Content::Network(_))
     }
 
     /// Back to the start values.
@@ -118,7 +114,7 @@ impl Model {
         let settable = match slot.causality {
             Causality::Input => true,
             Causality::State => !self.started,
-            Causality::Independent | Causality::Output => false,
+            Causality::Independent | Causality::Output | Causality::Derivative => false,
         };
         if !settable {
             return Err(Fault::NotSettable);
@@ -128,6 +124,57 @@ impl Model {
         }
         if let Some(own) = self.values.get_mut(place) {
             *own = value;
+        }
+        self.current = false;
+        Ok(())
+    }
+
+    /// Number of continuous states.
+    pub fn state_count(&self) -> usize {
+        self.places(Causality::State).count()
+    }
+
+    /// Places of the states, or of their derivatives in the same order.
+    fn places(&self, wanted: Causality) -> impl Iterator<Item = usize> {
+        let slots = self.slots.iter().enumerate();
+        slots
+            .filter(move |(_, slot)| slot.causality == wanted)
+            .map(|(place, _)| place)
+    }
+
+    /// The continuous states, or their derivatives.
+    ///
+    /// # Errors
+    /// If there are not as many, or if they are not found at these inputs.
+    pub fn write_continuous(&mut self, wanted: Causality, to: &mut [f64]) -> Result<(), Fault> {
+        if to.len() != self.state_count() {
+            return Err(Fault::State);
+        }
+        if wanted == Causality::Derivative {
+            self.bring_up_to_date();
+            if !self.solved {
+                return Err(Fault::NoSolution);
+            }
+        }
+        for (place, to) in self.places(wanted).zip(to) {
+            *to = self.values.get(place).copied().unwrap_or(0.0);
+        }
+        Ok(())
+    }
+
+    /// Sets the continuous states.
+    pub fn set_continuous(&mut self, from: &[f64]) -> Result<(), Fault> {
+        if from.len() != self.state_count() {
+            return Err(Fault::State);
+        }
+        if !from.iter().all(|x| x.is_finite()) {
+            return Err(Fault::NotFinite);
+        }
+        let places: Vec<usize> = self.places(Causality::State).collect();
+        for (place, from) in places.into_iter().zip(from) {
+            if let Some(own) = self.values.get_mut(place) {
+                *own = *from;
+            }
         }
         self.current = false;
         Ok(())
@@ -156,7 +203,7 @@ impl Model {
         }
         match &self.content {
             Content::Map(map) => map.evaluate(&self.slots, &mut self.values),
-            Content::Network(network) => network.evaluate(&self.slots, &mut self.values),
+            Content::Network(network) => self.solved = network.evaluate(&self.slots, &mut self.values),
         }
         self.current = true;
     }

@@ -1,4 +1,5 @@
-//! A thermal network with tabulated losses: C dT/dt = Q - K T, by backward Euler steps.
+//! A thermal network with tabulated losses: C dT/dt = Q - K T, by backward Euler steps of its own, or as derivatives for the solver of
+//! another program. Nodes without heat capacity are algebraic: their temperatures follow from the others.
 //!
 //! Links transfer heat in both directions, flows carry it downstream. Losses, conductances and flows of a step are those at the
 //! temperatures at its end, found by fixed-point iteration.
@@ -43,6 +44,18 @@ pub struct Node {
     pub held: Option<f64>,
     /// Temperature at the start. \[degC\]
     pub start: f64,
+}
+
+impl Node {
+    /// Whether its temperature is a continuous state.
+    fn is_state(&self) -> bool {
+        self.held.is_none() && self.capacity > 0.0
+    }
+
+    /// Whether its temperature follows from the others at once.
+    fn is_algebraic(&self) -> bool {
+        self.held.is_none() && !self.is_state()
+    }
 }
 
 /// Capacity flow of oil.
@@ -229,9 +242,10 @@ impl Network {
         }
         for (i, node) in (0..).zip(&self.nodes).skip(1) {
             let use_ = Use::Node(i);
-            all.push(match node.held {
-                Some(_) => output(use_),
-                None => real(Causality::State, use_, node.start),
+            all.push(if node.is_state() {
+                real(Causality::State, use_, node.start)
+            } else {
+                output(use_)
             });
         }
         all.extend([Use::LossTorque, Use::LossPower, Use::Efficiency].map(output));
@@ -243,10 +257,14 @@ impl Network {
         }
         all.extend((0..self.exchangers.len() as u32).map(|i| output(Use::ExchangerHeat(i))));
         all.push(Slot::outside());
+        // At the end, so that the other references do not depend on them.
+        let states = (0..).zip(&self.nodes).skip(1).filter(|(_, node)| node.is_state());
+        all.extend(states.map(|(i, _)| real(Causality::Derivative, Use::Rate(i), 0.0)));
         all
     }
 
-    /// Temperatures of all nodes from the values of the variables. \[degC\]
+    /// Temperatures of all nodes from the values of the variables; the first guess of an algebraic one is that of the oil, so that it
+    /// does not depend on earlier calls. \[degC\]
     fn temperatures(&self, slots: &[Slot], values: &[f64]) -> Vec<f64> {
         let mut temperatures: Vec<f64> = self.nodes.iter().map(|node| node.held.unwrap_or(node.start)).collect();
         for (slot, value) in slots.iter().zip(values) {
@@ -259,16 +277,29 @@ impl Network {
                 *own = *value;
             }
         }
+        let oil = temperatures.get(self.oil as usize).copied();
+        for (own, node) in temperatures.iter_mut().zip(&self.nodes).skip(1) {
+            if let (true, Some(oil)) = (node.is_algebraic(), oil) {
+                *own = oil;
+            }
+        }
         temperatures
     }
 
-    /// Writes the outputs from inputs and temperatures.
-    pub fn evaluate(&self, slots: &[Slot], values: &mut [f64]) {
-        let temperatures = self.temperatures(slots, values);
+    /// Writes the outputs from inputs and temperatures; false if the temperatures of algebraic nodes were not found.
+    pub fn evaluate(&self, slots: &[Slot], values: &mut [f64]) -> bool {
+        let mut temperatures = self.temperatures(slots, values);
+        let mut is_solved = true;
+        if self.nodes.iter().skip(1).any(Node::is_algebraic) {
+            match self.stepped(slots, values, &temperatures, None) {
+                Some(solved) => temperatures = solved,
+                None => is_solved = false,
+            }
+        }
         let input = |wanted: Use| Slot::value(slots, values, wanted);
         let (speed, torque) = (input(Use::Speed), input(Use::Torque));
         let Some(state) = self.state(slots, values, &temperatures) else {
-            return;
+            return false;
         };
         let ratio = chosen(&self.gears, input(Use::Gear), slots).and_then(|(gear, _)| gear.ratio);
         let ratio = ratio.unwrap_or(1.0);
@@ -277,7 +308,10 @@ impl Network {
         let sense = if speed < 0.0 { -1.0 } else { 1.0 };
         let at = |node: u32| temperatures.get(node as usize).copied().unwrap_or(0.0);
         for (slot, value) in slots.iter().zip(values) {
-            if !matches!(slot.causality, Causality::Output | Causality::State) {
+            if !matches!(
+                slot.causality,
+                Causality::Output | Causality::State | Causality::Derivative
+            ) {
                 continue;
             }
             *value = match slot.use_ {
@@ -288,6 +322,7 @@ impl Network {
                 Use::OutputSpeed => speed * ratio,
                 Use::MotorLoss => state.losses[1],
                 Use::Node(node) => at(node),
+                Use::Rate(node) => state.rate(node as usize, &self.nodes, &temperatures),
                 Use::ExchangerHeat(i) => {
                     let place = i as usize;
                     let own = self.exchangers.get(place).zip(state.exchangers.get(place));
@@ -297,6 +332,7 @@ impl Network {
                 _ => *value,
             };
         }
+        is_solved
     }
 
     /// Simulates a time (s) with constant inputs; false if no temperatures were found, and the values are then those of the last step.
@@ -317,7 +353,7 @@ impl Network {
         }
         for _ in 0..count {
             let before = self.temperatures(slots, values);
-            let Some(after) = self.stepped(slots, values, &before, length) else {
+            let Some(after) = self.stepped(slots, values, &before, Some(length)) else {
                 return false;
             };
             for (slot, value) in slots.iter().zip(&mut *values) {
@@ -329,8 +365,8 @@ impl Network {
         true
     }
 
-    /// Temperatures at the end of a step.
-    fn stepped(&self, slots: &[Slot], values: &[f64], before: &[f64], length: f64) -> Option<Vec<f64>> {
+    /// Temperatures at the end of a step; without a length those of the algebraic nodes at the temperatures of the others.
+    fn stepped(&self, slots: &[Slot], values: &[f64], before: &[f64], length: Option<f64>) -> Option<Vec<f64>> {
         let mut guess = before.to_vec();
         for pass in 1..=MOST_PASSES {
             let after = self.state(slots, values, &guess)?.solve(&self.nodes, before, length)?;
@@ -463,15 +499,26 @@ impl State {
         }
     }
 
-    /// Temperatures after a backward step (s) from `before`; `None` if a node is isolated.
-    fn solve(mut self, nodes: &[Node], before: &[f64], length: f64) -> Option<Vec<f64>> {
+    /// Change of the temperature of a node with heat capacity. \[K/s\]
+    fn rate(&self, node: usize, nodes: &[Node], temperatures: &[f64]) -> f64 {
+        let count = self.right.len();
+        let row = self.matrix.get(node * count..(node + 1) * count).unwrap_or_default();
+        let heat = self.right.get(node).copied().unwrap_or(0.0);
+        let lost: f64 = row.iter().zip(temperatures).map(|(k, t)| k * t).sum();
+        nodes.get(node).map_or(0.0, |own| (heat - lost) / own.capacity)
+    }
+
+    /// Temperatures after a backward step (s) from `before`, or of the algebraic nodes if no time passes; `None` if a node is isolated.
+    fn solve(mut self, nodes: &[Node], before: &[f64], length: Option<f64>) -> Option<Vec<f64>> {
         let count = nodes.len();
         for (i, (node, before)) in nodes.iter().zip(before).enumerate() {
-            if let Some(temperature) = self.held[i] {
+            let is_held = length.is_none() && node.is_state();
+            if let Some(temperature) = self.held[i].or(is_held.then_some(*before)) {
+                self.held[i] = Some(temperature);
                 self.matrix[i * count..(i + 1) * count].fill(0.0);
                 self.matrix[i * count + i] = 1.0;
                 self.right[i] = temperature;
-            } else {
+            } else if let Some(length) = length {
                 self.add(i, i, node.capacity / length);
                 self.right[i] += node.capacity / length * before;
             }
@@ -567,6 +614,38 @@ mod tests {
     fn get(model: &mut Model, wanted: Use) -> f64 {
         let reference = reference(model, wanted);
         model.get(reference, Kind::Real).unwrap_or(f64::NAN)
+    }
+
+    /// The derivative is C dT/dt = Q - K T, with the temperature behind the cooler found at once, as in the steps of Co-Simulation.
+    #[test]
+    fn derivatives_are_those_of_the_steps() {
+        let mut model = Model::new(Content::Network(network()));
+        set(&mut model, Use::Speed, 100.0);
+        set(&mut model, Use::Torque, 10.0);
+        assert_eq!(model.start(), ());
+        assert_eq!(model.state_count(), 1);
+        for temperature in [20.0, 55.0, 90.0] {
+            assert_eq!(model.set_continuous(&[temperature]), Ok(()));
+            let mut rate = [0.0];
+            assert_eq!(model.write_continuous(Causality::Derivative, &mut rate), Ok(()));
+            assert_eq!(get(&mut model, Use::Rate(1)), rate[0]);
+            assert_eq!(get(&mut model, Use::Node(1)), temperature);
+            // All heat: losses of the gearbox and the motor, the constant one, the links, and the cooler.
+            let heat = get(&mut model, Use::LossPower) + get(&mut model, Use::MotorLoss) + 7.0
+                - get(&mut model, Use::ExchangerHeat(0))
+                - 5.0 * (temperature - 20.0)
+                - (temperature - 35.0);
+            assert!((rate[0] - heat / 1000.0).abs() < 1e-7, "{} {}", rate[0], heat / 1000.0);
+            let mut copy = model.clone();
+            assert_eq!(copy.advance(1.0), Ok(()));
+            let slope = get(&mut copy, Use::Node(1)) - temperature;
+            // A backward step has the derivative at its end, to the agreement of its iterations.
+            let end = get(&mut copy, Use::Rate(1));
+            assert!((slope - end).abs() < 3.0 * AGREED, "{slope} {end}");
+        }
+        assert_eq!(model.set_continuous(&[f64::NAN]), Err(Fault::NotFinite));
+        assert_eq!(model.set_continuous(&[1.0, 2.0]), Err(Fault::State));
+        assert_eq!(model.write_continuous(Causality::State, &mut []), Err(Fault::State));
     }
 
     /// Heat and conductances without tables: each backward step is T = (C T0/h + Q + G Ta)/(C/h + G).

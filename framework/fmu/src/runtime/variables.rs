@@ -39,6 +39,8 @@ pub enum Use {
     CoolantTemperature(u32),
     /// Temperature of a node. \[degC\]
     Node(u32),
+    /// Change of the temperature of a node over time. \[K/s\]
+    Rate(u32),
     /// Heat through a heat exchanger. \[W\]
     ExchangerHeat(u32),
     /// Losses of all motors. \[W\]
@@ -65,8 +67,10 @@ pub enum Causality {
     Input,
     /// Computed.
     Output,
-    /// Computed, with a start value that can be set before the simulation.
+    /// Computed, with a start value that can be set before the simulation: a continuous state in Model Exchange.
     State,
+    /// Derivative of the state of the same order.
+    Derivative,
 }
 
 /// One variable.

@@ -83,7 +83,7 @@ pub struct CycleAnalysisEntry {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum CycleExport {
-    /// The temperatures over time as a Functional Mock-up Unit of FMI 2.0, for Co-Simulation.
+    /// The temperatures over time as a Functional Mock-up Unit of FMI 2.0, for Co-Simulation and Model Exchange.
     Fmu2,
     /// As `fmu2`, of FMI 3.0.
     Fmu3,

@@ -140,18 +140,18 @@ impl Head {
 pub fn inputs(study: &Study) -> Vec<InputFile> {
     let mut list = vec![InputFile::new(None, "study", study.text.as_bytes())];
     for (name, gearbox) in &study.gearboxes {
-        let mut add = |file: &str, text: &str| list.push(InputFile::new(Some(name), file, text.as_bytes()));
+        let mut add = |file: &str, bytes: &[u8]| list.push(InputFile::new(Some(name), file, bytes));
         for source in 0.. {
             let Some((file, text)) = gearbox.sources.get(source) else {
                 break;
             };
             add(
                 Path::new(file).file_name().map_or(file, |f| f.to_str().unwrap_or(file)),
-                text,
+                text.as_bytes(),
             );
         }
-        for (file, text) in gearbox.files.all() {
-            add(file.file_name().and_then(|f| f.to_str()).unwrap_or_default(), &text);
+        for (file, bytes) in gearbox.files.all() {
+            add(file.file_name().and_then(|f| f.to_str()).unwrap_or_default(), &bytes);
         }
     }
     list

@@ -42,7 +42,7 @@ pub struct ShippedCycleEntry {
 /// A file of a vehicle's speed, or of torque and speed at a port, over time.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct FileCycleEntry {
-    /// CSV file, relative to the study.
+    /// CSV file, workbook (.xlsx) or MDF file (.mf4), relative to the study.
     #[schemars(extend("x-refers-to" = "file"))]
     pub file: String,
     /// Note for the report: origin of these data, or that they are synthetic.
@@ -62,9 +62,13 @@ pub struct FileCycleEntry {
     #[serde(default = "input")]
     #[schemars(extend("x-refers-to" = "ports"))]
     pub port: String,
+    /// Sheet of a workbook (.xlsx); default: the first one.
+    pub sheet: Option<String>,
+    /// Channel group of an MDF file (.mf4), by its name or its number from 1 on; needed if several have samples.
+    pub group: Option<String>,
     /// Cell separator; default: detected.
     pub separator: Option<Separator>,
-    /// Decimal sign; default: detected.
+    /// Decimal sign; default: detected. In a workbook that of numbers stored as texts, a point unless stated.
     pub decimal: Option<Decimal>,
     /// Encoding; default: UTF-8, or Latin-1 if that fails.
     pub encoding: Option<Encoding>,
@@ -284,6 +288,8 @@ impl FileCycleEntry {
             temperatures: Ordered::default(),
             units: Ordered::default(),
             port: input(),
+            sheet: None,
+            group: None,
             separator: None,
             decimal: None,
             encoding: None,

@@ -42,7 +42,7 @@ pub struct SpectrumPoint {
 /// A file of loads.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct SpectrumFile {
-    /// CSV file, relative to the study.
+    /// CSV file, workbook (.xlsx) or MDF file (.mf4), relative to the study.
     #[schemars(extend("x-refers-to" = "file"))]
     pub file: String,
     /// Note for the report: origin of these data, or that they are synthetic.
@@ -54,9 +54,13 @@ pub struct SpectrumFile {
     /// Unit of each quantity, unless the header or a row of units states it.
     #[serde(default)]
     pub units: Ordered<String>,
+    /// Sheet of a workbook (.xlsx); default: the first one.
+    pub sheet: Option<String>,
+    /// Channel group of an MDF file (.mf4), by its name or its number from 1 on; needed if several have samples.
+    pub group: Option<String>,
     /// Cell separator; default: detected.
     pub separator: Option<Separator>,
-    /// Decimal sign; default: detected.
+    /// Decimal sign; default: detected. In a workbook that of numbers stored as texts, a point unless stated.
     pub decimal: Option<Decimal>,
     /// Encoding; default: UTF-8, or Latin-1 if that fails.
     pub encoding: Option<Encoding>,
@@ -74,6 +78,8 @@ impl SpectrumFile {
     /// Reads the bytes of the file.
     pub(super) fn read(&self, bytes: &[u8]) -> Result<Vec<SpectrumPoint>, Vec<MeasuredFault>> {
         let form = Form {
+            sheet: self.sheet.as_deref(),
+            group: self.group.as_deref(),
             separator: self.separator,
             decimal: self.decimal,
             encoding: self.encoding,
@@ -87,7 +93,7 @@ impl SpectrumFile {
             .map(|(_, (what, name))| sheet.lacks(what, name))
             .collect();
         if !lacks.is_empty() {
-            return Err(lacks);
+            return Err(sheet.table.placed(lacks));
         }
         let load = |row: usize| -> Result<SpectrumPoint, String> {
             Ok(SpectrumPoint {
@@ -109,7 +115,9 @@ impl SpectrumFile {
         if faulty.is_empty() {
             Ok(loads)
         } else {
-            Err(limited_faults(faulty, "correct the cell, or delete the row"))
+            Err(sheet
+                .table
+                .placed(limited_faults(faulty, "correct the cell, or delete the row")))
         }
     }
 }
@@ -185,6 +193,8 @@ mod tests {
             about: None,
             columns: Ordered::default(),
             units: Ordered::default(),
+            sheet: None,
+            group: None,
             separator: None,
             decimal: None,
             encoding: None,

@@ -75,10 +75,14 @@ impl Trace {
     /// Errors with line and column: columns first, then cells, then times and speeds.
     pub fn read(entry: &FileCycleEntry, bytes: &[u8]) -> Result<Self, Vec<MeasuredFault>> {
         let sheet = open(entry, bytes)?;
+        Self::from_sheet(entry, &sheet).map_err(|faults| sheet.table.placed(faults))
+    }
+
+    fn from_sheet(entry: &FileCycleEntry, sheet: &Sheet) -> Result<Self, Vec<MeasuredFault>> {
         let mut samples = Vec::new();
         let mut faulty = Vec::new();
         for row in 0..sheet.table.rows.len() {
-            match sample(&sheet, row, entry.temperatures.len()) {
+            match sample(sheet, row, entry.temperatures.len()) {
                 Ok(sample) => samples.push(sample),
                 Err(reason) => faulty.push(reason),
             }
@@ -118,7 +122,7 @@ impl Trace {
             samples,
             nodes: entry.temperatures.ids().map(str::to_owned).collect(),
             repeat: entry.repeat,
-            notes: sheet.notes,
+            notes: sheet.notes.clone(),
         })
     }
 
@@ -202,6 +206,8 @@ fn mean_given(a: &Given, b: &Given) -> Given {
 
 fn open(entry: &FileCycleEntry, bytes: &[u8]) -> Result<Sheet, Vec<MeasuredFault>> {
     let form = Form {
+        sheet: entry.sheet.as_deref(),
+        group: entry.group.as_deref(),
         separator: entry.separator,
         decimal: entry.decimal,
         encoding: entry.encoding,
@@ -229,7 +235,11 @@ fn open(entry: &FileCycleEntry, bytes: &[u8]) -> Result<Sheet, Vec<MeasuredFault
         (false, false, false) => lacks.push(sheet.lacks("the vehicle speed, or torque and speed", "vehicle_speed")),
         _ => {}
     }
-    if lacks.is_empty() { Ok(sheet) } else { Err(lacks) }
+    if lacks.is_empty() {
+        Ok(sheet)
+    } else {
+        Err(sheet.table.placed(lacks))
+    }
 }
 
 fn sample(sheet: &Sheet, row: usize, nodes: usize) -> Result<Sample, String> {

@@ -44,7 +44,7 @@ pub struct VehicleEntry {
     pub efficiency: Option<f64>,
     /// Battery: with it, cycles report consumption, recuperation and range.
     pub battery: Option<BatteryEntry>,
-    /// Losses of the motor at the reference port, for gearboxes without a motor in a thermal network: CSV file relative to the study with
+    /// Losses of the motor at the reference port, for gearboxes without a motor in a thermal network: CSV file, workbook or MDF file relative to the study with
     /// `speed [rpm]`, `torque [Nm]`, and `efficiency [-]` or `loss [W]`. Needs `battery`.
     #[schemars(extend("x-refers-to" = "file"))]
     pub motor_map: Option<String>,

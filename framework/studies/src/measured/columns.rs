@@ -169,7 +169,8 @@ impl<'a> Finder<'a> {
     }
 
     fn fault(&mut self, place: FaultPlace, message: &str, help: impl Into<String>) {
-        let message = format!("{}: line {}: {message}", self.file.name, self.table.header_line);
+        let file = self.table.named(self.file.name);
+        let message = format!("{file}: {}{message}", self.table.at_header());
         self.faults.push(MeasuredFault {
             place,
             message,
@@ -223,7 +224,7 @@ impl<'a> Finder<'a> {
             (Some(place), _) => Some((place, header.to_owned())),
             (None, None) => None,
             (None, Some(_)) => {
-                let message = format!("there is no column `{header}`; there are: {}", self.headers());
+                let message = self.table.lacks(header);
                 let help = match did_you_mean(header, self.free_headers()) {
                     Some(close) => format!("write `{close}`"),
                     None => "state one of them under `columns`".to_owned(),
@@ -349,7 +350,7 @@ impl<'a> Finder<'a> {
     fn time(&mut self, header: &str) -> Option<Column> {
         let place = self.table.names.iter().position(|name| name == header);
         let Some(place) = place else {
-            let message = format!("there is no column `{header}`; there are: {}", self.headers());
+            let message = self.table.lacks(header);
             let help = match did_you_mean(header, self.table.names.iter().map(String::as_str)) {
                 Some(close) => format!("write `time: {close}`"),
                 None => "state the column of the time, `time: ...`".to_owned(),

@@ -12,7 +12,7 @@ use gearloss_framework::description::Ordered;
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum MeasuredFiles {
-    /// CSV file, relative to the study.
+    /// CSV file, workbook (.xlsx) or MDF file (.mf4), relative to the study.
     One(String),
     /// Several files with the same quantities, read in sequence.
     Several(#[schemars(length(min = 1))] Vec<FileEntry>),
@@ -22,7 +22,7 @@ pub enum MeasuredFiles {
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum FileEntry {
-    /// CSV file, relative to the study.
+    /// CSV file, workbook (.xlsx) or MDF file (.mf4), relative to the study.
     Name(String),
     /// A file with different columns, units or name.
     Own(Box<OwnFileEntry>),
@@ -31,11 +31,15 @@ pub enum FileEntry {
 /// A file with different columns, units or name.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct OwnFileEntry {
-    /// CSV file, relative to the study.
+    /// CSV file, workbook (.xlsx) or MDF file (.mf4), relative to the study.
     #[schemars(extend("x-refers-to" = "file"))]
     pub file: String,
     /// Name of the file in messages and tables; default: the file name.
     pub name: Option<String>,
+    /// Sheet of a workbook (.xlsx); default: the first one.
+    pub sheet: Option<String>,
+    /// Channel group of an MDF file (.mf4), by its name or its number from 1 on; needed if several have samples.
+    pub group: Option<String>,
     /// Columns of this file; they replace those of the measurement, quantity by quantity.
     #[serde(default)]
     pub columns: Ordered<ColumnEntry>,

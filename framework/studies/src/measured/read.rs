@@ -1,7 +1,7 @@
 //! Reads the files of a measurement and collects all errors.
 
 use super::columns::{Column, Columns, Finder, KNOWN};
-use super::files::MeasuredFile;
+use super::files::{MeasuredFile, OwnFileEntry};
 use super::text::{self, Table};
 use super::{
     Accuracies, Condition, ConditionFault, Decimal, FaultyRows, FileColumn, Instruments, Measured, MeasuredEntry,
@@ -21,8 +21,11 @@ impl MeasuredEntry {
         self.stated_as.divisor(self.coverage_factor)
     }
 
-    fn form(&self) -> text::Form {
+    fn form<'a>(&'a self, file: MeasuredFile<'a>) -> text::Form<'a> {
+        let own = |of: fn(&OwnFileEntry) -> &Option<String>| file.own.and_then(|own| of(own).as_deref());
         text::Form {
+            sheet: own(|own| &own.sheet).or(self.sheet.as_deref()),
+            group: own(|own| &own.group).or(self.group.as_deref()),
             separator: self.separator,
             decimal: self.decimal,
             encoding: self.encoding,
@@ -183,10 +186,11 @@ impl MeasuredEntry {
         notes: &mut Vec<String>,
         faults: &mut Vec<MeasuredFault>,
     ) -> Option<ReadFile> {
-        let table = match text::table(bytes, self.form(), notes) {
+        let table = match text::table(bytes, self.form(file), notes) {
             Ok(table) => table,
             Err(wrong) => {
-                faults.push(fault(format!("{}: {}", file.name, wrong.message), wrong.help));
+                let message = format!("{}: {}", file.name, wrong.message);
+                faults.push(MeasuredFault { message, ..wrong });
                 return None;
             }
         };
@@ -213,7 +217,7 @@ impl MeasuredEntry {
                     rows
                 }
                 Err(wrong) => {
-                    let message = format!("{}: {}", file.name, wrong.message);
+                    let message = format!("{}: {}", table.named(file.name), wrong.message);
                     faults.push(MeasuredFault { message, ..wrong });
                     return None;
                 }
@@ -294,7 +298,7 @@ impl MeasuredEntry {
             more => format!("; and {more} more cells"),
         };
         faults.push(fault(
-            format!("{}: {shown}{more}", file.name),
+            format!("{}: {shown}{more}", table.named(file.name)),
             "correct the cell, or write `faulty_rows: skip` to omit such rows",
         ));
         None
