@@ -118,7 +118,12 @@ fn the_framework_names_no_concrete_model() {
             if path.is_dir() {
                 // The import of REXS and new documents write gearboxes and studies, which choose models; tests of the editor and of the
                 // workbench have some.
-                let chooses = ["framework/exchange", "framework/editor/tests", "workbench/src/form", "workbench/tests"];
+                let chooses = [
+                    "framework/exchange",
+                    "framework/editor/tests",
+                    "workbench/src/form",
+                    "workbench/tests",
+                ];
                 if !chooses.iter().any(|folder| path.ends_with(folder)) {
                     folders.push(path);
                 }
