@@ -1,6 +1,6 @@
 //! Requests and answers as data, for a page or another program: each is one JSON value.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use gearloss_studies::analyses::progress::Progress;
 use serde::{Deserialize, Serialize};
@@ -75,6 +75,23 @@ pub enum Request {
         /// File.
         file: PathBuf,
     },
+}
+
+impl Request {
+    /// The file that it is about.
+    pub fn file(&self) -> &Path {
+        match self {
+            Self::Open { file, .. }
+            | Self::Close { file }
+            | Self::Findings { file }
+            | Self::Completion { file, .. }
+            | Self::Hover { file, .. }
+            | Self::Definition { file, .. }
+            | Self::References { file, .. }
+            | Self::Rename { file, .. }
+            | Self::Symbols { file } => file,
+        }
+    }
 }
 
 /// An answer.

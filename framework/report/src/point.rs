@@ -163,10 +163,15 @@ pub fn point_text(transmission: &Transmission, prepared: &PreparedPoint, solved:
     }
     text.extend(solved.locking.as_ref().map(locking_text));
     text.push_str(&temperature_text(transmission, found));
+    text.push_str(&outside_ranges(solved));
+    text
+}
+
+/// What is outside its stated range at a point, a line for each range.
+pub fn outside_ranges(solved: &SolvedPoint<'_>) -> String {
     // The ratings state the static safety, with the user's bound.
     let notes = solved.notes.iter().filter(|note| note.name != STATIC_SAFETY);
-    text.push_str(&outside(&notes.cloned().collect::<Vec<_>>()));
-    text
+    outside(&notes.cloned().collect::<Vec<_>>())
 }
 
 /// Self-locking as a sentence.

@@ -2,7 +2,6 @@
 
 use std::path::Path;
 
-use gearloss_framework::document::Diagnostic;
 use gearloss_framework::evaluate::PowerFlow;
 use gearloss_framework::files::SharedSource;
 use gearloss_framework::gearbox::{Findings, Gearbox};
@@ -61,10 +60,10 @@ impl Chosen {
         );
         let case = case.map_err(|list| Fault::from(self.gearbox.findings(list)))?;
         if let Some(oil) = point.oil_temperature.filter(|oil| !(-60.0..=250.0).contains(oil)) {
-            let message = format!("{oil} degC is not a valid oil temperature");
-            return Err(Diagnostic::error("", message)
-                .help("write a temperature from -60 to 250 degC")
-                .into());
+            return Err(Fault::new(
+                format!("{oil} degC is not a valid oil temperature"),
+                "write a temperature from -60 to 250 degC",
+            ));
         }
         Ok(PreparedPoint {
             case,

@@ -16,10 +16,13 @@ use serde_json::Value;
 
 use crate::answer::Fault;
 use crate::chosen::Chosen;
-use crate::request::Quantity;
+use crate::request::{GivenInput, PointOf, Quantity};
 
 /// Torque and speed up to which the sliders reach if nothing states any. \[Nm, rpm\]
 const USUAL: [f64; 2] = [100.0, 3000.0];
+
+/// First values as shares of the ranges, the preferred one first.
+const SHARES: [f64; 4] = [0.5, 0.25, 0.1, 0.02];
 
 /// What a point of a gearbox is made of.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -60,6 +63,17 @@ pub struct InputControls {
     pub value: f64,
 }
 
+impl InputControls {
+    /// The input with its first value.
+    fn given(&self) -> GivenInput {
+        GivenInput {
+            quantity: self.quantity,
+            port: self.port.clone(),
+            value: self.value,
+        }
+    }
+}
+
 /// Origin of the oil temperature.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct OilControls {
@@ -89,7 +103,7 @@ pub fn controls(
     let mode = thermal_mode(&chosen.resolved.value);
     Ok(Controls {
         title: transmission.title().to_owned(),
-        gears: gears(transmission, ends.unwrap_or(USUAL)),
+        gears: start(&chosen, gearbox, ends.unwrap_or(USUAL)),
         model_sets: model_sets(language, &chosen.gearbox.value),
         oil: OilControls {
             value: Some(transmission.oil_temperature).filter(|_| mode == ThermalMode::Fixed),
@@ -102,8 +116,34 @@ fn thermal_mode(resolved: &Value) -> ThermalMode {
     serde_json::from_value(resolved["thermal"]["mode"].clone()).unwrap_or(ThermalMode::Fixed)
 }
 
-/// Half of the range at the ports that `solve` assumes.
-fn gears(transmission: &Transmission, [torque, speed]: [f64; 2]) -> Vec<GearControls> {
+/// The gears with first values in the middle of their ranges, or nearer to zero if there is no result: a drive may not stand half of its
+/// rating for ever.
+fn start(chosen: &Chosen, gearbox: &str, ends: [f64; 2]) -> Vec<GearControls> {
+    let transmission = &chosen.transmission;
+    let has_result = |gears: &[GearControls]| {
+        let gear = gears
+            .iter()
+            .find(|gear| gear.inputs.iter().any(|input| input.quantity == Quantity::Torque));
+        let Some(gear) = gear else { return true };
+        let point = PointOf {
+            gearbox: gearbox.to_owned(),
+            gear: gear.name.clone(),
+            inputs: gear.inputs.iter().map(InputControls::given).collect(),
+            oil_temperature: None,
+            model_set: String::new(),
+        };
+        chosen.prepare(&point).is_ok_and(|prepared| {
+            let mut scratch = transmission.scratch(&prepared.case);
+            prepared.solve(transmission, &mut scratch).solution.loss().is_some()
+        })
+    };
+    let tried = SHARES.into_iter().map(|share| gears(transmission, ends, share));
+    let found = tried.clone().find(|gears| has_result(gears));
+    found.unwrap_or_else(|| gears(transmission, ends, SHARES[0]))
+}
+
+/// The gears with first values at a share of their ranges, at the ports that `solve` assumes.
+fn gears(transmission: &Transmission, [torque, speed]: [f64; 2], share: f64) -> Vec<GearControls> {
     let ports = transmission.ports();
     let input = |quantity, port: usize, to: f64, value: f64| InputControls {
         quantity,
@@ -125,10 +165,10 @@ fn gears(transmission: &Transmission, [torque, speed]: [f64; 2]) -> Vec<GearCont
         let at_torques: Vec<usize> = at_torques.take(transmission.torques_needed(number)).collect();
         let torques = at_torques
             .iter()
-            .map(|port| input(Quantity::Torque, *port, torque, 0.5 * torque));
-        let shares = shares(transmission, &state.name, &state.speed_ports, &at_torques);
-        let speeds = state.speed_ports.iter().zip(shares);
-        let speeds = speeds.map(|(port, share)| input(Quantity::Speed, *port, speed, 0.5 * speed * share));
+            .map(|port| input(Quantity::Torque, *port, torque, share * torque));
+        let parts = parts(transmission, &state.name, &state.speed_ports, &at_torques);
+        let speeds = state.speed_ports.iter().zip(parts);
+        let speeds = speeds.map(|(port, part)| input(Quantity::Speed, *port, speed, share * speed * part));
         GearControls {
             name: state.name.clone(),
             inputs: torques.chain(speeds).collect(),
@@ -139,28 +179,28 @@ fn gears(transmission: &Transmission, [torque, speed]: [f64; 2]) -> Vec<GearCont
 
 /// Speeds at the ports of a gear state relative to the first of them: those at which the members turn slowest in the sum of squares, so
 /// that both outputs of a differential turn alike and what the first does not drive stands.
-fn shares(transmission: &Transmission, gear: &str, speed_ports: &[usize], torque_ports: &[usize]) -> Vec<f64> {
+fn parts(transmission: &Transmission, gear: &str, speed_ports: &[usize], torque_ports: &[usize]) -> Vec<f64> {
     let names = |ports: &[usize]| -> Vec<&str> {
         ports
             .iter()
             .map(|port| transmission.ports()[*port].name.as_str())
             .collect()
     };
-    let mut shares = vec![0.0; speed_ports.len()];
-    let Some(first) = shares.first_mut() else { return shares };
+    let mut parts = vec![0.0; speed_ports.len()];
+    let Some(first) = parts.first_mut() else { return parts };
     *first = 1.0;
     let Ok(case) = transmission.case(gear, &names(speed_ports), &names(torque_ports)) else {
-        return shares;
+        return parts;
     };
     for port in 1..speed_ports.len() {
         let mut unit = vec![0.0; speed_ports.len()];
         unit[port] = 1.0;
-        let (so_far, of_port) = (transmission.speeds(&case, &shares), transmission.speeds(&case, &unit));
+        let (so_far, of_port) = (transmission.speeds(&case, &parts), transmission.speeds(&case, &unit));
         let product = |a: &[f64], b: &[f64]| -> f64 { a.iter().zip(b).map(|(a, b)| a * b).sum() };
         let share = -product(&so_far, &of_port) / product(&of_port, &of_port);
-        shares[port] = if share.is_finite() { share } else { 0.0 };
+        parts[port] = if share.is_finite() { share } else { 0.0 };
     }
-    shares
+    parts
 }
 
 /// With the digits that a slider needs; conversion of units leaves rounding errors.

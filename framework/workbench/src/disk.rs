@@ -1,16 +1,16 @@
 //! A folder of the computer. Only what is in it is read and written for the page; what documents name is read as the command line reads
 //! it.
 
-use std::fs;
+use std::fs::{self, Permissions};
 use std::io::{self, ErrorKind, Write as _};
-use std::path::{Component, Path, PathBuf};
-use std::sync::Arc;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use gearloss_editor::folder;
 use gearloss_framework::files::{FileSource, LONGEST_TEXT, SharedSource, read_bytes, read_text};
 
 use crate::answer::Fault;
-use crate::store::{Saved, Store, hash};
+use crate::store::{Saved, Store, check_name, hash};
 
 /// Maximum depth of the listed folders.
 const DEEPEST: usize = 3;
@@ -20,6 +20,8 @@ const DEEPEST: usize = 3;
 pub struct Folder {
     root: PathBuf,
     first: Option<String>,
+    /// Held while a file is saved.
+    saving: Mutex<()>,
 }
 
 impl Folder {
@@ -35,6 +37,7 @@ impl Folder {
             return Ok(Self {
                 first: first.map(str::to_owned),
                 root: path,
+                saving: Mutex::default(),
             });
         }
         let name = path.file_name().and_then(|name| name.to_str()).map(str::to_owned);
@@ -42,6 +45,7 @@ impl Folder {
         Ok(Self {
             root: root.ok_or_else(|| io::Error::new(ErrorKind::NotFound, "it has no folder"))?,
             first: name,
+            saving: Mutex::default(),
         })
     }
 
@@ -52,25 +56,18 @@ impl Folder {
 
     /// The path of a file, which must be inside of the folder after links are followed.
     fn path(&self, file: &str) -> Result<PathBuf, Fault> {
-        let relative = Path::new(file);
-        let is_plain = relative.components().all(|part| matches!(part, Component::Normal(_)));
-        let outside = || {
-            Fault::new(
-                format!("`{file}` is not in the opened folder"),
-                "open its folder with `gearloss open`",
-            )
-        };
-        if !is_plain || file.is_empty() || file.contains(['\\', ':', '\0']) {
-            return Err(outside());
-        }
-        let path = self.root.join(relative);
+        check_name(file)?;
+        let path = self.root.join(file);
         let folder = path.parent().unwrap_or(&self.root).canonicalize();
         let folder =
             folder.map_err(|error| Fault::new(format!("the folder of {file}: {error}"), "create the folder"))?;
         // A link may lead anywhere.
         let is_link = fs::symlink_metadata(&path).is_ok_and(|data| data.file_type().is_symlink());
         if !folder.starts_with(&self.root) || is_link {
-            return Err(outside());
+            return Err(Fault::new(
+                format!("`{file}` is a link, or in a linked folder"),
+                "open the folder that it leads to with `gearloss open`",
+            ));
         }
         Ok(path)
     }
@@ -101,35 +98,27 @@ impl Store for Folder {
         files
     }
 
-    fn read(&self, file: &str) -> Result<String, Fault> {
-        read_text(&self.path(file)?, LONGEST_TEXT)
-            .map_err(|error| Fault::new(format!("cannot read {file}: {error}"), "check the file"))
+    fn check(&self, file: &str) -> Result<(), Fault> {
+        self.path(file).map(drop)
+    }
+
+    fn text(&self, file: &str) -> Result<Option<String>, Fault> {
+        match read_text(&self.path(file)?, LONGEST_TEXT) {
+            Ok(text) => Ok(Some(text)),
+            Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
+            Err(error) => Err(Fault::new(format!("cannot read {file}: {error}"), "check the file")),
+        }
     }
 
     /// Written next to the file and moved there, so that it is never half a file.
     fn save(&self, file: &str, text: &str, known: Option<&str>) -> Result<Saved, Fault> {
         let path = self.path(file)?;
-        let fault = |error: io::Error| {
-            Fault::new(
-                format!("cannot write {file}: {error}"),
-                "check the rights of the folder",
-            )
-        };
         if text.len() as u64 > LONGEST_TEXT {
             return Err(Fault::new(format!("{file} is too long"), "divide the document"));
         }
-        let extension = path.extension().and_then(|extension| extension.to_str());
-        if !matches!(extension, Some("yaml" | "yml" | "csv")) {
-            return Err(Fault::new(
-                format!("{file} is not a document"),
-                "let its name end with .yaml",
-            ));
-        }
-        let present = match read_text(&path, LONGEST_TEXT) {
-            Ok(present) => Some(present),
-            Err(error) if error.kind() == ErrorKind::NotFound => None,
-            Err(error) => return Err(fault(error)),
-        };
+        // Two pages may save at the same time: one of them must see what the other has written.
+        let _saving = self.saving.lock().unwrap_or_else(PoisonError::into_inner);
+        let present = self.text(file)?;
         let now = present.as_deref().map(hash);
         // What is already there needs not be written.
         if present.as_deref() != Some(text) {
@@ -139,14 +128,13 @@ impl Store for Folder {
                     hash: now,
                 });
             }
-            let part = path.with_extension(format!("{}.part", std::process::id()));
-            let written = fs::OpenOptions::new().write(true).create_new(true).open(&part);
-            let written = written.and_then(|mut file| file.write_all(text.as_bytes()).and_then(|()| file.sync_all()));
-            let moved = written.and_then(|()| fs::rename(&part, &path));
-            if moved.is_err() {
-                let _ = fs::remove_file(&part);
-            }
-            moved.map_err(fault)?;
+            let written = replace(&path, text);
+            written.map_err(|error| {
+                Fault::new(
+                    format!("cannot write {file}: {error}"),
+                    "check the rights of the folder",
+                )
+            })?;
         }
         Ok(Saved::Saved(hash(text)))
     }
@@ -154,6 +142,24 @@ impl Store for Folder {
     fn source(&self) -> SharedSource {
         Arc::new(Below(self.root.clone()))
     }
+}
+
+/// Replaces a file by another with the same rights, or makes a new one.
+fn replace(path: &Path, text: &str) -> io::Result<()> {
+    let rights = fs::metadata(path).ok().map(|data| data.permissions());
+    if rights.as_ref().is_some_and(Permissions::readonly) {
+        return Err(io::Error::new(ErrorKind::PermissionDenied, "the file is read-only"));
+    }
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let part = path.with_file_name(format!(".{name}.{}.part", std::process::id()));
+    let mut file = fs::OpenOptions::new().write(true).create_new(true).open(&part)?;
+    let written = file.write_all(text.as_bytes()).and_then(|()| file.sync_all());
+    let kept = written.and_then(|()| rights.map_or(Ok(()), |rights| fs::set_permissions(&part, rights)));
+    let moved = kept.and_then(|()| fs::rename(&part, path));
+    if moved.is_err() {
+        let _ = fs::remove_file(&part);
+    }
+    moved
 }
 
 /// Files relative to a folder.

@@ -5,7 +5,7 @@ use gearloss_framework::files::SharedSource;
 use gearloss_framework::language::Language;
 use gearloss_report::html::{losses_of_parts, waterfall};
 use gearloss_report::picture::Picture;
-use gearloss_report::point::{Explained, point_json, point_text, ratings_text, remarks};
+use gearloss_report::point::{Explained, outside_ranges, point_json, point_text, ratings_text, remarks};
 use gearloss_studies::points::{SolvedPoint, evidence};
 use gearloss_studies::ratings::rated;
 use serde::Serialize;
@@ -95,7 +95,11 @@ pub fn point(language: &Language, files: &SharedSource, of: &PointOf) -> Result<
         },
         waterfall: flow.then(|| waterfall(set_name(of), solution)).flatten(),
         convergence: Convergence::new(transmission, found),
-        remarks: remarks(resolved, &changed, &known),
+        remarks: outside_ranges(&solved)
+            .lines()
+            .map(str::to_owned)
+            .chain(remarks(resolved, &changed, &known))
+            .collect(),
     })
 }
 

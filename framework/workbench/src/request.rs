@@ -119,6 +119,27 @@ pub enum Request {
     },
 }
 
+impl Request {
+    /// The files that the request itself names, other than those of the store's own requests.
+    pub(crate) fn files(&self) -> Vec<&str> {
+        match self {
+            Self::Edit { edit, .. } => edit.file().to_str().into_iter().collect(),
+            Self::Controls { gearbox, .. } | Self::Drawing { gearbox, .. } | Self::NewStudy { gearbox, .. } => {
+                vec![gearbox]
+            }
+            Self::Point { point, .. } | Self::Explain { point, .. } => vec![&point.gearbox],
+            Self::Map { map, .. } => vec![&map.gearbox],
+            Self::Analyses { study, .. } | Self::Run { study, .. } => vec![study],
+            Self::Folder
+            | Self::Read { .. }
+            | Self::Save { .. }
+            | Self::New { .. }
+            | Self::Catalogue { .. }
+            | Self::Watch { .. } => Vec::new(),
+        }
+    }
+}
+
 /// A catalogue.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]

@@ -11,18 +11,17 @@ mod watch;
 mod work;
 
 use std::convert::Infallible;
-use std::hash::{DefaultHasher, Hash as _, Hasher as _};
 use std::io;
-use std::net::{Ipv4Addr, SocketAddr, TcpListener};
+use std::net::{Ipv4Addr, TcpListener};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Duration;
 
 use gearloss_framework::language::Language;
+use gearloss_studies::analyses::head::fnv1a_64;
 use hyper::server::conn::http1;
 use hyper::service::service_fn;
 use hyper_util::rt::{TokioIo, TokioTimer};
-use tokio::sync::Semaphore;
 use tokio::task::JoinHandle;
 use tokio::time::{Instant, sleep};
 
@@ -38,11 +37,17 @@ const MOST_CONNECTIONS: usize = 16;
 /// How long the head of a request may take.
 const SLOWEST_HEAD: Duration = Duration::from_secs(10);
 
+/// Pause after an error of the system.
+const PAUSE: Duration = Duration::from_millis(50);
+
 /// How long the server waits for a page: for the first one, and after the last one.
 const WAITS: [Duration; 2] = [Duration::from_mins(10), Duration::from_mins(1)];
 
-/// Ports that systems leave to programs: the first, and how many.
-const PORTS: [u16; 2] = [49152, 16384];
+/// Ports below those that systems hand out to connections: the first, and how many.
+const PORTS: [u16; 2] = [20_000, 12_000];
+
+/// Ports of one folder, for programs that serve it at the same time.
+const PORTS_OF_FOLDER: u16 = 4;
 
 /// A folder that is ready to be served.
 #[derive(Debug)]
@@ -60,11 +65,11 @@ impl Served {
     /// # Errors
     /// If the address cannot be bound, or the system has no random numbers.
     pub fn bind(folder: Folder, keep: bool) -> io::Result<Self> {
-        let mut hasher = DefaultHasher::new();
-        folder.root().hash(&mut hasher);
-        let port = PORTS[0] + (hasher.finish() % u64::from(PORTS[1])) as u16;
+        let first = fnv1a_64(folder.root().to_string_lossy().as_bytes());
+        let own = (0..PORTS_OF_FOLDER).map(|k| PORTS[0] + ((first + u64::from(k)) % u64::from(PORTS[1])) as u16);
         let bind = |port: u16| TcpListener::bind((Ipv4Addr::LOCALHOST, port));
-        let listener = bind(port).or_else(|_| bind(0))?;
+        let bound = own.map(bind).find_map(Result::ok);
+        let listener = bound.map_or_else(|| bind(0), Ok)?;
         listener.set_nonblocking(true)?;
         let port = listener.local_addr()?.port();
         Ok(Self {
@@ -101,31 +106,50 @@ pub fn serve(language: &'static Language, served: Served) -> io::Result<()> {
     ));
     runtime.block_on(async move {
         let listener = tokio::net::TcpListener::from_std(listener)?;
-        let connections = Arc::new(Semaphore::new(MOST_CONNECTIONS));
-        let accepting = tokio::spawn(accept(listener, work, connections));
+        let accepting = tokio::spawn(accept(listener, work));
         if !keep {
             abandoned(&pages, &accepting).await;
             if !accepting.is_finished() {
                 return Ok(());
             }
         }
-        accepting.await.map_err(io::Error::other)?
+        accepting.await.map_err(io::Error::other)
     })
 }
 
-async fn accept(listener: tokio::net::TcpListener, work: Arc<Work>, connections: Arc<Semaphore>) -> io::Result<()> {
+/// A connection that is open.
+struct Connection {
+    /// Whether a request on it has shown the token.
+    known: Arc<AtomicBool>,
+    task: JoinHandle<()>,
+}
+
+/// Accepts connections for ever.
+async fn accept(listener: tokio::net::TcpListener, work: Arc<Work>) {
+    let mut open: Vec<Connection> = Vec::new();
     loop {
-        let (stream, from): (_, SocketAddr) = listener.accept().await?;
-        // One that is too many waits for none: it is closed.
-        let Ok(permit) = Arc::clone(&connections).try_acquire_owned() else {
+        let Ok((stream, _)) = listener.accept().await else {
+            // One that broke off at once, or no more sockets: others may follow.
+            sleep(PAUSE).await;
             continue;
         };
-        debug_assert!(from.ip().is_loopback());
-        let work = Arc::clone(&work);
-        tokio::spawn(async move {
+        open.retain(|connection| !connection.task.is_finished());
+        if open.len() >= MOST_CONNECTIONS {
+            // Whoever has no token must not keep out those who have.
+            let Some(stranger) = open
+                .iter()
+                .position(|connection| !connection.known.load(Ordering::Relaxed))
+            else {
+                continue;
+            };
+            open.remove(stranger).task.abort();
+        }
+        let known = Arc::new(AtomicBool::new(false));
+        let (work, own) = (Arc::clone(&work), Arc::clone(&known));
+        let task = tokio::spawn(async move {
             let service = service_fn(|request| {
-                let work = Arc::clone(&work);
-                async move { Ok::<_, Infallible>(reply::reply(&work, request).await) }
+                let (work, known) = (Arc::clone(&work), Arc::clone(&own));
+                async move { Ok::<_, Infallible>(reply::reply(&work, request, &known).await) }
             });
             // A connection that breaks off concerns nobody else.
             let _ = http1::Builder::new()
@@ -133,13 +157,13 @@ async fn accept(listener: tokio::net::TcpListener, work: Arc<Work>, connections:
                 .header_read_timeout(SLOWEST_HEAD)
                 .serve_connection(TokioIo::new(stream), service)
                 .await;
-            drop(permit);
         });
+        open.push(Connection { known, task });
     }
 }
 
 /// Returns when no page has been open for a while, or when nothing is accepted any more.
-async fn abandoned(pages: &AtomicUsize, accepting: &JoinHandle<io::Result<()>>) {
+async fn abandoned(pages: &AtomicUsize, accepting: &JoinHandle<()>) {
     let mut since = Instant::now();
     let mut wait = WAITS[0];
     while !accepting.is_finished() {

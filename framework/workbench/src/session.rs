@@ -55,6 +55,10 @@ impl<'l> Session<'l> {
 
     fn value(&self, request: &Request, progress: &dyn Progress) -> Result<Value, Fault> {
         let language = self.language;
+        // What documents name is read as on the command line; what the page names is in the folder.
+        for file in request.files() {
+            self.store.check(file)?;
+        }
         match request {
             Request::Folder => Ok(self.folder()),
             Request::Read { file } => {
@@ -105,7 +109,9 @@ impl<'l> Session<'l> {
     /// Runs analyses and sends events to a listener.
     pub fn run(&self, texts: &Texts, study: &str, analyses: &[String], listener: &dyn Listener) {
         let (_, files) = self.opened(texts);
-        if let Err(fault) = study::run(self.language, &files, study, analyses, listener) {
+        let checked = self.store.check(study);
+        let run = checked.and_then(|()| study::run(self.language, &files, study, analyses, listener));
+        if let Err(fault) = run {
             listener.event(json!({ "event": "fault", "fault": fault }));
         }
     }

@@ -1,7 +1,7 @@
 //! Where the files of a session are.
 
 use std::fmt::Debug;
-use std::path::Path;
+use std::path::{Component, Path};
 use std::sync::{Mutex, PoisonError};
 
 use gearloss_editor::outline;
@@ -64,6 +64,27 @@ pub fn hash(text: &str) -> String {
     hexadecimal(fnv1a_64(text.as_bytes()))
 }
 
+/// Refuses names that lead out of a folder, hidden files, and files that are no documents and no data.
+pub(crate) fn check_name(file: &str) -> Result<(), Fault> {
+    let path = Path::new(file);
+    let is_plain = path.components().all(|part| matches!(part, Component::Normal(_)));
+    if !is_plain || file.is_empty() || file.contains(['\\', ':', '\0']) || file.contains("//") || file.starts_with("./")
+    {
+        let message = format!("`{file}` is not in the opened folder");
+        return Err(Fault::new(message, "open its folder with `gearloss open`"));
+    }
+    if file.split('/').any(|part| part.starts_with('.')) {
+        let message = format!("`{file}` is hidden");
+        return Err(Fault::new(message, "choose a name that does not begin with a dot"));
+    }
+    let extension = path.extension().and_then(|extension| extension.to_str());
+    if !matches!(extension, Some("yaml" | "yml" | "csv")) {
+        let message = format!("`{file}` is not a document");
+        return Err(Fault::new(message, "let its name end with .yaml"));
+    }
+    Ok(())
+}
+
 fn is_yaml(file: &str) -> bool {
     let extension = Path::new(file).extension();
     extension.is_some_and(|extension| extension == "yaml" || extension == "yml")
@@ -97,11 +118,26 @@ pub trait Store: Debug + Send + Sync {
         files.collect()
     }
 
+    /// Refuses the name of a file outside of the folder, and of one that is no document and no data.
+    ///
+    /// # Errors
+    /// What is wrong with the name.
+    fn check(&self, file: &str) -> Result<(), Fault>;
+
+    /// The text of a file; `None` if there is none.
+    ///
+    /// # Errors
+    /// As [`Store::check`]; if the file cannot be read, or is no text.
+    fn text(&self, file: &str) -> Result<Option<String>, Fault>;
+
     /// The text of a file.
     ///
     /// # Errors
-    /// If it is outside of the folder, cannot be read or is no text.
-    fn read(&self, file: &str) -> Result<String, Fault>;
+    /// As [`Store::text`], and if there is none.
+    fn read(&self, file: &str) -> Result<String, Fault> {
+        let text = self.text(file)?;
+        text.ok_or_else(|| Fault::new(format!("there is no file {file}"), "choose one of the list"))
+    }
 
     /// Writes a file whose hash is known; a new file must not exist.
     ///
@@ -148,12 +184,14 @@ impl Store for Memory {
         self.files().iter().map(|(file, _)| file.clone()).collect()
     }
 
-    fn read(&self, file: &str) -> Result<String, Fault> {
+    fn check(&self, file: &str) -> Result<(), Fault> {
+        check_name(file)
+    }
+
+    fn text(&self, file: &str) -> Result<Option<String>, Fault> {
         let files = self.files();
         let found = files.iter().find(|(own, _)| own == file);
-        found
-            .map(|(_, text)| text.clone())
-            .ok_or_else(|| Fault::new(format!("there is no file {file}"), "choose one of the list"))
+        Ok(found.map(|(_, text)| text.clone()))
     }
 
     fn save(&self, file: &str, text: &str, known: Option<&str>) -> Result<Saved, Fault> {

@@ -3,6 +3,7 @@
 use std::fs;
 
 use gearloss_workbench::disk::Folder;
+use gearloss_workbench::form::LAYOUTS;
 use gearloss_workbench::store::{Memory, Saved, Store, hash};
 use serde_json::json;
 
@@ -73,17 +74,95 @@ fn nothing_outside_of_the_folder_is_read_or_written() {
         );
     }
     // Programs and hidden files are no documents.
-    for file in ["run.sh", ".bashrc", "page.html", "noname", "no/folder.yaml"] {
+    fs::create_dir(inside.join(".git")).unwrap();
+    fs::write(inside.join(".git/config.yaml"), "secret\n").unwrap();
+    fs::write(inside.join("key.pem"), "secret\n").unwrap();
+    for file in [
+        "run.sh",
+        ".bashrc",
+        ".hidden.yaml",
+        ".git/config.yaml",
+        "key.pem",
+        "page.html",
+        "noname",
+        "no/folder.yaml",
+    ] {
         fault(
             &session,
             json!({ "request": "save", "file": file, "text": "x", "hash": null }),
         );
+        fault(&session, json!({ "request": "read", "file": file }));
+    }
+    // Nor do other requests reach out of the folder.
+    fs::write(root.join("gearbox.yaml"), LAYOUTS[0].text).unwrap();
+    for file in ["../gearbox.yaml", &root.join("gearbox.yaml").display().to_string()] {
+        for request in [
+            json!({ "request": "controls", "texts": {}, "gearbox": file }),
+            json!({ "request": "drawing", "texts": {}, "gearbox": file }),
+            json!({ "request": "new_study", "texts": {}, "gearbox": file }),
+            json!({ "request": "analyses", "texts": {}, "study": file }),
+            json!({ "request": "edit", "texts": {}, "edit": { "request": "findings", "file": file } }),
+            json!({
+                "request": "point", "texts": {}, "gearbox": file, "gear": "only", "inputs": [], "oil_temperature": null,
+                "model_set": "",
+            }),
+        ] {
+            let fault = fault(&session, request);
+            assert!(
+                fault["message"].as_str().unwrap().contains("not in the opened folder"),
+                "{fault}"
+            );
+        }
     }
     assert_eq!(fs::read_to_string(root.join("secret.yaml")).unwrap(), "secret\n");
     value(
         &session,
         json!({ "request": "save", "file": "sub/new.yaml", "text": "x", "hash": null }),
     );
+    fs::remove_dir_all(root).unwrap();
+}
+
+/// Of two pages that save at the same time, one is told what the other has written.
+#[test]
+fn two_pages_save_one_after_the_other() {
+    let root = empty("together");
+    fs::write(root.join("gearbox.yaml"), "base\n").unwrap();
+    let folder = Folder::open(&root).unwrap();
+    for round in 0..50 {
+        let known = hash(&folder.read("gearbox.yaml").unwrap());
+        let save = |text: &str| folder.save("gearbox.yaml", text, Some(&known)).unwrap();
+        let texts = [format!("one {round}\n"), format!("two {round}\n")];
+        let saved = std::thread::scope(|scope| {
+            let threads = [&texts[0], &texts[1]].map(|text| scope.spawn(|| save(text)));
+            threads.map(|thread| thread.join().unwrap())
+        });
+        let kept = saved.iter().filter(|saved| matches!(saved, Saved::Saved(_))).count();
+        assert_eq!(kept, 1, "{saved:?}");
+        let own = usize::from(matches!(saved[1], Saved::Saved(_)));
+        assert_eq!(folder.read("gearbox.yaml").unwrap(), texts[own]);
+    }
+    assert_eq!(fs::read_dir(&root).unwrap().count(), 1, "a temporary file is left");
+    fs::remove_dir_all(root).unwrap();
+}
+
+/// Rights of a file are kept; one that is read-only is not replaced.
+#[cfg(unix)]
+#[test]
+fn rights_are_kept() {
+    use std::os::unix::fs::PermissionsExt as _;
+    let root = empty("rights");
+    let file = root.join("gearbox.yaml");
+    fs::write(&file, "base\n").unwrap();
+    let folder = Folder::open(&root).unwrap();
+    fs::set_permissions(&file, fs::Permissions::from_mode(0o640)).unwrap();
+    folder.save("gearbox.yaml", "new\n", Some(&hash("base\n"))).unwrap();
+    assert_eq!(fs::metadata(&file).unwrap().permissions().mode() & 0o777, 0o640);
+    fs::set_permissions(&file, fs::Permissions::from_mode(0o444)).unwrap();
+    let fault = folder
+        .save("gearbox.yaml", "newer\n", Some(&hash("new\n")))
+        .unwrap_err();
+    assert!(fault.message.contains("read-only"), "{}", fault.message);
+    assert_eq!(fs::read_to_string(&file).unwrap(), "new\n");
     fs::remove_dir_all(root).unwrap();
 }
 

@@ -16,7 +16,7 @@ fn values(list: &[(&str, &str)]) -> BTreeMap<String, String> {
         .collect()
 }
 
-/// Without changes, and with the values of the template typed again, a form writes the template.
+/// Without changes a form writes the template; with the values of the template typed again, too, except that they are not assumed.
 #[test]
 fn a_form_without_changes_is_its_template() {
     for layout in LAYOUTS {
@@ -31,7 +31,14 @@ fn a_form_without_changes_is_its_template() {
         assert!(fields.len() > 20, "{}: {} fields", layout.name, fields.len());
         let same: BTreeMap<String, String> = fields.iter().map(|f| (f.path.clone(), f.value.clone())).collect();
         assert_eq!(same.len(), fields.len(), "{}: a path occurs twice", layout.name);
-        assert_eq!(written(&layout, &same).unwrap(), layout.text, "{}", layout.name);
+        let (text, assumed) = (written(&layout, &same).unwrap(), "\nassumed:");
+        let before = |text: &str| text.split(assumed).next().unwrap().to_owned();
+        assert_eq!(before(&text), before(layout.text), "{}", layout.name);
+        let left = text.split(assumed).nth(1).unwrap();
+        for field in fields {
+            assert!(!left.contains(&field.path), "{}: {}", layout.name, field.path);
+        }
+        assert!(!left.contains("[gears") && !left.contains("bearings.B1"), "{left}");
     }
 }
 
@@ -43,7 +50,7 @@ fn every_field_is_written() {
         for field in form.groups.iter().flat_map(|group| &group.fields) {
             let typed = match field.kind {
                 FieldKind::Text if field.path == "title" => "Getriebe: \"neu\", #2".to_owned(),
-                FieldKind::Text => "0.123".to_owned(),
+                FieldKind::Text | FieldKind::Number => "0.123".to_owned(),
                 FieldKind::Integer => "33".to_owned(),
                 FieldKind::Quantity => {
                     let (_, unit) = field.value.split_once(' ').unwrap();
@@ -64,6 +71,59 @@ fn every_field_is_written() {
             }
         }
     }
+}
+
+/// What was typed is not assumed; the other fields of the same component are.
+#[test]
+fn typed_values_are_not_assumed() {
+    let typed = [
+        ("gears.G1.z", "22"),
+        ("bearings.B1.designation", "6207"),
+        ("thermal.oil", "60 degC"),
+    ];
+    let text = written(Layout::named("two-stage").unwrap(), &values(&typed)).unwrap();
+    let gearbox = Gearbox::of_text(language(), &text, "gearbox.yaml", "").unwrap();
+    let paths: Vec<&str> = gearbox.value["assumed"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .flat_map(|entry| entry["paths"].as_array().unwrap())
+        .map(|path| path.as_str().unwrap())
+        .collect();
+    for (path, is_assumed) in [
+        ("gears", false),
+        ("gears.G1", false),
+        ("gears.G1.z", false),
+        ("gears.G1.facewidth", true),
+        ("gears.G1.at", true),
+        ("gears.G2", true),
+        ("bearings.B1.designation", false),
+        ("bearings.B1.at", true),
+        ("bearings.B2", true),
+        ("seals", true),
+        ("thermal", false),
+        ("meshes", true),
+        ("shafts", true),
+    ] {
+        assert_eq!(paths.contains(&path), is_assumed, "{path}: {paths:?}");
+    }
+    let typed = [
+        ("meshes.first.centre_distance", "91"),
+        ("meshes.second.centre_distance", "118 mm"),
+    ];
+    let text = written(Layout::named("two-stage").unwrap(), &values(&typed)).unwrap();
+    assert!(text.contains("paths: [gears, meshes]"), "{text}");
+}
+
+/// A text stays a text, whatever it looks like.
+#[test]
+fn texts_that_look_like_numbers_are_quoted() {
+    let typed = [("title", "2024"), ("lubricants.sump.designation", "220")];
+    let text = written(Layout::named("two-stage").unwrap(), &values(&typed)).unwrap();
+    assert!(
+        text.contains("title: \"2024\"") && text.contains("designation: \"220\""),
+        "{text}"
+    );
 }
 
 /// Centre distances move the axes.

@@ -37,6 +37,44 @@ fn a_point_is_the_sum_of_its_components() {
     assert!(losses.is_sorted_by(|a, b| a >= b), "{losses:?}");
 }
 
+/// What `solve` says last is what the notes of the page say first.
+#[test]
+fn what_is_outside_its_range_is_a_remark() {
+    let session = about("two-speed-ev");
+    let mut request = first_point(&session, &json!({}), "gearbox.yaml");
+    request["model_set"] = json!("joint");
+    let answer = value(&session, request);
+    let text = answer["text"].as_str().unwrap();
+    let outside: Vec<&str> = text.lines().filter(|line| line.starts_with("outside: ")).collect();
+    let remarks: Vec<&str> = answer["remarks"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|r| r.as_str().unwrap())
+        .collect();
+    assert!(
+        !outside.is_empty() && remarks.starts_with(&outside),
+        "{outside:?} {remarks:?}"
+    );
+}
+
+/// Both outputs of a differential turn alike at the first point, which has a result.
+#[test]
+fn the_first_point_of_a_differential_has_a_result() {
+    let session = about("e-axle");
+    let answer = value(&session, first_point(&session, &json!({}), "gearbox.yaml"));
+    assert!(answer["loss"].as_f64().unwrap() > 0.0, "{}", answer["text"]);
+    let speed = |name: &str| {
+        let members = answer["point"]["members"].as_array().unwrap().iter();
+        members
+            .clone()
+            .find(|own| own["member"] == name)
+            .map(|own| own["speed_rpm"].as_f64().unwrap())
+    };
+    let (left, right) = (speed("left_shaft").unwrap(), speed("right_shaft").unwrap());
+    assert!((left / right - 1.0).abs() < 1e-3, "{left} {right}");
+}
+
 /// Unsaved texts count, and only for the request that has them.
 #[test]
 fn unsaved_texts_are_solved() {
@@ -197,6 +235,7 @@ fn catalogues_are_searched() {
         "{found}"
     );
     assert_eq!(search("bearings", "6208-2RS1")[0]["designation"], "6208-2RS1");
+    assert_eq!(search("bearings", "SKF 6207-2RS")[0]["designation"], "6207-2RS");
     assert!(!search("oils", "vg 150").as_array().unwrap().is_empty());
     assert_eq!(search("bearings", "no such"), json!([]));
 }

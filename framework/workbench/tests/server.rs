@@ -133,12 +133,46 @@ fn everybody_else_is_refused() {
     }
     // Files outside are refused by the answer.
     for request in [
-        json!({ "request": "read", "file": "../../Cargo.toml" }),
+        json!({ "request": "read", "file": "../planetary-reducer/gearbox.yaml" }),
         json!({ "request": "save", "file": "../new.yaml", "text": "", "hash": null }),
+        json!({ "request": "controls", "texts": {}, "gearbox": "../planetary-reducer/gearbox.yaml" }),
+        json!({ "request": "run", "texts": {}, "study": "../planetary-reducer/study.yaml", "analyses": [] }),
     ] {
         let answer = raw(&post(&request.to_string(), |line| Some(line.to_owned())));
         assert!(answer.contains("is not in the opened folder"), "{answer}");
     }
+}
+
+/// Silent connections, and those that ask without reading, do not keep out a page with the token.
+#[test]
+fn strangers_do_not_keep_out_a_page() {
+    let root = super::common::empty("crowded");
+    let (host, token) = start(&root);
+    let silent: Vec<TcpStream> = (0..40).map(|_| TcpStream::connect(&host).unwrap()).collect();
+    let greedy: Vec<TcpStream> = (0..40)
+        .map(|_| {
+            let mut stream = TcpStream::connect(&host).unwrap();
+            let _ = stream.write_all(
+                format!("GET /workbench.js HTTP/1.1\r\nHost: {host}\r\n\r\n")
+                    .repeat(50)
+                    .as_bytes(),
+            );
+            stream
+        })
+        .collect();
+    let mut page = TcpStream::connect(&host).unwrap();
+    page.set_read_timeout(Some(Duration::from_secs(20))).unwrap();
+    let head = format!(
+        "POST /api HTTP/1.1\r\nHost: {host}\r\nAuthorization: Bearer {token}\r\nContent-Type: application/json\r\n\
+         Connection: close\r\nContent-Length: {}\r\n\r\n{FOLDER}",
+        FOLDER.len()
+    );
+    page.write_all(head.as_bytes()).unwrap();
+    let mut answer = String::new();
+    page.read_to_string(&mut answer).unwrap();
+    assert_eq!(status(&answer), 200, "{answer}");
+    drop((silent, greedy));
+    std::fs::remove_dir_all(root).unwrap();
 }
 
 #[test]

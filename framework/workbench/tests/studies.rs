@@ -84,7 +84,7 @@ fn a_study_runs_from_its_unsaved_text() {
     assert!(!sections[0]["section"]["pictures"].as_array().unwrap().is_empty());
     assert_eq!(kept.of("report").len(), 1);
     assert_eq!(kept.of("end")[0]["failed"], 0);
-    // The report is the one of the command line, which writes the same sections.
+    // `tests/workbench.rs` of the program compares it with the file of `gearloss run`.
     let html = kept.reports.lock().unwrap()[0].clone();
     assert!(html.contains("losses") && html.contains("gap"));
     // One analysis alone has no report.

@@ -176,7 +176,7 @@ export interface Section {
 export interface Field {
   path: string;
   label: string;
-  kind: "text" | "integer" | "quantity" | "bearing" | "oil";
+  kind: "text" | "integer" | "number" | "quantity" | "bearing" | "oil";
   /** What is in the template, such as `25 mm`. */
   value: string;
   help: string;
@@ -259,4 +259,5 @@ export type RunEvent =
 export type WatchEvent =
   | { event: "alive" }
   | { event: "changed"; file: string; text: string; hash: string }
+  | { event: "unreadable"; file: string; reason: string } // no text, or too long
   | { event: "removed"; file: string };

@@ -63,6 +63,14 @@ impl CatalogueTable {
             hits.rows.push((text.to_owned(), row));
             hits.about = Some(read.words());
         }
+        // `SKF 6207`: the maker is no part of a designation.
+        if hits.rows.is_empty()
+            && let Some((maker, rest)) = text.trim().split_once(' ')
+            && maker.chars().all(char::is_alphabetic)
+            && !rest.trim().is_empty()
+        {
+            return self.search(rest.trim(), with_suffixes);
+        }
         hits
     }
 

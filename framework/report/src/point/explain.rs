@@ -33,9 +33,12 @@ pub fn explain_part(
         factor => format!(", loss factor {}", significant(factor)),
     };
     out.line(format!(
-        "relative speed {} rpm, {} copies{factor}",
+        "relative speed {} rpm{}{factor}",
         significant(loss.speed * RPM),
-        significant(info.count)
+        match info.count {
+            1.0 => String::new(),
+            count => format!(", {} of them", significant(count)),
+        }
     ));
     steps(transmission.instances(), trace, out);
     match loss.result {

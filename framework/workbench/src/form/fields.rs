@@ -38,6 +38,8 @@ pub enum FieldKind {
     Text,
     /// A whole number.
     Integer,
+    /// A number without unit.
+    Number,
     /// A number with a unit.
     Quantity,
     /// Designation of a bearing.
@@ -144,7 +146,7 @@ impl Reader<'_> {
             for (key, label, kind) in [
                 ("z", "Teeth", FieldKind::Integer),
                 ("facewidth", "Face width", FieldKind::Quantity),
-                ("profile_shift", "Profile shift", FieldKind::Text),
+                ("profile_shift", "Profile shift", FieldKind::Number),
                 ("tip_diameter", "Tip diameter", FieldKind::Quantity),
             ] {
                 for gear in &new {

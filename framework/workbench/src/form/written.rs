@@ -7,7 +7,7 @@ use gearloss_editor::outline::{self, Content, Node};
 use gearloss_framework::document::{Diagnostic, Unit, parse_quantity};
 
 use super::distance;
-use super::fields::{FieldKind, at, groups};
+use super::fields::{Field, FieldKind, at, groups};
 use super::layouts::Layout;
 use crate::answer::Fault;
 
@@ -45,6 +45,12 @@ pub fn written(layout: &Layout, values: &BTreeMap<String, String>) -> Result<Str
         }
     }
     axes(layout, &document, values, &mut changes)?;
+    let typed = |path: &str| {
+        values
+            .keys()
+            .any(|own| twins(layout, own).iter().any(|own| own == path))
+    };
+    changes.extend(assumed(layout, &document, &fields, &typed));
     Ok(replaced(layout.text, changes))
 }
 
@@ -64,6 +70,87 @@ fn twins(layout: &Layout, path: &str) -> Vec<String> {
         paths.push(format!("bearings.{}{rest}", letters[1]));
     }
     paths
+}
+
+/// What is assumed no longer: entries of `assumed` without what was typed. A component of which a part was typed is replaced by its
+/// other fields.
+fn assumed(
+    layout: &Layout,
+    document: &Node,
+    fields: &[Field],
+    typed: &dyn Fn(&str) -> bool,
+) -> Vec<(Range<usize>, String)> {
+    let Some(Content::List(entries)) = at(document, "assumed").map(|node| &node.content) else {
+        return Vec::new();
+    };
+    let mut changes = Vec::new();
+    for entry in entries {
+        let Some(list) = entry.get("paths") else { continue };
+        let Content::List(paths) = &list.content else { continue };
+        let paths: Vec<&str> = paths.iter().filter_map(Node::text).collect();
+        let left: Vec<String> = paths
+            .iter()
+            .flat_map(|path| not_typed(layout, document, fields, path, typed))
+            .collect();
+        if left.is_empty() {
+            changes.push((line(layout.text, entry.span.start), String::new()));
+        } else if left != paths {
+            changes.push((list.span.clone(), format!("[{}]", left.join(", "))));
+        }
+    }
+    changes
+}
+
+/// What remains of a path of `assumed`.
+fn not_typed(
+    layout: &Layout,
+    document: &Node,
+    fields: &[Field],
+    path: &str,
+    typed: &dyn Fn(&str) -> bool,
+) -> Vec<String> {
+    // Axes follow from centre distances alone.
+    let distances = layout.distances.iter();
+    let moves_axes = distances
+        .clone()
+        .any(|own| own.cells.iter().any(|(cell, ..)| cell.starts_with("shafts.")));
+    if path == "shafts" && moves_axes && distances.clone().all(|own| typed(&distance(own.mesh))) {
+        return Vec::new();
+    }
+    let below = |own: &str| -> Vec<String> {
+        let prefix = format!("{own}.");
+        let known = fields.iter().flat_map(|field| twins(layout, &field.path));
+        // A centre distance that is only in the form says nothing about its mesh.
+        known
+            .filter(|path| path.starts_with(&prefix) && at(document, path).is_some())
+            .collect()
+    };
+    let whole = || vec![path.to_owned()];
+    if !below(path).iter().any(|field| typed(field)) {
+        return whole();
+    }
+    let Some(node) = at(document, path) else { return whole() };
+    let mut left = Vec::new();
+    for entry in node.entries() {
+        let own = format!("{path}.{}", entry.key);
+        let fields = below(&own);
+        if typed(&own) {
+            continue;
+        }
+        if fields.iter().any(|field| typed(field)) {
+            left.extend(fields.into_iter().filter(|field| !typed(field)));
+        } else if !matches!(entry.value.content, Content::Scalar { .. }) {
+            left.push(own);
+        }
+    }
+    left
+}
+
+/// The line of a place, with its end.
+fn line(text: &str, place: usize) -> Range<usize> {
+    let start = text[..place].rfind('\n').map_or(0, |end| end + 1);
+    let end = text[place..].find('\n').map_or(text.len(), |end| place + end + 1);
+    start..end
 }
 
 /// Writes the coordinates that follow from centre distances.
@@ -111,6 +198,10 @@ fn axes(
 
 /// A length. \[mm\]
 fn millimetres(path: &str, typed: &str) -> Result<f64, Fault> {
+    // A bare number is in the documented unit, as everywhere.
+    if let Some(bare) = typed.parse::<f64>().ok().filter(|bare| *bare > 0.0 && bare.is_finite()) {
+        return Ok(bare);
+    }
     let unit = Unit::of_symbol("mm").unwrap_or(Unit::ONE);
     let wrong = |message: String, help: String| Fault::of_field(Diagnostic::error(path, message).help(help));
     let length = parse_quantity(typed, unit).map_err(|fault| {
@@ -136,9 +227,11 @@ fn scalar(typed: &str, kind: FieldKind) -> String {
         .is_some_and(|c| c.is_alphanumeric() || "+-.".contains(c));
     // A comma separates entries in braces; a designation of digits alone would be a number.
     let plain = begins && typed.chars().all(is_plain) && !typed.contains(", ") && !typed.contains(',');
+    // What reads as a number would not be a text.
+    let is_text = !typed.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c));
     match kind {
-        FieldKind::Bearing => quoted(typed),
-        _ if plain => typed.to_owned(),
+        FieldKind::Integer | FieldKind::Quantity | FieldKind::Number if plain => typed.to_owned(),
+        FieldKind::Text | FieldKind::Oil if plain && is_text => typed.to_owned(),
         _ => quoted(typed),
     }
 }

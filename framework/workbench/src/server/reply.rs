@@ -1,12 +1,13 @@
 //! From a request of HTTP to its answer.
 
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use http_body_util::{BodyExt as _, Limited};
 use hyper::body::{Bytes, Incoming};
 use hyper::header::{
-    CACHE_CONTROL, CONTENT_SECURITY_POLICY, CONTENT_TYPE, HeaderName, HeaderValue, REFERRER_POLICY,
+    CACHE_CONTROL, CONNECTION, CONTENT_SECURITY_POLICY, CONTENT_TYPE, HeaderName, HeaderValue, REFERRER_POLICY,
     X_CONTENT_TYPE_OPTIONS,
 };
 use hyper::{Method, Request, Response, StatusCode};
@@ -22,25 +23,32 @@ const LONGEST: usize = 4 << 20;
 /// How long the body of a request may take.
 const SLOWEST: Duration = Duration::from_secs(30);
 
-/// Answers a request, or refuses it.
-pub async fn reply(work: &Arc<Work>, request: Request<Incoming>) -> Response<Answered> {
+/// Answers a request, or refuses it and closes the connection. `known` is set once a request has shown the token.
+pub async fn reply(work: &Arc<Work>, request: Request<Incoming>, known: &AtomicBool) -> Response<Answered> {
     let answered = match work.guard.check(request.headers()) {
-        Ok(()) => routed(work, request).await,
+        Ok(()) => routed(work, request, known).await,
         Err(refused) => Err(refused),
     };
     answered.unwrap_or_else(|(status, why)| {
         let mut response = response("text/plain; charset=utf-8", POLICY, whole(format!("{why}\n")));
         *response.status_mut() = status;
+        let headers = response.headers_mut();
+        headers.insert(CONNECTION, HeaderValue::from_static("close"));
         response
     })
 }
 
 type Refused = (StatusCode, &'static str);
 
-async fn routed(work: &Arc<Work>, request: Request<Incoming>) -> Result<Response<Answered>, Refused> {
+async fn routed(
+    work: &Arc<Work>,
+    request: Request<Incoming>,
+    known: &AtomicBool,
+) -> Result<Response<Answered>, Refused> {
     let path = request.uri().path();
     if path == "/api" {
         work.guard.check_work(request.method(), request.headers())?;
+        known.store(true, Ordering::Relaxed);
         return asked(work, request).await;
     }
     if request.method() != Method::GET {

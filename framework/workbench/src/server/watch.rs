@@ -1,6 +1,6 @@
 //! Changes of files on the disk.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -24,23 +24,30 @@ pub async fn watch(
     lines: UnboundedSender<Bytes>,
     page: OpenPage,
 ) {
+    // Files that were missing at the last look: one that is replaced is missing for a moment.
+    let mut missing: BTreeSet<String> = BTreeSet::new();
     loop {
         for (file, known) in &mut files {
-            let event = match session.store().read(file) {
-                Ok(text) => {
+            let (now, event) = match session.store().text(file) {
+                Ok(Some(text)) => {
+                    missing.remove(file);
                     let now = hash(&text);
-                    if now == *known {
-                        continue;
-                    }
-                    known.clone_from(&now);
-                    json!({ "event": "changed", "file": file, "text": text, "hash": now })
+                    (
+                        now.clone(),
+                        json!({ "event": "changed", "file": file, "text": text, "hash": now }),
+                    )
                 }
-                Err(_) if known.is_empty() => continue,
-                Err(_) => {
-                    known.clear();
-                    json!({ "event": "removed", "file": file })
-                }
+                Ok(None) if missing.insert(file.clone()) => continue,
+                Ok(None) => (String::new(), json!({ "event": "removed", "file": file })),
+                Err(fault) => (
+                    fault.message.clone(),
+                    json!({ "event": "unreadable", "file": file, "reason": fault.message }),
+                ),
             };
+            if now == *known {
+                continue;
+            }
+            *known = now;
             if lines.send(format!("{event}\n").into()).is_err() {
                 return;
             }

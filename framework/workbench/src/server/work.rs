@@ -184,3 +184,19 @@ impl Drop for OpenPage {
         self.0.fetch_sub(1, Ordering::Relaxed);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A body that nobody reads any more ends its work.
+    #[test]
+    fn work_is_interrupted_when_its_answer_is_dropped() {
+        let interrupt = Interrupt::default();
+        let token = interrupt.token();
+        let (_lines, body) = Answered::lines(interrupt);
+        assert!(token.is_wanted() && token.should_continue());
+        drop(body);
+        assert!(!token.is_wanted() && !token.should_continue());
+    }
+}
