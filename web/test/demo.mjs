@@ -80,6 +80,27 @@ const tab = (name) => page.evaluate((name) => [...document.querySelectorAll("#re
 await tab("Map");
 await until("a map", () => document.querySelector("#results-body svg .gl-field") !== null);
 
+// The study and its report, a page of its own. The policy of the page holds for it, too.
+await page.evaluate(() => {
+  const others = document.getElementById("open-other");
+  const study = [...others.querySelectorAll("optgroup option")].find((o) => /study/.test(o.value)) ?? null;
+  if (study && !/study/.test(document.querySelector(".file.current").dataset.file)) {
+    others.value = study.value;
+    others.dispatchEvent(new Event("change"));
+  }
+});
+await tab("Study");
+await until("analyses", () => document.querySelectorAll(".analyses li").length > 0);
+await page.evaluate(() => document.querySelector(".study-side .primary").click());
+await until("a report", () => document.querySelector("[data-report]") !== null);
+const opened = browser.waitForTarget((t) => t.opener() === page.target(), { timeout: 10000 }).catch(() => null);
+await page.click("[data-report]");
+const report = await (await opened)?.page();
+if (report) {
+  report.on("console", (message) => faults.push(`report: ${message.text()}`));
+  await report.waitForFunction(() => document.querySelector("svg") !== null, { timeout: 15000 }).catch(() => faults.push("never: pictures in the report"));
+} else faults.push("never: the report");
+
 await browser.close();
 console.log(JSON.stringify({ ...figures, faults }));
 process.exit(faults.length ? 1 : 0);
