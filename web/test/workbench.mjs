@@ -843,6 +843,36 @@ await step("Accessibility, colours, size of texts", async () => {
   await context.close();
 });
 
+// A program that is slow, and a file that is no text any more.
+await step("A slow program", async () => {
+  const other = await open();
+  await ready(other);
+  await quiet(other);
+  let held = [];
+  await other.setRequestInterception(true);
+  other.on("request", (request) => {
+    const body = request.postData() ?? "";
+    if (/"request":"point"/.test(body) && held) held.push(request);
+    else if (/"request":"watch"/.test(body)) {
+      const file = Object.keys(JSON.parse(body).files)[0];
+      void request.respond({ contentType: "application/x-ndjson", body: `${JSON.stringify({ event: "unreadable", file, reason: "it is not UTF-8" })}\n` });
+    } else void request.continue();
+  });
+  await other.focus(".slider-number");
+  await other.keyboard.press("1");
+  await until(other, "the page says that it waits", () => /Waiting for the program/.test(document.getElementById("notices").textContent));
+  await serious(other, "waiting");
+  const late = held;
+  held = null;
+  // Newer ones have taken the place of some.
+  for (const request of late) await request.continue().catch(() => undefined);
+  await until(other, "the page waits no longer", () => !/Waiting for the program/.test(document.getElementById("notices").textContent));
+  await openFile(other, await other.$eval("#open-other option:not([value=''])", (o) => o.value));
+  await until(other, "the page says that a file cannot be read", () => /cannot be read: it is not UTF-8/.test(document.getElementById("notices").textContent));
+  await other.close();
+  await page.bringToFront();
+});
+
 // More pages than a browser has connections, and a page without a gearbox.
 await step("Many pages", async () => {
   const pages = [];

@@ -48,7 +48,8 @@ export class PointPane {
 
   /** Shows the controls; what was chosen stays as far as it exists. True if the point is another one. */
   show(controls: Controls): boolean {
-    const before = JSON.stringify(this.point());
+    const state = () => JSON.stringify([this.point(), this.wrong]);
+    const before = state();
     const kept = this.chosen ?? stored<Record<string, Chosen>>(KEY, {}, sessionStorage)[this.gearbox ?? ""] ?? null;
     const gear = controls.gears.find((g) => g.name === kept?.gear) ?? controls.gears[0];
     this.controls = controls;
@@ -66,7 +67,7 @@ export class PointPane {
       this.shape = shape;
       this.build();
     }
-    return before !== JSON.stringify(this.point());
+    return before !== state();
   }
 
   /** Keeps the point for a gearbox whose file has another name now. */
