@@ -19,6 +19,9 @@ const put = (what, by) => {
 };
 // The text of a script must not end its element.
 const inside = (text) => text.replace(/<\/(script|style)/gi, "<\\/$1");
+// Nothing is loaded from elsewhere; the report of a study is a page of its own in a blob.
+const policy = "default-src 'none'; script-src 'unsafe-inline' 'wasm-unsafe-eval'; style-src 'unsafe-inline'; img-src data: blob:; frame-src blob:";
+put(/<meta charset="utf-8">/, `<meta charset="utf-8">\n<meta http-equiv="Content-Security-Policy" content="${policy}">`);
 put(/<link rel="stylesheet"[^>]*>/, `<style>${inside(style.outputFiles[0].text)}</style>`);
 put(/<script[^>]*src="\/?workbench.js"[^>]*><\/script>/, "");
 put(/<\/body>/, `<script type="text/plain" id="program">${code}</script>\n<script>${inside((await licence(script.metafile.inputs)) + script.outputFiles[0].text)}</script>\n</body>`);

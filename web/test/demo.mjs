@@ -80,6 +80,23 @@ const tab = (name) => page.evaluate((name) => [...document.querySelectorAll("#re
 await tab("Map");
 await until("a map", () => document.querySelector("#results-body svg .gl-field") !== null);
 
+// The study and its report, a page of its own. The policy of the page holds for it, too.
+await page.click('.file[data-file="study.yaml"] button');
+await paste(await readFile(new URL("../demo/src/study.yaml", import.meta.url), "utf8"));
+await page.evaluate(() => document.querySelector('.file[data-file="two-speed-ev.yaml"] button').click());
+await paste(await readFile(join(examples, "two-speed-ev/gearbox.yaml"), "utf8"));
+await tab("Study");
+await until("analyses", () => document.querySelectorAll(".analyses li").length > 0);
+await page.evaluate(() => document.querySelector(".study-side .primary").click());
+await until("a report", () => document.querySelector("[data-report]") !== null);
+const opened = browser.waitForTarget((t) => t.opener() === page.target(), { timeout: 10000 }).catch(() => null);
+if (await page.$("[data-report]")) await page.click("[data-report]");
+const report = await (await opened)?.page();
+if (report) {
+  report.on("console", (message) => faults.push(`report: ${message.text()}`));
+  await report.waitForFunction(() => document.querySelector("svg") !== null, { timeout: 15000 }).catch(() => faults.push("never: pictures in the report"));
+} else faults.push("never: the report");
+
 await browser.close();
 console.log(JSON.stringify({ ...figures, faults }));
 process.exit(faults.length ? 1 : 0);

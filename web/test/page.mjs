@@ -157,6 +157,8 @@ const serious = async (page, what) => {
   await page.evaluate(() => scrollTo(0, 0));
   await page.click("#theme");
   check((await ground()) !== light, "the button does not change the colours");
+  // The browser writes what it remembers a moment later.
+  await pause(1000);
   await page.reload({ waitUntil: "load" });
   check((await ground()) !== light, "the colours are not remembered");
   await page.click("#theme");

@@ -9,7 +9,8 @@ import type { CatalogueRow } from "./protocol.ts";
 export function searches(input: HTMLInputElement, of: "bearings" | "oils", ask: (of: "bearings" | "oils", text: string) => Promise<CatalogueRow[] | null>, chosen: () => void): void {
   const id = unique("hits");
   const list = html(null, "ul", { class: "hits", role: "listbox", id, "aria-label": of === "bearings" ? "bearings of the catalogue" : "oils of the catalogue", hidden: "" });
-  input.after(list);
+  // After the field, not over it: the fields below stay in reach.
+  input.parentElement!.append(list);
   for (const [key, value] of Object.entries({ role: "combobox", "aria-expanded": "false", "aria-controls": id, "aria-autocomplete": "list", autocomplete: "off" })) input.setAttribute(key, value);
   let rows: CatalogueRow[] = [];
   let at = -1;
@@ -22,6 +23,7 @@ export function searches(input: HTMLInputElement, of: "bearings" | "oils", ask: 
   const take = (k: number) => {
     if (!rows[k]) return;
     input.value = rows[k].designation;
+    search.cancel();
     close();
     chosen();
   };
@@ -53,12 +55,12 @@ export function searches(input: HTMLInputElement, of: "bearings" | "oils", ask: 
         take(k);
       });
     });
-    if (rows.length === 0) return close();
+    const isFound = rows.length === 1 && rows[0].designation.toLowerCase() === input.value.trim().toLowerCase();
+    if (rows.length === 0 || isFound) return close();
     list.hidden = false;
     input.setAttribute("aria-expanded", "true");
   });
   input.addEventListener("input", () => search.call());
-  input.addEventListener("focus", () => search.call());
   input.addEventListener("blur", () => {
     search.cancel();
     close();

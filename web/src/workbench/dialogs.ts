@@ -3,8 +3,8 @@
 import { html } from "../svg.ts";
 import { rows } from "./diff.ts";
 
-/** Asks for a name; null if the dialog is left. */
-export function askName(title: string, label: string, value: string, at?: { left: number; top: number }): Promise<string | null> {
+/** Asks for a name; null if the dialog is left. A name for which `fault` has a sentence is not taken. */
+export function askName(title: string, label: string, value: string, at?: { left: number; top: number }, fault: (name: string) => string | null = () => null): Promise<string | null> {
   const dialog = html(document.body, "dialog", { class: "small-dialog", "aria-label": title });
   if (at) {
     dialog.style.margin = "0";
@@ -15,6 +15,19 @@ export function askName(title: string, label: string, value: string, at?: { left
   const field = html(form, "label");
   html(field, "span", {}, label);
   const input = html(field, "input", { type: "text", value, spellcheck: "false", autocomplete: "off" });
+  const wrong = html(form, "p", { class: "dialog-fault", role: "alert" });
+  input.addEventListener("input", () => {
+    wrong.textContent = "";
+    input.removeAttribute("aria-invalid");
+  });
+  form.addEventListener("submit", (event) => {
+    const found = fault(input.value.trim());
+    if (found === null) return;
+    event.preventDefault();
+    wrong.textContent = found;
+    input.setAttribute("aria-invalid", "true");
+    input.focus();
+  });
   const line = html(form, "div", { class: "dialog-actions" });
   html(line, "button", { type: "submit", value: "ok", class: "primary" }, title);
   const cancel = html(line, "button", { type: "button" }, "Cancel");
@@ -27,6 +40,24 @@ export function askName(title: string, label: string, value: string, at?: { left
     });
     dialog.showModal();
     input.select();
+  });
+}
+
+/** Asks whether to do something that cannot be undone. */
+export function askWhether(question: string, yes: string, no: string): Promise<boolean> {
+  const dialog = html(document.body, "dialog", { class: "small-dialog", role: "alertdialog", "aria-label": question });
+  html(dialog, "p", {}, question);
+  const line = html(dialog, "div", { class: "dialog-actions" });
+  const stay = html(line, "button", { type: "button", class: "primary" }, no);
+  stay.addEventListener("click", () => dialog.close(""));
+  html(line, "button", { type: "button" }, yes).addEventListener("click", () => dialog.close("yes"));
+  return new Promise((done) => {
+    dialog.addEventListener("close", () => {
+      dialog.remove();
+      done(dialog.returnValue === "yes");
+    });
+    dialog.showModal();
+    stay.focus();
   });
 }
 

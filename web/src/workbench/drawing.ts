@@ -47,6 +47,7 @@ export class DrawingPane {
     this.source = "";
     this.original = null;
     this.shown = null;
+    this.losses = [];
     this.scale.replaceChildren();
     this.box.replaceChildren();
     html(this.box, "p", { class: "quiet" }, text);

@@ -108,6 +108,14 @@ export class Editor {
     if (this.current === file) this.current = null;
   }
 
+  /** Keeps the state of a file that has another name now. */
+  renameFile(file: string, name: string): void {
+    const state = this.states.get(file);
+    this.states.delete(file);
+    if (state) this.states.set(name, state);
+    if (this.current === file) this.current = name;
+  }
+
   private keep(): void {
     if (this.current) this.states.set(this.current, this.view.state);
   }

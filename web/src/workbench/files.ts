@@ -1,26 +1,26 @@
 // The files that the page holds: their text, what is on the disk, which are unsaved.
 
+import { plainLines, withEnds } from "./ends.ts";
 import type { Texts } from "./protocol.ts";
 
 export type Kind = "gearbox" | "study" | "other";
 
 export interface OpenFile {
   file: string;
-  /** Text on the disk as the page knows it; empty for a new file. */
+  /** Text on the disk as the page knows it, with the line ends of the page; empty for a new file. */
   saved: string;
-  /** Hash of that text; null for a file that is not on the disk. */
+  /** That text with its line ends. */
+  disk: string;
+  /** Hash of that text; null for a file that was never on the disk. */
   hash: string | null;
+  /** True if the file was removed from the disk; what it was stays known, for a merge if it comes back. */
+  removed: boolean;
   text: string;
-  /** True if lines end with `\r\n` on the disk. In the page they end with `\n`, as in the editor, which counts a break as one character. */
-  crlf: boolean;
 }
-
-/** A text with the line ends of the page. */
-export const plainLines = (text: string) => text.replace(/\r\n/g, "\n");
 
 /** What a text is, by its first key. */
 export function kindOf(text: string): Kind {
-  const found = /^gearloss:\s*["']?(gearbox|study)\//m.exec(text);
+  const found = /^\uFEFF?(?:gearloss|"gearloss"|'gearloss')\s*:\s*["']?(gearbox|study)\//m.exec(text);
   return found ? (found[1] as Kind) : "other";
 }
 
@@ -44,7 +44,7 @@ export class Files {
 
   add(file: string, text: string, hash: string | null): OpenFile {
     const plain = plainLines(text);
-    const own: OpenFile = { file, saved: hash === null ? "" : plain, hash, text: plain, crlf: hash !== null && plain !== text };
+    const own: OpenFile = { file, saved: hash === null ? "" : plain, disk: hash === null ? "" : text, hash, removed: false, text: plain };
     this.open.set(file, own);
     this.changed(own);
     return own;
@@ -58,6 +58,16 @@ export class Files {
     this.open.delete(file);
   }
 
+  /** Gives a text another name, under which no file is on the disk; its place among the open files stays. */
+  rename(file: string, name: string): void {
+    const all = [...this.open.values()];
+    this.open.clear();
+    for (const own of all) {
+      if (own.file === file) Object.assign(own, { file: name, saved: "", hash: null, removed: false });
+      this.open.set(own.file, own);
+    }
+  }
+
   setText(file: string, text: string): void {
     const own = this.open.get(file);
     if (!own || own.text === text) return;
@@ -66,16 +76,28 @@ export class Files {
   }
 
   /** Notes what is on the disk. */
-  setSaved(file: string, text: string, hash: string | null): void {
+  setSaved(file: string, text: string, hash: string): void {
     const own = this.open.get(file);
     if (!own) return;
-    own.saved = plainLines(text);
-    if (hash !== null) own.crlf = own.saved !== text;
-    own.hash = hash;
+    Object.assign(own, { saved: plainLines(text), disk: text, hash, removed: false });
+    this.changed(own);
+  }
+
+  /** Notes that a file is no longer, or again, on the disk. */
+  setRemoved(file: string, removed: boolean): void {
+    const own = this.open.get(file);
+    if (!own || own.removed === removed) return;
+    own.removed = removed;
     this.changed(own);
   }
 
   isUnsaved(file: string): boolean {
+    const own = this.open.get(file);
+    return own !== undefined && (own.hash === null || own.removed || own.text !== own.saved);
+  }
+
+  /** True if the text is not the one that was read or saved last, whether the file is still there or not. */
+  isEdited(file: string): boolean {
     const own = this.open.get(file);
     return own !== undefined && (own.hash === null || own.text !== own.saved);
   }
@@ -86,14 +108,14 @@ export class Files {
 
   /** Texts that differ from the disk; also those that differ in their line ends alone, so that offsets are those of the page. */
   texts(): Texts {
-    const differ = [...this.open.values()].filter((f) => f.crlf || this.isUnsaved(f.file));
+    const differ = [...this.open.values()].filter((f) => f.disk !== f.saved || this.isUnsaved(f.file));
     return Object.fromEntries(differ.map((f) => [f.file, f.text]));
   }
 
   /** The text as it is written to the disk. */
   onDisk(file: string): string {
     const own = this.open.get(file);
-    return !own ? "" : own.crlf ? own.text.replace(/\n/g, "\r\n") : own.text;
+    return own ? withEnds(own.disk, own.text) : "";
   }
 
   /** All texts, to keep a state that does not depend on the disk. */

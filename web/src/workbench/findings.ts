@@ -1,7 +1,7 @@
 // Findings in words, and the list of them below the text.
 
 import { html } from "../svg.ts";
-import type { FileRange, Finding } from "./protocol.ts";
+import type { Fault, FileRange, Finding } from "./protocol.ts";
 
 /** The code, message, notes and help of a finding. */
 export function describeFinding(parent: Element, finding: Finding): void {
@@ -23,6 +23,13 @@ export function once(findings: Finding[]): Finding[] {
     const key = JSON.stringify([f.severity, f.message, f.help, f.place?.file, f.place?.range.from]);
     return !seen.has(key) && seen.add(key);
   });
+}
+
+/** Why a point has no result: for errors that the texts of the page show it is enough to say so. */
+export function refusal(fault: Fault, files: string[], hasNumbers: boolean): string {
+  const isShown = fault.findings.some((f) => f.severity === "error" && f.place !== null && files.includes(f.place.file));
+  if (isShown) return hasNumbers ? "The gearbox has errors; the numbers are those before them." : "The gearbox has errors.";
+  return fault.help ? `${fault.message}; help: ${fault.help}` : fault.message;
 }
 
 export class FindingsList {

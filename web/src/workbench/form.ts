@@ -3,7 +3,9 @@
 import { html, unique } from "../svg.ts";
 import { words } from "../format.ts";
 import { searches } from "./catalogue.ts";
+import { askWhether } from "./dialogs.ts";
 import { describeFinding } from "./findings.ts";
+import { fileName, freeName, nameFault } from "./names.ts";
 import { Quiet } from "./pace.ts";
 import type { Fault, Field, Finding, Layout } from "./protocol.ts";
 import { Newest, Refused, type Transport } from "./transport.ts";
@@ -15,16 +17,6 @@ export function fieldOf(path: string, fields: string[]): string | null {
   if (inside.length) return inside.sort((a, b) => b.length - a.length)[0];
   const around = fields.filter((f) => f.startsWith(`${path}.`) || f.startsWith(`${path}[`));
   return path && around.length === 1 ? around[0] : null;
-}
-
-/** A name that no file of the folder has. */
-export function freeName(wanted: string, taken: string[]): string {
-  if (!taken.includes(wanted)) return wanted;
-  const [, stem, end] = /^(.*?)(\.[^./]*)?$/.exec(wanted)!;
-  for (let k = 2; ; k++) {
-    const name = `${stem}-${k}${end ?? ""}`;
-    if (!taken.includes(name)) return name;
-  }
 }
 
 export function newGearbox(layouts: Layout[], transport: Transport, taken: () => string[], create: (file: string, text: string) => void): void {
@@ -45,12 +37,16 @@ export function newGearbox(layouts: Layout[], transport: Transport, taken: () =>
   const named = html(foot, "label");
   html(named, "span", {}, "File");
   const name = html(named, "input", { type: "text", spellcheck: "false", id: "form-file" });
+  const nameError = html(foot, "span", { class: "dialog-fault", id: "form-file-error", role: "alert" });
+  name.setAttribute("aria-describedby", nameError.id);
   const ok = html(foot, "button", { type: "button", class: "primary", id: "form-create" }, "Create");
   const cancel = html(foot, "button", { type: "button" }, "Cancel");
 
   const newest = new Newest(transport);
   const catalogue = new Newest(transport);
   const inputs = new Map<string, { field: Field; input: HTMLInputElement; error: HTMLElement }>();
+  /** What was typed, by the path of its field; another layout takes what it has fields for. */
+  const typed = new Map<string, string>();
   let text: string | null = null;
 
   const faults = (fault: Fault | null) => {
@@ -99,8 +95,8 @@ export function newGearbox(layouts: Layout[], transport: Transport, taken: () =>
       }
       text = answer.text;
       faults(null);
-      state.dataset.state = "good";
-      state.textContent = "The text of this gearbox has no errors.";
+      state.dataset.state = findings.length ? "warn" : "good";
+      state.textContent = findings.length ? `The text of this gearbox has no errors, but ${findings.length === 1 ? "a warning" : `${findings.length} warnings`}.` : "The text of this gearbox has no errors.";
       for (const finding of findings) describeFinding(html(state, "div", { class: "finding-tip warning" }), finding);
     } catch (fault) {
       text = null;
@@ -126,34 +122,57 @@ export function newGearbox(layouts: Layout[], transport: Transport, taken: () =>
         const id = unique("field");
         const line = html(set, "div", { class: "field", "data-path": field.path });
         html(line, "label", { for: id }, words(field.label));
-        const input = html(line, "input", { id, type: "text", value: field.value, spellcheck: "false", "aria-describedby": `${id}-help ${id}-error`, inputmode: field.kind === "integer" ? "numeric" : undefined });
+        const input = html(line, "input", { id, type: "text", value: typed.get(field.path) ?? field.value, spellcheck: "false", "aria-describedby": `${id}-help ${id}-error`, inputmode: field.kind === "integer" ? "numeric" : undefined });
         html(line, "span", { class: "field-help", id: `${id}-help` }, words(field.help));
         const error = html(line, "span", { class: "field-error", id: `${id}-error`, "aria-live": "polite" });
         inputs.set(field.path, { field, input, error });
-        input.addEventListener("input", changed);
-        if (field.kind === "bearing" || field.kind === "oil") searches(input, field.kind === "bearing" ? "bearings" : "oils", (of, part) => catalogue.ask({ request: "catalogue", of, text: part }), changed);
+        const noted = () => {
+          if (input.value === field.value) typed.delete(field.path);
+          else typed.set(field.path, input.value);
+          changed();
+        };
+        input.addEventListener("input", noted);
+        if (field.kind === "bearing" || field.kind === "oil") searches(input, field.kind === "bearing" ? "bearings" : "oils", (of, part) => catalogue.ask({ request: "catalogue", of, text: part }), noted);
       }
     }
-    name.value = freeName("gearbox.yaml", taken());
     text = null;
     changed();
   };
   const finish = () => {
     if (text === null) return;
-    const file = name.value.trim();
-    if (!file || taken().includes(file)) {
-      state.dataset.state = "bad";
-      state.textContent = file ? `${file} exists already. Choose another name.` : "The file needs a name.";
+    const file = fileName(name.value);
+    const fault = nameFault(file, taken());
+    if (fault !== null) {
+      nameError.textContent = fault;
+      name.setAttribute("aria-invalid", "true");
       name.focus();
       return;
     }
     dialog.close();
-    create(/\.ya?ml$/.test(file) ? file : `${file}.yaml`, text);
+    create(file, text);
   };
+  const leave = async () => {
+    if (typed.size === 0 || (await askWhether(`Discard the form with ${typed.size === 1 ? "the value" : `the ${typed.size} values`} that you typed?`, "Discard", "Go on with the form"))) dialog.close();
+  };
+  name.value = freeName("gearbox.yaml", taken());
+  name.addEventListener("input", () => {
+    nameError.textContent = "";
+    name.removeAttribute("aria-invalid");
+  });
+  // Before the browser closes the dialog, which it does not let a page prevent twice.
+  dialog.addEventListener("keydown", (event) => {
+    if (event.key !== "Escape" || event.defaultPrevented) return;
+    event.preventDefault();
+    void leave();
+  });
+  dialog.addEventListener("cancel", (event) => {
+    event.preventDefault();
+    void leave();
+  });
   select.addEventListener("change", build);
   fields.addEventListener("submit", (event) => event.preventDefault());
   ok.addEventListener("click", finish);
-  cancel.addEventListener("click", () => dialog.close());
+  cancel.addEventListener("click", () => void leave());
   dialog.addEventListener("close", () => {
     soon.cancel();
     newest.abort();

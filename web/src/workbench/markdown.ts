@@ -1,9 +1,10 @@
-// The part of Markdown that explanations use, as elements: paragraphs, headings, lists, code, bold, emphasis, links as text. No HTML passes.
+// The part of Markdown that explanations use, as elements: paragraphs, headings, lists, rules, code, bold, emphasis, links as text. No HTML passes.
 
 export type Piece = { text: string; style?: "code" | "bold" | "emphasis" };
 
 export type Block =
   | { kind: "paragraph" | "heading"; pieces: Piece[] }
+  | { kind: "rule" }
   | { kind: "code"; text: string }
   | { kind: "list"; items: Piece[][] }
   | { kind: "table"; rows: Piece[][][] };
@@ -50,6 +51,11 @@ export function blocks(markdown: string): Block[] {
       close();
       continue;
     }
+    if (/^ {0,3}([-*_])(?: *\1){2,} *$/.test(line)) {
+      close();
+      found.push({ kind: "rule" });
+      continue;
+    }
     const heading = /^#{1,6}\s+(.*)$/.exec(line);
     if (heading) {
       close();
@@ -78,7 +84,22 @@ export function blocks(markdown: string): Block[] {
     paragraph.push(line.trim());
   }
   close();
-  return found;
+  return once(found);
+}
+
+/** Without paragraphs that were there already, and without rules that then divide nothing. */
+function once(list: Block[]): Block[] {
+  const seen = new Set<string>();
+  const kept: Block[] = [];
+  for (const block of list) {
+    const key = JSON.stringify(block);
+    if (block.kind === "paragraph" && seen.has(key)) continue;
+    if (block.kind === "rule" && (kept.length === 0 || kept[kept.length - 1].kind === "rule")) continue;
+    seen.add(key);
+    kept.push(block);
+  }
+  if (kept[kept.length - 1]?.kind === "rule") kept.pop();
+  return kept;
 }
 
 function write(parent: Element, list: Piece[]): void {
@@ -107,6 +128,9 @@ export function render(parent: Element, markdown: string): void {
         break;
       case "heading":
         write(add("strong", add("p")), block.pieces);
+        break;
+      case "rule":
+        add("hr");
         break;
       case "code":
         add("pre").textContent = block.text;

@@ -18,6 +18,9 @@ interface Chosen {
 
 const KEY = "gearloss-workbench-points";
 
+/** Range of a given oil temperature. [degC] */
+const OIL: [number, number] = [0, 120];
+
 export class PointPane {
   private controls: Controls | null = null;
   private chosen: Chosen | null = null;
@@ -32,18 +35,21 @@ export class PointPane {
   ) {}
 
   /** Forgets the controls of another gearbox. */
-  begin(gearbox: string): void {
+  begin(gearbox: string | null): void {
     if (this.gearbox === gearbox) return;
     this.gearbox = gearbox;
     this.controls = null;
     this.chosen = null;
     this.shape = "";
+    this.sliders = [];
+    this.oil = null;
     this.host.replaceChildren();
   }
 
   /** Shows the controls; what was chosen stays as far as it exists. True if the point is another one. */
   show(controls: Controls): boolean {
-    const before = JSON.stringify(this.point());
+    const state = () => JSON.stringify([this.point(), this.wrong]);
+    const before = state();
     const kept = this.chosen ?? stored<Record<string, Chosen>>(KEY, {}, sessionStorage)[this.gearbox ?? ""] ?? null;
     const gear = controls.gears.find((g) => g.name === kept?.gear) ?? controls.gears[0];
     this.controls = controls;
@@ -51,7 +57,7 @@ export class PointPane {
       gear: gear?.name ?? "",
       model_set: kept && controls.model_sets.includes(kept.model_set) ? kept.model_set : (controls.model_sets[0] ?? ""),
       oil: kept?.oil ?? null,
-      oil_range: kept?.oil_range ?? [0, 120],
+      oil_range: kept?.oil_range ?? OIL,
       inputs: kept?.inputs ?? {},
     };
     // The fields that are shown write into this object.
@@ -61,7 +67,14 @@ export class PointPane {
       this.shape = shape;
       this.build();
     }
-    return before !== JSON.stringify(this.point());
+    return before !== state();
+  }
+
+  /** Keeps the point for a gearbox whose file has another name now. */
+  rename(gearbox: string, name: string): void {
+    if (this.gearbox !== gearbox) return;
+    this.gearbox = name;
+    this.keep();
   }
 
   private key(gear: string, input: Input): string {
@@ -125,22 +138,54 @@ export class PointPane {
       });
       slider.element.dataset.quantity = "oil";
       this.oil = slider;
+      this.showReset();
     };
     mode.addEventListener("change", () => {
       chosen.oil = mode.value === "given" ? (this.suggestedOil ?? controls.oil.value ?? 60) : null;
       sliderOfOil();
       this.notice("value");
     });
+    this.reset = html(host, "button", { type: "button", class: "reset-ranges", hidden: "" }, "Reset the ranges");
+    this.reset.addEventListener("click", () => {
+      for (const input of gear?.inputs ?? []) {
+        const kept = chosen.inputs[this.key(chosen.gear, input)];
+        if (kept) Object.assign(kept, { from: input.from, to: input.to });
+      }
+      chosen.oil_range = OIL;
+      this.build();
+      this.notice("range");
+    });
     sliderOfOil();
+    this.showReset();
     if (focused) host.querySelector<HTMLElement>(`[data-name="${focused}"]`)?.focus();
   }
 
   /** Temperature with which "given" begins: the one that was found last. */
   suggestedOil: number | null = null;
 
-  private notice(what: "value" | "range"): void {
+  private reset: HTMLElement | null = null;
+
+  /** Offers to reset the ranges if one was changed. */
+  private showReset(): void {
+    if (!this.reset) return;
+    const differs = ({ from, to }: { from: number; to: number }, low: number, high: number) => from !== Math.min(low, high) || to !== Math.max(low, high);
+    this.reset.hidden = !this.sliders.some(({ input, slider }) => differs(slider.state, input.from, input.to)) && !(this.oil && differs(this.oil.state, ...OIL));
+  }
+
+  private keep(): void {
     if (this.gearbox) store(KEY, { ...stored<Record<string, Chosen>>(KEY, {}, sessionStorage), [this.gearbox]: this.chosen }, sessionStorage);
+  }
+
+  private notice(what: "value" | "range"): void {
+    this.keep();
+    this.showReset();
     this.changed(what);
+  }
+
+  /** What is wrong in a field; null if nothing is. */
+  get wrong(): string | null {
+    const sliders = [...this.sliders.map((s) => s.slider), ...(this.oil ? [this.oil] : [])];
+    return sliders.map((s) => s.wrong).find((w) => w !== null) ?? null;
   }
 
   point(): PointOf | null {
@@ -152,11 +197,9 @@ export class PointPane {
 
   /** Ranges of the sliders for a map; null without one torque and one speed. */
   ranges(): { torque: { from: number; to: number }; speed: { from: number; to: number } } | null {
-    const of = (quantity: string) => this.sliders.find((s) => s.input.quantity === quantity)?.slider.state;
+    const of = (quantity: string) => this.sliders.find((s) => s.input.quantity === quantity)?.slider.shown;
     const [torque, speed] = [of("torque"), of("speed")];
-    if (!torque || !speed) return null;
-    const ends = ({ from, to }: SliderValue) => ({ from: Math.min(from, to), to: Math.max(from, to) });
-    return { torque: ends(torque), speed: ends(speed) };
+    return torque && speed ? { torque, speed } : null;
   }
 
   /** Values of speed and torque, for the mark on the map. */

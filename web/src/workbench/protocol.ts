@@ -210,7 +210,7 @@ export type Request =
   | { request: "new"; layout: string; values: Record<string, string> } // path to what was typed
   | { request: "new_study"; texts: Texts; gearbox: string } // to be saved in the folder of the gearbox
   | { request: "catalogue"; of: "bearings" | "oils"; text: string }
-  | { request: "watch"; files: Record<string, string> }; // file to the hash that the page knows
+  | { request: "watch"; files: Record<string, string> }; // file to the hash that the page knows; "": the file is not there
 
 export interface Answers {
   folder: {

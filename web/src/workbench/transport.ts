@@ -88,6 +88,38 @@ export class Http implements Transport {
   }
 }
 
+/** Tells when the program keeps the page waiting. */
+export class Patient implements Transport {
+  private readonly late = new Set<object>();
+
+  constructor(
+    private readonly inner: Transport,
+    /** Time until a request without an answer is late. [ms] */
+    private readonly patience: number,
+    /** Whether any request is late. */
+    private readonly waiting: (is: boolean) => void,
+  ) {}
+
+  async ask<N extends Single & keyof Answers>(request: Named<N>, signal?: AbortSignal): Promise<Answers[N]> {
+    // A fine map takes its time and says so itself.
+    if ((request as Request).request === "map") return this.inner.ask(request, signal);
+    const timer = setTimeout(() => {
+      this.late.add(request);
+      this.waiting(true);
+    }, this.patience);
+    try {
+      return await this.inner.ask(request, signal);
+    } finally {
+      clearTimeout(timer);
+      if (this.late.delete(request) && this.late.size === 0) this.waiting(false);
+    }
+  }
+
+  stream<E>(request: Named<"run"> | Named<"watch">, signal?: AbortSignal): AsyncIterable<E> {
+    return this.inner.stream<E>(request, signal);
+  }
+}
+
 /** One kind of request, of which only the newest counts: a new one aborts the one before. */
 export class Newest {
   private running: AbortController | null = null;

@@ -11,11 +11,13 @@ import { merged } from "./diff.ts";
 import { Drafts } from "./drafts.ts";
 import { DrawingPane } from "./drawing.ts";
 import { Editor } from "./editor.ts";
-import { Files, kindOf, plainLines, shortName } from "./files.ts";
-import { FindingsList } from "./findings.ts";
-import { freeName, newGearbox } from "./form.ts";
+import { plainLines } from "./ends.ts";
+import { Files, kindOf, shortName } from "./files.ts";
+import { FindingsList, refusal } from "./findings.ts";
+import { newGearbox } from "./form.ts";
 import { drawLosses, nameOf } from "./losses.ts";
 import { MapPane } from "./map.ts";
+import { fileName, freeName, nameFault } from "./names.ts";
 import { Notices } from "./notices.ts";
 import { Numbers } from "./numbers.ts";
 import { Pace, Quiet } from "./pace.ts";
@@ -27,11 +29,14 @@ import { store, stored } from "./storage.ts";
 import { StudyPane } from "./study.ts";
 import { Tabs } from "./tabs.ts";
 import { theme } from "./theme.ts";
-import { Gone, Locked, Newest, Refused, type Transport } from "./transport.ts";
+import { Gone, Locked, Newest, Patient, Refused, type Transport } from "./transport.ts";
 import { Watch } from "./watch.ts";
 
 /** Files that this tab has open, for a reload. */
 const OPEN = "gearloss-workbench-open";
+
+/** Time after which the page says that it waits for the program. [ms] */
+const PATIENCE = 3000;
 
 const at = (id: string) => document.getElementById(id)!;
 
@@ -78,7 +83,10 @@ export class Workbench {
   private readonly keep = new Quiet(250, () => this.keepDrafts());
   private readonly rewatch = new Quiet(50, () => this.watch.restart());
 
-  constructor(private readonly transport: Transport) {
+  private readonly transport: Transport;
+
+  constructor(program: Transport) {
+    this.transport = new Patient(program, PATIENCE, (is) => (is && !this.isDown ? this.notices.show("waiting", { text: "Waiting for the program.", kind: "warn" }) : this.notices.hide("waiting")));
     theme(at("theme") as HTMLButtonElement);
     this.showPane = narrowTabs(at("narrow"), [
       ["text", "Text"],
@@ -126,17 +134,20 @@ export class Workbench {
     const drawingPanel = this.results.panels.get("drawing")!;
     drawingPanel.append(at("drawing"), at("explain"));
     this.map = new MapPane(this.results.panels.get("map")!, this.books, (place) => this.point.moveTo(place), () => void this.readMap());
-    this.study = new StudyPane(this.results.panels.get("study")!, transport, () => this.files.texts(), this.books, (place) => void this.goTo(place), (fault) => void this.lost(fault), () => void this.newStudy());
-    this.watch = new Watch(transport, {
-      files: () => Object.fromEntries([...this.files.open.values()].flatMap((f) => (f.hash === null ? [] : [[f.file, f.hash]]))),
+    this.study = new StudyPane(this.results.panels.get("study")!, this.transport, this.files, this.books, (place) => void this.goTo(place), (fault) => void this.lost(fault), () => void this.newStudy());
+    this.watch = new Watch(this.transport, {
+      files: () => Object.fromEntries([...this.files.open.values()].flatMap((f) => (f.hash === null ? [] : [[f.file, f.removed ? "" : f.hash]]))),
       changed: (file, text, hash) => this.changedOnDisk(file, text, hash),
       removed: (file) => this.removedOnDisk(file),
+      unreadable: (file, reason) => this.unreadableOnDisk(file, reason),
       up: () => this.up(),
       down: () => this.down(),
       locked: () => this.locked(),
     });
     this.files.onChange((own) => this.changed(own.file));
     at("save").addEventListener("click", () => void this.save());
+    at("save-as").addEventListener("click", () => void this.saveAs());
+    at("new").addEventListener("click", () => void this.refreshFolder());
     at("new").addEventListener("click", () => newGearbox(this.folder.layouts, this.transport, () => this.names(), (file, text) => this.create(file, text)));
     at("pin").addEventListener("click", () => this.setPin());
     at("unpin").addEventListener("click", () => this.setPin(null));
@@ -255,9 +266,13 @@ export class Workbench {
 
   private create(file: string, text: string): void {
     this.notices.hide("empty");
+    // The editor may still have the text of a file that had this name.
+    this.editor.close(file);
     this.files.add(file, text, null);
     this.show(file);
     this.results.choose("drawing");
+    this.showPane("text");
+    this.editor.view.focus();
   }
 
   /** A study of the gearbox of the operating point, as a new file beside it. */
@@ -267,6 +282,7 @@ export class Workbench {
     try {
       const { text } = await this.transport.ask({ request: "new_study", texts: this.files.texts(), gearbox });
       const file = freeName(`${gearbox.slice(0, gearbox.lastIndexOf("/") + 1)}study.yaml`, this.names());
+      this.editor.close(file);
       this.files.add(file, text, null);
       this.show(file);
     } catch (fault) {
@@ -305,6 +321,7 @@ export class Workbench {
     at("no-file").hidden = current !== null;
     at("editor").hidden = current === null;
     (at("save") as HTMLButtonElement).disabled = !current || !this.files.isUnsaved(current);
+    (at("save-as") as HTMLButtonElement).disabled = !current;
     this.showOthers();
   }
 
@@ -326,19 +343,54 @@ export class Workbench {
     this.editor.close(file);
     this.findings.delete(file);
     this.drafts?.drop(file);
-    this.notices.hide(`disk ${file}`);
+    for (const kind of ["disk", "unreadable", "save", "close"]) this.notices.hide(`${kind} ${file}`);
     if (this.gearbox === file) this.gearbox = null;
-    if (this.openStudy === file) {
-      this.openStudy = null;
-      this.study.none();
-    }
+    this.study.closed(file);
+    if (this.openStudy === file) this.openStudy = this.first("study");
     const next = [...this.files.open.keys()][0];
     if (was && next) this.show(next);
     else {
       this.showTabs();
       if (was) this.findingsList.none();
+      if (this.editor.current) this.changed(this.editor.current);
     }
+    if (!this.gearbox) this.withoutGearbox();
     this.rewatch.call();
+  }
+
+  /** The first open file of a kind. */
+  private first(kind: "gearbox" | "study"): string | null {
+    return [...this.files.open.values()].find((f) => kindOf(f.text) === kind)?.file ?? null;
+  }
+
+  /** Shows that there is no gearbox: nothing of one that was closed stays. */
+  private withoutGearbox(): void {
+    for (const kind of ["controls", "point", "drawing", "map", "explain"]) this.newestOf(kind).abort();
+    this.answer = null;
+    this.choosePart(null, null);
+    this.point.begin(null);
+    this.clearNumbers();
+    this.drawing.message("No gearbox is open.");
+    this.drawnOf = null;
+    this.map.message("No gearbox is open.");
+    this.map.say("");
+    this.mapOf = null;
+    this.mapShown = "";
+    at("gearbox-title").textContent = at("gearbox-title").title = "";
+    at("point-message").hidden = true;
+    delete document.documentElement.dataset.stale;
+  }
+
+  /** Shows no numbers, losses and steps. */
+  private clearNumbers(): void {
+    this.numbers.clear();
+    this.convergence.clear();
+    this.waterfall?.remove();
+    this.waterfall = null;
+    for (const panel of this.losses.panels.values()) panel.replaceChildren();
+    for (const id of ["status", "timing"]) at(id).textContent = "";
+    at("notes").hidden = true;
+    (at("pin") as HTMLButtonElement).disabled = true;
   }
 
   private async save(file = this.editor.current): Promise<boolean> {
@@ -346,30 +398,86 @@ export class Workbench {
     if (!file || !own || !this.files.isUnsaved(file)) return true;
     const text = this.files.onDisk(file);
     try {
-      const answer = await this.transport.ask({ request: "save", file, text, hash: own.hash });
+      const answer = await this.transport.ask({ request: "save", file, text, hash: own.removed ? null : own.hash });
       if ("changed" in answer) {
         const { text: disk, hash } = answer.changed;
-        if (disk === null || hash === null) this.removedOnDisk(file);
-        else this.changedOnDisk(file, disk, hash);
+        if (disk === null || hash === null) {
+          // A file whose text cannot be read is not overwritten.
+          if (this.notices.has(`unreadable ${file}`)) this.notSaved(file, "the file on the disk cannot be read");
+          else this.removedOnDisk(file);
+          return false;
+        }
+        if (own.removed && hash === own.hash) {
+          // It came back as it was.
+          this.files.setRemoved(file, false);
+          return this.save(file);
+        }
+        this.changedOnDisk(file, disk, hash);
         return false;
       }
       this.files.setSaved(file, text, answer.saved);
-      this.notices.hide(`disk ${file}`);
+      for (const kind of ["disk", "unreadable", "save"]) this.notices.hide(`${kind} ${file}`);
       this.rewatch.call();
       void this.refreshFolder();
       return true;
     } catch (fault) {
-      if (fault instanceof Refused) this.notices.show("save", { text: `${file} is not saved: ${fault.message}${fault.fault.help ? ` help: ${fault.fault.help}` : ""}`, kind: "bad", actions: [{ label: "Close", act: () => undefined }] });
+      if (fault instanceof Refused) this.notSaved(file, `${fault.message}${fault.fault.help ? ` help: ${fault.fault.help}` : ""}`);
       else void this.lost(fault);
       return false;
     }
   }
 
+  private notSaved(file: string, why: string): void {
+    this.notices.show(`save ${file}`, {
+      text: `${file} is not saved: ${why}`,
+      kind: "bad",
+      actions: [
+        { label: "Save as", act: () => void this.saveAs(file) },
+        { label: "Close", act: () => undefined },
+      ],
+    });
+  }
+
+  /** Saves a text under another name, which is then its own; a file that it has on the disk stays as it is there. */
+  private async saveAs(file = this.editor.current): Promise<void> {
+    if (!file || !this.files.get(file)) return;
+    await this.refreshFolder();
+    const extension = /\.csv$/i.test(file) ? "csv" : "yaml";
+    const known = () => this.names();
+    const suggested = this.files.get(file)!.hash === null ? file : freeName(file, known());
+    // A new file is on no disk: its own name is free.
+    const taken = () => known().filter((name) => name !== file || this.files.get(file)?.hash !== null);
+    const typed = await askName("Save as", "File", suggested, undefined, (name) => nameFault(fileName(name, extension), taken()));
+    if (typed === null || !this.files.get(file)) return;
+    const name = fileName(typed, extension);
+    if (name !== file) this.rename(file, name);
+    if (await this.save(name)) this.notices.say(`${name} is saved.`);
+  }
+
+  private rename(file: string, name: string): void {
+    this.drafts?.drop(file);
+    this.drafted.delete(file);
+    this.findings.delete(file);
+    for (const kind of ["disk", "unreadable", "save", "close"]) this.notices.hide(`${kind} ${file}`);
+    this.editor.close(name);
+    this.files.rename(file, name);
+    this.editor.renameFile(file, name);
+    this.point.rename(file, name);
+    this.study.rename(file, name);
+    if (this.gearbox === file) this.gearbox = name;
+    if (this.drawnOf === file) this.drawnOf = name;
+    if (this.openStudy === file) this.openStudy = name;
+    this.changed(name);
+    this.rewatch.call();
+  }
+
   private changedOnDisk(file: string, written: string, hash: string): void {
     const own = this.files.get(file);
-    if (!own || own.hash === hash) return;
+    this.notices.hide(`unreadable ${file}`);
+    if (!own) return;
+    if (own.hash === hash) return this.files.setRemoved(file, false);
     const disk = plainLines(written);
-    if (own.text === disk || !this.files.isUnsaved(file)) {
+    if (own.text === disk || !this.files.isEdited(file)) {
       this.files.setSaved(file, written, hash);
       this.editor.replace(file, disk);
       this.notices.hide(`disk ${file}`);
@@ -409,10 +517,15 @@ export class Workbench {
 
   private removedOnDisk(file: string): void {
     const own = this.files.get(file);
-    if (!own || own.hash === null) return;
-    this.files.setSaved(file, "", null);
+    if (!own || own.hash === null || own.removed) return;
+    this.notices.hide(`unreadable ${file}`);
+    this.files.setRemoved(file, true);
     this.notices.say(`${file} was removed from the disk. Its text is kept here; saving writes it again.`);
-    this.rewatch.call();
+  }
+
+  private unreadableOnDisk(file: string, reason: string): void {
+    if (!this.files.get(file)) return;
+    this.notices.show(`unreadable ${file}`, { text: `${file} was changed on the disk and cannot be read: ${reason}. The text here is the one before.`, kind: "bad", actions: [{ label: "Close", act: () => undefined }] });
   }
 
   private async goTo(place: FileRange): Promise<void> {
@@ -457,7 +570,7 @@ export class Workbench {
               if (draft.hash === null && !this.files.get(draft.file)) this.files.add(draft.file, draft.text, null);
               else if (!(await this.open(draft.file))) this.files.add(draft.file, draft.text, null);
               const own = this.files.get(draft.file)!;
-              const [disk, hash] = [own.saved, own.hash];
+              const [disk, hash] = [own.disk, own.hash];
               if (hash !== null && draft.hash !== null && hash !== draft.hash) {
                 // The disk has changed since: as if it had changed while the text was open.
                 this.files.setSaved(draft.file, draft.base, draft.hash);
@@ -486,20 +599,12 @@ export class Workbench {
     const kind = kindOf(this.files.get(file)?.text ?? "");
     // The gearbox that was shown last stays while another file is edited.
     if (file === current && kind === "gearbox" && this.gearbox !== file) {
-      this.gearbox = file;
-      this.answer = null;
-      this.point.begin(file);
-      this.choosePart(null, null);
-      this.control.call();
-      this.redraw.call();
+      this.choose(file);
     }
     if (kind === "study" && (file === current || !this.openStudy)) this.openStudy = file;
     if (!this.gearbox) {
-      const first = [...this.files.open.values()].find((f) => kindOf(f.text) === "gearbox");
-      if (first) {
-        this.gearbox = first.file;
-        this.point.begin(first.file);
-      }
+      const first = this.first("gearbox");
+      if (first) this.choose(first);
     }
     this.check.call();
     if (this.gearbox) {
@@ -509,6 +614,15 @@ export class Workbench {
       this.remap.call();
     }
     if (this.openStudy) this.list.call();
+    this.study.compare();
+  }
+
+  /** Takes another gearbox for the operating point. */
+  private choose(gearbox: string): void {
+    this.gearbox = gearbox;
+    this.answer = null;
+    this.point.begin(gearbox);
+    this.choosePart(null, null);
   }
 
   private async findFindings(): Promise<void> {
@@ -516,9 +630,12 @@ export class Workbench {
     // Tables have no findings of their own: the file that reads them has.
     if (!file || !/\.ya?ml$/i.test(file)) return;
     const begun = this.event;
+    const text = this.files.get(file)?.text;
     try {
       const answer = await this.newestOf("findings").ask({ request: "edit", texts: this.files.texts(), edit: { request: "findings", file } });
       if (answer?.answer !== "findings" || file !== this.editor.current) return;
+      // Places in a text that has changed since would be wrong; the marks of before move with the text until the next answer.
+      if (this.files.get(file)?.text !== text) return;
       this.findings.set(file, answer.value);
       this.editor.mark(file, answer.value);
       this.findingsList.show(file, answer.value);
@@ -543,7 +660,7 @@ export class Workbench {
     } catch (fault) {
       if (fault instanceof Refused && !this.point.point()) {
         at("gearbox-title").textContent = gearbox;
-        this.stale(fault.message);
+        this.stale(refusal(fault.fault, this.names(), false));
       } else void this.lost(fault);
     }
   }
@@ -551,6 +668,11 @@ export class Workbench {
   private async solvePoint(): Promise<void> {
     const of = this.point.point();
     if (!of || of.gearbox !== this.gearbox) return;
+    const wrong = this.point.wrong;
+    if (wrong !== null) {
+      this.newestOf("point").abort();
+      return this.stale(`${wrong}. Nothing is solved until then.`);
+    }
     const begun = this.event;
     try {
       const answer = await this.newestOf("point").ask({ request: "point", texts: this.files.texts(), ...of });
@@ -562,12 +684,14 @@ export class Workbench {
       pane.dataset.solved = String(Number(pane.dataset.solved ?? 0) + 1);
       at("timing").textContent = `${Math.round(performance.now() - begun)} ms`;
     } catch (fault) {
-      if (fault instanceof Refused) this.stale(fault.fault.findings.length ? "The gearbox has errors; the numbers are those before them." : fault.message);
+      if (fault instanceof Refused) this.stale(refusal(fault.fault, this.names(), this.answer !== null));
       else void this.lost(fault);
     }
   }
 
   private stale(message: string): void {
+    // What is shown is of another gearbox.
+    if (!this.answer) this.clearNumbers();
     document.documentElement.dataset.stale = "";
     const place = at("point-message");
     place.textContent = words(message);
@@ -581,10 +705,11 @@ export class Workbench {
     const message = at("point-message");
     message.hidden = answer.loss !== null;
     message.textContent = answer.loss === null ? `There is no result at this point (${words(answer.status)}). ${words(answer.convergence.outcome)}` : "";
-    this.numbers.show(answer, this.pin?.answer ?? null);
+    const speed = this.answer.of.inputs.find((input) => input.quantity === "speed");
+    this.numbers.show(answer, this.pin?.answer ?? null, speed?.port ?? null);
     at("status").textContent = words(answer.status);
     at("notes").hidden = answer.remarks.length === 0;
-    at("remarks").replaceChildren(...answer.remarks.map((remark) => html(null, "li", {}, words(remark))));
+    at("remarks").replaceChildren(...answer.remarks.map((remark) => html(null, "li", {}, words(remark.replace(/^note: /, "")))));
     this.point.suggestedOil = answer.oil === null ? null : Math.round(answer.oil);
     this.showLosses();
     this.convergence.show(answer.convergence);
@@ -677,22 +802,27 @@ export class Workbench {
     }
   }
 
+  private drawnOf: string | null = null;
+
   private async readDrawing(): Promise<void> {
     const gearbox = this.gearbox;
     if (!gearbox) return;
     try {
       const answer = await this.newestOf("drawing").ask({ request: "drawing", texts: this.files.texts(), gearbox });
-      if (answer && gearbox === this.gearbox) this.drawing.show(answer.svg, answer.places);
+      if (!answer || gearbox !== this.gearbox) return;
+      this.drawnOf = gearbox;
+      this.drawing.show(answer.svg, answer.places);
     } catch (fault) {
-      // With an error in the text the drawing before it stays.
-      if (!(fault instanceof Refused)) void this.lost(fault);
+      // With an error in the text the drawing before it stays, if it is of this gearbox.
+      if (!(fault instanceof Refused)) return void this.lost(fault);
+      if (this.drawnOf !== gearbox && gearbox === this.gearbox) this.drawing.message("The gearbox cannot be drawn yet.");
     }
   }
 
   private async readMap(): Promise<void> {
     if (this.results.chosen !== "map") return;
     const [of, ranges] = [this.point.point(), this.point.ranges()];
-    if (!of) return;
+    if (!of || this.point.wrong !== null) return;
     if (!ranges) return this.map.message("A map needs a torque and a speed; this gear has other inputs.");
     const { gearbox, gear, model_set, oil_temperature } = of;
     const own: MapOf = { gearbox, gear, model_set, oil_temperature, ...ranges, count: Number(this.map.count.value) };

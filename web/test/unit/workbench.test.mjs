@@ -18,15 +18,20 @@ async function load(name) {
 
 const { differenceOf } = await load("difference");
 const { changes, merged, replacement, rows } = await load("diff");
+const { plainLines, withEnds } = await load("ends");
+const { entryOf } = await load("entry");
 const { Files, kindOf, shortName } = await load("files");
-const { fieldOf, freeName } = await load("form");
+const { refusal } = await load("findings");
+const { fieldOf } = await load("form");
 const { rowsOf } = await load("losses");
 const { blocks, pieces } = await load("markdown");
-const { signed } = await load("numbers");
+const { fileName, freeName, nameFault, namedBy } = await load("names");
+const { outputOf, signed } = await load("numbers");
 const { byteOf, unitOf, unitsOf } = await load("offsets");
 const { Pace, Quiet } = await load("pace");
 const { stepOf } = await load("sliders");
 const { fit, fitting } = await load("suggestions");
+const { Patient } = await load("transport");
 
 test("bytes and UTF-16 units agree with the encoder, with umlauts, signs of three bytes and emoji", () => {
   const text = "oil: Öl\n# ≤ 3 °C 🙂 ﬀ\nshafts: { ä: 1 }\n";
@@ -93,6 +98,8 @@ test("explanations are Markdown without HTML", () => {
   assert.deepEqual(pieces("a `b*c*` **d** *e* 2*3*4 [f](http://g) <i>h</i>"), [
     { text: "a " }, { text: "b*c*", style: "code" }, { text: " " }, { text: "d", style: "bold" }, { text: " " }, { text: "e", style: "emphasis" }, { text: " 2*3*4 " }, { text: "f" }, { text: " <i>h</i>" },
   ]);
+  assert.deepEqual(blocks("a\n\n---\n\na\n\n---\n\nb\n\n***\n").map((b) => b.kind), ["paragraph", "rule", "paragraph"], "rules, and what is said twice");
+  assert.deepEqual(blocks("- --- x").map((b) => b.kind), ["list"]);
   assert.deepEqual(pieces("mean_mu_mz \\*"), [{ text: "mean_mu_mz " }, { text: "*" }]);
 });
 
@@ -193,6 +200,9 @@ test("files know what is not saved", () => {
   assert.deepEqual(files.texts(), {});
   assert.equal(kindOf('# a\ngearloss: "study/1"\n'), "study");
   assert.equal(kindOf("a: 1"), "other");
+  assert.equal(kindOf("\uFEFFgearloss: gearbox/1"), "gearbox", "a byte order mark");
+  assert.equal(kindOf('"gearloss" : study/1'), "study", "a quoted key");
+  assert.equal(kindOf("gearloss': study/1"), "other");
   assert.equal(shortName("a/g.yaml", ["a/g.yaml", "s.yaml"]), "g.yaml");
   assert.equal(shortName("a/g.yaml", ["a/g.yaml", "b/g.yaml"]), "a/g.yaml");
   assert.equal(shortName("g.yaml", ["g.yaml", "b/g.yaml"]), "g.yaml");
@@ -210,6 +220,99 @@ test("line ends of the disk are written again, and do not shift offsets", () => 
   assert.equal(files.isUnsaved("w.yaml"), false);
   files.setSaved("w.yaml", "a: 3\nb: 2\n", "3");
   assert.deepEqual(files.texts(), {});
+});
+
+test("with mixed line ends each unchanged line keeps its own", () => {
+  const disk = "a\r\nb\nc\r\nd\re\r\n";
+  const text = plainLines(disk);
+  assert.equal(text, "a\nb\nc\nd\ne\n");
+  assert.equal(withEnds(disk, text), disk);
+  assert.equal(withEnds(disk, "new\na\nb\nc\nD\ne\n"), "new\r\na\r\nb\nc\r\nD\r\ne\r\n");
+  assert.equal(withEnds(disk, "a\nb\nd\ne"), "a\r\nb\nd\re");
+  assert.equal(withEnds("", "a\nb"), "a\nb");
+  assert.equal(withEnds("x", "a\nb"), "a\nb");
+  const files = new Files();
+  files.add("m.yaml", disk, "1");
+  files.setText("m.yaml", text.replace("c", "C"));
+  assert.equal(files.onDisk("m.yaml"), disk.replace("c", "C"));
+  assert.deepEqual(Object.keys(files.texts()), ["m.yaml"]);
+});
+
+test("a removed file keeps what it was, for a merge when it comes back", () => {
+  const files = new Files();
+  files.add("a.yaml", "a\nb\nc\n", "1");
+  files.setRemoved("a.yaml", true);
+  assert.equal(files.isUnsaved("a.yaml"), true);
+  assert.equal(files.isEdited("a.yaml"), false);
+  const { saved, hash } = files.get("a.yaml");
+  assert.deepEqual([saved, hash], ["a\nb\nc\n", "1"]);
+  files.setSaved("a.yaml", "a\nb\nc\nd\n", "2");
+  assert.equal(files.get("a.yaml").removed, false);
+  files.rename("a.yaml", "b.yaml");
+  assert.equal(files.get("a.yaml"), undefined);
+  assert.equal(files.get("b.yaml").hash, null);
+  assert.equal(files.isUnsaved("b.yaml"), true);
+});
+
+test("a decimal comma is no number", () => {
+  for (const [typed, value] of [["12.5", 12.5], [" -3 ", -3], ["1e3", 1000], ["1E-2", 0.01], [".5", 0.5], ["5.", 5], ["+2", 2], ["\u22124", -4]]) assert.deepEqual(entryOf(typed), { value });
+  for (const [typed, fault] of [["12,5", "write 12.5"], ["-0,25", "write -0.25"], ["1,000.5", "write 1000.5"], ["1,000", "write 1000 or 1.000"], ["0,125", "write 0.125"], ["1,000,000", "write 1000000"]]) assert.deepEqual(entryOf(typed), { fault });
+  for (const typed of ["", "-", "1e", "Infinity", "0x10", "1 2", "12.5 Nm", "NaN"]) assert.deepEqual(entryOf(typed), { fault: "write a number, such as 12.5 or 1e3" });
+  assert.deepEqual(entryOf("1e999"), { fault: "write a smaller number" });
+});
+
+test("names of new files are those that can be saved and are free", () => {
+  assert.equal(fileName(" gearbox "), "gearbox.yaml");
+  assert.equal(fileName("a.yml"), "a.yml");
+  assert.equal(fileName("a.YAML"), "a.yaml");
+  assert.equal(fileName("a.csv"), "a.csv.yaml");
+  assert.equal(fileName("a", "csv"), "a.csv");
+  const known = ["gearbox.yaml", "sub/Study.yaml", "a/b/c.csv"];
+  for (const name of ["new.yaml", "sub/new one-2_b.yaml", "a/b/x.yml", "a/x.yaml", "Öl.yaml"]) assert.equal(nameFault(name, known), null, name);
+  for (const typed of ["gearbox", "Gearbox.yaml", "gearbox.YAML", "SUB/study"]) assert.notEqual(nameFault(fileName(typed), known), null, typed);
+  for (const typed of ["gearbox", "Gearbox.yaml", "sub/study"]) assert.match(nameFault(fileName(typed), known), /exists already/, typed);
+  for (const typed of ["", "../out.yaml", "A:B", ".hidden.yaml", "sub/none/new.yaml", "/root.yaml", "sub/", "sub//x", "a\\b", "sub/.x", "none/x", "./x"]) assert.equal(typeof nameFault(fileName(typed), known), "string", typed);
+});
+
+test("a file names others by their paths from its folder", () => {
+  const texts = { "a/study.yaml": "gearbox: gearbox.yaml", "a/gearbox.yaml": "map: ../maps/loss.csv", "b/gearbox.yaml": "", "maps/loss.csv": "1,2" };
+  assert.deepEqual(namedBy("a/study.yaml", texts), ["a/study.yaml", "a/gearbox.yaml", "maps/loss.csv"]);
+});
+
+test("errors are those of the text only if the text shows them", () => {
+  const finding = (file, severity = "error") => ({ severity, code: "", path: "", message: "no", help: null, notes: [], place: file && { file, range: {} }, related: [] });
+  const fault = (...findings) => ({ message: "the torque is too large", help: "give less", findings });
+  assert.match(refusal(fault(finding("a.yaml")), ["a.yaml"], true), /numbers are those before/);
+  assert.equal(refusal(fault(finding("a.yaml")), ["a.yaml"], false), "The gearbox has errors.");
+  for (const own of [fault(), fault(finding(null)), fault(finding("b.yaml")), fault(finding("a.yaml", "warning"))]) assert.equal(refusal(own, ["a.yaml"], true), "the torque is too large; help: give less");
+});
+
+test("the output of a gearbox with two ports is at the port whose speed is not given", () => {
+  const port = (port, speed_rpm, torque_nm) => ({ port, speed_rpm, torque_nm });
+  const answer = (...ports) => ({ point: { ports } });
+  const two = answer(port("in", 1000, 10), port("out", 250, -39));
+  assert.deepEqual(outputOf(two, "in"), { port: "out", torque: 39, ratio: 4 });
+  assert.deepEqual(outputOf(two, null), { port: "out", torque: 39, ratio: 4 });
+  assert.deepEqual(outputOf(two, "out"), { port: "in", torque: -10, ratio: 0.25 });
+  assert.equal(outputOf(answer(port("in", 1000, 10), port("out", 0, null)), "in").ratio, null);
+  assert.equal(outputOf(answer(port("a", 1, 1), port("b", 1, 1), port("c", 1, 1)), "a"), null);
+});
+
+test("a request that stays without an answer is noticed, and its answer too", async () => {
+  const said = [];
+  let answer;
+  const patient = new Patient({ ask: () => new Promise((done) => (answer = done)) }, 20, (is) => said.push(is));
+  const asked = patient.ask({ request: "folder" });
+  await new Promise((done) => setTimeout(done, 40));
+  assert.deepEqual(said, [true]);
+  answer({});
+  await asked;
+  assert.deepEqual(said, [true, false]);
+  const quick = patient.ask({ request: "folder" });
+  answer({});
+  await quick;
+  await new Promise((done) => setTimeout(done, 40));
+  assert.deepEqual(said, [true, false]);
 });
 
 test("faults of a form belong to their fields", () => {
