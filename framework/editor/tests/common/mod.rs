@@ -23,7 +23,7 @@ pub fn examples() -> Vec<PathBuf> {
     let mut found = Vec::new();
     for folder in [
         "examples",
-        "src/commands/new/layouts",
+        "framework/workbench/src/form/layouts",
         "tests/results",
         "tests/foreign_map",
     ] {
