@@ -5,6 +5,7 @@ import { colourByLoss, heatScale, legible } from "./drawing.ts";
 import { significant, words } from "./format.ts";
 import { html } from "./svg.ts";
 import { equip } from "./table.ts";
+import { theme } from "./theme.ts";
 
 const data: Record<string, Picture> = JSON.parse(document.getElementById("pictures")?.textContent || "{}");
 const books = colourBooks(Object.values(data));
@@ -69,38 +70,6 @@ function tables(): void {
     const name = table.caption?.textContent?.trim() || table.closest("section")?.querySelector("h2")?.textContent?.trim() || "table";
     equip(table, name);
   }
-}
-
-function theme(): void {
-  const button = document.getElementById("theme");
-  const dark = matchMedia("(prefers-color-scheme: dark)");
-  const remembered = () => {
-    try {
-      return localStorage.getItem("gearloss-theme");
-    } catch {
-      return null;
-    }
-  };
-  const apply = (name: string | null) => {
-    if (name) document.documentElement.dataset.theme = name;
-    else delete document.documentElement.dataset.theme;
-    const is = name ? name === "dark" : dark.matches;
-    if (!button) return;
-    button.dataset.next = is ? "light" : "dark";
-    button.textContent = is ? "Light" : "Dark";
-    button.setAttribute("aria-label", `${button.textContent} colours`);
-  };
-  apply(remembered());
-  dark.addEventListener("change", () => apply(remembered()));
-  button?.addEventListener("click", () => {
-    const next = button.dataset.next ?? "dark";
-    try {
-      localStorage.setItem("gearloss-theme", next);
-    } catch {
-      // A page without storage forgets it.
-    }
-    apply(next);
-  });
 }
 
 function navigation(): void {
@@ -258,7 +227,8 @@ function drawings(): void {
 }
 
 document.documentElement.classList.add("script");
-theme();
+const colours = document.getElementById("theme");
+if (colours) theme(colours);
 typography();
 tables();
 arrange();

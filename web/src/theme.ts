@@ -1,4 +1,4 @@
-// Light and dark colours: those of the system until the button chooses; the report remembers the same choice.
+// Light and dark colours: those of the system until the button chooses.
 
 const KEY = "gearloss-theme";
 
@@ -10,7 +10,7 @@ function remembered(): string | null {
   }
 }
 
-export function theme(button: HTMLButtonElement): void {
+export function theme(button: HTMLElement): void {
   const dark = matchMedia("(prefers-color-scheme: dark)");
   const apply = (name: string | null) => {
     if (name) document.documentElement.dataset.theme = name;

@@ -17,9 +17,6 @@ const root = await mkdtemp(join(tmpdir(), "gearloss-workbench-"));
 const folder = join(root, "gearboxes");
 for (const name of ["planetary-reducer", "two-speed-ev"]) await cp(join(examples, name), join(folder, name), { recursive: true, filter: (file) => !file.includes("/results") });
 
-/** Times are figures: a machine that does other work is slow. What takes longer than this has another cause. [ms] */
-const SLOW = 3000;
-
 const faults = [];
 const figures = {};
 const check = (is, text) => {
@@ -160,7 +157,6 @@ async function same(page, what) {
   check(efficiency === line.efficiency, `${what}: efficiency ${efficiency} in the page, ${line.efficiency} by solve`);
   return line;
 }
-const quartile = (list) => [...list].sort((a, b) => a - b)[Math.floor(list.length / 4)];
 const median = (list) => [...list].sort((a, b) => a - b)[Math.floor(list.length / 2)];
 
 // First screen with the planetary example.
@@ -323,7 +319,7 @@ await step("The two-speed transmission", async () => {
     await until(page, "the error is gone", () => !document.querySelector(".cm-lintRange-error"));
   }
   figures.error_ms = Math.round(Math.max(...times));
-  check(Math.max(...times) < SLOW, `an error is underlined after ${times.map(Math.round)} ms`);
+  check(Math.max(...times) < 300, `an error is underlined after ${times.map(Math.round)} ms`);
 });
 
 // Completion of a designation.
@@ -409,8 +405,8 @@ await step("Dragged torque", async () => {
   figures.drag_median_ms = Math.round(median(latencies));
   figures.drag_longest_ms = Math.round(Math.max(...latencies));
   check(latencies.length > 5, `only ${latencies.length} solves while the torque is dragged`);
-  // On a busy machine some take longer.
-  check(quartile(latencies) < SLOW, `solved after ${figures.drag_median_ms} ms`);
+  // Other work of the machine only adds to a time: the shortest is that of the page and the program.
+  check(Math.min(...latencies) < 100, `solved after ${figures.drag_median_ms} ms`);
   await same(page, "after dragging the torque");
   // A key stroke in the text.
   const line = source.findIndex((l) => /\bra:\s*\d/.test(l));
@@ -426,7 +422,7 @@ await step("Dragged torque", async () => {
       await pause(400);
     }
     figures.stroke_median_ms = Math.round(median(strokes));
-    check(quartile(strokes) < SLOW, `solved ${strokes.map(Math.round)} ms after a key stroke`);
+    check(Math.min(...strokes) < 100, `solved ${strokes.map(Math.round)} ms after a key stroke`);
   }
   await until(page, "as before", () => !document.querySelector(".file.current .unsaved"));
 });

@@ -1,6 +1,6 @@
 // The page of `gearloss open`: the program is reached over HTTP.
 
-import { theme } from "./theme.ts";
+import { theme } from "../theme.ts";
 import { Http, tokenOfPage } from "./transport.ts";
 import { Workbench } from "./workbench.ts";
 

@@ -28,7 +28,7 @@ import type { Answers, FileRange, Finding, MapOf, PointAnswer, PointOf } from ".
 import { store, stored } from "./storage.ts";
 import { StudyPane } from "./study.ts";
 import { Tabs } from "./tabs.ts";
-import { theme } from "./theme.ts";
+import { theme } from "../theme.ts";
 import { Gone, Locked, Newest, Patient, Refused, type Transport } from "./transport.ts";
 import { Watch } from "./watch.ts";
 
