@@ -15,9 +15,6 @@ pub struct Fault {
     pub help: Option<String>,
     /// Findings in documents.
     pub findings: Vec<Finding>,
-    /// Whether a newer request has made it needless.
-    #[serde(skip)]
-    pub interrupted: bool,
 }
 
 impl Fault {
@@ -27,21 +24,12 @@ impl Fault {
             message: message.into(),
             help: Some(help.into()),
             findings: Vec::new(),
-            interrupted: false,
         }
     }
 
     /// A newer request has made the answer needless.
     pub fn interrupted() -> Self {
-        Self {
-            interrupted: true,
-            ..Self::new("interrupted", "ask again")
-        }
-    }
-
-    /// A fault with the finding of a field of a form.
-    pub fn of_field(finding: Diagnostic) -> Self {
-        Self::from(Findings::from(finding))
+        Self::new("interrupted", "ask again")
     }
 
     fn of(findings: Vec<Finding>) -> Self {
@@ -50,7 +38,6 @@ impl Fault {
             message: first.map_or_else(|| "no result".to_owned(), |finding| finding.message.clone()),
             help: first.and_then(|finding| finding.help.clone()),
             findings,
-            interrupted: false,
         }
     }
 }
@@ -63,7 +50,7 @@ impl From<Findings> for Fault {
 
 impl From<Diagnostic> for Fault {
     fn from(finding: Diagnostic) -> Self {
-        Self::of_field(finding)
+        Findings::from(finding).into()
     }
 }
 

@@ -60,7 +60,7 @@ pub(super) fn groups(layout: &Layout) -> Vec<Group> {
         layout,
         document: &document,
     };
-    let mut groups = vec![form.group(
+    let mut groups = vec![group(
         "Gearbox",
         vec![
             form.field("title", "Title", FieldKind::Text, ""),
@@ -70,7 +70,7 @@ pub(super) fn groups(layout: &Layout) -> Vec<Group> {
     )];
     groups.extend(form.meshes());
     groups.push(form.bearings());
-    groups.push(form.group(
+    groups.push(group(
         "Oil",
         vec![
             form.field("lubricants.sump.designation", "Oil", FieldKind::Oil, "of the catalogue"),
@@ -90,20 +90,20 @@ pub(super) fn groups(layout: &Layout) -> Vec<Group> {
     groups
 }
 
+/// A group of the fields whose values the template has.
+fn group(title: &str, fields: Vec<Option<Field>>) -> Group {
+    Group {
+        title: title.to_owned(),
+        fields: fields.into_iter().flatten().collect(),
+    }
+}
+
 struct Reader<'a> {
     layout: &'a Layout,
     document: &'a Node,
 }
 
 impl Reader<'_> {
-    #[allow(clippy::unused_self)]
-    fn group(&self, title: &str, fields: Vec<Option<Field>>) -> Group {
-        Group {
-            title: title.to_owned(),
-            fields: fields.into_iter().flatten().collect(),
-        }
-    }
-
     /// A field, if the template has its value.
     fn field(&self, path: &str, label: &str, kind: FieldKind, help: &str) -> Option<Field> {
         let value = at(self.document, path)?.text()?;
@@ -178,7 +178,7 @@ impl Reader<'_> {
                 value: format!("{} mm", known.value),
                 help: "determines the places of the axes".to_owned(),
             }));
-            groups.push(self.group(&format!("Mesh {mesh}: {}", gears.join(" and ")), fields));
+            groups.push(group(&format!("Mesh {mesh}: {}", gears.join(" and ")), fields));
         }
         groups
     }
@@ -194,7 +194,7 @@ impl Reader<'_> {
             let path = format!("seals.{id}.diameter");
             self.field(&path, &format!("Diameter of seal {id}"), FieldKind::Quantity, "")
         });
-        self.group("Bearings and seals", fields.chain(seals).collect())
+        group("Bearings and seals", fields.chain(seals).collect())
     }
 
     fn places(&self) -> Group {
@@ -205,6 +205,6 @@ impl Reader<'_> {
                 fields.push(self.field(&path, &format!("Position of {what} {id}"), FieldKind::Quantity, ""));
             }
         }
-        self.group("Positions along the shafts (middle of the face)", fields)
+        group("Positions along the shafts (middle of the face)", fields)
     }
 }

@@ -21,8 +21,7 @@ pub fn written(layout: &Layout, values: &BTreeMap<String, String>) -> Result<Str
     let mut changes: Vec<(Range<usize>, String)> = Vec::new();
     for (path, typed) in values {
         let typed = typed.trim();
-        let wrong =
-            |message: &str, help: &str| Err(Fault::of_field(Diagnostic::error(path.as_str(), message).help(help)));
+        let wrong = |message: &str, help: &str| Err(Fault::from(Diagnostic::error(path.as_str(), message).help(help)));
         let Some(field) = fields.iter().find(|field| field.path == *path) else {
             return wrong("the form has no such field", "choose a field of the form");
         };
@@ -203,7 +202,7 @@ fn millimetres(path: &str, typed: &str) -> Result<f64, Fault> {
         return Ok(bare);
     }
     let unit = Unit::of_symbol("mm").unwrap_or(Unit::ONE);
-    let wrong = |message: String, help: String| Fault::of_field(Diagnostic::error(path, message).help(help));
+    let wrong = |message: String, help: String| Fault::from(Diagnostic::error(path, message).help(help));
     let length = parse_quantity(typed, unit).map_err(|fault| {
         let help = fault.help.unwrap_or_else(|| "write a length such as 100 mm".to_owned());
         wrong(fault.message, help)

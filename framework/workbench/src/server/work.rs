@@ -30,25 +30,19 @@ pub struct Work {
 }
 
 /// Interrupts work when it is dropped.
-#[derive(Debug, Clone, Default)]
-pub struct Interrupt(Arc<Wanted>);
-
 #[derive(Debug, Default)]
-struct Wanted {
-    /// Set when nobody waits.
-    no_longer: Arc<AtomicBool>,
-}
+pub struct Interrupt(Arc<AtomicBool>);
 
-impl Drop for Wanted {
+impl Drop for Interrupt {
     fn drop(&mut self) {
-        self.no_longer.store(true, Ordering::Relaxed);
+        self.0.store(true, Ordering::Relaxed);
     }
 }
 
 impl Interrupt {
     /// Tells the work whether somebody waits.
     pub fn token(&self) -> Token {
-        Token(Arc::clone(&self.0.no_longer))
+        Token(Arc::clone(&self.0))
     }
 }
 
