@@ -4,14 +4,14 @@ import { ColourBook } from "../colours.ts";
 import { type Drawn, draw } from "../draw.ts";
 import { words } from "../format.ts";
 import { html } from "../svg.ts";
+import { theme } from "../theme.ts";
 import { componentOf, componentsOf } from "./components.ts";
 import { ConvergencePane } from "./convergence.ts";
-import { askName, showDifference } from "./dialogs.ts";
-import { merged } from "./diff.ts";
+import { askName } from "./dialogs.ts";
+import { Disk } from "./disk.ts";
 import { Drafts } from "./drafts.ts";
 import { DrawingPane } from "./drawing.ts";
 import { Editor } from "./editor.ts";
-import { plainLines } from "./ends.ts";
 import { Files, kindOf, shortName } from "./files.ts";
 import { FindingsList, refusal } from "./findings.ts";
 import { newGearbox } from "./form.ts";
@@ -28,7 +28,6 @@ import type { Answers, FileRange, Finding, MapOf, PointAnswer, PointOf } from ".
 import { store, stored } from "./storage.ts";
 import { StudyPane } from "./study.ts";
 import { Tabs } from "./tabs.ts";
-import { theme } from "../theme.ts";
 import { Gone, Locked, Newest, Patient, Refused, type Transport } from "./transport.ts";
 import { Watch } from "./watch.ts";
 
@@ -46,6 +45,7 @@ export class Workbench {
   private readonly notices = new Notices(at("notices"));
   private readonly newest = new Map<string, Newest>();
   private readonly editor: Editor;
+  private readonly disk: Disk;
   private readonly findingsList: FindingsList;
   private readonly point: PointPane;
   private readonly numbers = new Numbers(at("numbers"));
@@ -135,11 +135,12 @@ export class Workbench {
     drawingPanel.append(at("drawing"), at("explain"));
     this.map = new MapPane(this.results.panels.get("map")!, this.books, (place) => this.point.moveTo(place), () => void this.readMap());
     this.study = new StudyPane(this.results.panels.get("study")!, this.transport, this.files, this.books, (place) => void this.goTo(place), (fault) => void this.lost(fault), () => void this.newStudy());
+    this.disk = new Disk(this.files, this.editor, this.notices, () => this.rewatch.call());
     this.watch = new Watch(this.transport, {
       files: () => Object.fromEntries([...this.files.open.values()].flatMap((f) => (f.hash === null ? [] : [[f.file, f.removed ? "" : f.hash]]))),
-      changed: (file, text, hash) => this.changedOnDisk(file, text, hash),
-      removed: (file) => this.removedOnDisk(file),
-      unreadable: (file, reason) => this.unreadableOnDisk(file, reason),
+      changed: (file, text, hash) => this.disk.changed(file, text, hash),
+      removed: (file) => this.disk.removed(file),
+      unreadable: (file, reason) => this.disk.unreadable(file, reason),
       up: () => this.up(),
       down: () => this.down(),
       locked: () => this.locked(),
@@ -404,7 +405,7 @@ export class Workbench {
         if (disk === null || hash === null) {
           // A file whose text cannot be read is not overwritten.
           if (this.notices.has(`unreadable ${file}`)) this.notSaved(file, "the file on the disk cannot be read");
-          else this.removedOnDisk(file);
+          else this.disk.removed(file);
           return false;
         }
         if (own.removed && hash === own.hash) {
@@ -412,7 +413,7 @@ export class Workbench {
           this.files.setRemoved(file, false);
           return this.save(file);
         }
-        this.changedOnDisk(file, disk, hash);
+        this.disk.changed(file, disk, hash);
         return false;
       }
       this.files.setSaved(file, text, answer.saved);
@@ -471,63 +472,6 @@ export class Workbench {
     this.rewatch.call();
   }
 
-  private changedOnDisk(file: string, written: string, hash: string): void {
-    const own = this.files.get(file);
-    this.notices.hide(`unreadable ${file}`);
-    if (!own) return;
-    if (own.hash === hash) return this.files.setRemoved(file, false);
-    const disk = plainLines(written);
-    if (own.text === disk || !this.files.isEdited(file)) {
-      this.files.setSaved(file, written, hash);
-      this.editor.replace(file, disk);
-      this.notices.hide(`disk ${file}`);
-      this.rewatch.call();
-      return;
-    }
-    const base = own.saved;
-    // Until it is decided the file on the disk is not overwritten: the hash stays.
-    const decide = (text: string | null) => {
-      this.notices.hide(`disk ${file}`);
-      this.files.setSaved(file, written, hash);
-      if (text !== null) this.editor.replace(file, text);
-      this.rewatch.call();
-    };
-    const both = own.hash === null ? null : merged(base, own.text, disk);
-    const compare = async () => {
-      const mine = this.files.get(file)?.text ?? "";
-      const merge = own.hash === null ? null : merged(base, mine, disk);
-      const labels = [...(merge === null ? [] : ["Merge both"]), "Keep mine", "Take the disk's"];
-      const chosen = await showDifference(`${file} in the page and on the disk`, mine, disk, labels);
-      const label = chosen === null ? null : labels[chosen];
-      if (label === "Merge both") decide(merge);
-      if (label === "Keep mine") decide(null);
-      if (label === "Take the disk's") decide(disk);
-    };
-    this.notices.show(`disk ${file}`, {
-      text: own.hash === null ? `${file} exists on the disk.` : `${file} was changed on the disk, and has text here that is not saved.`,
-      kind: "warn",
-      actions: [
-        ...(both === null ? [] : [{ label: "Merge both", act: () => decide(merged(base, this.files.get(file)?.text ?? "", disk)), primary: true }]),
-        { label: "Keep mine", act: () => decide(null) },
-        { label: "Take the disk's", act: () => decide(disk) },
-        { label: "Show both", act: () => void compare(), stays: true },
-      ],
-    });
-  }
-
-  private removedOnDisk(file: string): void {
-    const own = this.files.get(file);
-    if (!own || own.hash === null || own.removed) return;
-    this.notices.hide(`unreadable ${file}`);
-    this.files.setRemoved(file, true);
-    this.notices.say(`${file} was removed from the disk. Its text is kept here; saving writes it again.`);
-  }
-
-  private unreadableOnDisk(file: string, reason: string): void {
-    if (!this.files.get(file)) return;
-    this.notices.show(`unreadable ${file}`, { text: `${file} was changed on the disk and cannot be read: ${reason}. The text here is the one before.`, kind: "bad", actions: [{ label: "Close", act: () => undefined }] });
-  }
-
   private async goTo(place: FileRange): Promise<void> {
     await this.selectPlace(place, true);
     this.showPane("text");
@@ -575,7 +519,7 @@ export class Workbench {
                 // The disk has changed since: as if it had changed while the text was open.
                 this.files.setSaved(draft.file, draft.base, draft.hash);
                 this.editor.replace(draft.file, draft.text);
-                this.changedOnDisk(draft.file, disk, hash);
+                this.disk.changed(draft.file, disk, hash);
               } else this.editor.replace(draft.file, draft.text);
               this.drafts?.dropKey(key);
               this.keepDrafts();
