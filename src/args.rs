@@ -215,47 +215,55 @@ pub enum ImportFrom {
     ///
     /// Prints what was taken and what is missing, and warns of implausible rows. The catalogue is used by `catalogues: { bearings: FILE }` of a
     /// gearbox.
-    Bearings {
-        /// Table: CSV or .xlsx; the content decides.
-        file: PathBuf,
-        /// Assigns a column: `"c=Dyn. load rating [kN]"`. Keys: designation, kind, series, bore, outside, width, c, c0, e, y, y0, pu,
-        /// calculation_factor, minimum_load_factor, reference_speed, limiting_speed. Can be repeated.
-        #[arg(long, value_name = "KEY=HEADING")]
-        columns: Vec<String>,
-        /// Kind of all bearings, if no column states it, such as deep_groove_ball [default: from the series in the designation].
-        #[arg(long)]
-        kind: Option<String>,
-        /// Decimal sign [default: detected].
-        #[arg(long, value_enum)]
-        decimal: Option<DecimalArg>,
-        /// Sheet of a workbook [default: the first].
-        #[arg(long, value_name = "NAME")]
-        sheet: Option<String>,
-        /// Catalogue to write; an existing file is an error [default: NAME-catalogue.csv in the current folder].
-        #[arg(short, long, value_name = "FILE")]
-        output: Option<PathBuf>,
-    },
+    Bearings(BearingsArgs),
     /// Mean moments of OpenFOAM's `forces` function object, one run for each point of a table.
-    OpenfoamForces {
-        /// CSV file of the runs: one column for each axis of the table, such as `speed [rpm]`, `nu [mm2/s]`, `volume [ml]`, and `folder` as
-        /// the last column: output folder or file of the function object, relative to this file.
-        runs: PathBuf,
-        /// Axis of the moment.
-        #[arg(long, value_enum)]
-        axis: AxisArg,
-        /// Start of the averaging time, such as `"0.5 s"`.
-        #[arg(long, value_name = "TIME")]
-        from: String,
-        /// End of the averaging time [default: end of the run].
-        #[arg(long, value_name = "TIME")]
-        to: Option<String>,
-        /// Factor on the moments, such as 3 if a third of the gearbox was simulated.
-        #[arg(long, default_value_t = 1.0)]
-        factor: f64,
-        /// Table to write; an existing file is an error.
-        #[arg(short, long, value_name = "FILE")]
-        output: PathBuf,
-    },
+    OpenfoamForces(OpenfoamArgs),
+}
+
+/// Arguments of `import bearings`.
+#[derive(Debug, ClapArgs)]
+pub struct BearingsArgs {
+    /// Table: CSV or .xlsx; the content decides.
+    pub file: PathBuf,
+    /// Assigns a column: `"c=Dyn. load rating [kN]"`. Keys: designation, kind, series, bore, outside, width, c, c0, e, y, y0, pu,
+    /// calculation_factor, minimum_load_factor, reference_speed, limiting_speed. Can be repeated.
+    #[arg(long, value_name = "KEY=HEADING")]
+    pub columns: Vec<String>,
+    /// Kind of all bearings, if no column states it, such as deep_groove_ball [default: from the series in the designation].
+    #[arg(long)]
+    pub kind: Option<String>,
+    /// Decimal sign [default: detected].
+    #[arg(long, value_enum)]
+    pub decimal: Option<DecimalArg>,
+    /// Sheet of a workbook [default: the first].
+    #[arg(long, value_name = "NAME")]
+    pub sheet: Option<String>,
+    /// Catalogue to write; an existing file is an error [default: NAME-catalogue.csv in the current folder].
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+}
+
+/// Arguments of `import openfoam-forces`.
+#[derive(Debug, ClapArgs)]
+pub struct OpenfoamArgs {
+    /// CSV file of the runs: one column for each axis of the table, such as `speed [rpm]`, `nu [mm2/s]`, `volume [ml]`, and `folder` as
+    /// the last column: output folder or file of the function object, relative to this file.
+    pub runs: PathBuf,
+    /// Axis of the moment.
+    #[arg(long, value_enum)]
+    pub axis: AxisArg,
+    /// Start of the averaging time, such as `"0.5 s"`.
+    #[arg(long, value_name = "TIME")]
+    pub from: String,
+    /// End of the averaging time [default: end of the run].
+    #[arg(long, value_name = "TIME")]
+    pub to: Option<String>,
+    /// Factor on the moments, such as 3 if a third of the gearbox was simulated.
+    #[arg(long, default_value_t = 1.0)]
+    pub factor: f64,
+    /// Table to write; an existing file is an error.
+    #[arg(short, long, value_name = "FILE")]
+    pub output: PathBuf,
 }
 
 /// Decimal sign of a table.

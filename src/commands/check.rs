@@ -1,7 +1,5 @@
 //! `check`: reads, resolves and builds; reports all errors.
 
-mod json;
-
 use std::collections::BTreeSet;
 use std::path::Path;
 
@@ -10,7 +8,9 @@ use gearloss_framework::files::{Disk, LONGEST_TEXT, read_text};
 use gearloss_framework::gearbox::{Findings, Gearbox};
 use gearloss_framework::language::Language;
 use gearloss_framework::registry::Evidence;
+use gearloss_report::check::document::{FileRecord, document};
 use gearloss_report::check::{checked_text, resolved_text};
+use gearloss_studies::analyses::Stopped;
 use gearloss_studies::analyses::progress::{Progress, Silent, Steps};
 use gearloss_studies::checked::CheckedGearbox;
 use gearloss_studies::checked_study::CheckedStudy;
@@ -27,7 +27,7 @@ pub fn run(args: &CheckArgs, out: &mut Out) -> Result<End, Failure> {
         None => None,
     };
     if args.format == Format::Json {
-        return json::run(language, args, deny, out);
+        return print_json(language, args, deny, out);
     }
     let mut wrong = String::new();
     let mut shown = BTreeSet::new();
@@ -74,6 +74,40 @@ pub fn run(args: &CheckArgs, out: &mut Out) -> Result<End, Failure> {
         Ok(end)
     } else {
         Err(Failure::Input(wrong))
+    }
+}
+
+/// Prints one document for all files. Errors appear in the document and in the exit code, not on standard error.
+fn print_json(language: &Language, args: &CheckArgs, deny: Option<Evidence>, out: &mut Out) -> Result<End, Failure> {
+    let mut end = End::Fine;
+    let mut wrong = false;
+    let mut files = Vec::new();
+    for file in &args.files {
+        let record = if is_study(file) {
+            belongs_to_gearboxes(args, file)?;
+            let study = study(language, file);
+            if study
+                .refused
+                .iter()
+                .any(|stopped| matches!(stopped, Stopped::Interrupted))
+            {
+                return Err(Failure::Interrupted);
+            }
+            FileRecord::of_study(&study)
+        } else {
+            FileRecord::of_gearbox(&checked(language, file, &args.choice), args.resolved)
+        };
+        if record.is_denied(deny) {
+            end = End::Finding;
+        }
+        wrong |= record.wrong;
+        files.push(record.json(&file.display().to_string(), deny));
+    }
+    out.line(serde_json::to_string_pretty(&document(language, files)).unwrap_or_default())?;
+    if wrong {
+        Err(Failure::Input(String::new()))
+    } else {
+        Ok(end)
     }
 }
 

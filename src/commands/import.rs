@@ -10,7 +10,7 @@ use crate::output::{End, Failure, Out};
 pub fn run(args: &ImportArgs, out: &mut Out) -> Result<End, Failure> {
     match &args.from {
         ImportFrom::Rexs { file, output } => rexs::run(file, output.as_deref(), out),
-        from @ ImportFrom::Bearings { .. } => bearings::run(from, out),
-        from @ ImportFrom::OpenfoamForces { .. } => openfoam::run(from, out),
+        ImportFrom::Bearings(args) => bearings::run(args, out),
+        ImportFrom::OpenfoamForces(args) => openfoam::run(args, out),
     }
 }

@@ -12,6 +12,7 @@ use std::collections::BTreeMap;
 
 use gearloss_document::data::cells::{self, Decimal, Form, Table};
 use gearloss_document::{Diagnostic, Unit, did_you_mean};
+use gearloss_framework::resolve::CatalogueTable;
 
 use crate::codes;
 use headings::{KEYS, Key};
@@ -55,8 +56,8 @@ struct Used {
     factor: f64,
 }
 
-/// Reads a table. `name` is that of the file in messages, `known` gives the bore and outside diameter of a designation of the
-/// shipped catalogue in mm.
+/// Reads a table. `name` is that of the file in messages, `shipped` is the catalogue that the sizes of known
+/// designations are compared with.
 ///
 /// # Errors
 /// All columns without a unit, unknown keys, and cells that are no numbers.
@@ -64,7 +65,7 @@ pub fn import(
     bytes: &[u8],
     name: &str,
     options: &Options,
-    known: &dyn Fn(&str) -> Option<[f64; 2]>,
+    shipped: Option<&CatalogueTable>,
 ) -> Result<Catalogue, Vec<Diagnostic>> {
     if let Some(wrong) = options
         .kind
@@ -94,7 +95,7 @@ pub fn import(
     let rows = read_rows(&table, &used, style, name, options, &mut warnings)?;
     let rows = without_repeated(rows, name, &mut warnings);
     for row in &rows {
-        plausible::check(row, name, known, &mut warnings);
+        plausible::check(row, name, shipped, &mut warnings);
     }
     let rows: Vec<Row> = rows.into_iter().filter(plausible::can_be_built).collect();
     if rows.is_empty() {

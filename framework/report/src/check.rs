@@ -1,4 +1,6 @@
-//! A checked gearbox: text and record; findings as records.
+//! Checked files: text and records.
+
+pub mod document;
 
 use gearloss_framework::document::{Diagnostic, PlacedDiagnostic, Sources};
 use gearloss_framework::language::Language;
@@ -77,7 +79,7 @@ pub fn checked_text(file: &str, checked: &CheckedGearbox) -> String {
 }
 
 /// The same as a record, with the resolved description if `with_resolved`.
-pub fn checked_json(checked: &CheckedGearbox, with_resolved: bool) -> Map<String, Value> {
+fn checked_json(checked: &CheckedGearbox, with_resolved: bool) -> Map<String, Value> {
     let CheckedGearbox {
         resolved, transmission, ..
     } = checked;
@@ -114,7 +116,7 @@ pub fn checked_json(checked: &CheckedGearbox, with_resolved: bool) -> Map<String
 }
 
 /// Warnings of a valid gearbox with file, line and column.
-pub fn warnings(checked: &CheckedGearbox) -> Vec<PlacedDiagnostic> {
+fn warnings(checked: &CheckedGearbox) -> Vec<PlacedDiagnostic> {
     placed(&checked.warnings(), &checked.gearbox.sources)
 }
 
@@ -131,6 +133,6 @@ fn ratios(t: &Transmission) -> Value {
 }
 
 /// Findings with file, line and column instead of spans.
-pub fn placed(list: &[Diagnostic], sources: &Sources) -> Vec<PlacedDiagnostic> {
+fn placed(list: &[Diagnostic], sources: &Sources) -> Vec<PlacedDiagnostic> {
     list.iter().map(|finding| sources.placed(finding)).collect()
 }

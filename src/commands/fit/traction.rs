@@ -105,7 +105,7 @@ fn points(columns: &Columns) -> Result<Vec<TractionPoint>, Diagnostic> {
             "write a temperature from -60 to 300 degC, and check the unit",
         ));
     }
-    one_of(columns, SHEAR_RATE, &[SLIDING, FILM])?;
+    columns.either(&SHEAR_RATE, &[SLIDING, FILM])?;
     let shear_rate = if columns.has(&SHEAR_RATE) {
         columns.numbers(&SHEAR_RATE)?
     } else {
@@ -117,7 +117,7 @@ fn points(columns: &Columns) -> Result<Vec<TractionPoint>, Diagnostic> {
             .map(|(v, h)| v / h)
             .collect()
     };
-    one_of(columns, STRESS, &[MU])?;
+    columns.either(&STRESS, &[MU])?;
     let stress: Vec<f64> = if columns.has(&STRESS) {
         columns.numbers(&STRESS)?
     } else {
@@ -135,26 +135,6 @@ fn points(columns: &Columns) -> Result<Vec<TractionPoint>, Diagnostic> {
         stress: stress[row],
     };
     Ok((0..pressure.len()).map(point).collect())
-}
-
-/// Rejects a quantity that is given twice or not at all.
-fn one_of(columns: &Columns, one: Quantity, others: &[Quantity]) -> Result<(), Diagnostic> {
-    let words: Vec<String> = others.iter().map(Quantity::header).collect();
-    let words = words.join(" and ");
-    let also = others.iter().any(|q| columns.has(q));
-    match (columns.has(&one), also) {
-        (true, true) => Err(columns.wrong(
-            None,
-            &format!("both {} and {words}", one.header()),
-            "delete one of them",
-        )),
-        (false, false) => Err(columns.wrong(
-            None,
-            &format!("neither {} nor {words}", one.header()),
-            "add one of them",
-        )),
-        _ => Ok(()),
-    }
 }
 
 fn limit_words(limit: Option<&Curve>) -> String {

@@ -9,55 +9,31 @@ use gearloss_framework::files::{LONGEST_DATA, read_bytes};
 use gearloss_framework::gearbox::Findings;
 
 use super::super::{catalogue, new};
-use crate::args::{DecimalArg, ImportFrom};
+use crate::args::{BearingsArgs, DecimalArg};
 use crate::output::{End, Failure, Out};
 
-pub fn run(from: &ImportFrom, out: &mut Out) -> Result<End, Failure> {
-    let ImportFrom::Bearings {
-        file,
-        columns,
-        kind,
-        decimal,
-        sheet,
-        output,
-    } = from
-    else {
-        return Err(Failure::input("bug: another import was called", "report this"));
-    };
+pub fn run(args: &BearingsArgs, out: &mut Out) -> Result<End, Failure> {
+    let file = &args.file;
     let bytes = read_bytes(file, LONGEST_DATA)
         .map_err(|e| Failure::input(format!("cannot read {}: {e}", file.display()), "check the file name"))?;
     let language = super::super::language()?;
     let options = Options {
-        columns: columns.clone(),
-        kind: kind.clone(),
-        decimal: decimal.map(|decimal| match decimal {
+        columns: args.columns.clone(),
+        kind: args.kind.clone(),
+        decimal: args.decimal.map(|decimal| match decimal {
             DecimalArg::Point => Decimal::Point,
             DecimalArg::Comma => Decimal::Comma,
         }),
-        sheet: sheet.clone(),
+        sheet: args.sheet.clone(),
     };
     let shipped = language.catalogue("bearings");
-    let known = |designation: &str| {
-        let row = shipped?.0.get(designation)?;
-        let size = |key: &str| {
-            let (_, value) = row.values.iter().find(|(own, _)| own == key)?;
-            value.as_str()?.split_once(' ')?.0.parse::<f64>().ok()
-        };
-        Some([size("bore")?, size("outside")?])
-    };
     let name = file.file_name().unwrap_or(file.as_os_str()).to_string_lossy();
-    let imported = bearing_table::import(&bytes, &name, &options, &known).map_err(Findings::from)?;
+    let imported = bearing_table::import(&bytes, &name, &options, shipped).map_err(Findings::from)?;
     for warning in &imported.warnings {
         Out::error().line(format!("{}\n", Sources::default().render(warning)))?;
     }
-    let path = output.clone().unwrap_or_else(|| default_output(file));
+    let path = args.output.clone().unwrap_or_else(|| default_output(file));
     catalogue::checked(&imported.text, &path.display().to_string(), "bearings", language)?;
-    if path.exists() {
-        return Err(Failure::input(
-            format!("{} exists and is not overwritten", path.display()),
-            "choose another file with -o",
-        ));
-    }
     new::write(&path, &imported.text, out)?;
     for line in &imported.report {
         out.line(line)?;

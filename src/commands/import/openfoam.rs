@@ -1,36 +1,27 @@
 //! `import openfoam-forces`: a table from results of OpenFOAM.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use gearloss_framework::document::{Diagnostic, Unit, parse_quantity};
-use gearloss_framework::files::{LONGEST_DATA, LONGEST_TEXT, read_text};
-use gearloss_studies::fit::openfoam::{Axis, Mean, Runs, Sample, samples};
+use gearloss_framework::files::LONGEST_TEXT;
+use gearloss_studies::fit::openfoam::{Axis, Mean, Runs, history};
 
-use crate::args::{AxisArg, ImportFrom};
+use super::super::new;
+use crate::args::{AxisArg, OpenfoamArgs};
 use crate::output::{End, Failure, Out, Table, significant};
 
-pub fn run(from: &ImportFrom, out: &mut Out) -> Result<End, Failure> {
-    let ImportFrom::OpenfoamForces {
-        runs,
-        axis,
-        from,
-        to,
-        factor,
-        output,
-    } = from
-    else {
-        return Err(Failure::input("bug: another import was called", "report this"));
-    };
-    if !(factor.is_finite() && *factor > 0.0) {
-        return Err(Failure::input(format!("--factor {factor}"), "give a positive number"));
+pub fn run(args: &OpenfoamArgs, out: &mut Out) -> Result<End, Failure> {
+    let runs = &args.runs;
+    if !(args.factor.is_finite() && args.factor > 0.0) {
+        return Err(Failure::input(
+            format!("--factor {}", args.factor),
+            "give a positive number",
+        ));
     }
-    let from = seconds("--from", from)?;
-    let to = match to {
-        Some(to) => seconds("--to", to)?,
-        None => f64::INFINITY,
-    };
+    let from = seconds("--from", &args.from)?;
+    let to = args.to.as_deref().map_or(Ok(f64::INFINITY), |to| seconds("--to", to))?;
     let window = [from, to];
-    let axis = match axis {
+    let axis = match args.axis {
         AxisArg::X => Axis::X,
         AxisArg::Y => Axis::Y,
         AxisArg::Z => Axis::Z,
@@ -59,11 +50,10 @@ pub fn run(from: &ImportFrom, out: &mut Out) -> Result<End, Failure> {
         })?;
         let mean = Mean::over_time(&samples, axis, window)
             .map_err(|fault| failed(&fault, "choose --from and --to within the times of the run"))?;
-        means.push(mean.times(*factor));
+        means.push(mean.times(args.factor));
     }
     let means = list.opposing(means, axis).map_err(in_list)?;
     let table = list.table(&means, axis, window).map_err(in_list)?;
-    write_new(output, &table)?;
     let mut printed = Table::new(&["folder", "samples", "until s", "pressure Nm", "viscous Nm", "spread Nm"]);
     for (run, mean) in list.runs().iter().zip(&means) {
         printed.row(vec![
@@ -76,53 +66,8 @@ pub fn run(from: &ImportFrom, out: &mut Out) -> Result<End, Failure> {
         ]);
     }
     out.text(&printed.render())?;
-    out.line(format!("wrote {}", output.display()))?;
+    new::write(&args.output, &table, out)?;
     Ok(End::Fine)
-}
-
-/// All samples of a run: from a file, or from a folder with one subfolder for each start of the solver. Samples of a later start replace
-/// earlier samples at the same times.
-fn history(place: &Path) -> Result<Vec<Sample>, String> {
-    let files = if place.is_file() {
-        vec![place.to_path_buf()]
-    } else {
-        files(place)?
-    };
-    let mut all: Vec<Sample> = Vec::new();
-    for file in files {
-        let text = read_text(&file, LONGEST_DATA).map_err(|e| format!("cannot read {}: {e}", file.display()))?;
-        let samples = samples(&text).map_err(|fault| format!("{}, {fault}", file.display()))?;
-        if let Some(first) = samples.first() {
-            all.retain(|s| s.time < first.time);
-        }
-        all.extend(samples);
-    }
-    Ok(all)
-}
-
-fn files(folder: &Path) -> Result<Vec<PathBuf>, String> {
-    let own = |folder: &Path| {
-        ["moment.dat", "forces.dat"]
-            .map(|name| folder.join(name))
-            .into_iter()
-            .find(|file| file.is_file())
-    };
-    if let Some(file) = own(folder) {
-        return Ok(vec![file]);
-    }
-    let entries = std::fs::read_dir(folder).map_err(|e| format!("cannot read: {e}"))?;
-    let mut starts: Vec<(f64, PathBuf)> = entries
-        .filter_map(|entry| {
-            let path = entry.ok()?.path();
-            let time = path.file_name()?.to_str()?.parse::<f64>().ok()?;
-            Some((time, own(&path)?))
-        })
-        .collect();
-    starts.sort_by(|a, b| a.0.total_cmp(&b.0));
-    if starts.is_empty() {
-        return Err("no moment.dat or forces.dat in the folder or in its time folders".to_owned());
-    }
-    Ok(starts.into_iter().map(|(_, file)| file).collect())
 }
 
 fn seconds(option: &str, text: &str) -> Result<f64, Failure> {
@@ -133,17 +78,6 @@ fn seconds(option: &str, text: &str) -> Result<f64, Failure> {
             fault
                 .help
                 .unwrap_or_else(|| "write a time such as \"0.5 s\"".to_owned()),
-        )
-    })
-}
-
-fn write_new(path: &Path, text: &str) -> Result<(), Failure> {
-    use std::io::Write as _;
-    let file = std::fs::OpenOptions::new().write(true).create_new(true).open(path);
-    file.and_then(|mut file| file.write_all(text.as_bytes())).map_err(|e| {
-        Failure::input(
-            format!("cannot write {}: {e}", path.display()),
-            "choose another file with -o; an existing file is not overwritten",
         )
     })
 }

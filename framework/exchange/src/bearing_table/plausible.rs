@@ -1,6 +1,7 @@
 //! Values that bearings do not have: usually a wrong column or unit.
 
 use gearloss_document::Diagnostic;
+use gearloss_framework::resolve::CatalogueTable;
 
 use super::{Row, warning};
 
@@ -18,7 +19,7 @@ pub(super) fn can_be_built(row: &Row) -> bool {
     matches!((row.number("bore"), row.number("outside")), (Some(bore), Some(outside)) if bore > 0.0 && outside > bore)
 }
 
-pub(super) fn check(row: &Row, name: &str, known: &dyn Fn(&str) -> Option<[f64; 2]>, warnings: &mut Vec<Diagnostic>) {
+pub(super) fn check(row: &Row, name: &str, shipped: Option<&CatalogueTable>, warnings: &mut Vec<Diagnostic>) {
     let mut warn = |message: String, help: &str| {
         warnings.push(warning(
             format!("{name}: line {}: `{}`: {message}", row.line, row.designation),
@@ -86,7 +87,7 @@ pub(super) fn check(row: &Row, name: &str, known: &dyn Fn(&str) -> Option<[f64; 
             );
         }
     }
-    if let Some([own_bore, own_outside]) = known(&row.designation)
+    if let Some([own_bore, own_outside]) = shipped_sizes(shipped, &row.designation)
         && ((own_bore - bore).abs() > 0.01 || (own_outside - outside).abs() > 0.01)
     {
         warn(
@@ -94,4 +95,14 @@ pub(super) fn check(row: &Row, name: &str, known: &dyn Fn(&str) -> Option<[f64; 
             "check the designation and the columns",
         );
     }
+}
+
+/// Bore and outside diameter of a designation of the shipped catalogue. \[mm\]
+fn shipped_sizes(shipped: Option<&CatalogueTable>, designation: &str) -> Option<[f64; 2]> {
+    let row = shipped?.0.get(designation)?;
+    let size = |key: &str| {
+        let (_, value) = row.values.iter().find(|(own, _)| own == key)?;
+        value.as_str()?.split_once(' ')?.0.parse::<f64>().ok()
+    };
+    Some([size("bore")?, size("outside")?])
 }

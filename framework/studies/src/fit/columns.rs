@@ -181,6 +181,20 @@ impl Columns {
         (0..self.rows.len()).map(cell).collect()
     }
 
+    /// Checks that there is either one quantity or others in its place.
+    ///
+    /// # Errors
+    /// If both are there, or neither.
+    pub fn either(&self, one: &Quantity, others: &[Quantity]) -> Result<(), Diagnostic> {
+        let words: Vec<String> = others.iter().map(Quantity::header).collect();
+        let (one_word, words) = (one.header(), words.join(" and "));
+        match (self.has(one), others.iter().any(|q| self.has(q))) {
+            (true, true) => Err(self.wrong(None, &format!("both {one_word} and {words}"), "delete one of them")),
+            (false, false) => Err(self.wrong(None, &format!("neither {one_word} nor {words}"), "add one of them")),
+            _ => Ok(()),
+        }
+    }
+
     /// Names of columns other than these quantities: those that are not used.
     pub fn unused(&self, quantities: &[Quantity]) -> Vec<&str> {
         let known = |name: &str| quantities.iter().any(|q| q.name == name);

@@ -1,8 +1,10 @@
 //! Output of OpenFOAM's `forces` function object: `forces.dat` (all releases until about 2016, and openfoam.org) and `moment.dat`
 //! (openfoam.com), with or without parentheses and porous parts.
 
+mod history;
 mod runs;
 
+pub use history::history;
 pub use runs::{Run, Runs};
 
 /// Axis of the moment.
