@@ -13,7 +13,7 @@ pub trait ParkingLockModel: Send + Sync {
 }
 
 /// A parking lock.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, PartialEq, Deserialize, JsonSchema)]
 pub struct ParkingLockPart {
     /// Outside diameter of the wheel. [mm]
     #[schemars(range(min = 20.0, max = 500.0))]

@@ -169,11 +169,12 @@ impl Transmission {
         s.models.conditions.temperatures.extend_from_slice(temperatures);
         s.models.conditions.common = true;
         s.models.conditions.live = true;
-        self.settle_prescribed(case, s, noting);
+        self.settle_prescribed(case, s, !0, noting);
     }
 
-    /// Computes speeds, oils and all values that are independent of torque, from what is prescribed.
-    fn settle_prescribed<R: Answers>(&self, case: &Case, s: &mut Scratch<R>, noting: Noting) {
+    /// Computes speeds, oils and all values that are independent of torque, from what is prescribed. Points that do not differ in it from
+    /// the one before, whose bit in `starts` is not set, take its values.
+    fn settle_prescribed<R: Answers>(&self, case: &Case, s: &mut Scratch<R>, starts: u32, noting: Noting) {
         let m = &mut s.models;
         let c = &mut m.conditions;
         case.motion.speeds(&s.prescribed, &mut c.speeds);
@@ -200,6 +201,7 @@ impl Transmission {
         drags.fill(R::ZERO);
         let mut live = c.live;
         let (state, book) = c.open(noting != Noting::Muted);
+        let book = Notebook { starts, ..book };
         for (i, component) in self.components.iter().enumerate() {
             if !component.loaded && !component.off {
                 let answer = component_loss(component, &state, &book, &mut live);

@@ -54,8 +54,8 @@ pub trait Mechanism: Sized + 'static {
     /// The term set by `constant`, `formula` and `table`.
     const TOTAL: Term = Term::no_load("total");
     /// The component: the typed fields of its entry. [`NoPart`] if there is none. Derived values are computed during
-    /// deserialisation (`serde(try_from)`), so that an existing part is complete.
-    type Part: DeserializeOwned + JsonSchema + Send + Sync;
+    /// deserialisation (`serde(try_from)`), so that an existing part is complete. One that is read again and is equal keeps its model.
+    type Part: DeserializeOwned + JsonSchema + PartialEq + Send + Sync;
     /// All inputs of a model, at one point or at several; defined by [`context!`](crate::context).
     type At<'a, R: Real>: Inputs<'a, Self, R>;
     /// A [`Loss`], or an `f64` for a coefficient.
@@ -191,7 +191,7 @@ pub trait Component: Mechanism<Answer = Loss> {
 }
 
 /// The part of a mechanism that has none.
-#[derive(Debug, Clone, Copy, Default, serde::Deserialize, serde::Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, serde::Deserialize, serde::Serialize, JsonSchema)]
 pub struct NoPart {}
 
 mod sealed {

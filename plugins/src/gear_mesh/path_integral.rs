@@ -17,6 +17,8 @@
 //! between the kinks of the load sharing, has as many nodes as the law requires, denser at its ends. Rolling friction according to Crook,
 //! whose film grows without bound where the load ramp starts, is within 2e-3.
 
+use std::sync::Arc;
+
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::geometry::{LoadSharing, PathPoint};
 use gearloss_framework::loss::{Loss, Undefined};
@@ -105,8 +107,8 @@ fn yes() -> bool {
 
 /// The path of one mesh, prepared.
 struct Integral {
-    path: FrictionPath,
-    loss_factor: f64,
+    /// The path with its local loss factor.
+    path: Arc<(FrictionPath, f64)>,
     friction: Slot<ToothFriction>,
     rolling: Option<RollingPath>,
 }
@@ -114,18 +116,23 @@ struct Integral {
 fn prepare(params: PathIntegral, cx: &mut Build<'_>) -> Result<Integral, Diagnostic> {
     let friction = cx.slot("tooth_friction", &params.tooth_friction)?;
     let part = cx.own_part::<GearMesh>()?;
-    let pair = &part.pair;
-    let path = FrictionPath::new(pair, params.load_sharing, &*friction).map_err(|fault| cx.error(fault))?;
+    let (pair, sharing, average) = (part.pair, params.load_sharing, params.average);
     let [start, .., end] = pair.points;
-    let weight = |p: &PathPoint| match params.average {
+    let weight = |p: &PathPoint| match average {
         Average::BasePitch => p.weight / pair.base_pitch,
         Average::ToothTravel => p.weight * p.pairs as f64 / (end - start),
     };
-    let path = path.weighted(weight);
-    let weights: Vec<f64> = path.few().points().iter().map(weight).collect();
+    // It does not depend on oil and roughness of the part.
+    let orders = (friction.order(), friction.cut_off_order());
+    let path = cx.repeat("path", (pair, sharing, average, orders), |_| -> Result<_, String> {
+        let path = FrictionPath::new(&pair, sharing, &*friction)?.weighted(weight);
+        Ok(Arc::new((path, pair.loss_factor_local(sharing))))
+    });
+    let path = path.map_err(|fault| cx.error(fault))?;
+    let few = path.0.few();
+    let weights: Vec<f64> = few.points().iter().map(weight).collect();
     Ok(Integral {
-        rolling: RollingPath::new(&params, part, path.few().nodes(), &weights),
-        loss_factor: pair.loss_factor_local(params.load_sharing),
+        rolling: RollingPath::new(&params, cx.own_part::<GearMesh>()?, few.nodes(), &weights),
         path,
         friction,
     })
@@ -240,15 +247,15 @@ impl GearMeshLaw for Integral {
         let mean = MeanFrictionAt::at_pitch_point(at, at.notes);
         let normal = at.show("F_bn", "N", mean.normal_force);
         let bodies = at.bodies()?;
-        let path = self
-            .path
+        let (path, loss_factor) = &*self.path;
+        let at_path = path
             .few()
             .at_operating_point(&mean, at.notes.nested_at_same_state(self.friction.notes))
             .with(|to| to.bodies = bodies);
-        at.show("F_bn/b", "N/m", path.line_load);
-        let friction = self.path.friction(&*self.friction, &path)?;
+        at.show("F_bn/b", "N/m", at_path.line_load);
+        let friction = path.friction(&*self.friction, &at_path)?;
         at.observe(&MU_MEAN, friction.mean);
-        at.observe(&LOSS_FACTOR, R::constant(self.loss_factor));
+        at.observe(&LOSS_FACTOR, R::constant(*loss_factor));
         let watts = at.show("P_s", "W", friction.sliding * normal * speed);
         let loss = Loss::POWERS
             .with(&SLIDING, R::select(idle, R::ZERO, watts))
@@ -256,7 +263,7 @@ impl GearMeshLaw for Integral {
         let Some(rolling) = &self.rolling else {
             return Ok(loss);
         };
-        let rolling = at.show("P_r", "W", rolling.power(at, &path));
+        let rolling = at.show("P_r", "W", rolling.power(at, &at_path));
         Ok(loss.with(&ROLLING, R::select(idle, R::ZERO, rolling)))
     }
 }

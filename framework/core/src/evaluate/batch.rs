@@ -151,7 +151,12 @@ impl Transmission {
         }
         c.common = false;
         c.live = Lane::mask(|lane| lane < points.len());
-        self.settle_prescribed(case, s, noting);
+        let same = |lane: usize| {
+            let mut values = s.prescribed.iter().chain(&c.temperatures);
+            values.all(|value| value[lane].to_bits() == value[lane - 1].to_bits())
+        };
+        let starts = Lane::bits(Lane::mask(|lane| lane == 0 || !same(lane)));
+        self.settle_prescribed(case, s, starts, noting);
         let mut start = Start::Lossless;
         if let Some(first) = last(0) {
             start = Start::Last;

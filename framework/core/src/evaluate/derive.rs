@@ -170,7 +170,7 @@ impl Transmission {
         };
         s.models.conditions.temperatures.push(temperature);
         s.models.conditions.trace = Some(Trace::default());
-        self.settle_prescribed(case, &mut s, Noting::Muted);
+        self.settle_prescribed(case, &mut s, !0, Noting::Muted);
         let mut plain = BTreeSet::new();
         let (work, models) = (&mut s.work, &mut s.models);
         plain.extend(by_differences(&mut models.conditions.trace));

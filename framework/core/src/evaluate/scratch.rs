@@ -48,6 +48,7 @@ impl<R: Points> Conditions<R> {
         let book = Notebook {
             cells: if notes { &self.cells } else { &[] },
             points: R::bits(self.live),
+            starts: !0,
             kept: &self.kept,
             kept_alone: if self.common { &self.kept_alone } else { &[] },
             trace: self.trace.as_ref(),

@@ -16,6 +16,8 @@ pub struct Notebook<'a, R: Real = f64> {
     pub(crate) cells: &'a [Cell<Seen>],
     /// The points that note, as bits.
     pub(crate) points: u32,
+    /// The points that differ from the one before in what is evaluated, as bits.
+    pub(crate) starts: u32,
     /// Space for the values that each instance computes [once](Notes::once); without it nothing is kept.
     pub(crate) kept: &'a [Cell<Kept<R>>],
     /// The same for points that are evaluated one by one, if they have their speeds and oils in common.
@@ -29,6 +31,7 @@ impl<R: Points> Notebook<'_, R> {
     pub const CLOSED: Notebook<'static, R> = Notebook {
         cells: &[],
         points: (1 << R::COUNT) - 1,
+        starts: !0,
         kept: &[],
         kept_alone: &[],
         trace: None,
@@ -52,12 +55,21 @@ impl<'a, R: Real> Notebook<'a, R> {
 }
 
 impl<'a, R: Points> Notebook<'a, R> {
-    /// The notebook of one of the points.
+    /// True if a point does not differ from an earlier one.
+    #[inline]
+    pub(crate) fn are_alike(&self, earlier: usize, point: usize) -> bool {
+        (earlier + 1..=point).all(|later| self.starts >> later & 1 == 0)
+    }
+
+    /// The notebook of one of the points and of those after it that do not differ from it.
     #[inline]
     pub(crate) fn at_point(&self, point: usize) -> Notebook<'a> {
+        let alike = (self.starts >> point >> 1).trailing_zeros();
+        let own = (1_u64 << alike.saturating_add(1).min(32)) - 1;
         Notebook {
             cells: self.cells,
-            points: self.points & 1 << point,
+            points: self.points & (own << point) as u32,
+            starts: !0,
             kept: self.kept_alone,
             kept_alone: self.kept_alone,
             trace: self.trace,

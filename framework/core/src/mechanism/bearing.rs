@@ -241,7 +241,7 @@ pub struct BearingEntry {
 }
 
 /// A rolling bearing, complete. Lengths in m, loads in N.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(try_from = "BearingEntry")]
 pub struct BearingPart {
     /// Designation, if any.

@@ -22,7 +22,7 @@ pub trait ClutchModel: Send + Sync {
 }
 
 /// A clutch between two members, or a brake between a member and the housing.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ClutchPart {
     /// Inner diameter of the friction faces. [mm]
     #[schemars(range(min = 1.0, max = 2000.0))]

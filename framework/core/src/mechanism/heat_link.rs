@@ -47,7 +47,7 @@ pub struct GearShape {
 }
 
 /// Surroundings of a link; in a gearbox the framework fills it from `housing.outside` and from the gear named by the link.
-#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct HeatLinkPart {
     /// The housing.
     pub housing: Option<HousingPart>,

@@ -51,7 +51,7 @@ pub enum SealMaterial {
 }
 
 /// A shaft seal against the housing.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SealPart {
     /// Shaft diameter at the lip. [mm]
     #[schemars(range(min = 1.0, max = 1000.0))]

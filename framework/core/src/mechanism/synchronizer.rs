@@ -35,7 +35,7 @@ pub enum CouplingKind {
 }
 
 /// A coupling between two members: a synchronizer, a dog clutch, or a ring with a gap.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct CouplingPart {
     /// Kind of the coupling.
     #[serde(default)]

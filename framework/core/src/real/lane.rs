@@ -231,8 +231,13 @@ impl Real for Lane {
     #[inline(always)]
     fn lift_all<const N: usize>(self, _least_step: f64, function: impl Fn(f64) -> [f64; N]) -> [Self; N] {
         let mut all = [Self::ZERO; N];
+        let mut results = function(self.0[0]);
         for point in 0..LANES {
-            for (own, result) in all.iter_mut().zip(function(self.0[point])) {
+            // Points often have it in common, and such functions are long.
+            if point > 0 && self.0[point].to_bits() != self.0[point - 1].to_bits() {
+                results = function(self.0[point]);
+            }
+            for (own, result) in all.iter_mut().zip(results) {
                 own.0[point] = result;
             }
         }

@@ -166,7 +166,6 @@ pub struct Build<'a> {
 /// A model that was built, with everything that it depends on.
 struct KeptSlot<M: Mechanism> {
     part: Arc<dyn Any + Send + Sync>,
-    value: Value,
     slot: Slot<M>,
     /// Its instance and those of its nested models.
     instances: Vec<Instance>,
@@ -296,7 +295,7 @@ impl<'a> Build<'a> {
         value: &Value,
     ) -> Result<Slot<M>, Diagnostic> {
         let part = Arc::clone(part) as Arc<dyn Any + Send + Sync>;
-        if let Some(slot) = self.kept_slot(path, &part, value) {
+        if let Some(slot) = self.kept_slot(path, &part) {
             return Ok(slot);
         }
         let (first, first_cell) = (self.instances.len(), self.cells);
@@ -307,7 +306,6 @@ impl<'a> Build<'a> {
         let slot: Slot<M> = built?;
         let kept = KeptSlot {
             part,
-            value: value.clone(),
             slot: slot.clone(),
             instances: self.instances[first..].to_vec(),
             first,
@@ -317,17 +315,13 @@ impl<'a> Build<'a> {
         Ok(slot)
     }
 
-    /// The model of the last build at a path, if it was built for the same part from an equal choice, and its notes have the same place.
-    fn kept_slot<M: Mechanism>(
-        &mut self,
-        path: &str,
-        part: &Arc<dyn Any + Send + Sync>,
-        value: &Value,
-    ) -> Option<Slot<M>> {
+    /// The model of the last build at a path, if it was built for the same part, its choice has not changed in the document since, and its
+    /// notes have the same place.
+    fn kept_slot<M: Mechanism>(&mut self, path: &str, part: &Arc<dyn Any + Send + Sync>) -> Option<Slot<M>> {
         let kept: &KeptSlot<M> = self.memory.get(path)?;
         let same = std::ptr::addr_eq(Arc::as_ptr(&kept.part), Arc::as_ptr(part))
             && (kept.first, kept.cells[0]) == (self.instances.len(), self.cells)
-            && kept.value == *value;
+            && self.memory.is_same_value(path);
         if !same {
             return None;
         }
@@ -347,6 +341,16 @@ impl<'a> Build<'a> {
                 part
             }
         }
+    }
+
+    /// The result of a step of preparing the model from its whole input: that of the last build if the input is equal.
+    pub fn repeat<I, O>(&mut self, step: &str, input: I, compute: impl FnOnce(&I) -> O) -> O
+    where
+        I: PartialEq + Any + Send + Sync,
+        O: Clone + Any + Send + Sync,
+    {
+        let key = format!("{}: {step}", self.path);
+        self.memory.repeat(&key, input, compute)
     }
 
     fn slot_here<M: Mechanism>(&mut self, value: &Value) -> Result<Slot<M>, Diagnostic> {

@@ -8,19 +8,18 @@ use std::collections::{BTreeMap, HashMap};
 #[derive(Default)]
 pub(crate) struct Memory {
     kept: HashMap<String, Box<dyn Any + Send + Sync>>,
-    /// Entries (`bearings.B1`) in which a value has changed: whether all of these values belong to its model.
-    changed: BTreeMap<String, bool>,
+    /// Entries (`bearings.B1`) in which a value has changed, each with the keys of these values; empty for an entry that is a value.
+    changed: BTreeMap<String, Vec<String>>,
 }
 
 impl Memory {
     /// States that the value at a path has changed.
     pub fn change(&mut self, path: &str) {
         let (entry, key) = split(path);
-        let in_model = key.is_some_and(|key| key == "model" || key.starts_with("model."));
         match self.changed.get_mut(entry) {
-            Some(only_model) => *only_model &= in_model,
+            Some(keys) => keys.push(key.to_owned()),
             None => {
-                self.changed.insert(entry.to_owned(), in_model);
+                self.changed.insert(entry.to_owned(), vec![key.to_owned()]);
             }
         }
     }
@@ -37,7 +36,15 @@ impl Memory {
 
     /// True if an entry is as it was, except perhaps for the parameters of its model.
     pub fn is_same_but_model(&self, entry: &str) -> bool {
-        self.changed.get(entry).is_none_or(|only_model| *only_model)
+        let keys = self.changed.get(entry);
+        keys.is_none_or(|keys| keys.iter().all(|key| is_within(key, "model")))
+    }
+
+    /// True if the value at a path in an entry is as it was.
+    pub fn is_same_value(&self, path: &str) -> bool {
+        let (entry, own) = split(path);
+        let keys = self.changed.get(entry);
+        keys.is_none_or(|keys| keys.iter().all(|key| !is_within(key, own) && !is_within(own, key)))
     }
 
     /// True if an entry is as it was.
@@ -77,13 +84,19 @@ impl Memory {
     }
 }
 
-/// The entry of a path, section and id, and the key in it.
-fn split(path: &str) -> (&str, Option<&str>) {
+/// The entry of a path, section and id, and the key in it; empty for the entry itself.
+fn split(path: &str) -> (&str, &str) {
     let mut dots = path.match_indices('.').map(|(place, _)| place);
     match dots.nth(1) {
-        Some(dot) => (&path[..dot], Some(&path[dot + 1..])),
-        None => (path, None),
+        Some(dot) => (&path[..dot], &path[dot + 1..]),
+        None => (path, ""),
     }
+}
+
+/// True for a key that is another one or below it; all are below the empty one.
+fn is_within(key: &str, other: &str) -> bool {
+    let rest = key.strip_prefix(other);
+    other.is_empty() || rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
 }
 
 #[cfg(test)]
@@ -95,6 +108,9 @@ mod tests {
         let mut memory = Memory::default();
         memory.change("bearings.B1.model.mu_bl");
         assert!(!memory.is_same("bearings.B1") && memory.is_same_but_model("bearings.B1"));
+        let is_same = |path: &str| memory.is_same_value(path);
+        assert!(!is_same("bearings.B1") && !is_same("bearings.B1.model") && !is_same("bearings.B1.model.mu_bl.x"));
+        assert!(is_same("bearings.B1.mod") && is_same("bearings.B1.model.mu") && is_same("bearings.B10.model"));
         memory.change("bearings.B1.radial_factor");
         assert!(!memory.is_same_but_model("bearings.B1") && memory.is_same("bearings.B10"));
         memory.change("locked_below");

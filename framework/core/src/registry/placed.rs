@@ -202,7 +202,7 @@ fn place<C: Component>(
         let described = Arc::new(Described::<C> {
             place,
             common: from_resolved(value).map_err(read)?,
-            part: Arc::new(from_resolved(value).map_err(read)?),
+            part: build.part_again(&path, from_resolved(value).map_err(read)?),
         });
         build.memory.keep(&path, Arc::clone(&described));
         (seat, described)

@@ -27,6 +27,7 @@ use crate::thermal::Housing;
 use crate::thermal::network::{Around, Network};
 use serde::Deserialize;
 use serde_json::Value;
+use std::sync::Arc;
 
 impl Transmission {
     /// Builds the transmission of a resolved description.
@@ -145,7 +146,7 @@ impl Transmission {
             housing,
             network,
         };
-        built.check_states()?;
+        built.check_states(&mut memory)?;
         memory.keep(ENTRY, frame.entry);
         memory.settle();
         Ok((built, memory))
@@ -182,8 +183,13 @@ fn limited(
 }
 
 impl Transmission {
-    /// Checks that every gear state determines its torques when its default ports state them.
-    fn check_states(&self) -> Result<(), Vec<Diagnostic>> {
+    /// Checks that every gear state determines its torques when its default ports state them, unless these states were checked before.
+    fn check_states(&self, memory: &mut Memory) -> Result<(), Vec<Diagnostic>> {
+        let checked = memory.get::<Arc<Vec<GearState>>>(CHECKED);
+        if checked.is_some_and(|checked| Arc::ptr_eq(checked, &self.states)) {
+            return Ok(());
+        }
+        memory.keep(CHECKED, Arc::clone(&self.states));
         let mut found = Vec::new();
         for (i, state) in self.states.iter().enumerate() {
             let mut order: Vec<&str> = self.ports.iter().map(|p| p.name.as_str()).collect();
@@ -242,6 +248,9 @@ impl Frame {
 
 /// Key of the description as read in the memory of builds.
 const ENTRY: &str = "description";
+
+/// Key of the gear states whose torques were checked.
+const CHECKED: &str = "checked gear states";
 
 /// The description as read: that of the last build, with the changed entries read again.
 fn entry_again(language: &Language, document: &Value, memory: &mut Memory) -> Result<GearboxEntry, serde_json::Error> {

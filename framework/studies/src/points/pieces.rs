@@ -268,14 +268,20 @@ pub fn solve_pieces<T: Send>(
     loop {
         let next = groups.next();
         let mut solved = Vec::new();
-        rayon::in_place_scope(|scope| {
-            if let Some(next) = next {
-                scope.spawn(|_| solved = solve_all(next));
-            }
+        let mut take_all = |ready: &mut Vec<Piece<T>>| {
             if !ready.drain(..).all(&mut *take) {
                 going.store(false, Ordering::Relaxed);
             }
-        });
+        };
+        match next {
+            // Few points, as those of a sample, are not worth another task.
+            Some(next) if ready.is_empty() => solved = solve_all(next),
+            Some(next) => rayon::in_place_scope(|scope| {
+                scope.spawn(|_| solved = solve_all(next));
+                take_all(&mut ready);
+            }),
+            None => take_all(&mut ready),
+        }
         if !going.load(Ordering::Relaxed) {
             return Ok(false);
         }
