@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use gearloss_framework::document::{did_you_mean, read_yaml};
+use gearloss_framework::document::read_yaml;
 use gearloss_framework::files::{Disk, LONGEST_TEXT, read_text};
 use gearloss_framework::gearbox::{Findings, Gearbox};
 use gearloss_framework::language::Language;
@@ -22,10 +22,7 @@ use crate::output::{End, Failure, Out};
 
 pub fn run(args: &CheckArgs, out: &mut Out) -> Result<End, Failure> {
     let language = super::language()?;
-    let deny = match &args.deny {
-        Some(name) => Some(grade(name)?),
-        None => None,
-    };
+    let deny = args.deny.as_deref().map(Evidence::of_name).transpose()?;
     if args.format == Format::Json {
         return print_json(language, args, deny, out);
     }
@@ -35,7 +32,7 @@ pub fn run(args: &CheckArgs, out: &mut Out) -> Result<End, Failure> {
     for file in &args.files {
         if is_study(file) {
             belongs_to_gearboxes(args, file)?;
-            let looked = study(language, file);
+            let looked = CheckedStudy::read(language, &Disk::shared(), file, &UntilInterrupted);
             for findings in &looked.warnings {
                 for warning in &findings.list {
                     out.text(&format!("{}\n\n", findings.sources.render(warning)))?;
@@ -85,7 +82,7 @@ fn print_json(language: &Language, args: &CheckArgs, deny: Option<Evidence>, out
     for file in &args.files {
         let record = if is_study(file) {
             belongs_to_gearboxes(args, file)?;
-            let study = study(language, file);
+            let study = CheckedStudy::read(language, &Disk::shared(), file, &UntilInterrupted);
             if study
                 .refused
                 .iter()
@@ -126,24 +123,6 @@ fn belongs_to_gearboxes(args: &CheckArgs, file: &Path) -> Result<(), Failure> {
         )),
         None => Ok(()),
     }
-}
-
-/// The grade of a name.
-pub fn grade(name: &str) -> Result<Evidence, Failure> {
-    Evidence::of_name(name).ok_or_else(|| {
-        let names = Evidence::ALL.map(Evidence::name);
-        let grades = names.join(", ");
-        let help = match did_you_mean(name, names) {
-            Some(close) => format!("write {close}; the grades are {grades}"),
-            None => format!("write one of {grades}"),
-        };
-        Failure::input(format!("`{name}` is not an evidence grade"), help)
-    })
-}
-
-/// A study, checked as `run` would.
-fn study(language: &Language, file: &Path) -> CheckedStudy {
-    CheckedStudy::read(language, &Disk::shared(), file, &UntilInterrupted)
 }
 
 /// No progress, until Ctrl-C.

@@ -2,12 +2,12 @@
 
 use gearloss_framework::coefficients::changed_from_source;
 use gearloss_framework::gearbox::Gearbox;
+use gearloss_framework::registry::Evidence;
 use gearloss_report::point::{derivatives_text, point_json, point_text, ratings_text, remarks};
 use gearloss_studies::points::{Derived, Variable, evidence};
 use gearloss_studies::ratings::rated;
 use serde_json::json;
 
-use super::check::grade;
 use super::point::prepare;
 use super::{set, warn};
 use crate::args::{Format, SolveArgs};
@@ -77,7 +77,7 @@ pub fn run(args: &SolveArgs, out: &mut Out) -> Result<End, Failure> {
         let denied = if what == "extrapolation" {
             solved.notes.iter().any(|n| n.outside > 0)
         } else {
-            let grade = grade(what)?;
+            let grade = Evidence::of_name(what)?;
             known.first().is_some_and(|w| w.grade >= grade)
         };
         if denied {

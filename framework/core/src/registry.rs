@@ -131,8 +131,19 @@ impl Evidence {
     ];
 
     /// The grade of a name.
-    pub fn of_name(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|grade| grade.name() == name)
+    ///
+    /// # Errors
+    /// If there is no such grade.
+    pub fn of_name(name: &str) -> Result<Self, Diagnostic> {
+        Self::ALL.into_iter().find(|grade| grade.name() == name).ok_or_else(|| {
+            let names = Self::ALL.map(Self::name);
+            let grades = names.join(", ");
+            let help = match did_you_mean(name, names) {
+                Some(close) => format!("write {close}; the grades are {grades}"),
+                None => format!("write one of {grades}"),
+            };
+            Diagnostic::error("", format!("`{name}` is not an evidence grade")).help(help)
+        })
     }
 }
 

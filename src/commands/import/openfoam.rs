@@ -2,12 +2,13 @@
 
 use std::path::Path;
 
-use gearloss_framework::document::{Diagnostic, Unit, parse_quantity};
+use gearloss_framework::document::Diagnostic;
 use gearloss_framework::files::LONGEST_TEXT;
 use gearloss_studies::fit::openfoam::{Axis, Mean, Runs, history};
 
 use super::super::new;
-use crate::args::{AxisArg, OpenfoamArgs};
+use super::super::point::quantity;
+use crate::args::OpenfoamArgs;
 use crate::output::{End, Failure, Out, Table, significant};
 
 pub fn run(args: &OpenfoamArgs, out: &mut Out) -> Result<End, Failure> {
@@ -18,14 +19,13 @@ pub fn run(args: &OpenfoamArgs, out: &mut Out) -> Result<End, Failure> {
             "give a positive number",
         ));
     }
-    let from = seconds("--from", &args.from)?;
-    let to = args.to.as_deref().map_or(Ok(f64::INFINITY), |to| seconds("--to", to))?;
+    let from = quantity("--from", &args.from, "s")?;
+    let to = args
+        .to
+        .as_deref()
+        .map_or(Ok(f64::INFINITY), |to| quantity("--to", to, "s"))?;
     let window = [from, to];
-    let axis = match args.axis {
-        AxisArg::X => Axis::X,
-        AxisArg::Y => Axis::Y,
-        AxisArg::Z => Axis::Z,
-    };
+    let axis = [Axis::X, Axis::Y, Axis::Z][args.axis as usize];
     let text = super::super::read_file(runs, LONGEST_TEXT, "check the file name")?;
     let in_list = |fault: Diagnostic| Diagnostic {
         message: format!("{}: {}", runs.display(), fault.message),
@@ -68,16 +68,4 @@ pub fn run(args: &OpenfoamArgs, out: &mut Out) -> Result<End, Failure> {
     out.text(&printed.render())?;
     new::write(&args.output, &table, out)?;
     Ok(End::Fine)
-}
-
-fn seconds(option: &str, text: &str) -> Result<f64, Failure> {
-    let unit = Unit::of_symbol("s").unwrap_or(Unit::ONE);
-    parse_quantity(text.trim(), unit).map_err(|fault| {
-        Failure::input(
-            format!("{option} \"{text}\": {}", fault.message),
-            fault
-                .help
-                .unwrap_or_else(|| "write a time such as \"0.5 s\"".to_owned()),
-        )
-    })
 }

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use gearloss_framework::document::read_yaml;
 use gearloss_framework::files::{LONGEST_DATA, read_bytes};
 use gearloss_framework::language::Language;
-use gearloss_studies::analyses::head::inputs;
+use gearloss_studies::analyses::head::{hash_of, inputs};
 use gearloss_studies::study::Study;
 use gearloss_studies::tasks::StorageError;
 use serde::de::DeserializeOwned;
@@ -16,7 +16,6 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::folder::{Held, cannot_write, is_unfinished, temporary};
-use super::write::hash_of;
 use crate::output::Failure;
 use crate::shard::Shard;
 

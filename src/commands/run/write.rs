@@ -1,15 +1,12 @@
 //! Files of results.
 
 use std::fs;
-use std::io::{self, BufRead as _, BufReader, Write as _};
-use std::path::Path;
+use std::io::{self, Write as _};
 
-use gearloss_framework::files::open_regular;
 use gearloss_report::Figure;
 use gearloss_report::html::Frame;
 use gearloss_report::xlsx;
 use gearloss_studies::analyses::Outcome;
-use gearloss_studies::analyses::head::{FNV_BASIS, fnv1a_from, hexadecimal};
 use gearloss_studies::table::Table;
 
 use super::result_files::Place;
@@ -72,19 +69,4 @@ pub fn keep(runner: &Run<'_>, file: &str, bytes: io::Result<Vec<u8>>) -> Result<
     let (place, mut to) = Place::new(&runner.files, file)?;
     let written = bytes.and_then(|bytes| to.write_all(&bytes).and_then(|()| to.flush()));
     Ok(place.done(written)?)
-}
-
-/// The hash of a regular file, read in blocks.
-pub fn hash_of(file: &Path) -> std::io::Result<String> {
-    let mut file = BufReader::new(open_regular(file)?);
-    let mut hash = FNV_BASIS;
-    loop {
-        let bytes = file.fill_buf()?;
-        if bytes.is_empty() {
-            return Ok(hexadecimal(hash));
-        }
-        hash = fnv1a_from(hash, bytes);
-        let count = bytes.len();
-        file.consume(count);
-    }
 }

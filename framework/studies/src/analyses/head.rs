@@ -1,10 +1,12 @@
 //! Provenance of a result: versions, conditions, inputs with their hashes, changed coefficients.
 
+use std::io::{self, BufRead as _, BufReader};
 use std::path::Path;
 
 use gearloss_framework::coefficients::{Changed, changed_from_source};
 use gearloss_framework::description::Ordered;
 use gearloss_framework::evaluate::PowerFlow;
+use gearloss_framework::files::open_regular;
 use gearloss_framework::registry::Package;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -175,6 +177,24 @@ pub fn fnv1a_from(hash: u64, bytes: &[u8]) -> u64 {
 /// The hash of bytes as it is written in results.
 pub fn hash(bytes: &[u8]) -> String {
     hexadecimal(fnv1a_64(bytes))
+}
+
+/// The hash of a regular file, read in blocks.
+///
+/// # Errors
+/// If it cannot be read.
+pub fn hash_of(file: &Path) -> io::Result<String> {
+    let mut file = BufReader::new(open_regular(file)?);
+    let mut hash = FNV_BASIS;
+    loop {
+        let bytes = file.fill_buf()?;
+        if bytes.is_empty() {
+            return Ok(hexadecimal(hash));
+        }
+        hash = fnv1a_from(hash, bytes);
+        let count = bytes.len();
+        file.consume(count);
+    }
 }
 
 /// A hash as it is written in results.
