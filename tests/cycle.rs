@@ -278,7 +278,7 @@ fn a_wltc_takes_few_evaluations_and_few_passes() {
     assert_eq!((driven.stretches.len(), driven.steps), (1800, [1800, 0]));
     // Three evaluations a second, with those of other seconds in lanes: at the temperatures before some 30 seconds, at those that they lead
     // to, and at the corrected ones; a fourth where temperatures change fast. One by one there were two.
-    assert_eq!(driven.evaluations, 5847);
+    assert_eq!(driven.evaluations, 5751);
     let laws = contact_work::laws(&language, &resolved, &t);
     let mut sum = (0, 0, 0);
     for s in driven.stretches.iter().step_by(10) {
@@ -286,9 +286,9 @@ fn a_wltc_takes_few_evaluations_and_few_passes() {
             sum = (sum.0 + runs, sum.1 + passes, sum.2 + places);
         }
     }
-    // With the bodies known there is one way along each path, and some three passes at each of its places.
+    // With the bodies known there is one way along each path, and some two passes at each of its places.
     assert_eq!((sum.0 as usize) * laws[0].1.len(), sum.2);
-    assert_eq!(sum, (312, 29049, 9984));
+    assert_eq!(sum, (312, 18021, 9984));
 }
 
 /// Runs a study of one duty with the drive unit; what it says to standard error.

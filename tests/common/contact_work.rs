@@ -9,6 +9,7 @@ use gearloss_framework::mechanism::tooth_friction::ToothFrictionModel as _;
 use gearloss_framework::registry::{Build, Files};
 use gearloss_framework::resolve::{Resolved, lookup};
 use gearloss_framework::transmission::Transmission;
+use gearloss_plugins::tooth_friction::ehl_mixed::place::{Place, Settled};
 use gearloss_plugins::tooth_friction::ehl_mixed::{EhlMixed, Params};
 
 /// The law and the path of every mesh, from the resolved document: a `path_integral` with `ehl_mixed`.
@@ -41,7 +42,7 @@ pub fn work(laws: &[(EhlMixed, Path)], solution: &Solution<'_>) -> Vec<(u32, u32
             .at_operating_point(&mean, Notes::MUTED)
             .with(|to| to.bodies = at.bodies().unwrap_or(None));
         let mut mu = vec![0.0; path.len()];
-        let (tally, _) = law.settle(&along, &mut mu, |_, _| {});
+        let (tally, _) = law.settle(&along, &mut mu, None::<fn(&Place<'_>, &Settled)>);
         (tally.runs, tally.passes, path.len())
     };
     laws.iter().enumerate().map(of).collect()

@@ -30,9 +30,9 @@ use crate::real::{Mask as _, Points, Real};
 use crate::thermal::Unbalanced;
 use crate::transmission::{Case, Component, Sharing, Transmission};
 
-/// Iterations without notes. The torques of the first are a guess, those of the second are rarely the last; if they are, the models
-/// are evaluated once more.
-const SILENT: usize = 2;
+/// Iterations without notes, from no losses and from those of the last solve. The torques of the first are a guess, those of the second
+/// are rarely the last; if they are, the models are evaluated once more.
+const SILENT: [usize; 2] = [2, 1];
 
 /// Whether torque downstream is reduced by upstream losses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
@@ -245,8 +245,8 @@ impl Transmission {
         let quiet = noting == Noting::Muted;
         let iterates = power_flow == PowerFlow::Real && !s.standing;
         s.ideal = power_flow == PowerFlow::Ideal;
-        let silent = if iterates && start == Start::Lossless {
-            SILENT
+        let silent = if iterates {
+            SILENT[usize::from(start == Start::Last)]
         } else {
             0
         };

@@ -47,7 +47,7 @@ use serde::Deserialize;
 use crate::rotating::Body;
 use contact::Contact;
 use film::{Factor, Film, InletHeating};
-use march::{March, Tally, Warming, Warmth};
+use march::{March, Solved, Tally, Warming, Warmth};
 use oil::{MeshFluid, Oil, Supplied, Written};
 use place::{Bodies, Conditions, Laws, Place, Settled, first_slope};
 use temperature::{FAST, FilmHeat, Flank};
@@ -255,14 +255,13 @@ impl EhlMixed {
 
     /// The friction along a path, with its notes.
     fn march_along<R: Points>(&self, path: &PathAt<'_, R>, mu: &mut [R]) -> Result<Along<R>, Undefined> {
-        let (_, first_heat) = self.settle(
-            path,
-            mu,
+        let note = (!path.notes.is_muted()).then_some(
             #[inline(always)]
-            |place, settled| {
+            |place: &Place<'_, R>, settled: &Settled<R>| {
                 note(path.notes, place, settled);
             },
         );
+        let (_, first_heat) = self.settle(path, mu, note);
         let sum = mu.iter().fold(R::ZERO, |sum, mu| sum + *mu);
         // Points of a batch that have left it, or are at rest, are not asked.
         let asked = R::mask(|point| R::COUNT == 1 || path.notes.points() >> point & 1 == 1);
@@ -272,13 +271,13 @@ impl EhlMixed {
         })
     }
 
-    /// Solves a path and writes its friction; shows each loaded point in order. Returns the iteration counts and the heat share of
-    /// the first gear.
+    /// Solves a path and writes its friction; shows each loaded point at that friction in order. Returns the iteration counts and the
+    /// heat share of the first gear.
     pub fn settle<R: Points>(
         &self,
         path: &PathAt<'_, R>,
         mu: &mut [R],
-        mut seen: impl FnMut(&Place<'_, R>, &Settled<R>),
+        seen: Option<impl FnMut(&Place<'_, R>, &Settled<R>)>,
     ) -> (Tally, R) {
         let oil = self.fluid.for_supply(Supplied {
             temperature: path.temperature,
@@ -297,26 +296,25 @@ impl EhlMixed {
             Some(known) if self.known.is_none() => Warming::Known(known),
             _ => self.warming(&oil, path.speed),
         };
-        let (bodies, mut tally) = march.settle(warming, mu);
-        let mut heats = [R::ZERO; 2];
-        R::wide(
-            #[inline(always)]
-            || {
-                let conditions = march.conditions(bodies);
-                for (node, mu) in path.nodes.iter().zip(&mut *mu) {
-                    if let Some(place) = march.place(node, &conditions) {
-                        let loaded = place.loaded();
-                        let settled = place.after(*mu);
-                        tally.passes += 1;
-                        *mu = R::select(loaded, settled.mu, R::ZERO);
-                        for (sum, heat) in heats.iter_mut().zip(settled.heats) {
-                            *sum += R::select(loaded, heat * node.weight, R::ZERO);
+        let Solved {
+            bodies,
+            heats,
+            mut tally,
+        } = march.settle(warming, mu);
+        if let Some(mut seen) = seen {
+            R::wide(
+                #[inline(always)]
+                || {
+                    let conditions = march.conditions(bodies);
+                    for (node, mu) in path.nodes.iter().zip(mu) {
+                        if let Some(place) = march.place(node, &conditions) {
+                            tally.passes += 1;
+                            seen(&place, &place.after(*mu));
                         }
-                        seen(&place, &settled);
                     }
-                }
-            },
-        );
+                },
+            );
+        }
         let [first, second] = heats;
         let heat = first + second;
         let share = (first / heat).at_least(LEAST_SHARE).at_most(1.0 - LEAST_SHARE);
@@ -390,8 +388,8 @@ impl ToothFrictionModel for EhlMixed {
         let speeds = Contact::speeds(at.sliding, at.sum_speed, true);
         let contact = Contact::new(at.line_load, at.radius, at.modulus, at.length, speeds);
         let place = Place::new(&Conditions::new(&self.laws, &oil, bodies), contact, at.rq);
-        let settled = place.settle(0.05, &mut first_slope(), &mut 0);
-        super::finite(note(at.notes, &place, &settled))
+        let mu = place.settle(0.05, &mut first_slope(), &mut 0);
+        super::finite(note(at.notes, &place, &place.after(mu)))
     }
 
     /// The limiting stress cuts off the friction, but one point costs as much as a whole path of other laws. Eight nodes leave an

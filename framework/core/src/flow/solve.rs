@@ -16,6 +16,9 @@ const TURNS: u8 = 4;
 const PATIENCE: usize = 10;
 /// Iterations after which points that are solved together leave; up to here, no step is halved.
 const TOGETHER: usize = PATIENCE - 2;
+/// Tolerance from which losses in the first iteration that are less than it are accepted, although they are those at the torques
+/// without losses.
+const ROUGH: f64 = 0.01;
 /// Safety factor: the remaining error is estimated from two steps.
 const SAFETY: f64 = 0.5;
 /// Maximum extrapolation, in steps in either direction.
@@ -91,7 +94,7 @@ impl Flow {
         work.passes = R::ZERO;
         let mut passes = 0;
         let mut steps = Steps {
-            near: start == Start::Last,
+            near: R::mask(|_| start == Start::Last) | tolerance.power.is_above(R::constant(ROUGH)),
             ..Steps::default()
         };
         let end = match self.iterate(tolerance, work, &mut losses, &mut passes, &mut steps) {
@@ -169,11 +172,9 @@ impl Flow {
         let enough = work.largest * (tolerance.power * SAFETY);
         steps.last = if steps.known {
             work.done | !remaining(work).is_above(enough)
-        } else if steps.near {
-            // Losses below half of the power decrease by more than half in a step, so all that follows is less than the mismatch.
-            work.done | !mismatch.is_above(enough)
         } else {
-            work.done
+            // Losses below half of the power decrease by more than half in a step, so all that follows is less than the mismatch.
+            work.done | steps.near & !mismatch.is_above(enough)
         };
         if R::COUNT == 1 {
             steps.halve_without_progress(mismatch.at_point(0));
@@ -277,8 +278,8 @@ impl Flow {
 struct Steps<R: Points> {
     /// True if the driving gears are kept.
     fixed: bool,
-    /// True if the losses at the start are close to the result.
-    near: bool,
+    /// Where the losses at the start are close to the result, or their first change may be the last.
+    near: R::Mask,
     /// True once the values of two iterations are known.
     known: bool,
     /// Points for which the iteration is the last one.
@@ -294,7 +295,7 @@ impl<R: Points> Default for Steps<R> {
     fn default() -> Self {
         Self {
             fixed: false,
-            near: false,
+            near: R::mask(|_| false),
             known: false,
             last: R::mask(|_| false),
             least: f64::INFINITY,

@@ -63,6 +63,17 @@ pub struct March<'a, R: Points = f64> {
     pub oil: &'a Oil<'a, R>,
 }
 
+/// A solved path.
+#[derive(Debug, Clone, Copy)]
+pub struct Solved<R = f64> {
+    /// Body temperatures.
+    pub bodies: Bodies<R>,
+    /// Heat into both bodies. \[W\]
+    pub heats: [R; 2],
+    /// Iteration counts.
+    pub tally: Tally,
+}
+
 /// Sums over a path, each point with its weight.
 #[derive(Debug, Clone, Copy, Default)]
 struct Sums<R = f64> {
@@ -75,12 +86,15 @@ struct Sums<R = f64> {
     conductance: R,
     /// Body temperatures. \[degC\]
     bodies: [R; 2],
+    /// Heat into both bodies. \[W\]
+    heats: [R; 2],
 }
 
 impl<R: Points> Sums<R> {
-    /// Adds a point with its friction and body temperatures, where it carries load.
+    /// Adds a point with its friction, where it carries load.
     #[inline(always)]
-    fn add(&mut self, weight: f64, place: &Place<'_, R>, mu: R, bodies: [R; 2]) {
+    fn add(&mut self, weight: f64, place: &Place<'_, R>, mu: R) {
+        let (bodies, heats) = place.heat_bodies(mu);
         let weight = R::select(place.loaded(), R::constant(weight), R::ZERO);
         let heat = mu * place.heat_per_mu();
         let [b1, b2] = place.bands();
@@ -90,8 +104,13 @@ impl<R: Points> Sums<R> {
         self.heat += weighted(heat);
         self.first += weighted(heat * b2 / (b1 + b2));
         self.conductance += weighted(R::constant(1.0) / (b1 + b2));
-        for (sum, t) in self.bodies.iter_mut().zip(bodies) {
-            *sum += weighted(t);
+        for (sum, x) in self
+            .bodies
+            .iter_mut()
+            .zip(bodies)
+            .chain(self.heats.iter_mut().zip(heats))
+        {
+            *sum += weighted(x);
         }
     }
 
@@ -117,6 +136,7 @@ impl<R: Points> Sums<R> {
             first: own(|sums| sums.first),
             conductance: own(|sums| sums.conductance),
             bodies: [own(|sums| sums.bodies[0]), own(|sums| sums.bodies[1])],
+            heats: [own(|sums| sums.heats[0]), own(|sums| sums.heats[1])],
         }
     }
 }
@@ -172,11 +192,11 @@ impl<R: Points> March<'_, R> {
                         continue;
                     };
                     let guess = if first { before } else { *mu };
-                    let settled = place.settle(guess, &mut slope, &mut tally.passes);
-                    let found = R::select(place.loaded(), settled.mu, R::ZERO);
-                    *mu = R::select(open, found, *mu);
-                    before = R::select(place.loaded(), settled.mu, before);
-                    sums.add(node.weight, &place, settled.mu, settled.bodies);
+                    let found = place.settle(guess, &mut slope, &mut tally.passes);
+                    let loaded = place.loaded();
+                    *mu = R::select(open, R::select(loaded, found, R::ZERO), *mu);
+                    before = R::select(loaded, found, before);
+                    sums.add(node.weight, &place, found);
                 }
                 sums
             },
@@ -192,7 +212,7 @@ impl<R: Points> March<'_, R> {
                 let mut sums = Sums::default();
                 for node in self.path.nodes {
                     if let Some(place) = self.place(node, &unknown) {
-                        sums.add(node.weight, &place, R::constant(USUAL_MU), [R::ZERO; 2]);
+                        sums.add(node.weight, &place, R::constant(USUAL_MU));
                     }
                 }
                 sums
@@ -200,8 +220,8 @@ impl<R: Points> March<'_, R> {
         )
     }
 
-    /// Solves the whole path and writes its friction; returns the body temperatures and the iteration counts.
-    pub fn settle(&self, warming: Warming<R>, mu: &mut [R]) -> (Bodies<R>, Tally) {
+    /// Solves the whole path and writes its friction.
+    pub fn settle(&self, warming: Warming<R>, mu: &mut [R]) -> Solved<R> {
         let mut tally = Tally::default();
         let all = R::mask(|_| true);
         let oil = self.oil.supplied.temperature;
@@ -217,18 +237,19 @@ impl<R: Points> March<'_, R> {
             }
             Warming::By(Warmth::Balance, resistances) => return self.balance(resistances, mu),
         };
-        self.run(bodies, all, mu, &mut tally);
-        (bodies, tally)
+        let Sums { heats, .. } = self.run(bodies, all, mu, &mut tally);
+        Solved { bodies, heats, tally }
     }
 
     /// Solves for the body temperatures that balance the mean heat of the mesh.
-    fn balance(&self, resistances: [R; 2], mu: &mut [R]) -> (Bodies<R>, Tally) {
+    fn balance(&self, resistances: [R; 2], mu: &mut [R]) -> Solved<R> {
         let mut tally = Tally::default();
         let mut known = self.typical(resistances);
         let rheology = self.oil.rheology;
         let most = known.heat / USUAL_MU * rheology.mu_b.max(rheology.limiting_slope);
         let mut search = Search::new(most, R::ZERO);
         let mut heat = known.heat;
+        let mut heats = known.heats;
         // What belongs to points that are settled stays.
         let mut open = R::mask(|_| true);
         loop {
@@ -239,9 +260,10 @@ impl<R: Points> March<'_, R> {
             let off = (settled[0] - rise[0])
                 .magnitude()
                 .larger((settled[1] - rise[1]).magnitude());
+            heats = [0, 1].map(|i| R::select(open, found.heats[i], heats[i]));
             open = open & off.is_above(R::constant(SETTLED));
             if !open.any() || tally.runs == MOST_RUNS {
-                return (bodies, tally);
+                return Solved { bodies, heats, tally };
             }
             heat = R::select(open, search.next(heat, found.heat), heat);
             known = Sums::select(open, found, known);

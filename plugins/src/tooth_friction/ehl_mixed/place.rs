@@ -75,9 +75,11 @@ impl<'a, R: Points> Conditions<'a, R> {
 /// Slide-to-roll ratio below which only the film acts. Friction is zero at the pitch point, where boundary friction does not
 /// dissipate power.
 const ROLLING: f64 = 0.001;
-/// Convergence tolerance of the film temperature. Friction falls by about a percent per kelvin, and the last iteration removes most
-/// of the remaining error. \[K\]
+/// Convergence tolerance of the film temperature. Friction falls by about a percent per kelvin, and the last secant removes most of
+/// the remaining error. \[K\]
 const SETTLED: f64 = 0.005;
+/// Change of the film temperature in an iteration up to which a secant that agrees with the one before is the solution. \[K\]
+const NEAR: f64 = 0.1;
 /// Maximum number of iterations of a contact: bisection has then narrowed the bracket to 1e-6.
 const MOST_PASSES: u32 = 160;
 /// Typical derivative of the friction map; initial guess for the first contact of a path.
@@ -110,6 +112,16 @@ pub struct Settled<R = f64> {
     pub d0: R,
     /// Film temperature rise per coefficient of friction. \[K\]
     warming: R,
+}
+
+/// Bodies under a friction heat.
+struct Heated<R> {
+    /// Their temperatures. \[degC\]
+    bodies: [R; 2],
+    /// Heat into the first. \[W\]
+    first: R,
+    /// Mean temperature rise of both surfaces per heat. \[K/W\]
+    sides: R,
 }
 
 /// A point on the path: a contact and its oil.
@@ -193,12 +205,11 @@ impl<'a, R: Points> Place<'a, R> {
         radius * self.laws.film.over_radius(u, g, w, length / radius) * self.laws.inlet.at(&inlet)
     }
 
-    /// Evaluates the contact at a coefficient of friction; `mu` of the result is the resulting coefficient.
+    /// What a friction heat (W) does to the bodies.
     #[inline(always)]
-    pub fn after(&self, mu: R) -> Settled<R> {
+    fn heated(&self, heat: R) -> Heated<R> {
         let supplied = &self.oil.supplied;
         let one = R::constant(1.0);
-        let heat = mu * self.heat;
         let [b1, b2] = self.bands;
         let (bodies, first, sides) = match self.bodies {
             Bodies::Rising(m) => {
@@ -219,6 +230,24 @@ impl<'a, R: Points> Place<'a, R> {
         } else {
             [supplied.temperature; 2]
         };
+        Heated { bodies, first, sides }
+    }
+
+    /// Body temperatures (degC) and the heat into both (W) at a coefficient of friction.
+    #[inline(always)]
+    pub fn heat_bodies(&self, mu: R) -> ([R; 2], [R; 2]) {
+        let heat = mu * self.heat;
+        let Heated { bodies, first, .. } = self.heated(heat);
+        (bodies, [first, heat - first])
+    }
+
+    /// Evaluates the contact at a coefficient of friction; `mu` of the result is the resulting coefficient.
+    #[inline(always)]
+    pub fn after(&self, mu: R) -> Settled<R> {
+        let supplied = &self.oil.supplied;
+        let heat = mu * self.heat;
+        let [b1, b2] = self.bands;
+        let Heated { bodies, first, sides } = self.heated(heat);
         let inlet = (bodies[0] + bodies[1]) * 0.5;
         let h = match self.known_film {
             Some(film) => film,
@@ -292,25 +321,41 @@ impl<'a, R: Points> Place<'a, R> {
         self.laws.flank.peclet(self.contact.half_width, slow)
     }
 
-    /// Solves the contact from an initial guess of its friction; `slope` is the last estimate of the derivative of the friction
-    /// map. Counts iterations. A point that has converged keeps its friction while others iterate.
+    /// Solves the contact from an initial guess of its friction, and returns the friction; `slope` is the last estimate of the
+    /// derivative of the friction map. Counts iterations. A point that has converged keeps its friction while others iterate.
     #[inline(always)]
-    pub fn settle(&self, guess: R, slope: &mut R, passes: &mut u32) -> Settled<R> {
+    pub fn settle(&self, guess: R, slope: &mut R, passes: &mut u32) -> R {
+        let near = |difference: R, tolerance: f64| difference.magnitude().is_below(R::constant(tolerance));
         let mut search = Search::new(R::constant(self.most), *slope);
         let mut mu = guess.at_least(0.0).at_most(self.most);
+        let mut solved = mu;
         let mut running = self.loaded();
         let mut pass = 0;
         loop {
             let found = self.after(mu);
             pass += 1;
-            let left = (found.mu - mu).magnitude() * found.warming;
-            running = running & left.is_above(R::constant(SETTLED));
+            let expected = search.secant(mu, found.mu);
+            let next = search.next(mu, found.mu);
+            // The slope of another contact is good for a guess, not for a result: of a small load it may be far from its own.
+            let solution = if pass == 1 {
+                found.mu
+            } else {
+                search.solution(mu, found.mu)
+            };
+            solved = R::select(running, solution, solved);
+            *slope = R::select(running, search.slope(), *slope);
+            let left = (found.mu - mu) * found.warming;
+            running = running & left.magnitude().is_above(R::constant(SETTLED));
+            if pass > 1 {
+                // The error of a secant with a measured slope is far less than what that slope has changed of it.
+                let agrees = near((solved - expected) * found.warming, SETTLED) & near(left, NEAR);
+                running = running & !agrees;
+            }
             if !running.any() || pass == MOST_PASSES {
                 *passes += pass;
-                return found;
+                return solved;
             }
-            mu = R::select(running, search.next(mu, found.mu), mu);
-            *slope = R::select(running, search.slope(), *slope);
+            mu = R::select(running, next, mu);
         }
     }
 }

@@ -47,8 +47,22 @@ impl<R: Real> Search<R> {
         if self.tried.is_multiple_of(8) {
             return middle;
         }
-        let secant = x + (phi - x) / (R::constant(1.0) - self.slope);
+        let secant = self.secant(x, phi);
         R::select(secant.is_above(low) & secant.is_below(high), secant, middle)
+    }
+
+    /// The solution after phi has been evaluated at x, if the slope of phi is that of the last estimate.
+    #[inline(always)]
+    pub fn secant(&self, x: R, phi: R) -> R {
+        x + (phi - x) / (R::constant(1.0) - self.slope)
+    }
+
+    /// The same inside the bracket, else phi.
+    #[inline(always)]
+    pub fn solution(&self, x: R, phi: R) -> R {
+        let secant = self.secant(x, phi);
+        let [low, high] = self.bracket;
+        R::select(secant.is_below(low) | !secant.is_below(high), phi, secant)
     }
 }
 

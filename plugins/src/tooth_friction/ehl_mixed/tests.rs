@@ -83,7 +83,11 @@ impl Rig {
         });
         let mut mu = vec![0.0; nodes.len()];
         let mut places = Vec::new();
-        let (tally, _) = self.model.settle(&path, &mut mu, |_, settled| places.push(*settled));
+        let (tally, _) = self.model.settle(
+            &path,
+            &mut mu,
+            Some(|_: &Place<'_>, settled: &Settled| places.push(*settled)),
+        );
         let per_mu = |n: &PathNode| n.weight * n.force * n.sliding * mean.normal_force * mean.speed;
         let loss: f64 = nodes.iter().zip(&mu).map(|(n, mu)| per_mu(n) * mu).sum();
         Solved {

@@ -142,10 +142,10 @@ pub(super) struct Search {
 }
 
 impl Search {
-    /// The first of several for one point, roughly: its temperatures are a guess.
+    /// The first of several for one point, roughly, because its temperatures are a guess: usually at the torques without losses.
     pub const FIRST: Self = Self {
         start: Start::Lossless,
-        least: 1e-5,
+        least: 0.1,
     };
     /// The second for steps that are solved together, more roughly than the temperatures change until the third.
     pub const SECOND: Self = Self {

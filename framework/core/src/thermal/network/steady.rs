@@ -17,8 +17,11 @@ use crate::transmission::Transmission;
 
 /// Convergence tolerance of the temperatures. \[K\]
 const SETTLED: f64 = 1e-8;
-/// Tolerance of the power flow over the last change of the temperatures: smaller changes need more exact losses. \[1/K\]
-const EXACTNESS: f64 = 1e-7;
+/// Tolerance of the power flow over the last change of the temperatures: smaller changes need more exact losses. What one iteration from
+/// the last losses leaves is usually less. \[1/K\]
+const EXACTNESS: f64 = 1e-3;
+/// Maximum tolerance of the power flow after the first evaluation.
+const ROUGHEST: f64 = 1e-3;
 /// Maximum number of iterations.
 const MOST: usize = 200;
 /// Number of stored changes.
@@ -215,7 +218,7 @@ impl<'m> Seeking<'m> {
             return;
         }
         self.search = Search {
-            least: (EXACTNESS * change).min(Search::FIRST.least),
+            least: (EXACTNESS * change).min(ROUGHEST),
             ..Search::NEXT
         };
         steady.temperatures = self.memory.next(guess, &after);
