@@ -12,13 +12,17 @@ fn target() -> &'static Path {
 }
 
 /// Libraries that Cargo builds anew for a crate of another workspace; this test runs few of their instructions.
-const UNOPTIMISED: [&str; 6] = [
+const UNOPTIMISED: [&str; 10] = [
     "gearloss",
+    "gearloss-document",
+    "gearloss-editor",
+    "gearloss-exchange",
     "gearloss-framework",
     "gearloss-numerics",
     "gearloss-plugins",
     "gearloss-report",
     "gearloss-studies",
+    "gearloss-workbench",
 ];
 
 fn cargo(home: &Path, args: &[&str]) -> Output {
