@@ -11,26 +11,10 @@ fn target() -> &'static Path {
     Path::new(env!("CARGO_TARGET_TMPDIR")).parent().unwrap()
 }
 
-/// Libraries that Cargo builds anew for a crate of another workspace; this test runs few of their instructions.
-const UNOPTIMISED: [&str; 10] = [
-    "gearloss",
-    "gearloss-document",
-    "gearloss-editor",
-    "gearloss-exchange",
-    "gearloss-framework",
-    "gearloss-numerics",
-    "gearloss-plugins",
-    "gearloss-report",
-    "gearloss-studies",
-    "gearloss-workbench",
-];
-
 fn cargo(home: &Path, args: &[&str]) -> Output {
-    let quick = UNOPTIMISED.map(|library| format!("--config=profile.dev.package.{library}.opt-level=0"));
     Command::new(env!("CARGO"))
         .current_dir(home)
         .env("CARGO_TARGET_DIR", target())
-        .args(quick)
         .args(args)
         .output()
         .unwrap()
