@@ -30,9 +30,11 @@ use crate::real::{Mask as _, Points, Real};
 use crate::thermal::Unbalanced;
 use crate::transmission::{Case, Component, Sharing, Transmission};
 
-/// Iterations without notes, from no losses and from those of the last solve. The torques of the first are a guess, those of the second
-/// are rarely the last; if they are, the models are evaluated once more.
-const SILENT: [usize; 2] = [2, 1];
+/// Iterations without notes. The torques of the first are a guess, those of the second are rarely the last; if they are, the models
+/// are evaluated once more.
+const SILENT: usize = 2;
+/// The same from the losses of the last solve, whose second iteration often is the last.
+const SILENT_FROM_LAST: usize = 1;
 
 /// Whether torque downstream is reduced by upstream losses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
@@ -245,10 +247,10 @@ impl Transmission {
         let quiet = noting == Noting::Muted;
         let iterates = power_flow == PowerFlow::Real && !s.standing;
         s.ideal = power_flow == PowerFlow::Ideal;
-        let silent = if iterates {
-            SILENT[usize::from(start == Start::Last)]
-        } else {
-            0
+        let silent = match start {
+            _ if !iterates => 0,
+            Start::Lossless => SILENT,
+            Start::Last => SILENT_FROM_LAST,
         };
         let mut pass = 0;
         let (work, models) = (&mut s.work, &mut s.models);

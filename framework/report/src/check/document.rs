@@ -64,18 +64,19 @@ impl FileRecord {
     }
 
     /// The record of the file with this name.
-    pub fn json(&self, file: &str, denied_grade: Option<Evidence>) -> Value {
+    pub fn json(self, file: &str, denied_grade: Option<Evidence>) -> Value {
+        let denied = self.is_denied(denied_grade);
         let mut record = Map::new();
         record.insert("file".to_owned(), file.into());
         record.insert("kind".to_owned(), self.kind.into());
         record.insert("fine".to_owned(), (!self.wrong).into());
         record.insert("findings".to_owned(), json!(self.findings));
-        if let Some(notes) = &self.notes {
+        if let Some(notes) = self.notes {
             record.insert("notes".to_owned(), json!(notes));
         }
-        if let Some(built) = &self.built {
-            record.extend(built.clone());
-            record.insert("denied".to_owned(), self.is_denied(denied_grade).into());
+        if let Some(built) = self.built {
+            record.extend(built);
+            record.insert("denied".to_owned(), denied.into());
         }
         record.into()
     }
