@@ -23,12 +23,6 @@ pub fn check_all(language: &Language) -> Vec<String> {
     let mut faults = Vec::new();
     for mechanism in language.registry().mechanisms() {
         for q in (mechanism.quantities)() {
-            if crate::document::Unit::of_doc(q.doc).is_none() {
-                faults.push(format!(
-                    "{}: the doc comment of `{}` does not end in a [unit]",
-                    mechanism.key, q.name
-                ));
-            }
             if !(q.least <= q.usual && q.usual <= q.greatest) {
                 faults.push(format!(
                     "{}: the usual value of `{}` is outside its range",
@@ -43,7 +37,7 @@ pub fn check_all(language: &Language) -> Vec<String> {
                     files.put_all(entry.files);
                     // The example of `table` names a file; a plane over the first quantity replaces it.
                     if let Some(q) = (mechanism.quantities)().first() {
-                        let unit = crate::document::Unit::of_doc(q.doc).map_or("-", |u| u.symbol);
+                        let unit = q.unit.symbol;
                         let answer = crate::document::Unit::of_doc(mechanism.answer).map_or("-", |u| u.symbol);
                         let csv = format!(
                             "{} [{unit}],answer [{answer}]\n{},0.01\n{},0.02\n",
@@ -108,8 +102,8 @@ pub fn conform<M: Mechanism>(
         let (mut at, mut with_notes) = (usual, noted);
         for (i, value) in changes {
             let q = &M::QUANTITIES[*i];
-            (q.set)(&mut at, q.unit().to_si(*value));
-            (q.set)(&mut with_notes, q.unit().to_si(*value));
+            (q.set)(&mut at, q.unit.to_si(*value));
+            (q.set)(&mut with_notes, q.unit.to_si(*value));
         }
         let answer = M::answer(&slot, &at);
         let speed = M::speed(&at);
@@ -177,7 +171,7 @@ pub fn is_generic<M: Mechanism>(registry: &Registry, files: &Files, model: &Valu
 fn rest_and_reversal<M: Mechanism>(model: &M::Model, usual: &M::At<'_, f64>) -> Vec<String> {
     let speeds: Vec<&Quantity<M>> = M::QUANTITIES
         .iter()
-        .filter(|q| q.unit().symbol == "rpm" && q.least < 0.0)
+        .filter(|q| q.unit.symbol == "rpm" && q.least < 0.0)
         .collect();
     let mut faults = Vec::new();
     if speeds.is_empty() {
@@ -219,6 +213,10 @@ fn together<M: Mechanism>(
 ) -> Option<&'static str> {
     const LOADS: [&str; 4] = ["N", "Nm", "N/mm", "GPa"];
     const STATES: [&str; 4] = ["rpm", "m/s", "mm2/s", "mPa s"];
+    let kinds: Vec<[bool; 2]> = M::QUANTITIES
+        .iter()
+        .map(|q| [LOADS, STATES].map(|kind| kind.contains(&q.unit.symbol)))
+        .collect();
     let [all, single] = [(); 2].map(|()| vec![Cell::new(Seen::NOTHING); base.end()]);
     for states in [false, true] {
         for cell in all.iter().chain(&single) {
@@ -235,11 +233,9 @@ fn together<M: Mechanism>(
                 ..Notebook::CLOSED
             };
             let mut own = M::usual(part, book.notes(base));
-            for (k, q) in M::QUANTITIES.iter().enumerate() {
-                let symbol = q.unit().symbol;
-                let load = LOADS.contains(&symbol);
-                let factor = match load || states && STATES.contains(&symbol) {
-                    true if load && i % 5 == 4 && k % 2 == 0 => 0.0,
+            for (k, (q, [load, state])) in M::QUANTITIES.iter().zip(&kinds).enumerate() {
+                let factor = match *load || states && *state {
+                    true if *load && i % 5 == 4 && k % 2 == 0 => 0.0,
                     true => 0.3 + 1.5 * i as f64 / LANES as f64,
                     false => 1.0,
                 };
@@ -287,12 +283,12 @@ fn keeping<M: Mechanism>(
     let _ = M::answer(model, &M::usual(part, notes(&[], &kept)));
     let evaluate = |notes, q: &Quantity<M>, value| {
         let mut at = M::usual(part, notes);
-        (q.set)(&mut at, q.unit().to_si(value));
+        (q.set)(&mut at, q.unit.to_si(value));
         let noted = |cells: &[Cell<Seen>]| cells.iter().map(Cell::get).collect::<Vec<_>>();
         (M::answer(model, &at), M::speed(&at), noted(cells))
     };
     let mut faults = Vec::new();
-    for q in M::QUANTITIES.iter().filter(|q| matches!(q.unit().symbol, "N" | "Nm")) {
+    for q in M::QUANTITIES.iter().filter(|q| matches!(q.unit.symbol, "N" | "Nm")) {
         for value in [q.least, q.greatest] {
             let (anew, speed, noted) = evaluate(notes(cells, none), q, value);
             let (again, _, noted_again) = evaluate(notes(cells, &kept), q, value);

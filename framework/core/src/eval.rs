@@ -135,7 +135,7 @@ pub fn eval<M: Mechanism>(
         let mut followed = Vec::new();
         for (name, law) in settle::<M>(&mut at, &stated)? {
             if let Some(q) = M::QUANTITIES.iter().find(|q| q.name == name) {
-                let unit = q.unit();
+                let unit = q.unit;
                 followed.push((name, unit.from_si((q.get)(&at)), unit.symbol, law));
             }
         }

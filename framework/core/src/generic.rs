@@ -332,7 +332,7 @@ impl<M: Mechanism> Lookup<M> {
         }
         let axes: Vec<&'static Quantity<M>> = columns[..axes].iter().filter_map(|c| quantity(c)).collect();
         for (i, (axis, quantity)) in tables[0].axes().iter().zip(&axes).enumerate() {
-            let own = quantity.unit().symbol;
+            let own = quantity.unit.symbol;
             if axis.unit != own {
                 return Err(cx
                     .error(format!(

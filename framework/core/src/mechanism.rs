@@ -300,7 +300,9 @@ pub struct Quantity<M: Mechanism> {
     pub name: &'static str,
     /// Description, with its \[unit\] at the end.
     pub doc: &'static str,
-    /// Usual value in the documented unit.
+    /// The unit.
+    pub unit: &'static Unit,
+    /// Usual value in that unit.
     pub usual: f64,
     /// Minimum value at which models are tested, in the documented unit. The framework does not clip.
     pub least: f64,
@@ -317,12 +319,13 @@ pub struct Quantity<M: Mechanism> {
 }
 
 impl<M: Mechanism> Quantity<M> {
-    /// The documented unit.
-    ///
-    /// # Panics
-    /// If the doc comment does not end with a unit; the conformance suite finds that.
-    pub fn unit(&self) -> &'static Unit {
-        Unit::of_doc(self.doc).unwrap_or_else(|| panic!("the doc comment of `{}` does not end in a [unit]", self.name))
+    /// The unit at the end of a doc comment, of a constant: without one it does not compile.
+    #[doc(hidden)]
+    pub const fn unit_of(doc: &str) -> &'static Unit {
+        match Unit::of_doc(doc) {
+            Some(unit) => unit,
+            None => panic!("the doc comment of each quantity has to end in its [unit]"),
+        }
     }
 }
 
@@ -333,6 +336,8 @@ pub struct QuantityDoc {
     pub name: &'static str,
     /// Description and unit.
     pub doc: &'static str,
+    /// The unit.
+    pub unit: &'static Unit,
     /// Usual value in the documented unit.
     pub usual: f64,
     /// Minimum value in the documented unit.
@@ -383,6 +388,7 @@ macro_rules! context {
         impl<'a, R: $crate::real::Real> $crate::mechanism::Inputs<'a, $M, R> for $At<'a, R> {
             const QUANTITIES: &'static [$crate::mechanism::Quantity<$M>] = &[$($crate::mechanism::Quantity {
                 name: stringify!($name), doc: concat!($($doc),+), usual: $usual, least: $least, greatest: $greatest, from: $from,
+                unit: $crate::mechanism::Quantity::<$M>::unit_of(concat!($($doc),+)),
                 get: |at| at.$name, get_together: |at| at.$name, set: |at, si| at.$name = si,
             }),+];
 
@@ -391,15 +397,8 @@ macro_rules! context {
             }),+)?];
 
             fn usual(part: &'a <$M as $crate::mechanism::Mechanism>::Part, notes: $crate::loss::Notes<'a, R>) -> Self {
-                // Models evaluate others at their own contexts at every point, so units are looked up once.
-                const COUNT: usize = <$M as $crate::mechanism::Mechanism>::QUANTITIES.len();
-                static USUAL: ::std::sync::OnceLock<[f64; COUNT]> = ::std::sync::OnceLock::new();
-                let [$($name),+] = *USUAL.get_or_init(|| {
-                    ::std::array::from_fn(|i| {
-                        let q = &<$M as $crate::mechanism::Mechanism>::QUANTITIES[i];
-                        q.unit().to_si(q.usual)
-                    })
-                });
+                $(#[allow(non_upper_case_globals)]
+                const $name: f64 = $crate::mechanism::Quantity::<$M>::unit_of(concat!($($doc),+)).to_si($usual);)+
                 Self { part, $($name: R::constant($name),)+ notes }
             }
 

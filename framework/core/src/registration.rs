@@ -43,6 +43,7 @@ fn quantities<M: Mechanism>() -> Vec<QuantityDoc> {
         .map(|q| QuantityDoc {
             name: q.name,
             doc: q.doc,
+            unit: q.unit,
             usual: q.usual,
             least: q.least,
             greatest: q.greatest,

@@ -34,6 +34,13 @@ pub use crate::mechanism::{ModelRef, NamedSlots, Slot};
 
 pub use inventory;
 
+/// Adds an entry to the registry of its type.
+#[cfg(not(test))]
+#[doc(hidden)]
+pub use inventory::submit;
+#[cfg(test)]
+pub(crate) use crate::without_entry as submit;
+
 /// A crate that registers something.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, schemars::JsonSchema)]
 pub struct Package {
@@ -594,11 +601,23 @@ pub fn from_resolved<T: DeserializeOwned>(value: &Value) -> Result<T, serde_json
     T::deserialize(serde::de::value::MapDeserializer::new(fields))
 }
 
+/// Stands for the submission of an entry in the unit tests of a crate: the entry is checked and not registered, so that the tests compile
+/// only what they use.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! without_entry {
+    ($entry:expr) => {
+        const _: () = {
+            let _ = || $entry;
+        };
+    };
+}
+
 /// Registers a mechanism without its own section.
 #[macro_export]
 macro_rules! register_mechanism {
     ($M:ty) => {
-        $crate::registry::inventory::submit! { $crate::registry::MechanismEntry::new::<$M>($crate::origin!()) }
+        $crate::registry::submit! { $crate::registry::MechanismEntry::new::<$M>($crate::origin!()) }
     };
 }
 
@@ -606,7 +625,7 @@ macro_rules! register_mechanism {
 #[macro_export]
 macro_rules! register_component {
     ($C:ty) => {
-        $crate::registry::inventory::submit! { $crate::registry::MechanismEntry::component::<$C>($crate::origin!()) }
+        $crate::registry::submit! { $crate::registry::MechanismEntry::component::<$C>($crate::origin!()) }
     };
 }
 
@@ -619,7 +638,7 @@ macro_rules! register {
         evidence: [$($graded:expr),* $(,)?]
         $(, limits: [$($limit:expr),* $(,)?])? $(, terms: [$($term:expr),* $(,)?])? $(, observed: [$($observed:expr),* $(,)?])?
         $(, scope: $scope:expr)? $(, geometry: $geometry:expr)? $(, prepare: $prepare:expr)? $(,)?) => {
-        $crate::registry::inventory::submit! {
+        $crate::registry::submit! {
             $crate::registry::Entry {
                 mechanism: <$M as $crate::mechanism::Mechanism>::KEY, name: $name, source: $source, example: $example, part: $crate::register!(@part $($part)?), files: &[$($($file),*)?], evidence: &[$($graded),*],
                 limits: &[$($($limit),*)?], terms: &[$($($term),*)?], observed: &[$($($observed),*)?],

@@ -153,8 +153,19 @@ const fn unit(symbol: &'static str, dimension: Dimension, factor: f64) -> Unit {
     }
 }
 
+/// Comparison of texts in constants.
+const fn is_same(mut a: &[u8], mut b: &[u8]) -> bool {
+    while let (Some((first, rest)), Some((other, others))) = (a.split_first(), b.split_first()) {
+        if *first != *other {
+            return false;
+        }
+        (a, b) = (rest, others);
+    }
+    a.is_empty() && b.is_empty()
+}
+
 /// All spellings, the usual one of each unit first.
-static UNITS: &[Unit] = &[
+const UNITS: &[Unit] = &[
     unit("-", Dimension::None, 1.0),
     unit("mm", Dimension::Length, 1e-3),
     unit("um", Dimension::Length, 1e-6),
@@ -295,10 +306,31 @@ impl Unit {
     }
 
     /// The unit in brackets at the end of a doc comment.
-    pub fn of_doc(doc: &str) -> Option<&'static Unit> {
-        let inner = doc.trim_end().strip_suffix(']')?;
-        let open = inner.rfind('[')?;
-        Self::of_symbol(&inner[open + 1..])
+    pub const fn of_doc(doc: &str) -> Option<&'static Unit> {
+        let doc = doc.trim_ascii_end().as_bytes();
+        let Some((b']', inner)) = doc.split_last() else {
+            return None;
+        };
+        let mut rest = inner;
+        while let Some((last, before)) = rest.split_last() {
+            if *last == b'[' {
+                let (_, symbol) = inner.split_at(rest.len());
+                return Self::of_bytes(symbol);
+            }
+            rest = before;
+        }
+        None
+    }
+
+    const fn of_bytes(symbol: &[u8]) -> Option<&'static Unit> {
+        let mut units = UNITS;
+        while let Some((unit, others)) = units.split_first() {
+            if is_same(unit.symbol.as_bytes(), symbol) {
+                return Some(unit);
+            }
+            units = others;
+        }
+        None
     }
 
     /// All symbols of a dimension.
@@ -313,7 +345,7 @@ impl Unit {
 
     /// A number in this unit, in SI.
     #[inline]
-    pub fn to_si(&self, x: f64) -> f64 {
+    pub const fn to_si(&self, x: f64) -> f64 {
         x * self.factor + self.offset
     }
 

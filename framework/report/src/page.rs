@@ -222,11 +222,17 @@ impl View {
     }
 }
 
+#[cfg(not(test))]
+#[doc(hidden)]
+pub use inventory::submit;
+#[cfg(test)]
+pub(crate) use gearloss_framework::without_entry as submit;
+
 /// Registers the view of a type of outcome: `register_view!(BalanceOutcome, show);` with `fn show(&BalanceOutcome, &mut Page)`.
 #[macro_export]
 macro_rules! register_view {
     ($O:ty, $show:path) => {
-        gearloss_framework::registry::inventory::submit! {
+        $crate::page::submit! {
             $crate::page::View::new::<$O>(|outcome, page| {
                 if let Some(outcome) = outcome.downcast_ref::<$O>() {
                     $show(outcome, page);

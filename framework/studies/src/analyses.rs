@@ -239,6 +239,12 @@ impl AnalysisKind {
         }
         all
     }
+
+    /// The key for parameters of the analysis with a name.
+    pub(crate) fn parameters_of(name: &str) -> Option<ParameterKey> {
+        let kind = Self::linked().into_iter().find(|kind| kind.name == name);
+        kind?.parameters
+    }
 }
 
 /// The entry of this kind.
@@ -246,11 +252,17 @@ fn own<A: Analysis>(entry: &Written) -> &A {
     entry.downcast_ref().expect("a kind runs the entries that it has read")
 }
 
+#[cfg(not(test))]
+#[doc(hidden)]
+pub use inventory::submit;
+#[cfg(test)]
+pub(crate) use gearloss_framework::without_entry as submit;
+
 /// Registers an analysis: `register_analysis!(BalanceEntry);`.
 #[macro_export]
 macro_rules! register_analysis {
     ($A:ty) => {
-        gearloss_framework::registry::inventory::submit! {
+        $crate::analyses::submit! {
             $crate::analyses::AnalysisKind::new::<$A>(gearloss_framework::origin!())
         }
     };

@@ -44,7 +44,7 @@ use crate::measured::MeasuredEntry;
 use gearloss_framework::description::Ordered;
 use gearloss_framework::evaluate::PowerFlow;
 use gearloss_framework::language::STUDY;
-use gearloss_framework::registry::{DocumentKind, inventory};
+use gearloss_framework::registry::DocumentKind;
 use gearloss_framework::transmission::Transmission;
 
 /// A study.
@@ -91,7 +91,7 @@ pub struct StudyEntry {
     pub analyses: Ordered<AnalysisEntry>,
 }
 
-inventory::submit! { DocumentKind { name: STUDY, schema: StudyEntry::json_schema } }
+crate::analyses::submit! { DocumentKind { name: STUDY, schema: StudyEntry::json_schema } }
 
 /// Kind and format version of a study.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]

@@ -84,7 +84,7 @@ fn context<'a, M: Mechanism>(part: &'a M::Part, random: &mut Random) -> M::At<'a
         } else {
             q.usual * 4.0_f64.powf(2.0 * random.next() - 1.0)
         };
-        (q.set)(&mut at, q.unit().to_si(value.clamp(q.least, q.greatest)));
+        (q.set)(&mut at, q.unit.to_si(value.clamp(q.least, q.greatest)));
     }
     at
 }

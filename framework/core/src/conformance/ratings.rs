@@ -57,12 +57,12 @@ pub fn conform_rating<M: Mechanism>(
         let (mut at, mut mirrored) = (usual, usual);
         for (i, value) in changes {
             let q = &M::QUANTITIES[*i];
-            (q.set)(&mut at, q.unit().to_si(*value));
-            (q.set)(&mut mirrored, q.unit().to_si(*value));
+            (q.set)(&mut at, q.unit.to_si(*value));
+            (q.set)(&mut mirrored, q.unit.to_si(*value));
         }
         for q in M::QUANTITIES
             .iter()
-            .filter(|q| q.unit().symbol == "rpm" && q.least < 0.0)
+            .filter(|q| q.unit.symbol == "rpm" && q.least < 0.0)
         {
             let speed = (q.get)(&mirrored);
             (q.set)(&mut mirrored, -speed);

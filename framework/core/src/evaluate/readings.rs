@@ -25,8 +25,8 @@ pub struct Reading {
 pub(crate) fn readings<M: Mechanism>(at: &M::At<'_, f64>) -> Vec<Reading> {
     let of = |q: &crate::mechanism::Quantity<M>| Reading {
         name: q.name,
-        unit: q.unit(),
-        value: q.unit().from_si((q.get)(at)),
+        unit: q.unit,
+        value: q.unit.from_si((q.get)(at)),
     };
     M::QUANTITIES.iter().map(of).collect()
 }

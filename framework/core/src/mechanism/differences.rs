@@ -103,7 +103,7 @@ fn step<M: Mechanism>(at: &M::At<'_, Dual>, direction: usize) -> Option<f64> {
     for q in M::QUANTITIES {
         let change = (q.get)(&change);
         if change != 0.0 {
-            let unit = q.unit();
+            let unit = q.unit;
             let size = if unit.symbol == "degC" {
                 TEMPERATURES
             } else {

@@ -80,7 +80,7 @@ fn named<M: Mechanism>(name: &str) -> Option<&'static Quantity<M>> {
 
 /// Rejects a value, computed only from stated values, that the quantity cannot have.
 fn within<M: Mechanism>(law: &Law<M>, quantity: &Quantity<M>, value: f64) -> Result<(), Diagnostic> {
-    let unit = quantity.unit();
+    let unit = quantity.unit;
     let shown = unit.from_si(value);
     let rounding = ROUNDED * shown.abs();
     if shown >= quantity.least - rounding && shown <= quantity.greatest + rounding {
@@ -132,7 +132,7 @@ fn agree<M: Mechanism>(law: &Law<M>, at: &M::At<'_, f64>, stated: &[&'static str
         return Ok(());
     }
     let written = |quantity: &Quantity<M>, si: f64| {
-        let unit = quantity.unit();
+        let unit = quantity.unit;
         format!("{} {}", significant(unit.from_si(si)), unit.symbol)
     };
     let others: Vec<String> = law

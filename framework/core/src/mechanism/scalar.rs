@@ -42,7 +42,7 @@ impl<M: Mechanism> Input<M> {
     pub(crate) fn new(quantity: &'static Quantity<M>) -> Self {
         Self {
             quantity,
-            unit: quantity.unit(),
+            unit: quantity.unit,
         }
     }
 

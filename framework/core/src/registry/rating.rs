@@ -113,7 +113,7 @@ macro_rules! register_rating {
         source: $source:expr, $(part: $part:expr,)?
         evidence: [$($graded:expr),* $(,)?], figures: [$($figure:expr),+ $(,)?]
         $(, limits: [$($limit:expr),* $(,)?])? $(, prepare: $prepare:expr)? $(,)?) => {
-        $crate::registry::inventory::submit! {
+        $crate::registry::submit! {
             $crate::registry::RatingPlugin {
                 entry: $crate::registry::Entry {
                     mechanism: <$M as $crate::mechanism::Mechanism>::KEY, name: $name, source: $source, example: "{}",

@@ -71,7 +71,7 @@ fn quantity(quantity: &QuantityDoc) -> Value {
     json!({
         "name": quantity.name,
         "meaning": meaning(quantity.doc),
-        "unit": Unit::of_doc(quantity.doc).map(|unit| unit.symbol),
+        "unit": quantity.unit.symbol,
         "usual": quantity.usual,
         "least": quantity.least,
         "greatest": quantity.greatest,

@@ -10,7 +10,7 @@ use super::names::devices;
 use super::parameters::{TakenOver, replace_names, written_at};
 use super::then::{PromisedSets, promised_sets};
 use super::{Data, Grid, StudyEntry, Uses};
-use crate::analyses::AnalysisEntry;
+use crate::analyses::{AnalysisEntry, AnalysisKind};
 use crate::codes;
 use crate::measured::{FaultPlace, Measured, MeasuredEntry, MeasuredFault};
 use crate::points::{Field, OilTemperature, Points, Rows};
@@ -113,7 +113,7 @@ impl Study {
                 sources,
             });
         }
-        let taken_over = match replace_names(&mut walked.value) {
+        let taken_over = match replace_names(&mut walked.value, AnalysisKind::parameters_of) {
             Ok(taken_over) => taken_over,
             Err(list) => {
                 let list = list.into_iter().map(|d| walked.places.place(d).code(codes::STUDY));

@@ -4,7 +4,6 @@ use schemars::JsonSchema;
 use serde_json::{Map, Value};
 
 use super::IdentifiedEntry;
-use crate::analyses::AnalysisKind;
 use gearloss_framework::description::Ordered;
 use gearloss_framework::document::{Diagnostic, did_you_mean};
 
@@ -55,20 +54,21 @@ pub(super) fn written_at(taken_over: &TakenOver, path: &str) -> Option<String> {
     })
 }
 
-/// Replaces names of parameters of a walked study by the parameters.
+/// Replaces names of parameters of a walked study by the parameters, in the key that each type of analysis has for them.
 ///
 /// # Errors
 /// Every unknown name, and every parameter without both ends if a range is needed.
-pub(super) fn replace_names(study: &mut Value) -> Result<TakenOver, Vec<Diagnostic>> {
+pub(super) fn replace_names(
+    study: &mut Value,
+    key_of: impl Fn(&str) -> Option<ParameterKey>,
+) -> Result<TakenOver, Vec<Diagnostic>> {
     let stated = study.get("parameters").and_then(Value::as_object).cloned();
     let stated = stated.unwrap_or_default();
-    let kinds = AnalysisKind::linked();
     let (mut found, mut taken_over) = (Vec::new(), Vec::new());
     let analyses = study.get_mut("analyses").and_then(Value::as_object_mut);
     for (name, analysis) in analyses.into_iter().flatten() {
         let kind = analysis.get("type").and_then(Value::as_str);
-        let kind = kinds.iter().find(|own| Some(own.name) == kind);
-        let (key, identifies) = match kind.and_then(|kind| kind.parameters) {
+        let (key, identifies) = match kind.and_then(&key_of) {
             Some(ParameterKey::Whole(key)) => (key, true),
             Some(ParameterKey::Range(key)) => (key, false),
             None => continue,
@@ -148,6 +148,14 @@ mod tests {
         json!({ "parameters": parameters, "analyses": { "a": analysis } })
     }
 
+    fn key_of(kind: &str) -> Option<ParameterKey> {
+        match kind {
+            "identify" => Some(ParameterKey::Whole("parameters")),
+            "uncertainty" => Some(ParameterKey::Range("inputs")),
+            _ => Some(ParameterKey::Range("parameters")),
+        }
+    }
+
     #[test]
     fn names_give_way_to_what_they_stand_for() {
         let whole = json!({ "path": "p", "from": "1 mm", "to": "2 mm", "scale": "log", "start": null });
@@ -155,14 +163,14 @@ mod tests {
             json!({ "x": whole }),
             json!({ "type": "identify", "parameters": ["x"] }),
         );
-        replace_names(&mut identify).unwrap();
+        replace_names(&mut identify, key_of).unwrap();
         assert_eq!(identify["analyses"]["a"]["parameters"]["x"], whole);
         let own = json!({ "path": "q", "percent": 5.0 });
         let mut uncertainty = study(
             json!({ "x": whole }),
             json!({ "type": "uncertainty", "inputs": ["x", own] }),
         );
-        let taken_over = replace_names(&mut uncertainty).unwrap();
+        let taken_over = replace_names(&mut uncertainty, key_of).unwrap();
         let written = |path: &str| written_at(&taken_over, path);
         assert_eq!(
             written("analyses.a.inputs.0.from").as_deref(),
@@ -180,7 +188,7 @@ mod tests {
             stated.clone(),
             json!({ "type": "sensitivity", "parameters": ["x", "z", "y"] }),
         );
-        let found = replace_names(&mut sensitivity).unwrap_err();
+        let found = replace_names(&mut sensitivity, key_of).unwrap_err();
         let words: Vec<String> = found.iter().map(ToString::to_string).collect();
         assert_eq!(found.len(), 3, "{words:?}");
         assert!(
@@ -190,6 +198,6 @@ mod tests {
         assert!(words[1].contains("no parameter `z`"), "{words:?}");
         assert!(words[2].contains("several values over torque"), "{words:?}");
         let mut identify = study(stated, json!({ "type": "identify", "parameters": ["x", "x"] }));
-        assert!(replace_names(&mut identify).unwrap_err()[0].message.contains("twice"));
+        assert!(replace_names(&mut identify, key_of).unwrap_err()[0].message.contains("twice"));
     }
 }

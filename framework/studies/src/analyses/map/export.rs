@@ -129,7 +129,7 @@ inventory::collect!(ExportKind);
 #[macro_export]
 macro_rules! register_export {
     ($format:expr) => {
-        gearloss_framework::registry::inventory::submit! {
+        $crate::analyses::submit! {
             $crate::analyses::map::export::ExportKind(&$format)
         }
     };

@@ -168,7 +168,7 @@ fn is_of_a_drag_model(table: &str, axes: usize) -> Result<(), String> {
                 names.join(", ")
             ));
         };
-        let unit = quantity.unit().symbol;
+        let unit = quantity.unit.symbol;
         if unit != axis.unit {
             return Err(format!("`{}` is in {}, not in {unit}", axis.name, axis.unit));
         }
