@@ -7,6 +7,7 @@ mod analyses;
 mod api;
 mod batched;
 mod bearing_loads;
+mod browser;
 mod cards;
 mod coefficients;
 mod common;
@@ -72,7 +73,6 @@ mod temperature;
 mod topologies;
 mod variants;
 mod vscode;
-mod web;
 mod wheels;
 mod workbench;
 

@@ -34,12 +34,12 @@ pub use crate::mechanism::{ModelRef, NamedSlots, Slot};
 
 pub use inventory;
 
+#[cfg(test)]
+pub(crate) use crate::without_entry as submit;
 /// Adds an entry to the registry of its type.
 #[cfg(not(test))]
 #[doc(hidden)]
 pub use inventory::submit;
-#[cfg(test)]
-pub(crate) use crate::without_entry as submit;
 
 /// A crate that registers something.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, schemars::JsonSchema)]

@@ -222,11 +222,11 @@ impl View {
     }
 }
 
+#[cfg(test)]
+pub(crate) use gearloss_framework::without_entry as submit;
 #[cfg(not(test))]
 #[doc(hidden)]
 pub use inventory::submit;
-#[cfg(test)]
-pub(crate) use gearloss_framework::without_entry as submit;
 
 /// Registers the view of a type of outcome: `register_view!(BalanceOutcome, show);` with `fn show(&BalanceOutcome, &mut Page)`.
 #[macro_export]

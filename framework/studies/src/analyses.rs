@@ -252,11 +252,11 @@ fn own<A: Analysis>(entry: &Written) -> &A {
     entry.downcast_ref().expect("a kind runs the entries that it has read")
 }
 
+#[cfg(test)]
+pub(crate) use gearloss_framework::without_entry as submit;
 #[cfg(not(test))]
 #[doc(hidden)]
 pub use inventory::submit;
-#[cfg(test)]
-pub(crate) use gearloss_framework::without_entry as submit;
 
 /// Registers an analysis: `register_analysis!(BalanceEntry);`.
 #[macro_export]

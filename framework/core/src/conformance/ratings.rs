@@ -60,10 +60,7 @@ pub fn conform_rating<M: Mechanism>(
             (q.set)(&mut at, q.unit.to_si(*value));
             (q.set)(&mut mirrored, q.unit.to_si(*value));
         }
-        for q in M::QUANTITIES
-            .iter()
-            .filter(|q| q.unit.symbol == "rpm" && q.least < 0.0)
-        {
+        for q in M::QUANTITIES.iter().filter(|q| q.unit.symbol == "rpm" && q.least < 0.0) {
             let speed = (q.get)(&mirrored);
             (q.set)(&mut mirrored, -speed);
         }

@@ -198,6 +198,10 @@ mod tests {
         assert!(words[1].contains("no parameter `z`"), "{words:?}");
         assert!(words[2].contains("several values over torque"), "{words:?}");
         let mut identify = study(stated, json!({ "type": "identify", "parameters": ["x", "x"] }));
-        assert!(replace_names(&mut identify, key_of).unwrap_err()[0].message.contains("twice"));
+        assert!(
+            replace_names(&mut identify, key_of).unwrap_err()[0]
+                .message
+                .contains("twice")
+        );
     }
 }
