@@ -287,11 +287,7 @@ impl EhlMixed {
             beta: path.beta,
             conductivity: path.conductivity,
         });
-        let march = March {
-            path,
-            laws: &self.laws,
-            oil: &oil,
-        };
+        let march = March::new(path, &self.laws, &oil);
         let warming = match path.bodies {
             Some(known) if self.known.is_none() => Warming::Known(known),
             _ => self.warming(&oil, path.speed),
@@ -387,7 +383,12 @@ impl ToothFrictionModel for EhlMixed {
         };
         let speeds = Contact::speeds(at.sliding, at.sum_speed, true);
         let contact = Contact::new(at.line_load, at.radius, at.modulus, at.length, speeds);
-        let place = Place::new(&Conditions::new(&self.laws, &oil, bodies), contact, at.rq);
+        let place = Place::new(
+            &Conditions::new(&self.laws, &oil, bodies),
+            contact,
+            contact.logarithms(),
+            at.rq,
+        );
         let mu = place.settle(0.05, &mut first_slope(), &mut 0);
         super::finite(note(at.notes, &place, &place.after(mu)))
     }

@@ -253,7 +253,10 @@ pub fn run_grid(
     progress: &(dyn Fn(usize) -> bool + Sync),
 ) -> Result<Option<GridResult>, Vec<Diagnostic>> {
     let numbers: Vec<usize> = (0..points.field.pieces()).collect();
-    let mut all = GridResult::default();
+    let mut all = GridResult {
+        points: Vec::with_capacity(points.field.len()),
+        ..GridResult::default()
+    };
     let whole = solve_pieces(transmission, points, &numbers, &take_points, progress, &mut |piece| {
         all.add(piece);
         true
@@ -266,7 +269,6 @@ impl GridResult {
     pub fn add(&mut self, piece: Piece) {
         merge(&mut self.seen, &piece.seen);
         self.passes += piece.points().map(|p| p.passes).sum::<usize>();
-        self.points.reserve(piece.len());
         self.points.extend(piece.into_points());
     }
 }

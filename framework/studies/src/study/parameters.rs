@@ -152,7 +152,8 @@ mod tests {
         match kind {
             "identify" => Some(ParameterKey::Whole("parameters")),
             "uncertainty" => Some(ParameterKey::Range("inputs")),
-            _ => Some(ParameterKey::Range("parameters")),
+            "sensitivity" => Some(ParameterKey::Range("parameters")),
+            _ => None,
         }
     }
 

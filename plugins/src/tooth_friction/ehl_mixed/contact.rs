@@ -26,6 +26,23 @@ pub struct Contact<R = f64> {
     pub mean_pressure: R,
 }
 
+/// Natural logarithms of the quantities of a contact: film formulas are products of their powers. SI.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Logarithms<R = f64> {
+    /// Of the force per length.
+    pub line_load: R,
+    /// Of the radius of relative curvature.
+    pub radius: R,
+    /// Of the reduced modulus.
+    pub modulus: R,
+    /// Of the length of the line of contact.
+    pub length: R,
+    /// Of the mean of both surface speeds.
+    pub speed: R,
+    /// Of the slide-to-roll ratio; minus infinity in pure rolling.
+    pub slide_roll: R,
+}
+
 impl<R: Real> Contact<R> {
     /// A contact from line load (N/m), radius (m), reduced modulus (Pa), length (m), surface speeds (m/s).
     #[inline(always)]
@@ -48,6 +65,20 @@ impl<R: Real> Contact<R> {
     pub fn speeds(sliding: R, sum: R, first_faster: bool) -> [R; 2] {
         let (fast, slow) = ((sum + sliding) * 0.5, ((sum - sliding) * 0.5).magnitude());
         if first_faster { [fast, slow] } else { [slow, fast] }
+    }
+
+    /// The logarithms of its quantities.
+    pub fn logarithms(&self) -> Logarithms<R> {
+        let [u1, u2] = self.speeds;
+        let speed = (u1 + u2) * 0.5;
+        Logarithms {
+            line_load: self.line_load.logarithm(),
+            radius: self.radius.logarithm(),
+            modulus: self.modulus.logarithm(),
+            length: self.length.logarithm(),
+            speed: speed.logarithm(),
+            slide_roll: ((u1 - u2).magnitude() / speed).logarithm(),
+        }
     }
 
     /// Maximum pressure. \[Pa\]

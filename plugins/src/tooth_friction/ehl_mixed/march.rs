@@ -10,7 +10,7 @@ use gearloss_framework::real::{Mask as _, Points};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::contact::Contact;
+use super::contact::{Contact, Logarithms};
 use super::oil::Oil;
 use super::place::{Bodies, Conditions, Laws, Place, first_slope};
 use super::settled::Search;
@@ -61,6 +61,8 @@ pub struct March<'a, R: Points = f64> {
     pub laws: &'a Laws,
     /// Oil.
     pub oil: &'a Oil<'a, R>,
+    /// Logarithms of what all points share: for a force of one, a radius and a speed per speed of the first gear.
+    ln: Logarithms<R>,
 }
 
 /// A solved path.
@@ -141,7 +143,21 @@ impl<R: Points> Sums<R> {
     }
 }
 
-impl<R: Points> March<'_, R> {
+impl<'a, R: Points> March<'a, R> {
+    /// A path with its laws and oil.
+    pub fn new(path: &'a PathAt<'a, R>, laws: &'a Laws, oil: &'a Oil<'a, R>) -> Self {
+        let line_load = path.line_load * path.mean.part.pair.cos_base_helix;
+        let ln = Logarithms {
+            line_load: line_load.logarithm(),
+            radius: R::ZERO,
+            modulus: R::constant(path.modulus.ln()),
+            length: R::constant(path.length.ln()),
+            speed: path.speed.logarithm(),
+            slide_roll: R::ZERO,
+        };
+        Self { path, laws, oil, ln }
+    }
+
     /// Conditions that all points share at these body temperatures.
     #[inline(always)]
     pub fn conditions(&self, bodies: Bodies<R>) -> Conditions<'_, R> {
@@ -171,7 +187,20 @@ impl<R: Points> March<'_, R> {
             R::constant(path.length),
             speeds,
         );
-        Some(Place::new(conditions, contact, path.rq))
+        // Flanks that move against each other have the sliding velocity as their sum.
+        let [speed, slide_roll] = if node.sliding <= node.sum_speed {
+            [node.ln_rolling, node.ln_slide_roll]
+        } else {
+            [0.5 * node.sliding, 2.0 * node.sum_speed / node.sliding].map(f64::ln)
+        };
+        let ln = Logarithms {
+            line_load: self.ln.line_load + node.force.ln(),
+            radius: R::constant(node.ln_radius),
+            speed: self.ln.speed + speed,
+            slide_roll: R::constant(slide_roll),
+            ..self.ln
+        };
+        Some(Place::new(conditions, contact, ln, path.rq))
     }
 
     /// One iteration along the path at given body temperatures, for the points that are not settled; `mu` is the initial guess on

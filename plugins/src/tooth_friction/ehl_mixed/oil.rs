@@ -156,17 +156,43 @@ pub struct Oil<'a, R = f64> {
     lubricant: Option<&'a Lubricant>,
 }
 
+/// The oil at the inlet of a contact, with natural logarithms. SI.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Entering<R = f64> {
+    /// Viscosity. \[Pa s\]
+    pub eta: R,
+    /// Pressure-viscosity coefficient. \[1/Pa\]
+    pub alpha: R,
+    /// Viscosity times its relative decrease with temperature over the conductivity: the thermal load per square of the speed.
+    /// \[s2/m2\]
+    pub warming: R,
+    /// Logarithm of the viscosity.
+    pub ln_eta: R,
+    /// Logarithm of the pressure-viscosity coefficient.
+    pub ln_alpha: R,
+    /// Logarithm of `warming`.
+    pub ln_warming: R,
+}
+
 impl<R: Points> Oil<'_, R> {
-    /// Viscosity (Pa s), pressure-viscosity coefficient (1/Pa) and relative decrease with temperature (1/K) at the inlet, at zero
-    /// pressure and a temperature in degC.
+    /// The oil at the inlet, at zero pressure and a temperature in degC.
     #[inline(always)]
-    pub fn inlet(&self, temperature: R) -> [R; 3] {
+    pub fn inlet(&self, temperature: R) -> Entering<R> {
         let t = temperature.at_least(ASKED[0]).at_most(ASKED[1]);
         let eta = match self.lubricant {
             Some(lubricant) => t.lift(|t| lubricant.eta(t)),
             None => self.law.eta(R::ZERO, t),
         };
-        [eta, Roelands::coefficient(self.law.z, eta), self.law.beta(t)]
+        let alpha = Roelands::coefficient(self.law.z, eta);
+        let warming = eta * self.law.beta(t) / self.supplied.conductivity;
+        Entering {
+            eta,
+            alpha,
+            warming,
+            ln_eta: eta.logarithm(),
+            ln_alpha: alpha.logarithm(),
+            ln_warming: warming.logarithm(),
+        }
     }
 
     /// The oil of one of the points as a coolant of gears.

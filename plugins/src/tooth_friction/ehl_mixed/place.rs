@@ -6,13 +6,13 @@
 
 use gearloss_framework::real::{Mask as _, Points};
 
-use super::contact::Contact;
-use super::film::{Factor, Film, Inlet};
+use super::contact::{Contact, Logarithms};
+use super::film::{Factor, Film, Inlet, InletLogarithms};
 use super::mixed::{boundary_share, friction};
-use super::oil::Oil;
+use super::oil::{Entering, Oil};
 use super::settled::Search;
 use super::temperature::{FilmHeat, Flank, first_heat, first_share};
-use super::traction::Transit;
+use super::traction::{Limit, Transit};
 
 /// Selected formulas and the properties of the flanks, common to all contacts of a mesh.
 #[derive(Debug, Clone, Copy)]
@@ -51,7 +51,7 @@ pub struct Conditions<'a, R = f64> {
     laws: &'a Laws,
     oil: &'a Oil<'a, R>,
     bodies: Bodies<R>,
-    inlet: Option<[R; 3]>,
+    inlet: Option<Entering<R>>,
 }
 
 impl<'a, R: Points> Conditions<'a, R> {
@@ -130,6 +130,7 @@ pub struct Place<'a, R: Points = f64> {
     oil: &'a Oil<'a, R>,
     bodies: Bodies<R>,
     contact: Contact<R>,
+    ln: Logarithms<R>,
     /// Root mean square roughness of both flanks. \[m\]
     rq: R,
     speed: R,
@@ -139,16 +140,16 @@ pub struct Place<'a, R: Points = f64> {
     heat: R,
     bands: [R; 2],
     pressed: R,
-    limit: R,
+    limit: Limit<R>,
     most: f64,
     /// Film thickness if the body temperatures are prescribed. \[m\]
     known_film: Option<R>,
 }
 
 impl<'a, R: Points> Place<'a, R> {
-    /// A contact with its roughness (m). Its mean speed is above zero; without load nothing of it is defined.
+    /// A contact with its logarithms and roughness (m). Its mean speed is above zero; without load nothing of it is defined.
     #[inline(always)]
-    pub fn new(conditions: &Conditions<'a, R>, contact: Contact<R>, rq: R) -> Self {
+    pub fn new(conditions: &Conditions<'a, R>, contact: Contact<R>, ln: Logarithms<R>, rq: R) -> Self {
         let Conditions {
             laws,
             oil,
@@ -164,6 +165,7 @@ impl<'a, R: Points> Place<'a, R> {
             oil,
             bodies,
             contact,
+            ln,
             rq,
             speed,
             sliding,
@@ -171,38 +173,39 @@ impl<'a, R: Points> Place<'a, R> {
             heat: contact.line_load * contact.length * sliding,
             bands: [resistance(u1), resistance(u2)],
             pressed: oil.law.pressed(contact.mean_pressure),
-            limit: contact.mean_pressure * (rheology.limiting_slope / rheology.tau0),
+            limit: Limit::new(contact.mean_pressure * (rheology.limiting_slope / rheology.tau0)),
             most: rheology.mu_b.max(rheology.limiting_slope),
             known_film: None,
         };
         if let Some(inlet) = inlet {
-            place.known_film = Some(place.film(inlet));
+            place.known_film = Some(place.film(&inlet));
         }
         place
     }
 
-    /// Film thickness for inlet oil with a viscosity (Pa s), a pressure-viscosity coefficient (1/Pa) and a relative decrease of
-    /// viscosity with temperature (1/K). \[m\]
+    /// Film thickness for the oil at the inlet. \[m\]
     #[inline(always)]
-    fn film(&self, [eta, alpha, beta]: [R; 3]) -> R {
-        let Contact {
-            line_load,
-            radius,
-            modulus,
-            length,
-            ..
-        } = self.contact;
-        let stiff = modulus * radius;
-        let (u, g, w) = (eta * self.speed / stiff, alpha * modulus, line_load / stiff);
+    fn film(&self, entering: &Entering<R>) -> R {
+        let (contact, ln) = (&self.contact, &self.ln);
         let inlet = Inlet {
             speed: self.speed,
             slide_roll: self.slide_roll,
-            thermal_load: eta * beta * self.speed * self.speed / self.oil.supplied.conductivity,
-            pressure: self.contact.pressure() / modulus,
-            g,
-            w,
+            thermal_load: entering.warming * self.speed * self.speed,
+            pressure: contact.pressure() / contact.modulus,
+            g: entering.alpha * contact.modulus,
+            w: contact.line_load / (contact.modulus * contact.radius),
         };
-        radius * self.laws.film.over_radius(u, g, w, length / radius) * self.laws.inlet.at(&inlet)
+        let ln_stiff = ln.modulus + ln.radius;
+        let ln_inlet = InletLogarithms {
+            slide_roll: ln.slide_roll,
+            thermal_load: entering.ln_warming + ln.speed * 2.0,
+            g: entering.ln_alpha + ln.modulus,
+            w: ln.line_load - ln_stiff,
+        };
+        let ln_u = entering.ln_eta + ln.speed - ln_stiff;
+        let film = self.laws.film;
+        let over_radius = film.over_radius(ln_u, ln_inlet.g, ln_inlet.w, ln.length - ln.radius);
+        contact.radius * over_radius * self.laws.inlet.at(&inlet, &ln_inlet)
     }
 
     /// What a friction heat (W) does to the bodies.
@@ -251,7 +254,7 @@ impl<'a, R: Points> Place<'a, R> {
         let inlet = (bodies[0] + bodies[1]) * 0.5;
         let h = match self.known_film {
             Some(film) => film,
-            None => self.film(self.oil.inlet(inlet)),
+            None => self.film(&self.oil.inlet(inlet)),
         };
         let area = self.contact.half_width * 2.0 * self.contact.length;
         let above = self.laws.film_heat.resistance(h, supplied.conductivity, area);
@@ -265,7 +268,7 @@ impl<'a, R: Points> Place<'a, R> {
         let eta = self.oil.law.eta_pressed(self.pressed, temperature);
         let s = self.sliding / h * eta / rheology.tau0;
         let d0 = eta * self.speed / (self.contact.half_width * (2.0 * rheology.shear_modulus));
-        let stress = self.laws.transit.mean_stress(s, d0, self.limit);
+        let stress = self.laws.transit.mean_stress(s, d0, &self.limit);
         let mu_film = stress * rheology.tau0 / self.contact.mean_pressure;
         let lambda = h / self.rq;
         let rolls = self.slide_roll.is_below(R::constant(ROLLING));

@@ -10,7 +10,7 @@ use gearloss_framework::real::{Mask as _, Points, Real};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::dilogarithm::dilogarithm;
+use super::dilogarithm::{dilogarithm_of_negative, dilogarithm_of_small};
 use crate::powers::{asinh, exp_m1, ln_1p};
 
 /// Build-up of the stress over the transit.
@@ -27,13 +27,34 @@ pub enum Transit {
 }
 
 impl Transit {
-    /// Mean stress over the Eyring stress, from S, D0 and the limiting stress over the Eyring stress.
+    /// Mean stress over the Eyring stress, from S, D0 and the limiting stress.
     #[inline(always)]
-    pub fn mean_stress<R: Points>(self, s: R, d0: R, limit: R) -> R {
+    pub fn mean_stress<R: Points>(self, s: R, d0: R, limit: &Limit<R>) -> R {
         match self {
             Self::Exact => exact(s, d0, limit),
-            Self::Chart => R::each(|point| chart(s.at_point(point), d0.at_point(point), limit.at_point(point)).0),
-            Self::Steady => asinh(s).smaller(limit),
+            Self::Chart => {
+                R::each(|point| chart(s.at_point(point), d0.at_point(point), limit.stress.at_point(point)).0)
+            }
+            Self::Steady => asinh(s).smaller(limit.stress),
+        }
+    }
+}
+
+/// Limiting stress of a contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Limit<R = f64> {
+    /// Over the Eyring stress.
+    stress: R,
+    exponential: R,
+}
+
+impl<R: Real> Limit<R> {
+    /// From the limiting stress over the Eyring stress.
+    #[inline(always)]
+    pub fn new(stress: R) -> Self {
+        Self {
+            stress,
+            exponential: stress.exponential(),
         }
     }
 }
@@ -51,7 +72,8 @@ const STEADY: f64 = 45.0;
 /// Exact mean. With c = sqrt(1 + S^2), u = S + c and y = (u (u - 1)/(u + 1)) exp(-c theta/D0) the stress is ln u + ln(1 - y/u^2) -
 /// ln(1 + y), whose integral over theta is closed by dilogarithms; after it reaches the limit it stays there.
 #[inline(always)]
-pub fn exact<R: Real>(s: R, d0: R, limit: R) -> R {
+pub fn exact<R: Real>(s: R, d0: R, limit: &Limit<R>) -> R {
+    let (limit, cap) = (limit.stress, limit.exponential);
     let one = R::constant(1.0);
     let c = R::select(s.is_below(R::constant(LARGE)), (s * s + 1.0).root(), s);
     let linear = s.is_below(R::constant(LINEAR)) | (d0 * LINEAR).is_above(c);
@@ -68,7 +90,6 @@ pub fn exact<R: Real>(s: R, d0: R, limit: R) -> R {
     let mut flowing = one;
     let plastic = limit.is_below(steady);
     if plastic.any() {
-        let cap = limit.exponential();
         let reached = (u - cap) / (cap + one / u);
         let reaches = plastic & reached.is_above(y);
         y = R::select(reaches, reached, y);
@@ -84,12 +105,13 @@ pub fn exact<R: Real>(s: R, d0: R, limit: R) -> R {
     R::select(s.is_zero(), R::ZERO, mean)
 }
 
-/// The integral of the stress of y and g = 1/u^2 up to the end of the transit.
+/// The integral of the stress of y and g = 1/u^2 up to the end of the transit. As y is at most u (u - 1)/(u + 1), g y is at most
+/// 3 - 2 sqrt(2).
 #[inline(always)]
 fn part<R: Real>(y: R, g: R) -> R {
     let some = y.is_above(R::ZERO);
     if some.any() {
-        R::select(some, dilogarithm(-y) - dilogarithm(g * y), R::ZERO)
+        R::select(some, dilogarithm_of_negative(y) - dilogarithm_of_small(g * y), R::ZERO)
     } else {
         R::ZERO
     }
@@ -184,6 +206,10 @@ pub fn chart(s: f64, d0: f64, limit: f64) -> (f64, Regime) {
 mod tests {
     use super::*;
     use crate::tooth_friction::ehl_mixed::cases::close;
+
+    fn exact(s: f64, d0: f64, limit: f64) -> f64 {
+        super::exact(s, d0, &Limit::new(limit))
+    }
 
     /// The mean by a fourth-order Runge-Kutta integration, independent of the closed form.
     fn integrated(s: f64, d0: f64, limit: f64) -> f64 {
