@@ -2,7 +2,7 @@
 // PROGRAM is the path of gearloss; BROWSER names the browser; CAPTURE a folder for images.
 
 import { execFileSync, spawn } from "node:child_process";
-import { cp, mkdir, mkdtemp, readFile, rm, writeFile } from "node:fs/promises";
+import { cp, mkdir, mkdtemp, readFile, rename, rm, writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import puppeteer from "puppeteer-core";
@@ -16,6 +16,13 @@ const examples = new URL("../../examples/", import.meta.url).pathname;
 const root = await mkdtemp(join(tmpdir(), "gearloss-workbench-"));
 const folder = join(root, "gearboxes");
 for (const name of ["planetary-reducer", "two-speed-ev"]) await cp(join(examples, name), join(folder, name), { recursive: true, filter: (file) => !file.includes("/results") });
+
+/** Writes a file at once, as editors do: the page must not read half of it. */
+async function replaceFile(file, text) {
+  const written = join(root, "written");
+  await writeFile(written, text);
+  await rename(written, file);
+}
 
 const faults = [];
 const figures = {};
@@ -239,7 +246,7 @@ const LONG = "planetary-reducer/very-long.yaml";
 const status = () => page.$eval(".study-side [role=status]", (e) => e.textContent);
 await step("A long run", async () => {
   // Some minutes of work, so only a cancelled run ends soon.
-  await writeFile(join(folder, LONG), [
+  await replaceFile(join(folder, LONG), [
     "gearloss: study/1",
     "title: Long",
     "gearboxes: { planetary: gearbox.yaml }",
@@ -695,7 +702,7 @@ await step("Two tabs do not see each other's text", async () => {
 // The disk: silently, then merged.
 await step("The disk", async () => {
   const file = join(folder, gearbox);
-  await writeFile(file, source.join("\n"));
+  await replaceFile(file, source.join("\n"));
   await until(page, "a change on the disk is taken", () => !document.querySelector(".cm-content").textContent.includes("of the first tab"));
   await page.focus(".cm-content");
   await press(page, "z", "Control");
@@ -705,7 +712,7 @@ await step("The disk", async () => {
   await cursor(page, 0, 0);
   await page.keyboard.sendCharacter("# mine\n");
   await pause(100);
-  await writeFile(file, [...source, "# theirs", ""].join("\n"));
+  await replaceFile(file, [...source, "# theirs", ""].join("\n"));
   await until(page, "the page asks", () => [...document.querySelectorAll(".notice button")].some((b) => b.textContent === "Merge both"));
   await page.evaluate(() => [...document.querySelectorAll(".notice button")].find((b) => b.textContent === "Show both").click());
   await until(page, "both texts", () => document.querySelector("dialog[open] .difference .added"));
@@ -723,12 +730,12 @@ await step("The disk", async () => {
   const choose = (label) => page.evaluate((own) => [...document.querySelectorAll(".notice button")].find((b) => b.textContent === own)?.click(), label);
   const asked = () => until(page, "the page asks again", () => [...document.querySelectorAll(".notice button")].some((b) => b.textContent === "Keep mine"));
   const first = (line, end = "\n") => [line, ...source.slice(1)].join(end);
-  await writeFile(file, first("# base", "\r\n"));
+  await replaceFile(file, first("# base", "\r\n"));
   await until(page, "lines with CR LF", () => document.querySelector(".cm-content").textContent.startsWith("# base") && !document.querySelector(".file.current .unsaved"));
   await cursor(page, 0, 2);
   await page.keyboard.type("my ");
   await pause(150);
-  await writeFile(file, first("# their base", "\r\n"));
+  await replaceFile(file, first("# their base", "\r\n"));
   await asked();
   check(!(await page.evaluate(() => [...document.querySelectorAll(".notice button")].some((b) => b.textContent === "Merge both"))), "a merge of one line is offered");
   await choose("Keep mine");
@@ -738,14 +745,14 @@ await step("The disk", async () => {
   await cursor(page, 0, 2);
   await page.keyboard.type("own ");
   await pause(150);
-  await writeFile(file, first("# of the disk"));
+  await replaceFile(file, first("# of the disk"));
   await asked();
   await choose("Take the disk's");
   await until(page, "the text of the disk", () => document.querySelector(".cm-content").textContent.startsWith("# of the disk") && !document.querySelector(".file.current .unsaved"));
   // Saved before the page has noticed the change of the disk: nothing is overwritten.
   await cursor(page, 0, 2);
   await page.keyboard.type("quick ");
-  await writeFile(file, first("# slow"));
+  await replaceFile(file, first("# slow"));
   await press(page, "s", "Control");
   await asked();
   check((await readFile(file, "utf8")) === first("# slow"), "a file that has changed is overwritten");
@@ -757,7 +764,7 @@ await step("The disk", async () => {
   await page.keyboard.sendCharacter("# mine after all\n");
   await rm(file);
   await until(page, "the page says that the file was removed", () => /was removed from the disk/.test(document.getElementById("notices").textContent));
-  await writeFile(file, [...first("# slow").split("\n"), "# back", ""].join("\n"));
+  await replaceFile(file, [...first("# slow").split("\n"), "# back", ""].join("\n"));
   await until(page, "a merge with the file that came back", () => [...document.querySelectorAll(".notice button")].some((b) => b.textContent === "Merge both"));
   await choose("Merge both");
   await pause(100);
@@ -765,12 +772,12 @@ await step("The disk", async () => {
   check(back.startsWith("# mine after all\n# slow") && back.includes("# back"), "the file that came back is not merged");
   await press(page, "s", "Control");
   await until(page, "saved after it came back", () => !document.querySelector(".file.current .unsaved"));
-  await writeFile(file, first("# slow"));
+  await replaceFile(file, first("# slow"));
   await until(page, "as before it was removed", () => document.querySelector(".cm-content").textContent.startsWith("# slow") && !document.querySelector(".file.current .unsaved"));
 
   // Mixed line ends: each line keeps its own.
   const mixed = source.map((line, k) => line + (k === source.length - 1 ? "" : k % 3 ? "\n" : "\r\n")).join("");
-  await writeFile(file, mixed);
+  await replaceFile(file, mixed);
   await until(page, "mixed line ends", (line) => document.querySelector(".cm-line").textContent === line && !document.querySelector(".file.current .unsaved"), source[0]);
   await cursor(page, 2, 0);
   await press(page, "End");
@@ -781,7 +788,7 @@ await step("The disk", async () => {
   const written = await readFile(file, "utf8");
   const differ = [...ends(written)].filter((end, k) => end !== ends(mixed)[k]).length;
   check(written.split("\n").length === source.length && differ <= 1 && written !== mixed, `${differ} line ends differ`);
-  await writeFile(file, first("# slow"));
+  await replaceFile(file, first("# slow"));
   await until(page, "the text of before", () => document.querySelector(".cm-content").textContent.startsWith("# slow") && !document.querySelector(".file.current .unsaved"));
 });
 

@@ -30,7 +30,9 @@ pub mod schematic;
 // Tables as files, also for other programs.
 pub mod csv;
 pub mod exports;
+#[cfg(not(target_family = "wasm"))]
 pub mod parquet;
+#[cfg(not(target_family = "wasm"))]
 pub mod xlsx;
 
 pub use figure::{Cloud, Figure, Map};
