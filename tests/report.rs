@@ -1,4 +1,4 @@
-//! The report of a study. `web.rs` opens it in a browser.
+//! The report of a study. `browser.rs` opens it in a browser.
 
 use crate::common;
 use std::path::{Path, PathBuf};

@@ -10,7 +10,7 @@ use crate::formula::Formula;
 use crate::function::FunctionSource;
 use crate::mechanism::gear_drag::Scope;
 pub use crate::mechanism::scalar::PLACE;
-use crate::mechanism::scalar::{Input, ScalarLaw};
+use crate::mechanism::scalar::ScalarLaw;
 pub use crate::mechanism::{Lookup, Scalar};
 use crate::mechanism::{Mechanism, Quantity};
 use crate::registry::{Build, Built, Entry, Evidence, Graded, USER_DEFINED, formula};
@@ -179,10 +179,7 @@ fn build_formula<M: Mechanism>(value: &Value, cx: &mut Build<'_>) -> Result<Buil
                 .help(format!("state {needed}")));
         }
     }
-    built::<M>(
-        ScalarLaw::Formula(formula, M::QUANTITIES.iter().map(Input::new).collect()),
-        cx,
-    )
+    built::<M>(ScalarLaw::Formula(formula), cx)
 }
 
 fn build_function<M: Mechanism>(value: &Value, cx: &mut Build<'_>) -> Result<Built, Diagnostic> {
@@ -206,7 +203,7 @@ fn build_function<M: Mechanism>(value: &Value, cx: &mut Build<'_>) -> Result<Bui
 }
 
 /// A quantity of the context by its name, for the part of the model.
-fn input<M: Mechanism>(name: &str, cx: &Build<'_>) -> Result<Input<M>, Diagnostic> {
+fn input<M: Mechanism>(name: &str, cx: &Build<'_>) -> Result<&'static Quantity<M>, Diagnostic> {
     let names: Vec<&str> = M::QUANTITIES.iter().map(|q| q.name).collect();
     let quantity = M::QUANTITIES.iter().find(|q| q.name == name).ok_or_else(|| {
         let error = cx.error(format!("the context of {} has no quantity `{name}`", M::KEY));
@@ -219,7 +216,7 @@ fn input<M: Mechanism>(name: &str, cx: &Build<'_>) -> Result<Input<M>, Diagnosti
         Some(needed) => Err(cx
             .error(format!("`{name}` is unknown here"))
             .help(format!("state {needed}"))),
-        None => Ok(Input::new(quantity)),
+        None => Ok(quantity),
     }
 }
 
@@ -258,7 +255,7 @@ impl<M: Mechanism> Lookup<M> {
         })?;
         let grid = stated.iter().zip(&axes).map(|((name, values), axis)| table::Axis {
             name: name.clone(),
-            unit: axis.unit().symbol.to_owned(),
+            unit: axis.unit.symbol.to_owned(),
             values: values.clone(),
         });
         let table = Table::from_grid(grid.collect(), values, reading).map_err(|reason| {
@@ -370,10 +367,7 @@ impl<M: Mechanism> Lookup<M> {
                     .help("correct it: losses and coefficients must not be negative"));
             }
         }
-        Ok(Self {
-            tables,
-            axes: axes.into_iter().map(Input::new).collect(),
-        })
+        Ok(Self { tables, axes })
     }
 }
 

@@ -319,13 +319,28 @@ pub struct Quantity<M: Mechanism> {
 }
 
 impl<M: Mechanism> Quantity<M> {
-    /// The unit at the end of a doc comment, of a constant: without one it does not compile.
+    /// The unit at the end of a doc comment. In a constant, a missing unit is a compile error with the message.
     #[doc(hidden)]
-    pub const fn unit_of(doc: &str) -> &'static Unit {
+    pub const fn unit_of(doc: &str, missing: &str) -> &'static Unit {
         match Unit::of_doc(doc) {
             Some(unit) => unit,
-            None => panic!("the doc comment of each quantity has to end in its [unit]"),
+            None => panic!("{}", missing),
         }
+    }
+
+    /// Its value at a context, in its unit.
+    pub(crate) fn value(&self, at: &M::At<'_, f64>) -> f64 {
+        self.unit.from_si((self.get)(at))
+    }
+
+    /// The same at several points.
+    #[inline(always)]
+    pub(crate) fn values(&self, at: &M::At<'_, Lane>) -> Lane {
+        let si = (self.get_together)(at);
+        if self.unit.is_si() {
+            return si;
+        }
+        si.map(|si| self.unit.from_si(si))
     }
 }
 
@@ -363,6 +378,12 @@ pub struct QuantityDoc {
 /// an existing one, and change the known quantities (`with`, `nested`).
 #[macro_export]
 macro_rules! context {
+    (@unit $M:ty, $name:ident, $($doc:literal)+) => {
+        $crate::mechanism::Quantity::<$M>::unit_of(
+            concat!($($doc),+),
+            concat!("the doc comment of `", stringify!($name), "` does not end in a known [unit]"),
+        )
+    };
     ($(#[doc = $head:literal])+ pub struct $At:ident of $M:ty {
         $($(#[doc = $doc:literal])+ $name:ident: $usual:literal in $least:literal ..= $greatest:literal from $from:literal,)+
     } $(laws {
@@ -388,7 +409,7 @@ macro_rules! context {
         impl<'a, R: $crate::real::Real> $crate::mechanism::Inputs<'a, $M, R> for $At<'a, R> {
             const QUANTITIES: &'static [$crate::mechanism::Quantity<$M>] = &[$($crate::mechanism::Quantity {
                 name: stringify!($name), doc: concat!($($doc),+), usual: $usual, least: $least, greatest: $greatest, from: $from,
-                unit: $crate::mechanism::Quantity::<$M>::unit_of(concat!($($doc),+)),
+                unit: $crate::context!(@unit $M, $name, $($doc)+),
                 get: |at| at.$name, get_together: |at| at.$name, set: |at, si| at.$name = si,
             }),+];
 
@@ -398,7 +419,7 @@ macro_rules! context {
 
             fn usual(part: &'a <$M as $crate::mechanism::Mechanism>::Part, notes: $crate::loss::Notes<'a, R>) -> Self {
                 $(#[allow(non_upper_case_globals)]
-                const $name: f64 = $crate::mechanism::Quantity::<$M>::unit_of(concat!($($doc),+)).to_si($usual);)+
+                const $name: f64 = $crate::context!(@unit $M, $name, $($doc)+).to_si($usual);)+
                 Self { part, $($name: R::constant($name),)+ notes }
             }
 

@@ -34,8 +34,9 @@ pub use crate::mechanism::{ModelRef, NamedSlots, Slot};
 
 pub use inventory;
 
+// Unit tests register nothing, so that they compile only what they use.
 #[cfg(test)]
-pub(crate) use crate::without_entry as submit;
+pub(crate) use crate::unregistered as submit;
 /// Adds an entry to the registry of its type.
 #[cfg(not(test))]
 #[doc(hidden)]
@@ -601,11 +602,11 @@ pub fn from_resolved<T: DeserializeOwned>(value: &Value) -> Result<T, serde_json
     T::deserialize(serde::de::value::MapDeserializer::new(fields))
 }
 
-/// Stands for the submission of an entry in the unit tests of a crate: the entry is checked and not registered, so that the tests compile
-/// only what they use.
+/// Replaces the registration of an entry in the unit tests of the crates of the framework: its type is checked only, so that they
+/// compile only what they use.
 #[doc(hidden)]
 #[macro_export]
-macro_rules! without_entry {
+macro_rules! unregistered {
     ($entry:expr) => {
         const _: () = {
             let _ = || $entry;

@@ -153,7 +153,7 @@ const fn unit(symbol: &'static str, dimension: Dimension, factor: f64) -> Unit {
     }
 }
 
-/// Comparison of texts in constants.
+/// Whether texts are equal; `==` does not work in constants.
 const fn is_same(mut a: &[u8], mut b: &[u8]) -> bool {
     while let (Some((first, rest)), Some((other, others))) = (a.split_first(), b.split_first()) {
         if *first != *other {
@@ -295,8 +295,19 @@ impl Unit {
     pub const ONE: &'static Unit = &unit("-", Dimension::None, 1.0);
 
     /// The unit of a symbol.
-    pub fn of_symbol(symbol: &str) -> Option<&'static Unit> {
-        UNITS.iter().find(|u| u.symbol == symbol)
+    pub const fn of_symbol(symbol: &str) -> Option<&'static Unit> {
+        Self::of_bytes(symbol.as_bytes())
+    }
+
+    const fn of_bytes(symbol: &[u8]) -> Option<&'static Unit> {
+        let mut units = UNITS;
+        while let Some((unit, others)) = units.split_first() {
+            if is_same(unit.symbol.as_bytes(), symbol) {
+                return Some(unit);
+            }
+            units = others;
+        }
+        None
     }
 
     /// The SI unit of a dimension.
@@ -318,17 +329,6 @@ impl Unit {
                 return Self::of_bytes(symbol);
             }
             rest = before;
-        }
-        None
-    }
-
-    const fn of_bytes(symbol: &[u8]) -> Option<&'static Unit> {
-        let mut units = UNITS;
-        while let Some((unit, others)) = units.split_first() {
-            if is_same(unit.symbol.as_bytes(), symbol) {
-                return Some(unit);
-            }
-            units = others;
         }
         None
     }

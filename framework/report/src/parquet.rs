@@ -1,4 +1,4 @@
-//! Tables as Parquet: numbers as nullable doubles, texts as strings.
+//! Tables as Parquet: numbers as nullable doubles, texts as strings. Not in WebAssembly.
 
 use std::io::Write;
 use std::sync::Arc;

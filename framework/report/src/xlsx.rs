@@ -1,4 +1,4 @@
-//! The tables of an analysis as a workbook, for readers with a spreadsheet.
+//! The tables of an analysis as a workbook, for readers with a spreadsheet. Not in WebAssembly.
 
 use rust_xlsxwriter::{
     Chart, ChartType, DocProperties, ExcelDateTime, Format, FormatAlign, Workbook, Worksheet, XlsxError,

@@ -240,9 +240,9 @@ impl AnalysisKind {
         all
     }
 
-    /// The key for parameters of the analysis with a name.
-    pub(crate) fn parameters_of(name: &str) -> Option<ParameterKey> {
-        let kind = Self::linked().into_iter().find(|kind| kind.name == name);
+    /// The key under which analyses of a type list their parameters.
+    pub(crate) fn parameters_of(analysis_type: &str) -> Option<ParameterKey> {
+        let kind = Self::linked().into_iter().find(|kind| kind.name == analysis_type);
         kind?.parameters
     }
 }
@@ -252,8 +252,9 @@ fn own<A: Analysis>(entry: &Written) -> &A {
     entry.downcast_ref().expect("a kind runs the entries that it has read")
 }
 
+// Unit tests register nothing, so that they compile only what they use.
 #[cfg(test)]
-pub(crate) use gearloss_framework::without_entry as submit;
+pub(crate) use gearloss_framework::unregistered as submit;
 #[cfg(not(test))]
 #[doc(hidden)]
 pub use inventory::submit;

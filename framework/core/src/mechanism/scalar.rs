@@ -25,46 +25,10 @@ pub(crate) enum ScalarLaw<M: Mechanism> {
     /// In SI.
     Constant(f64),
     /// With all quantities of the context, in the order of the names of the formula.
-    Formula(Formula, Vec<Input<M>>),
+    Formula(Formula),
     Table(Lookup<M>),
     /// Of the embedding program, with the quantities that it takes.
-    Function(Arc<dyn Function>, Vec<Input<M>>),
-}
-
-/// A quantity of a context with its documented unit, which is looked up once.
-pub struct Input<M: Mechanism> {
-    quantity: &'static Quantity<M>,
-    unit: &'static Unit,
-}
-
-impl<M: Mechanism> Input<M> {
-    /// The quantity of a formula or table.
-    pub(crate) fn new(quantity: &'static Quantity<M>) -> Self {
-        Self {
-            quantity,
-            unit: quantity.unit,
-        }
-    }
-
-    /// Its documented unit.
-    pub(crate) fn unit(&self) -> &'static Unit {
-        self.unit
-    }
-
-    /// Its value at a context, in its documented unit.
-    fn value(&self, at: &M::At<'_, f64>) -> f64 {
-        self.unit.from_si((self.quantity.get)(at))
-    }
-
-    /// The same at several points.
-    #[inline(always)]
-    fn values(&self, at: &M::At<'_, Lane>) -> Lane {
-        let si = (self.quantity.get_together)(at);
-        if self.unit.is_si() {
-            return si;
-        }
-        si.map(|si| self.unit.from_si(si))
-    }
+    Function(Arc<dyn Function>, Vec<&'static Quantity<M>>),
 }
 
 impl<M: Mechanism> Scalar<M> {
@@ -76,7 +40,7 @@ impl<M: Mechanism> Scalar<M> {
         let value = match &self.law {
             ScalarLaw::None => return Ok(0.0),
             ScalarLaw::Constant(value) => return Ok(*value),
-            ScalarLaw::Formula(formula, inputs) => formula.value(|input| inputs[input].value(at))?,
+            ScalarLaw::Formula(formula) => formula.value(|input| M::QUANTITIES[input].value(at))?,
             ScalarLaw::Table(lookup) => {
                 let (value, place) = lookup.value(at)?;
                 at.notes().check(&PLACE, place);
@@ -122,10 +86,10 @@ impl<M: Mechanism> Scalar<M> {
         match &self.law {
             ScalarLaw::None => Ok(Lane::ZERO),
             ScalarLaw::Constant(value) => Ok(Lane::constant(*value)),
-            ScalarLaw::Formula(formula, inputs) => {
+            ScalarLaw::Formula(formula) => {
                 let values: Lane = formula.evaluate(
                     #[inline(always)]
-                    |input| inputs[input].values(at),
+                    |input| M::QUANTITIES[input].values(at),
                 );
                 self.sound(values, at)
             }
@@ -169,7 +133,7 @@ impl<M: Mechanism> Scalar<M> {
     pub fn is_smooth(&self) -> bool {
         match &self.law {
             ScalarLaw::None | ScalarLaw::Constant(_) => true,
-            ScalarLaw::Formula(formula, _) => formula.is_smooth(),
+            ScalarLaw::Formula(formula) => formula.is_smooth(),
             ScalarLaw::Table(_) | ScalarLaw::Function(..) => false,
         }
     }
@@ -201,7 +165,7 @@ limits! {
 pub struct Lookup<M: Mechanism> {
     /// One for each column of results.
     pub(crate) tables: Vec<Table>,
-    pub(crate) axes: Vec<Input<M>>,
+    pub(crate) axes: Vec<&'static Quantity<M>>,
 }
 
 impl<M: Mechanism> Lookup<M> {
@@ -215,7 +179,7 @@ impl<M: Mechanism> Lookup<M> {
         for ((value, input), axis) in inputs.iter_mut().zip(&self.axes).zip(self.tables[0].axes()) {
             *value = input.value(at);
             // A table over non-negative speeds applies to both directions of rotation.
-            if input.quantity.least < 0.0 && input.unit.symbol == "rpm" && axis.values[0] >= 0.0 {
+            if input.least < 0.0 && input.unit.symbol == "rpm" && axis.values[0] >= 0.0 {
                 *value = value.abs();
             }
         }

@@ -38,7 +38,7 @@ impl Film {
     /// Film over radius from the natural logarithms of U = eta v/(E' R), G = alpha E', W = w/(E' R), and the length of the line over
     /// the radius.
     #[inline(always)]
-    pub fn over_radius<R: Real>(self, u: R, g: R, w: R, length: R) -> R {
+    pub fn over_radius<R: Real>(self, ln_u: R, ln_g: R, ln_w: R, ln_length: R) -> R {
         let (factor, ellipse, exponents) = match self {
             Self::ChittendenLine => (4.31, true, [0.68, 0.49, -0.073]),
             Self::HamrockDowsonLine => (2.69, true, [0.67, 0.53, -0.067]),
@@ -46,8 +46,8 @@ impl Film {
             Self::DowsonHigginson => (2.65, false, [0.7, 0.54, -0.13]),
             Self::ErtelGrubin => (1.95, false, [8.0 / 11.0, 8.0 / 11.0, -1.0 / 11.0]),
         };
-        let w = if ellipse { w + length + ELLIPSE.ln() } else { w };
-        (u * exponents[0] + g * exponents[1] + w * exponents[2]).exponential() * factor
+        let ln_w = if ellipse { ln_w + ln_length + ELLIPSE.ln() } else { ln_w };
+        (ln_u * exponents[0] + ln_g * exponents[1] + ln_w * exponents[2]).exponential() * factor
     }
 }
 
@@ -178,9 +178,8 @@ mod tests {
             (Film::ErtelGrubin, 2.997698e-7),
             (Film::ChittendenLine, 2.469429e-7),
         ] {
-            let logarithms = [u(0.010), G, w, 3.0].map(f64::ln);
-            let [u, g, w, length] = logarithms;
-            close(film.over_radius(u, g, w, length) * 0.010, printed);
+            let [ln_u, ln_g, ln_w, ln_length] = [u(0.010), G, w, 3.0].map(f64::ln);
+            close(film.over_radius(ln_u, ln_g, ln_w, ln_length) * 0.010, printed);
         }
     }
 

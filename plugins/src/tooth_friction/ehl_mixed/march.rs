@@ -61,8 +61,11 @@ pub struct March<'a, R: Points = f64> {
     pub laws: &'a Laws,
     /// Oil.
     pub oil: &'a Oil<'a, R>,
-    /// Logarithms of what all points share: for a force of one, a radius and a speed per speed of the first gear.
-    ln: Logarithms<R>,
+    /// Natural logarithms of what all points share: line load of a pair with the whole force, modulus, length, speed of the first gear.
+    ln_line_load: R,
+    ln_modulus: R,
+    ln_length: R,
+    ln_speed: R,
 }
 
 /// A solved path.
@@ -147,15 +150,15 @@ impl<'a, R: Points> March<'a, R> {
     /// A path with its laws and oil.
     pub fn new(path: &'a PathAt<'a, R>, laws: &'a Laws, oil: &'a Oil<'a, R>) -> Self {
         let line_load = path.line_load * path.mean.part.pair.cos_base_helix;
-        let ln = Logarithms {
-            line_load: line_load.logarithm(),
-            radius: R::ZERO,
-            modulus: R::constant(path.modulus.ln()),
-            length: R::constant(path.length.ln()),
-            speed: path.speed.logarithm(),
-            slide_roll: R::ZERO,
-        };
-        Self { path, laws, oil, ln }
+        Self {
+            path,
+            laws,
+            oil,
+            ln_line_load: line_load.logarithm(),
+            ln_modulus: R::constant(path.modulus).logarithm(),
+            ln_length: R::constant(path.length).logarithm(),
+            ln_speed: path.speed.logarithm(),
+        }
     }
 
     /// Conditions that all points share at these body temperatures.
@@ -191,14 +194,15 @@ impl<'a, R: Points> March<'a, R> {
         let [speed, slide_roll] = if node.sliding <= node.sum_speed {
             [node.ln_rolling, node.ln_slide_roll]
         } else {
-            [0.5 * node.sliding, 2.0 * node.sum_speed / node.sliding].map(f64::ln)
+            [0.5 * node.sliding, 2.0 * node.sum_speed.abs() / node.sliding].map(f64::ln)
         };
         let ln = Logarithms {
-            line_load: self.ln.line_load + node.force.ln(),
+            line_load: self.ln_line_load + node.force.ln(),
             radius: R::constant(node.ln_radius),
-            speed: self.ln.speed + speed,
+            modulus: self.ln_modulus,
+            length: self.ln_length,
+            speed: self.ln_speed + speed,
             slide_roll: R::constant(slide_roll),
-            ..self.ln
         };
         Some(Place::new(conditions, contact, ln, path.rq))
     }

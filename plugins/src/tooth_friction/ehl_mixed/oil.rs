@@ -158,40 +158,39 @@ pub struct Oil<'a, R = f64> {
 
 /// The oil at the inlet of a contact, with natural logarithms. SI.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Entering<R = f64> {
+pub struct InletOil<R = f64> {
     /// Viscosity. \[Pa s\]
     pub eta: R,
     /// Pressure-viscosity coefficient. \[1/Pa\]
     pub alpha: R,
-    /// Viscosity times its relative decrease with temperature over the conductivity: the thermal load per square of the speed.
-    /// \[s2/m2\]
-    pub warming: R,
+    /// Thermal load eta beta U^2/k for a speed of one. \[s2/m2\]
+    pub unit_thermal_load: R,
     /// Logarithm of the viscosity.
     pub ln_eta: R,
     /// Logarithm of the pressure-viscosity coefficient.
     pub ln_alpha: R,
-    /// Logarithm of `warming`.
-    pub ln_warming: R,
+    /// Logarithm of `unit_thermal_load`.
+    pub ln_unit_thermal_load: R,
 }
 
 impl<R: Points> Oil<'_, R> {
     /// The oil at the inlet, at zero pressure and a temperature in degC.
     #[inline(always)]
-    pub fn inlet(&self, temperature: R) -> Entering<R> {
+    pub fn inlet(&self, temperature: R) -> InletOil<R> {
         let t = temperature.at_least(ASKED[0]).at_most(ASKED[1]);
         let eta = match self.lubricant {
             Some(lubricant) => t.lift(|t| lubricant.eta(t)),
             None => self.law.eta(R::ZERO, t),
         };
         let alpha = Roelands::coefficient(self.law.z, eta);
-        let warming = eta * self.law.beta(t) / self.supplied.conductivity;
-        Entering {
+        let unit_thermal_load = eta * self.law.beta(t) / self.supplied.conductivity;
+        InletOil {
             eta,
             alpha,
-            warming,
+            unit_thermal_load,
             ln_eta: eta.logarithm(),
             ln_alpha: alpha.logarithm(),
-            ln_warming: warming.logarithm(),
+            ln_unit_thermal_load: unit_thermal_load.logarithm(),
         }
     }
 

@@ -9,7 +9,7 @@ use gearloss_framework::real::{Mask as _, Points};
 use super::contact::{Contact, Logarithms};
 use super::film::{Factor, Film, Inlet, InletLogarithms};
 use super::mixed::{boundary_share, friction};
-use super::oil::{Entering, Oil};
+use super::oil::{InletOil, Oil};
 use super::settled::Search;
 use super::temperature::{FilmHeat, Flank, first_heat, first_share};
 use super::traction::{Limit, Transit};
@@ -51,7 +51,7 @@ pub struct Conditions<'a, R = f64> {
     laws: &'a Laws,
     oil: &'a Oil<'a, R>,
     bodies: Bodies<R>,
-    inlet: Option<Entering<R>>,
+    inlet: Option<InletOil<R>>,
 }
 
 impl<'a, R: Points> Conditions<'a, R> {
@@ -185,24 +185,24 @@ impl<'a, R: Points> Place<'a, R> {
 
     /// Film thickness for the oil at the inlet. \[m\]
     #[inline(always)]
-    fn film(&self, entering: &Entering<R>) -> R {
+    fn film(&self, oil: &InletOil<R>) -> R {
         let (contact, ln) = (&self.contact, &self.ln);
         let inlet = Inlet {
             speed: self.speed,
             slide_roll: self.slide_roll,
-            thermal_load: entering.warming * self.speed * self.speed,
+            thermal_load: oil.unit_thermal_load * self.speed * self.speed,
             pressure: contact.pressure() / contact.modulus,
-            g: entering.alpha * contact.modulus,
+            g: oil.alpha * contact.modulus,
             w: contact.line_load / (contact.modulus * contact.radius),
         };
         let ln_stiff = ln.modulus + ln.radius;
         let ln_inlet = InletLogarithms {
             slide_roll: ln.slide_roll,
-            thermal_load: entering.ln_warming + ln.speed * 2.0,
-            g: entering.ln_alpha + ln.modulus,
+            thermal_load: oil.ln_unit_thermal_load + ln.speed * 2.0,
+            g: oil.ln_alpha + ln.modulus,
             w: ln.line_load - ln_stiff,
         };
-        let ln_u = entering.ln_eta + ln.speed - ln_stiff;
+        let ln_u = oil.ln_eta + ln.speed - ln_stiff;
         let film = self.laws.film;
         let over_radius = film.over_radius(ln_u, ln_inlet.g, ln_inlet.w, ln.length - ln.radius);
         contact.radius * over_radius * self.laws.inlet.at(&inlet, &ln_inlet)

@@ -2,6 +2,7 @@
 use super::cases::{midpoints, stage};
 use super::*;
 use gearloss_framework::geometry::LoadSharing;
+use gearloss_framework::lubricant::roelands::Roelands;
 use gearloss_framework::mechanism::gear_mesh::GearMeshAt;
 use gearloss_framework::mechanism::mean_friction::MeanFrictionAt;
 use gearloss_framework::mechanism::tooth_friction::{PathExtent, PathNode};
@@ -112,6 +113,38 @@ fn torque(power: f64, rpm: f64) -> f64 {
 
 fn within(value: f64, printed: f64, tolerance: f64) {
     assert!((value / printed - 1.0).abs() < tolerance, "{value} against {printed}");
+}
+
+/// Films of all points by the formula in powers, also in pure rolling and where the flanks move against each other.
+#[test]
+fn films_follow_from_velocities_and_loads() {
+    let rig = Rig::new(1, &json!({ "thermal": false, "inlet_heating": "none" }));
+    let mut nodes = rig.gauss();
+    let usual = nodes[nodes.len() / 2];
+    for share_of_sum in [0.0, 1.5] {
+        nodes.push(PathNode::new(
+            share_of_sum * usual.sum_speed,
+            usual.sum_speed,
+            usual.radius,
+            usual.share,
+        ));
+    }
+    let (torque, rpm, oil) = (143.2394, 2000.0, 40.0);
+    let films = rig.solve(&nodes, torque, rpm, oil).places;
+    let (pair, modulus) = (&rig.part.pair, rig.part.modulus);
+    let eta = rig.part.oil.as_ref().unwrap().lubricant.eta(oil);
+    let alpha = Roelands::coefficient(0.60, eta);
+    let line_load = torque / pair.base_radius[0] / pair.facewidth;
+    let length = pair.facewidth / pair.cos_base_helix;
+    assert_eq!(films.len(), nodes.len());
+    for (node, place) in nodes.iter().zip(&films) {
+        let speed = 0.5 * node.sum_speed.max(node.sliding) * rpm * RPM;
+        let stiff = modulus * node.radius;
+        let w = 2.0 / 3.0 * line_load * node.force / stiff * (length / node.radius);
+        let powers = (eta * speed / stiff).powf(0.68) * (alpha * modulus).powf(0.49) * w.powf(-0.073);
+        // Rounding of sums of logarithms.
+        within(place.film, node.radius * 4.31 * powers, 1e-13);
+    }
 }
 
 #[test]

@@ -45,6 +45,7 @@ impl Transit {
 pub struct Limit<R = f64> {
     /// Over the Eyring stress.
     stress: R,
+    /// Of `stress`.
     exponential: R,
 }
 
