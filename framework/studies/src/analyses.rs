@@ -242,8 +242,8 @@ impl AnalysisKind {
 
     /// The key under which analyses of a type list their parameters.
     pub(crate) fn parameters_of(analysis_type: &str) -> Option<ParameterKey> {
-        let kind = Self::linked().into_iter().find(|kind| kind.name == analysis_type);
-        kind?.parameters
+        let mut kinds = inventory::iter::<Self>.into_iter();
+        kinds.find(|kind| kind.name == analysis_type)?.parameters
     }
 }
 

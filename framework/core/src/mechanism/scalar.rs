@@ -24,7 +24,7 @@ pub(crate) enum ScalarLaw<M: Mechanism> {
     None,
     /// In SI.
     Constant(f64),
-    /// With all quantities of the context, in the order of the names of the formula.
+    /// Of the quantities of the context, by their numbers.
     Formula(Formula),
     Table(Lookup<M>),
     /// Of the embedding program, with the quantities that it takes.
