@@ -19,6 +19,17 @@ const CLOSED: f64 = 1e-14;
 const STEEPEST: f64 = 1e6;
 /// Maximum number of steps in one bracket; bisection alone needs half as many.
 const MOST: usize = 120;
+/// Residual over the estimated losses above which an estimate has the right sign. Its error is a few percent.
+const CLEAR: f64 = 0.25;
+
+/// How accurate asked losses have to be.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Accuracy {
+    /// To a few percent.
+    Estimate,
+    /// As those of a solved point.
+    Exact,
+}
 
 /// Losses and heat at one temperature.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,6 +48,11 @@ impl Step {
     /// Residual. \[W\]
     pub fn residual(&self) -> f64 {
         self.loss - self.heat
+    }
+
+    /// Whether the residual of estimated losses has the right sign.
+    fn is_clear(&self) -> bool {
+        self.residual().abs() > (CLEAR * self.loss.abs()).max(ROUNDING * self.scale)
     }
 
     fn is_balanced(&self) -> bool {
@@ -104,8 +120,10 @@ pub struct Balance<E> {
     pub outcome: Outcome,
     /// Stable temperatures, the lowest first.
     pub stable: Vec<Root>,
-    /// All steps in order: the scan, then those of each bracket.
+    /// All steps with exact losses in order: the scan, then those of each bracket.
     pub history: Vec<Step>,
+    /// Number of temperatures at which losses were estimated.
+    pub estimates: usize,
     /// Index of the first step after the scan.
     pub scanned: usize,
     /// Spacing of the scan. \[K\]
@@ -125,6 +143,7 @@ impl<E> Balance<E> {
             outcome: Outcome::NoneBelowMaximum,
             stable: Vec::new(),
             history: Vec::new(),
+            estimates: 0,
             scanned: 0,
             spacing: (high - low) / stretches as f64,
             undefined: None,
@@ -161,53 +180,45 @@ pub fn single<E>(range: [f64; 2], law: impl FnMut(f64) -> Result<Step, E>) -> Ba
 }
 
 fn search_one<E>(range: [f64; 2], scan: [usize; 2], mut law: impl FnMut(f64) -> Result<Step, E>) -> Balance<E> {
-    let mut found = search(range, scan, 1, |asked| asked.iter().map(|(_, t)| law(*t)).collect());
+    let each = |asked: &[(usize, f64)], _| asked.iter().map(|(_, t)| law(*t)).collect();
+    let mut found = search(range, scan, Accuracy::Exact, 1, each);
     found.pop().unwrap_or_else(|| Balance::new(range, 1))
 }
 
-/// As [`balance`], of several members side by side. The law is asked for many at once: numbers of members and temperatures.
+/// As [`balance`], of several members side by side, with a scan of estimates. The law is asked for many at once: numbers of members and
+/// temperatures.
 pub fn balance_all<E>(
     range: [f64; 2],
     members: usize,
-    law: impl FnMut(&[(usize, f64)]) -> Vec<Result<Step, E>>,
+    law: impl FnMut(&[(usize, f64)], Accuracy) -> Vec<Result<Step, E>>,
 ) -> Vec<Balance<E>> {
-    search(range, [STRETCHES, DOUBLINGS], members, law)
+    search(range, [STRETCHES, DOUBLINGS], Accuracy::Estimate, members, law)
 }
-
-/// The scan of one member: temperatures, and what the law gave there.
-type Scan = Vec<(f64, Option<Step>)>;
 
 fn search<E>(
     [low, high]: [f64; 2],
     [stretches, doublings]: [usize; 2],
+    accuracy: Accuracy,
     members: usize,
-    mut law: impl FnMut(&[(usize, f64)]) -> Vec<Result<Step, E>>,
+    law: impl FnMut(&[(usize, f64)], Accuracy) -> Vec<Result<Step, E>>,
 ) -> Vec<Balance<E>> {
-    let mut found: Vec<Balance<E>> = (0..members).map(|_| Balance::new([low, high], stretches)).collect();
-    let mut ask = |found: &mut [Balance<E>], asked: &[(usize, f64)]| -> Vec<Option<Step>> {
-        let given = law(asked).into_iter().zip(asked);
-        given
-            .map(|(given, (member, t))| found[*member].take(*t, given))
-            .collect()
+    let mut search = Search {
+        found: (0..members).map(|_| Balance::new([low, high], stretches)).collect(),
+        law,
     };
     let place = |i: usize, count: usize| low + (high - low) * i as f64 / count as f64;
-    let spread = |members: &[usize], places: &[f64]| -> Vec<(usize, f64)> {
-        let pairs = members.iter().flat_map(|member| places.iter().map(|t| (*member, *t)));
-        pairs.collect()
-    };
     let everyone: Vec<usize> = (0..members).collect();
     let places: Vec<f64> = (0..=stretches).map(|i| place(i, stretches)).collect();
-    let steps = ask(&mut found, &spread(&everyone, &places));
-    let mut scans: Vec<Scan> = steps
-        .chunks(places.len())
-        .map(|steps| places.iter().copied().zip(steps.iter().copied()).collect())
-        .collect();
+    let mut scans = search.scan(&everyone, &places, accuracy);
+    if accuracy == Accuracy::Estimate {
+        search.decide(&mut scans);
+    }
     for doubling in 1..=doublings {
         // Losses exceeded dissipation at all points: refine the scan before concluding that they do so everywhere.
         let exceeds = |scan: &Scan| {
             scan.iter()
                 .skip(1)
-                .all(|(_, step)| step.is_some_and(|s| s.residual() > 0.0))
+                .all(|own| own.residual().is_some_and(|own| own > 0.0))
         };
         let open: Vec<usize> = everyone
             .iter()
@@ -216,10 +227,10 @@ fn search<E>(
             .collect();
         let count = stretches << doubling;
         let places: Vec<f64> = (0..count / 2).map(|i| place(2 * i + 1, count)).collect();
-        let steps = ask(&mut found, &spread(&open, &places));
-        for (member, steps) in open.iter().zip(steps.chunks(places.len())) {
-            found[*member].spacing = (high - low) / count as f64;
-            let mut between = places.iter().copied().zip(steps.iter().copied());
+        let finer = search.scan(&open, &places, Accuracy::Exact);
+        for (member, between) in open.iter().zip(finer) {
+            search.found[*member].spacing = (high - low) / count as f64;
+            let mut between = between.into_iter();
             let scan = std::mem::take(&mut scans[*member]);
             scans[*member] = scan
                 .into_iter()
@@ -230,23 +241,23 @@ fn search<E>(
     }
     let mut closings: Vec<Closings> = scans
         .into_iter()
-        .zip(&mut found)
+        .zip(&mut search.found)
         .map(|(scan, own)| own.bracket(scan))
         .collect();
     loop {
         let asked: Vec<(usize, f64)> = everyone
             .iter()
-            .filter_map(|member| Some((*member, closings[*member].next(&mut found[*member])?)))
+            .filter_map(|member| Some((*member, closings[*member].next(&mut search.found[*member])?)))
             .collect();
         if asked.is_empty() {
             break;
         }
-        let steps = ask(&mut found, &asked);
+        let steps = search.ask(&asked, Accuracy::Exact);
         for ((member, _), step) in asked.iter().zip(steps) {
             closings[*member].take(step);
         }
     }
-    for (own, closings) in found.iter_mut().zip(closings) {
+    for (own, closings) in search.found.iter_mut().zip(closings) {
         own.outcome = match &own.stable[..] {
             [] if closings.gap => Outcome::Undefined,
             [] => Outcome::NoneBelowMaximum,
@@ -255,16 +266,112 @@ fn search<E>(
             _ => Outcome::Several,
         };
     }
-    found
+    search.found
+}
+
+/// One temperature of a scan.
+#[derive(Clone, Copy)]
+struct Scanned {
+    temperature: f64,
+    /// What the law gave there.
+    step: Option<Step>,
+    accuracy: Accuracy,
+}
+
+impl Scanned {
+    fn residual(&self) -> Option<f64> {
+        self.step.map(|step| step.residual())
+    }
+
+    fn is_decided(&self) -> bool {
+        self.accuracy == Accuracy::Exact || self.step.is_some_and(|step| step.is_clear())
+    }
+}
+
+/// The scan of one member, from its coldest temperature.
+type Scan = Vec<Scanned>;
+
+/// Whether losses exceed dissipation at the first and no longer at the second of two temperatures.
+fn is_bracket(cold: &Scanned, warm: &Scanned) -> bool {
+    matches!((cold.residual(), warm.residual()), (Some(cold), Some(warm)) if cold > 0.0 && warm <= 0.0)
+}
+
+/// Several members and the law that they are asked of.
+struct Search<E, L> {
+    found: Vec<Balance<E>>,
+    law: L,
+}
+
+impl<E, L: FnMut(&[(usize, f64)], Accuracy) -> Vec<Result<Step, E>>> Search<E, L> {
+    fn ask(&mut self, asked: &[(usize, f64)], accuracy: Accuracy) -> Vec<Option<Step>> {
+        let given = (self.law)(asked, accuracy).into_iter().zip(asked);
+        let taken = given.map(|(given, (member, t))| match accuracy {
+            Accuracy::Exact => self.found[*member].take(*t, given),
+            Accuracy::Estimate => {
+                self.found[*member].estimates += 1;
+                given.ok()
+            }
+        });
+        taken.collect()
+    }
+
+    /// The scans of some members. They are asked side by side at each temperature, because they have more in common than the
+    /// temperatures of a member.
+    fn scan(&mut self, members: &[usize], places: &[f64], accuracy: Accuracy) -> Vec<Scan> {
+        let pairs = places.iter().flat_map(|t| members.iter().map(|member| (*member, *t)));
+        let steps = self.ask(&pairs.collect::<Vec<_>>(), accuracy);
+        let scanned = |(temperature, step): (&f64, &Option<Step>)| Scanned {
+            temperature: *temperature,
+            step: *step,
+            accuracy,
+        };
+        let own = |number: usize| steps.iter().skip(number).step_by(members.len());
+        (0..members.len())
+            .map(|number| places.iter().zip(own(number)).map(scanned).collect())
+            .collect()
+    }
+
+    /// Replaces estimates by exact steps: where they do not decide, at the ends of brackets, and everywhere in a scan that then has
+    /// no bracket, or one with an estimate at an end, because an exact step contradicted its estimate.
+    fn decide(&mut self, scans: &mut [Scan]) {
+        self.replace(scans, |scan, i| !scan[i].is_decided());
+        let is_end = |scan: &Scan, i: usize| {
+            i > 0 && is_bracket(&scan[i - 1], &scan[i]) || i + 1 < scan.len() && is_bracket(&scan[i], &scan[i + 1])
+        };
+        self.replace(scans, is_end);
+        self.replace(scans, |scan, _| {
+            let mut brackets = scan.windows(2).filter(|pair| is_bracket(&pair[0], &pair[1])).peekable();
+            let some = brackets.peek().is_some();
+            !some || brackets.flatten().any(|end| end.accuracy == Accuracy::Estimate)
+        });
+    }
+
+    /// Replaces those estimates of scans that are to be replaced.
+    fn replace(&mut self, scans: &mut [Scan], is_wanted: impl Fn(&Scan, usize) -> bool) {
+        let mut wanted: Vec<(usize, usize)> = Vec::new();
+        for (member, scan) in scans.iter().enumerate() {
+            let own = (0..scan.len()).filter(|i| scan[*i].accuracy == Accuracy::Estimate && is_wanted(scan, *i));
+            wanted.extend(own.map(|i| (i, member)));
+        }
+        wanted.sort_unstable();
+        let asked: Vec<(usize, f64)> = wanted
+            .iter()
+            .map(|(i, member)| (*member, scans[*member][*i].temperature))
+            .collect();
+        for ((i, member), step) in wanted.into_iter().zip(self.ask(&asked, Accuracy::Exact)) {
+            scans[member][i].step = step;
+            scans[member][i].accuracy = Accuracy::Exact;
+        }
+    }
 }
 
 impl<E> Balance<E> {
     /// The brackets of a finished scan.
     fn bracket(&mut self, scan: Scan) -> Closings {
         self.scanned = self.history.len();
-        if let Some((_, Some(first))) = scan.first()
+        if let Some(Scanned { step: Some(first), .. }) = scan.first()
             && first.is_balanced()
-            && scan[1].1.is_some_and(|next| next.residual() < 0.0)
+            && scan[1].residual().is_some_and(|next| next < 0.0)
         {
             // No loss: the lower end itself.
             self.stable.push(Root::from_step(*first));
@@ -272,10 +379,10 @@ impl<E> Balance<E> {
         let mut closings = Closings {
             brackets: Vec::new(),
             open: None,
-            gap: scan.iter().all(|(_, step)| step.is_none()),
+            gap: scan.iter().all(|own| own.step.is_none()),
         };
         for pair in scan.windows(2) {
-            match (pair[0].1, pair[1].1) {
+            match (pair[0].step, pair[1].step) {
                 (Some(a), Some(b)) if a.residual() > 0.0 && b.residual() <= 0.0 => closings.brackets.push([a, b]),
                 // Losses are below dissipation where a law starts to be defined, or above it where a law ends.
                 (None, Some(b)) if b.residual() <= 0.0 => closings.gap = true,
@@ -532,6 +639,54 @@ mod tests {
         ) -> Law {
             Law { base, fall, humps, jumps }
         }
+    }
+
+    proptest! {
+        /// Estimates that are wrong by up to a tenth, and some without value: the same temperatures to the bit.
+        #[test]
+        fn a_scan_of_estimates_finds_the_temperatures_of_a_scan(
+            members in prop::collection::vec((laws(), 0.1..30.0_f64, 0.0..1.0_f64), 1..6),
+            rough in 0.0..0.1_f64,
+        ) {
+            let exact = |member: usize, t: f64| {
+                let (law, conductance, _) = &members[member];
+                step(t, law.loss_at(t), *conductance)
+            };
+            let mut estimated = 0;
+            let found = balance_all([20.0, 150.0], members.len(), |asked, accuracy| {
+                let each = asked.iter().map(|(member, t)| {
+                    let step = exact(*member, *t);
+                    let seed = (t * 7.3 + members[*member].2).sin();
+                    estimated += usize::from(accuracy == Accuracy::Estimate);
+                    match accuracy {
+                        Accuracy::Estimate if seed > 0.9 => Err(()),
+                        Accuracy::Estimate => Ok(Step { loss: step.loss * (1.0 + rough * seed), ..step }),
+                        Accuracy::Exact => Ok(step),
+                    }
+                });
+                each.collect()
+            });
+            prop_assert_eq!(estimated, 17 * members.len());
+            for (member, own) in found.iter().enumerate() {
+                let alone = balance([20.0, 150.0], |t| Ok::<_, ()>(exact(member, t)));
+                prop_assert_eq!((own.outcome, &own.stable), (alone.outcome, &alone.stable));
+                prop_assert_eq!((own.spacing, own.undefined), (alone.spacing, None));
+                prop_assert!(own.history.len() <= alone.history.len());
+            }
+        }
+    }
+
+    #[test]
+    fn a_contradicted_estimate_is_followed_by_a_scan_of_losses() {
+        // The estimates have their only crossing at 120 degC, the losses theirs at 60 degC.
+        let law = |t: f64, limit: f64| step(t, if t < limit { 500.0 } else { 1.0 }, 1.0);
+        let found = balance_all([20.0, 150.0], 1, |asked, accuracy| {
+            let limit = if accuracy == Accuracy::Estimate { 120.0 } else { 60.0 };
+            asked.iter().map(|(_, t)| Ok::<_, ()>(law(*t, limit))).collect()
+        });
+        let alone = balance([20.0, 150.0], |t| Ok::<_, ()>(law(t, 60.0)));
+        assert_eq!(found[0].stable, alone.stable);
+        assert!((found[0].stable[0].temperature - 60.0).abs() < 1e-9);
     }
 
     proptest! {

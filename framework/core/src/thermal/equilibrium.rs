@@ -1,11 +1,15 @@
 //! Operating temperature of an operating point.
 
-use super::balance::{Balance, Outcome, Root, Step, balance, balance_all};
+use super::balance::{Accuracy, Balance, Outcome, Root, Step, balance, balance_all};
 use super::housing::SumpOil;
 use crate::evaluate::{BatchScratch, Point, Scratch};
 use crate::loss::{Trace, Undefined};
 use crate::real::Stencil;
 use crate::transmission::{Case, Transmission};
+
+/// Tolerance of the power flow of estimated losses: losses at the torques without losses that are below half of it are accepted. They
+/// are then wrong by about the same share.
+const ESTIMATE: f64 = 0.1;
 
 /// Why losses or heat are undefined at a temperature.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -33,8 +37,10 @@ pub struct Equilibrium {
     pub surface: Option<f64>,
     /// Heat flow of each path, in the order of [`super::Housing::ways`]. \[W\]
     pub ways: Vec<f64>,
-    /// All steps: the scan, then those towards each temperature.
+    /// All steps at the losses of the point: the scan, then those towards each temperature.
     pub history: Vec<Step>,
+    /// Number of temperatures of the scan at which the losses were estimated.
+    pub estimates: usize,
     /// Index of the first step after the scan.
     pub scanned: usize,
     /// Spacing of the scan: two balances that are closer may both be missed. \[K\]
@@ -66,12 +72,13 @@ impl Equilibrium {
 
     /// Number of evaluations of the point.
     pub fn evaluations(&self) -> usize {
-        self.history.len()
+        self.estimates + self.history.len()
     }
 }
 
 impl Transmission {
-    /// Balances the temperature of a point. The caller evaluates the point at that temperature.
+    /// Balances the temperature of a point, with the losses at all temperatures of the scan. The caller evaluates the point at that
+    /// temperature.
     pub fn equilibrium(&self, case: &Case, point: &Point<'_>, scratch: &mut Scratch) -> Equilibrium {
         let housing = self.housing();
         let found = balance([housing.coldest(), housing.maximum], |t| {
@@ -80,10 +87,18 @@ impl Transmission {
         self.balanced(found, scratch)
     }
 
-    /// Balances the temperatures of several points side by side: with the numbers of each alone.
+    /// Balances the temperatures of several points side by side: to those of [`Transmission::equilibrium`], from a scan of estimates.
     pub fn equilibria(&self, case: &Case, points: &[Point<'_>], scratch: &mut BatchScratch) -> Vec<Equilibrium> {
         let housing = self.housing();
-        let found = balance_all([housing.coldest(), housing.maximum], points.len(), |asked| {
+        let mut rough = points.to_vec();
+        for point in &mut rough {
+            point.tolerance.power = point.tolerance.power.max(ESTIMATE);
+        }
+        let found = balance_all([housing.coldest(), housing.maximum], points.len(), |asked, accuracy| {
+            let points = match accuracy {
+                Accuracy::Estimate => &rough,
+                Accuracy::Exact => points,
+            };
             let losses = self.probe_all(case, points, asked, scratch);
             let steps = losses.into_iter().zip(asked);
             steps.map(|(loss, (_, t))| self.heat_step(*t, loss)).collect()
@@ -151,6 +166,7 @@ impl Transmission {
             surface,
             ways,
             history: found.history,
+            estimates: found.estimates,
             scanned: found.scanned,
             spacing: found.spacing,
             undefined: found.undefined,

@@ -216,7 +216,6 @@ impl<'a> Solver<'a> {
             speeds,
             ..
         } = space;
-        let single = scratch.alone();
         if let Some(first) = torques.first_mut() {
             *first = given.torque;
         }
@@ -229,7 +228,10 @@ impl<'a> Solver<'a> {
             flow: self.points.flow,
             ..Point::default()
         };
-        let warm = self.oil_of(given).find(self.transmission, self.case, &point, single);
+        let oil = self.oil_of(given);
+        let mut found = find_all(self.transmission, self.case, &[point], |_| oil, scratch);
+        let warm = found.remove(0);
+        let single = scratch.alone();
         let solution = self
             .transmission
             .evaluate(self.case, &point, warm.temperatures(), single);
