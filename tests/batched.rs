@@ -331,7 +331,7 @@ fn points_of_any_composition_have_the_bits_of_each_alone() {
                 for some in order.chunks(size) {
                     let own: Vec<Point<'_>> = some.iter().map(|i| points[*i]).collect();
                     let temperatures = |lane: usize| &given[some[lane]].2[..];
-                    let block = t.evaluate_together(&case, &own, temperatures, Noting::Counted, &mut scratch);
+                    let block = t.evaluate_together(&case, &own, &temperatures, Noting::Counted, &mut scratch);
                     for (lane, i) in some.iter().enumerate().filter(|(lane, _)| !block.is_alone(*lane)) {
                         together += 1;
                         let watts = bits(block.watts().iter().map(|watts| watts[lane]));

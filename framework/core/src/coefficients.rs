@@ -4,13 +4,13 @@
 //! A model declares them with [`coefficients!`](crate::coefficients!) and holds the struct as `#[serde(default)] coefficients: X`.
 //! The schema, the resolved document, `models`, the reference, and the note of every changed value follow from the declaration.
 
-use std::collections::BTreeMap;
 use std::fmt;
+use std::marker::PhantomData;
 
 use schemars::{JsonSchema, Schema, json_schema};
-use serde::de::Error as _;
+use serde::de::{DeserializeSeed, Error as _, MapAccess, Visitor};
 use serde::ser::SerializeMap as _;
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use serde::{Deserializer, Serialize, Serializer};
 use serde_json::{Map, Value, json};
 
 use crate::registry::{Entry, Instance};
@@ -71,25 +71,61 @@ pub fn serialize<C: Coefficients, S: Serializer>(coefficients: &C, serializer: S
 /// # Errors
 /// If a name is unknown or a value lies outside its range.
 pub fn deserialize<'de, C: Coefficients, D: Deserializer<'de>>(deserializer: D) -> Result<C, D::Error> {
-    let mut own = C::default();
-    for (name, value) in BTreeMap::<String, f64>::deserialize(deserializer)? {
-        let declared = C::LIST.iter().find(|declared| declared.name == name);
-        let (Some(declared), Some(field)) = (declared, own.field(&name)) else {
-            let names: Vec<&str> = C::LIST.iter().map(|declared| declared.name).collect();
-            return Err(D::Error::custom(format!(
-                "unknown coefficient `{name}`; available: {}",
-                names.join(", ")
-            )));
-        };
-        if !(declared.least..=declared.greatest).contains(&value) {
-            return Err(D::Error::custom(format!(
-                "coefficient `{name}` is {value}, outside its range {} to {}",
-                declared.least, declared.greatest
-            )));
-        }
-        *field = value;
+    deserializer.deserialize_map(Record(PhantomData))
+}
+
+/// Reads the map. Models are built again for every sample of a study, so names are compared where they are.
+struct Record<C>(PhantomData<C>);
+
+impl<'de, C: Coefficients> Visitor<'de> for Record<C> {
+    type Value = C;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a map of coefficients")
     }
-    Ok(own)
+
+    fn visit_map<M: MapAccess<'de>>(self, mut map: M) -> Result<C, M::Error> {
+        let mut own = C::default();
+        while let Some(declared) = map.next_key_seed(Name::<C>(PhantomData))? {
+            let value: f64 = map.next_value()?;
+            if !(declared.least..=declared.greatest).contains(&value) {
+                return Err(M::Error::custom(format!(
+                    "coefficient `{}` is {value}, outside its range {} to {}",
+                    declared.name, declared.least, declared.greatest
+                )));
+            }
+            if let Some(field) = own.field(declared.name) {
+                *field = value;
+            }
+        }
+        Ok(own)
+    }
+}
+
+/// Reads the name of a coefficient.
+struct Name<C>(PhantomData<C>);
+
+impl<'de, C: Coefficients> DeserializeSeed<'de> for Name<C> {
+    type Value = &'static Declared;
+
+    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<Self::Value, D::Error> {
+        deserializer.deserialize_str(self)
+    }
+}
+
+impl<C: Coefficients> Visitor<'_> for Name<C> {
+    type Value = &'static Declared;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("the name of a coefficient")
+    }
+
+    fn visit_str<E: serde::de::Error>(self, name: &str) -> Result<Self::Value, E> {
+        C::LIST.iter().find(|declared| declared.name == name).ok_or_else(|| {
+            let names: Vec<&str> = C::LIST.iter().map(|declared| declared.name).collect();
+            E::custom(format!("unknown coefficient `{name}`; available: {}", names.join(", ")))
+        })
+    }
 }
 
 /// The schema of a record of coefficients.

@@ -107,6 +107,7 @@ impl Transmission {
 
     /// Solves points with a speed, torque and temperature each, at most [`LANES`]; they have the power flow of the first.
     /// \[degC\]
+    // A generic closure would make each crate that calls this compile the whole evaluation once more.
     ///
     /// # Panics
     /// If there are none or too many, or as [`Transmission::evaluate`]: bugs of the caller.
@@ -114,13 +115,13 @@ impl Transmission {
         &'s self,
         case: &Case,
         points: &[Point<'_>],
-        temperatures: impl Fn(usize) -> &'t [f64],
+        temperatures: &dyn Fn(usize) -> &'t [f64],
         noting: Noting,
         scratch: &'s mut BatchScratch,
     ) -> Block<'s> {
         assert!((1..=LANES).contains(&points.len()), "1 to {LANES} points");
         let s = scratch.together.get_or_insert_with(|| Scratch::new(self, case));
-        self.solve_together(case, points, temperatures, |_| None, noting, s);
+        self.solve_together(case, points, temperatures, &|_| None, noting, s);
         Block { transmission: self, s }
     }
 
@@ -129,8 +130,8 @@ impl Transmission {
         &self,
         case: &Case,
         points: &[Point<'_>],
-        temperatures: impl Fn(usize) -> &'t [f64],
-        last: impl Fn(usize) -> Option<&'t Last>,
+        temperatures: &dyn Fn(usize) -> &'t [f64],
+        last: &dyn Fn(usize) -> Option<&'t Last>,
         noting: Noting,
         s: &mut Scratch<Lane>,
     ) {
@@ -186,7 +187,7 @@ impl Transmission {
             if asked.len() >= FEW {
                 let own: [Point<'_>; LANES] = std::array::from_fn(|lane| points[asked[lane.min(asked.len() - 1)].0]);
                 let temperature = |lane: usize| std::slice::from_ref(&asked[lane].1);
-                let block = self.evaluate_together(case, &own[..asked.len()], temperature, Noting::Muted, scratch);
+                let block = self.evaluate_together(case, &own[..asked.len()], &temperature, Noting::Muted, scratch);
                 losses.extend((0..asked.len()).map(|lane| Ok(block.losses()[lane])));
                 alone = Lane::mask(|lane| block.is_alone(lane));
             } else {

@@ -155,7 +155,7 @@ impl Transmission {
     ) -> u32 {
         let points: Vec<Point<'_>> = asked.iter().map(|own| own.point).collect();
         let last = |lane: usize| (start == Start::Last).then(|| &asked[lane].snapshot.last);
-        self.solve_together(case, &points, |lane| asked[lane].temperatures, last, noting, s);
+        self.solve_together(case, &points, &|lane| asked[lane].temperatures, &last, noting, s);
         let live = s.models.conditions.live;
         let mut solved = 0;
         for (lane, own) in asked.iter_mut().enumerate() {

@@ -89,6 +89,7 @@ impl<'a> Solver<'a> {
         let mut results = std::mem::take(&mut space.results);
         space.spare.clear();
         space.spare.extend(results.drain(..).map(|point| point.parts));
+        results.reserve(numbers.len());
         let given = |number: &usize| self.points.field.given_point(*number);
         let together = |a: &usize, b: &usize| {
             let (a, b) = (given(a), given(b));
@@ -145,27 +146,22 @@ impl<'a> Solver<'a> {
 
     /// The same, solved together.
     fn group(&self, given: &[Given], space: &mut Space, results: &mut Vec<PointResult>) {
-        let Space {
-            scratch,
-            torques,
-            speeds,
-            spare,
-            ..
-        } = space;
-        let with_first = |template: &[f64], first: f64| {
-            let mut own = template.to_vec();
-            own.iter_mut().take(1).for_each(|own| *own = first);
-            own
+        let Space { scratch, spare, .. } = space;
+        // Numbers of all points side by side; all but the first of each point are zero.
+        let spread = |count: usize, first: fn(&Given) -> f64| {
+            let mut all = vec![0.0; count * given.len()];
+            for (own, given) in all.iter_mut().step_by(count.max(1)).zip(given) {
+                *own = first(given);
+            }
+            all
         };
-        let own: Vec<[Vec<f64>; 2]> = given
-            .iter()
-            .map(|given| [with_first(speeds, given.speed), with_first(torques, given.torque)])
-            .collect();
-        let points: Vec<Point<'_>> = own
-            .iter()
-            .map(|[speeds, torques]| Point {
-                speeds,
-                torques,
+        let counts = [self.case.speed_ports.len(), self.case.torque_ports.len()];
+        let speeds = spread(counts[0], |given| given.speed);
+        let torques = spread(counts[1], |given| given.torque);
+        let points: Vec<Point<'_>> = (0..given.len())
+            .map(|i| Point {
+                speeds: &speeds[i * counts[0]..][..counts[0]],
+                torques: &torques[i * counts[1]..][..counts[1]],
                 flow: self.points.flow,
                 ..Point::default()
             })
@@ -182,7 +178,7 @@ impl<'a> Solver<'a> {
                 let some = &points[own.clone()];
                 let block =
                     self.transmission
-                        .evaluate_together(self.case, some, temperatures, Noting::Counted, scratch);
+                        .evaluate_together(self.case, some, &temperatures, Noting::Counted, scratch);
                 self.of_block(
                     &given[own.clone()],
                     |lane| found[first + lane].oil,
