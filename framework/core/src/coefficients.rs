@@ -74,7 +74,7 @@ pub fn deserialize<'de, C: Coefficients, D: Deserializer<'de>>(deserializer: D) 
     deserializer.deserialize_map(Record(PhantomData))
 }
 
-/// Reads the map. Models are built again for every sample of a study, so names are compared where they are.
+/// Reads the map. Models are built again for every sample of a study, so names are compared without copying them.
 struct Record<C>(PhantomData<C>);
 
 impl<'de, C: Coefficients> Visitor<'de> for Record<C> {

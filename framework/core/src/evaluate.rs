@@ -72,6 +72,20 @@ pub struct Point<'a> {
     pub tolerance: Tolerance,
 }
 
+impl Point<'_> {
+    /// The point with at least this tolerance of the power flow; see [`Tolerance::power`].
+    pub(crate) fn with_tolerance_of(&self, least: f64) -> Self {
+        let power = self.tolerance.power.max(least);
+        Self {
+            tolerance: Tolerance {
+                power,
+                ..self.tolerance
+            },
+            ..*self
+        }
+    }
+}
+
 impl Transmission {
     /// Workspace for evaluating one case; one per thread.
     pub fn scratch(&self, case: &Case) -> Scratch {

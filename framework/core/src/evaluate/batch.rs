@@ -107,7 +107,6 @@ impl Transmission {
 
     /// Solves points with a speed, torque and temperature each, at most [`LANES`]; they have the power flow of the first.
     /// \[degC\]
-    // A generic closure would make each crate that calls this compile the whole evaluation once more.
     ///
     /// # Panics
     /// If there are none or too many, or as [`Transmission::evaluate`]: bugs of the caller.
@@ -119,6 +118,7 @@ impl Transmission {
         noting: Noting,
         scratch: &'s mut BatchScratch,
     ) -> Block<'s> {
+        // With a generic closure each crate that calls this would compile the whole evaluation once more.
         assert!((1..=LANES).contains(&points.len()), "1 to {LANES} points");
         let s = scratch.together.get_or_insert_with(|| Scratch::new(self, case));
         self.solve_together(case, points, temperatures, &|_| None, noting, s);

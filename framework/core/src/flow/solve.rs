@@ -16,8 +16,8 @@ const TURNS: u8 = 4;
 const PATIENCE: usize = 10;
 /// Iterations after which points that are solved together leave; up to here, no step is halved.
 const TOGETHER: usize = PATIENCE - 2;
-/// Tolerance above which the losses at the torques without losses may be the result, if they are within the tolerance: only a first
-/// evaluation whose temperatures are a guess asks for so little.
+/// Tolerance above which the losses at the torques without losses may be the result, if they are within the tolerance: only estimates
+/// ask for so little.
 const ROUGH: f64 = 0.01;
 /// Safety factor: the remaining error is estimated from two steps.
 const SAFETY: f64 = 0.5;

@@ -34,6 +34,10 @@ impl<R: Points> Default for Tolerance<R> {
 }
 
 impl Tolerance {
+    /// [`Tolerance::power`] of losses that are only estimated: those at the torques without losses, if they are below half of it. In
+    /// trains without circulating power they are wrong by about the same share.
+    pub(crate) const ESTIMATE: f64 = 0.1;
+
     /// The same for each of several points.
     pub(crate) fn everywhere<R: Points>(self) -> Tolerance<R> {
         Tolerance {

@@ -2,14 +2,11 @@
 
 use super::balance::{Accuracy, Balance, Outcome, Root, Step, balance, balance_all};
 use super::housing::SumpOil;
-use crate::evaluate::{BatchScratch, Point, Scratch};
+use crate::evaluate::{BatchScratch, Point, PowerFlow, Scratch};
+use crate::flow::Tolerance;
 use crate::loss::{Trace, Undefined};
 use crate::real::Stencil;
 use crate::transmission::{Case, Transmission};
-
-/// Tolerance of the power flow of estimated losses: losses at the torques without losses that are below half of it are accepted. They
-/// are then wrong by about the same share.
-const ESTIMATE: f64 = 0.1;
 
 /// Why losses or heat are undefined at a temperature.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -37,10 +34,8 @@ pub struct Equilibrium {
     pub surface: Option<f64>,
     /// Heat flow of each path, in the order of [`super::Housing::ways`]. \[W\]
     pub ways: Vec<f64>,
-    /// All steps at the losses of the point: the scan, then those towards each temperature.
+    /// All steps at the losses of the point: those of the scan, then those towards each temperature.
     pub history: Vec<Step>,
-    /// Number of temperatures of the scan at which the losses were estimated.
-    pub estimates: usize,
     /// Index of the first step after the scan.
     pub scanned: usize,
     /// Spacing of the scan: two balances that are closer may both be missed. \[K\]
@@ -70,9 +65,9 @@ impl Equilibrium {
         self.stable.first().map(|root| root.temperature)
     }
 
-    /// Number of evaluations of the point.
+    /// Number of evaluations of the point, without estimates.
     pub fn evaluations(&self) -> usize {
-        self.estimates + self.history.len()
+        self.history.len()
     }
 }
 
@@ -87,14 +82,23 @@ impl Transmission {
         self.balanced(found, scratch)
     }
 
-    /// Balances the temperatures of several points side by side: to those of [`Transmission::equilibrium`], from a scan of estimates.
+    /// Finds the temperatures of [`Transmission::equilibrium`] for several points side by side. The scan uses estimated losses where they
+    /// suffice, so the history is shorter.
     pub fn equilibria(&self, case: &Case, points: &[Point<'_>], scratch: &mut BatchScratch) -> Vec<Equilibrium> {
         let housing = self.housing();
-        let mut rough = points.to_vec();
-        for point in &mut rough {
-            point.tolerance.power = point.tolerance.power.max(ESTIMATE);
-        }
-        let found = balance_all([housing.coldest(), housing.maximum], points.len(), |asked, accuracy| {
+        // Those at the torques without losses; with an ideal power flow they are the losses.
+        let rough: Vec<Point<'_>> = points
+            .iter()
+            .map(|point| point.with_tolerance_of(Tolerance::ESTIMATE))
+            .collect();
+        let is_ideal = |point: &Point<'_>| point.flow == PowerFlow::Ideal;
+        let scan = if points.iter().all(is_ideal) {
+            Accuracy::Exact
+        } else {
+            Accuracy::Estimate
+        };
+        let range = [housing.coldest(), housing.maximum];
+        let found = balance_all(range, points.len(), scan, |asked, accuracy| {
             let points = match accuracy {
                 Accuracy::Estimate => &rough,
                 Accuracy::Exact => points,
@@ -166,7 +170,6 @@ impl Transmission {
             surface,
             ways,
             history: found.history,
-            estimates: found.estimates,
             scanned: found.scanned,
             spacing: found.spacing,
             undefined: found.undefined,

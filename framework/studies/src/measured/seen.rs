@@ -232,7 +232,6 @@ mod tests {
             beyond: false,
             undefined: None,
             passes: 0,
-            evaluations: 0,
         };
         let rig = Rig {
             offset: [offset, 0.0],

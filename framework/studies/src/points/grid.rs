@@ -175,8 +175,6 @@ pub struct PointResult {
     pub undefined: Option<(usize, Undefined)>,
     /// Number of iterations over the loss models.
     pub passes: usize,
-    /// Evaluations of the point to find its temperature.
-    pub evaluations: usize,
 }
 
 impl PointResult {
@@ -184,7 +182,6 @@ impl PointResult {
     pub(super) fn set_temperature(&mut self, found: &Found) {
         self.surface = found.balance.as_ref().and_then(|b| b.surface);
         self.balance = found.outcome();
-        self.evaluations = found.evaluations();
         if found.is_sound() {
             let network = found.network.as_ref();
             self.nodes = network.map(|n| n.temperatures.clone()).unwrap_or_default();

@@ -147,21 +147,21 @@ impl<'a> Solver<'a> {
     /// The same, solved together.
     fn group(&self, given: &[Given], space: &mut Space, results: &mut Vec<PointResult>) {
         let Space { scratch, spare, .. } = space;
-        // Numbers of all points side by side; all but the first of each point are zero.
-        let spread = |count: usize, first: fn(&Given) -> f64| {
-            let mut all = vec![0.0; count * given.len()];
-            for (own, given) in all.iter_mut().step_by(count.max(1)).zip(given) {
+        // Speeds or torques of all points in one buffer; all but the first of each point are zero.
+        let spread = |each: usize, first: fn(&Given) -> f64| {
+            let mut all = vec![0.0; each * given.len()];
+            for (own, given) in all.iter_mut().step_by(each.max(1)).zip(given) {
                 *own = first(given);
             }
             all
         };
-        let counts = [self.case.speed_ports.len(), self.case.torque_ports.len()];
-        let speeds = spread(counts[0], |given| given.speed);
-        let torques = spread(counts[1], |given| given.torque);
+        let (speeds_each, torques_each) = (self.case.speed_ports.len(), self.case.torque_ports.len());
+        let speeds = spread(speeds_each, |given| given.speed);
+        let torques = spread(torques_each, |given| given.torque);
         let points: Vec<Point<'_>> = (0..given.len())
             .map(|i| Point {
-                speeds: &speeds[i * counts[0]..][..counts[0]],
-                torques: &torques[i * counts[1]..][..counts[1]],
+                speeds: &speeds[i * speeds_each..][..speeds_each],
+                torques: &torques[i * torques_each..][..torques_each],
                 flow: self.points.flow,
                 ..Point::default()
             })
@@ -338,7 +338,6 @@ impl<'a> Solver<'a> {
                 beyond: false,
                 undefined: None,
                 passes: block.passes(lane),
-                evaluations: 0,
             });
         }
     }
@@ -378,7 +377,6 @@ impl<'a> Solver<'a> {
             beyond: false,
             undefined: solution.undefined_part(),
             passes: solution.passes(),
-            evaluations: 0,
         }
     }
 }

@@ -119,7 +119,7 @@ impl OilTemperature {
 }
 
 /// The temperatures at which to evaluate several points of one case; balances of the oil and steady states of the network are found side
-/// by side, with the numbers of each as a single one.
+/// by side, with the temperatures of each alone.
 pub fn find_all(
     transmission: &Transmission,
     case: &Case,

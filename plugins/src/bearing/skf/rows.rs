@@ -192,12 +192,12 @@ pub struct Row {
 fn pick<const N: usize>(rows: Rows<N>, part: &BearingPart) -> Result<[f64; N], Lack> {
     let written = part.series.as_deref().unwrap_or("");
     // `72BE` and `72 BE` are the same series.
-    let is_written = |name: &&str| {
+    let is_same_series = |name: &&str| {
         name.split_whitespace()
             .flat_map(str::chars)
             .eq(written.split_whitespace().flat_map(str::chars))
     };
-    let row = rows.iter().find(|(names, _)| names.iter().any(is_written));
+    let row = rows.iter().find(|(names, _)| names.iter().any(is_same_series));
     row.map(|(_, row)| *row).ok_or_else(|| {
         let known: Vec<&str> = rows.iter().flat_map(|(names, _)| names.iter().copied()).collect();
         (

@@ -145,7 +145,7 @@ impl Search {
     /// The first of several for one point, roughly, because its temperatures are a guess: usually at the torques without losses.
     pub const FIRST: Self = Self {
         start: Start::Lossless,
-        least: 0.1,
+        least: Tolerance::ESTIMATE,
     };
     /// The second for steps that are solved together, more roughly than the temperatures change until the third.
     pub const SECOND: Self = Self {
@@ -162,18 +162,6 @@ impl Search {
         start: Start::Last,
         least: 0.0,
     };
-
-    /// A point with its own tolerance, or the minimum one.
-    pub fn point<'a>(self, point: &Point<'a>) -> Point<'a> {
-        let power = point.tolerance.power.max(self.least);
-        Point {
-            tolerance: Tolerance {
-                power,
-                ..point.tolerance
-            },
-            ..*point
-        }
-    }
 }
 
 impl Transmission {
@@ -252,7 +240,7 @@ impl Heated for Loaded<'_, '_> {
             let mut asked: Vec<Asked<'_>> = some
                 .iter_mut()
                 .map(|trial| Asked {
-                    point: search.point(stages[trial.stage].moment.point),
+                    point: stages[trial.stage].moment.point.with_tolerance_of(search.least),
                     temperatures: &trial.guess,
                     snapshot: &mut trial.warm.point,
                 })
