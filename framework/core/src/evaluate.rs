@@ -74,7 +74,7 @@ pub struct Point<'a> {
 
 impl Point<'_> {
     /// The point with at least this tolerance of the power flow; see [`Tolerance::power`].
-    pub(crate) fn with_tolerance_of(&self, least: f64) -> Self {
+    pub(crate) fn with_tolerance_at_least(&self, least: f64) -> Self {
         let power = self.tolerance.power.max(least);
         Self {
             tolerance: Tolerance {

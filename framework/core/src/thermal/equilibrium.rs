@@ -86,10 +86,10 @@ impl Transmission {
     /// suffice, so the history is shorter.
     pub fn equilibria(&self, case: &Case, points: &[Point<'_>], scratch: &mut BatchScratch) -> Vec<Equilibrium> {
         let housing = self.housing();
-        // Those at the torques without losses; with an ideal power flow they are the losses.
+        // With an ideal power flow, estimates would be the losses themselves.
         let rough: Vec<Point<'_>> = points
             .iter()
-            .map(|point| point.with_tolerance_of(Tolerance::ESTIMATE))
+            .map(|point| point.with_tolerance_at_least(Tolerance::ESTIMATE))
             .collect();
         let is_ideal = |point: &Point<'_>| point.flow == PowerFlow::Ideal;
         let scan = if points.iter().all(is_ideal) {

@@ -240,7 +240,7 @@ impl Heated for Loaded<'_, '_> {
             let mut asked: Vec<Asked<'_>> = some
                 .iter_mut()
                 .map(|trial| Asked {
-                    point: stages[trial.stage].moment.point.with_tolerance_of(search.least),
+                    point: stages[trial.stage].moment.point.with_tolerance_at_least(search.least),
                     temperatures: &trial.guess,
                     snapshot: &mut trial.warm.point,
                 })

@@ -167,7 +167,7 @@ impl<'m> Seeking<'m> {
     fn ask(&mut self) -> Asked<'_> {
         self.steady.evaluations += 1;
         Asked {
-            point: self.moment.point.with_tolerance_of(self.search.least),
+            point: self.moment.point.with_tolerance_at_least(self.search.least),
             temperatures: &self.steady.temperatures,
             snapshot: &mut self.warm.point,
         }
