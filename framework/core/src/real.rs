@@ -115,6 +115,10 @@ pub trait Real:
     fn larger(self, other: Self) -> Self {
         Self::select(other.is_above(self), other, self)
     }
+    /// Ends a pass of a loop over numbers. Without it, the compiler may serve one point of several passes by an instruction instead of
+    /// several points of one pass, and gathering the numbers of [`Lane`]s in that order takes longer than the pass itself.
+    #[inline(always)]
+    fn end_pass() {}
     /// The number, at least another one.
     #[inline(always)]
     fn at_least(self, least: f64) -> Self {

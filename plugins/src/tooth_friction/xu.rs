@@ -148,6 +148,7 @@ impl ToothFrictionLaw for Xu {
         // One function per loop: the steps of a number depend on each other, those of different nodes do not.
         for (node, mu) in path.nodes.iter().zip(&mut *mu) {
             *mu = fall * (node.slide_roll * node.root_load);
+            R::end_pass();
         }
         for mu in &mut *mu {
             *mu = mu.exponential();
@@ -155,6 +156,7 @@ impl ToothFrictionLaw for Xu {
         for (node, mu) in path.nodes.iter().zip(&mut *mu) {
             let x = fall * (node.slide_roll * node.root_load);
             *mu = common + geometry(c, node) - x * c.b4 + *mu * c.b5;
+            R::end_pass();
         }
         for mu in &mut *mu {
             *mu = mu.exponential();

@@ -225,8 +225,14 @@ impl Real for Lane {
         self.map(elementary::sine)
     }
     #[inline(always)]
+    fn end_pass() {
+        // No instruction, but it may read and write memory, so that passes are not merged.
+        std::hint::black_box(());
+    }
+    #[inline(always)]
     fn lift(self, function: impl Fn(f64) -> f64) -> Self {
-        self.map(function)
+        let [lifted] = self.lift_all(0.0, |x| [function(x)]);
+        lifted
     }
     #[inline(always)]
     fn lift_all<const N: usize>(self, _least_step: f64, function: impl Fn(f64) -> [f64; N]) -> [Self; N] {

@@ -182,18 +182,15 @@ impl Drag {
         let table = if self.rollers { &V_M_ROLLERS } else { &V_M };
         let height = height.at_most(1.2 * self.d_m);
         let churning = n * n * self.churning * height.lift(|height| v_m(table, height / self.d_m));
-        let f_t = height.lift(|height| {
-            let t = self.angle(height);
+        let t = height.lift(|height| self.angle(height));
+        let f_t = t.lift(|t| {
             if t <= std::f64::consts::PI {
                 (0.5 * t).sin()
             } else {
                 1.0
             }
         });
-        let r_s = height.lift(|height| {
-            let t = self.angle(height);
-            0.36 * self.d_m * self.d_m * (t - t.sin()) * self.f_a
-        });
+        let r_s = t.lift(|t| 0.36 * self.d_m * self.d_m * (t - t.sin()) * self.f_a);
         let c = &self.coefficients;
         let resistance = (n * (self.d_m * self.d_m) * f_t / nu).power(c.bath_exponent);
         let resistance = n * n * (c.bath_factor * self.d_m.powi(3)) * resistance * r_s;
