@@ -186,15 +186,14 @@ const serious = async (page, what) => {
 // Paper: all pictures are drawn although none was in view.
 {
   const page = await open(1440, 900);
-  const pdf = await page.pdf({ preferCSSPageSize: true, printBackground: true });
-  if (capture) await writeFile(join(capture, "report.pdf"), pdf);
-  figures.pages = (Buffer.from(pdf).toString("latin1").match(/\/Type\s*\/Page[^s]/g) ?? []).length;
-  figures.pdf_bytes = pdf.length;
   await page.evaluate(() => {
     window.missing = null;
     addEventListener("beforeprint", () => (window.missing = [...document.querySelectorAll("[data-picture]")].filter((e) => e.dataset.drawn === undefined).length));
   });
-  await page.pdf({ preferCSSPageSize: true });
+  const pdf = await page.pdf({ preferCSSPageSize: true, printBackground: true });
+  if (capture) await writeFile(join(capture, "report.pdf"), pdf);
+  figures.pages = (Buffer.from(pdf).toString("latin1").match(/\/Type\s*\/Page[^s]/g) ?? []).length;
+  figures.pdf_bytes = pdf.length;
   check((await page.evaluate(() => window.missing)) === 0, "pictures are missing on paper");
   await page.close();
 }
