@@ -9,7 +9,11 @@
 //! themselves where an estimate does not decide, at the ends of each bracket, and everywhere if an estimate proves wrong by more than a
 //! quarter or no bracket is found. With estimates within a quarter, temperatures are those of a scan with losses, to the bit.
 
-use std::collections::BTreeSet;
+mod closing;
+mod scan;
+
+use closing::Closings;
+use scan::{Scan, Scanned, Search};
 
 /// Intervals of the first scan.
 const STRETCHES: usize = 16;
@@ -19,14 +23,6 @@ const DOUBLINGS: usize = 4;
 const TOLERANCE: f64 = 1e-10;
 /// Rounding of the heat flows over their sum; smaller residuals are indistinguishable from zero.
 const ROUNDING: f64 = 1e-14;
-/// Minimum width of a closed bracket, in addition to rounding of the temperature. \[K\]
-const CLOSED: f64 = 1e-14;
-/// Slope relative to that of the whole bracket above which a law is taken to jump.
-const STEEPEST: f64 = 1e6;
-/// Maximum number of steps in one bracket; bisection alone needs half as many.
-const MOST: usize = 120;
-/// Residual over the estimated losses above which the sign of an estimate is relied on, and error above which no estimate of a scan is.
-const CLEAR: f64 = 0.25;
 
 /// How accurate asked losses have to be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -54,16 +50,6 @@ impl Step {
     /// Residual. \[W\]
     pub fn residual(&self) -> f64 {
         self.loss - self.heat
-    }
-
-    /// Whether the residual is too large for the error of an estimate to change its sign.
-    fn is_clear(&self) -> bool {
-        self.residual().abs() > (CLEAR * self.loss.abs()).max(ROUNDING * self.scale)
-    }
-
-    /// Whether the losses are those of an exact step, within the error that is allowed for an estimate.
-    fn is_estimate_of(&self, exact: Option<Self>) -> bool {
-        exact.is_some_and(|exact| (exact.loss - self.loss).abs() <= CLEAR * self.loss.abs())
     }
 
     fn is_balanced(&self) -> bool {
@@ -281,260 +267,6 @@ fn search<E>(
         };
     }
     search.found
-}
-
-/// One temperature of a scan.
-#[derive(Clone, Copy)]
-struct Scanned {
-    temperature: f64,
-    /// What the law gave there.
-    step: Option<Step>,
-    accuracy: Accuracy,
-}
-
-impl Scanned {
-    fn residual(&self) -> Option<f64> {
-        self.step.map(|step| step.residual())
-    }
-
-    fn is_decided(&self) -> bool {
-        self.accuracy == Accuracy::Exact || self.step.is_some_and(|step| step.is_clear())
-    }
-}
-
-/// The scan of one member, from its coldest temperature.
-type Scan = Vec<Scanned>;
-
-/// Whether losses exceed dissipation at the first and no longer at the second of two temperatures.
-fn is_bracket(cold: &Scanned, warm: &Scanned) -> bool {
-    matches!((cold.residual(), warm.residual()), (Some(cold), Some(warm)) if cold > 0.0 && warm <= 0.0)
-}
-
-/// Several members and the law that they are asked of.
-struct Search<E, L> {
-    found: Vec<Balance<E>>,
-    law: L,
-}
-
-impl<E, L: FnMut(&[(usize, f64)], Accuracy) -> Vec<Result<Step, E>>> Search<E, L> {
-    fn ask(&mut self, asked: &[(usize, f64)], accuracy: Accuracy) -> Vec<Option<Step>> {
-        let given = (self.law)(asked, accuracy).into_iter().zip(asked);
-        let taken = given.map(|(given, (member, t))| match accuracy {
-            Accuracy::Exact => self.found[*member].take(*t, given),
-            Accuracy::Estimate => given.ok(),
-        });
-        taken.collect()
-    }
-
-    /// The scans of some members. They are asked side by side at each temperature, because they have more in common than the
-    /// temperatures of a member.
-    fn scan(&mut self, members: &[usize], places: &[f64], accuracy: Accuracy) -> Vec<Scan> {
-        let pairs = places.iter().flat_map(|t| members.iter().map(|member| (*member, *t)));
-        let steps = self.ask(&pairs.collect::<Vec<_>>(), accuracy);
-        let scanned = |(temperature, step): (&f64, &Option<Step>)| Scanned {
-            temperature: *temperature,
-            step: *step,
-            accuracy,
-        };
-        let own = |number: usize| steps.iter().skip(number).step_by(members.len());
-        (0..members.len())
-            .map(|number| places.iter().zip(own(number)).map(scanned).collect())
-            .collect()
-    }
-
-    /// Replaces estimates by exact steps: where they do not decide, at the ends of brackets, and everywhere in a scan with a wrong
-    /// estimate or without a bracket.
-    fn decide(&mut self, scans: &mut [Scan]) {
-        let mut wrong = self.replace(scans, |_, scan, i| !scan[i].is_decided());
-        let is_end = |scan: &Scan, i: usize| {
-            i > 0 && is_bracket(&scan[i - 1], &scan[i]) || i + 1 < scan.len() && is_bracket(&scan[i], &scan[i + 1])
-        };
-        wrong.extend(self.replace(scans, |_, scan, i| is_end(scan, i)));
-        for (member, scan) in scans.iter().enumerate() {
-            if !(1..scan.len()).any(|i| is_end(scan, i)) {
-                wrong.insert(member);
-            }
-        }
-        self.replace(scans, |member, _, _| wrong.contains(&member));
-    }
-
-    /// Replaces the estimates that are wanted by exact steps, temperature by temperature. Returns the members with a wrong estimate.
-    fn replace(&mut self, scans: &mut [Scan], is_wanted: impl Fn(usize, &Scan, usize) -> bool) -> BTreeSet<usize> {
-        let mut wanted: Vec<(usize, usize)> = Vec::new();
-        for (member, scan) in scans.iter().enumerate() {
-            let places = (0..scan.len()).filter(|i| scan[*i].accuracy == Accuracy::Estimate);
-            wanted.extend(places.filter(|i| is_wanted(member, scan, *i)).map(|i| (i, member)));
-        }
-        wanted.sort_unstable();
-        let asked: Vec<(usize, f64)> = wanted
-            .iter()
-            .map(|(i, member)| (*member, scans[*member][*i].temperature))
-            .collect();
-        let mut wrong = BTreeSet::new();
-        for ((i, member), step) in wanted.into_iter().zip(self.ask(&asked, Accuracy::Exact)) {
-            let scanned = &mut scans[member][i];
-            if scanned.step.is_some_and(|estimate| !estimate.is_estimate_of(step)) {
-                wrong.insert(member);
-            }
-            (scanned.step, scanned.accuracy) = (step, Accuracy::Exact);
-        }
-        wrong
-    }
-}
-
-impl<E> Balance<E> {
-    /// The brackets of a finished scan.
-    fn bracket(&mut self, scan: Scan) -> Closings {
-        self.scanned = self.history.len();
-        if let Some(Scanned { step: Some(first), .. }) = scan.first()
-            && first.is_balanced()
-            && scan[1].residual().is_some_and(|next| next < 0.0)
-        {
-            // No loss: the lower end itself.
-            self.stable.push(Root::from_step(*first));
-        }
-        let mut closings = Closings {
-            brackets: Vec::new(),
-            open: None,
-            gap: scan.iter().all(|own| own.step.is_none()),
-        };
-        for pair in scan.windows(2) {
-            match (pair[0].step, pair[1].step) {
-                (Some(a), Some(b)) if is_bracket(&pair[0], &pair[1]) => closings.brackets.push([a, b]),
-                // Losses are below dissipation where a law starts to be defined, or above it where a law ends.
-                (None, Some(b)) if b.residual() <= 0.0 => closings.gap = true,
-                (Some(a), None) if a.residual() > 0.0 => closings.gap = true,
-                _ => {}
-            }
-        }
-        closings.brackets.reverse();
-        closings
-    }
-}
-
-/// The brackets of a member, from losses above dissipation to losses below it, which are closed one after the other.
-struct Closings {
-    /// The coldest last.
-    brackets: Vec<[Step; 2]>,
-    open: Option<Closing>,
-    /// True if a law is undefined where a balance may be.
-    gap: bool,
-}
-
-impl Closings {
-    /// The next temperature to ask for; `None` if all brackets are closed, whose temperatures are then among the stable ones.
-    fn next<E>(&mut self, found: &mut Balance<E>) -> Option<f64> {
-        loop {
-            let open = match &mut self.open {
-                Some(open) => open,
-                None => self.open.insert(Closing::new(self.brackets.pop()?)),
-            };
-            match open.next() {
-                Next::Ask(temperature) => return Some(temperature),
-                Next::Closed(root) => {
-                    found.stable.push(root);
-                    self.open = None;
-                }
-            }
-        }
-    }
-
-    /// Takes what the law gave there.
-    fn take(&mut self, step: Option<Step>) {
-        if let (Some(step), Some(open)) = (step, &mut self.open) {
-            open.take(step);
-        } else {
-            // A law is undefined inside.
-            (self.open, self.gap) = (None, true);
-        }
-    }
-}
-
-/// A bracket that is being closed.
-struct Closing {
-    bracket: [Step; 2],
-    /// The newest step.
-    last: Step,
-    /// The opposite end of the bracket.
-    other: Step,
-    /// Position of the next step between both.
-    share: f64,
-    steps: usize,
-}
-
-/// What a bracket needs, or gave.
-enum Next {
-    Ask(f64),
-    Closed(Root),
-}
-
-impl Closing {
-    fn new([cold, warm]: [Step; 2]) -> Self {
-        Self {
-            bracket: [cold, warm],
-            last: warm,
-            other: cold,
-            share: warm.residual() / (warm.residual() - cold.residual()),
-            steps: 0,
-        }
-    }
-
-    fn next(&self) -> Next {
-        let (last, other) = (self.last, self.other);
-        let nearer = last.residual().abs() < other.residual().abs();
-        let best = if nearer { last } else { other };
-        if best.is_balanced() {
-            return Next::Closed(Root::from_step(best));
-        }
-        let width = (other.temperature - last.temperature).abs();
-        let least = (4.0 * f64::EPSILON * last.temperature.abs()).max(CLOSED) / width;
-        if least <= 0.5 && self.steps < MOST {
-            let share = self.share.clamp(least, 1.0 - least);
-            return Next::Ask(last.temperature + share * (other.temperature - last.temperature));
-        }
-        let [below, above] = if last.residual() > 0.0 {
-            [last, other]
-        } else {
-            [other, last]
-        };
-        // The temperature has no more digits. The residual is rounding if it does not exceed slope times width.
-        let [cold, warm] = self.bracket;
-        let slope = (warm.residual() - cold.residual()).abs() / (warm.temperature - cold.temperature);
-        let width = (above.temperature - below.temperature).abs();
-        if below.residual() - above.residual() <= STEEPEST * slope * width {
-            let nearer = below.residual() < -above.residual();
-            return Next::Closed(Root::from_step(if nearer { below } else { above }));
-        }
-        Next::Closed(Root {
-            beyond: Some(above),
-            ..Root::from_step(below)
-        })
-    }
-
-    fn take(&mut self, new: Step) {
-        let before;
-        if (new.residual() > 0.0) == (self.last.residual() > 0.0) {
-            before = self.last;
-        } else {
-            before = self.other;
-            self.other = self.last;
-        }
-        self.last = new;
-        self.share = next([self.last, self.other, before]);
-        self.steps += 1;
-    }
-}
-
-/// Position of the next step between two ends of a bracket, from zero at the first to one at the second.
-fn next([last, other, before]: [Step; 3]) -> f64 {
-    let (x1, x2, x3) = (last.temperature, other.temperature, before.temperature);
-    let (f1, f2, f3) = (last.residual(), other.residual(), before.residual());
-    let (xi, phi) = ((x1 - x2) / (x3 - x2), (f1 - f2) / (f3 - f2));
-    if phi * phi < xi && (1.0 - phi) * (1.0 - phi) < 1.0 - xi {
-        f1 / (f2 - f1) * f3 / (f2 - f3) + (x3 - x1) / (x2 - x1) * f1 / (f3 - f1) * f2 / (f3 - f2)
-    } else {
-        0.5
-    }
 }
 
 #[cfg(test)]
