@@ -94,8 +94,8 @@ pub trait Real:
     fn logarithm(self) -> Self;
     /// The sine for angles of at most 45 degrees to either side.
     fn sine(self) -> Self;
-    /// A function of each number that is not written over [`Real`], such as one read from a table. Its derivatives are found by
-    /// differences.
+    /// A function of each number that is not written over [`Real`], such as one read from a table. It may be called once for several
+    /// points with the same number. Its derivatives are found by differences.
     fn lift(self, function: impl Fn(f64) -> f64) -> Self;
     /// The same for several results of one function, such as the properties of an oil at a temperature.
     /// `least_step` is the step of the differences at zero.
@@ -115,8 +115,9 @@ pub trait Real:
     fn larger(self, other: Self) -> Self {
         Self::select(other.is_above(self), other, self)
     }
-    /// Ends a pass of a loop over numbers. Without it, the compiler may serve one point of several passes by an instruction instead of
-    /// several points of one pass, and gathering the numbers of [`Lane`]s in that order takes longer than the pass itself.
+    /// Marks the end of each pass of a loop that computes one number per pass. Without it, the compiler may let one instruction compute
+    /// the same point of several passes instead of several points of one pass; to gather the numbers of [`Lane`]s in that order takes
+    /// longer than the passes.
     #[inline(always)]
     fn end_pass() {}
     /// The number, at least another one.

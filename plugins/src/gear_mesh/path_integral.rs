@@ -226,7 +226,6 @@ impl RollingPath {
                 let mut sum = R::ZERO;
                 for (power, terms) in self.powers.iter().zip(nodes) {
                     sum += thinned([pressed * terms[0], slid * terms[1]]) * *power;
-                    R::end_pass();
                 }
                 sum
             }

@@ -226,7 +226,7 @@ impl Real for Lane {
     }
     #[inline(always)]
     fn end_pass() {
-        // No instruction, but it may read and write memory, so that passes are not merged.
+        // It has no instruction, but the compiler must assume that it reads and writes memory, so it does not merge passes.
         std::hint::black_box(());
     }
     #[inline(always)]
@@ -294,5 +294,25 @@ impl Points for Lane {
         } else {
             pulp::Arch::new().dispatch(work)
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn equal_neighbours_share_a_call_and_have_the_values_of_each() {
+        let numbers = [1.0, 1.0, 2.0, f64::NAN, f64::NAN, 0.0, -0.0, 2.0];
+        let lane = Lane::each(|point| numbers[point % numbers.len()]);
+        let calls = std::cell::Cell::new(0);
+        let roots = lane.lift(|x| {
+            calls.set(calls.get() + 1);
+            1.0 / x
+        });
+        for point in 0..LANES {
+            assert_eq!(roots[point].to_bits(), (1.0 / lane[point]).to_bits());
+        }
+        assert_eq!(calls.get(), 6 * LANES / numbers.len());
     }
 }

@@ -200,7 +200,7 @@ impl Drag {
 
     /// Angle of immersion t at an oil height in mm. \[rad\]
     fn angle(&self, height: f64) -> f64 {
-        2.0 * ((0.6 * self.d_m - height) / (0.6 * self.d_m)).acos()
+        2.0 * ((0.6 * self.d_m - height) / (0.6 * self.d_m)).clamp(-1.0, 1.0).acos()
     }
 }
 
@@ -293,6 +293,14 @@ mod tests {
             Drag::new(&ROLLER, Bath::Level, Some(1.49e-4), &Constants::PUBLISHED).moment(8.0, 1500.0, 40.0),
             7.77770,
         );
+    }
+
+    #[test]
+    fn the_angle_of_immersion_ends_at_both_ends_of_the_height() {
+        let drag = Drag::new(&BALL, Bath::Level, None, &Constants::PUBLISHED);
+        let full = 1.2 * drag.d_m;
+        assert_eq!((drag.angle(-1e-9), drag.angle(0.0)), (0.0, 0.0));
+        assert_eq!(drag.angle(full * (1.0 + 1e-9)), 2.0 * std::f64::consts::PI);
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! Brackets are closed: from two temperatures with opposite residuals to one without residual, or to a jump of a law.
+//! Closing of brackets: from two temperatures with opposite residuals to one with zero residual, or to a jump of a law.
 
 use super::{Balance, Root, Step};
 
@@ -19,7 +19,7 @@ pub(super) struct Closings {
 }
 
 impl Closings {
-    /// Of brackets from the coldest.
+    /// From brackets in order of temperature, the coldest first.
     pub fn new(mut brackets: Vec<[Step; 2]>, gap: bool) -> Self {
         brackets.reverse();
         Self {

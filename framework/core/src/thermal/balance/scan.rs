@@ -1,4 +1,4 @@
-//! The scan: estimated or exact losses at temperatures over the whole range, and the brackets that they give.
+//! The scan: estimated or exact losses at temperatures over the whole range, and the brackets found from them.
 
 use std::collections::BTreeSet;
 
