@@ -58,7 +58,7 @@ fn lines(table: &Table, rows: Range<usize>) -> io::Result<Vec<u8>> {
                 Values::Numbers(numbers) => {
                     digits.clear();
                     if !numbers[row].is_nan() {
-                        let _ = write!(digits, "{}", numbers[row]);
+                        add_digits(numbers[row], &mut digits);
                     }
                     lines.write_field(&digits)?;
                 }
@@ -68,6 +68,19 @@ fn lines(table: &Table, rows: Range<usize>) -> io::Result<Vec<u8>> {
         lines.write_record(None::<&[u8]>)?;
     }
     lines.into_inner().map_err(csv::IntoInnerError::into_error)
+}
+
+/// Adds a number to a text: the fewest digits that are read as the same number, without an exponent. They are those of JSON; where two
+/// numbers of so many digits are equally near, `Display` may have the other one.
+fn add_digits(number: f64, text: &mut String) {
+    let mut buffer = zmij::Buffer::new();
+    // Small and large numbers have an exponent, integers `.0`.
+    let digits = buffer.format(number);
+    if digits.contains('e') {
+        let _ = write!(text, "{number}");
+    } else {
+        text.push_str(digits.strip_suffix(".0").unwrap_or(digits));
+    }
 }
 
 /// A text that no spreadsheet evaluates as a formula: texts that would begin a formula get an apostrophe in front, which marks a text in
@@ -104,6 +117,31 @@ mod tests {
             assert_eq!(inert(text), format!("'{text}"));
         }
         assert_eq!(inert("a=b"), "a=b");
+    }
+
+    #[test]
+    fn numbers_have_the_fewest_digits_that_give_them_back() {
+        let powers = (-340..=308).map(|exponent| 10.0_f64.powi(exponent));
+        let limits = [
+            0.0,
+            -0.0,
+            f64::MIN_POSITIVE,
+            f64::MAX,
+            f64::INFINITY,
+            0.1 + 0.2,
+            2.0_f64.powi(53) + 2.0,
+        ];
+        // Any bits: one number in 2048 is no number.
+        let any = (1..200_000_u64).map(|n| f64::from_bits(n.wrapping_mul(0x9E37_79B9_7F4A_7C15)));
+        let results = (1..200_000).map(|n| f64::from(n) * 0.917 / 7.0);
+        for number in powers.chain(limits).chain(any.filter(|x| !x.is_nan())).chain(results) {
+            for number in [number, -number] {
+                let mut text = String::new();
+                add_digits(number, &mut text);
+                assert_eq!(text.parse().map(f64::to_bits), Ok(number.to_bits()), "{text}");
+                assert_eq!(text.len(), format!("{number}").len(), "{text} and {number}");
+            }
+        }
     }
 
     #[test]
