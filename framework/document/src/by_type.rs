@@ -23,36 +23,39 @@ fn type_of(record: &Value) -> Option<&str> {
 }
 
 fn conditions(object: &mut Map<String, Value>) {
-    let Some(variants) = object.get("oneOf").and_then(Value::as_array) else {
-        return;
-    };
-    let (records, others): (Vec<Value>, Vec<Value>) = variants.iter().cloned().partition(|v| type_of(v).is_some());
-    if records.is_empty() {
+    let is_choice = |variants: &Value| variants.as_array()?.iter().find_map(type_of).map(|_| ());
+    if object.get("oneOf").and_then(is_choice).is_none() {
         return;
     }
+    // Moved, not copied: records contain the records of nested models.
+    let Some(Value::Array(variants)) = object.get_mut("oneOf").map(Value::take) else {
+        return;
+    };
+    let (records, others): (Vec<Value>, Vec<Value>) = variants.into_iter().partition(|v| type_of(v).is_some());
     let mut types = Vec::new();
     let mut branches = Vec::new();
     for record in records {
         let name = type_of(&record).unwrap_or_default();
         let meaning = record.get("description").cloned().unwrap_or_default();
         types.push(json!({ "const": name, "description": meaning }));
-        branches.push(json!({
-            "if": { "properties": { "type": { "const": name } }, "required": ["type"] },
-            "then": record,
-        }));
+        let mut branch = Map::new();
+        let is_named = json!({ "properties": { "type": { "const": name } }, "required": ["type"] });
+        branch.insert("if".to_owned(), is_named);
+        branch.insert("then".to_owned(), record);
+        branches.push(Value::Object(branch));
     }
-    let choice = json!({
-        "type": "object",
-        "properties": { "type": { "description": "The type; it determines the other keys.", "oneOf": types } },
-        "required": ["type"],
-        "allOf": branches,
-    });
+    let mut choice = Map::new();
+    choice.insert("type".to_owned(), json!("object"));
+    let properties = json!({ "type": { "description": "The type; it determines the other keys.", "oneOf": types } });
+    choice.insert("properties".to_owned(), properties);
+    choice.insert("required".to_owned(), json!(["type"]));
+    choice.insert("allOf".to_owned(), Value::Array(branches));
     if others.is_empty() {
         object.shift_remove("oneOf");
-        object.extend(choice.as_object().cloned().unwrap_or_default());
+        object.extend(choice);
     } else {
         // The record is first, because editors compare with it if nothing matches.
-        let either: Vec<Value> = std::iter::once(choice).chain(others).collect();
+        let either: Vec<Value> = std::iter::once(Value::Object(choice)).chain(others).collect();
         object.insert("oneOf".to_owned(), Value::Array(either));
     }
 }

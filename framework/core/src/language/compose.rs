@@ -254,7 +254,9 @@ fn finish(registry: &Registry, mut generator: SchemaGenerator, mut root: Value) 
                 "type".to_owned(),
                 json!({ "const": entry.name, "description": entry.meaning() }),
             );
-            with_type.extend(fields.as_object().cloned().unwrap_or_default());
+            if let Value::Object(fields) = fields {
+                with_type.extend(fields);
+            }
             object.insert("properties".to_owned(), Value::Object(with_type));
             let mut required = vec![json!("type")];
             required.extend(
@@ -272,10 +274,11 @@ fn finish(registry: &Registry, mut generator: SchemaGenerator, mut root: Value) 
             "description": "No loss.",
             "errorMessage": "Expected a model, `{ type: NAME }` with its parameters, or `none`.",
         }));
-        definitions.insert(
-            format!("{}_model", mechanism.key),
-            json!({ "description": mechanism.meaning, "oneOf": variants, "x-mechanism": mechanism.key }),
-        );
+        let mut slot = Map::new();
+        slot.insert("description".to_owned(), json!(mechanism.meaning));
+        slot.insert("oneOf".to_owned(), Value::Array(variants));
+        slot.insert("x-mechanism".to_owned(), json!(mechanism.key));
+        definitions.insert(format!("{}_model", mechanism.key), Value::Object(slot));
     }
     for (name, schema) in generator.take_definitions(true) {
         definitions.insert(name, schema);
@@ -293,12 +296,11 @@ fn finish(registry: &Registry, mut generator: SchemaGenerator, mut root: Value) 
 
 /// A variant of a tagged enum consists of its tag and a reference to its record: merges both into one record, so that it can be closed.
 fn flatten_tagged(root: &mut Value) {
-    let Some(definitions) = root.get("definitions").and_then(Value::as_object).cloned() else {
-        return;
-    };
     let Some(own) = root.get_mut("definitions").and_then(Value::as_object_mut) else {
         return;
     };
+    let records = own.iter().filter(|(_, schema)| schema.get("properties").is_some());
+    let records: Map<String, Value> = records.map(|(name, record)| (name.clone(), record.clone())).collect();
     for schema in own.values_mut() {
         for variant in schema
             .get_mut("oneOf")
@@ -318,7 +320,7 @@ fn flatten_tagged(root: &mut Value) {
                 .map(str::to_owned);
             let (true, Some(record)) = (
                 variant.contains_key("properties"),
-                name.and_then(|name| definitions.get(&name)),
+                name.and_then(|name| records.get(&name)),
             ) else {
                 continue;
             };
