@@ -4,11 +4,12 @@
 //! ellipse); thermal reduction according to Gupta et al. in the form of Arana et al. 2019; weights of mixed friction according to Doleschel,
 //! Matsumoto, Diab, and Olver and Spikes as collected by Arana et al. 2019.
 
-use crate::mechanism::tooth_friction::ContactAt;
+use crate::mechanism::tooth_friction::{ContactAt, PathAt, PathNode};
 use crate::real::Real;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+mod cut_off;
 pub mod path;
 
 /// Film thickness formula.
@@ -20,6 +21,28 @@ pub enum Film {
     DowsonHigginson,
     /// Central film of a long contact, Hamrock and Dowson.
     HamrockDowson,
+}
+
+impl Film {
+    /// All formulas.
+    const ALL: [Self; 2] = [Self::DowsonHigginson, Self::HamrockDowson];
+
+    /// The films of all formulas at a node for an inlet viscosity, speed, line load and other factors of one; none without load. \[m\]
+    pub(crate) fn at_node(rolling: f64, radius: f64, share: f64) -> [f64; 2] {
+        Self::ALL.map(|film| match share > 0.0 {
+            true => radius * film.over_radius(rolling / radius, 1.0, share / radius, 1.0 / radius),
+            false => 0.0,
+        })
+    }
+
+    /// Film over radius from U = eta v_e/(E' R), G = alpha E', w/(E' R) and the length of the line of contact over the radius.
+    #[inline(always)]
+    fn over_radius<R: Real>(self, u: R, g: R, w: R, length: R) -> R {
+        match self {
+            Self::DowsonHigginson => dowson_higginson(u, g, w),
+            Self::HamrockDowson => hamrock_dowson(u, g, w * length),
+        }
+    }
 }
 
 /// Minimum film over radius from U = eta v_e/(E' R), G = alpha E', W = w/(E' R).
@@ -71,11 +94,7 @@ pub fn film<R: Real>(at: &ContactAt<'_, R>, film: Film, thermal: bool) -> R {
     let u = at.eta * v_e / (at.modulus * at.radius);
     let g = at.alpha * at.modulus;
     let w = at.line_load / (at.modulus * at.radius);
-    let h = at.radius
-        * match film {
-            Film::DowsonHigginson => dowson_higginson(u, g, w),
-            Film::HamrockDowson => hamrock_dowson(u, g, w * at.length / at.radius),
-        };
+    let h = at.radius * film.over_radius(u, g, w, at.length / at.radius);
     let h = if thermal {
         let heating = at.eta * at.beta * v_e * v_e / at.conductivity;
         h * thermal_factor(at.pressure / at.modulus, at.slide_roll(), heating)
@@ -83,6 +102,50 @@ pub fn film<R: Real>(at: &ContactAt<'_, R>, film: Film, thermal: bool) -> R {
         h
     };
     R::select(none, R::ZERO, h)
+}
+
+/// Film thicknesses at the nodes of a path. They are products of powers, so that what does not change along the path is computed once.
+pub struct Films<R: Real> {
+    film: Film,
+    /// Where there is none, at standstill and without load.
+    none: R::Mask,
+    /// Film at a node for which all factors of its geometry are one. \[m\]
+    scale: R,
+    /// The terms of inlet heating at such a node, unless it is neglected.
+    heating: Option<[R; 2]>,
+}
+
+impl<R: Real> Films<R> {
+    /// The films of a path, optionally with inlet heating.
+    #[inline(always)]
+    pub fn new(path: &PathAt<'_, R>, film: Film, thermal: bool) -> Self {
+        let u = path.eta * path.speed / path.modulus;
+        let length = R::constant(path.length);
+        let scale = film.over_radius(u, path.alpha * path.modulus, path.line_load / path.modulus, length);
+        let heating = thermal.then(
+            #[inline(always)]
+            || {
+                let [pressed, slid] = heating(path.eta * path.beta * path.speed * path.speed / path.conductivity);
+                [path.unit_pressure() / path.modulus * pressed, slid]
+            },
+        );
+        Self {
+            film,
+            none: path.speed.is_zero() | path.line_load.is_zero(),
+            scale: scale / film.over_radius(1.0, 1.0, 1.0, 1.0),
+            heating,
+        }
+    }
+
+    /// The film at a node. \[m\]
+    #[inline(always)]
+    pub fn at(&self, node: &PathNode) -> R {
+        let mut h = self.scale * node.films[self.film as usize];
+        if let Some([pressed, slid]) = self.heating {
+            h = h * thinned([pressed * node.heating[0], slid * node.heating[1]]);
+        }
+        R::select(self.none, R::ZERO, h)
+    }
 }
 
 #[cfg(test)]

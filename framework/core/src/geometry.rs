@@ -2,7 +2,7 @@
 
 mod contact_lines;
 mod factors;
-mod gauss;
+pub(crate) mod gauss;
 mod involute;
 mod pair;
 mod path;

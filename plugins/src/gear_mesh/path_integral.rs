@@ -33,7 +33,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use gearloss_framework::contact::path::FrictionPath;
-use gearloss_framework::contact::{dowson_higginson, heating, thermal_terms, thinned};
+use gearloss_framework::contact::{dowson_higginson, heating, thinned};
 
 terms! {
     SLIDING = load("sliding");
@@ -123,7 +123,7 @@ fn prepare(params: PathIntegral, cx: &mut Build<'_>) -> Result<Integral, Diagnos
         Average::ToothTravel => p.weight * p.pairs as f64 / (end - start),
     };
     // It does not depend on oil and roughness of the part.
-    let orders = (friction.order(), friction.cut_off_order());
+    let orders = (friction.order(), friction.kinked_order(), friction.limits());
     let path = cx.repeat("path", (pair, sharing, average, orders), |_| -> Result<_, String> {
         let path = FrictionPath::new(&pair, sharing, &*friction)?.weighted(weight);
         Ok(Arc::new((path, pair.loss_factor_local(sharing))))
@@ -199,15 +199,11 @@ impl RollingPath {
         let power = |(node, weight): (&PathNode, &f64)| force(node) * node.sum_speed * weight * part.pair.facewidth;
         let powers: Vec<f64> = nodes.iter().zip(weights).map(power).collect();
         let heats = params.rolling_thermal && params.rolling_friction == Rolling::GoksemHargreaves;
-        let terms = |node: &PathNode| {
-            let rolling = 0.5 * node.sum_speed;
-            thermal_terms(node.root_load, node.slide_roll, rolling * rolling)
-        };
         Some(Self {
             exponents,
             power: powers.iter().sum(),
             powers,
-            heating: heats.then(|| nodes.iter().map(terms).collect()),
+            heating: heats.then(|| nodes.iter().map(|node| node.heating).collect()),
         })
     }
 

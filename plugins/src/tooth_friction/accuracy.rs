@@ -2,12 +2,13 @@
 #![allow(clippy::unwrap_used)]
 
 use gearloss_framework::contact::path::{FrictionPath, Path};
+use gearloss_framework::contact::{self, Film, Films};
 use gearloss_framework::geometry::{LoadSharing, Pair, PairSpec};
 use gearloss_framework::loss::{NoteBase, Notebook, Notes};
 use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt, MeshPart};
 use gearloss_framework::mechanism::mean_friction::MeanFrictionAt;
-use gearloss_framework::mechanism::tooth_friction::{SMOOTH, ToothFriction};
-use gearloss_framework::mechanism::{Inputs as _, Mechanism as _};
+use gearloss_framework::mechanism::tooth_friction::{KINKED, SMOOTH, ToothFriction};
+use gearloss_framework::mechanism::{Answers as _, Inputs as _, Mechanism as _};
 use gearloss_framework::real::{LANES, Lane, Real as _};
 use gearloss_framework::registry::{Build, Files, Registry};
 use gearloss_numerics::sampling::Sobol;
@@ -138,12 +139,13 @@ fn errors(registry: &Registry, law: &Value, sharing: LoadSharing, cases: &[Case]
         let mean = MeanFrictionAt::at_pitch_point(&at, Notes::MUTED);
         let sum = |path: &Path| {
             let mut mu = vec![0.0; path.len()];
-            slot.along(&path.at_operating_point(&mean, Notes::MUTED), &mut mu)
-                .map(|_| path.sliding(&mu))
+            f64::along(&*slot, &path.at_operating_point(&mean, Notes::MUTED), &mut mu).map(|_| path.sliding(&mu))
         };
         let pair = &case.part.pair;
         let path = FrictionPath::new(pair, sharing, &*slot).unwrap();
-        let fine = 4 * slot.cut_off_order().unwrap_or(0).max(slot.order());
+        let cut_off = slot.limits().map(|_| KINKED);
+        let kinked = slot.kinked_order().max(cut_off);
+        let fine = 4 * kinked.unwrap_or(0).max(slot.order());
         // Undefined at some point, for any number of nodes.
         let Ok(exact) = sum(&Path::from_points(pair, pair.graded_path(sharing, fine))) else {
             continue;
@@ -202,21 +204,55 @@ fn several_points_together_have_the_bits_of_each_alone() {
     for law in laws() {
         let mut build = Build::new(&registry, &files);
         let slot = build.slot_beside::<ToothFriction, _>("law", &case.part, &law).unwrap();
-        let path = Path::new(&case.part.pair, LoadSharing::Ramp, SMOOTH).unwrap();
+        let whole = FrictionPath::new(&case.part.pair, LoadSharing::Ramp, &*slot).unwrap();
+        let path = whole.few();
         let mut together = vec![Lane::ZERO; path.len()];
-        slot.along_together(&path.at_operating_point(&mean, mean.notes), &mut together)
-            .unwrap();
+        let at_path = path.at_operating_point(&mean, mean.notes);
+        slot.along_together(&at_path, &mut together).unwrap();
+        let friction = whole.friction(&*slot, &at_path).unwrap();
         for (i, at) in points.iter().enumerate() {
             let mean = MeanFrictionAt::at_pitch_point(at, Notes::MUTED);
             let mut mu = vec![0.0; path.len()];
-            slot.along(&path.at_operating_point(&mean, Notes::MUTED), &mut mu)
-                .unwrap();
+            let at_path = path.at_operating_point(&mean, Notes::MUTED);
+            slot.along(&at_path, &mut mu).unwrap();
+            let alone = whole.friction(&*slot, &at_path).unwrap();
+            assert_eq!(
+                alone.sliding.to_bits(),
+                friction.sliding[i].to_bits(),
+                "{law} at point {i}"
+            );
             let same = mu
                 .iter()
                 .zip(&together)
                 .all(|(mu, all)| mu.to_bits() == all[i].to_bits());
             assert!(same, "{law} at point {i}");
         }
+    }
+}
+
+#[test]
+fn films_along_a_path_are_those_of_its_contacts() {
+    for case in Case::list(10) {
+        let path = Path::new(&case.part.pair, LoadSharing::Ramp, SMOOTH).unwrap();
+        let usual = case.context();
+        let mean = MeanFrictionAt::at_pitch_point(&usual, Notes::MUTED);
+        let at = path.at_operating_point(&mean, Notes::MUTED);
+        for film in [Film::DowsonHigginson, Film::HamrockDowson] {
+            for thermal in [false, true] {
+                let films = Films::new(&at, film, thermal);
+                for node in path.nodes() {
+                    let (along, alone) = (films.at(node), contact::film(&at.contact(node), film, thermal));
+                    // Rounding of a product of powers, in two orders.
+                    assert!(
+                        (along / alone - 1.0).abs() < 1e-12,
+                        "{film:?} {thermal}: {along} {alone}"
+                    );
+                }
+            }
+        }
+        let still = path.at_operating_point(&mean, Notes::MUTED).with(|to| to.speed = 0.0);
+        let none = Films::new(&still, Film::HamrockDowson, true);
+        assert!(path.nodes().iter().all(|node| none.at(node) == 0.0));
     }
 }
 

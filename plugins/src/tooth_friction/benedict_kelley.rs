@@ -9,7 +9,7 @@ use std::f64::consts::LOG10_E;
 
 use gearloss_framework::loss::Undefined;
 use gearloss_framework::mechanism::ShopUnits;
-use gearloss_framework::mechanism::tooth_friction::{ContactAt, ToothFriction, ToothFrictionLaw};
+use gearloss_framework::mechanism::tooth_friction::{ContactAt, Limits, ToothFriction, ToothFrictionLaw};
 use gearloss_framework::real::{Mask as _, Real};
 use gearloss_framework::registry::{Evidence, default_of, formula};
 use gearloss_framework::{coefficients, limits, observed, register};
@@ -79,12 +79,18 @@ impl ToothFrictionLaw for BenedictKelley {
         };
         at.notes.among(!unloaded).check(&SUM_SPEED, at.sum_speed);
         let mu = smooth(c, at.line_load, at.eta, at.sliding, at.sum_speed) * factor;
-        let held = mu.at_least(0.0).at_most(self.greatest);
-        Ok(at.observe(&MU, R::select(unloaded, R::ZERO, held)))
+        let mu = R::select(unloaded, R::ZERO, mu);
+        at.observe(&MU, self.cut_off(mu));
+        Ok(mu)
     }
 
-    fn limits(&self) -> Option<[f64; 2]> {
-        Some([0.0, self.greatest])
+    /// The logarithm grows without bound at both ends of a section.
+    fn order(&self) -> usize {
+        8
+    }
+
+    fn limits(&self) -> Option<Limits> {
+        Some(Limits::up_to(self.greatest).diverging())
     }
 }
 
@@ -113,13 +119,12 @@ mod tests {
             to.sum_speed = 10.0;
             to.rq = 0.4e-6;
         });
-        BenedictKelley {
+        let law = BenedictKelley {
             coefficients: Constants::PUBLISHED,
             roughness,
             greatest: 0.2,
-        }
-        .mu(&at)
-        .unwrap()
+        };
+        law.cut_off(law.mu(&at).unwrap())
     }
 
     #[test]

@@ -9,7 +9,9 @@
 use gearloss_framework::loss::Undefined;
 use gearloss_framework::lubricant::pressure::roelands;
 use gearloss_framework::mechanism::ShopUnits;
-use gearloss_framework::mechanism::tooth_friction::{ContactAt, ToothFriction, ToothFrictionLaw};
+use gearloss_framework::mechanism::tooth_friction::{
+    Along, ContactAt, Limits, PathAt, Range, ToothFriction, ToothFrictionLaw,
+};
 use gearloss_framework::real::{Mask as _, Real};
 use gearloss_framework::registry::{Evidence, default_of, formula};
 use gearloss_framework::{limits, observed, register};
@@ -17,7 +19,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::powers::asinh;
-use gearloss_framework::contact::{self, Film};
+use gearloss_framework::contact::{self, Film, Films};
 
 limits! { SUM_SPEED = ("v_S", "sum of the surface velocities", "m/s", 0.1, 100.0, "assumed, not stated by a source: speeds with a lubricant film"); }
 observed! {
@@ -50,43 +52,74 @@ fn yes() -> bool {
     true
 }
 
-/// Friction from the slope of the limit (-), 1/Pa, Pa, Pa s, m/s and m.
+/// Friction without a limiting stress, from the slope of the limit (-), 1/Pa, Pa, Pa s, m/s and m.
 #[inline(always)]
 fn mu<R: Real>(slope: f64, alpha: R, p_mean: R, eta_p: R, sliding: R, film: R) -> R {
     let argument = eta_p * alpha * sliding / (film * (2.0 * slope));
-    (R::constant(2.0 * slope) / (alpha * p_mean) * asinh(argument)).at_most(slope)
+    R::constant(2.0 * slope) / (alpha * p_mean) * asinh(argument)
+}
+
+impl Eyring {
+    /// Friction of a film of known thickness.
+    #[inline(always)]
+    fn friction<R: Real>(&self, at: &ContactAt<'_, R>, h: R) -> Result<R, Undefined> {
+        let idle = at.sliding.is_zero() | at.line_load.is_zero() | at.pressure.is_zero();
+        if idle.all() {
+            at.branch("no sliding or no load: no friction");
+            return Ok(R::ZERO);
+        }
+        if (h.is_zero() & !idle).agreed()? {
+            at.branch("no film: the limiting stress");
+            return Ok(R::constant(self.limiting_slope));
+        }
+        let p_mean = at.show("p_mean", "GPa", at.pressure.gpa() * (0.25 * std::f64::consts::PI)) * 1e9;
+        let eta_p = roelands(at.eta, at.alpha, p_mean);
+        // Far above gear pressures the viscosity overflows; the stress reaches its limit long before.
+        let eta_p = at.show("eta_p", "Pa s", eta_p.at_most(1e300));
+        let mu = mu(self.limiting_slope, at.alpha, p_mean, eta_p, at.sliding, h);
+        Ok(R::select(idle, R::ZERO, mu))
+    }
 }
 
 impl ToothFrictionLaw for Eyring {
     #[inline(always)]
     fn mu<R: Real>(&self, at: &ContactAt<'_, R>) -> Result<R, Undefined> {
         at.check(&SUM_SPEED, at.sum_speed);
-        let idle = at.sliding.is_zero() | at.line_load.is_zero() | at.pressure.is_zero();
-        if idle.all() {
-            at.branch("no sliding or no load: no friction");
-            return Ok(at.observe(&MU, R::ZERO));
-        }
+        let idle = at.sliding.is_zero() | at.line_load.is_zero();
         let h = contact::film(at, self.film, self.thermal);
         at.notes.among(!idle).observe(&THICKNESS, h.um());
-        if (h.is_zero() & !idle).agreed()? {
-            at.branch("no film: the limiting stress");
-            return Ok(at.observe(&MU, R::constant(self.limiting_slope)));
+        let mu = self.friction(at, h)?;
+        at.observe(&MU, self.cut_off(mu));
+        Ok(mu)
+    }
+
+    #[inline(always)]
+    fn along<R: Real>(&self, path: &PathAt<'_, R>, mu: &mut [R]) -> Result<Along<R>, Undefined> {
+        let films = Films::new(path, self.film, self.thermal);
+        let (mut thickness, mut friction) = (Range::default(), Range::default());
+        for (node, mu) in path.nodes.iter().zip(mu) {
+            let h = films.at(node);
+            *mu = self.friction(&path.contact(node), h)?;
+            thickness.extend(node, h);
+            friction.extend(node, self.cut_off(*mu));
+            R::end_pass();
         }
-        let p_mean = at.show("p_mean", "GPa", at.pressure.gpa() * (0.25 * std::f64::consts::PI)) * 1e9;
-        let eta_p = roelands(at.eta, at.alpha, p_mean, at.temperature, at.temperature, 1.0);
-        // Far above gear pressures the viscosity overflows; the stress reaches its limit long before.
-        let eta_p = at.show("eta_p", "Pa s", eta_p.at_most(1e300));
-        let mu = mu(self.limiting_slope, at.alpha, p_mean, eta_p, at.sliding, h);
-        Ok(at.observe(&MU, R::select(idle, R::ZERO, mu)))
+        for end in 0..2 {
+            let sum_speed = path.speed * path.extent.sum_speed[end];
+            path.notes.check(&SUM_SPEED, sum_speed);
+            path.notes.observe(&THICKNESS, thickness.ends()[end].um());
+            path.notes.observe(&MU, friction.ends()[end]);
+        }
+        Ok(Along::default())
     }
 
     /// Near the pitch point the stress rises steeply.
     fn order(&self) -> usize {
-        10
+        13
     }
 
-    fn limits(&self) -> Option<[f64; 2]> {
-        Some([0.0, self.limiting_slope])
+    fn limits(&self) -> Option<Limits> {
+        Some(Limits::up_to(self.limiting_slope))
     }
 }
 

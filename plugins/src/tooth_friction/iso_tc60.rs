@@ -5,7 +5,7 @@
 
 use gearloss_framework::loss::Undefined;
 use gearloss_framework::mechanism::ShopUnits;
-use gearloss_framework::mechanism::tooth_friction::{ContactAt, ToothFriction, ToothFrictionLaw};
+use gearloss_framework::mechanism::tooth_friction::{ContactAt, Limits, ToothFriction, ToothFrictionLaw};
 use gearloss_framework::real::Real;
 use gearloss_framework::registry::{Evidence, default_of, formula};
 use gearloss_framework::{coefficients, limits, observed, register};
@@ -46,11 +46,13 @@ impl ToothFrictionLaw for IsoTc60 {
         let ratio =
             at.line_load.n_mm() * at.rq.um() / (at.radius.mm() * 0.5 * entraining(at.sum_speed)? * at.eta.mpa_s());
         at.check(&ROLLING, at.sum_speed * 0.5);
-        Ok(at.observe(&MU, (ratio.power(c.exponent) * c.factor).at_most(self.greatest)))
+        let mu = ratio.power(c.exponent) * c.factor;
+        at.observe(&MU, self.cut_off(mu));
+        Ok(mu)
     }
 
-    fn limits(&self) -> Option<[f64; 2]> {
-        Some([0.0, self.greatest])
+    fn limits(&self) -> Option<Limits> {
+        Some(Limits::up_to(self.greatest))
     }
 }
 
@@ -85,7 +87,7 @@ mod tests {
             to.eta = 20e-3;
         });
         assert!((LAW.mu(&at).unwrap() / 0.0706279 - 1.0).abs() < 1e-5);
-        assert_eq!(LAW.mu(&at.with(|to| to.sum_speed = 1e-6)).unwrap(), 0.2);
+        assert_eq!(LAW.cut_off(LAW.mu(&at.with(|to| to.sum_speed = 1e-6)).unwrap()), 0.2);
         let fault = LAW.mu(&at.with(|to| to.sum_speed = 0.0)).unwrap_err();
         assert!(fault.what.starts_with("sum of the surface speeds"), "{fault}");
     }

@@ -6,7 +6,7 @@
 
 use gearloss_framework::loss::Undefined;
 use gearloss_framework::mechanism::ShopUnits;
-use gearloss_framework::mechanism::tooth_friction::{ContactAt, ToothFriction, ToothFrictionLaw};
+use gearloss_framework::mechanism::tooth_friction::{ContactAt, Limits, ToothFriction, ToothFrictionLaw};
 use gearloss_framework::real::Real;
 use gearloss_framework::registry::{Evidence, default_of, formula};
 use gearloss_framework::{coefficients, limits, observed, register};
@@ -61,19 +61,20 @@ impl ToothFrictionLaw for Misharin {
         at.check(&SUM_SPEED, at.sum_speed);
         let c = &self.coefficients;
         let mu = (at.sliding * at.sum_speed * at.nu.mm2_s()).power(c.exponent) * c.factor;
-        let mu = if self.held {
-            mu.at_least(c.least_friction).at_most(c.greatest_friction)
-        } else {
-            mu.at_most(self.greatest)
-        };
-        Ok(at.observe(&MU, mu))
+        at.observe(&MU, self.cut_off(mu));
+        Ok(mu)
     }
 
-    fn limits(&self) -> Option<[f64; 2]> {
+    fn limits(&self) -> Option<Limits> {
+        let limits = Limits::up_to(self.greatest).diverging();
         Some(if self.held {
-            [self.coefficients.least_friction, self.coefficients.greatest_friction]
+            Limits {
+                least: self.coefficients.least_friction,
+                greatest: self.coefficients.greatest_friction,
+                ..limits
+            }
         } else {
-            [0.0, self.greatest]
+            limits
         })
     }
 }
@@ -112,7 +113,8 @@ mod tests {
         });
         assert!((law(true).mu(&at).unwrap() / 0.0726722 - 1.0).abs() < 1e-5);
         let still = at.with(|to| to.sliding = 0.0);
-        assert_eq!(law(true).mu(&still).unwrap(), 0.08);
-        assert_eq!(law(false).mu(&still).unwrap(), 0.2);
+        for (held, greatest) in [(true, 0.08), (false, 0.2)] {
+            assert_eq!(law(held).cut_off(law(held).mu(&still).unwrap()), greatest);
+        }
     }
 }

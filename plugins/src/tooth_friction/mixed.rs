@@ -15,7 +15,7 @@ use std::f64::consts::{FRAC_1_SQRT_2, LOG10_E};
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::Undefined;
 use gearloss_framework::mechanism::tooth_friction::{
-    Along, CUT_OFF, ContactAt, PathAt, Range, SMOOTH, ToothFriction, ToothFrictionLaw,
+    Along, ContactAt, KINKED, PathAt, Range, SMOOTH, ToothFriction, ToothFrictionLaw,
 };
 use gearloss_framework::mechanism::{Answers, ShopUnits};
 use gearloss_framework::real::{Mask as _, Real};
@@ -25,7 +25,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use gearloss_framework::contact::path::with_space;
-use gearloss_framework::contact::{self, Film};
+use gearloss_framework::contact::{self, Film, Films};
 
 use super::finite;
 
@@ -136,11 +136,10 @@ fn erf<R: Real>(x: R) -> R {
 }
 
 impl Mixed {
-    /// Share of boundary friction in a contact.
+    /// Share of boundary friction in a contact with a film of known thickness.
     #[inline(always)]
-    fn share<R: Real>(&self, at: &ContactAt<'_, R>) -> R {
+    fn share<R: Real>(&self, at: &ContactAt<'_, R>, h: R) -> R {
         at.check(&SUM_SPEED, at.sum_speed);
-        let h = contact::film(at, self.film, self.params.thermal);
         at.observe(&THICKNESS, h.um());
         let roughness = match self.params.weight {
             Weight::Doleschel => at.ra,
@@ -155,7 +154,7 @@ impl Mixed {
 impl ToothFrictionLaw for Mixed {
     #[inline(always)]
     fn mu<R: Answers>(&self, at: &ContactAt<'_, R>) -> Result<R, Undefined> {
-        let xi = self.share(at);
+        let xi = self.share(at, contact::film(at, self.film, self.params.thermal));
         let nested = |slot: &Slot<ToothFriction>, weight: R| {
             // A law with zero weight is not evaluated: it may be undefined there, as a film at zero speed.
             let counts = weight.is_above(R::ZERO);
@@ -175,13 +174,17 @@ impl ToothFrictionLaw for Mixed {
     }
 
     /// The share of boundary friction vanishes at a film ratio of two, for Matsumoto with a kink.
-    fn cut_off_order(&self) -> Option<usize> {
+    fn kinked_order(&self) -> Option<usize> {
         let own = match self.params.weight {
             Weight::Doleschel => Some(2 * SMOOTH),
-            Weight::Matsumoto => Some(CUT_OFF),
+            Weight::Matsumoto => Some(KINKED),
             Weight::Diab | Weight::OlverSpikes => None,
         };
-        let most = own.max(self.boundary.cut_off_order()).max(self.fluid.cut_off_order());
+        let [boundary, fluid] = [&self.boundary, &self.fluid].map(|law| {
+            let cut_off = law.limits().map(|_| KINKED);
+            cut_off.max(law.kinked_order())
+        });
+        let most = own.max(boundary).max(fluid);
         most.map(|order| order.max(self.order()))
     }
 
@@ -194,17 +197,19 @@ impl ToothFrictionLaw for Mixed {
             #[inline(always)]
             |fluid| {
                 let along = R::along(&*self.fluid, &path.nested(&self.fluid), fluid)?;
+                let films = Films::new(path, self.film, self.params.thermal);
                 for ((node, mu), fluid) in path.nodes.iter().zip(mu).zip(fluid) {
                     let at = path.contact(node);
-                    let xi = self.share(&at);
+                    let xi = self.share(&at, films.at(node));
                     shares.extend(node, xi);
                     *mu = at.observe(&MU, xi * *mu + (R::constant(1.0) - xi) * *fluid);
+                    R::end_pass();
                 }
                 Ok(along)
             },
         )?;
         Ok(Along {
-            cut_off: boundary.cut_off | fluid.cut_off | shares.is_cut_off([0.0, 1.0]),
+            kink: boundary.kink | fluid.kink | shares.is_cut_off([0.0, 1.0]),
             ..Along::default()
         })
     }

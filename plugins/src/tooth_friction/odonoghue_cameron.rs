@@ -7,7 +7,7 @@
 
 use gearloss_framework::loss::Undefined;
 use gearloss_framework::mechanism::ShopUnits;
-use gearloss_framework::mechanism::tooth_friction::{ContactAt, ToothFriction, ToothFrictionLaw};
+use gearloss_framework::mechanism::tooth_friction::{ContactAt, Limits, ToothFriction, ToothFrictionLaw};
 use gearloss_framework::real::Real;
 use gearloss_framework::registry::{Evidence, default_of, formula};
 use gearloss_framework::{coefficients, limits, observed, register};
@@ -71,11 +71,12 @@ impl ToothFrictionLaw for ODonoghueCameron {
         let radius = power(at.radius / INCH, c.radius_exponent);
         let viscosity = at.eta.mpa_s().power(c.viscosity_exponent);
         let mu = (s + c.roughness_offset) * c.factor / c.roughness_divisor / (viscosity * speeds * radius);
-        Ok(at.observe(&MU, mu.at_most(self.greatest)))
+        at.observe(&MU, self.cut_off(mu));
+        Ok(mu)
     }
 
-    fn limits(&self) -> Option<[f64; 2]> {
-        Some([0.0, self.greatest])
+    fn limits(&self) -> Option<Limits> {
+        Some(Limits::up_to(self.greatest).diverging())
     }
 }
 
@@ -110,7 +111,7 @@ mod tests {
             to.radius = 0.4 * INCH;
         });
         assert!((LAW.mu(&at).unwrap() / 0.0562212 - 1.0).abs() < 1e-5);
-        assert_eq!(LAW.mu(&at.with(|to| to.sliding = 0.0)).unwrap(), 0.2);
+        assert_eq!(LAW.cut_off(LAW.mu(&at.with(|to| to.sliding = 0.0)).unwrap()), 0.2);
         let fault = LAW.mu(&at.with(|to| to.sum_speed = 0.0)).unwrap_err();
         assert!(fault.what.starts_with("sum of the surface speeds"), "{fault}");
     }

@@ -1,10 +1,11 @@
 //! The path of contact of one mesh, prepared for local friction laws.
 
+use super::cut_off::CutOff;
 use crate::geometry::{LoadSharing, Pair, PathPoint};
 use crate::loss::{Notes, Undefined};
 use crate::mechanism::Answers;
 use crate::mechanism::mean_friction::MeanFrictionAt;
-use crate::mechanism::tooth_friction::{CUT_OFF, PathAt, PathExtent, PathNode, SMOOTH, ToothFrictionModel};
+use crate::mechanism::tooth_friction::{KINKED, PathAt, PathExtent, PathNode, SMOOTH, ToothFrictionModel};
 use crate::real::{Mask as _, Real};
 
 /// Points of most paths: four sections for a smooth law.
@@ -13,7 +14,7 @@ const FEW: usize = 4 * SMOOTH;
 /// Points of a smooth law that needs more of them, or of a path with more sections.
 const MORE: usize = 4 * FEW;
 
-/// Points of most paths for a law with a cut-off.
+/// Points of most paths for a law with a kink.
 const MANY: usize = 16 * FEW;
 
 /// Runs a function with space for some numbers. Most paths need little, and zeroing more costs time; only paths of more than 448 nodes
@@ -50,8 +51,8 @@ pub struct Path {
 }
 
 impl Path {
-    /// Maximum number of points on a path: 32 sections for a law with a cut-off.
-    const MOST: usize = 32 * CUT_OFF;
+    /// Maximum number of points on a path: 32 sections for a law with a kink.
+    const MOST: usize = 32 * KINKED;
 
     /// The path of a pair with its load sharing, with as many points on each smooth section as the friction law requires.
     ///
@@ -115,6 +116,11 @@ impl Path {
         path
     }
 
+    /// Sliding power per friction, normal force and speed of the first gear, by point. \[m\]
+    pub(super) fn weights(&self) -> &[f64] {
+        &self.weights
+    }
+
     /// Number of points.
     pub fn len(&self) -> usize {
         self.nodes.len()
@@ -152,19 +158,20 @@ impl Path {
         nodes.fold(R::ZERO, |sum, (weight, mu)| sum + *mu * *weight)
     }
 
-    /// The friction of a law over the path at an operating point.
+    /// The friction of a law over the path at an operating point, and where the law has a kink between the points.
     #[inline(always)]
     fn friction<R: Answers>(
         &self,
         law: &dyn ToothFrictionModel,
         at: &PathAt<'_, R>,
+        cut_off: Option<&CutOff>,
     ) -> Result<(PathFriction<R>, R::Mask), Undefined> {
         let (sliding, along) = with_space(
             self.len(),
             #[inline(always)]
-            |mu| {
-                let along = R::along(law, at, mu)?;
-                Ok((self.sliding(mu), along))
+            |mu| match cut_off {
+                None => R::along(law, at, mu).map(|along| (self.sliding(mu), along)),
+                Some(cut_off) => R::along_uncut(law, at, mu).map(|along| (cut_off.sliding(self, mu), along)),
             },
         )?;
         let friction = PathFriction {
@@ -172,7 +179,7 @@ impl Path {
             mean: sliding / self.weight,
             first_heat: along.first_heat,
         };
-        Ok((friction, along.cut_off))
+        Ok((friction, along.kink))
     }
 }
 
@@ -187,10 +194,11 @@ pub struct PathFriction<R = f64> {
     pub first_heat: R,
 }
 
-/// The path of one mesh with as many points as its friction law requires: few, and many where the law is cut off.
+/// The path of one mesh with as many points as its friction law requires: few, and many where the law has a kink.
 pub struct FrictionPath {
     few: Path,
     many: Option<Path>,
+    cut_off: Option<CutOff>,
 }
 
 impl FrictionPath {
@@ -199,17 +207,21 @@ impl FrictionPath {
     /// # Errors
     /// As [`Path::new`].
     pub fn new(pair: &Pair, sharing: LoadSharing, law: &dyn ToothFrictionModel) -> Result<Self, String> {
-        let many = law.cut_off_order().map(|order| Path::new(pair, sharing, order));
+        let many = law.kinked_order().map(|order| Path::new(pair, sharing, order));
+        let few = Path::new(pair, sharing, law.order())?;
         Ok(Self {
-            few: Path::new(pair, sharing, law.order())?,
+            cut_off: law.limits().map(|limits| CutOff::new(&few, law.order(), limits)),
+            few,
             many: many.transpose()?,
         })
     }
 
     /// As [`Path::weighted`].
     pub fn weighted(self, weight: impl Fn(&PathPoint) -> f64) -> Self {
+        let few = self.few.weighted(&weight);
         Self {
-            few: self.few.weighted(&weight),
+            cut_off: self.cut_off.map(|cut_off| cut_off.weighted(&few)),
+            few,
             many: self.many.map(|path| path.weighted(&weight)),
         }
     }
@@ -229,21 +241,21 @@ impl FrictionPath {
         law: &dyn ToothFrictionModel,
         at: &PathAt<'_, R>,
     ) -> Result<PathFriction<R>, Undefined> {
-        let (few, cut_off) = self.few.friction(law, at)?;
+        let (few, kink) = self.few.friction(law, at, self.cut_off.as_ref())?;
         // Not for points that have left the batch or are at rest.
-        let is_cut_off = cut_off.bits() & at.notes.points() != 0;
-        let Some(path) = self.many.as_ref().filter(|_| is_cut_off) else {
+        let has_kink = kink.bits() & at.notes.points() != 0;
+        let Some(path) = self.many.as_ref().filter(|_| has_kink) else {
             return Ok(few);
         };
         let at = at.with(|to| {
             (to.nodes, to.extent) = (&path.nodes, &path.extent);
-            to.notes = to.notes.among(cut_off);
+            to.notes = to.notes.among(kink);
         });
-        let (many, _) = path.friction(law, &at)?;
+        let (many, _) = path.friction(law, &at, None)?;
         Ok(PathFriction {
-            sliding: R::select(cut_off, many.sliding, few.sliding),
-            mean: R::select(cut_off, many.mean, few.mean),
-            first_heat: R::select(cut_off, many.first_heat, few.first_heat),
+            sliding: R::select(kink, many.sliding, few.sliding),
+            mean: R::select(kink, many.mean, few.mean),
+            first_heat: R::select(kink, many.first_heat, few.first_heat),
         })
     }
 }

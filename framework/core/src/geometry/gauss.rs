@@ -33,6 +33,18 @@ pub fn graded_rule(n: usize) -> Vec<(f64, f64)> {
     rule(n).into_iter().map(graded).collect()
 }
 
+/// Factors by which values at the nodes of a [graded rule](graded_rule) of `n` nodes are interpolated to those of one of `m` nodes, by
+/// the polynomial in u: `n` for each of the `m`.
+pub fn graded_interpolation(n: usize, m: usize) -> Vec<f64> {
+    let [from, to] = [n, m].map(rule);
+    let polynomial = |u: f64, i: usize| -> f64 {
+        let others = (0..n).filter(|k| *k != i);
+        others.map(|k| (u - from[k].0) / (from[i].0 - from[k].0)).product()
+    };
+    let rows = to.iter().flat_map(|(u, _)| (0..n).map(move |i| (*u, i)));
+    rows.map(|(u, i)| polynomial(u, i)).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -58,6 +70,22 @@ mod tests {
         let error =
             |rule: &[(f64, f64)]| (integral(rule, |x| (1.0 + x).powf(1.25)) / (2.0_f64.powf(2.25) / 2.25) - 1.0).abs();
         assert!(error(&graded_rule(7)) < 1e-5 && error(&graded_rule(7)) < 0.2 * error(&rule(7)));
+    }
+
+    #[test]
+    fn polynomials_are_interpolated_exactly() {
+        let (n, m) = (7, 64);
+        let [from, to] = [n, m].map(rule);
+        for (row, (u, _)) in graded_interpolation(n, m).chunks(n).zip(to) {
+            for degree in 0..n as i32 {
+                let sum: f64 = row
+                    .iter()
+                    .zip(&from)
+                    .map(|(factor, (u, _))| factor * u.powi(degree))
+                    .sum();
+                assert!((sum - u.powi(degree)).abs() < 1e-13, "{u} {degree} {sum}");
+            }
+        }
     }
 
     #[test]

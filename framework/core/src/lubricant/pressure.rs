@@ -1,6 +1,5 @@
 //! Pressure-viscosity coefficient, and viscosity under pressure.
 
-use super::ZERO_CELSIUS;
 use crate::real::Real;
 
 /// How the pressure-viscosity coefficient is computed from the oil.
@@ -48,17 +47,14 @@ fn so_klaus(nu: f64, slope: f64, rho: f64) -> f64 {
     (1.216 + viscous + thermal - dense) * 1e-8
 }
 
-/// Viscosity under pressure and at another temperature according to Roelands 1966. \[Pa s\] `eta0` in Pa s at `base` degC and zero
-/// pressure, `alpha` its coefficient in 1/Pa, `s0` the slope index over temperature.
+/// Viscosity under pressure according to Roelands 1966. \[Pa s\] `eta0` in Pa s at zero pressure, `alpha` its coefficient in 1/Pa.
 #[inline(always)]
-pub fn roelands<R: Real>(eta0: R, alpha: R, pressure: R, base: R, temperature: R, s0: f64) -> R {
+pub fn roelands<R: Real>(eta0: R, alpha: R, pressure: R) -> R {
     let one = R::constant(1.0);
     let ln_ratio = eta0.logarithm() + 9.67;
     let z = alpha / (ln_ratio * 5.1e-9);
-    let above = |t: R| t + ZERO_CELSIUS - 138.0;
-    let thermal = (above(temperature) / above(base)).power(-s0);
     let compressed = ((pressure * 5.1e-9 + one).logarithm() * z).exponential();
-    eta0 * (ln_ratio * (compressed * thermal - one)).exponential()
+    eta0 * (ln_ratio * (compressed - one)).exponential()
 }
 
 #[cfg(test)]
@@ -69,7 +65,7 @@ mod tests {
     fn d5_so_klaus_roelands() {
         for (value, printed) in [
             (so_klaus(100.0, 3.5847, 880.0), 2.75857e-8),
-            (roelands(0.01, 2e-8, 5e8, 40.0, 40.0, 1.1), 46.4348),
+            (roelands(0.01, 2e-8, 5e8), 46.4348),
         ] {
             assert!((value / printed - 1.0).abs() < 1e-5, "{value} against {printed}");
         }

@@ -1,6 +1,6 @@
 //! How models answer for one point, for several together, and with derivatives.
 
-use super::tooth_friction::{Along, PathAt, ToothFrictionModel};
+use super::tooth_friction::{Along, PathAt, Range, ToothFrictionModel};
 use super::{Answer, Inputs, Mechanism, differences};
 use crate::attach::State;
 use crate::contact::path::with_space;
@@ -28,15 +28,37 @@ pub trait Answers: Points {
     fn placed(placed: &dyn Placed, state: &State<'_, Self>, book: &Notebook<'_, Self>)
     -> Result<Loss<Self>, Undefined>;
 
-    /// Coefficients of friction at all nodes of a path.
+    /// Coefficients of friction at all nodes of a path, before they are cut off at limits.
     ///
     /// # Errors
     /// As [`Answers::answer`].
-    fn along(
+    fn along_uncut(
         model: &dyn ToothFrictionModel,
         path: &PathAt<'_, Self>,
         mu: &mut [Self],
     ) -> Result<Along<Self>, Undefined>;
+
+    /// Coefficients of friction at all nodes of a path. A cut-off is a kink.
+    ///
+    /// # Errors
+    /// As [`Answers::answer`].
+    #[inline(always)]
+    fn along(
+        model: &dyn ToothFrictionModel,
+        path: &PathAt<'_, Self>,
+        mu: &mut [Self],
+    ) -> Result<Along<Self>, Undefined> {
+        let mut along = Self::along_uncut(model, path, mu)?;
+        if let Some(limits) = model.limits() {
+            let mut range = Range::default();
+            for (node, mu) in path.nodes.iter().zip(mu) {
+                range.extend(node, *mu);
+                *mu = limits.cut_off(*mu);
+            }
+            along.kink = along.kink | range.is_cut_off([limits.least, limits.greatest]);
+        }
+        Ok(along)
+    }
 }
 
 impl Answers for f64 {
@@ -54,7 +76,7 @@ impl Answers for f64 {
     }
 
     #[inline(always)]
-    fn along(model: &dyn ToothFrictionModel, path: &PathAt<'_>, mu: &mut [f64]) -> Result<Along, Undefined> {
+    fn along_uncut(model: &dyn ToothFrictionModel, path: &PathAt<'_>, mu: &mut [f64]) -> Result<Along, Undefined> {
         model.along(path, mu)
     }
 }
@@ -91,7 +113,7 @@ impl Answers for Lane {
     }
 
     #[inline(always)]
-    fn along(
+    fn along_uncut(
         model: &dyn ToothFrictionModel,
         path: &PathAt<'_, Lane>,
         mu: &mut [Lane],
@@ -100,7 +122,7 @@ impl Answers for Lane {
             return Ok(along);
         }
         let mut all = Along::<Lane>::default();
-        let mut cut_off = [false; Lane::COUNT];
+        let mut kinks = [false; Lane::COUNT];
         let points = path.notes.points();
         with_space(mu.len(), |own: &mut [f64]| {
             for point in (0..Lane::COUNT).filter(|point| points >> point & 1 == 1) {
@@ -110,11 +132,11 @@ impl Answers for Lane {
                 }
                 if let Ok(along) = along {
                     all.first_heat.set(point, along.first_heat);
-                    cut_off[point] = along.cut_off;
+                    kinks[point] = along.kink;
                 }
             }
         });
-        all.cut_off = Lane::mask(|point| cut_off[point]);
+        all.kink = Lane::mask(|point| kinks[point]);
         Ok(all)
     }
 }
@@ -135,7 +157,7 @@ impl Answers for Dual {
         placed.loss_with_derivatives(state, book)
     }
 
-    fn along(
+    fn along_uncut(
         model: &dyn ToothFrictionModel,
         path: &PathAt<'_, Dual>,
         mu: &mut [Dual],

@@ -69,7 +69,7 @@ pub(super) fn along(
             value: own.first_heat,
             ..Dual::default()
         },
-        cut_off: own.cut_off,
+        kink: own.kink,
     };
     let Some(node) = path.nodes.first() else {
         return Ok(along);

@@ -1,5 +1,6 @@
 //! Friction between flanks along the path of contact.
 
+use crate::contact::{Film, thermal_terms};
 use crate::loss::{Notes, Undefined};
 use crate::mechanism::Scalar;
 use crate::mechanism::Slot;
@@ -21,18 +22,24 @@ pub trait ToothFrictionModel: Send + Sync {
     fn mu(&self, at: &ContactAt<'_>) -> Result<f64, Undefined>;
 
     /// Number of nodes on each smooth section of a path for an error of the loss below 1e-4, or of the mean friction below 1e-6,
-    /// unless the law is [cut off](Along::cut_off). [`SMOOTH`] is enough for a law that is smooth inside the sections, for any power
-    /// of sliding and load at their ends; [`CUT_OFF`] for one with unknown kinks.
+    /// unless the law has a [kink](Along::kink). [`SMOOTH`] is enough for a law that is smooth inside the sections, for any power
+    /// of sliding and load at their ends; [`KINKED`] for one with unknown kinks.
     fn order(&self) -> usize {
         SMOOTH
     }
 
-    /// The same where the law is cut off, as by `min` or `max`; none if it never is.
-    fn cut_off_order(&self) -> Option<usize> {
+    /// The same where the law has a kink; none if it never has one, other than at its [limits](Self::limits).
+    fn kinked_order(&self) -> Option<usize> {
         None
     }
 
-    /// Coefficients of friction at all nodes of a path, into a slice of the length of the path. Pure; must not allocate.
+    /// Limits at which the law is cut off, if the coefficients [along](Self::along) a path are those before.
+    fn limits(&self) -> Option<Limits> {
+        None
+    }
+
+    /// Coefficients of friction at all nodes of a path, before they are cut off at the [limits](Self::limits), into a slice of the
+    /// length of the path. Pure; must not allocate.
     fn along(&self, path: &PathAt<'_>, mu: &mut [f64]) -> Result<Along, Undefined> {
         for (node, mu) in path.nodes.iter().zip(mu) {
             *mu = self.mu(&path.contact(node))?;
@@ -74,7 +81,7 @@ pub trait ToothFrictionModel: Send + Sync {
 /// A law of friction that is written once for one point and for several; mark its methods as `#[inline(always)]`, so that they use
 /// wide instructions.
 pub trait ToothFrictionLaw: Send + Sync {
-    /// Coefficient of friction at one contact. \[-\] Pure; must not allocate.
+    /// Coefficient of friction at one contact, before it is cut off at the [limits](Self::limits). \[-\] Pure; must not allocate.
     fn mu<R: Answers>(&self, at: &ContactAt<'_, R>) -> Result<R, Undefined>;
 
     /// As [`ToothFrictionModel::order`].
@@ -82,28 +89,63 @@ pub trait ToothFrictionLaw: Send + Sync {
         SMOOTH
     }
 
-    /// The minimum and maximum coefficient of a law that is cut off there.
-    fn limits(&self) -> Option<[f64; 2]> {
+    /// Limits at which the law is cut off.
+    fn limits(&self) -> Option<Limits> {
         None
     }
 
-    /// As [`ToothFrictionModel::cut_off_order`].
-    fn cut_off_order(&self) -> Option<usize> {
-        self.limits().map(|_| CUT_OFF)
+    /// The coefficient cut off at the [limits](Self::limits).
+    #[inline(always)]
+    fn cut_off<R: Real>(&self, mu: R) -> R {
+        self.limits().map_or(mu, |limits| limits.cut_off(mu))
+    }
+
+    /// As [`ToothFrictionModel::kinked_order`].
+    fn kinked_order(&self) -> Option<usize> {
+        None
     }
 
     /// As [`ToothFrictionModel::along`].
     #[inline(always)]
     fn along<R: Answers>(&self, path: &PathAt<'_, R>, mu: &mut [R]) -> Result<Along<R>, Undefined> {
-        let mut range = Range::default();
         for (node, mu) in path.nodes.iter().zip(mu) {
             *mu = self.mu(&path.contact(node))?;
-            range.extend(node, *mu);
+            R::end_pass();
         }
-        Ok(Along {
-            cut_off: self.limits().map_or(R::Mask::NEVER, |limits| range.is_cut_off(limits)),
-            ..Along::default()
-        })
+        Ok(Along::default())
+    }
+}
+
+/// Limits at which a law of friction is cut off.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Limits {
+    /// Minimum coefficient.
+    pub least: f64,
+    /// Maximum coefficient.
+    pub greatest: f64,
+    /// True if the formula grows without bound where sliding or load vanish, as a negative power or a logarithm of them.
+    pub diverges: bool,
+}
+
+impl Limits {
+    /// From zero to a maximum coefficient.
+    pub fn up_to(greatest: f64) -> Self {
+        Self {
+            least: 0.0,
+            greatest,
+            diverges: false,
+        }
+    }
+
+    /// The same for a formula that grows without bound where sliding or load vanish.
+    pub fn diverging(self) -> Self {
+        Self { diverges: true, ..self }
+    }
+
+    /// A coefficient cut off at the limits.
+    #[inline(always)]
+    pub fn cut_off<R: Real>(&self, mu: R) -> R {
+        mu.at_least(self.least).at_most(self.greatest)
     }
 }
 
@@ -134,26 +176,37 @@ impl<R: Real> Range<R> {
         }
     }
 
-    /// Where the quantity is at one of its limits at some nodes, but not at the same one at all of them: it has a kink between nodes.
+    /// The minimum and maximum.
+    #[inline(always)]
+    pub fn ends(&self) -> [R; 2] {
+        [self.least, self.greatest]
+    }
+
+    /// Where the quantity reaches or passes one of its limits at some nodes, but not at all of them: it is cut off between nodes.
     #[inline(always)]
     pub fn is_cut_off(&self, [least, greatest]: [f64; 2]) -> R::Mask {
         let (least, greatest) = (R::constant(least), R::constant(greatest));
-        let reaches = !self.least.is_above(least) | !self.greatest.is_below(greatest);
-        reaches & self.least.is_below(self.greatest)
+        let below = !self.least.is_above(least) & self.greatest.is_above(least);
+        let above = !self.greatest.is_below(greatest) & self.least.is_below(greatest);
+        below | above
     }
 }
 
 impl<L: ToothFrictionLaw> ToothFrictionModel for L {
     fn mu(&self, at: &ContactAt<'_>) -> Result<f64, Undefined> {
-        ToothFrictionLaw::mu(self, at)
+        ToothFrictionLaw::mu(self, at).map(|mu| self.cut_off(mu))
     }
 
     fn order(&self) -> usize {
         ToothFrictionLaw::order(self)
     }
 
-    fn cut_off_order(&self) -> Option<usize> {
-        ToothFrictionLaw::cut_off_order(self)
+    fn kinked_order(&self) -> Option<usize> {
+        ToothFrictionLaw::kinked_order(self)
+    }
+
+    fn limits(&self) -> Option<Limits> {
+        ToothFrictionLaw::limits(self)
     }
 
     fn along(&self, path: &PathAt<'_>, mu: &mut [f64]) -> Result<Along, Undefined> {
@@ -166,12 +219,12 @@ impl<L: ToothFrictionLaw> ToothFrictionModel for L {
     fn mu_together(&self, at: &ContactAt<'_, Lane>) -> Result<Lane, Undefined> {
         Lane::wide(
             #[inline(always)]
-            || ToothFrictionLaw::mu(self, at),
+            || ToothFrictionLaw::mu(self, at).map(|mu| self.cut_off(mu)),
         )
     }
 
     fn mu_with_derivatives(&self, at: &ContactAt<'_, Dual>) -> Option<Result<Dual, Undefined>> {
-        Some(ToothFrictionLaw::mu(self, at))
+        Some(ToothFrictionLaw::mu(self, at).map(|mu| self.cut_off(mu)))
     }
 
     fn along_together(&self, path: &PathAt<'_, Lane>, mu: &mut [Lane]) -> Result<Along<Lane>, Undefined> {
@@ -193,24 +246,24 @@ impl<L: ToothFrictionLaw> ToothFrictionModel for L {
 /// Nodes on each section of a path for a smooth law.
 pub const SMOOTH: usize = 7;
 
-/// Nodes on each section of a path for a law with a cut-off at a point that depends on load, speed and oil.
-pub const CUT_OFF: usize = 64;
+/// Nodes on each section of a path for a law with a kink at a point that depends on load, speed and oil.
+pub const KINKED: usize = 64;
 
 /// Results of a law for a whole path in addition to its coefficients.
 #[derive(Debug, Clone, Copy)]
 pub struct Along<R: Real = f64> {
     /// Share of the friction heat that enters the body of the first gear. \[-\]
     pub first_heat: R,
-    /// Where the law is cut off within the path, so that it needs [more nodes](ToothFrictionModel::cut_off_order).
-    pub cut_off: R::Mask,
+    /// Where the law has a kink within the path, so that it needs [more nodes](ToothFrictionModel::kinked_order).
+    pub kink: R::Mask,
 }
 
 impl<R: Real> Default for Along<R> {
-    /// Half of the heat for each body, and no cut-off.
+    /// Half of the heat for each body, and no kink.
     fn default() -> Self {
         Self {
             first_heat: R::HALF,
-            cut_off: R::Mask::NEVER,
+            kink: R::Mask::NEVER,
         }
     }
 }
@@ -306,6 +359,10 @@ pub struct PathNode {
     pub root_load: f64,
     /// Natural logarithm of `root_load`.
     pub ln_root_load: f64,
+    /// Film thickness by each formula for factors of one of everything else. \[m\]
+    pub films: [f64; 2],
+    /// Terms of heating at the inlet, of pressure and of sliding, for factors of one of everything else.
+    pub heating: [f64; 2],
 }
 
 impl PathNode {
@@ -314,6 +371,7 @@ impl PathNode {
     pub fn new(sliding: f64, sum_speed: f64, radius: f64, share: f64) -> Self {
         let slide_roll = 2.0 * sliding / sum_speed;
         let root_load = (share / radius).sqrt();
+        let rolling = 0.5 * sum_speed;
         Self {
             sliding,
             sum_speed,
@@ -324,10 +382,12 @@ impl PathNode {
             first_faster: true,
             slide_roll,
             ln_slide_roll: slide_roll.ln(),
-            ln_rolling: (0.5 * sum_speed).ln(),
+            ln_rolling: rolling.ln(),
             ln_radius: radius.ln(),
             root_load,
             ln_root_load: root_load.ln(),
+            films: Film::at_node(rolling, radius, share),
+            heating: thermal_terms(root_load, slide_roll, rolling * rolling),
         }
     }
 }
@@ -564,7 +624,7 @@ impl ToothFrictionModel for Scalar<ToothFriction> {
         match (self.is_constant(), self.is_smooth()) {
             (true, _) => SMOOTH,
             (false, true) => 2 * SMOOTH,
-            (false, false) => CUT_OFF,
+            (false, false) => KINKED,
         }
     }
 
@@ -601,6 +661,7 @@ impl ToothFrictionModel for Scalar<ToothFriction> {
                 for (node, mu) in path.nodes.iter().zip(mu) {
                     path.move_to(&mut at, node, unit_pressure);
                     *mu = self.inlined_values(&at)?;
+                    Lane::end_pass();
                 }
                 Ok(Along::default())
             },

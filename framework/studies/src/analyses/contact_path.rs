@@ -11,6 +11,7 @@ use gearloss_framework::evaluate::Point;
 use gearloss_framework::flow::Tolerance;
 use gearloss_framework::geometry::LoadSharing;
 use gearloss_framework::loss::Notes;
+use gearloss_framework::mechanism::Answers as _;
 use gearloss_framework::mechanism::gear_mesh::{GearMeshAt, MeshPart};
 use gearloss_framework::mechanism::mean_friction::{MeanFriction, MeanFrictionAt};
 use gearloss_framework::mechanism::tooth_friction::{PathAt, ToothFriction};
@@ -151,7 +152,7 @@ impl Friction {
             Self::Hidden => Err("its model has no friction along the path".to_owned()),
             Self::Local(slot) => {
                 let mut mu = vec![0.0; places];
-                match slot.along(along, &mut mu) {
+                match f64::along(&**slot, along, &mut mu) {
                     Ok(_) => Ok(mu),
                     Err(undefined) => Err(undefined.to_string()),
                 }
