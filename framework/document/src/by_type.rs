@@ -19,7 +19,7 @@ pub(super) fn choose_by_type(schema: &mut Value) {
 }
 
 fn type_of(record: &Value) -> Option<&str> {
-    record.pointer("/properties/type/const")?.as_str()
+    record.get("properties")?.get("type")?.get("const")?.as_str()
 }
 
 fn conditions(object: &mut Map<String, Value>) {

@@ -31,28 +31,23 @@ pub fn publish(mut schema: Value) -> Value {
 
 fn visit(schema: &mut Value, inherited: Option<&'static Unit>) {
     let Some(object) = schema.as_object_mut() else { return };
-    for key in ["format", "title"] {
-        if key != "title" || !object.contains_key("$schema") {
-            object.shift_remove(key);
-        }
-    }
+    let is_root = has(object, "$schema");
+    object.retain(|key, _| key != "format" && (key != "title" || is_root));
     drop_null(object);
     let unit = object
         .get("description")
         .and_then(Value::as_str)
         .and_then(Unit::of_doc)
         .or(inherited);
-    for key in ["oneOf", "anyOf", "allOf"] {
-        for inner in object.get_mut(key).and_then(Value::as_array_mut).into_iter().flatten() {
-            visit(inner, if key == "allOf" { None } else { unit });
-        }
-    }
-    if let Some(items) = object.get_mut("items") {
-        visit(items, unit);
-    }
-    for key in ["properties", "definitions"] {
-        for (_, inner) in object.get_mut(key).and_then(Value::as_object_mut).into_iter().flatten() {
-            visit(inner, None);
+    for (key, inner) in object.iter_mut() {
+        match (key.as_str(), inner) {
+            ("oneOf" | "anyOf", Value::Array(list)) => list.iter_mut().for_each(|inner| visit(inner, unit)),
+            ("allOf", Value::Array(list)) => list.iter_mut().for_each(|inner| visit(inner, None)),
+            ("items", items) => visit(items, unit),
+            ("properties" | "definitions", Value::Object(named)) => {
+                named.values_mut().for_each(|inner| visit(inner, None));
+            }
+            _ => {}
         }
     }
     let is = |object: &Map<String, Value>, name: &str| object.get("type").and_then(Value::as_str) == Some(name);
@@ -79,8 +74,16 @@ fn visit(schema: &mut Value, inherited: Option<&'static Unit>) {
     }
 }
 
+/// Whether a schema has a key. Schemas have so few that to compare them takes less time than to look one up.
+fn has(object: &Map<String, Value>, key: &str) -> bool {
+    object.keys().any(|own| own == key)
+}
+
 /// `Option` allows null; in a document an optional key is omitted instead.
 fn drop_null(object: &mut Map<String, Value>) {
+    if !object.values().any(Value::is_array) {
+        return;
+    }
     if let Some(types) = object.get_mut("type").and_then(Value::as_array_mut) {
         types.retain(|t| t != "null");
         if types.len() == 1 {

@@ -173,6 +173,15 @@ impl Schema {
     }
 }
 
+/// The type of a value: that of a number which may be written with a unit is a pair.
+fn name_of_type(kind: &Value) -> Option<&str> {
+    match kind {
+        Value::String(kind) => Some(kind),
+        Value::Array(kinds) if kinds.len() == 2 && kinds[0] == "number" && kinds[1] == "string" => Some("number"),
+        _ => None,
+    }
+}
+
 struct Compiler {
     found: Vec<Unsupported>,
 }
@@ -192,6 +201,13 @@ impl Compiler {
             Value::Object(object) => object,
             _ => return self.refuse(place, "not a schema"),
         };
+        // First what most schemas are.
+        match object.get("type").and_then(name_of_type) {
+            Some("number") => return self.number(object, place, false),
+            Some("integer") => return self.number(object, place, true),
+            Some("boolean") => return Shape::Bool,
+            _ => {}
+        }
         if let Some(name) = object.get("$ref").and_then(Value::as_str) {
             return match name.strip_prefix("#/definitions/") {
                 Some(name) => Shape::Named(name.to_owned()),
@@ -218,9 +234,10 @@ impl Compiler {
         if let Some(word) = object.get("const").and_then(Value::as_str) {
             return Shape::Text(vec![word.to_owned()]);
         }
-        let kind = match object.get("type") {
-            Some(Value::String(kind)) => kind.as_str(),
-            Some(Value::Array(kinds)) if kinds.len() == 2 && kinds[0] == "number" && kinds[1] == "string" => "number",
+        let kind = object.get("type");
+        let kind = match kind.and_then(name_of_type) {
+            Some(name) => name,
+            None if kind.is_some() => return self.refuse(place, format!("type {}", kind.unwrap_or(&Value::Null))),
             None if object
                 .keys()
                 .all(|k| ["description", "default", "title"].contains(&k.as_str())) =>
@@ -228,12 +245,10 @@ impl Compiler {
                 return Shape::Any;
             }
             None if object.contains_key("enum") => "string",
-            _ => return self.refuse(place, format!("type {}", object.get("type").unwrap_or(&Value::Null))),
+            None => return self.refuse(place, "no type"),
         };
         match kind {
-            "number" | "integer" => self.number(object, place, kind == "integer"),
             "string" => Shape::Text(words(object.get("enum"))),
-            "boolean" => Shape::Bool,
             "array" => {
                 let count = |key: &str| object.get(key).and_then(Value::as_u64).map(|n| n as usize);
                 let item = match object.get("items") {

@@ -120,13 +120,34 @@ impl Section {
 fn shorten(value: &mut Value) {
     match value {
         Value::Number(number) if number.is_f64() => {
-            let rounded = number.as_f64().and_then(|x| format!("{x:.5e}").parse::<f64>().ok());
-            *value = rounded.map_or(Value::Null, Value::from);
+            *value = number.as_f64().map_or(Value::Null, |x| Value::from(six_digits(x)));
         }
         Value::Array(list) => list.iter_mut().for_each(shorten),
         Value::Object(map) => map.values_mut().for_each(shorten),
         _ => {}
     }
+}
+
+/// A number with six significant digits: the number that is nearest to that decimal.
+fn six_digits(x: f64) -> f64 {
+    /// The largest power of ten that is exact.
+    const EXACT: i32 = 22;
+    let formatted = || format!("{x:.5e}").parse().unwrap_or(f64::NAN);
+    if !x.is_normal() {
+        return formatted();
+    }
+    let digits = 5 - x.abs().log10().floor() as i32;
+    if digits.abs() > EXACT {
+        return formatted();
+    }
+    let power = 10.0_f64.powi(digits.abs());
+    let scaled = if digits >= 0 { x * power } else { x / power };
+    let whole = scaled.round();
+    // The product is rounded, so that it does not decide near a tie; nor does the logarithm near a power of ten.
+    if (scaled - whole).abs() > 0.499_999 || !(1e5..1e6).contains(&whole.abs()) {
+        return formatted();
+    }
+    if digits >= 0 { whole / power } else { whole * power }
 }
 
 /// A section or a gearbox for templates, with its pictures.
@@ -328,6 +349,32 @@ mod tests {
     use super::*;
     use crate::Figure;
     use crate::plot::Line;
+
+    #[test]
+    fn six_digits_are_those_of_the_formatted_number() {
+        let ties = [
+            0.0,
+            -0.0,
+            1.0,
+            123_456.5,
+            999_999.5,
+            0.999_999_5,
+            1.000_005,
+            1e22,
+            1e-300,
+            5e-324,
+        ];
+        // Numbers of all magnitudes, from the golden ratio.
+        let spread = (1..100_000).map(|i| {
+            let share = (f64::from(i) * 0.618_033_988_749_894_9).fract();
+            10.0_f64.powf(60.0 * share - 30.0) * if i % 2 == 0 { 1.0 } else { -1.0 }
+        });
+        let halves = (1..10_000).map(|i| (f64::from(i) + 0.5) / 1e4 + 10.0);
+        for x in ties.into_iter().chain(spread).chain(halves) {
+            let formatted: f64 = format!("{x:.5e}").parse().unwrap();
+            assert_eq!(six_digits(x).to_bits(), formatted.to_bits(), "{x}");
+        }
+    }
 
     fn report() -> Report {
         let figure = Figure::Lines {

@@ -1,6 +1,7 @@
 //! Combines the schemas of the framework, of mechanisms and of models into one per kind of document.
 
 use schemars::generate::SchemaSettings;
+use schemars::transform::{RemoveRefSiblings, Transform as _};
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde_json::{Map, Value, json};
 
@@ -280,7 +281,7 @@ fn finish(registry: &Registry, mut generator: SchemaGenerator, mut root: Value) 
         slot.insert("x-mechanism".to_owned(), json!(mechanism.key));
         definitions.insert(format!("{}_model", mechanism.key), Value::Object(slot));
     }
-    for (name, schema) in generator.take_definitions(true) {
+    for (name, schema) in generator.take_definitions(false) {
         definitions.insert(name, schema);
     }
     let object = root.as_object_mut().expect("a document's schema is an object");
@@ -288,9 +289,9 @@ fn finish(registry: &Registry, mut generator: SchemaGenerator, mut root: Value) 
     object.insert("definitions".to_owned(), Value::Object(definitions));
     flatten_tagged(&mut root);
     let mut schema = Schema::try_from(root).expect("an object is a schema");
-    for transform in &mut SchemaSettings::draft07().transforms {
-        transform.transform(&mut schema);
-    }
+    // Of the transforms of draft-07 the only one for which there is a case here; a schema with keys of a later draft is refused when it is
+    // compiled.
+    RemoveRefSiblings::default().transform(&mut schema);
     publish(schema.to_value())
 }
 
