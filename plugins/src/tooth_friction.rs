@@ -10,12 +10,14 @@ pub mod mean;
 pub mod misharin;
 pub mod mixed;
 pub mod odonoghue_cameron;
+mod product;
 pub mod xu;
 
 #[cfg(test)]
 mod accuracy;
 
-use gearloss_framework::loss::Undefined;
+use gearloss_framework::loss::{Observed, Undefined};
+use gearloss_framework::mechanism::tooth_friction::{PathAt, Range};
 use gearloss_framework::real::{Mask as _, Real};
 
 /// The sum of the surface speeds (m/s) of a contact that entrains oil; laws that divide by it are undefined otherwise.
@@ -41,5 +43,17 @@ pub(crate) fn finite<R: Real>(mu: R) -> Result<R, Undefined> {
             what: "coefficient of friction",
             value: mu.extremes(1).0,
         })
+    }
+}
+
+/// Notes the range of a quantity over the nodes of a path that carry load.
+#[inline(always)]
+pub fn observe_along<R: Real>(path: &PathAt<'_, R>, observed: &Observed, all: impl Iterator<Item = R>) {
+    let mut range = Range::default();
+    for (node, own) in path.nodes.iter().zip(all) {
+        range.extend(node, own);
+    }
+    for end in range.ends() {
+        path.notes.observe(observed, end);
     }
 }

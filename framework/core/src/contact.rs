@@ -29,10 +29,8 @@ impl Film {
 
     /// The films of all formulas at a node for an inlet viscosity, speed, line load and other factors of one; none without load. \[m\]
     pub(crate) fn at_node(rolling: f64, radius: f64, share: f64) -> [f64; 2] {
-        Self::ALL.map(|film| match share > 0.0 {
-            true => radius * film.over_radius(rolling / radius, 1.0, share / radius, 1.0 / radius),
-            false => 0.0,
-        })
+        let thickness = |film: Self| radius * film.over_radius(rolling / radius, 1.0, share / radius, 1.0 / radius);
+        Self::ALL.map(|film| if share > 0.0 { thickness(film) } else { 0.0 })
     }
 
     /// Film over radius from U = eta v_e/(E' R), G = alpha E', w/(E' R) and the length of the line of contact over the radius.

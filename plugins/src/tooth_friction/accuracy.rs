@@ -230,6 +230,36 @@ fn several_points_together_have_the_bits_of_each_alone() {
     }
 }
 
+/// Laws compute once what does not change along a path, and products of powers from sums of logarithms.
+#[test]
+fn friction_along_a_path_is_that_of_its_contacts() {
+    let registry = Registry::linked().unwrap();
+    let files = Files::default();
+    for law in laws() {
+        // A mean of the path, and a law whose points heat the bodies together.
+        if law["type"] == "mean" || law["type"] == "ehl_mixed" {
+            continue;
+        }
+        for case in Case::list(10) {
+            let mut build = Build::new(&registry, &files);
+            let slot = build.slot_beside::<ToothFriction, _>("law", &case.part, &law).unwrap();
+            let path = Path::new(&case.part.pair, LoadSharing::Ramp, SMOOTH).unwrap();
+            let usual = case.context();
+            let mean = MeanFrictionAt::at_pitch_point(&usual, Notes::MUTED);
+            let at = path.at_operating_point(&mean, Notes::MUTED);
+            let mut mu = vec![0.0; path.len()];
+            if f64::along(&*slot, &at, &mut mu).is_err() {
+                continue;
+            }
+            for (node, along) in path.nodes().iter().zip(mu) {
+                let alone = slot.mu(&at.contact(node)).unwrap();
+                // Exponents times logarithms of up to 30, rounded.
+                assert!((along - alone).abs() <= 1e-12 * alone, "{law}: {along} {alone}");
+            }
+        }
+    }
+}
+
 #[test]
 fn films_along_a_path_are_those_of_its_contacts() {
     for case in Case::list(10) {

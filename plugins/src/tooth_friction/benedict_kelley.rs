@@ -9,13 +9,17 @@ use std::f64::consts::LOG10_E;
 
 use gearloss_framework::loss::Undefined;
 use gearloss_framework::mechanism::ShopUnits;
-use gearloss_framework::mechanism::tooth_friction::{ContactAt, Limits, ToothFriction, ToothFrictionLaw};
+use gearloss_framework::mechanism::tooth_friction::{
+    Along, ContactAt, Limits, PathAt, ToothFriction, ToothFrictionLaw,
+};
 use gearloss_framework::real::{Mask as _, Real};
 use gearloss_framework::registry::{Evidence, default_of, formula};
 use gearloss_framework::{coefficients, limits, observed, register};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::observe_along;
+use super::product::Product;
 use crate::boundary::greatest;
 
 limits! { SUM_SPEED = ("v_S", "sum of the surface velocities", "m/s", 0.4, 100.0, "assumed, not stated by a source: gears with lubricant films"); }
@@ -48,11 +52,34 @@ pub struct BenedictKelley {
     coefficients: Constants,
 }
 
-/// Friction of smooth flanks from N/m, Pa s and m/s; may be negative or infinite.
-#[inline(always)]
-fn smooth<R: Real>(c: &Constants, line_load: R, eta: R, sliding: R, sum_speed: R) -> R {
-    let argument = line_load * c.argument_factor / (eta * sliding * sum_speed * sum_speed);
-    argument.logarithm() * (c.factor * LOG10_E)
+/// What changes along a path.
+const PRODUCT: Product = Product {
+    sliding: -1.0,
+    sum_speed: -2.0,
+    radius: 0.0,
+    line_load: 1.0,
+};
+
+impl BenedictKelley {
+    /// The rest of the logarithm, and what multiplies it, from the roughness and the oil of a contact.
+    #[inline(always)]
+    fn rest<R: Real>(&self, at: &ContactAt<'_, R>) -> Result<[R; 2], Undefined> {
+        let c = &self.coefficients;
+        let rest = (R::constant(c.argument_factor) / at.eta).logarithm();
+        let smooth = R::constant(c.factor * LOG10_E);
+        if !self.roughness {
+            return Ok([rest, smooth]);
+        }
+        let s = at.show("S", "um", at.rq.um());
+        let limit = R::constant(c.roughness_limit);
+        if !s.is_below(limit).all() {
+            return Err(Undefined {
+                what: "roughness S of both flanks [um], which reaches the value at which the formula diverges",
+                value: s.extremes(1).0,
+            });
+        }
+        Ok([rest, smooth * limit / (limit - s)])
+    }
 }
 
 impl ToothFrictionLaw for BenedictKelley {
@@ -63,25 +90,30 @@ impl ToothFrictionLaw for BenedictKelley {
             at.branch("no load: no friction");
             return Ok(at.observe(&MU, R::ZERO));
         }
-        let c = &self.coefficients;
-        let factor = if self.roughness {
-            let s = at.show("S", "um", at.rq.um());
-            let limit = R::constant(c.roughness_limit);
-            if !s.is_below(limit).all() {
-                return Err(Undefined {
-                    what: "roughness S of both flanks [um], which reaches the value at which the formula diverges",
-                    value: s.extremes(1).0,
-                });
-            }
-            limit / (limit - s)
-        } else {
-            R::constant(1.0)
-        };
+        let [rest, factor] = self.rest(at)?;
         at.notes.among(!unloaded).check(&SUM_SPEED, at.sum_speed);
-        let mu = smooth(c, at.line_load, at.eta, at.sliding, at.sum_speed) * factor;
+        let mu = (rest + PRODUCT.logarithm(at)) * factor;
         let mu = R::select(unloaded, R::ZERO, mu);
         at.observe(&MU, self.cut_off(mu));
         Ok(mu)
+    }
+
+    #[inline(always)]
+    fn along<R: Real>(&self, path: &PathAt<'_, R>, mu: &mut [R]) -> Result<Along<R>, Undefined> {
+        let [rest, factor] = self.rest(&path.contact(&path.nodes[0]))?;
+        for sum_speed in path.extent.sum_speed {
+            path.notes.check(&SUM_SPEED, path.speed * sum_speed);
+        }
+        PRODUCT.logarithms(path, mu);
+        for (node, mu) in path.nodes.iter().zip(&mut *mu) {
+            *mu = if node.share > 0.0 {
+                (*mu + rest) * factor
+            } else {
+                R::ZERO
+            };
+        }
+        observe_along(path, &MU, mu.iter().map(|mu| self.cut_off(*mu)));
+        Ok(Along::default())
     }
 
     /// The logarithm grows without bound at both ends of a section.

@@ -6,13 +6,14 @@
 
 use gearloss_framework::loss::Undefined;
 use gearloss_framework::mechanism::ShopUnits;
-use gearloss_framework::mechanism::tooth_friction::{ContactAt, ToothFriction, ToothFrictionLaw};
+use gearloss_framework::mechanism::tooth_friction::{Along, ContactAt, PathAt, ToothFriction, ToothFrictionLaw};
 use gearloss_framework::real::{Mask as _, Real};
 use gearloss_framework::registry::{Evidence, formula};
 use gearloss_framework::{coefficients, limits, observed, register};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::observe_along;
 use crate::powers::power;
 
 const FROM: &str = "range of the tests, quoted from memory";
@@ -52,27 +53,57 @@ pub struct DrozdovGavrikov {
     coefficients: Constants,
 }
 
-impl ToothFrictionLaw for DrozdovGavrikov {
+impl DrozdovGavrikov {
+    /// Friction in a contact, from the power of the viscosity in mm2/s.
     #[inline(always)]
-    fn mu<R: Real>(&self, at: &ContactAt<'_, R>) -> Result<R, Undefined> {
+    fn friction<R: Real>(&self, at: &ContactAt<'_, R>, power_of_nu: R) -> Result<R, Undefined> {
         let c = &self.coefficients;
-        let nu = at.check(&VISCOSITY, at.nu.mm2_s());
-        let p = at.check(&PRESSURE, at.pressure / KGF_CM2);
-        let v_g = at.check(&SLIDING, at.sliding);
-        let v_s = at.check(&SUM_SPEED, at.sum_speed);
-        let phi = at.show(
-            "phi",
-            "-",
-            R::constant(c.phi_constant) - p * c.phi_pressure - nu * c.phi_viscosity,
-        );
-        let inverse = power(nu, c.viscosity_exponent) * c.sliding_factor * v_g + v_s * phi + c.constant;
+        let pressed = at.pressure / KGF_CM2 * c.phi_pressure;
+        let phi = R::constant(c.phi_constant) - pressed - at.nu.mm2_s() * c.phi_viscosity;
+        let phi = at.show("phi", "-", phi);
+        let inverse = power_of_nu * c.sliding_factor * at.sliding + at.sum_speed * phi + c.constant;
         if !inverse.is_above(R::ZERO).all() {
             return Err(Undefined {
                 what: "inverse of the coefficient of friction",
                 value: inverse.extremes(1).0,
             });
         }
-        Ok(at.observe(&MU, R::constant(1.0) / inverse))
+        Ok(R::constant(1.0) / inverse)
+    }
+
+    #[inline(always)]
+    fn power_of<R: Real>(&self, nu: R) -> R {
+        power(nu.mm2_s(), self.coefficients.viscosity_exponent)
+    }
+}
+
+impl ToothFrictionLaw for DrozdovGavrikov {
+    #[inline(always)]
+    fn mu<R: Real>(&self, at: &ContactAt<'_, R>) -> Result<R, Undefined> {
+        at.check(&VISCOSITY, at.nu.mm2_s());
+        at.check(&PRESSURE, at.pressure / KGF_CM2);
+        at.check(&SLIDING, at.sliding);
+        at.check(&SUM_SPEED, at.sum_speed);
+        let mu = self.friction(at, self.power_of(at.nu))?;
+        Ok(at.observe(&MU, mu))
+    }
+
+    #[inline(always)]
+    fn along<R: Real>(&self, path: &PathAt<'_, R>, mu: &mut [R]) -> Result<Along<R>, Undefined> {
+        let unit_pressure = path.unit_pressure() / KGF_CM2;
+        path.notes.check(&VISCOSITY, path.nu.mm2_s());
+        for end in 0..2 {
+            path.notes.check(&PRESSURE, unit_pressure * path.extent.root_load[end]);
+            path.notes.check(&SLIDING, path.speed * path.extent.sliding[end]);
+            path.notes.check(&SUM_SPEED, path.speed * path.extent.sum_speed[end]);
+        }
+        let power_of_nu = self.power_of(path.nu);
+        for (node, mu) in path.nodes.iter().zip(&mut *mu) {
+            *mu = self.friction(&path.contact(node), power_of_nu)?;
+            R::end_pass();
+        }
+        observe_along(path, &MU, mu.iter().copied());
+        Ok(Along::default())
     }
 }
 

@@ -18,6 +18,7 @@ use gearloss_framework::{limits, observed, register};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::observe_along;
 use crate::powers::asinh;
 use gearloss_framework::contact::{self, Film, Films};
 
@@ -96,20 +97,19 @@ impl ToothFrictionLaw for Eyring {
     #[inline(always)]
     fn along<R: Real>(&self, path: &PathAt<'_, R>, mu: &mut [R]) -> Result<Along<R>, Undefined> {
         let films = Films::new(path, self.film, self.thermal);
-        let (mut thickness, mut friction) = (Range::default(), Range::default());
-        for (node, mu) in path.nodes.iter().zip(mu) {
+        let mut thickness = Range::default();
+        for (node, mu) in path.nodes.iter().zip(&mut *mu) {
             let h = films.at(node);
             *mu = self.friction(&path.contact(node), h)?;
             thickness.extend(node, h);
-            friction.extend(node, self.cut_off(*mu));
             R::end_pass();
         }
         for end in 0..2 {
             let sum_speed = path.speed * path.extent.sum_speed[end];
             path.notes.check(&SUM_SPEED, sum_speed);
             path.notes.observe(&THICKNESS, thickness.ends()[end].um());
-            path.notes.observe(&MU, friction.ends()[end]);
         }
+        observe_along(path, &MU, mu.iter().map(|mu| self.cut_off(*mu)));
         Ok(Along::default())
     }
 

@@ -5,14 +5,17 @@
 
 use gearloss_framework::loss::Undefined;
 use gearloss_framework::mechanism::ShopUnits;
-use gearloss_framework::mechanism::tooth_friction::{ContactAt, Limits, ToothFriction, ToothFrictionLaw};
+use gearloss_framework::mechanism::tooth_friction::{
+    Along, ContactAt, Limits, PathAt, ToothFriction, ToothFrictionLaw,
+};
 use gearloss_framework::real::Real;
 use gearloss_framework::registry::{Evidence, default_of, formula};
 use gearloss_framework::{coefficients, limits, observed, register};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::entraining;
+use super::product::Product;
+use super::{entraining, observe_along};
 use crate::boundary::greatest;
 
 limits! { ROLLING = ("v_e", "entraining velocity", "m/s", 0.2, 50.0, "assumed, not stated by a source: gears with lubricant films"); }
@@ -39,16 +42,49 @@ pub struct IsoTc60 {
     coefficients: Constants,
 }
 
+impl IsoTc60 {
+    /// What changes along a path.
+    #[inline(always)]
+    fn product(&self) -> Product {
+        let exponent = self.coefficients.exponent;
+        Product {
+            sliding: 0.0,
+            sum_speed: -exponent,
+            radius: -exponent,
+            line_load: exponent,
+        }
+    }
+
+    /// The rest of the formula, from the roughness and the oil of a contact.
+    #[inline(always)]
+    fn factor<R: Real>(&self, at: &ContactAt<'_, R>) -> R {
+        let c = &self.coefficients;
+        // In units of the formula: N/mm over mm times the mean rolling speed, half of the sum of the speeds.
+        let ratio = R::constant(2.0).n_mm() / R::constant(1.0).mm() * at.rq.um() / at.eta.mpa_s();
+        ratio.power(c.exponent) * c.factor
+    }
+}
+
 impl ToothFrictionLaw for IsoTc60 {
     #[inline(always)]
     fn mu<R: Real>(&self, at: &ContactAt<'_, R>) -> Result<R, Undefined> {
-        let c = &self.coefficients;
-        let ratio =
-            at.line_load.n_mm() * at.rq.um() / (at.radius.mm() * 0.5 * entraining(at.sum_speed)? * at.eta.mpa_s());
+        entraining(at.sum_speed)?;
         at.check(&ROLLING, at.sum_speed * 0.5);
-        let mu = ratio.power(c.exponent) * c.factor;
+        let mu = self.factor(at) * self.product().logarithm(at).exponential();
         at.observe(&MU, self.cut_off(mu));
         Ok(mu)
+    }
+
+    #[inline(always)]
+    fn along<R: Real>(&self, path: &PathAt<'_, R>, mu: &mut [R]) -> Result<Along<R>, Undefined> {
+        for sum_speed in path.extent.sum_speed {
+            let rolling = entraining(path.speed * sum_speed)? * 0.5;
+            path.notes.check(&ROLLING, rolling);
+        }
+        self.product()
+            .along(path, self.factor(&path.contact(&path.nodes[0])), mu);
+        observe_along(path, &MU, mu.iter().map(|mu| self.cut_off(*mu)));
+        Ok(Along::default())
     }
 
     fn limits(&self) -> Option<Limits> {

@@ -6,13 +6,17 @@
 
 use gearloss_framework::loss::Undefined;
 use gearloss_framework::mechanism::ShopUnits;
-use gearloss_framework::mechanism::tooth_friction::{ContactAt, Limits, ToothFriction, ToothFrictionLaw};
+use gearloss_framework::mechanism::tooth_friction::{
+    Along, ContactAt, Limits, PathAt, ToothFriction, ToothFrictionLaw,
+};
 use gearloss_framework::real::Real;
 use gearloss_framework::registry::{Evidence, default_of, formula};
 use gearloss_framework::{coefficients, limits, observed, register};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::observe_along;
+use super::product::Product;
 use crate::boundary::greatest;
 
 limits! {
@@ -54,15 +58,46 @@ fn yes() -> bool {
     true
 }
 
+impl Misharin {
+    /// What changes along a path.
+    #[inline(always)]
+    fn product(&self) -> Product {
+        let exponent = self.coefficients.exponent;
+        Product {
+            sliding: exponent,
+            sum_speed: exponent,
+            radius: 0.0,
+            line_load: 0.0,
+        }
+    }
+
+    /// The rest of the formula.
+    #[inline(always)]
+    fn factor<R: Real>(&self, nu: R) -> R {
+        nu.mm2_s().power(self.coefficients.exponent) * self.coefficients.factor
+    }
+}
+
 impl ToothFrictionLaw for Misharin {
     #[inline(always)]
     fn mu<R: Real>(&self, at: &ContactAt<'_, R>) -> Result<R, Undefined> {
         at.check(&PRESSURE, at.pressure.gpa());
         at.check(&SUM_SPEED, at.sum_speed);
-        let c = &self.coefficients;
-        let mu = (at.sliding * at.sum_speed * at.nu.mm2_s()).power(c.exponent) * c.factor;
+        let mu = self.factor(at.nu) * self.product().logarithm(at).exponential();
         at.observe(&MU, self.cut_off(mu));
         Ok(mu)
+    }
+
+    #[inline(always)]
+    fn along<R: Real>(&self, path: &PathAt<'_, R>, mu: &mut [R]) -> Result<Along<R>, Undefined> {
+        let unit_pressure = path.unit_pressure().gpa();
+        for end in 0..2 {
+            path.notes.check(&PRESSURE, unit_pressure * path.extent.root_load[end]);
+            path.notes.check(&SUM_SPEED, path.speed * path.extent.sum_speed[end]);
+        }
+        self.product().along(path, self.factor(path.nu), mu);
+        observe_along(path, &MU, mu.iter().map(|mu| self.cut_off(*mu)));
+        Ok(Along::default())
     }
 
     fn limits(&self) -> Option<Limits> {

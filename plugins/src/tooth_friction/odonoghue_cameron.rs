@@ -7,15 +7,17 @@
 
 use gearloss_framework::loss::Undefined;
 use gearloss_framework::mechanism::ShopUnits;
-use gearloss_framework::mechanism::tooth_friction::{ContactAt, Limits, ToothFriction, ToothFrictionLaw};
+use gearloss_framework::mechanism::tooth_friction::{
+    Along, ContactAt, Limits, PathAt, ToothFriction, ToothFrictionLaw,
+};
 use gearloss_framework::real::Real;
 use gearloss_framework::registry::{Evidence, default_of, formula};
 use gearloss_framework::{coefficients, limits, observed, register};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::entraining;
-use crate::powers::power;
+use super::product::Product;
+use super::{entraining, observe_along};
 
 limits! { SUM_SPEED = ("v_S", "sum of the surface velocities", "m/s", 0.4, 100.0, "assumed, not stated by a source: gears with lubricant films"); }
 observed! { MU = ("mu", "-", "coefficient of friction"); }
@@ -60,19 +62,49 @@ fn greatest() -> f64 {
     1.0
 }
 
+impl ODonoghueCameron {
+    /// What changes along a path.
+    #[inline(always)]
+    fn product(&self) -> Product {
+        let c = &self.coefficients;
+        Product {
+            sliding: -c.sliding_exponent,
+            sum_speed: -c.sum_speed_exponent,
+            radius: -c.radius_exponent,
+            line_load: 0.0,
+        }
+    }
+
+    /// The rest of the formula, from the roughness and the oil of a contact.
+    #[inline(always)]
+    fn factor<R: Real>(&self, at: &ContactAt<'_, R>) -> R {
+        let c = &self.coefficients;
+        let s = at.show("S", "uin", at.ra / INCH * 1e6);
+        // Speeds and radius are in inches.
+        let inches = INCH.power(c.sliding_exponent + c.sum_speed_exponent + c.radius_exponent);
+        let viscosity = at.eta.mpa_s().power(c.viscosity_exponent);
+        (s + c.roughness_offset) * (c.factor / c.roughness_divisor * inches) / viscosity
+    }
+}
+
 impl ToothFrictionLaw for ODonoghueCameron {
     #[inline(always)]
     fn mu<R: Real>(&self, at: &ContactAt<'_, R>) -> Result<R, Undefined> {
-        let s = at.show("S", "uin", at.ra / INCH * 1e6);
-        let sum_speed = entraining(at.sum_speed)?;
-        at.check(&SUM_SPEED, sum_speed);
-        let c = &self.coefficients;
-        let speeds = power(at.sliding / INCH, c.sliding_exponent) * (sum_speed / INCH).power(c.sum_speed_exponent);
-        let radius = power(at.radius / INCH, c.radius_exponent);
-        let viscosity = at.eta.mpa_s().power(c.viscosity_exponent);
-        let mu = (s + c.roughness_offset) * c.factor / c.roughness_divisor / (viscosity * speeds * radius);
+        at.check(&SUM_SPEED, entraining(at.sum_speed)?);
+        let mu = self.factor(at) * self.product().logarithm(at).exponential();
         at.observe(&MU, self.cut_off(mu));
         Ok(mu)
+    }
+
+    #[inline(always)]
+    fn along<R: Real>(&self, path: &PathAt<'_, R>, mu: &mut [R]) -> Result<Along<R>, Undefined> {
+        for sum_speed in path.extent.sum_speed {
+            path.notes.check(&SUM_SPEED, entraining(path.speed * sum_speed)?);
+        }
+        self.product()
+            .along(path, self.factor(&path.contact(&path.nodes[0])), mu);
+        observe_along(path, &MU, mu.iter().map(|mu| self.cut_off(*mu)));
+        Ok(Along::default())
     }
 
     fn limits(&self) -> Option<Limits> {

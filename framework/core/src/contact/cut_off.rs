@@ -34,10 +34,7 @@ pub struct CutOff {
 impl CutOff {
     /// A path of sections with a number of points for a law with limits.
     pub fn new(path: &Path, order: usize, limits: Limits) -> Self {
-        let scale = |node: &PathNode| match limits.diverges {
-            true => node.sliding * node.force,
-            false => node.force,
-        };
+        let scale = |node: &PathNode| node.force * if limits.diverges { node.sliding } else { 1.0 };
         let new = Self {
             limits,
             order,

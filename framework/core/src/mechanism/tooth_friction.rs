@@ -395,6 +395,8 @@ impl PathNode {
 /// Minimum and maximum values along a path, for notes that need no evaluation of its nodes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PathExtent {
+    /// Sliding velocity per speed of the first gear. \[m\]
+    pub sliding: [f64; 2],
     /// Slide-to-roll ratio.
     pub slide_roll: [f64; 2],
     /// Sum of the surface speeds per speed of the first gear. \[m\]
@@ -416,6 +418,7 @@ impl PathExtent {
             ]
         };
         Self {
+            sliding: range(|n| n.sliding),
             slide_roll: range(|n| n.slide_roll),
             sum_speed: range(|n| n.sum_speed),
             radius: range(|n| n.radius),
