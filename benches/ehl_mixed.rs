@@ -81,7 +81,7 @@ fn one_mesh(c: &mut Criterion, language: &Language, gearbox: &Gearbox) {
     group.throughput(Throughput::Elements(200));
     group.bench_function("one mesh, 200 points of its path", |b| {
         b.iter(|| {
-            law.along(black_box(&fine.at_operating_point(&mean, Notes::MUTED)), &mut mu)
+            law.uncut_along(black_box(&fine.at_operating_point(&mean, Notes::MUTED)), &mut mu)
                 .unwrap()
         });
     });

@@ -48,7 +48,7 @@ pub fn exp_m1<R: Real>(x: R) -> R {
 /// Inverse hyperbolic sine of a number that is not negative.
 #[inline(always)]
 pub fn asinh<R: Real>(x: R) -> R {
-    // Where one does not count, the square is not needed; it might overflow.
-    let is_large = x.is_above(R::constant(1e17));
-    ln_1p(R::select(is_large, x * 2.0, x + x * x / ((x * x + 1.0).root() + 1.0)))
+    let small = ln_1p(x + x * x / ((x * x + 1.0).root() + 1.0));
+    // Where one no longer counts, its square is not needed; it might overflow.
+    R::select(x.is_above(R::constant(1e8)), (x * 2.0).logarithm(), small)
 }

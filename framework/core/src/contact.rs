@@ -24,10 +24,10 @@ pub enum Film {
 }
 
 impl Film {
-    /// All formulas.
+    /// All formulas, in the order of the enumeration.
     const ALL: [Self; 2] = [Self::DowsonHigginson, Self::HamrockDowson];
 
-    /// The films of all formulas at a node for an inlet viscosity, speed, line load and other factors of one; none without load. \[m\]
+    /// The films of all formulas at a node, with one for every quantity that does not belong to it; none without load. \[m\]
     pub(crate) fn at_node(rolling: f64, radius: f64, share: f64) -> [f64; 2] {
         let thickness = |film: Self| radius * film.over_radius(rolling / radius, 1.0, share / radius, 1.0 / radius);
         Self::ALL.map(|film| if share > 0.0 { thickness(film) } else { 0.0 })

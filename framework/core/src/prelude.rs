@@ -24,7 +24,7 @@ pub use crate::mechanism::planetary_drag::{PlanetaryDrag, PlanetaryDragAt, Plane
 pub use crate::mechanism::seal::{Seal, SealAt, SealKind, SealMaterial, SealModel, SealPart};
 pub use crate::mechanism::synchronizer::{CouplingKind, CouplingPart, Synchronizer, SynchronizerAt, SynchronizerModel};
 pub use crate::mechanism::tooth_friction::{
-    Along, ContactAt, PathAt, PathExtent, PathNode, ToothFriction, ToothFrictionLaw, ToothFrictionModel,
+    Along, ContactAt, FrictionLimits, PathAt, PathExtent, PathNode, ToothFriction, ToothFrictionLaw, ToothFrictionModel,
 };
 pub use crate::mechanism::{
     Answers, Component, Lookup, Mechanism, ModelRef, NamedSlots, NoPart, Quantity, Scalar, ShopUnits, Slot,

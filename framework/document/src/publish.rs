@@ -74,7 +74,7 @@ fn visit(schema: &mut Value, inherited: Option<&'static Unit>) {
     }
 }
 
-/// Whether a schema has a key. Schemas have so few that to compare them takes less time than to look one up.
+/// Whether a schema has a key. It has so few keys that comparing them is faster than a lookup.
 fn has(object: &Map<String, Value>, key: &str) -> bool {
     object.keys().any(|own| own == key)
 }

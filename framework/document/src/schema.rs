@@ -201,8 +201,12 @@ impl Compiler {
             Value::Object(object) => object,
             _ => return self.refuse(place, "not a schema"),
         };
-        // First what most schemas are.
+        // Numbers and booleans first, because most schemas are one.
+        let is_combined = object
+            .keys()
+            .any(|key| ["$ref", "allOf", "anyOf", "oneOf"].contains(&key.as_str()));
         match object.get("type").and_then(name_of_type) {
+            _ if is_combined => {}
             Some("number") => return self.number(object, place, false),
             Some("integer") => return self.number(object, place, true),
             Some("boolean") => return Shape::Bool,
@@ -234,10 +238,11 @@ impl Compiler {
         if let Some(word) = object.get("const").and_then(Value::as_str) {
             return Shape::Text(vec![word.to_owned()]);
         }
-        let kind = object.get("type");
-        let kind = match kind.and_then(name_of_type) {
-            Some(name) => name,
-            None if kind.is_some() => return self.refuse(place, format!("type {}", kind.unwrap_or(&Value::Null))),
+        let kind = match object.get("type") {
+            Some(kind) => match name_of_type(kind) {
+                Some(name) => name,
+                None => return self.refuse(place, format!("type {kind}")),
+            },
             None if object
                 .keys()
                 .all(|k| ["description", "default", "title"].contains(&k.as_str())) =>

@@ -123,7 +123,7 @@ fn prepare(params: PathIntegral, cx: &mut Build<'_>) -> Result<Integral, Diagnos
         Average::ToothTravel => p.weight * p.pairs as f64 / (end - start),
     };
     // It does not depend on oil and roughness of the part.
-    let orders = (friction.order(), friction.kinked_order(), friction.limits());
+    let orders = (friction.order(), friction.kinked_order(), friction.friction_limits());
     let path = cx.repeat("path", (pair, sharing, average, orders), |_| -> Result<_, String> {
         let path = FrictionPath::new(&pair, sharing, &*friction)?.weighted(weight);
         Ok(Arc::new((path, pair.loss_factor_local(sharing))))

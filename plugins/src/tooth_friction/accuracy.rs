@@ -117,6 +117,10 @@ fn laws() -> Vec<Value> {
         json!({ "type": "drozdov_gavrikov" }),
         json!({ "type": "eyring" }),
         json!({ "type": "eyring", "thermal": false }),
+        json!({ "type": "eyring", "limiting_slope": 0.03 }),
+        json!({ "type": "iso_tc60", "greatest": 0.06 }),
+        json!({ "type": "benedict_kelley", "greatest": 0.05 }),
+        json!({ "type": "odonoghue_cameron", "greatest": 0.15 }),
         json!({ "type": "mean", "mean_friction": { "type": "schlenk" } }),
         json!({ "type": "ehl_mixed", "tau0": 5e6, "limiting_slope": 0.055, "mu_b": 0.13 }),
         boundary.clone(),
@@ -143,7 +147,7 @@ fn errors(registry: &Registry, law: &Value, sharing: LoadSharing, cases: &[Case]
         };
         let pair = &case.part.pair;
         let path = FrictionPath::new(pair, sharing, &*slot).unwrap();
-        let cut_off = slot.limits().map(|_| KINKED);
+        let cut_off = slot.friction_limits().map(|_| KINKED);
         let kinked = slot.kinked_order().max(cut_off);
         let fine = 4 * kinked.unwrap_or(0).max(slot.order());
         // Undefined at some point, for any number of nodes.
@@ -201,6 +205,7 @@ fn several_points_together_have_the_bits_of_each_alone() {
     });
     let all = GearMeshAt::together(&case.part, Notebook::CLOSED.notes(NoteBase::default()), |i| points[i]);
     let mean = MeanFrictionAt::at_pitch_point(&all, all.notes);
+    let mut laws_with_both = 0;
     for law in laws() {
         let mut build = Build::new(&registry, &files);
         let slot = build.slot_beside::<ToothFriction, _>("law", &case.part, &law).unwrap();
@@ -208,13 +213,14 @@ fn several_points_together_have_the_bits_of_each_alone() {
         let path = whole.few();
         let mut together = vec![Lane::ZERO; path.len()];
         let at_path = path.at_operating_point(&mean, mean.notes);
-        slot.along_together(&at_path, &mut together).unwrap();
+        slot.uncut_along_together(&at_path, &mut together).unwrap();
         let friction = whole.friction(&*slot, &at_path).unwrap();
+        let mut cut_off = 0;
         for (i, at) in points.iter().enumerate() {
             let mean = MeanFrictionAt::at_pitch_point(at, Notes::MUTED);
             let mut mu = vec![0.0; path.len()];
             let at_path = path.at_operating_point(&mean, Notes::MUTED);
-            slot.along(&at_path, &mut mu).unwrap();
+            slot.uncut_along(&at_path, &mut mu).unwrap();
             let alone = whole.friction(&*slot, &at_path).unwrap();
             assert_eq!(
                 alone.sliding.to_bits(),
@@ -226,8 +232,15 @@ fn several_points_together_have_the_bits_of_each_alone() {
                 .zip(&together)
                 .all(|(mu, all)| mu.to_bits() == all[i].to_bits());
             assert!(same, "{law} at point {i}");
+            let reaches = |mu: &f64| slot.friction_limits().is_some_and(|limits| limits.cut_off(*mu) != *mu);
+            cut_off += usize::from(mu.iter().any(reaches) && !mu.iter().all(reaches));
         }
+        laws_with_both += usize::from((1..LANES).contains(&cut_off));
     }
+    assert!(
+        laws_with_both > 1,
+        "laws that are cut off along the path at some points only: {laws_with_both}"
+    );
 }
 
 /// Laws compute once what does not change along a path, and products of powers from sums of logarithms.
@@ -235,6 +248,7 @@ fn several_points_together_have_the_bits_of_each_alone() {
 fn friction_along_a_path_is_that_of_its_contacts() {
     let registry = Registry::linked().unwrap();
     let files = Files::default();
+    let mut compared = 0;
     for law in laws() {
         // A mean of the path, and a law whose points heat the bodies together.
         if law["type"] == "mean" || law["type"] == "ehl_mixed" {
@@ -255,9 +269,11 @@ fn friction_along_a_path_is_that_of_its_contacts() {
                 let alone = slot.mu(&at.contact(node)).unwrap();
                 // Exponents times logarithms of up to 30, rounded.
                 assert!((along - alone).abs() <= 1e-12 * alone, "{law}: {along} {alone}");
+                compared += 1;
             }
         }
     }
+    assert!(compared > 1000, "{compared}");
 }
 
 #[test]

@@ -7,10 +7,10 @@
 
 use std::f64::consts::LOG10_E;
 
-use gearloss_framework::loss::Undefined;
+use gearloss_framework::loss::{Notes, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::tooth_friction::{
-    Along, ContactAt, Limits, PathAt, ToothFriction, ToothFrictionLaw,
+    Along, ContactAt, FrictionLimits, PathAt, ToothFriction, ToothFrictionLaw,
 };
 use gearloss_framework::real::{Mask as _, Real};
 use gearloss_framework::registry::{Evidence, default_of, formula};
@@ -61,16 +61,16 @@ const PRODUCT: Product = Product {
 };
 
 impl BenedictKelley {
-    /// The rest of the logarithm, and what multiplies it, from the roughness and the oil of a contact.
+    /// The rest of the logarithm, and what multiplies it, from roughness and viscosity.
     #[inline(always)]
-    fn rest<R: Real>(&self, at: &ContactAt<'_, R>) -> Result<[R; 2], Undefined> {
+    fn rest<R: Real>(&self, notes: Notes<'_, R>, rq: R, eta: R) -> Result<[R; 2], Undefined> {
         let c = &self.coefficients;
-        let rest = (R::constant(c.argument_factor) / at.eta).logarithm();
+        let rest = (R::constant(c.argument_factor) / eta).logarithm();
         let smooth = R::constant(c.factor * LOG10_E);
         if !self.roughness {
             return Ok([rest, smooth]);
         }
-        let s = at.show("S", "um", at.rq.um());
+        let s = notes.show("S", "um", rq.um());
         let limit = R::constant(c.roughness_limit);
         if !s.is_below(limit).all() {
             return Err(Undefined {
@@ -90,7 +90,7 @@ impl ToothFrictionLaw for BenedictKelley {
             at.branch("no load: no friction");
             return Ok(at.observe(&MU, R::ZERO));
         }
-        let [rest, factor] = self.rest(at)?;
+        let [rest, factor] = self.rest(at.notes, at.rq, at.eta)?;
         at.notes.among(!unloaded).check(&SUM_SPEED, at.sum_speed);
         let mu = (rest + PRODUCT.logarithm(at)) * factor;
         let mu = R::select(unloaded, R::ZERO, mu);
@@ -100,7 +100,7 @@ impl ToothFrictionLaw for BenedictKelley {
 
     #[inline(always)]
     fn along<R: Real>(&self, path: &PathAt<'_, R>, mu: &mut [R]) -> Result<Along<R>, Undefined> {
-        let [rest, factor] = self.rest(&path.contact(&path.nodes[0]))?;
+        let [rest, factor] = self.rest(path.notes, path.rq, path.eta)?;
         for sum_speed in path.extent.sum_speed {
             path.notes.check(&SUM_SPEED, path.speed * sum_speed);
         }
@@ -116,13 +116,13 @@ impl ToothFrictionLaw for BenedictKelley {
         Ok(Along::default())
     }
 
-    /// The logarithm grows without bound at both ends of a section.
+    /// The logarithm grows without bound at the pitch point and where load vanishes.
     fn order(&self) -> usize {
         8
     }
 
-    fn limits(&self) -> Option<Limits> {
-        Some(Limits::up_to(self.greatest).diverging())
+    fn friction_limits(&self) -> Option<FrictionLimits> {
+        Some(FrictionLimits::up_to(self.greatest).diverging())
     }
 }
 
@@ -140,7 +140,6 @@ register!(ToothFriction, "benedict_kelley", BenedictKelley,
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
-    use gearloss_framework::loss::Notes;
     use gearloss_framework::mechanism::NoPart;
 
     fn mu(roughness: bool, sliding: f64, line_load: f64) -> f64 {

@@ -68,6 +68,7 @@ impl ToothFrictionLaw for Doleschel {
         let powers = at.pressure.gpa().logarithm() * self.pressure
             + (sum_speed / self.reference_speed).logarithm() * self.speed
             + (at.eta.mpa_s() / 20.0).logarithm() * self.viscosity;
+        // Not by `friction_limits`, and without a kink for the path: the maximum is reached only where the speed nearly vanishes.
         let mu = (powers.exponential() * self.mu).at_most(self.greatest);
         at.notes.among(!unloaded).check(&SUM_SPEED, sum_speed);
         Ok(at.observe(&MU, finite(R::select(unloaded, R::ZERO, mu))?))

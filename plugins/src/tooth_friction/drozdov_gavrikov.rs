@@ -54,13 +54,12 @@ pub struct DrozdovGavrikov {
 }
 
 impl DrozdovGavrikov {
-    /// Friction in a contact, from the power of the viscosity in mm2/s.
+    /// Friction in a contact from the power of the viscosity in mm2/s, with phi.
     #[inline(always)]
-    fn friction<R: Real>(&self, at: &ContactAt<'_, R>, power_of_nu: R) -> Result<R, Undefined> {
+    fn friction<R: Real>(&self, at: &ContactAt<'_, R>, power_of_nu: R) -> Result<[R; 2], Undefined> {
         let c = &self.coefficients;
         let pressed = at.pressure / KGF_CM2 * c.phi_pressure;
         let phi = R::constant(c.phi_constant) - pressed - at.nu.mm2_s() * c.phi_viscosity;
-        let phi = at.show("phi", "-", phi);
         let inverse = power_of_nu * c.sliding_factor * at.sliding + at.sum_speed * phi + c.constant;
         if !inverse.is_above(R::ZERO).all() {
             return Err(Undefined {
@@ -68,7 +67,7 @@ impl DrozdovGavrikov {
                 value: inverse.extremes(1).0,
             });
         }
-        Ok(R::constant(1.0) / inverse)
+        Ok([R::constant(1.0) / inverse, phi])
     }
 
     #[inline(always)]
@@ -84,7 +83,8 @@ impl ToothFrictionLaw for DrozdovGavrikov {
         at.check(&PRESSURE, at.pressure / KGF_CM2);
         at.check(&SLIDING, at.sliding);
         at.check(&SUM_SPEED, at.sum_speed);
-        let mu = self.friction(at, self.power_of(at.nu))?;
+        let [mu, phi] = self.friction(at, self.power_of(at.nu))?;
+        at.show("phi", "-", phi);
         Ok(at.observe(&MU, mu))
     }
 
@@ -99,7 +99,7 @@ impl ToothFrictionLaw for DrozdovGavrikov {
         }
         let power_of_nu = self.power_of(path.nu);
         for (node, mu) in path.nodes.iter().zip(&mut *mu) {
-            *mu = self.friction(&path.contact(node), power_of_nu)?;
+            [*mu, _] = self.friction(&path.contact(node), power_of_nu)?;
             R::end_pass();
         }
         observe_along(path, &MU, mu.iter().copied());

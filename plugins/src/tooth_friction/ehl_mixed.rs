@@ -400,11 +400,11 @@ impl ToothFrictionModel for EhlMixed {
         8
     }
 
-    fn along(&self, path: &PathAt<'_>, mu: &mut [f64]) -> Result<Along, Undefined> {
+    fn uncut_along(&self, path: &PathAt<'_>, mu: &mut [f64]) -> Result<Along, Undefined> {
         self.march_along(path, mu)
     }
 
-    fn along_together(&self, path: &PathAt<'_, Lane>, mu: &mut [Lane]) -> Result<Along<Lane>, Undefined> {
+    fn uncut_along_together(&self, path: &PathAt<'_, Lane>, mu: &mut [Lane]) -> Result<Along<Lane>, Undefined> {
         self.march_along(path, mu)
     }
 }

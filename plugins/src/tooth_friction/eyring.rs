@@ -10,7 +10,7 @@ use gearloss_framework::loss::Undefined;
 use gearloss_framework::lubricant::pressure::roelands;
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::tooth_friction::{
-    Along, ContactAt, Limits, PathAt, Range, ToothFriction, ToothFrictionLaw,
+    Along, ContactAt, FrictionLimits, PathAt, Range, ToothFriction, ToothFrictionLaw,
 };
 use gearloss_framework::real::{Mask as _, Real};
 use gearloss_framework::registry::{Evidence, default_of, formula};
@@ -57,28 +57,28 @@ fn yes() -> bool {
 #[inline(always)]
 fn mu<R: Real>(slope: f64, alpha: R, p_mean: R, eta_p: R, sliding: R, film: R) -> R {
     let argument = eta_p * alpha * sliding / (film * (2.0 * slope));
+    // Far above gear pressures the viscosity overflows; the stress reaches its limit long before.
+    let argument = argument.at_most(1e300);
     R::constant(2.0 * slope) / (alpha * p_mean) * asinh(argument)
 }
 
 impl Eyring {
-    /// Friction of a film of known thickness.
+    /// Friction of a film of known thickness, with the mean pressure in Pa and the viscosity there in Pa s.
     #[inline(always)]
-    fn friction<R: Real>(&self, at: &ContactAt<'_, R>, h: R) -> Result<R, Undefined> {
+    fn friction<R: Real>(&self, at: &ContactAt<'_, R>, h: R) -> Result<[R; 3], Undefined> {
         let idle = at.sliding.is_zero() | at.line_load.is_zero() | at.pressure.is_zero();
         if idle.all() {
             at.branch("no sliding or no load: no friction");
-            return Ok(R::ZERO);
+            return Ok([R::ZERO; 3]);
         }
         if (h.is_zero() & !idle).agreed()? {
             at.branch("no film: the limiting stress");
-            return Ok(R::constant(self.limiting_slope));
+            return Ok([R::constant(self.limiting_slope), R::ZERO, R::ZERO]);
         }
-        let p_mean = at.show("p_mean", "GPa", at.pressure.gpa() * (0.25 * std::f64::consts::PI)) * 1e9;
-        let eta_p = roelands(at.eta, at.alpha, p_mean);
-        // Far above gear pressures the viscosity overflows; the stress reaches its limit long before.
-        let eta_p = at.show("eta_p", "Pa s", eta_p.at_most(1e300));
+        let p_mean = at.pressure.gpa() * (0.25 * std::f64::consts::PI) * 1e9;
+        let eta_p = roelands(at.eta, at.alpha, p_mean).at_most(1e300);
         let mu = mu(self.limiting_slope, at.alpha, p_mean, eta_p, at.sliding, h);
-        Ok(R::select(idle, R::ZERO, mu))
+        Ok([R::select(idle, R::ZERO, mu), p_mean, eta_p])
     }
 }
 
@@ -88,8 +88,12 @@ impl ToothFrictionLaw for Eyring {
         at.check(&SUM_SPEED, at.sum_speed);
         let idle = at.sliding.is_zero() | at.line_load.is_zero();
         let h = contact::film(at, self.film, self.thermal);
-        at.notes.among(!idle).observe(&THICKNESS, h.um());
-        let mu = self.friction(at, h)?;
+        let [mu, p_mean, eta_p] = self.friction(at, h)?;
+        if !idle.all() {
+            at.notes.among(!idle).observe(&THICKNESS, h.um());
+            at.show("p_mean", "GPa", p_mean.gpa());
+            at.show("eta_p", "Pa s", eta_p);
+        }
         at.observe(&MU, self.cut_off(mu));
         Ok(mu)
     }
@@ -100,7 +104,7 @@ impl ToothFrictionLaw for Eyring {
         let mut thickness = Range::default();
         for (node, mu) in path.nodes.iter().zip(&mut *mu) {
             let h = films.at(node);
-            *mu = self.friction(&path.contact(node), h)?;
+            [*mu, ..] = self.friction(&path.contact(node), h)?;
             thickness.extend(node, h);
             R::end_pass();
         }
@@ -118,8 +122,8 @@ impl ToothFrictionLaw for Eyring {
         13
     }
 
-    fn limits(&self) -> Option<Limits> {
-        Some(Limits::up_to(self.limiting_slope))
+    fn friction_limits(&self) -> Option<FrictionLimits> {
+        Some(FrictionLimits::up_to(self.limiting_slope))
     }
 }
 

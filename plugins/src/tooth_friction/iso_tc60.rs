@@ -6,7 +6,7 @@
 use gearloss_framework::loss::Undefined;
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::tooth_friction::{
-    Along, ContactAt, Limits, PathAt, ToothFriction, ToothFrictionLaw,
+    Along, ContactAt, FrictionLimits, PathAt, ToothFriction, ToothFrictionLaw,
 };
 use gearloss_framework::real::Real;
 use gearloss_framework::registry::{Evidence, default_of, formula};
@@ -55,12 +55,12 @@ impl IsoTc60 {
         }
     }
 
-    /// The rest of the formula, from the roughness and the oil of a contact.
+    /// The rest of the formula, from roughness and viscosity.
     #[inline(always)]
-    fn factor<R: Real>(&self, at: &ContactAt<'_, R>) -> R {
+    fn factor<R: Real>(&self, rq: R, eta: R) -> R {
         let c = &self.coefficients;
         // In units of the formula: N/mm over mm times the mean rolling speed, half of the sum of the speeds.
-        let ratio = R::constant(2.0).n_mm() / R::constant(1.0).mm() * at.rq.um() / at.eta.mpa_s();
+        let ratio = R::constant(2.0).n_mm() / R::constant(1.0).mm() * rq.um() / eta.mpa_s();
         ratio.power(c.exponent) * c.factor
     }
 }
@@ -70,7 +70,7 @@ impl ToothFrictionLaw for IsoTc60 {
     fn mu<R: Real>(&self, at: &ContactAt<'_, R>) -> Result<R, Undefined> {
         entraining(at.sum_speed)?;
         at.check(&ROLLING, at.sum_speed * 0.5);
-        let mu = self.factor(at) * self.product().logarithm(at).exponential();
+        let mu = self.factor(at.rq, at.eta) * self.product().logarithm(at).exponential();
         at.observe(&MU, self.cut_off(mu));
         Ok(mu)
     }
@@ -81,14 +81,13 @@ impl ToothFrictionLaw for IsoTc60 {
             let rolling = entraining(path.speed * sum_speed)? * 0.5;
             path.notes.check(&ROLLING, rolling);
         }
-        self.product()
-            .along(path, self.factor(&path.contact(&path.nodes[0])), mu);
+        self.product().along(path, self.factor(path.rq, path.eta), mu);
         observe_along(path, &MU, mu.iter().map(|mu| self.cut_off(*mu)));
         Ok(Along::default())
     }
 
-    fn limits(&self) -> Option<Limits> {
-        Some(Limits::up_to(self.greatest))
+    fn friction_limits(&self) -> Option<FrictionLimits> {
+        Some(FrictionLimits::up_to(self.greatest))
     }
 }
 

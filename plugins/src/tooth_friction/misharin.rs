@@ -7,7 +7,7 @@
 use gearloss_framework::loss::Undefined;
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::tooth_friction::{
-    Along, ContactAt, Limits, PathAt, ToothFriction, ToothFrictionLaw,
+    Along, ContactAt, FrictionLimits, PathAt, ToothFriction, ToothFrictionLaw,
 };
 use gearloss_framework::real::Real;
 use gearloss_framework::registry::{Evidence, default_of, formula};
@@ -100,10 +100,10 @@ impl ToothFrictionLaw for Misharin {
         Ok(Along::default())
     }
 
-    fn limits(&self) -> Option<Limits> {
-        let limits = Limits::up_to(self.greatest).diverging();
+    fn friction_limits(&self) -> Option<FrictionLimits> {
+        let limits = FrictionLimits::up_to(self.greatest).diverging();
         Some(if self.held {
-            Limits {
+            FrictionLimits {
                 least: self.coefficients.least_friction,
                 greatest: self.coefficients.greatest_friction,
                 ..limits

@@ -181,7 +181,7 @@ impl ToothFrictionLaw for Mixed {
             Weight::Diab | Weight::OlverSpikes => None,
         };
         let [boundary, fluid] = [&self.boundary, &self.fluid].map(|law| {
-            let cut_off = law.limits().map(|_| KINKED);
+            let cut_off = law.friction_limits().map(|_| KINKED);
             cut_off.max(law.kinked_order())
         });
         let most = own.max(boundary).max(fluid);

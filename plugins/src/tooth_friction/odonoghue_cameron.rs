@@ -8,7 +8,7 @@
 use gearloss_framework::loss::Undefined;
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::tooth_friction::{
-    Along, ContactAt, Limits, PathAt, ToothFriction, ToothFrictionLaw,
+    Along, ContactAt, FrictionLimits, PathAt, ToothFriction, ToothFrictionLaw,
 };
 use gearloss_framework::real::Real;
 use gearloss_framework::registry::{Evidence, default_of, formula};
@@ -24,6 +24,11 @@ observed! { MU = ("mu", "-", "coefficient of friction"); }
 
 /// One inch. \[m\]
 const INCH: f64 = 25.4e-3;
+
+#[inline(always)]
+fn microinches<R: Real>(roughness: R) -> R {
+    roughness / INCH * 1e6
+}
 
 coefficients! {
     /// Constants of the formula of O'Donoghue and Cameron, in inches.
@@ -75,14 +80,13 @@ impl ODonoghueCameron {
         }
     }
 
-    /// The rest of the formula, from the roughness and the oil of a contact.
+    /// The rest of the formula, from roughness in uin and viscosity.
     #[inline(always)]
-    fn factor<R: Real>(&self, at: &ContactAt<'_, R>) -> R {
+    fn factor<R: Real>(&self, s: R, eta: R) -> R {
         let c = &self.coefficients;
-        let s = at.show("S", "uin", at.ra / INCH * 1e6);
         // Speeds and radius are in inches.
         let inches = INCH.power(c.sliding_exponent + c.sum_speed_exponent + c.radius_exponent);
-        let viscosity = at.eta.mpa_s().power(c.viscosity_exponent);
+        let viscosity = eta.mpa_s().power(c.viscosity_exponent);
         (s + c.roughness_offset) * (c.factor / c.roughness_divisor * inches) / viscosity
     }
 }
@@ -90,8 +94,9 @@ impl ODonoghueCameron {
 impl ToothFrictionLaw for ODonoghueCameron {
     #[inline(always)]
     fn mu<R: Real>(&self, at: &ContactAt<'_, R>) -> Result<R, Undefined> {
+        let s = at.show("S", "uin", microinches(at.ra));
         at.check(&SUM_SPEED, entraining(at.sum_speed)?);
-        let mu = self.factor(at) * self.product().logarithm(at).exponential();
+        let mu = self.factor(s, at.eta) * self.product().logarithm(at).exponential();
         at.observe(&MU, self.cut_off(mu));
         Ok(mu)
     }
@@ -102,13 +107,13 @@ impl ToothFrictionLaw for ODonoghueCameron {
             path.notes.check(&SUM_SPEED, entraining(path.speed * sum_speed)?);
         }
         self.product()
-            .along(path, self.factor(&path.contact(&path.nodes[0])), mu);
+            .along(path, self.factor(microinches(path.ra), path.eta), mu);
         observe_along(path, &MU, mu.iter().map(|mu| self.cut_off(*mu)));
         Ok(Along::default())
     }
 
-    fn limits(&self) -> Option<Limits> {
-        Some(Limits::up_to(self.greatest).diverging())
+    fn friction_limits(&self) -> Option<FrictionLimits> {
+        Some(FrictionLimits::up_to(self.greatest).diverging())
     }
 }
 

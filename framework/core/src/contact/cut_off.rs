@@ -1,17 +1,17 @@
 //! The integral along the path of contact of a law that is cut off at limits.
 //!
-//! The law itself is smooth on each section, its cut-off is a kink at a point that depends on load, speed and oil. The coefficients at
-//! the few points of a section are interpolated to many, cut off there and summed. Of a law that diverges where sliding or load vanishes,
-//! friction times both is interpolated, which vanishes there.
+//! The law itself is smooth on each section. Its cut-off is a kink at a point that depends on load, speed and oil. The coefficients at
+//! the few points of a section, times load, are interpolated to many, cut off there and summed. Those of a law that grows without bound
+//! where sliding vanishes are interpolated times sliding velocity too.
 
 use super::path::Path;
 use crate::geometry::gauss;
-use crate::mechanism::tooth_friction::{KINKED, Limits, PathNode, Range};
+use crate::mechanism::tooth_friction::{FrictionLimits, KINKED, PathNode, Range};
 use crate::real::{Mask as _, Real};
 
 /// One of the many points of a section.
 #[derive(Clone, Copy)]
-struct Fine {
+struct FinePoint {
     /// What multiplies the coefficient of friction before it is interpolated.
     scale: f64,
     /// Sliding power per scaled friction, normal force and speed of the first gear.
@@ -20,7 +20,7 @@ struct Fine {
 
 /// A path prepared for a law with limits.
 pub struct CutOff {
-    limits: Limits,
+    limits: FrictionLimits,
     /// Number of points on each section.
     order: usize,
     /// Factors that interpolate values at the points of a section to its many points.
@@ -28,21 +28,21 @@ pub struct CutOff {
     /// What multiplies the coefficient of friction at each point before it is interpolated.
     scales: Vec<f64>,
     /// The many points of each section.
-    fine: Vec<Fine>,
+    fine: Vec<FinePoint>,
 }
 
 impl CutOff {
     /// A path of sections with a number of points for a law with limits.
-    pub fn new(path: &Path, order: usize, limits: Limits) -> Self {
+    pub fn new(path: &Path, order: usize, limits: FrictionLimits) -> Self {
         let scale = |node: &PathNode| node.force * if limits.diverges { node.sliding } else { 1.0 };
-        let new = Self {
+        let prepared = Self {
             limits,
             order,
             factors: gauss::graded_interpolation(order, KINKED),
             scales: path.nodes().iter().map(scale).collect(),
             fine: Vec::new(),
         };
-        new.weighted(path)
+        prepared.weighted(path)
     }
 
     /// The same for the path with other weights.
@@ -56,7 +56,7 @@ impl CutOff {
                 scale => weights[i] / (few[i].1 * scale),
             };
             let places = self.factors.chunks(self.order).zip(&many);
-            places.map(move |(factors, (_, weight))| Fine {
+            places.map(move |(factors, (_, weight))| FinePoint {
                 scale: factors.iter().zip(scales).map(|(factor, scale)| factor * scale).sum(),
                 weight: weight
                     * factors
@@ -73,7 +73,7 @@ impl CutOff {
     /// Sliding power per normal force and speed of the first gear, for friction at each point before it is cut off. \[m\]
     #[inline(always)]
     pub fn sliding<R: Real>(&self, path: &Path, mu: &[R]) -> R {
-        let Limits { least, greatest, .. } = self.limits;
+        let FrictionLimits { least, greatest, .. } = self.limits;
         let mut sum = R::ZERO;
         for (section, fine) in self.fine.chunks(KINKED).enumerate() {
             let [start, end] = [section, section + 1].map(|i| i * self.order);

@@ -171,7 +171,7 @@ impl Path {
             #[inline(always)]
             |mu| match cut_off {
                 None => R::along(law, at, mu).map(|along| (self.sliding(mu), along)),
-                Some(cut_off) => R::along_uncut(law, at, mu).map(|along| (cut_off.sliding(self, mu), along)),
+                Some(cut_off) => R::uncut_along(law, at, mu).map(|along| (cut_off.sliding(self, mu), along)),
             },
         )?;
         let friction = PathFriction {
@@ -210,7 +210,9 @@ impl FrictionPath {
         let many = law.kinked_order().map(|order| Path::new(pair, sharing, order));
         let few = Path::new(pair, sharing, law.order())?;
         Ok(Self {
-            cut_off: law.limits().map(|limits| CutOff::new(&few, law.order(), limits)),
+            cut_off: law
+                .friction_limits()
+                .map(|limits| CutOff::new(&few, law.order(), limits)),
             few,
             many: many.transpose()?,
         })

@@ -289,8 +289,8 @@ fn finish(registry: &Registry, mut generator: SchemaGenerator, mut root: Value) 
     object.insert("definitions".to_owned(), Value::Object(definitions));
     flatten_tagged(&mut root);
     let mut schema = Schema::try_from(root).expect("an object is a schema");
-    // Of the transforms of draft-07 the only one for which there is a case here; a schema with keys of a later draft is refused when it is
-    // compiled.
+    // The one of schemars' transforms for draft-07 that changes something here: tuples are refused when the schema is compiled, and
+    // `publish` closes records.
     RemoveRefSiblings::default().transform(&mut schema);
     publish(schema.to_value())
 }

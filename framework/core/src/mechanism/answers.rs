@@ -5,7 +5,7 @@ use super::{Answer, Inputs, Mechanism, differences};
 use crate::attach::State;
 use crate::contact::path::with_space;
 use crate::loss::{Loss, Notebook, Undefined};
-use crate::real::{Dual, Lane, Points};
+use crate::real::{Dual, Lane, Points, Real as _};
 use crate::registry::Placed;
 
 /// Numbers for which models answer: one point, with or without derivatives, or several. Several are answered together by a law that
@@ -32,7 +32,7 @@ pub trait Answers: Points {
     ///
     /// # Errors
     /// As [`Answers::answer`].
-    fn along_uncut(
+    fn uncut_along(
         model: &dyn ToothFrictionModel,
         path: &PathAt<'_, Self>,
         mu: &mut [Self],
@@ -48,8 +48,8 @@ pub trait Answers: Points {
         path: &PathAt<'_, Self>,
         mu: &mut [Self],
     ) -> Result<Along<Self>, Undefined> {
-        let mut along = Self::along_uncut(model, path, mu)?;
-        if let Some(limits) = model.limits() {
+        let mut along = Self::uncut_along(model, path, mu)?;
+        if let Some(limits) = model.friction_limits() {
             let mut range = Range::default();
             for (node, mu) in path.nodes.iter().zip(mu) {
                 range.extend(node, *mu);
@@ -76,8 +76,8 @@ impl Answers for f64 {
     }
 
     #[inline(always)]
-    fn along_uncut(model: &dyn ToothFrictionModel, path: &PathAt<'_>, mu: &mut [f64]) -> Result<Along, Undefined> {
-        model.along(path, mu)
+    fn uncut_along(model: &dyn ToothFrictionModel, path: &PathAt<'_>, mu: &mut [f64]) -> Result<Along, Undefined> {
+        model.uncut_along(path, mu)
     }
 }
 
@@ -91,6 +91,14 @@ impl Answers for Lane {
             return Ok(all);
         }
         let notes = at.notes();
+        let points = notes.points();
+        let [first, end] = [points.trailing_zeros(), u32::BITS - points.leading_zeros()].map(|bit| bit as usize);
+        if first < end
+            && notes.book.are_alike(first, end - 1)
+            && let Ok(answer) = M::answer(model, &at.at_point(first))
+        {
+            return Ok(answer.gather(|number| Lane::constant(number(&answer))));
+        }
         let mut last = None;
         let evaluate = |point: usize| match last {
             Some((earlier, answer)) if notes.book.are_alike(earlier, point) => answer,
@@ -100,7 +108,7 @@ impl Answers for Lane {
                 answer
             }
         };
-        Ok(M::Answer::one_by_one(notes.points(), evaluate))
+        Ok(M::Answer::one_by_one(points, evaluate))
     }
 
     #[inline(always)]
@@ -113,12 +121,12 @@ impl Answers for Lane {
     }
 
     #[inline(always)]
-    fn along_uncut(
+    fn uncut_along(
         model: &dyn ToothFrictionModel,
         path: &PathAt<'_, Lane>,
         mu: &mut [Lane],
     ) -> Result<Along<Lane>, Undefined> {
-        if let Ok(along) = model.along_together(path, mu) {
+        if let Ok(along) = model.uncut_along_together(path, mu) {
             return Ok(along);
         }
         let mut all = Along::<Lane>::default();
@@ -126,7 +134,7 @@ impl Answers for Lane {
         let points = path.notes.points();
         with_space(mu.len(), |own: &mut [f64]| {
             for point in (0..Lane::COUNT).filter(|point| points >> point & 1 == 1) {
-                let along = path.at_point(point, |path| model.along(path, own));
+                let along = path.at_point(point, |path| model.uncut_along(path, own));
                 for (mu, own) in mu.iter_mut().zip(&*own) {
                     mu.set(point, if along.is_ok() { *own } else { f64::NAN });
                 }
@@ -157,12 +165,12 @@ impl Answers for Dual {
         placed.loss_with_derivatives(state, book)
     }
 
-    fn along_uncut(
+    fn uncut_along(
         model: &dyn ToothFrictionModel,
         path: &PathAt<'_, Dual>,
         mu: &mut [Dual],
     ) -> Result<Along<Dual>, Undefined> {
-        let along = model.along_with_derivatives(path, mu);
+        let along = model.uncut_along_with_derivatives(path, mu);
         along.unwrap_or_else(|| differences::along(model, path, mu))
     }
 }

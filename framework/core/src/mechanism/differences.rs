@@ -54,7 +54,7 @@ pub(super) fn along(
 ) -> Result<Along<Dual>, Undefined> {
     let evaluate = |number: &dyn Fn(Dual) -> f64| {
         let mut own = vec![0.0; path.nodes.len()];
-        let along = path.map([Notes::MUTED; 2], number, |path| model.along(path, &mut own))?;
+        let along = path.map([Notes::MUTED; 2], number, |path| model.uncut_along(path, &mut own))?;
         Ok((own, along))
     };
     let (values, own) = evaluate(&|x| x.value)?;

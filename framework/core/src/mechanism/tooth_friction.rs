@@ -23,24 +23,26 @@ pub trait ToothFrictionModel: Send + Sync {
 
     /// Number of nodes on each smooth section of a path for an error of the loss below 1e-4, or of the mean friction below 1e-6,
     /// unless the law has a [kink](Along::kink). [`SMOOTH`] is enough for a law that is smooth inside the sections, for any power
-    /// of sliding and load at their ends; [`KINKED`] for one with unknown kinks.
+    /// of sliding and load at their ends; [`KINKED`] for one with unknown kinks. For a law with [limits](Self::friction_limits), its
+    /// coefficients times load are also interpolated between these nodes.
     fn order(&self) -> usize {
         SMOOTH
     }
 
-    /// The same where the law has a kink; none if it never has one, other than at its [limits](Self::limits).
+    /// The same where the law has a kink; none if it never has one, other than at its [limits](Self::friction_limits).
     fn kinked_order(&self) -> Option<usize> {
         None
     }
 
-    /// Limits at which the law is cut off, if the coefficients [along](Self::along) a path are those before.
-    fn limits(&self) -> Option<Limits> {
+    /// Limits at which the framework cuts off the coefficients of [`uncut_along`](Self::uncut_along). A model that states them writes
+    /// that method too, because `mu` is already cut off.
+    fn friction_limits(&self) -> Option<FrictionLimits> {
         None
     }
 
-    /// Coefficients of friction at all nodes of a path, before they are cut off at the [limits](Self::limits), into a slice of the
-    /// length of the path. Pure; must not allocate.
-    fn along(&self, path: &PathAt<'_>, mu: &mut [f64]) -> Result<Along, Undefined> {
+    /// Coefficients of friction at all nodes of a path, before they are cut off at the [limits](Self::friction_limits), into a slice of the
+    /// length of the path. Pure; must not allocate. Ask [`Answers::along`] for those that are cut off.
+    fn uncut_along(&self, path: &PathAt<'_>, mu: &mut [f64]) -> Result<Along, Undefined> {
         for (node, mu) in path.nodes.iter().zip(mu) {
             *mu = self.mu(&path.contact(node))?;
         }
@@ -64,12 +66,12 @@ pub trait ToothFrictionModel: Send + Sync {
     ///
     /// # Errors
     /// As [`Mechanism::answer_together`].
-    fn along_together(&self, _path: &PathAt<'_, Lane>, _mu: &mut [Lane]) -> Result<Along<Lane>, Undefined> {
+    fn uncut_along_together(&self, _path: &PathAt<'_, Lane>, _mu: &mut [Lane]) -> Result<Along<Lane>, Undefined> {
         Err(Undefined::DISAGREED)
     }
 
     /// The same at all nodes of a path with derivatives.
-    fn along_with_derivatives(
+    fn uncut_along_with_derivatives(
         &self,
         _path: &PathAt<'_, Dual>,
         _mu: &mut [Dual],
@@ -81,7 +83,9 @@ pub trait ToothFrictionModel: Send + Sync {
 /// A law of friction that is written once for one point and for several; mark its methods as `#[inline(always)]`, so that they use
 /// wide instructions.
 pub trait ToothFrictionLaw: Send + Sync {
-    /// Coefficient of friction at one contact, before it is cut off at the [limits](Self::limits). \[-\] Pure; must not allocate.
+    /// Coefficient of friction at one contact, before it is cut off at the [limits](Self::friction_limits). \[-\] Pure; must not allocate.
+    ///
+    /// A law that states limits returns the formula without them; cut off, it would have a kink that the framework does not expect.
     fn mu<R: Answers>(&self, at: &ContactAt<'_, R>) -> Result<R, Undefined>;
 
     /// As [`ToothFrictionModel::order`].
@@ -89,15 +93,15 @@ pub trait ToothFrictionLaw: Send + Sync {
         SMOOTH
     }
 
-    /// Limits at which the law is cut off.
-    fn limits(&self) -> Option<Limits> {
+    /// Limits at which the framework cuts off the law. A law that is cut off otherwise states its [kinks](Along::kink).
+    fn friction_limits(&self) -> Option<FrictionLimits> {
         None
     }
 
-    /// The coefficient cut off at the [limits](Self::limits).
+    /// The coefficient cut off at the [limits](Self::friction_limits).
     #[inline(always)]
     fn cut_off<R: Real>(&self, mu: R) -> R {
-        self.limits().map_or(mu, |limits| limits.cut_off(mu))
+        self.friction_limits().map_or(mu, |limits| limits.cut_off(mu))
     }
 
     /// As [`ToothFrictionModel::kinked_order`].
@@ -105,7 +109,7 @@ pub trait ToothFrictionLaw: Send + Sync {
         None
     }
 
-    /// As [`ToothFrictionModel::along`].
+    /// As [`ToothFrictionModel::uncut_along`].
     #[inline(always)]
     fn along<R: Answers>(&self, path: &PathAt<'_, R>, mu: &mut [R]) -> Result<Along<R>, Undefined> {
         for (node, mu) in path.nodes.iter().zip(mu) {
@@ -118,16 +122,16 @@ pub trait ToothFrictionLaw: Send + Sync {
 
 /// Limits at which a law of friction is cut off.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Limits {
+pub struct FrictionLimits {
     /// Minimum coefficient.
     pub least: f64,
     /// Maximum coefficient.
     pub greatest: f64,
-    /// True if the formula grows without bound where sliding or load vanish, as a negative power or a logarithm of them.
+    /// True if the formula grows without bound where sliding vanishes, as a negative power or a logarithm of the sliding velocity.
     pub diverges: bool,
 }
 
-impl Limits {
+impl FrictionLimits {
     /// From zero to a maximum coefficient.
     pub fn up_to(greatest: f64) -> Self {
         Self {
@@ -137,7 +141,7 @@ impl Limits {
         }
     }
 
-    /// The same for a formula that grows without bound where sliding or load vanish.
+    /// The same for a formula that grows without bound where sliding vanishes.
     pub fn diverging(self) -> Self {
         Self { diverges: true, ..self }
     }
@@ -205,11 +209,11 @@ impl<L: ToothFrictionLaw> ToothFrictionModel for L {
         ToothFrictionLaw::kinked_order(self)
     }
 
-    fn limits(&self) -> Option<Limits> {
-        ToothFrictionLaw::limits(self)
+    fn friction_limits(&self) -> Option<FrictionLimits> {
+        ToothFrictionLaw::friction_limits(self)
     }
 
-    fn along(&self, path: &PathAt<'_>, mu: &mut [f64]) -> Result<Along, Undefined> {
+    fn uncut_along(&self, path: &PathAt<'_>, mu: &mut [f64]) -> Result<Along, Undefined> {
         Lane::wide(
             #[inline(always)]
             || ToothFrictionLaw::along(self, path, mu),
@@ -227,14 +231,14 @@ impl<L: ToothFrictionLaw> ToothFrictionModel for L {
         Some(ToothFrictionLaw::mu(self, at).map(|mu| self.cut_off(mu)))
     }
 
-    fn along_together(&self, path: &PathAt<'_, Lane>, mu: &mut [Lane]) -> Result<Along<Lane>, Undefined> {
+    fn uncut_along_together(&self, path: &PathAt<'_, Lane>, mu: &mut [Lane]) -> Result<Along<Lane>, Undefined> {
         Lane::wide(
             #[inline(always)]
             || ToothFrictionLaw::along(self, path, mu),
         )
     }
 
-    fn along_with_derivatives(
+    fn uncut_along_with_derivatives(
         &self,
         path: &PathAt<'_, Dual>,
         mu: &mut [Dual],
@@ -359,9 +363,9 @@ pub struct PathNode {
     pub root_load: f64,
     /// Natural logarithm of `root_load`.
     pub ln_root_load: f64,
-    /// Film thickness by each formula for factors of one of everything else. \[m\]
+    /// Film thickness by each formula, with one for every quantity that does not belong to the node. \[m\]
     pub films: [f64; 2],
-    /// Terms of heating at the inlet, of pressure and of sliding, for factors of one of everything else.
+    /// Terms of pressure and of sliding in the heating at the inlet, with one for every quantity that does not belong to the node.
     pub heating: [f64; 2],
 }
 
@@ -639,7 +643,7 @@ impl ToothFrictionModel for Scalar<ToothFriction> {
         self.constant().map(|value| Ok(Dual::constant(value)))
     }
 
-    fn along_with_derivatives(
+    fn uncut_along_with_derivatives(
         &self,
         _path: &PathAt<'_, Dual>,
         mu: &mut [Dual],
@@ -648,7 +652,7 @@ impl ToothFrictionModel for Scalar<ToothFriction> {
         Some(Ok(Along::default()))
     }
 
-    fn along_together(&self, path: &PathAt<'_, Lane>, mu: &mut [Lane]) -> Result<Along<Lane>, Undefined> {
+    fn uncut_along_together(&self, path: &PathAt<'_, Lane>, mu: &mut [Lane]) -> Result<Along<Lane>, Undefined> {
         if let Some(value) = self.constant() {
             mu.fill(Lane::constant(value));
             return Ok(Along::default());
