@@ -81,6 +81,7 @@ fn has(object: &Map<String, Value>, key: &str) -> bool {
 
 /// `Option` allows null; in a document an optional key is omitted instead.
 fn drop_null(object: &mut Map<String, Value>) {
+    // Null is among the alternatives of a list.
     if !object.values().any(Value::is_array) {
         return;
     }

@@ -7,7 +7,7 @@ use gearloss_framework::geometry::{LoadSharing, Pair, PairSpec};
 use gearloss_framework::loss::{NoteBase, Notebook, Notes};
 use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt, MeshPart};
 use gearloss_framework::mechanism::mean_friction::MeanFrictionAt;
-use gearloss_framework::mechanism::tooth_friction::{KINKED, SMOOTH, ToothFriction};
+use gearloss_framework::mechanism::tooth_friction::{SMOOTH, ToothFriction};
 use gearloss_framework::mechanism::{Answers as _, Inputs as _, Mechanism as _};
 use gearloss_framework::real::{LANES, Lane, Real as _};
 use gearloss_framework::registry::{Build, Files, Registry};
@@ -147,9 +147,7 @@ fn errors(registry: &Registry, law: &Value, sharing: LoadSharing, cases: &[Case]
         };
         let pair = &case.part.pair;
         let path = FrictionPath::new(pair, sharing, &*slot).unwrap();
-        let cut_off = slot.friction_limits().map(|_| KINKED);
-        let kinked = slot.kinked_order().max(cut_off);
-        let fine = 4 * kinked.unwrap_or(0).max(slot.order());
+        let fine = 4 * slot.cut_off_order().unwrap_or(0).max(slot.order());
         // Undefined at some point, for any number of nodes.
         let Ok(exact) = sum(&Path::from_points(pair, pair.graded_path(sharing, fine))) else {
             continue;

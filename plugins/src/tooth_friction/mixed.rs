@@ -180,11 +180,7 @@ impl ToothFrictionLaw for Mixed {
             Weight::Matsumoto => Some(KINKED),
             Weight::Diab | Weight::OlverSpikes => None,
         };
-        let [boundary, fluid] = [&self.boundary, &self.fluid].map(|law| {
-            let cut_off = law.friction_limits().map(|_| KINKED);
-            cut_off.max(law.kinked_order())
-        });
-        let most = own.max(boundary).max(fluid);
+        let most = own.max(self.boundary.cut_off_order()).max(self.fluid.cut_off_order());
         most.map(|order| order.max(self.order()))
     }
 

@@ -106,8 +106,8 @@ impl ToothFrictionLaw for ODonoghueCameron {
         for sum_speed in path.extent.sum_speed {
             path.notes.check(&SUM_SPEED, entraining(path.speed * sum_speed)?);
         }
-        self.product()
-            .along(path, self.factor(microinches(path.ra), path.eta), mu);
+        let s = path.notes.show("S", "uin", microinches(path.ra));
+        self.product().along(path, self.factor(s, path.eta), mu);
         observe_along(path, &MU, mu.iter().map(|mu| self.cut_off(*mu)));
         Ok(Along::default())
     }

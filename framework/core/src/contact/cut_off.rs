@@ -23,6 +23,8 @@ pub struct CutOff {
     limits: FrictionLimits,
     /// Number of points on each section.
     order: usize,
+    /// The weights of both rules: of the points of a section, and of its many points.
+    rules: [Vec<f64>; 2],
     /// Factors that interpolate values at the points of a section to its many points.
     factors: Vec<f64>,
     /// What multiplies the coefficient of friction at each point before it is interpolated.
@@ -35,10 +37,12 @@ impl CutOff {
     /// A path of sections with a number of points for a law with limits.
     pub fn new(path: &Path, order: usize, limits: FrictionLimits) -> Self {
         let scale = |node: &PathNode| node.force * if limits.diverges { node.sliding } else { 1.0 };
+        let rules = [order, KINKED].map(gauss::rule);
         let prepared = Self {
             limits,
             order,
-            factors: gauss::graded_interpolation(order, KINKED),
+            factors: gauss::interpolation(&rules[0], &rules[1]),
+            rules: rules.map(|rule| rule.into_iter().map(|node| gauss::graded(node).1).collect()),
             scales: path.nodes().iter().map(scale).collect(),
             fine: Vec::new(),
         };
@@ -47,16 +51,16 @@ impl CutOff {
 
     /// The same for the path with other weights.
     pub fn weighted(mut self, path: &Path) -> Self {
-        let [few, many] = [self.order, KINKED].map(gauss::graded_rule);
+        let [few, many] = &self.rules;
         let sections = path.weights().chunks(self.order).zip(self.scales.chunks(self.order));
         let fine = sections.flat_map(|(weights, scales)| {
             // Without load there is no power.
             let scaled = |i: usize| match scales[i] {
                 0.0 => 0.0,
-                scale => weights[i] / (few[i].1 * scale),
+                scale => weights[i] / (few[i] * scale),
             };
-            let places = self.factors.chunks(self.order).zip(&many);
-            places.map(move |(factors, (_, weight))| FinePoint {
+            let places = self.factors.chunks(self.order).zip(many);
+            places.map(move |(factors, weight)| FinePoint {
                 scale: factors.iter().zip(scales).map(|(factor, scale)| factor * scale).sum(),
                 weight: weight
                     * factors

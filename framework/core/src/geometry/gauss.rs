@@ -29,19 +29,22 @@ pub fn rule(n: usize) -> Vec<(f64, f64)> {
 /// to degree (2 n - 3)/3. At the ends, where friction may start like a fractional power of sliding or load, it is as accurate as a
 /// plain rule with several times the nodes.
 pub fn graded_rule(n: usize) -> Vec<(f64, f64)> {
-    let graded = |(u, w): (f64, f64)| (0.25 * u * (5.0 - u * u), 0.25 * w * (5.0 - 3.0 * u * u));
     rule(n).into_iter().map(graded).collect()
 }
 
-/// Factors by which values at the nodes of a [graded rule](graded_rule) of `n` nodes are interpolated to those of one of `m` nodes, by
-/// the polynomial in u: `n` for each of the `m`.
-pub fn graded_interpolation(n: usize, m: usize) -> Vec<f64> {
-    let [from, to] = [n, m].map(rule);
+/// A node of the graded rule with its weight, from those of the plain one in u.
+pub fn graded((u, w): (f64, f64)) -> (f64, f64) {
+    (0.25 * u * (5.0 - u * u), 0.25 * w * (5.0 - 3.0 * u * u))
+}
+
+/// Factors by which a polynomial interpolates values at the nodes of one plain rule to those of another: for each of the latter, one for
+/// each of the former. With the same numbers of nodes it does so for graded rules, by a polynomial in u.
+pub fn interpolation(from: &[(f64, f64)], to: &[(f64, f64)]) -> Vec<f64> {
     let polynomial = |u: f64, i: usize| -> f64 {
-        let others = (0..n).filter(|k| *k != i);
+        let others = (0..from.len()).filter(|k| *k != i);
         others.map(|k| (u - from[k].0) / (from[i].0 - from[k].0)).product()
     };
-    let rows = to.iter().flat_map(|(u, _)| (0..n).map(move |i| (*u, i)));
+    let rows = to.iter().flat_map(|(u, _)| (0..from.len()).map(move |i| (*u, i)));
     rows.map(|(u, i)| polynomial(u, i)).collect()
 }
 
@@ -74,9 +77,8 @@ mod tests {
 
     #[test]
     fn polynomials_are_interpolated_exactly() {
-        let (n, m) = (7, 64);
-        let [from, to] = [n, m].map(rule);
-        for (row, (u, _)) in graded_interpolation(n, m).chunks(n).zip(to) {
+        let [from, to] = [7, 64].map(rule);
+        for (row, (u, _)) in interpolation(&from, &to).chunks(from.len()).zip(&to) {
             for degree in 0..7 {
                 let sum: f64 = row
                     .iter()

@@ -5,7 +5,7 @@ use super::{Answer, Inputs, Mechanism, differences};
 use crate::attach::State;
 use crate::contact::path::with_space;
 use crate::loss::{Loss, Notebook, Undefined};
-use crate::real::{Dual, Lane, Points, Real as _};
+use crate::real::{Dual, Lane, Points};
 use crate::registry::Placed;
 
 /// Numbers for which models answer: one point, with or without derivatives, or several. Several are answered together by a law that
@@ -91,14 +91,6 @@ impl Answers for Lane {
             return Ok(all);
         }
         let notes = at.notes();
-        let points = notes.points();
-        let [first, end] = [points.trailing_zeros(), u32::BITS - points.leading_zeros()].map(|bit| bit as usize);
-        if first < end
-            && notes.book.are_alike(first, end - 1)
-            && let Ok(answer) = M::answer(model, &at.at_point(first))
-        {
-            return Ok(answer.gather(|number| Lane::constant(number(&answer))));
-        }
         let mut last = None;
         let evaluate = |point: usize| match last {
             Some((earlier, answer)) if notes.book.are_alike(earlier, point) => answer,
@@ -108,7 +100,7 @@ impl Answers for Lane {
                 answer
             }
         };
-        Ok(M::Answer::one_by_one(points, evaluate))
+        Ok(M::Answer::one_by_one(notes.points(), evaluate))
     }
 
     #[inline(always)]

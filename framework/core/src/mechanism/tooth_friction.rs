@@ -34,6 +34,12 @@ pub trait ToothFrictionModel: Send + Sync {
         None
     }
 
+    /// The same for coefficients that are cut off at the limits.
+    fn cut_off_order(&self) -> Option<usize> {
+        let cut_off = self.friction_limits().map(|_| KINKED);
+        cut_off.max(self.kinked_order())
+    }
+
     /// Limits at which the framework cuts off the coefficients of [`uncut_along`](Self::uncut_along). A model that states them writes
     /// that method too, because `mu` is already cut off.
     fn friction_limits(&self) -> Option<FrictionLimits> {
