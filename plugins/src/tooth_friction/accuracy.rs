@@ -125,6 +125,7 @@ fn laws() -> Vec<Value> {
         json!({ "type": "ehl_mixed", "tau0": 5e6, "limiting_slope": 0.055, "mu_b": 0.13 }),
         boundary.clone(),
         fluid.clone(),
+        json!({ "type": "doleschel", "mu": 0.05, "pressure": 1.5, "speed": -0.3, "greatest": 0.03 }),
     ];
     for weight in ["doleschel", "matsumoto", "diab", "olver_spikes"] {
         laws.push(json!({ "type": "mixed", "weight": weight, "boundary": boundary, "fluid": fluid }));

@@ -6,7 +6,7 @@
 
 use gearloss_framework::loss::Undefined;
 use gearloss_framework::mechanism::ShopUnits;
-use gearloss_framework::mechanism::tooth_friction::{ContactAt, ToothFriction, ToothFrictionLaw};
+use gearloss_framework::mechanism::tooth_friction::{ContactAt, FrictionLimits, ToothFriction, ToothFrictionLaw};
 use gearloss_framework::real::{Mask as _, Real};
 use gearloss_framework::registry::{Evidence, default_of, formula};
 use gearloss_framework::{limits, observed, register};
@@ -68,10 +68,14 @@ impl ToothFrictionLaw for Doleschel {
         let powers = at.pressure.gpa().logarithm() * self.pressure
             + (sum_speed / self.reference_speed).logarithm() * self.speed
             + (at.eta.mpa_s() / 20.0).logarithm() * self.viscosity;
-        // Not by `friction_limits`, and without a kink for the path: the maximum is reached only where the speed nearly vanishes.
-        let mu = (powers.exponential() * self.mu).at_most(self.greatest);
+        let mu = R::select(unloaded, R::ZERO, powers.exponential() * self.mu);
         at.notes.among(!unloaded).check(&SUM_SPEED, sum_speed);
-        Ok(at.observe(&MU, finite(R::select(unloaded, R::ZERO, mu))?))
+        at.observe(&MU, finite(self.cut_off(mu))?);
+        Ok(mu)
+    }
+
+    fn friction_limits(&self) -> Option<FrictionLimits> {
+        Some(FrictionLimits::up_to(self.greatest))
     }
 }
 
@@ -108,7 +112,7 @@ mod tests {
         assert!(fault.what.starts_with("sum of the surface speeds"), "{fault}");
         // An unloaded contact is not a power of zero either.
         let creeping = at.with(|to| to.sum_speed = 1e-300);
-        assert_eq!(law.mu(&creeping).unwrap(), 0.5);
+        assert_eq!(law.cut_off(law.mu(&creeping).unwrap()), 0.5);
         let rising = Doleschel { pressure: -0.5, ..law };
         assert_eq!(
             rising
