@@ -71,6 +71,7 @@ mod study_limits;
 mod surface;
 mod temperature;
 mod topologies;
+mod trade;
 mod variants;
 mod vscode;
 mod wheels;

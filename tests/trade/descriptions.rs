@@ -1,0 +1,1 @@
+//! Gearbox files: what is absent, misspelt or set from elsewhere.

@@ -1,0 +1,1 @@
+//! Tables and models of other programs.

@@ -1,0 +1,1 @@
+//! Losses and temperatures that are known from a calculation by hand.
