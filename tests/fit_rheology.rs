@@ -337,8 +337,8 @@ fn faulty_files_are_refused_with_line_and_help() {
         ),
         (
             "unit.csv",
-            format!("# rig 3\n{}{row}", head.replace("GPa", "psi")),
-            "line 2: `pressure` is in `psi`, which is not a unit of this quantity",
+            format!("# rig 3\n{}{row}", head.replace("GPa", "torr")),
+            "line 2: `pressure` is in `torr`, which is not a unit of this quantity",
         ),
         (
             "dimension.csv",

@@ -62,7 +62,10 @@ fn a_faulty_file_of_points_is_refused_with_line_and_column() {
             POINTS.replace("1000,", "a,"),
             "line 3, column 2 `speed`: `a` is not a number",
         ),
-        (POINTS.replace("[rpm]", "[bar]"), "`bar` is not a unit of angular speed"),
+        (
+            POINTS.replace("[rpm]", "[bar]"),
+            "`bar` is a pressure, not an angular speed",
+        ),
         (POINTS.replace("[rpm]", ""), "column `speed` has no unit"),
         (
             POINTS.replace("volume [ml]", "volume [bottles]"),

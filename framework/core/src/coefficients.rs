@@ -137,6 +137,8 @@ pub fn schema<C: Coefficients>() -> Schema {
             "default": declared.published,
             "minimum": declared.least,
             "maximum": declared.greatest,
+            // In the units of the formula.
+            "x-bare": true,
         });
         (declared.name.to_owned(), schema)
     };

@@ -110,7 +110,7 @@ struct TableParams {
     axes: Option<Axes>,
     /// Results of a table in the document, in the unit of the mechanism's result, with the last axis varying fastest. Each has its
     /// own path, such as `model.values.2`. [-]
-    #[schemars(inner(range(min = 0.0)), length(min = 2))]
+    #[schemars(inner(range(min = 0.0)), length(min = 2), extend("x-bare" = true))]
     values: Option<Vec<f64>>,
     /// Extrapolation of the table.
     #[serde(default)]
@@ -141,7 +141,7 @@ impl JsonSchema for Axes {
                 "type": "array",
                 "description": "Increasing values of one quantity.",
                 "minItems": 2,
-                "items": { "type": "number", "description": "A value in the unit of the quantity. [-]" },
+                "items": { "type": "number", "description": "A value in the unit of the quantity. [-]", "x-bare": true },
             },
         })
     }
@@ -321,7 +321,7 @@ impl<M: Mechanism> Lookup<M> {
                     .error(format!("{file}: {at}: `{column}` has no unit"))
                     .help(format!("convert it where needed and write `{column} [{unit}]`")));
             }
-            if let Some(written) = table.unit().filter(|written| *written != unit) {
+            if let Some(written) = table.unit().filter(|written| !Unit::is_same(written, unit)) {
                 return Err(cx
                     .error(format!("{file}: {at}: `{column}` is in {written}, not in {unit}"))
                     .help(format!("convert it and write `{column} [{unit}]`")));
@@ -330,7 +330,7 @@ impl<M: Mechanism> Lookup<M> {
         let axes: Vec<&'static Quantity<M>> = columns[..axes].iter().filter_map(|c| quantity(c)).collect();
         for (i, (axis, quantity)) in tables[0].axes().iter().zip(&axes).enumerate() {
             let own = quantity.unit.symbol;
-            if axis.unit != own {
+            if !Unit::is_same(&axis.unit, own) {
                 return Err(cx
                     .error(format!(
                         "{file}: line 1, column {}: `{}` is in {}, not in {own}",

@@ -267,6 +267,7 @@ impl Language {
                 least,
                 greatest,
                 whole: false,
+                ..
             } => Some((unit, least, greatest)),
             _ => None,
         };

@@ -1,8 +1,7 @@
 //! Losses of an electric motor from a map over speed and torque.
 
-use gearloss_document::Ordered;
 use gearloss_document::data::cells::Form;
-use gearloss_document::data::sheet::{Sheet, Wanted, limited_faults};
+use gearloss_document::data::sheet::{Assigned, Sheet, Wanted, limited_faults};
 use gearloss_document::data::{MeasuredFault, fault};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -154,8 +153,7 @@ impl MotorMap {
     /// # Errors
     /// The problem, with line and column.
     pub fn read(bytes: &[u8]) -> Result<Self, Vec<MeasuredFault>> {
-        let none = Ordered::default();
-        let sheet = Sheet::open(bytes, Form::default(), &QUANTITIES, (&none, &none)).map_err(in_header)?;
+        let sheet = Sheet::open(bytes, Form::default(), &QUANTITIES, Assigned::default()).map_err(in_header)?;
         Self::from_sheet(&sheet).map_err(|faults| sheet.table.placed(faults))
     }
 
@@ -232,7 +230,8 @@ impl MotorMap {
 /// A map must have its units in the header: they cannot be stated elsewhere.
 fn in_header(faults: Vec<MeasuredFault>) -> Vec<MeasuredFault> {
     let unit = |f: MeasuredFault| {
-        if f.help.starts_with("state it") {
+        // A map has no `units` of its own.
+        if f.help.contains("`units") {
             fault(f.message, COLUMNS)
         } else {
             f

@@ -30,6 +30,6 @@ pub use places::{Place, Places};
 pub use publish::publish;
 pub use quantity::{QuantityFault, number_length, parse_quantity};
 pub use schema::{Field, Schema, Shape, Unsupported};
-pub use unit::{Dimension, Unit};
+pub use unit::{Conversion, Dimension, Unit, UnitFault};
 pub use walk::{Walked, walk, walk_at, walk_shape};
 pub use yaml::{Read, read_yaml};

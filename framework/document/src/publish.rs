@@ -22,18 +22,23 @@ const NO_STATE_ID: &str = "The name of a gear consists of letters, digits and `_
 const NO_ID: &str = "An id starts with a letter and consists of letters, digits and `_`. Words such as `on`, `no` and `y` are booleans to \
                      many YAML readers.";
 
+/// Mark of a number in a generated schema that is in the unit of something else, so that `%` has no meaning.
+const BARE: &str = "x-bare";
+
 /// Publishes a composed schema.
 pub fn publish(mut schema: Value) -> Value {
-    visit(&mut schema, None);
+    visit(&mut schema, None, false);
     choose_by_type(&mut schema);
     schema
 }
 
-fn visit(schema: &mut Value, inherited: Option<&'static Unit>) {
+/// Visits a schema with the unit of the list or choice that contains it, and whether its number is bare.
+fn visit(schema: &mut Value, inherited: Option<&'static Unit>, is_bare: bool) {
     let Some(object) = schema.as_object_mut() else { return };
     let is_root = has(object, "$schema");
     object.retain(|key, _| key != "format" && (key != "title" || is_root));
     drop_null(object);
+    let is_bare = is_bare || (has(object, BARE) && object.shift_remove(BARE).is_some());
     let unit = object
         .get("description")
         .and_then(Value::as_str)
@@ -41,18 +46,18 @@ fn visit(schema: &mut Value, inherited: Option<&'static Unit>) {
         .or(inherited);
     for (key, inner) in object.iter_mut() {
         match (key.as_str(), inner) {
-            ("oneOf" | "anyOf", Value::Array(list)) => list.iter_mut().for_each(|inner| visit(inner, unit)),
-            ("allOf", Value::Array(list)) => list.iter_mut().for_each(|inner| visit(inner, None)),
-            ("items", items) => visit(items, unit),
+            ("oneOf" | "anyOf", Value::Array(list)) => list.iter_mut().for_each(|inner| visit(inner, unit, is_bare)),
+            ("allOf", Value::Array(list)) => list.iter_mut().for_each(|inner| visit(inner, None, false)),
+            ("items", items) => visit(items, unit, is_bare),
             ("properties" | "definitions", Value::Object(named)) => {
-                named.values_mut().for_each(|inner| visit(inner, None));
+                named.values_mut().for_each(|inner| visit(inner, None, false));
             }
             _ => {}
         }
     }
     let is = |object: &Map<String, Value>, name: &str| object.get("type").and_then(Value::as_str) == Some(name);
     if is(object, "number") || is(object, "integer") {
-        quantity(object, unit);
+        quantity(object, unit, is_bare);
     } else if is(object, "object") {
         record(object);
     }
@@ -111,26 +116,25 @@ fn drop_null(object: &mut Map<String, Value>) {
     }
 }
 
-fn quantity(object: &mut Map<String, Value>, unit: Option<&'static Unit>) {
+fn quantity(object: &mut Map<String, Value>, unit: Option<&'static Unit>, is_bare: bool) {
     let Some(unit) = unit else { return };
     object.insert("x-unit".to_owned(), json!(unit.symbol));
     if object.get("type").and_then(Value::as_str) != Some("number") {
         return;
     }
-    let message = if unit.dimension == Dimension::None {
-        "Expected a plain number, without unit and quotes.".to_owned()
-    } else {
+    if !is_bare {
         object.insert("type".to_owned(), json!(["number", "string"]));
         object.insert("pattern".to_owned(), json!(unit.pattern()));
-        let name = unit.dimension.name();
-        let article = if name.starts_with(['a', 'e', 'i', 'o']) {
-            "an"
-        } else {
-            "a"
-        };
+    }
+    let message = if is_bare {
+        "Expected a plain number, without unit and quotes.".to_owned()
+    } else if unit.dimension == Dimension::None {
+        "Expected a plain number without quotes, or a percentage such as `95 %`.".to_owned()
+    } else {
         let symbols: Vec<&str> = Unit::symbols(unit.dimension).collect();
         format!(
-            "Expected {article} {name} with its unit, such as `20 {}`, or a bare number in {}. Units: {}.",
+            "Expected {} with its unit, such as `20 {}`, or a bare number in {}. Usual units: {}.",
+            unit.dimension.with_article(),
             unit.symbol,
             unit.symbol,
             symbols.join(", ")
@@ -147,7 +151,7 @@ fn record(object: &mut Map<String, Value>) {
         }
         Some(Value::Bool(false)) => {}
         Some(inner) => {
-            visit(inner, None);
+            visit(inner, None, false);
             let anything = matches!(inner, Value::Bool(true)) || inner.as_object().is_some_and(Map::is_empty);
             if !anything {
                 let names = if object.remove(DIGITS_FIRST).is_some() {

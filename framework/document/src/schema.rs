@@ -21,6 +21,8 @@ pub enum Shape {
         greatest: f64,
         /// A whole number without unit.
         whole: bool,
+        /// Whether it may be a text with a unit.
+        texts: bool,
     },
     /// A text; one of the list unless the list is empty.
     Text(Vec<String>),
@@ -286,6 +288,7 @@ impl Compiler {
             least: bound("minimum", f64::NEG_INFINITY),
             greatest: bound("maximum", f64::INFINITY),
             whole,
+            texts: object.get("type").is_some_and(Value::is_array),
         }
     }
 

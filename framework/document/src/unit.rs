@@ -1,10 +1,14 @@
 //! Units of quantities. Internally all values are SI; temperatures are degC.
 
+mod grammar;
+
 /// Dimension of a unit. Quantities of different dimensions never convert.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Dimension {
     /// A plain number.
     None,
+    /// A number in percent, where the key says so.
+    Percent,
     /// Length, m.
     Length,
     /// Area, m2.
@@ -91,6 +95,7 @@ impl Dimension {
     pub fn name(self) -> &'static str {
         match self {
             Self::None => "plain number",
+            Self::Percent => "percentage",
             Self::Length => "length",
             Self::Area => "area",
             Self::Volume => "volume",
@@ -164,57 +169,55 @@ const fn is_same(mut a: &[u8], mut b: &[u8]) -> bool {
     a.is_empty() && b.is_empty()
 }
 
-/// All spellings, the usual one of each unit first.
+/// The usual units, the most usual one of each dimension first; `grammar` reads all others and other spellings. The factors are those of
+/// the first version to the bit.
 const UNITS: &[Unit] = &[
     unit("-", Dimension::None, 1.0),
+    unit("%", Dimension::Percent, 1.0),
     unit("mm", Dimension::Length, 1e-3),
     unit("um", Dimension::Length, 1e-6),
-    unit("µm", Dimension::Length, 1e-6),
-    unit("μm", Dimension::Length, 1e-6),
     unit("cm", Dimension::Length, 1e-2),
     unit("m", Dimension::Length, 1.0),
     unit("in", Dimension::Length, 25.4e-3),
+    unit("ft", Dimension::Length, 0.3048),
     unit("mm2", Dimension::Area, 1e-6),
-    unit("mm²", Dimension::Area, 1e-6),
     unit("cm2", Dimension::Area, 1e-4),
-    unit("cm²", Dimension::Area, 1e-4),
     unit("m2", Dimension::Area, 1.0),
-    unit("m²", Dimension::Area, 1.0),
+    unit("in2", Dimension::Area, 6.4516e-4),
+    unit("ft2", Dimension::Area, 0.09290304),
     unit("l", Dimension::Volume, 1e-3),
-    unit("L", Dimension::Volume, 1e-3),
     unit("ml", Dimension::Volume, 1e-6),
     unit("cm3", Dimension::Volume, 1e-6),
-    unit("cm³", Dimension::Volume, 1e-6),
     unit("mm3", Dimension::Volume, 1e-9),
     unit("m3", Dimension::Volume, 1.0),
-    unit("m³", Dimension::Volume, 1.0),
+    unit("gal", Dimension::Volume, 3.785411784e-3),
     unit("deg", Dimension::Angle, PI / 180.0),
-    unit("°", Dimension::Angle, PI / 180.0),
     unit("rad", Dimension::Angle, 1.0),
     unit("rpm", Dimension::AngularSpeed, PI / 30.0),
-    unit("1/min", Dimension::AngularSpeed, PI / 30.0),
     unit("rad/s", Dimension::AngularSpeed, 1.0),
+    unit("Hz", Dimension::AngularSpeed, 2.0 * PI),
     unit("m/s", Dimension::Speed, 1.0),
     unit("mm/min", Dimension::Speed, 1e-3 / 60.0),
     unit("km/h", Dimension::Speed, 1.0 / 3.6),
+    unit("mph", Dimension::Speed, 0.44704),
     unit("Nm", Dimension::Torque, 1.0),
-    unit("N m", Dimension::Torque, 1.0),
-    unit("N·m", Dimension::Torque, 1.0),
     unit("mNm", Dimension::Torque, 1e-3),
     unit("N mm", Dimension::Torque, 1e-3),
-    unit("Nmm", Dimension::Torque, 1e-3),
     unit("kNm", Dimension::Torque, 1e3),
-    unit("kN m", Dimension::Torque, 1e3),
+    unit("lbf ft", Dimension::Torque, 1.3558179483314004),
+    unit("lbf in", Dimension::Torque, 0.1129848290276167),
     unit("N", Dimension::Force, 1.0),
     unit("kN", Dimension::Force, 1e3),
+    unit("lbf", Dimension::Force, 4.4482216152605),
     unit("N/mm", Dimension::LineLoad, 1e3),
     unit("N/um", Dimension::LineLoad, 1e6),
     unit("kN/mm", Dimension::LineLoad, 1e6),
     unit("N/m", Dimension::LineLoad, 1.0),
     unit("Nm/rad", Dimension::AngularStiffness, 1.0),
-    unit("N m/rad", Dimension::AngularStiffness, 1.0),
     unit("W", Dimension::Power, 1.0),
     unit("kW", Dimension::Power, 1e3),
+    unit("hp", Dimension::Power, 745.6998715822702),
+    unit("PS", Dimension::Power, 735.49875),
     unit("J", Dimension::Energy, 1.0),
     unit("kJ", Dimension::Energy, 1e3),
     unit("MJ", Dimension::Energy, 1e6),
@@ -223,31 +226,31 @@ const UNITS: &[Unit] = &[
     unit("kg", Dimension::Mass, 1.0),
     unit("g", Dimension::Mass, 1e-3),
     unit("t", Dimension::Mass, 1e3),
+    unit("lb", Dimension::Mass, 0.45359237),
     unit("kg/m3", Dimension::Density, 1.0),
-    unit("kg/m³", Dimension::Density, 1.0),
     unit("kg/l", Dimension::Density, 1e3),
     unit("g/cm3", Dimension::Density, 1e3),
-    unit("g/cm³", Dimension::Density, 1e3),
     unit("mm2/s", Dimension::KinematicViscosity, 1e-6),
-    unit("mm²/s", Dimension::KinematicViscosity, 1e-6),
     unit("cSt", Dimension::KinematicViscosity, 1e-6),
     unit("m2/s", Dimension::KinematicViscosity, 1.0),
-    unit("m²/s", Dimension::KinematicViscosity, 1.0),
     unit("mPa s", Dimension::DynamicViscosity, 1e-3),
-    unit("mPas", Dimension::DynamicViscosity, 1e-3),
-    unit("mPa·s", Dimension::DynamicViscosity, 1e-3),
     unit("cP", Dimension::DynamicViscosity, 1e-3),
     unit("Pa s", Dimension::DynamicViscosity, 1.0),
+    unit("K", Dimension::TemperatureDifference, 1.0),
     unit("degC", Dimension::Temperature, 1.0),
-    unit("°C", Dimension::Temperature, 1.0),
-    unit("C", Dimension::Temperature, 1.0),
     Unit {
         symbol: "degF",
         dimension: Dimension::Temperature,
         factor: 5.0 / 9.0,
         offset: -160.0 / 9.0,
     },
-    unit("K", Dimension::TemperatureDifference, 1.0),
+    // An absolute temperature where one is due; elsewhere K is a difference.
+    Unit {
+        symbol: "K",
+        dimension: Dimension::Temperature,
+        factor: 1.0,
+        offset: -273.15,
+    },
     unit("1/K", Dimension::Expansion, 1.0),
     unit("Pa", Dimension::Pressure, 1.0),
     unit("kPa", Dimension::Pressure, 1e3),
@@ -255,35 +258,30 @@ const UNITS: &[Unit] = &[
     unit("MPa", Dimension::Pressure, 1e6),
     unit("N/mm2", Dimension::Pressure, 1e6),
     unit("GPa", Dimension::Pressure, 1e9),
+    unit("psi", Dimension::Pressure, 6894.757293168361),
     unit("1/GPa", Dimension::PressureCoefficient, 1e-9),
     unit("1/Pa", Dimension::PressureCoefficient, 1.0),
     unit("s", Dimension::Time, 1.0),
+    unit("ms", Dimension::Time, 1e-3),
     unit("min", Dimension::Time, 60.0),
     unit("h", Dimension::Time, 3600.0),
     unit("m/s2", Dimension::Acceleration, 1.0),
-    unit("m/s²", Dimension::Acceleration, 1.0),
     unit("rpm/s", Dimension::AngularAcceleration, PI / 30.0),
     unit("rad/s2", Dimension::AngularAcceleration, 1.0),
-    unit("rad/s²", Dimension::AngularAcceleration, 1.0),
     unit("N s/m", Dimension::SpeedResistance, 1.0),
     unit("N/(km/h)", Dimension::SpeedResistance, 3.6),
     unit("N s2/m2", Dimension::SquareResistance, 1.0),
-    unit("N s²/m²", Dimension::SquareResistance, 1.0),
     unit("N/(km/h)2", Dimension::SquareResistance, 12.96),
-    unit("N/(km/h)²", Dimension::SquareResistance, 12.96),
     unit("l/min", Dimension::Flow, 1e-3 / 60.0),
-    unit("L/min", Dimension::Flow, 1e-3 / 60.0),
     unit("m3/s", Dimension::Flow, 1.0),
+    unit("gal/min", Dimension::Flow, 3.785411784e-3 / 60.0),
     unit("kg/s", Dimension::MassFlow, 1.0),
     unit("kg/min", Dimension::MassFlow, 1.0 / 60.0),
     unit("g/s", Dimension::MassFlow, 1e-3),
     unit("W/(m2 K)", Dimension::HeatTransfer, 1.0),
-    unit("W/(m² K)", Dimension::HeatTransfer, 1.0),
-    unit("W/m2K", Dimension::HeatTransfer, 1.0),
     unit("W/K", Dimension::Conductance, 1.0),
     unit("K/W", Dimension::Resistance, 1.0),
     unit("W/(m K)", Dimension::Conductivity, 1.0),
-    unit("W/mK", Dimension::Conductivity, 1.0),
     unit("J/K", Dimension::HeatCapacity, 1.0),
     unit("kJ/K", Dimension::HeatCapacity, 1e3),
     unit("J/(kg K)", Dimension::SpecificHeat, 1.0),
@@ -294,7 +292,7 @@ impl Unit {
     /// The plain number.
     pub const ONE: &'static Unit = &unit("-", Dimension::None, 1.0);
 
-    /// The unit of a symbol.
+    /// The unit of one of the program's own symbols; [`Unit::read`] reads what users write.
     pub const fn of_symbol(symbol: &str) -> Option<&'static Unit> {
         Self::of_bytes(symbol.as_bytes())
     }
@@ -333,12 +331,12 @@ impl Unit {
         None
     }
 
-    /// All symbols of a dimension.
+    /// The usual symbols of a dimension.
     pub fn symbols(dimension: Dimension) -> impl Iterator<Item = &'static str> {
         UNITS.iter().filter(move |u| u.dimension == dimension).map(|u| u.symbol)
     }
 
-    /// All symbols.
+    /// All usual symbols.
     pub fn all_symbols() -> impl Iterator<Item = &'static str> {
         UNITS.iter().map(|u| u.symbol)
     }
@@ -361,23 +359,122 @@ impl Unit {
         (si - self.offset) / self.factor
     }
 
+    /// The number in this unit from which the same bits in SI are read; `None` if it has more than 13 digits.
+    pub fn written(&self, si: f64) -> Option<f64> {
+        let own = self.from_si(si);
+        let tidy: f64 = format!("{own:.12e}").parse().unwrap_or(own);
+        (self.to_si(tidy).to_bits() == si.to_bits()).then_some(tidy)
+    }
+
+    /// The usual units of a dimension.
+    pub fn usual(dimension: Dimension) -> impl Iterator<Item = &'static Unit> {
+        UNITS.iter().filter(move |unit| unit.dimension == dimension)
+    }
+
     /// Regular expression of a quantity of this unit's dimension written as text.
     pub fn pattern(&self) -> String {
-        let symbols: Vec<String> = Self::symbols(self.dimension)
-            .map(|symbol| {
-                symbol.chars().fold(String::new(), |mut text, c| {
-                    if "()^.*+?|[]{}".contains(c) {
-                        text.push('\\');
-                    }
-                    text.push(c);
-                    text
-                })
-            })
-            .collect();
         format!(
             "^[+-]?([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][+-]?[0-9]+)? ?({})$",
-            symbols.join("|")
+            grammar::pattern(self.dimension)
         )
+    }
+
+    /// How numbers in this unit become SI.
+    pub const fn conversion(&self) -> Conversion {
+        Conversion {
+            dimension: self.dimension,
+            factor: self.factor,
+            offset: self.offset,
+        }
+    }
+
+    /// A unit in any known spelling, of whatever dimension; `K` is a difference of temperatures, `%` a hundredth.
+    pub fn read(text: &str) -> Option<Conversion> {
+        match Self::of_symbol(text) {
+            Some(unit) if unit.dimension != Dimension::Percent => Some(unit.conversion()),
+            _ => grammar::read(text, None),
+        }
+    }
+
+    /// Whether two texts are the same unit in perhaps different spellings.
+    pub fn is_same(a: &str, b: &str) -> bool {
+        a == b || Self::read(a).is_some_and(|unit| Self::read(b) == Some(unit))
+    }
+
+    /// A unit of a dimension in any known spelling. This is the only reader of the units that users write.
+    ///
+    /// # Errors
+    /// If it is unknown or of another dimension, with a help that does not repeat the number with another unit.
+    pub fn read_as(text: &str, dimension: Dimension) -> Result<Conversion, UnitFault> {
+        let own = UNITS
+            .iter()
+            .find(|unit| unit.dimension == dimension && unit.symbol == text);
+        match own {
+            Some(unit) => Ok(unit.conversion()),
+            None => grammar::read(text, Some(dimension)).ok_or_else(|| UnitFault::new(text, dimension)),
+        }
+    }
+}
+
+/// How numbers in a unit become SI.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Conversion {
+    /// Dimension of the unit.
+    pub dimension: Dimension,
+    /// SI value of one, less that of zero.
+    pub factor: f64,
+    /// SI value of zero.
+    pub offset: f64,
+}
+
+impl Conversion {
+    /// A number in this unit, in SI.
+    #[inline]
+    pub fn to_si(&self, x: f64) -> f64 {
+        x * self.factor + self.offset
+    }
+}
+
+/// A unit that is not read.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct UnitFault {
+    /// What is wrong.
+    pub message: String,
+    /// How to fix it.
+    pub help: String,
+}
+
+impl UnitFault {
+    /// The fault of a text that is no unit of a dimension.
+    pub fn new(text: &str, dimension: Dimension) -> Self {
+        let message = match Unit::read(text) {
+            Some(found) => format!(
+                "`{text}` is {}, not {}",
+                found.dimension.with_article(),
+                dimension.with_article()
+            ),
+            None => format!("unknown unit `{text}`"),
+        };
+        let known = match dimension {
+            Dimension::None => "this is a plain number: only `%` may follow it".to_owned(),
+            _ => {
+                let symbols: Vec<&str> = Unit::symbols(dimension).collect();
+                format!("{} is written in {}", dimension.with_article(), symbols.join(", "))
+            }
+        };
+        let is_dynamic = Unit::read(text).is_some_and(|found| found.dimension == Dimension::DynamicViscosity);
+        let why = match dimension {
+            // Oils have keys for both.
+            Dimension::KinematicViscosity if is_dynamic => Some(
+                "divide a dynamic viscosity by the density, or state it in an oil as `eta40`, `eta100` or `dynamic`",
+            ),
+            _ => grammar::why_refused(text, dimension),
+        };
+        let help = match why {
+            Some(why) => format!("{why}; {known}"),
+            None => known,
+        };
+        Self { message, help }
     }
 }
 
@@ -389,7 +486,8 @@ mod tests {
     #[test]
     fn every_symbol_is_written_once_and_converts_there_and_back() {
         for (i, u) in UNITS.iter().enumerate() {
-            assert!(UNITS[..i].iter().all(|v| v.symbol != u.symbol), "{}", u.symbol);
+            let is_other = |v: &Unit| (v.symbol, v.dimension) != (u.symbol, u.dimension);
+            assert!(UNITS[..i].iter().all(is_other), "{}", u.symbol);
             for x in [-40.0, 0.0, 1.0, 123.456] {
                 let back = u.from_si(u.to_si(x));
                 assert!((back - x).abs() <= 1e-12 * (1.0 + x.abs()), "{} {x} {back}", u.symbol);
@@ -416,7 +514,6 @@ mod tests {
         assert_eq!(flow.dimension, Dimension::MassFlow);
         let symbols: Vec<&str> = Unit::symbols(Dimension::MassFlow).collect();
         assert_eq!(symbols, ["kg/s", "kg/min", "g/s"]);
-        assert!(flow.pattern().ends_with(" ?(kg/s|kg/min|g/s)$"), "{}", flow.pattern());
         for (symbol, si) in [("kg/s", 6.0), ("kg/min", 0.1), ("g/s", 0.006)] {
             assert!(
                 (Unit::of_symbol(symbol).unwrap().to_si(6.0) - si).abs() < 1e-15,

@@ -179,7 +179,16 @@ impl<'a> Walker<'a> {
                 least,
                 greatest,
                 whole,
-            } => self.number(node, unit, *least, *greatest, *whole),
+                texts,
+            } => {
+                let percent = matches!(&node.content, Content::Text { text, .. } if text.trim_end().ends_with('%'));
+                if percent && !texts {
+                    self.report(node, "a percentage where none is due", "write a number without a unit");
+                    self.last_is(codes::WRONG_UNIT);
+                    return None;
+                }
+                self.number(node, unit, *least, *greatest, *whole)
+            }
             Shape::Text(words) => self.text(node, words),
             Shape::Bool => self.boolean(node),
             Shape::Any => Some(node.to_json()),

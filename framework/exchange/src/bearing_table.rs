@@ -166,10 +166,7 @@ fn take_units(table: &mut Table) {
     let is_unit = |cell: &String| cell.is_empty() || headings::unit(cell).is_some() || cell == "-";
     let first = table.rows.first();
     if !first.is_some_and(|(_, cells)| {
-        cells.iter().all(is_unit)
-            && cells
-                .iter()
-                .any(|cell| headings::unit(cell).is_some_and(|unit| unit.symbol != "-"))
+        cells.iter().all(is_unit) && cells.iter().any(|cell| cell != "-" && headings::unit(cell).is_some())
     }) {
         return;
     }
@@ -213,7 +210,18 @@ fn columns(table: &Table, name: &str, options: &Options) -> Result<(Vec<Used>, V
             unused.push(format!("{header} (a second column of `{}`)", key.name));
             continue;
         }
-        let unit = unit.or_else(|| table.units[place].clone());
+        let own = table.units[place].as_deref();
+        if let (Some(option), Some(own)) = (&unit, own)
+            && let (Some(a), Some(b)) = (Unit::read(option), Unit::read(headings::bare(own)))
+            && a != b
+        {
+            let message =
+                format!("column `{header}` is in `{own}` according to the file, in `{option}` according to --columns");
+            let help = format!("write `--columns \"{}={header}\"`, or correct the file", key.name);
+            found.push(error(format!("{name}: {}{message}", table.at_header()), &help));
+            continue;
+        }
+        let unit = unit.or_else(|| own.map(str::to_owned));
         match factor(key, unit.as_deref(), header) {
             Ok(factor) => used.push(Used {
                 key,
@@ -280,16 +288,24 @@ fn factor(key: &Key, unit: Option<&str>, header: &str) -> Result<f64, (String, S
     if key.unit.is_empty() || key.unit == "-" {
         return Ok(1.0);
     }
-    let state = || format!("state it: `--columns \"{}={header} [{}]\"`", key.name, key.unit);
     let Some(symbol) = unit else {
-        return Err((format!("column `{header}` ({}) has no unit", key.name), state()));
+        return Err((
+            format!("column `{header}` ({}) has no unit", key.name),
+            format!(
+                "state the unit that it has, such as `--columns \"{}={header} [{}]\"`",
+                key.name, key.unit
+            ),
+        ));
     };
     let due = Unit::of_symbol(key.unit).unwrap_or(Unit::ONE);
-    match headings::unit(symbol) {
-        Some(unit) if unit.dimension == due.dimension => Ok(unit.factor / due.factor),
-        _ => Err((
-            format!("column `{header}`: `{symbol}` is not a unit of `{}`", key.name),
-            state(),
+    match Unit::read_as(headings::bare(symbol), due.dimension) {
+        Ok(unit) => Ok(unit.factor / due.factor),
+        Err(wrong) => Err((
+            format!("column `{header}` ({}): {}", key.name, wrong.message),
+            format!(
+                "{}: state it by `--columns \"{}={header} [UNIT]\"`",
+                wrong.help, key.name
+            ),
         )),
     }
 }

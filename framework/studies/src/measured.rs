@@ -49,6 +49,9 @@ pub struct MeasuredEntry {
     /// Unit of each quantity, unless the header or a row of units states it: `efficiency: "%"`.
     #[serde(default)]
     pub units: Ordered<String>,
+    /// `units` have precedence where a file states different ones; otherwise that is an error.
+    #[serde(default)]
+    pub units_override: bool,
     /// Sheet of a workbook (.xlsx); default: the first one.
     pub sheet: Option<String>,
     /// Channel group of an MDF file (.mf4), by its name or its number from 1 on; needed if several have samples.
@@ -306,7 +309,7 @@ pub(crate) mod tests {
         let plain = entry(&[], &[]);
         assert!(refused(&plain, "torque,speed [rpm]\n1,2\n").contains("column `torque` has no unit"));
         assert!(refused(&plain, "torque [Nm],speed [rpm],efficiency\n1,2,0.9\n").contains("percent"));
-        assert!(refused(&plain, "torque [rpm],speed [rpm]\n1,2\n").contains("`rpm` is not a unit of torque"));
+        assert!(refused(&plain, "torque [rpm],speed [rpm]\n1,2\n").contains("`rpm` is an angular speed, not a torque"));
         assert!(refused(&plain, "torque [Nm],n [rpm]\n1,2\n").contains("there is no column for the speed"));
         assert!(
             refused(&entry(&[("speed", "n")], &[]), "torque [Nm],m [rpm]\n1,2\n").contains("there is no column `n`")

@@ -146,6 +146,12 @@ impl Varied {
         };
         let number = match written {
             Value::Number(x) => x.as_f64().unwrap_or(f64::NAN),
+            Value::String(text) if difference && text.trim_end().ends_with('%') => {
+                // Of the value, or of one?
+                return Err(format!(
+                    "`{text}` is no difference: `percent` states a share of the value, a number without `%` a difference"
+                ));
+            }
             Value::String(text) => {
                 let si = gearloss_framework::document::parse_quantity(text, unit).map_err(|fault| fault.message)?;
                 unit.from_si(si)

@@ -50,10 +50,9 @@ fn quantity(si: f64, documented: &'static Unit) -> Option<Value> {
         return None;
     }
     let own = documented.from_si(si);
-    let tidy: f64 = format!("{own:.12e}").parse().unwrap_or(own);
     let exact = |number: &f64| documented.to_si(*number).to_bits() == si.to_bits();
     let written = |number: f64, unit: &Unit| format!("{number} {}", unit.symbol);
-    if exact(&tidy) {
+    if let Some(tidy) = documented.written(si) {
         return Some(Value::from(written(tidy, documented)));
     }
     // A number with many digits in its documented unit may have few in SI.

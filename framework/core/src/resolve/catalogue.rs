@@ -95,9 +95,15 @@ impl CatalogueTable {
         let mut columns = Vec::new();
         for name in &header {
             let (key, unit) = match name.split_once('[') {
-                Some((key, _)) => {
-                    let unit = Unit::of_doc(name).ok_or_else(|| format!("line 1: column `{name}`: unknown unit"))?;
-                    (key.trim().to_owned(), Some(unit))
+                Some((key, unit)) => {
+                    let unit = unit.trim_end().trim_end_matches(']');
+                    let read = Unit::read(unit).ok_or_else(|| format!("line 1: column `{name}`: unknown unit"))?;
+                    // A dash marks a plain number.
+                    let is_plain = read.dimension == Dimension::None;
+                    (
+                        key.trim().to_owned(),
+                        Some(if is_plain && read.factor == 1.0 { "" } else { unit }),
+                    )
                 }
                 None => (name.to_owned(), None),
             };
@@ -128,10 +134,9 @@ impl CatalogueTable {
                             .ok()
                             .filter(|x: &f64| x.is_finite())
                             .ok_or_else(|| format!("line {line}: column `{key}`: `{cell}` is not a number"))?;
-                        let value = if unit.dimension == Dimension::None {
-                            Value::from(number)
-                        } else {
-                            Value::from(format!("{cell} {}", unit.symbol))
+                        let value = match *unit {
+                            "" => Value::from(number),
+                            unit => Value::from(format!("{cell} {unit}")),
                         };
                         row.values.push((key.clone(), value));
                     }

@@ -208,7 +208,7 @@ pub fn name_and_unit(header: &str) -> (String, Option<String>) {
 
 fn is_unit(cell: &str) -> bool {
     let bare = cell.trim_start_matches(['[', '(']).trim_end_matches([']', ')']);
-    matches!(bare, "" | "%" | "-" | "1") || Unit::of_symbol(bare).is_some()
+    matches!(bare, "" | "-" | "1") || Unit::read(bare).is_some()
 }
 
 /// Line of a record; its position includes the comments and empty lines before it.

@@ -1,7 +1,7 @@
 //! The columns of a file with requested quantities.
 
 use super::cells::{Form, Table, number, table};
-use super::{MeasuredFault, fault, scale};
+use super::{MeasuredFault, StatedUnit, fault, greatest, scale};
 use crate::{Ordered, did_you_mean};
 
 /// A quantity of a file: name and documented unit, which is empty for texts.
@@ -10,14 +10,24 @@ pub type Wanted<'a> = (&'a str, &'a str);
 /// Maximum number of reported errors of one kind.
 pub const TOLD: usize = 5;
 
-/// Larger values are meaningless in a cycle; products of numbers below it remain finite.
-const MOST: f64 = 1e12;
-
 struct Column {
     place: usize,
     header: String,
     /// Factor and offset to SI; absent for texts.
     unit: Option<(f64, f64)>,
+    /// Largest amount, SI.
+    greatest: f64,
+}
+
+/// Where a study says which columns are which quantities, and in which units.
+#[derive(Clone, Copy, Default)]
+pub struct Assigned<'a> {
+    /// Column of each quantity.
+    pub columns: Option<&'a Ordered<String>>,
+    /// Unit of each quantity.
+    pub units: Option<&'a Ordered<String>>,
+    /// Whether these units have precedence over different ones of the file.
+    pub units_override: bool,
 }
 
 /// A table with the columns of the requested quantities.
@@ -35,10 +45,12 @@ impl Sheet {
         bytes: &[u8],
         form: Form<'_>,
         wanted: &[Wanted],
-        (columns, units): (&Ordered<String>, &Ordered<String>),
+        assigned: Assigned<'_>,
     ) -> Result<Self, Vec<MeasuredFault>> {
         let mut notes = Vec::new();
         let table = table(bytes, form, &mut notes).map_err(|f| vec![f])?;
+        let none = Ordered::default();
+        let (columns, units) = (assigned.columns.unwrap_or(&none), assigned.units.unwrap_or(&none));
         let mut found = Vec::new();
         for key in columns.ids().chain(units.ids()) {
             if wanted.iter().all(|(name, _)| *name != key) {
@@ -59,12 +71,19 @@ impl Sheet {
             let taken = written.is_none() && columns.iter().any(|(_, column)| column == name);
             let place = table.names.iter().position(|n| n == header).filter(|_| !taken);
             let column = place.and_then(|place| {
-                let stated = units.get(name).or(table.units[place].as_ref());
+                let stated = StatedUnit {
+                    study: units.get(name).map(String::as_str),
+                    file: table.units[place].as_deref(),
+                    overrides: assigned.units_override,
+                };
                 let unit = if due.is_empty() {
                     None
                 } else {
-                    match scale((name, due), stated.map(String::as_str), header) {
-                        Ok(unit) => Some(unit),
+                    match scale((name, due), stated, header) {
+                        Ok(unit) => {
+                            notes.extend(overridden(stated, header));
+                            Some(unit)
+                        }
                         Err(f) => {
                             let message = format!("{}{}", table.at_header().replace(": ", ", "), f.message);
                             found.push(fault(message, f.help));
@@ -76,6 +95,7 @@ impl Sheet {
                     place,
                     header: header.to_owned(),
                     unit,
+                    greatest: greatest(due),
                 })
             });
             if let (Some(header), true) = (written, !table.names.contains(&header.to_owned())) {
@@ -114,7 +134,7 @@ impl Sheet {
         let number = number(self.table.decimal, (*line, cells), (column.place, &column.header))?;
         let (factor, offset) = column.unit.unwrap_or((1.0, 0.0));
         let number = number * factor + offset;
-        if number.abs() > MOST {
+        if number.abs() > column.greatest * (1.0 + 1e-12) {
             return Err(format!(
                 "{}: `{}` is unrealistically large",
                 self.describe_cell(row, wanted),
@@ -182,6 +202,13 @@ impl Sheet {
             format!("state one under `columns: {{ {name}: ... }}`"),
         )
     }
+}
+
+/// The note that the study replaces the unit of a column.
+pub fn overridden(unit: StatedUnit<'_>, header: &str) -> Option<String> {
+    let (study, file) = (unit.study?, unit.file?);
+    let is_overridden = unit.is_overridden();
+    is_overridden.then(|| format!("column `{header}` is read in {study}, not in {file} as the file states"))
 }
 
 /// One error for each of the first messages, and the number of further ones.

@@ -3,7 +3,7 @@
 //! The headings are the words of the usual symbols of ISO 281 and ISO 76, of product tables of SKF and Schaeffler, and common
 //! variants. A heading that is not here is assigned by the user.
 
-use gearloss_document::Unit;
+use gearloss_document::{Conversion, Unit};
 
 /// A key of the catalogue.
 #[derive(Debug, PartialEq)]
@@ -206,17 +206,18 @@ pub(super) fn key(heading: &str) -> Option<&'static Key> {
     })
 }
 
-/// A unit in the spellings of catalogues.
-pub(super) fn unit(symbol: &str) -> Option<&'static Unit> {
-    let bare = symbol
-        .trim()
-        .trim_start_matches(['[', '('])
-        .trim_end_matches([']', ')'])
-        .trim();
-    match bare {
-        "r/min" | "1/min" | "min-1" | "min^-1" | "min⁻¹" | "U/min" | "rev/min" | "/min" => Unit::of_symbol("rpm"),
-        _ => Unit::of_symbol(bare),
-    }
+/// A unit, also in brackets.
+pub(super) fn unit(symbol: &str) -> Option<Conversion> {
+    Unit::read(bare(symbol))
+}
+
+/// A unit without its brackets.
+pub(super) fn bare(symbol: &str) -> &str {
+    let symbol = symbol.trim();
+    let inner = [('[', ']'), ('(', ')')]
+        .into_iter()
+        .find_map(|(open, close)| symbol.strip_prefix(open)?.strip_suffix(close));
+    inner.unwrap_or(symbol).trim()
 }
 
 /// No symbol and no word belongs to two keys.

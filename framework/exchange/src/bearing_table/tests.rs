@@ -134,7 +134,10 @@ fn other_headings_are_assigned() {
         found.text
     );
     assert!(refused(text, &options(&["d=inner"])).contains("column `inner` (bore) has no unit"));
-    assert!(refused(text, &options(&["d=inner [kg]"])).contains("`kg` is not a unit of `bore`"));
+    assert!(refused(text, &options(&["d=inner [kg]"])).contains("(bore): `kg` is a mass, not a length"));
+    let twice = "Art.;inner [mm];outer [mm]\nX1;40;80\n";
+    let both = ["designation=Art.", "d=inner [in]", "outside=outer"];
+    assert!(refused(twice, &options(&both)).contains("in `mm` according to the file, in `in` according to --columns"));
     assert!(refused(text, &options(&["dia=inner [mm]"])).contains("`dia` is no key of a catalogue"));
     assert!(refused(text, &options(&["d=iner [mm]"])).contains("there is no column `iner`"));
     let kind = Options {

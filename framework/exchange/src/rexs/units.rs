@@ -1,5 +1,7 @@
 //! Units of REXS, converted to those of gearbox files.
 
+use gearloss_document::Unit;
+
 /// A quantity of gearbox files and its unit there.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Quantity {
@@ -108,10 +110,13 @@ const UNITS: &[(&str, Quantity, f64)] = &[
 pub fn converted(value: f64, unit: &str, quantity: Quantity) -> Option<f64> {
     let unit: String = unit.chars().filter(|c| !c.is_whitespace()).collect();
     let mut known = UNITS.iter().filter(|(_, own, _)| *own == quantity);
-    let (name, _, factor) = if unit.is_empty() || unit == "none" {
-        known.next()?
+    let listed = if unit.is_empty() || unit == "none" {
+        Some(known.next()?)
     } else {
-        known.find(|(name, _, _)| *name == unit)?
+        known.find(|(name, _, _)| *name == unit)
+    };
+    let Some((name, _, factor)) = listed else {
+        return written_otherwise(value, &unit, quantity);
     };
     let offset = if *name == "K" && quantity == Temperature {
         -273.15
@@ -119,6 +124,33 @@ pub fn converted(value: f64, unit: &str, quantity: Quantity) -> Option<f64> {
         0.0
     };
     Some(value * factor + offset)
+}
+
+/// A value in a unit that the specification does not list.
+fn written_otherwise(value: f64, unit: &str, quantity: Quantity) -> Option<f64> {
+    let target = Unit::of_symbol(match quantity {
+        Length => "mm",
+        Roughness => "um",
+        Angle => "deg",
+        Force | LoadRating => "N",
+        Moment => "Nm",
+        Power => "W",
+        Speed => "rpm",
+        Temperature => "degC",
+        Viscosity => "mm2/s",
+        Density => "kg/m3",
+        Stiffness => "N/mm",
+        TiltingStiffness => "Nm/rad",
+        Modulus => "GPa",
+        Time => "h",
+        HeatCapacity => "J/(kg K)",
+        Conductivity => "W/(m K)",
+        Area => "cm2",
+        Mass => "kg",
+        Percent | Resistance | Number => return None,
+    })?;
+    let unit = Unit::read_as(unit, target.dimension).ok()?;
+    Some(target.from_si(unit.to_si(value)))
 }
 
 /// The units in which a quantity can be written.

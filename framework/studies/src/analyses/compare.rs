@@ -62,7 +62,7 @@ pub struct CompareEntry {
     #[serde(default)]
     pub quantity: Quantity,
     /// Accuracy of a measurement, in the unit of the difference: maps mark differences below it. [-]
-    #[schemars(range(min = 0.0, max = 1e9))]
+    #[schemars(range(min = 0.0, max = 1e9), extend("x-bare" = true))]
     pub accuracy: Option<f64>,
     /// Unit of the difference: the other set minus the base, or model minus measurement.
     #[serde(default)]

@@ -55,7 +55,7 @@ pub struct RmsSurfaceEntry {
     #[serde(default)]
     pub difference: Difference,
     /// Accuracy of the measurement, in the unit of the difference, if no column states it. [-]
-    #[schemars(range(min = 0.0, max = 1e9))]
+    #[schemars(range(min = 0.0, max = 1e9), extend("x-bare" = true))]
     pub accuracy: Option<f64>,
     /// The first quantity.
     pub x: SurfaceAxisEntry,

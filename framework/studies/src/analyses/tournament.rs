@@ -104,7 +104,7 @@ pub struct CandidatesEntry {
 /// Accuracy of measured losses: relative, constant, or both, which are added as squares.
 #[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
 pub struct LossErrorsEntry {
-    /// Standard deviation in percent of the loss, positive. [-]
+    /// Standard deviation in percent of the loss, positive. [%]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub percent: Option<f64>,
     /// Standard deviation at every point, positive. [W]

@@ -58,6 +58,9 @@ pub struct FileCycleEntry {
     /// Unit of each quantity or node, unless the header or a row of units states it: `vehicle_speed: km/h`.
     #[serde(default)]
     pub units: Ordered<String>,
+    /// `units` have precedence where the file states different ones; otherwise that is an error.
+    #[serde(default)]
+    pub units_override: bool,
     /// Port at which torque and speed were recorded.
     #[serde(default = "input")]
     #[schemars(extend("x-refers-to" = "ports"))]
@@ -287,6 +290,7 @@ impl FileCycleEntry {
             columns: Ordered::default(),
             temperatures: Ordered::default(),
             units: Ordered::default(),
+            units_override: false,
             port: input(),
             sheet: None,
             group: None,

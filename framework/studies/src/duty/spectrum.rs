@@ -6,7 +6,7 @@ use serde::Deserialize;
 use super::{Demand, Given, Interval};
 use crate::measured::text::Form;
 use crate::measured::{Decimal, Encoding, MeasuredFault, Separator, fault};
-use gearloss_document::data::sheet::{Sheet, Wanted, limited_faults};
+use gearloss_document::data::sheet::{Assigned, Sheet, Wanted, limited_faults};
 use gearloss_framework::description::Ordered;
 
 /// The load cases of a spectrum: a list, or a file.
@@ -54,6 +54,9 @@ pub struct SpectrumFile {
     /// Unit of each quantity, unless the header or a row of units states it.
     #[serde(default)]
     pub units: Ordered<String>,
+    /// `units` have precedence where the file states different ones; otherwise that is an error.
+    #[serde(default)]
+    pub units_override: bool,
     /// Sheet of a workbook (.xlsx); default: the first one.
     pub sheet: Option<String>,
     /// Channel group of an MDF file (.mf4), by its name or its number from 1 on; needed if several have samples.
@@ -84,7 +87,16 @@ impl SpectrumFile {
             decimal: self.decimal,
             encoding: self.encoding,
         };
-        let sheet = Sheet::open(bytes, form, &QUANTITIES, (&self.columns, &self.units))?;
+        let sheet = Sheet::open(
+            bytes,
+            form,
+            &QUANTITIES,
+            Assigned {
+                columns: Some(&self.columns),
+                units: Some(&self.units),
+                units_override: self.units_override,
+            },
+        )?;
         let due = [("the torque", "torque"), ("the speed", "speed")];
         let lacks: Vec<_> = due
             .iter()
@@ -193,6 +205,7 @@ mod tests {
             about: None,
             columns: Ordered::default(),
             units: Ordered::default(),
+            units_override: false,
             sheet: None,
             group: None,
             separator: None,

@@ -3,7 +3,7 @@
 use super::{Demand, FileCycleEntry, Given, Interval, Vehicle};
 use crate::measured::text::Form;
 use crate::measured::{MeasuredFault, fault};
-use gearloss_document::data::sheet::{Sheet, Wanted, limited_faults};
+use gearloss_document::data::sheet::{Assigned, Sheet, Wanted, limited_faults};
 
 /// One row of a series; SI.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -224,7 +224,16 @@ fn open(entry: &FileCycleEntry, bytes: &[u8]) -> Result<Sheet, Vec<MeasuredFault
         }
         columns.0.push((name.to_owned(), column.clone()));
     }
-    let sheet = Sheet::open(bytes, form, &wanted, (&columns, &entry.units))?;
+    let sheet = Sheet::open(
+        bytes,
+        form,
+        &wanted,
+        Assigned {
+            columns: Some(&columns),
+            units: Some(&entry.units),
+            units_override: entry.units_override,
+        },
+    )?;
     let mut lacks = Vec::new();
     if !sheet.holds(TIME) {
         lacks.push(sheet.lacks("the time", "time"));

@@ -3,10 +3,13 @@
 use crate::codes;
 use gearloss_framework::document::{Diagnostic, Dimension, Unit, did_you_mean};
 
+/// Largest amount of a quantity, SI: above pressures and shear rates of any test, so that squares remain finite.
+const GREATEST: f64 = 1e15;
+
 /// Dimension of a unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Measure {
-    /// As in gearbox files, and nanometres for films.
+    /// As in gearbox files.
     Of(Dimension),
     /// Shear rate, 1/s.
     ShearRate,
@@ -37,11 +40,9 @@ impl Quantity {
     /// Factor and offset of a unit to SI.
     fn conversion(&self, symbol: &str) -> Option<(f64, f64)> {
         match (self.measure, symbol) {
-            (Measure::ShearRate, "1/s") | (Measure::Of(Dimension::None), "") => Some((1.0, 0.0)),
-            (Measure::Of(Dimension::Length), "nm") => Some((1e-9, 0.0)),
-            (Measure::Of(Dimension::None), "%") => Some((0.01, 0.0)),
-            (Measure::Of(dimension), _) => Unit::of_symbol(symbol)
-                .filter(|unit| unit.dimension == dimension)
+            (Measure::ShearRate, "1/s" | "s-1" | "s^-1") | (Measure::Of(Dimension::None), "") => Some((1.0, 0.0)),
+            (Measure::Of(dimension), _) => Unit::read_as(symbol, dimension)
+                .ok()
                 .map(|unit| (unit.factor, unit.offset)),
             (Measure::ShearRate, _) => None,
         }
@@ -171,8 +172,12 @@ impl Columns {
                 let message = format!("{place}: `{cell}` is not a number");
                 self.wrong(Some(row), &message, "write a number, or delete the row")
             })?;
-            if any || number > 0.0 {
-                Ok(number * factor + zero)
+            let value = number * factor + zero;
+            if value.abs() > GREATEST {
+                let message = format!("{place}: {cell} is unrealistically large");
+                Err(self.wrong(Some(row), &message, "correct the number, or delete the row"))
+            } else if any || number > 0.0 {
+                Ok(value)
             } else {
                 let message = format!("{place}: {cell} is not positive");
                 Err(self.wrong(Some(row), &message, "write magnitudes, and delete points at standstill"))

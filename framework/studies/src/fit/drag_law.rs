@@ -1,7 +1,7 @@
 //! Drag of a planetary set as a power law of speed, viscosity and oil volume.
 
 use crate::codes;
-use gearloss_framework::document::Diagnostic;
+use gearloss_framework::document::{Diagnostic, Unit};
 use gearloss_framework::table::{Reading, Table, columns};
 use gearloss_numerics::fit::{PowerFit, power_law};
 
@@ -47,7 +47,7 @@ impl DragLaw {
         }
         let tables = Table::several_from_csv(text, &Reading::default(), count).map_err(wrong)?;
         for axis in tables[0].axes() {
-            if let Some((_, unit, _)) = known(&axis.name).filter(|(_, unit, _)| *unit != axis.unit) {
+            if let Some((_, unit, _)) = known(&axis.name).filter(|(_, unit, _)| !Unit::is_same(unit, &axis.unit)) {
                 return Err(self::wrong(
                     format!("line 1: `{}` is in {}, not in {unit}", axis.name, axis.unit),
                     format!("convert it and write `{} [{unit}]`", axis.name),

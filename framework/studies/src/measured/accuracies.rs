@@ -23,7 +23,7 @@ pub struct AccuraciesEntry {
 /// Accuracy of an efficiency: independent contributions, added as squares.
 #[derive(Debug, Clone, Copy, Default, Deserialize, JsonSchema)]
 pub struct EfficiencyAccuracyEntry {
-    /// Accuracy in percent of the efficiency. [-]
+    /// Accuracy in percent of the efficiency. [%]
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub percent_of_reading: f64,
@@ -31,7 +31,7 @@ pub struct EfficiencyAccuracyEntry {
     #[serde(default = "whole")]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub full_scale: f64,
-    /// Accuracy in percent of the full scale. [-]
+    /// Accuracy in percent of the full scale. [%]
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub percent_of_full_scale: f64,
@@ -48,7 +48,7 @@ fn whole() -> f64 {
 /// Accuracy of a power loss: independent contributions, added as squares.
 #[derive(Debug, Clone, Copy, Default, Deserialize, JsonSchema)]
 pub struct LossAccuracyEntry {
-    /// Accuracy in percent of the loss. [-]
+    /// Accuracy in percent of the loss. [%]
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub percent_of_reading: f64,
@@ -56,7 +56,7 @@ pub struct LossAccuracyEntry {
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1e9))]
     pub full_scale: f64,
-    /// Accuracy in percent of the full scale. [-]
+    /// Accuracy in percent of the full scale. [%]
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub percent_of_full_scale: f64,
@@ -69,7 +69,7 @@ pub struct LossAccuracyEntry {
 /// Accuracy of a loss torque: independent contributions, added as squares.
 #[derive(Debug, Clone, Copy, Default, Deserialize, JsonSchema)]
 pub struct LossTorqueAccuracyEntry {
-    /// Accuracy in percent of the loss torque. [-]
+    /// Accuracy in percent of the loss torque. [%]
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub percent_of_reading: f64,
@@ -77,7 +77,7 @@ pub struct LossTorqueAccuracyEntry {
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1e9))]
     pub full_scale: f64,
-    /// Accuracy in percent of the full scale. [-]
+    /// Accuracy in percent of the full scale. [%]
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub percent_of_full_scale: f64,
@@ -90,7 +90,7 @@ pub struct LossTorqueAccuracyEntry {
 /// Accuracy of a temperature: independent contributions, added as squares.
 #[derive(Debug, Clone, Copy, Default, Deserialize, JsonSchema)]
 pub struct TemperatureAccuracyEntry {
-    /// Accuracy in percent of the temperature in degC, as for thermocouples. [-]
+    /// Accuracy in percent of the temperature in degC, as for thermocouples. [%]
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub percent_of_reading: f64,
@@ -98,7 +98,7 @@ pub struct TemperatureAccuracyEntry {
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1e4))]
     pub full_scale: f64,
-    /// Accuracy in percent of the full scale. [-]
+    /// Accuracy in percent of the full scale. [%]
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub percent_of_full_scale: f64,

@@ -5,7 +5,7 @@ use serde::Deserialize;
 
 use super::files::MeasuredFile;
 use super::{FaultPlace, MeasuredEntry, MeasuredFault, text};
-use gearloss_document::data::scale;
+use gearloss_document::data::{StatedUnit, scale, sheet::overridden};
 use gearloss_framework::document::{Unit, did_you_mean};
 
 /// The column of a quantity.
@@ -143,7 +143,7 @@ impl<'a> Finder<'a> {
             let unit = if known.unit.is_empty() {
                 None
             } else {
-                match self.unit((known.name, known.unit), place, &header) {
+                match self.unit((known.name, known.unit), place, &header, &mut columns.notes) {
                     Some(unit) => Some(unit),
                     None => continue,
                 }
@@ -163,7 +163,7 @@ impl<'a> Finder<'a> {
             columns.bound.extend(self.bound(name, &mut columns.notes));
         }
         if let Some(steady) = &self.entry.steady {
-            columns.time = self.time(&steady.time);
+            columns.time = self.time(&steady.time, &mut columns.notes);
         }
         columns
     }
@@ -276,10 +276,19 @@ impl<'a> Finder<'a> {
     }
 
     /// Factor and offset of a column to SI.
-    fn unit(&mut self, (name, due): (&str, &str), place: usize, header: &str) -> Option<(f64, f64)> {
+    fn unit(
+        &mut self,
+        (name, due): (&str, &str),
+        place: usize,
+        header: &str,
+        notes: &mut Vec<String>,
+    ) -> Option<(f64, f64)> {
         let stated = self.stated_unit(name, place);
-        match scale((name, due), stated.as_deref(), header) {
-            Ok(unit) => Some(unit),
+        match scale((name, due), stated, header) {
+            Ok(unit) => {
+                notes.extend(overridden(stated, header));
+                Some(unit)
+            }
             Err(fault) => {
                 self.fault(self.key("units", name), &fault.message, fault.help);
                 None
@@ -287,10 +296,13 @@ impl<'a> Finder<'a> {
         }
     }
 
-    fn stated_unit(&self, quantity: &str, place: usize) -> Option<String> {
+    fn stated_unit(&self, quantity: &str, place: usize) -> StatedUnit<'a> {
         let own = self.file.own.and_then(|own| own.units.get(quantity));
-        let own = own.or_else(|| self.entry.units.get(quantity));
-        own.or(self.table.units[place].as_ref()).cloned()
+        StatedUnit {
+            study: own.or_else(|| self.entry.units.get(quantity)).map(String::as_str),
+            file: self.table.units[place].as_deref(),
+            overrides: (self.file.own.and_then(|own| own.units_override)).unwrap_or(self.entry.units_override),
+        }
     }
 
     fn bound(&mut self, name: &str, notes: &mut Vec<String>) -> Option<BoundColumn> {
@@ -323,14 +335,25 @@ impl<'a> Finder<'a> {
             }
             None => 1.0,
         };
-        let unit = self.stated_unit(name, place).unwrap_or_default();
-        if !unit.is_empty() && Unit::of_symbol(&unit).is_none() {
+        let stated = self.stated_unit(name, place);
+        let unit = match stated.chosen(name, &header) {
+            // A dash is a plain number.
+            Ok(unit) => unit
+                .filter(|unit| !matches!(*unit, "-" | "1"))
+                .unwrap_or_default()
+                .to_owned(),
+            Err(fault) => {
+                self.fault(self.key("units", name), &fault.message, fault.help);
+                return None;
+            }
+        };
+        notes.extend(overridden(stated, &header));
+        if !unit.is_empty() && Unit::read(&unit).is_none() {
             let message = format!("`{unit}` of column `{name}` is not a unit");
-            self.fault(
-                at_bind(),
-                &message,
-                unit_help(&unit, Unit::all_symbols(), "write a unit such as [ml]"),
+            let help = format!(
+                "write a unit such as [ml]; if `{unit}` means one, state it under `units: {{ {name}: ... }}` with `units_override: true`"
             );
+            self.fault(at_bind(), &message, help);
             return None;
         }
         let column = Column {
@@ -347,7 +370,7 @@ impl<'a> Finder<'a> {
         })
     }
 
-    fn time(&mut self, header: &str) -> Option<Column> {
+    fn time(&mut self, header: &str, notes: &mut Vec<String>) -> Option<Column> {
         let place = self.table.names.iter().position(|name| name == header);
         let Some(place) = place else {
             let message = self.table.lacks(header);
@@ -358,7 +381,7 @@ impl<'a> Finder<'a> {
             self.fault(FaultPlace::Entry("steady.time".to_owned()), &message, help);
             return None;
         };
-        let unit = self.unit(("time", "s"), place, header)?;
+        let unit = self.unit(("time", "s"), place, header, notes)?;
         Some(Column {
             name: "time",
             place,
@@ -374,11 +397,4 @@ fn changed(header: &str, quantity: &str, scale: f64, sign: f64) -> Option<String
     let turned = (sign < 0.0).then(|| "with the opposite sign".to_owned());
     let words: Vec<String> = scaled.into_iter().chain(turned).collect();
     (!words.is_empty()).then(|| format!("column `{header}` is read {} as {quantity}", words.join(", ")))
-}
-
-fn unit_help(written: &str, symbols: impl Iterator<Item = &'static str>, otherwise: &str) -> String {
-    match did_you_mean(written, symbols) {
-        Some(close) => format!("write `{close}`"),
-        None => otherwise.to_owned(),
-    }
 }

@@ -4,12 +4,14 @@
 //! parentheses. `not` has the highest precedence, `or` the lowest.
 
 use super::{KNOWN, Measured, Row};
-use gearloss_framework::document::{Unit, did_you_mean, number_length};
+use gearloss_framework::document::{Dimension, Unit, did_you_mean, number_length};
 
 /// Maximum number of characters of a condition.
 const LONGEST: usize = 2000;
 /// Maximum nesting of parentheses and `not`.
 const DEEPEST: usize = 50;
+/// Maximum number of bytes of a unit.
+const LONGEST_UNIT: usize = 60;
 /// Relative difference of equal numbers: rounding of unit conversions, far below the resolution of instruments.
 const EQUAL: f64 = 1e-9;
 
@@ -116,23 +118,12 @@ impl Literal {
             Some("-") if unit == "%" => Ok(*number),
             None => Err(wrong(
                 format!("`{text}` has no unit"),
-                format!("write the unit: `{text} {unit}`"),
+                format!("write its unit, such as `{text} {unit}`"),
             )),
             Some(symbol) => {
-                let due = Unit::of_symbol(unit);
-                let found = Unit::of_symbol(symbol).filter(|found| Some(found.dimension) == due.map(|d| d.dimension));
-                found.map(|found| found.to_si(*number)).ok_or_else(|| {
-                    wrong(
-                        format!("`{symbol}` is not a unit of {subject}"),
-                        match due {
-                            Some(due) => format!(
-                                "units of {subject}: {}",
-                                Unit::symbols(due.dimension).collect::<Vec<_>>().join(", ")
-                            ),
-                            None => "write the number without unit".to_owned(),
-                        },
-                    )
-                })
+                let due = Unit::read(unit).map_or(Dimension::None, |due| due.dimension);
+                let found = Unit::read_as(symbol, due).map_err(|fault| wrong(fault.message, fault.help))?;
+                Ok(found.to_si(*number))
             }
         }
     }
@@ -337,11 +328,7 @@ impl Comparison {
                 match (number, &self.value.number) {
                     (Some(number), Some(_)) => {
                         // The value of a literal is in SI, and so is that of a cell.
-                        let number = match Unit::of_symbol(unit) {
-                            Some(unit) => unit.to_si(number),
-                            None if unit == "%" => 0.01 * number,
-                            None => number,
-                        };
+                        let number = Unit::read(unit).map_or(number, |unit| unit.to_si(number));
                         numbers(number, unit)
                     }
                     _ => texts(cell),
@@ -570,13 +557,15 @@ impl Reader<'_> {
         let ends = rest.char_indices().map(|(at, c)| (at, c.is_whitespace() || c == ')'));
         let mut ends: Vec<usize> = ends.filter_map(|(at, is_end)| is_end.then_some(at)).collect();
         ends.push(rest.len());
-        let is_unit = |end: &&usize| matches!(&rest[..**end], "%") || Unit::of_symbol(&rest[..**end]).is_some();
+        ends.retain(|end| *end <= LONGEST_UNIT);
+        let is_unit =
+            |end: &&usize| !rest[..**end].ends_with(char::is_whitespace) && Unit::read(&rest[..**end]).is_some();
         if let Some(end) = ends.iter().rev().find(is_unit) {
             let symbol = rest[..*end].to_owned();
             self.at += end;
             return Ok(Some(symbol));
         }
-        let word = &rest[..ends[0]];
+        let word = rest.split([' ', ')']).next().unwrap_or_default();
         if matches!(word, "" | "and" | "or") {
             return Ok(None);
         }
@@ -674,8 +663,14 @@ mod tests {
     fn faults_name_the_column_and_the_way_out() {
         for (text, column, message, help) in [
             ("torque > 1000", 10, "has no unit", "`1000 Nm`"),
-            ("torque > 1000 rpm", 10, "`rpm` is not a unit of torque", "kNm"),
-            ("torque > 1000 Mm", 15, "`Mm` is not a unit", "Nm"),
+            (
+                "torque > 1000 rpm",
+                10,
+                "`rpm` is an angular speed, not a torque",
+                "kNm",
+            ),
+            ("torque > 1000 Mm", 10, "`Mm` is a length, not a torque", "Nm"),
+            ("torque > 1000 Nmx", 15, "`Nmx` is not a unit", "Nm"),
             ("torque > 1000 Nm speed < 2 rpm", 18, "unexpected `speed`", "`and`"),
             ("torque > 1,5 Nm", 10, "a comma", "point"),
             ("torque = 5 Nm", 8, "not followed by a comparison", "`==`"),
@@ -720,8 +715,13 @@ mod tests {
                 "columns: { loss: ... }",
             ),
             ("V_oil > 5", 9, "has no unit", "`5 ml`"),
-            ("V_oil > 5 Nm", 9, "`Nm` is not a unit of V_oil", "ml"),
-            ("use_for_test > 5 Nm", 16, "`Nm` is not a unit", "without unit"),
+            ("V_oil > 5 Nm", 9, "`Nm` is a torque, not a volume", "ml"),
+            (
+                "use_for_test > 5 Nm",
+                16,
+                "`Nm` is a torque, not a plain number",
+                "only `%`",
+            ),
             ("xyzxyz == 1", 1, "nor a column", "the columns are torque"),
         ] {
             let found = Condition::parse(text).unwrap().check(&measured()).unwrap_err();

@@ -46,6 +46,8 @@ pub struct OwnFileEntry {
     /// Units of this file; they replace those of the measurement, quantity by quantity.
     #[serde(default)]
     pub units: Ordered<String>,
+    /// Units of the study have precedence where this file states different ones; default: that of the measurement.
+    pub units_override: Option<bool>,
 }
 
 /// A file of a measurement with its settings.

@@ -7,6 +7,7 @@ use super::{
     Accuracies, Condition, ConditionFault, Decimal, FaultyRows, FileColumn, Instruments, Measured, MeasuredEntry,
     MeasuredFault, Rig, Row, fault, steady,
 };
+use gearloss_document::data::greatest;
 use gearloss_framework::document::{Dimension, Unit, did_you_mean};
 
 /// Maximum number of listed faulty cells of a file.
@@ -236,11 +237,13 @@ impl MeasuredEntry {
         let column = |(place, header): (usize, &String)| {
             let own = columns.bound.iter().find(|bound| bound.column.place == place);
             let name = own.map(|bound| bound.name.clone());
-            let stated = name.as_ref().and_then(|name| self.units.get(name)).cloned();
-            let unit = stated.or_else(|| table.units[place].clone());
+            let unit = match own {
+                Some(bound) => Some(bound.unit.clone()),
+                None => table.units[place].clone(),
+            };
             // Text in brackets is not always a unit.
             let has_dimension =
-                |unit: &String| unit == "%" || Unit::of_symbol(unit).is_some_and(|u| u.dimension != Dimension::None);
+                |unit: &String| unit == "%" || Unit::read(unit).is_some_and(|u| u.dimension != Dimension::None);
             FileColumn {
                 header: header.clone(),
                 unit: unit.filter(has_dimension),
@@ -318,7 +321,10 @@ impl ReadFile {
         let place = |column: &FileColumn| self.columns.iter().position(|own| own.header == column.header);
         let places: Vec<Option<usize>> = first.iter().map(place).collect();
         let fits = |(column, place): (&FileColumn, &Option<usize>)| {
-            place.filter(|place| self.columns[*place].unit == column.unit)
+            place.filter(|place| match (&self.columns[*place].unit, &column.unit) {
+                (Some(own), Some(first)) => Unit::is_same(own, first),
+                (own, first) => own == first,
+            })
         };
         let same: Vec<Option<usize>> = first.iter().zip(&places).map(fits).collect();
         for row in self.rows.iter_mut().filter(|row| !row.cells.is_empty()) {
@@ -488,6 +494,10 @@ fn is_given(name: &str, columns: &Columns) -> bool {
 fn in_si(number: f64, (factor, offset): (f64, f64), line: u64, column: &Column) -> Result<f64, String> {
     let value = number * factor + offset;
     let at = || format!("line {line}, column {} `{}`", column.place + 1, column.header);
+    let known = KNOWN.iter().find(|known| known.name == column.name);
+    if value.abs() > greatest(known.map_or("", |known| known.unit)) * (1.0 + 1e-12) {
+        return Err(format!("{}: {number:e} is unrealistically large", at()));
+    }
     if value < 0.0 && (column.name.ends_with("_accuracy") || column.name == "weight") {
         return Err(format!("{}: {value} is negative", at()));
     }

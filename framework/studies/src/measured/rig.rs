@@ -89,11 +89,11 @@ pub struct TorqueMeterEntry {
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1e9))]
     pub full_scale: f64,
-    /// Accuracy in percent of the full scale, as for an accuracy class. [-]
+    /// Accuracy in percent of the full scale, as for an accuracy class. [%]
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub percent_of_full_scale: f64,
-    /// Accuracy in percent of the torque. [-]
+    /// Accuracy in percent of the torque. [%]
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub percent_of_torque: f64,

@@ -17,7 +17,7 @@ pub struct RangeEntry {
     pub tie: Tie,
     /// Half width of the range about the value of the gearbox, as a quantity of the path: `0.1 um`.
     pub plus_minus: Option<Value>,
-    /// The same in percent of the value of the gearbox. [-]
+    /// The same in percent of the value of the gearbox. [%]
     #[schemars(range(min = 1e-9, max = 1000.0))]
     pub percent: Option<f64>,
     /// Lower end of the range.

@@ -216,13 +216,18 @@ fn missing_columns_tell_those_there_are() {
 
 #[test]
 fn unknown_and_missing_units_are_refused() {
-    assert_eq!(
-        faults(&entry(), "t [s],v [knots]\n0,0\n1,0\n"),
-        ["line 1, column `v`: `knots` is not a unit of speed | state it: `units: { vehicle_speed: m/s }`"]
+    // A help with another unit would change the speeds.
+    let wrong = &faults(&entry(), "t [s],v [furlongs]\n0,0\n1,0\n")[0];
+    assert!(
+        wrong.starts_with("line 1, column `v`: unknown unit `furlongs` | a speed is written in m/s,")
+            && wrong.ends_with("state it under `units: { vehicle_speed: ... }` with `units_override: true`"),
+        "{wrong}"
     );
+    let knots = Trace::read(&entry(), b"t [s],v [knots]\n0,0\n1,3.6\n").unwrap();
+    assert!((knots.samples[1].given.vehicle_speed.unwrap() - 1.852).abs() < 1e-12);
     assert_eq!(
         faults(&entry(), "t [s],v\n0,0\n1,0\n"),
-        ["line 1, column `v` has no unit | state it: `units: { vehicle_speed: m/s }`"]
+        ["line 1, column `v` has no unit | state the unit that it has, such as `units: { vehicle_speed: m/s }`"]
     );
     let stated = FileCycleEntry {
         units: list(&[("vehicle_speed", "km/h")]),

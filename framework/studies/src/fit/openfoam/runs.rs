@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 use std::fmt::Write as _;
 
-use gearloss_framework::document::Diagnostic;
+use gearloss_framework::document::{Diagnostic, Unit};
 use gearloss_framework::mechanism::Mechanism;
 use gearloss_framework::mechanism::planetary_drag::PlanetaryDrag;
 use gearloss_framework::table::{Reading, Table};
@@ -169,7 +169,7 @@ fn is_of_a_drag_model(table: &str, axes: usize) -> Result<(), String> {
             ));
         };
         let unit = quantity.unit.symbol;
-        if unit != axis.unit {
+        if !Unit::is_same(unit, &axis.unit) {
             return Err(format!("`{}` is in {}, not in {unit}", axis.name, axis.unit));
         }
     }
