@@ -87,18 +87,55 @@ fn usual(kind: LubricantKind) -> Usual {
     }
 }
 
-/// The points of a viscosity law, degC and mm2/s, from the written values.
-fn points(entry: &ViscosityEntry) -> Result<Vec<(f64, f64)>, Fault> {
-    let shop = |nu: f64| nu * 1e6;
+/// A kinematic viscosity from the stated one or the dynamic one. \[mm2/s\]
+fn kinematic(
+    [value, dynamic]: [Option<f64>; 2],
+    (place, names): (&'static str, [&str; 2]),
+    at: f64,
+    density: Option<&Density>,
+) -> Result<Option<f64>, Fault> {
+    match (value, dynamic, density) {
+        (Some(_), Some(_), _) => Err((
+            place,
+            format!("`{}` and `{}` are both stated", names[0], names[1]),
+            "delete one of them".to_owned(),
+        )),
+        (value, None, _) => Ok(value.map(|nu| nu * 1e6)),
+        (None, Some(eta), Some(density)) => Ok(Some(eta / density.rho_at(at) * 1e6)),
+        (None, Some(_), None) => Err((
+            place,
+            "a dynamic viscosity without the density of the oil".to_owned(),
+            "add `density: { value: 870 kg/m3, at: 15 degC }` with the oil's values, or state kinematic viscosities"
+                .to_owned(),
+        )),
+    }
+}
+
+/// The points of a viscosity law, degC and mm2/s, from the written values and the density if one is stated.
+fn points(entry: &ViscosityEntry, density: Option<&Density>) -> Result<Vec<(f64, f64)>, Fault> {
     if !entry.points.is_empty() {
-        if entry.kv40.is_some() || entry.kv100.is_some() || entry.vi.is_some() {
+        let other = [entry.kv40, entry.kv100, entry.eta40, entry.eta100, entry.vi];
+        if other.iter().any(Option::is_some) {
             return Err((
                 "viscosity",
-                "`points` is combined with `kv40`, `kv100` or `vi`".to_owned(),
-                "state either the points or two of `kv40`, `kv100`, `vi`".to_owned(),
+                "`points` is combined with `kv40`, `kv100`, `eta40`, `eta100` or `vi`".to_owned(),
+                "state either the points or two of the others".to_owned(),
             ));
         }
-        let mut points: Vec<(f64, f64)> = entry.points.iter().map(|p| (p.at, shop(p.value))).collect();
+        let place = ("viscosity.points", ["value", "dynamic"]);
+        let mut points = Vec::new();
+        for point in &entry.points {
+            match kinematic([point.value, point.dynamic], place, point.at, density)? {
+                Some(nu) => points.push((point.at, nu)),
+                None => {
+                    return Err((
+                        "viscosity.points",
+                        format!("the point at {} degC has no viscosity", point.at),
+                        "add `value: 32 mm2/s`, or `dynamic: 28 mPa s`".to_owned(),
+                    ));
+                }
+            }
+        }
         points.sort_by(|p, q| p.0.total_cmp(&q.0));
         if points.windows(2).any(|w| w[1].1 >= w[0].1 || w[1].0 <= w[0].0) {
             return Err((
@@ -109,7 +146,19 @@ fn points(entry: &ViscosityEntry) -> Result<Vec<(f64, f64)>, Fault> {
         }
         return Ok(points);
     }
-    let (kv40, kv100) = match (entry.kv40.map(shop), entry.kv100.map(shop), entry.vi) {
+    let cold = kinematic(
+        [entry.kv40, entry.eta40],
+        ("viscosity", ["kv40", "eta40"]),
+        40.0,
+        density,
+    )?;
+    let hot = kinematic(
+        [entry.kv100, entry.eta100],
+        ("viscosity", ["kv100", "eta100"]),
+        100.0,
+        density,
+    )?;
+    let (kv40, kv100) = match (cold, hot, entry.vi) {
         (Some(kv40), Some(kv100), None) => (kv40, kv100),
         (None, Some(kv100), Some(vi)) => (
             index::kv40(kv100, vi).ok_or_else(|| {
@@ -159,13 +208,14 @@ fn points(entry: &ViscosityEntry) -> Result<Vec<(f64, f64)>, Fault> {
     Ok(vec![(40.0, kv40), (100.0, kv100)])
 }
 
-fn viscosity(entry: &ViscosityEntry, density: &Density) -> Result<Viscosity, Fault> {
+/// The density is stated, or typical for the kind of oil.
+fn viscosity(entry: &ViscosityEntry, density: &Density, is_stated: bool) -> Result<Viscosity, Fault> {
     let factor = entry.factor;
-    law(entry, density).map(|law| Viscosity { law, factor })
+    let points = points(entry, is_stated.then_some(density))?;
+    law(entry, points, density).map(|law| Viscosity { law, factor })
 }
 
-fn law(entry: &ViscosityEntry, density: &Density) -> Result<Law, Fault> {
-    let points = points(entry)?;
+fn law(entry: &ViscosityEntry, points: Vec<(f64, f64)>, density: &Density) -> Result<Law, Fault> {
     let form = match entry.law {
         ViscosityLaw::AstmD341 => Form::AstmD341,
         ViscosityLaw::Din51563 => Form::Din51563,
@@ -247,7 +297,7 @@ impl Lubricant {
             ));
         }
         let density = density(&written_density, &usual);
-        let viscosity = viscosity(written, &density)?;
+        let viscosity = viscosity(written, &density, written_density.value.is_some())?;
         let pressure = match entry.pressure_viscosity {
             PressureViscosityEntry { value: Some(alpha), .. } => PressureViscosity::Constant(alpha),
             PressureViscosityEntry { law, value: None } => match law {
@@ -446,7 +496,8 @@ mod tests {
                     .iter()
                     .map(|(at, nu)| ViscosityPoint {
                         at: *at,
-                        value: nu * 1e-6,
+                        value: Some(nu * 1e-6),
+                        dynamic: None,
                     })
                     .collect(),
                 law,

@@ -87,6 +87,12 @@ pub struct ViscosityEntry {
     /// Kinematic viscosity at 100 degC. [mm2/s]
     #[schemars(range(min = 0.3, max = 1e4))]
     pub kv100: Option<f64>,
+    /// Dynamic viscosity at 40 degC instead of `kv40`; needs the oil's density. [mPa s]
+    #[schemars(range(min = 0.2, max = 1e5))]
+    pub eta40: Option<f64>,
+    /// Dynamic viscosity at 100 degC instead of `kv100`; needs the oil's density. [mPa s]
+    #[schemars(range(min = 0.2, max = 1e4))]
+    pub eta100: Option<f64>,
     /// Viscosity index; negative for oils that thin faster than the reference oils, such as naphthenic ones. [-]
     #[schemars(range(min = -200.0, max = 400.0))]
     pub vi: Option<f64>,
@@ -112,6 +118,8 @@ impl Default for ViscosityEntry {
         Self {
             kv40: None,
             kv100: None,
+            eta40: None,
+            eta100: None,
             vi: None,
             points: Vec::new(),
             law: ViscosityLaw::default(),
@@ -130,7 +138,7 @@ fn vogel_c() -> f64 {
     95.0
 }
 
-/// Viscosity at one temperature.
+/// Viscosity at one temperature: `value` or `dynamic`.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize, JsonSchema)]
 pub struct ViscosityPoint {
     /// Temperature. [degC]
@@ -138,7 +146,10 @@ pub struct ViscosityPoint {
     pub at: f64,
     /// Kinematic viscosity. [mm2/s]
     #[schemars(range(min = 0.3, max = 1e7))]
-    pub value: f64,
+    pub value: Option<f64>,
+    /// Dynamic viscosity; needs the oil's density. [mPa s]
+    #[schemars(range(min = 0.2, max = 1e7))]
+    pub dynamic: Option<f64>,
 }
 
 /// Law of viscosity over temperature.

@@ -35,6 +35,22 @@ pub struct PlausibilityEntry {
     #[serde(default = "specific_sliding")]
     #[schemars(range(min = 0.0, max = 1000.0))]
     pub specific_sliding: f64,
+    /// Least kinematic viscosity of an oil at 40 degC. Water has 0.66 mm2/s. [mm2/s]
+    #[serde(default = "least_kv40")]
+    #[schemars(range(min = 0.0, max = 1e6))]
+    pub least_kv40: f64,
+    /// Greatest kinematic viscosity of an oil at 40 degC. ISO VG 3200 has 3200 mm2/s, fluids of open gears up to some ten thousand. [mm2/s]
+    #[serde(default = "greatest_kv40")]
+    #[schemars(range(min = 0.0, max = 1e6))]
+    pub greatest_kv40: f64,
+    /// Least viscosity index of an oil. [-]
+    #[serde(default = "least_viscosity_index")]
+    #[schemars(range(min = -10000.0, max = 10000.0))]
+    pub least_viscosity_index: f64,
+    /// Greatest viscosity index of an oil. Mineral oils have about 100, polyglycols and oils with polymers up to some 300. [-]
+    #[serde(default = "greatest_viscosity_index")]
+    #[schemars(range(min = -10000.0, max = 10000.0))]
+    pub greatest_viscosity_index: f64,
 }
 
 impl Default for PlausibilityEntry {
@@ -46,8 +62,28 @@ impl Default for PlausibilityEntry {
             tip_width: tip_width(),
             undercut: undercut(),
             specific_sliding: specific_sliding(),
+            least_kv40: least_kv40(),
+            greatest_kv40: greatest_kv40(),
+            least_viscosity_index: least_viscosity_index(),
+            greatest_viscosity_index: greatest_viscosity_index(),
         }
     }
+}
+
+fn least_kv40() -> f64 {
+    1e-6
+}
+
+fn greatest_kv40() -> f64 {
+    10_000e-6
+}
+
+fn least_viscosity_index() -> f64 {
+    -200.0
+}
+
+fn greatest_viscosity_index() -> f64 {
+    400.0
 }
 
 fn face_overlap() -> f64 {

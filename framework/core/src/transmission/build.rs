@@ -297,6 +297,9 @@ impl Models {
         classify(found, codes::MODEL);
         let levels = levels(entry, gears, oils);
         warnings.extend(plausible::oil_level(entry, gears, &levels, oils));
+        for (id, oil) in oils.named() {
+            warnings.extend(plausible::viscosities(id, oil, &entry.plausibility));
+        }
         let drags = Drags {
             registry: language.registry(),
             entry,

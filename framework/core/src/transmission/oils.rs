@@ -232,6 +232,12 @@ impl<'a> OilNumbers<'a> {
         })
     }
 
+    /// The lubricants by their names; none if one has a fault that was reported.
+    pub fn named(&self) -> impl Iterator<Item = (&str, &Lubricant)> {
+        let lubricants = self.lubricants.iter().map(AsRef::as_ref);
+        self.names.iter().copied().zip(lubricants)
+    }
+
     /// All lubricants with their names; empty if one has a fault that was reported.
     pub fn lubricants(&self) -> Vec<(String, Arc<Lubricant>)> {
         let lubricants = self.names.iter().zip(&self.lubricants);

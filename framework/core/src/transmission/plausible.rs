@@ -1,5 +1,5 @@
 //! Checks for likely mistakes in valid descriptions: little face overlap, profile shifts that only match a centre distance, pointed or
-//! undercut teeth, oil that reaches no gear.
+//! undercut teeth, oil that reaches no gear, viscosities that no oil has.
 
 use super::oils::OilNumbers;
 use super::seats::GearSeat;
@@ -7,6 +7,7 @@ use crate::attach::Level;
 use crate::description::{GearboxEntry, PlausibilityEntry};
 use crate::document::Diagnostic;
 use crate::geometry::{Pair, PairFault, PairSpec};
+use crate::lubricant::{Lubricant, index::index};
 
 /// Reports faces with less than a share of overlap. \[m\]
 pub fn face_overlap(path: &str, [a, b]: [&GearSeat; 2], overlap: f64, least: f64) -> Option<Diagnostic> {
@@ -142,6 +143,32 @@ fn fitting_teeth(spec: &PairSpec, pair: &Pair) -> Option<(u32, f64)> {
     })
     .ok()?;
     Some((other.z[1], other.profile_shift[1]))
+}
+
+/// Reports viscosities that no oil has, such as those with a slip of three digits.
+pub fn viscosities(id: &str, oil: &Lubricant, ranges: &PlausibilityEntry) -> Vec<Diagnostic> {
+    let [cold, hot] = [40.0, 100.0].map(|at| 1e6 * oil.oil_at(at).nu);
+    let warning = |message: String, keys: &str| {
+        Diagnostic::warning(format!("lubricants.{id}.viscosity"), message).help(format!(
+            "check the numbers and their units; if the oil is so, set {keys} under `plausibility`"
+        ))
+    };
+    let mut found = Vec::new();
+    if !(1e6 * ranges.least_kv40..=1e6 * ranges.greatest_kv40).contains(&cold) {
+        let message = format!("an oil of {cold:.4} mm2/s at 40 degC");
+        found.push(warning(message, "`least_kv40` or `greatest_kv40`"));
+    }
+    if let Some(index) = index(cold, hot)
+        && !(ranges.least_viscosity_index..=ranges.greatest_viscosity_index).contains(&index)
+    {
+        let message =
+            format!("{cold:.4} mm2/s at 40 degC and {hot:.4} mm2/s at 100 degC are a viscosity index of {index:.0}");
+        found.push(warning(
+            message,
+            "`least_viscosity_index` or `greatest_viscosity_index`",
+        ));
+    }
+    found
 }
 
 /// Reports an oil level below the lowest tip circle.
