@@ -1,10 +1,14 @@
 //! Axes of grids: one value, a list, or from, to and step.
 
+use gearloss_framework::document::{Dimension, Unit};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Maximum number of values of one axis.
 const MOST: usize = 100_000;
+
+/// Digits of numbers that people write; a number of another unit has more.
+const FEW: usize = 7;
 
 /// Why an axis has no values.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -29,15 +33,22 @@ pub struct Span {
     pub to: f64,
     /// Step.
     pub step: f64,
+    /// What the axis measures.
+    pub dimension: Dimension,
 }
 
 impl Span {
-    /// From, to and step.
-    pub fn new(from: f64, to: f64, step: f64) -> Self {
-        Self { from, to, step }
+    /// From, to and step of a dimension.
+    pub fn new([from, to, step]: [f64; 3], dimension: Dimension) -> Self {
+        Self {
+            from,
+            to,
+            step,
+            dimension,
+        }
     }
 
-    /// The values.
+    /// The values: to the bit those that are read if each is written in the unit of `from`, `to` and `step`.
     ///
     /// # Errors
     /// If the step does not divide the range, or gives too many values.
@@ -50,7 +61,63 @@ impl Span {
             return Err(AxisError::TooMany);
         }
         let count = (count * (1.0 + 1e-12) + 1e-9).floor() as usize;
-        Ok((0..=count).map(|i| self.from + i as f64 * self.step).collect())
+        let written = self.written();
+        let value = |i: usize| match written {
+            Some((unit, from, step)) => unit.to_si(Decimal::after(from, step, i)),
+            None => self.from + i as f64 * self.step,
+        };
+        Ok((0..=count).map(value).collect())
+    }
+
+    /// The unit in which `from`, `to` and `step` were probably written, because they have few digits in it, with the first and last.
+    fn written(&self) -> Option<(&'static Unit, Decimal, Decimal)> {
+        let units = Unit::usual(self.dimension).filter_map(|unit| {
+            let difference = Unit { offset: 0.0, ..*unit };
+            let [from, to] = [self.from, self.to].map(|si| unit.written(si).and_then(Decimal::new));
+            let step = difference.written(self.step).and_then(Decimal::new)?;
+            let (from, to) = (from?, to?);
+            let digits = [from, to, step].map(|number| number.digits);
+            Some((digits.into_iter().max().unwrap_or(0), (unit, from, step)))
+        });
+        // The most usual unit comes first.
+        let units: Vec<_> = units.collect();
+        let few = units.iter().find(|(digits, _)| *digits <= FEW);
+        let fewest = || units.iter().min_by_key(|(digits, _)| *digits);
+        few.or_else(fewest).map(|(_, written)| *written)
+    }
+}
+
+/// A number as a whole number and its decimals.
+#[derive(Debug, Clone, Copy)]
+struct Decimal {
+    whole: i128,
+    decimals: usize,
+    digits: usize,
+}
+
+impl Decimal {
+    /// `None` if it has so many decimals that whole numbers overflow.
+    fn new(x: f64) -> Option<Self> {
+        let text = format!("{x}");
+        let (whole, fraction) = text.split_once('.').unwrap_or((&text, ""));
+        // Numbers of an axis are below 1e12 and have at most 13 digits.
+        (fraction.len() <= 25).then_some(Self {
+            whole: format!("{whole}{fraction}").parse().ok()?,
+            decimals: fraction.len(),
+            digits: text
+                .trim_start_matches('-')
+                .trim_start_matches("0.")
+                .trim_end_matches('0')
+                .len(),
+        })
+    }
+
+    /// The value after some steps, as read if it is written.
+    fn after(from: Self, step: Self, steps: usize) -> f64 {
+        let decimals = from.decimals.max(step.decimals);
+        let aligned = |own: Self| own.whole * 10_i128.pow((decimals - own.decimals) as u32);
+        let value = aligned(from) + steps as i128 * aligned(step);
+        format!("{value}e-{decimals}").parse().unwrap_or(f64::NAN)
     }
 }
 
@@ -90,7 +157,7 @@ impl OfRating {
         let rating = rating.ok_or(AxisError::NoRating)?;
         let shares = match &self.of_rating {
             Shares::List(list) => list.clone(),
-            Shares::Steps(s) => Span::new(s.from, s.to, s.step).values()?,
+            Shares::Steps(s) => Span::new([s.from, s.to, s.step], Dimension::None).values()?,
         };
         Ok(shares.into_iter().map(|share| share * rating).collect())
     }
@@ -133,7 +200,7 @@ impl TorqueAxis {
         match self {
             Self::One(torque) => Ok(vec![*torque]),
             Self::List(list) => Ok(list.clone()),
-            Self::Steps(s) => Span::new(s.from, s.to, s.step).values(),
+            Self::Steps(s) => Span::new([s.from, s.to, s.step], Dimension::Torque).values(),
             Self::Rated(shares) => shares.values(rating),
         }
     }
@@ -181,7 +248,7 @@ impl SpeedAxis {
         match self {
             Self::One(speed) => Ok(vec![*speed]),
             Self::List(list) => Ok(list.clone()),
-            Self::Steps(s) => Span::new(s.from, s.to, s.step).values(),
+            Self::Steps(s) => Span::new([s.from, s.to, s.step], Dimension::AngularSpeed).values(),
             Self::Rated(shares) => shares.values(rating),
         }
     }
@@ -227,7 +294,7 @@ impl PowerAxis {
         match self {
             Self::One(power) => Ok(vec![*power]),
             Self::List(list) => Ok(list.clone()),
-            Self::Steps(s) => Span::new(s.from, s.to, s.step).values(),
+            Self::Steps(s) => Span::new([s.from, s.to, s.step], Dimension::Power).values(),
         }
     }
 }
@@ -267,7 +334,7 @@ impl TemperatureAxis {
         match self {
             Self::One(temperature) => Ok(vec![*temperature]),
             Self::List(list) => Ok(list.clone()),
-            Self::Steps(s) => Span::new(s.from, s.to, s.step).values(),
+            Self::Steps(s) => Span::new([s.from, s.to, s.step], Dimension::Temperature).values(),
         }
     }
 }
@@ -309,7 +376,7 @@ impl Envelope {
     /// True for a point inside the envelope; torque in Nm, speed in rad/s.
     pub fn holds(&self, torque: f64, speed: f64) -> bool {
         let speed = speed.abs();
-        // Speeds of a grid are sums of steps, so the last digits are ignored.
+        // Speeds that are stated in different units may differ in their last digits.
         let near = 1e-9 * self.speed.last().copied().unwrap_or(0.0);
         let right = self.speed.iter().position(|s| speed <= s + near);
         let most = match right {
@@ -332,38 +399,56 @@ mod tests {
     #[test]
     fn steps_reach_both_ends() {
         let rpm = std::f64::consts::PI / 30.0;
-        let span = Span {
-            from: 1000.0 * rpm,
-            to: 22000.0 * rpm,
-            step: 1000.0 * rpm,
-        };
+        let span = Span::new([1000.0 * rpm, 22000.0 * rpm, 1000.0 * rpm], Dimension::AngularSpeed);
         assert_eq!(span.values().unwrap().len(), 22);
-        assert_eq!(
-            Span {
-                from: 3.0,
-                to: 3.0,
-                step: 1.0
+        let values = |numbers: [f64; 3]| Span::new(numbers, Dimension::Torque).values().unwrap();
+        assert_eq!(values([3.0, 3.0, 1.0]), [3.0]);
+        assert_eq!(values([3.0, 1.0, -1.0]), [3.0, 2.0, 1.0]);
+    }
+
+    #[test]
+    fn values_are_those_of_the_written_numbers_to_the_bit() {
+        for (symbol, [from, to, step]) in [
+            ("rpm", [0.0, 12000.0, 500.0]),
+            ("rpm", [1000.0, 22000.0, 1000.0]),
+            ("rad/s", [0.1, 0.9, 0.1]),
+            ("Hz", [-2.0, 5.0, 0.125]),
+            ("Nm", [0.0, 1.0, 0.1]),
+            ("N mm", [12.5, 900.0, 12.5]),
+            ("lbf ft", [-60.0, 60.0, 20.0]),
+            ("kW", [0.3, 3.0, 0.3]),
+            ("degC", [-10.0, 90.0, 0.7]),
+            ("degF", [140.0, 212.0, 9.0]),
+        ] {
+            let unit = Unit::of_symbol(symbol).unwrap();
+            let difference = unit.to_si(step) - if step == 0.0 { 0.0 } else { unit.offset };
+            let difference = if unit.offset == 0.0 {
+                unit.to_si(step)
+            } else {
+                difference
+            };
+            let span = Span::new([unit.to_si(from), unit.to_si(to), difference], unit.dimension);
+            let values = span.values().unwrap();
+            let exact = unit.offset == 0.0;
+            for (i, value) in values.iter().enumerate() {
+                let text = format!("{:.3}", from + i as f64 * step);
+                let written = unit.to_si(text.parse().unwrap());
+                if exact {
+                    assert_eq!(value.to_bits(), written.to_bits(), "{text} {symbol}: {value} {written}");
+                } else {
+                    assert!(
+                        (value - written).abs() < 1e-12 * written.abs().max(100.0),
+                        "{text} {symbol}"
+                    );
+                }
             }
-            .values()
-            .unwrap(),
-            [3.0]
-        );
-        assert_eq!(
-            Span {
-                from: 3.0,
-                to: 1.0,
-                step: -1.0
-            }
-            .values()
-            .unwrap(),
-            [3.0, 2.0, 1.0]
-        );
+        }
     }
 
     #[test]
     fn a_step_that_leads_nowhere_is_refused() {
-        for (from, to, step) in [(1.0, 2.0, 0.0), (1.0, 2.0, -1.0), (0.0, 1.0, 1e-9)] {
-            assert!(Span { from, to, step }.values().is_err());
+        for numbers in [[1.0, 2.0, 0.0], [1.0, 2.0, -1.0], [0.0, 1.0, 1e-9]] {
+            assert!(Span::new(numbers, Dimension::Torque).values().is_err());
         }
     }
 
