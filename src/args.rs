@@ -238,6 +238,9 @@ pub struct BearingsArgs {
     /// Sheet of a workbook [default: the first].
     #[arg(long, value_name = "NAME")]
     pub sheet: Option<String>,
+    /// Line of the headings, or row of the sheet [default: the one with most of the known headings].
+    #[arg(long, value_name = "N")]
+    pub header_line: Option<u64>,
     /// Catalogue to write; an existing file is an error [default: NAME-catalogue.csv in the current folder].
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,

@@ -22,7 +22,7 @@ pub mod solve;
 use std::path::Path;
 use std::sync::OnceLock;
 
-use gearloss_framework::files::read_text;
+use gearloss_framework::files::{LONGEST_DATA, read_bytes, read_text};
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::Language;
 use gearloss_framework::transmission::Transmission;
@@ -43,6 +43,12 @@ fn language() -> Result<&'static Language, Failure> {
 /// The text of a file that an argument names; `help` says what to do if it cannot be read.
 fn read_file(file: &Path, longest: u64, help: &str) -> Result<String, Failure> {
     read_text(file, longest).map_err(|e| Failure::input(format!("cannot read {}: {e}", file.display()), help))
+}
+
+/// The bytes of a table.
+fn read_table(file: &Path) -> Result<Vec<u8>, Failure> {
+    read_bytes(file, LONGEST_DATA)
+        .map_err(|e| Failure::input(format!("cannot read {}: {e}", file.display()), "check the file name"))
 }
 
 /// Prints warnings and notes of building to standard error.

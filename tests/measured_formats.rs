@@ -8,7 +8,7 @@ use crate::common::study::{Ran, of_gearbox, run_files};
 // Some of its blocks are for the tests of that crate.
 #[allow(dead_code)]
 #[path = "../framework/document/src/data/mdf/builder.rs"]
-mod builder;
+pub mod builder;
 
 const GEARBOX: &str = "tests/cases/fine/input.yaml";
 

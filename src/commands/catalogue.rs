@@ -3,12 +3,11 @@
 use std::path::Path;
 
 use gearloss_framework::document::did_you_mean;
-use gearloss_framework::files::LONGEST_DATA;
 use gearloss_framework::language::LUBRICANTS;
 use gearloss_framework::resolve::{CatalogueRow, CatalogueTable, known_start};
 use gearloss_studies::distinct::distinct;
 
-use super::read_file;
+use super::read_table;
 use crate::args::{CatalogueArg, CatalogueArgs};
 use crate::output::{End, Failure, Out, Table};
 
@@ -44,13 +43,12 @@ fn own_catalogue(
     section: &str,
     language: &gearloss_framework::language::Language,
 ) -> Result<CatalogueTable, Failure> {
-    let text = read_file(file, LONGEST_DATA, "check the file name")?;
-    checked(&text, &file.display().to_string(), section, language)
+    checked(&read_table(file)?, &file.display().to_string(), section, language)
 }
 
-/// The catalogue in a text, with every value checked.
+/// The catalogue in the bytes of a file, with every value checked.
 pub(super) fn checked(
-    text: &str,
+    bytes: &[u8],
     file: &str,
     section: &str,
     language: &gearloss_framework::language::Language,
@@ -58,7 +56,7 @@ pub(super) fn checked(
     let help =
         "a catalogue has the column `designation` and keys of the section with their units, such as `bore [mm],c0 [N]`";
     let wrong = |message: String| Failure::input(format!("{file}: {message}"), help);
-    let table = CatalogueTable::from_csv(text).map_err(wrong)?;
+    let table = CatalogueTable::from_file(bytes).map_err(wrong)?;
     let mut faults = Vec::new();
     for (designation, row) in &table.0 {
         for (key, value) in &row.values {

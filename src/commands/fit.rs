@@ -7,12 +7,11 @@ mod traction;
 use std::path::Path;
 
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::files::LONGEST_DATA;
 use gearloss_numerics::fit::Estimate;
 use gearloss_studies::fit::DragLaw;
 use gearloss_studies::fit::columns::{Columns, Quantity};
 
-use super::read_file;
+use super::read_table;
 use crate::args::{FitArgs, FitLaw};
 use crate::output::{End, Failure, Out, Table, figures, significant};
 
@@ -26,8 +25,8 @@ pub fn run(args: &FitArgs, out: &mut Out) -> Result<End, Failure> {
 
 /// `fit power-law`: drag of planets over speed, viscosity and volume.
 fn power_law(path: &Path, out: &mut Out) -> Result<End, Failure> {
-    let text = read_file(path, LONGEST_DATA, "check the file name")?;
-    let law = DragLaw::of_table(&text).map_err(|fault| Diagnostic {
+    let bytes = read_table(path)?;
+    let law = DragLaw::of_table(&bytes).map_err(|fault| Diagnostic {
         message: format!("{}: {}", path.display(), fault.message),
         ..fault
     })?;
@@ -54,8 +53,7 @@ fn power_law(path: &Path, out: &mut Out) -> Result<End, Failure> {
 }
 
 fn columns(path: &Path) -> Result<Columns, Failure> {
-    let text = read_file(path, LONGEST_DATA, "check the file name")?;
-    Ok(Columns::of_text(&path.display().to_string(), &text)?)
+    Ok(Columns::of_file(&path.display().to_string(), &read_table(path)?)?)
 }
 
 /// Prints which columns are not used.

@@ -10,6 +10,7 @@
 mod cases;
 mod mutate;
 pub mod random;
+mod tables;
 mod tree;
 mod worker;
 

@@ -274,9 +274,9 @@ impl<M: Mechanism> Lookup<M> {
     /// # Errors
     /// As [`Lookup::read`].
     pub fn read_sum(file: &str, reading: &Reading, unit: &str, cx: &Build<'_>) -> Result<Self, Diagnostic> {
-        let text = cx.text(file)?;
+        let bytes = cx.bytes(file)?;
         let fault = |fault: String| cx.error(format!("{file}: {fault}"));
-        let columns = table::columns(&text).map_err(fault)?;
+        let columns = table::columns(&bytes).map_err(fault)?;
         let quantity = |name: &str| M::QUANTITIES.iter().find(|q| q.name == name);
         // Results follow the axes; a misspelled first or only axis must not be taken for a result.
         let axes = columns.iter().take_while(|c| quantity(c).is_some()).count();
@@ -300,7 +300,7 @@ impl<M: Mechanism> Lookup<M> {
                 ))
                 .help("name each axis as a quantity; results follow all axes"));
         }
-        let tables = Table::several_from_csv(&text, reading, axes).map_err(|reason| {
+        let tables = Table::several_from_file(&bytes, reading, axes).map_err(|reason| {
             let error = fault(reason);
             if columns.len() > axes + 1 {
                 let names: Vec<&str> = M::QUANTITIES.iter().map(|q| q.name).collect();

@@ -113,7 +113,7 @@ impl Language {
         let mut catalogues: BTreeMap<&'static str, CatalogueTable> = BTreeMap::new();
         for section in registry.sections().map(|(_, s)| s.name).chain([LUBRICANTS]) {
             for catalogue in registry.catalogues(section) {
-                match CatalogueTable::from_csv(catalogue.csv) {
+                match CatalogueTable::from_file(catalogue.csv) {
                     Ok(table) => {
                         let known = catalogues.entry(section).or_default();
                         if let Some(twice) = table.0.keys().find(|designation| known.0.contains_key(*designation)) {

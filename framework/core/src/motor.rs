@@ -1,8 +1,8 @@
 //! Losses of an electric motor from a map over speed and torque.
 
-use gearloss_document::data::cells::Form;
-use gearloss_document::data::sheet::{Assigned, Sheet, Wanted, limited_faults};
-use gearloss_document::data::{MeasuredFault, fault};
+use gearloss_document::data::missing::CELL_HELP;
+use gearloss_document::data::sheet::{Sheet, Wanted, limited_faults};
+use gearloss_document::data::{MeasuredFault, TableFile, fault};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -11,10 +11,10 @@ use crate::table::{Axis, Interpolation, Outside, Reading, Table, clamped};
 /// An electric motor that heats its rotor and its stator.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct MotorEntry {
-    /// CSV file, workbook or MDF file, relative to this one: `speed [rpm]`, `torque [Nm]`, and `efficiency [-]` or `loss [W]`; with `temperature [degC]`, one
+    /// CSV file, workbook or MDF file, relative to this one, or an entry with `file`, `columns` and `units`: `speed [rpm]`, `torque [Nm]`, and `efficiency [-]` or `loss [W]`; with `temperature [degC]`, one
     /// map for each temperature. Rows with negative torque are for generating.
     #[schemars(extend("x-refers-to" = "file"))]
-    pub map: String,
+    pub map: TableFile,
     /// Share of the losses that occurs in the rotor.
     #[serde(default)]
     pub rotor_share: RotorShare,
@@ -140,7 +140,7 @@ const QUANTITIES: [Wanted; 5] = [
 ];
 
 /// Fix for a wrong header.
-const COLUMNS: &str = "a map has columns `speed [rpm],torque [Nm],loss [W]`, or `efficiency [-]`";
+const COLUMNS: &str = "a map has columns `speed [rpm],torque [Nm],loss [W]`, or `efficiency [-]`; others are stated by `{ file: ..., columns: ..., units: ... }`";
 
 /// Minimum share of stated nodes of a grid; below it, speeds or torques of the rows differ that should be equal.
 const LEAST_FILLED: f64 = 0.3;
@@ -153,7 +153,20 @@ impl MotorMap {
     /// # Errors
     /// The problem, with line and column.
     pub fn read(bytes: &[u8]) -> Result<Self, Vec<MeasuredFault>> {
-        let sheet = Sheet::open(bytes, Form::default(), &QUANTITIES, Assigned::default()).map_err(in_header)?;
+        Self::read_stated(&TableFile::Name(String::new()), bytes)
+    }
+
+    /// As [`MotorMap::read`], of a file whose columns, units and form may be stated.
+    ///
+    /// # Errors
+    /// As [`MotorMap::read`].
+    pub fn read_stated(file: &TableFile, bytes: &[u8]) -> Result<Self, Vec<MeasuredFault>> {
+        let stated = file.stated();
+        let sheet = Sheet::open(bytes, &stated.form, &QUANTITIES, stated.assigned());
+        let sheet = sheet.map_err(|faults| match file {
+            TableFile::Name(_) => in_header(faults),
+            TableFile::Stated(_) => faults,
+        })?;
         Self::from_sheet(&sheet).map_err(|faults| sheet.table.placed(faults))
     }
 
@@ -181,7 +194,7 @@ impl MotorMap {
             }
         }
         if !faulty.is_empty() {
-            return Err(limited_faults(faulty, "correct the cell, or remove the row"));
+            return Err(limited_faults(faulty, CELL_HELP));
         }
         let mut notes = sheet.notes.clone();
         if silent > 0 {
@@ -227,7 +240,7 @@ impl MotorMap {
     }
 }
 
-/// A map must have its units in the header: they cannot be stated elsewhere.
+/// A map that is named only must have its units in the header.
 fn in_header(faults: Vec<MeasuredFault>) -> Vec<MeasuredFault> {
     let unit = |f: MeasuredFault| {
         // A map has no `units` of its own.

@@ -3,6 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use gearloss_document::data::{self, TableForm};
+
 use crate::loss::Undefined;
 
 /// Extrapolation of a table.
@@ -160,35 +162,44 @@ impl Table {
         })
     }
 
-    /// A table from CSV: a column `name [unit]` for each axis, then one column for the value; one row for each point of the full
-    /// grid, in the order of increasing axes. Lines that begin with # are comments.
+    /// A table from the bytes of a CSV file, a workbook or an MDF file: a column `name [unit]` for each axis, then one column for the value;
+    /// one row for each point of the full grid, in the order of increasing axes. Lines that begin with # are comments.
     ///
     /// # Errors
     /// The line, the column and the problem.
-    pub fn from_csv(text: &str, reading: &Reading) -> Result<Self, String> {
-        let header = header(text)?;
-        let mut tables = Self::several_from_csv(text, reading, header.len().saturating_sub(1))?;
+    pub fn from_file(bytes: impl AsRef<[u8]>, reading: &Reading) -> Result<Self, String> {
+        let cells = cells(bytes.as_ref())?;
+        let mut tables = Self::from_cells(&cells, reading, cells.names.len().saturating_sub(1))?;
         tables.pop().ok_or_else(|| "line 1: no column".to_owned())
     }
 
-    /// As [`Table::from_csv`], with a stated number of axes; every column after them is a separate table.
+    /// As [`Table::from_file`], with a stated number of axes; every column after them is a separate table.
     ///
     /// # Errors
-    /// As [`Table::from_csv`].
-    pub fn several_from_csv(text: &str, reading: &Reading, axes: usize) -> Result<Vec<Self>, String> {
-        let header = header(text)?;
+    /// As [`Table::from_file`].
+    pub fn several_from_file(bytes: impl AsRef<[u8]>, reading: &Reading, axes: usize) -> Result<Vec<Self>, String> {
+        Self::from_cells(&cells(bytes.as_ref())?, reading, axes)
+    }
+
+    fn from_cells(cells: &data::cells::Table, reading: &Reading, axes: usize) -> Result<Vec<Self>, String> {
+        let header = headings(cells);
+        let at_header = cells.at_header();
         if axes == 0 || axes > 4 || header.len() <= axes {
             return Err(format!(
-                "line 1: {} columns, {axes} of them axes; a table has one to four axes and a value",
+                "{at_header}{} columns, {axes} of them axes; a table has one to four axes and a value",
                 header.len()
             ));
         }
-        let rows = rows(text, &header)?;
+        let rows = rows(cells)?;
         let mut names = Vec::new();
         for (column, name) in header.iter().take(axes).enumerate() {
-            let (name, rest) = name
-                .split_once('[')
-                .ok_or_else(|| format!("line 1, column {} `{name}`: no [unit]", column + 1))?;
+            let (name, rest) = name.split_once('[').ok_or_else(|| {
+                format!(
+                    "line {}, column {} `{name}`: no [unit]",
+                    cells.header_line.max(1),
+                    column + 1
+                )
+            })?;
             names.push((name.trim().to_owned(), rest.trim_end_matches(']').to_owned()));
         }
         let grid: Vec<Axis> = names
@@ -198,7 +209,7 @@ impl Table {
                 Ok(Axis {
                     name,
                     unit,
-                    values: rising(&rows, column, &header[column])?,
+                    values: rising(&rows, column, &header[column], cells.header_line.max(1))?,
                 })
             })
             .collect::<Result<_, String>>()?;
@@ -220,7 +231,11 @@ impl Table {
         }
         if let Some(place) = filled.iter().position(Option::is_none) {
             let missing = filled.iter().filter(|f| f.is_none()).count();
-            let after = filled[..place].iter().flatten().max().map_or(1, |row| rows[*row].1);
+            let after = filled[..place]
+                .iter()
+                .flatten()
+                .max()
+                .map_or(cells.header_line.max(1), |row| rows[*row].1);
             return Err(format!(
                 "line {after}: the next point, {}, is missing; {missing} of {count} points are missing in all",
                 named(&grid, place)
@@ -360,55 +375,56 @@ impl Table {
     }
 }
 
-/// The columns of a CSV text.
-fn header(text: &str) -> Result<Vec<String>, String> {
-    let mut reader = reader(text);
-    let header = reader.headers().map_err(|e| e.to_string())?;
-    Ok(header.iter().map(str::to_owned).collect())
+/// The cells of a file. Its header is the first line, unless another has more texts.
+fn cells(bytes: &[u8]) -> Result<data::cells::Table, String> {
+    let is_text = |name: &str| name.parse::<f64>().is_err();
+    data::cells::table(bytes, &TableForm::default(), &is_text, &mut Vec::new())
+        .map_err(|wrong| format!("{} ({})", wrong.message, wrong.help))
+}
+
+/// The headings of the columns, with their units.
+fn headings(cells: &data::cells::Table) -> Vec<String> {
+    let heading = |(name, unit): (&String, &Option<String>)| match unit {
+        Some(unit) => format!("{name} [{unit}]"),
+        None => name.clone(),
+    };
+    cells.names.iter().zip(&cells.units).map(heading).collect()
 }
 
 /// Names of the columns of a table, without their units.
 ///
 /// # Errors
-/// If the text has no header.
-pub fn columns(text: &str) -> Result<Vec<String>, String> {
-    let bare = |name: &String| name.split('[').next().unwrap_or(name).trim().to_owned();
-    Ok(header(text)?.iter().map(bare).collect())
+/// If the file has no header.
+pub fn columns(bytes: impl AsRef<[u8]>) -> Result<Vec<String>, String> {
+    Ok(cells(bytes.as_ref())?.names)
 }
 
-fn reader(text: &str) -> csv::Reader<&[u8]> {
-    csv::ReaderBuilder::new()
-        .comment(Some(b'#'))
-        .trim(csv::Trim::All)
-        .from_reader(text.as_bytes())
-}
-
-/// All numbers of a CSV text with their line numbers.
-fn rows(text: &str, header: &[String]) -> Result<Vec<(Vec<f64>, u64)>, String> {
+/// All numbers of a file with their line numbers.
+fn rows(cells: &data::cells::Table) -> Result<Vec<(Vec<f64>, u64)>, String> {
+    let (header, width) = (headings(cells), cells.names.len());
     let mut rows = Vec::new();
-    for record in reader(text).records() {
-        let record = record.map_err(|e| match (e.position(), e.kind()) {
-            (Some(at), csv::ErrorKind::UnequalLengths { expected_len, len, .. }) => {
-                format!("line {}: {len} columns where the header has {expected_len}", at.line())
-            }
-            _ => e.to_string(),
-        })?;
-        let line = record.position().map_or(0, csv::Position::line);
-        let mut row = Vec::with_capacity(header.len());
-        for (column, (cell, name)) in record.iter().zip(header).enumerate() {
-            let number = cell.parse::<f64>().ok().filter(|x| x.is_finite());
-            row.push(
-                number
-                    .ok_or_else(|| format!("line {line}, column {} `{name}`: `{cell}` is not a number", column + 1))?,
-            );
+    for (line, row) in &cells.rows {
+        if row.len() != width {
+            return Err(format!("line {line}: {} cells, but the header has {width}", row.len()));
         }
-        rows.push((row, line));
+        let number = |(column, (cell, name)): (usize, (&String, &String))| {
+            let number = cells.numbers.number(cell);
+            number.ok_or_else(|| format!("line {line}, column {} `{name}`: `{cell}` is not a number", column + 1))
+        };
+        rows.push((
+            row.iter()
+                .zip(&header)
+                .enumerate()
+                .map(number)
+                .collect::<Result<_, _>>()?,
+            *line,
+        ));
     }
     Ok(rows)
 }
 
 /// The values of an axis, which must occur in increasing order.
-fn rising(rows: &[(Vec<f64>, u64)], column: usize, name: &str) -> Result<Vec<f64>, String> {
+fn rising(rows: &[(Vec<f64>, u64)], column: usize, name: &str, header_line: u64) -> Result<Vec<f64>, String> {
     let mut values: Vec<f64> = Vec::new();
     for (row, line) in rows {
         let x = row[column];
@@ -424,7 +440,7 @@ fn rising(rows: &[(Vec<f64>, u64)], column: usize, name: &str) -> Result<Vec<f64
         }
     }
     if values.len() < 2 {
-        let line = rows.last().map_or(1, |(_, line)| *line);
+        let line = rows.last().map_or(header_line, |(_, line)| *line);
         return Err(format!(
             "line {line}, column {} `{name}`: {} up to here; a table requires two values on each axis",
             column + 1,
@@ -511,7 +527,7 @@ mod tests {
 
     #[test]
     fn exact_at_the_points_and_linear_between() {
-        let table = Table::from_csv(PLANE, &reading(Outside::Error)).unwrap();
+        let table = Table::from_file(PLANE, &reading(Outside::Error)).unwrap();
         for (point, expected) in [([0.0, 20.0], 1.0), ([1000.0, 80.0], 4.0), ([500.0, 50.0], 2.5)] {
             assert_eq!(table.value(&point).unwrap(), expected);
         }
@@ -520,7 +536,7 @@ mod tests {
     #[test]
     fn beyond_the_ends() {
         let at = |outside| {
-            Table::from_csv(PLANE, &reading(outside))
+            Table::from_file(PLANE, &reading(outside))
                 .unwrap()
                 .value(&[2000.0, 20.0])
         };
@@ -558,7 +574,7 @@ mod tests {
             usually_log: &["n", "answer"],
             ..Reading::default()
         };
-        let tables = Table::several_from_csv(text, &reading, 2).unwrap();
+        let tables = Table::several_from_file(text, &reading, 2).unwrap();
         assert_eq!((tables.len(), tables[1].unit()), (2, Some("Nm")));
         assert_eq!(columns(text).unwrap(), ["n", "t", "pressure", "viscous"]);
         // The first result is positive everywhere and becomes logarithmic, the second is not.
@@ -588,7 +604,7 @@ mod tests {
 
     #[test]
     fn faults_name_the_line() {
-        let fault = |text: &str| Table::from_csv(text, &reading(Outside::Error)).unwrap_err();
+        let fault = |text: &str| Table::from_file(text, &reading(Outside::Error)).unwrap_err();
         assert!(fault("x [mm],y\n0,1\n1,a\n").contains("line 3, column 2 `y`: `a` is not a number"));
         assert!(fault("x [mm],y\n0,1\nNaN,2\n").contains("line 3, column 1 `x [mm]`: `NaN` is not a number"));
         assert!(fault("x [mm],y\n0,1\n2,2\n1,3\n").contains("line 4, column 1 `x [mm]`: 1 follows 2"));
@@ -601,23 +617,23 @@ mod tests {
         assert!(fault("x [mm],y\n0,1\n0,2\n1,1\n").contains("line 3: this point occurs twice"));
         assert!(fault("x,y\n0,1\n").contains("no [unit]"));
         assert!(fault("a [mm],b [mm],y\n0,0,1\n1,1,1\n").contains("missing"));
-        assert!(fault("a [mm],y\n0,1,2\n").contains("line 2: 3 columns where the header has 2"));
+        assert!(fault("a [mm],y\n0,1,2\n").contains("line 2: 3 cells, but the header has 2"));
         let scaled = |name: &str| Reading {
             scales: vec![(name.to_owned(), Scale::Log)],
             ..Reading::default()
         };
         assert!(
-            Table::from_csv(PLANE, &scaled("speed"))
+            Table::from_file(PLANE, &scaled("speed"))
                 .unwrap_err()
                 .contains("logarithmic")
         );
         assert!(
-            Table::from_csv(PLANE, &scaled("torque"))
+            Table::from_file(PLANE, &scaled("torque"))
                 .unwrap_err()
                 .contains("axes are speed, temperature")
         );
         assert!(
-            Table::from_csv("x [mm],y\n0,0\n1,1\n", &scaled("answer"))
+            Table::from_file("x [mm],y\n0,0\n1,1\n", &scaled("answer"))
                 .unwrap_err()
                 .contains("answer")
         );
@@ -626,7 +642,7 @@ mod tests {
     proptest! {
         #[test]
         fn inside_the_value_stays_between_its_corners(x in 0.0..1000.0_f64, t in 20.0..80.0_f64) {
-            let value = Table::from_csv(PLANE, &reading(Outside::Error)).unwrap().value(&[x, t]).unwrap();
+            let value = Table::from_file(PLANE, &reading(Outside::Error)).unwrap().value(&[x, t]).unwrap();
             prop_assert!((1.0..=4.0).contains(&value));
         }
 

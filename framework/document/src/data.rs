@@ -1,13 +1,22 @@
 //! Data files: from bytes to cells, and the columns of quantities.
 
 pub mod cells;
+mod encoding;
+mod file;
+mod foreign;
+mod form;
+mod header;
 mod mdf;
+pub mod missing;
+pub mod numbers;
 pub mod sheet;
+mod times;
 mod workbook;
 
 use crate::{Dimension, Unit};
 
-pub use cells::{Decimal, Encoding, Separator};
+pub use file::{StatedTable, TableFile};
+pub use form::{DateOrder, Decimal, Encoding, MissingMark, Separator, TableForm, Thousands};
 
 /// The key that a fault refers to.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -457,11 +457,8 @@ impl Workspace<'_> {
     pub(crate) fn catalogue(&self, document: &Document, name: &str) -> Option<CatalogueTable> {
         self.chain(&document.path).iter().find_map(|own| {
             let file = section(&own.outline, &format!("catalogues.{name}"))?.text()?;
-            let text = self
-                .files()
-                .read_text(&named(&own.path, file), LONGEST_CATALOGUE)
-                .ok()?;
-            CatalogueTable::from_csv(&text).ok()
+            let bytes = self.files().read(&named(&own.path, file), LONGEST_CATALOGUE).ok()?;
+            CatalogueTable::from_file(&bytes).ok()
         })
     }
 }

@@ -10,7 +10,8 @@ mod plausible;
 
 use std::collections::BTreeMap;
 
-use gearloss_document::data::cells::{self, Decimal, Form, Table};
+use gearloss_document::data::cells::{self, Table};
+use gearloss_document::data::{Decimal, TableForm};
 use gearloss_document::{Diagnostic, Unit, did_you_mean};
 use gearloss_framework::resolve::CatalogueTable;
 
@@ -32,6 +33,8 @@ pub struct Options {
     pub decimal: Option<Decimal>,
     /// Sheet of a workbook.
     pub sheet: Option<String>,
+    /// Line of the headings; otherwise the one that has most of the known headings.
+    pub header_line: Option<u64>,
 }
 
 /// A catalogue with the report of its import.
@@ -78,14 +81,17 @@ pub fn import(
         );
         return Err(vec![error(format!("--kind `{wrong}` is no kind of bearing"), &help)]);
     }
-    let form = Form {
+    let form = TableForm {
         // The sign is found below, together with that of thousands; in a workbook it is a point.
         decimal: Some(Decimal::Point),
-        sheet: options.sheet.as_deref(),
-        ..Form::default()
+        sheet: options.sheet.clone(),
+        header_line: options.header_line,
+        ..TableForm::default()
     };
     let mut notes = Vec::new();
-    let mut table = cells::table(bytes, form, &mut notes)
+    let stated = |header: &str| options.columns.iter().any(|text| text.contains(header));
+    let is_name = |header: &str| headings::key(header).is_some() || stated(header);
+    let mut table = cells::table(bytes, &form, &is_name, &mut notes)
         .map_err(|wrong| vec![error(format!("{name}: {}", wrong.message), &wrong.help)])?;
     take_units(&mut table);
     let name = &table.named(name);

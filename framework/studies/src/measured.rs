@@ -26,7 +26,7 @@ pub use accuracies::{
 pub use columns::{ChangedColumnEntry, ColumnEntry};
 pub use condition::{Condition, ConditionFault};
 pub use files::{FileEntry, MeasuredFile, MeasuredFiles, OwnFileEntry};
-pub use gearloss_document::data::{Decimal, Encoding, FaultPlace, MeasuredFault, Separator};
+pub use gearloss_document::data::{FaultPlace, MeasuredFault, TableForm};
 pub(crate) use gearloss_document::data::{cells as text, fault};
 pub use rig::{Instruments, PortSpeeds, Powers, Rig, RigEntry, StatedAs, SupportLossEntry, TorqueMeterEntry};
 pub use seen::{Seen, counted};
@@ -52,16 +52,9 @@ pub struct MeasuredEntry {
     /// `units` have precedence where a file states different ones; otherwise that is an error.
     #[serde(default)]
     pub units_override: bool,
-    /// Sheet of a workbook (.xlsx); default: the first one.
-    pub sheet: Option<String>,
-    /// Channel group of an MDF file (.mf4), by its name or its number from 1 on; needed if several have samples.
-    pub group: Option<String>,
-    /// Cell separator; default: detected.
-    pub separator: Option<Separator>,
-    /// Decimal sign; default: detected. In a workbook that of numbers stored as texts, a point unless stated.
-    pub decimal: Option<Decimal>,
-    /// Encoding; default: UTF-8, or Latin-1 if that fails.
-    pub encoding: Option<Encoding>,
+    /// How the file is written.
+    #[serde(flatten)]
+    pub form: TableForm,
     /// Treatment of rows with blanks or text instead of a number.
     #[serde(default)]
     pub faulty_rows: FaultyRows,

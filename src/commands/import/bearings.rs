@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 use gearloss_exchange::bearing_table::{self, Options};
 use gearloss_framework::document::Sources;
 use gearloss_framework::document::data::Decimal;
-use gearloss_framework::files::{LONGEST_DATA, read_bytes};
 use gearloss_framework::gearbox::Findings;
 
 use super::super::{catalogue, new};
@@ -14,8 +13,7 @@ use crate::output::{End, Failure, Out};
 
 pub fn run(args: &BearingsArgs, out: &mut Out) -> Result<End, Failure> {
     let file = &args.file;
-    let bytes = read_bytes(file, LONGEST_DATA)
-        .map_err(|e| Failure::input(format!("cannot read {}: {e}", file.display()), "check the file name"))?;
+    let bytes = super::super::read_table(file)?;
     let language = super::super::language()?;
     let options = Options {
         columns: args.columns.clone(),
@@ -25,6 +23,7 @@ pub fn run(args: &BearingsArgs, out: &mut Out) -> Result<End, Failure> {
             DecimalArg::Comma => Decimal::Comma,
         }),
         sheet: args.sheet.clone(),
+        header_line: args.header_line,
     };
     let shipped = language.catalogue("bearings");
     let name = file.file_name().unwrap_or(file.as_os_str()).to_string_lossy();
@@ -33,7 +32,12 @@ pub fn run(args: &BearingsArgs, out: &mut Out) -> Result<End, Failure> {
         Out::error().line(format!("{}\n", Sources::default().render(warning)))?;
     }
     let path = args.output.clone().unwrap_or_else(|| default_output(file));
-    catalogue::checked(&imported.text, &path.display().to_string(), "bearings", language)?;
+    catalogue::checked(
+        imported.text.as_bytes(),
+        &path.display().to_string(),
+        "bearings",
+        language,
+    )?;
     new::write(&path, &imported.text, out)?;
     for line in &imported.report {
         out.line(line)?;

@@ -234,6 +234,17 @@ impl<'a> Build<'a> {
         })
     }
 
+    /// The bytes of a file that the description names.
+    ///
+    /// # Errors
+    /// If the file cannot be read.
+    pub fn bytes(&self, file: &str) -> Result<Arc<[u8]>, Diagnostic> {
+        self.files.bytes(file).map_err(|reason| {
+            self.error(reason)
+                .help("names of files are relative to the document that names them")
+        })
+    }
+
     /// The parameters of the model.
     ///
     /// # Errors

@@ -9,6 +9,8 @@ use super::designation::suggest;
 use super::{ValueSource, absent, entries_mut};
 use crate::attach::dangling;
 use crate::codes;
+use crate::document::data::TableForm;
+use crate::document::data::cells::{self, FoundColumn};
 use crate::document::{Diagnostic, Dimension, Unit};
 use crate::language::{LUBRICANTS, Language};
 use crate::mechanism::Component as _;
@@ -81,69 +83,73 @@ impl CatalogueTable {
         }
     }
 
-    /// Reads a catalogue: `designation`, then keys with their unit in brackets, and optionally `confidence` and `basis`. A column
-    /// without a unit is text. An empty cell states nothing.
+    /// Reads a catalogue from the bytes of a CSV file, a workbook or an MDF file: `designation`, then keys with their unit in brackets, and
+    /// optionally `confidence` and `basis`. A column without a unit is text. An empty cell states nothing.
     ///
     /// # Errors
     /// With the line of the file.
-    pub fn from_csv(text: &str) -> Result<Self, String> {
-        let mut reader = csv::ReaderBuilder::new()
-            .comment(Some(b'#'))
-            .trim(csv::Trim::All)
-            .from_reader(text.as_bytes());
-        let header = reader.headers().map_err(|e| e.to_string())?.clone();
+    pub fn from_file(bytes: impl AsRef<[u8]>) -> Result<Self, String> {
+        let is_name = |name: &str| name == "designation";
+        let form = TableForm::default();
+        let table = cells::table(bytes.as_ref(), &form, &is_name, &mut Vec::new())
+            .map_err(|wrong| format!("{} ({})", wrong.message, wrong.help))?;
         let mut columns = Vec::new();
-        for name in &header {
-            let (key, unit) = match name.split_once('[') {
-                Some((key, unit)) => {
-                    let unit = unit.trim_end().trim_end_matches(']');
-                    let read = Unit::read(unit).ok_or_else(|| format!("line 1: column `{name}`: unknown unit"))?;
-                    // A dash marks a plain number.
-                    let is_plain = read.dimension == Dimension::None;
-                    (
-                        key.trim().to_owned(),
-                        Some(if is_plain && read.factor == 1.0 { "" } else { unit }),
-                    )
-                }
-                None => (name.to_owned(), None),
+        for (place, (key, symbol)) in table.names.iter().zip(&table.units).enumerate() {
+            let unknown = |symbol: &String| {
+                format!(
+                    "line {}: column `{key} [{symbol}]`: unknown unit",
+                    table.unit_lines[place]
+                )
             };
-            columns.push((key, unit));
+            let unit = match symbol {
+                Some(symbol) => {
+                    let read = Unit::read(symbol).ok_or_else(|| unknown(symbol))?;
+                    // A dash marks a plain number.
+                    let is_plain = read.dimension == Dimension::None && read.factor == 1.0;
+                    Some(if is_plain { "" } else { symbol.as_str() })
+                }
+                None => None,
+            };
+            columns.push((key.as_str(), unit));
         }
-        let at = columns
-            .iter()
-            .position(|(key, _)| key == "designation")
-            .ok_or("line 1: no column `designation`")?;
+        let at_header = table.at_header();
+        let at = match table.column("designation") {
+            FoundColumn::At(place) => place,
+            FoundColumn::Absent => return Err(format!("{at_header}no column `designation`")),
+            FoundColumn::Several(_) => return Err(format!("{at_header}several columns `designation`")),
+        };
         let mut rows = BTreeMap::new();
-        for record in reader.records() {
-            let record = record.map_err(|e| e.to_string())?;
-            let line = record.position().map_or(0, csv::Position::line);
+        for (line, record) in &table.rows {
             let mut row = CatalogueRow {
                 values: Vec::new(),
                 confidence: "not stated".to_owned(),
                 basis: String::new(),
             };
-            for ((key, unit), cell) in columns.iter().zip(&record) {
-                match (key.as_str(), unit) {
+            for ((key, unit), cell) in columns.iter().zip(record) {
+                match (*key, unit) {
                     ("designation", _) => {}
                     ("basis", _) => cell.clone_into(&mut row.basis),
                     ("confidence", _) => cell.clone_into(&mut row.confidence),
                     _ if cell.is_empty() => {}
                     (_, Some(unit)) => {
-                        let number: f64 = cell
-                            .parse()
-                            .ok()
-                            .filter(|x: &f64| x.is_finite())
-                            .ok_or_else(|| format!("line {line}: column `{key}`: `{cell}` is not a number"))?;
+                        let number = table.numbers.number(cell);
+                        let number =
+                            number.ok_or_else(|| format!("line {line}: column `{key}`: `{cell}` is not a number"))?;
                         let value = match *unit {
                             "" => Value::from(number),
-                            unit => Value::from(format!("{cell} {unit}")),
+                            unit => {
+                                let plain = table.numbers.plain(cell);
+                                Value::from(format!("{} {unit}", plain.as_ref().unwrap_or(cell)))
+                            }
                         };
-                        row.values.push((key.clone(), value));
+                        row.values.push(((*key).to_owned(), value));
                     }
-                    (_, None) => row.values.push((key.clone(), Value::from(cell))),
+                    (_, None) => row.values.push(((*key).to_owned(), Value::from(cell.as_str()))),
                 }
             }
-            let designation = record[at].to_owned();
+            let Some(designation) = record.get(at).filter(|cell| !cell.is_empty()).cloned() else {
+                return Err(format!("line {line}: no designation"));
+            };
             if rows.insert(designation.clone(), row).is_some() {
                 return Err(format!("line {line}: `{designation}` occurs twice"));
             }
@@ -221,8 +227,8 @@ fn written_catalogues(
         let path = format!("catalogues.{section}");
         let file = file.as_str().unwrap_or_default();
         match files
-            .text(file)
-            .and_then(|text| CatalogueTable::from_csv(&text).map_err(|e| format!("{file}: {e}")))
+            .bytes(file)
+            .and_then(|bytes| CatalogueTable::from_file(&bytes).map_err(|e| format!("{file}: {e}")))
         {
             Ok(table) if section == LUBRICANTS || language.registry().sections().any(|(_, s)| s.name == section) => {
                 own.insert(section.clone(), table);

@@ -1,79 +1,21 @@
-//! From bytes to cells: encoding, separator, decimal sign, header, units.
+//! From bytes to cells: text, workbook or MDF file, their header and units.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
-use super::{FaultPlace, MeasuredFault, fault, mdf, workbook};
+use super::encoding::decoded;
+use super::form::{Decimal, Kind, Separator, TableForm};
+use super::header::{self, IsName, MOST_LINES};
+use super::numbers::{self, NumberStyle};
+use super::{MeasuredFault, fault, foreign, mdf, workbook};
 use crate::Unit;
 
-/// Cell separator.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Separator {
-    /// `,`
-    Comma,
-    /// `;`
-    Semicolon,
-    /// A tab character.
-    Tab,
-}
+pub use super::header::name_and_unit;
 
-impl Separator {
-    fn byte(self) -> u8 {
-        match self {
-            Self::Comma => b',',
-            Self::Semicolon => b';',
-            Self::Tab => b'\t',
-        }
-    }
-}
-
-/// Decimal sign.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Decimal {
-    /// `1.5`
-    Point,
-    /// `1,5`
-    Comma,
-}
-
-impl Decimal {
-    /// A finite number.
-    pub fn number(self, cell: &str) -> Option<f64> {
-        let number = match self {
-            Self::Point => cell.parse::<f64>(),
-            Self::Comma if cell.contains('.') => return None,
-            Self::Comma => cell.replace(',', ".").parse::<f64>(),
-        };
-        number.ok().filter(|x| x.is_finite())
-    }
-}
-
-/// Encoding of a file.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Encoding {
-    /// UTF-8, with or without a byte order mark.
-    Utf8,
-    /// ISO 8859-1.
-    Latin1,
-}
-
-/// The stated format of a file; unstated properties are detected.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct Form<'a> {
-    /// Sheet of a workbook; otherwise the first one.
-    pub sheet: Option<&'a str>,
-    /// Channel group of an MDF file; needed if it has several with samples.
-    pub group: Option<&'a str>,
-    /// Cell separator.
-    pub separator: Option<Separator>,
-    /// The decimal sign.
-    pub decimal: Option<Decimal>,
-    /// The encoding.
-    pub encoding: Option<Encoding>,
-}
+/// Most columns of a text, as of a sheet.
+const MOST_COLUMNS: usize = 16_384;
+/// Most columns that a message lists, and most letters of each.
+const MOST_LISTED: usize = 60;
+const LONGEST_NAME: usize = 100;
+/// Most cells of a text.
+const MOST_CELLS: usize = 20_000_000;
 
 /// Cells with their lines.
 pub struct Table {
@@ -83,14 +25,29 @@ pub struct Table {
     pub names: Vec<String>,
     /// Unit of each column if the header or a row of units states it.
     pub units: Vec<Option<String>>,
+    /// Line in which the unit of each column is.
+    pub unit_lines: Vec<u64>,
     /// Columns that the file has and that cannot be read, with the reason.
     pub unread: Vec<(String, String)>,
     /// Line of the header; zero in a file whose header is in no line.
     pub header_line: u64,
     /// Cells of each row with its line, row of the sheet, or number of the sample.
     pub rows: Vec<(u64, Vec<String>)>,
-    /// The decimal sign.
-    pub decimal: Decimal,
+    /// How its numbers are written.
+    pub numbers: NumberStyle,
+    /// The first line that repeats the header, and the last line of numbers before it.
+    pub repeated: Option<(u64, u64)>,
+}
+
+/// The columns of a header.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum FoundColumn {
+    /// There is none.
+    Absent,
+    /// The only one, or the one that `NAME#2` chooses.
+    At(usize),
+    /// Several, between which the name does not decide.
+    Several(Vec<usize>),
 }
 
 impl Table {
@@ -114,9 +71,85 @@ impl Table {
         faults.into_iter().map(placed).collect()
     }
 
+    /// The column of a header. `NAME#2` is the second of several with the same name.
+    pub fn column(&self, header: &str) -> FoundColumn {
+        let of_name = |name: &str| -> Vec<usize> {
+            let names = self.names.iter().enumerate();
+            names.filter(|(_, own)| *own == name).map(|(place, _)| place).collect()
+        };
+        match of_name(header).as_slice() {
+            [place] => FoundColumn::At(*place),
+            [] => {
+                let numbered = header.rsplit_once('#').and_then(|(name, number)| {
+                    let number = number.parse::<usize>().ok()?.checked_sub(1)?;
+                    of_name(name).get(number).copied()
+                });
+                numbered.map_or(FoundColumn::Absent, FoundColumn::At)
+            }
+            several => FoundColumn::Several(several.to_vec()),
+        }
+    }
+
+    /// As [`Table::column`]; of several columns with the same name the only one whose unit satisfies a condition.
+    pub fn column_with_unit(&self, header: &str, fits: impl Fn(Option<&str>) -> bool) -> FoundColumn {
+        match self.column(header) {
+            FoundColumn::Several(places) => {
+                let mut fitting = places.iter().filter(|place| fits(self.units[**place].as_deref()));
+                match (fitting.next(), fitting.next()) {
+                    (Some(place), None) => FoundColumn::At(*place),
+                    _ => FoundColumn::Several(places),
+                }
+            }
+            found => found,
+        }
+    }
+
+    /// That a name does not decide between columns, and how to choose.
+    pub fn ambiguous(&self, header: &str, places: &[usize], quantity: &str) -> (String, String) {
+        let what = if self.header_line == 0 { "channels" } else { "columns" };
+        let numbers: Vec<String> = places.iter().map(|place| (place + 1).to_string()).collect();
+        let choices: Vec<String> = (1..=places.len().min(4)).map(|i| format!("\"{header}#{i}\"")).collect();
+        (
+            format!("`{header}` is the name of several {what}: {}", numbers.join(", ")),
+            format!(
+                "choose one by its order: `columns: {{ {quantity}: {} }}`",
+                choices.join("` or `")
+            ),
+        )
+    }
+
+    /// Names of the columns; the order is added to one that occurs several times.
+    pub fn distinct_names(&self) -> Vec<String> {
+        let mut counts = std::collections::BTreeMap::<&str, (usize, usize)>::new();
+        for name in &self.names {
+            counts.entry(name).or_default().0 += 1;
+        }
+        let distinct = |name: &String| match counts.get_mut(name.as_str()) {
+            Some((2.., seen)) if !name.is_empty() => {
+                *seen += 1;
+                format!("{name}#{seen}")
+            }
+            _ => name.clone(),
+        };
+        self.names.iter().map(distinct).collect()
+    }
+
+    /// The names of the columns for messages, cut off if they are many or long.
+    pub fn list(&self) -> String {
+        let short = |name: &String| match name.char_indices().nth(LONGEST_NAME) {
+            Some((end, _)) => format!("{}...", &name[..end]),
+            None => name.clone(),
+        };
+        let names: Vec<String> = self.names.iter().take(MOST_LISTED).map(short).collect();
+        match self.names.len().saturating_sub(MOST_LISTED) {
+            0 => names.join(", "),
+            more => format!("{} and {more} more", names.join(", ")),
+        }
+    }
+
     /// That there is no column of this name, and why if the file has it; with all columns.
     pub fn lacks(&self, header: &str) -> String {
-        let names = self.names.join(", ");
+        let names = self.list();
         match self.unread.iter().find(|(name, _)| name == header) {
             Some((_, why)) => format!("`{header}` cannot be read: {why}; there are: {names}"),
             None => format!("there is no column `{header}`; there are: {names}"),
@@ -130,17 +163,39 @@ impl Table {
             line => format!("line {line}: "),
         }
     }
+
+    /// The place of the unit of a column before an error.
+    pub fn at_unit(&self, place: usize) -> String {
+        match self.unit_lines[place] {
+            0 => String::new(),
+            line => format!("line {line}, "),
+        }
+    }
+
+    /// Line and column as text.
+    pub fn describe(&self, line: u64, place: usize) -> String {
+        format!("line {line}, column {} `{}`", place + 1, self.names[place])
+    }
+
+    /// The error for a file whose header is repeated: it has several segments.
+    pub fn segments(&self) -> Option<MeasuredFault> {
+        let (line, last) = self.repeated?;
+        Some(MeasuredFault::new(
+            "last_line",
+            format!(
+                "line {line} repeats the header of line {}: the file has several segments",
+                self.header_line
+            ),
+            format!("read the first by `last_line: {last}`, or the one below by `header_line: {line}`"),
+        ))
+    }
 }
 
 /// The number in a cell, or an error with its content.
-pub fn number(
-    decimal: Decimal,
-    (line, cells): (u64, &[String]),
-    (place, header): (usize, &str),
-) -> Result<f64, String> {
+pub fn number(table: &Table, (line, cells): (u64, &[String]), place: usize) -> Result<f64, String> {
     let cell = cells.get(place).map_or("", String::as_str);
-    decimal.number(cell).ok_or_else(|| {
-        let at = format!("line {line}, column {} `{header}`", place + 1);
+    table.numbers.number(cell).ok_or_else(|| {
+        let at = table.describe(line, place);
         if cell.is_empty() {
             format!("{at}: empty")
         } else if let Some(date) = cell.strip_prefix(workbook::DATE) {
@@ -160,55 +215,227 @@ pub(super) fn written(number: f64) -> String {
     format!("{number:?}")
 }
 
-fn decoded(bytes: &[u8], encoding: Option<Encoding>, notes: &mut Vec<String>) -> Result<String, MeasuredFault> {
-    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    let latin = || bytes.iter().map(|b| char::from(*b)).collect::<String>();
-    match (encoding, std::str::from_utf8(bytes)) {
-        (Some(Encoding::Latin1), _) => Ok(latin()),
-        (_, Ok(text)) => Ok(text.to_owned()),
-        (None, Err(_)) => {
-            notes.push("read as Latin-1, because it is not UTF-8".to_owned());
-            Ok(latin())
-        }
-        (Some(Encoding::Utf8), Err(e)) => Err(fault(
-            format!("byte {} is not UTF-8", e.valid_up_to() + 1),
-            "write `encoding: latin1`, or convert the file",
-        )),
+/// Reads the cells of a file and notes the detected format. The content decides what it is: a workbook, an MDF file, or else a text.
+/// `is_name` knows the names of columns that are looked for, by which the header is found.
+///
+/// # Errors
+/// The first error with its line.
+pub fn table(
+    bytes: &[u8],
+    form: &TableForm,
+    is_name: IsName<'_>,
+    notes: &mut Vec<String>,
+) -> Result<Table, MeasuredFault> {
+    if let Some(wrong) = foreign::recognise(bytes) {
+        return Err(wrong);
+    }
+    if workbook::is_workbook(bytes) {
+        form.check(Kind::Workbook)?;
+        of_workbook(bytes, form, is_name, notes)
+    } else if mdf::is_mdf(bytes) {
+        form.check(Kind::Mdf)?;
+        let mut table = mdf::table(bytes, form.group.as_deref(), notes)?;
+        header::keep_stated_lines(&mut table.rows, form);
+        Ok(table)
+    } else {
+        form.check(Kind::Text)?;
+        of_text(bytes, form, is_name, notes)
     }
 }
 
-/// The most frequent separator of the header; a semicolon or tabulator has priority over commas, which may be decimal.
-fn separator(header: &str) -> Separator {
-    let count = |c: char| header.chars().filter(|x| *x == c).count();
-    if count(';') > 0 {
+/// The cells of a sheet. Rows that begin with `#` are comments, as in texts.
+fn of_workbook(
+    bytes: &[u8],
+    form: &TableForm,
+    is_name: IsName<'_>,
+    notes: &mut Vec<String>,
+) -> Result<Table, MeasuredFault> {
+    // Of numbers that are stored as texts; others have a point in any language of the spreadsheet.
+    let style = (form.decimal.is_some() || form.thousands.is_some()).then(|| NumberStyle {
+        decimal: form.decimal.unwrap_or(match form.thousands {
+            Some(super::Thousands::Point) => Decimal::Comma,
+            _ => Decimal::Point,
+        }),
+        thousands: form.thousands,
+    });
+    let sheet = workbook::sheet(bytes, form.sheet.as_deref(), style, notes)?;
+    let part = format!("sheet `{}`", sheet.name);
+    let mut rows = sheet.rows;
+    rows.retain(|(_, cells)| {
+        !cells
+            .iter()
+            .find(|cell| !cell.is_empty())
+            .is_some_and(|cell| cell.starts_with('#'))
+    });
+    let in_part = |wrong: MeasuredFault| MeasuredFault {
+        message: format!("{part}: {}", wrong.message),
+        ..wrong
+    };
+    let read = || {
+        let place = match form.header_line {
+            Some(line) => rows
+                .iter()
+                .position(|(row, _)| *row == line)
+                .ok_or_else(|| no_header(line))?,
+            None => header::find(&rows[..rows.len().min(MOST_LINES)], is_name)?,
+        };
+        if place > 0 && form.header_line.is_none() {
+            notes.push(format!("header in row {}", rows[place].0));
+        }
+        rows.drain(..place);
+        headed(rows, form, notes, "delete it, or give its column a header")
+    };
+    Ok(Table {
+        part: Some(part.clone()),
+        ..read().map_err(in_part)?
+    })
+}
+
+fn no_header(line: u64) -> MeasuredFault {
+    MeasuredFault::new(
+        "header_line",
+        format!("line {line} is empty, a comment or not in the file"),
+        "state the line that has the names of the columns, counted from 1 on",
+    )
+}
+
+/// A line of a text that is neither empty nor a comment.
+struct Line<'a> {
+    number: u64,
+    /// Its first byte, and the first one after it.
+    begin: usize,
+    end: usize,
+    text: &'a str,
+}
+
+fn lines(text: &str) -> impl Iterator<Item = Line<'_>> {
+    let mut end = 0;
+    (1..).zip(text.split_inclusive('\n')).map(move |(number, line)| {
+        let begin = end;
+        end += line.len();
+        Line {
+            number,
+            begin,
+            end,
+            text: line.trim_end_matches(['\n', '\r']),
+        }
+    })
+}
+
+fn is_comment(line: &Line<'_>) -> bool {
+    line.text.starts_with('#')
+}
+
+/// The separator of a header; a semicolon or tabulator has priority over commas, which may be decimal.
+fn separator(header: &str, below: &[Line<'_>]) -> Separator {
+    if header.contains(';') {
         Separator::Semicolon
-    } else if count('\t') > 0 {
+    } else if header.contains('\t') {
         Separator::Tab
+    } else if !header.contains(',') && is_separated_by_blanks(header, below) {
+        Separator::Blank
     } else {
         Separator::Comma
     }
 }
 
-/// `name [unit]`, `name (unit)`, `name / unit`, or a bare name.
-pub fn name_and_unit(header: &str) -> (String, Option<String>) {
-    let header = header.trim();
-    for (open, close) in [('[', ']'), ('(', ')')] {
-        if let Some((name, rest)) = header.split_once(open) {
-            return (
-                name.trim().to_owned(),
-                Some(rest.trim_end().trim_end_matches(close).trim().to_owned()),
-            );
-        }
-    }
-    match header.split_once(" / ") {
-        Some((name, unit)) => (name.trim().to_owned(), Some(unit.trim().to_owned())),
-        None => (header.to_owned(), None),
-    }
+/// True if the lines below a header without separators are numbers between blanks, one for each of its names.
+fn is_separated_by_blanks(header: &str, below: &[Line<'_>]) -> bool {
+    let columns = between_blanks(header).len();
+    let is_number = |cell: &str| cell.replace(',', ".").parse::<f64>().is_ok();
+    let fits = |line: &Line<'_>| {
+        let cells = between_blanks(line.text);
+        cells.len() == columns && cells.iter().all(|cell| is_number(cell))
+    };
+    // The first of them may be a row of units.
+    let has_units = below.first().is_some_and(|line| {
+        let cells = between_blanks(line.text);
+        cells.len() == columns && !cells.iter().any(|cell| is_number(cell) && cell != "1")
+    });
+    let below = &below[usize::from(has_units)..];
+    columns > 1 && !below.is_empty() && below.iter().take(10).all(fits)
 }
 
-fn is_unit(cell: &str) -> bool {
-    let bare = cell.trim_start_matches(['[', '(']).trim_end_matches([']', ')']);
-    matches!(bare, "" | "-" | "1") || Unit::read(bare).is_some()
+/// The cells of a line between blanks. Quotes hold a cell together, and brackets belong to the name before them. A `#` begins a comment.
+fn between_blanks(line: &str) -> Vec<String> {
+    let mut cells: Vec<String> = Vec::new();
+    let mut rest = line.trim();
+    while !rest.is_empty() && !rest.starts_with('#') {
+        let quoted = rest.strip_prefix('"').and_then(|rest| rest.split_once('"'));
+        let (cell, after) = quoted.unwrap_or_else(|| rest.split_once(char::is_whitespace).unwrap_or((rest, "")));
+        let in_bracket = cells.last().is_some_and(|last| {
+            [('[', ']'), ('(', ')')]
+                .iter()
+                .any(|(open, close)| last.contains(*open) && !last.contains(*close))
+        });
+        match cells.last_mut() {
+            Some(last)
+                if quoted.is_none() && (in_bracket || cell.starts_with(['[', '('])) && last.parse::<f64>().is_err() =>
+            {
+                last.push(' ');
+                last.push_str(cell);
+            }
+            _ => cells.push(cell.to_owned()),
+        }
+        rest = after.trim_start();
+    }
+    cells
+}
+
+/// The cells of a single line, to find the header by its names.
+fn split(line: &str, separator: Separator) -> Vec<String> {
+    let sign = match separator {
+        Separator::Blank => return between_blanks(line),
+        Separator::Comma => ',',
+        Separator::Semicolon => ';',
+        Separator::Tab => '\t',
+    };
+    let mut in_quotes = false;
+    let cells = line.split(|c: char| {
+        in_quotes ^= c == '"';
+        c == sign && !in_quotes
+    });
+    cells
+        .map(|cell| cell.trim().trim_matches('"').trim().to_owned())
+        .collect()
+}
+
+/// Where the header of a text is, its separator, and whether nothing but comments is before it.
+fn locate<'a>(
+    text: &'a str,
+    form: &TableForm,
+    is_name: IsName<'_>,
+) -> Result<(Line<'a>, Separator, bool), MeasuredFault> {
+    let mut found: Vec<Line<'a>> = lines(text)
+        .filter(|line| !is_comment(line) && !line.text.trim().is_empty())
+        .take(MOST_LINES)
+        .collect();
+    let stated = found.first().and_then(|line| header::stated_separator(line.text));
+    if stated.is_some() {
+        found.remove(0);
+    }
+    let stated = form.separator.or(stated);
+    if let Some(number) = form.header_line {
+        let mut rest = lines(text).skip_while(|line| line.number < number);
+        let line = rest.next().filter(|line| !line.text.trim().is_empty());
+        let line = line.ok_or_else(|| no_header(number))?;
+        let below: Vec<Line<'_>> = rest.filter(|line| !line.text.trim().is_empty()).take(12).collect();
+        let separator = stated.unwrap_or_else(|| separator(line.text.trim_start_matches('#'), &below));
+        return Ok((line, separator, false));
+    }
+    if found.is_empty() {
+        return Err(fault("the file is empty", "choose another file"));
+    }
+    let separators: Vec<Separator> = (0..found.len())
+        .map(|i| stated.unwrap_or_else(|| separator(found[i].text, &found[i + 1..])))
+        .collect();
+    let cells: Vec<(u64, Vec<String>)> = found
+        .iter()
+        .zip(&separators)
+        .map(|(line, separator)| (line.number, split(line.text, *separator)))
+        .collect();
+    let place = header::find(&cells, is_name)?;
+    Ok((found.swap_remove(place), separators[place], place == 0))
 }
 
 /// Line of a record; its position includes the comments and empty lines before it.
@@ -221,139 +448,170 @@ fn line_of(text: &str, at: &csv::Position) -> u64 {
             .count() as u64
 }
 
-/// Reads the cells of a file and notes the detected format. The content decides what it is: a workbook, an MDF file, or else a text.
-///
-/// # Errors
-/// The first error with its line.
-pub fn table(bytes: &[u8], form: Form<'_>, notes: &mut Vec<String>) -> Result<Table, MeasuredFault> {
-    let (is_workbook, is_mdf) = (workbook::is_workbook(bytes), mdf::is_mdf(bytes));
-    let (unused, what) = if is_workbook || is_mdf {
-        let stated = [
-            ("separator", form.separator.is_some()),
-            ("encoding", form.encoding.is_some()),
-            ("decimal", is_mdf && form.decimal.is_some()),
-            ("sheet", is_mdf && form.sheet.is_some()),
-            ("group", is_workbook && form.group.is_some()),
-        ];
-        (stated.to_vec(), if is_mdf { "an MDF file" } else { "a workbook" })
-    } else {
-        let stated = [("sheet", form.sheet.is_some()), ("group", form.group.is_some())];
-        (stated.to_vec(), "a text file (CSV)")
-    };
-    if let Some((key, _)) = unused.into_iter().find(|(_, stated)| *stated) {
-        return Err(MeasuredFault {
-            place: FaultPlace::Entry(key.to_owned()),
-            message: format!("{what} has no `{key}`"),
-            help: format!("delete `{key}`"),
-        });
-    }
-    if is_workbook {
-        of_workbook(bytes, form, notes)
-    } else if is_mdf {
-        mdf::table(bytes, form.group, notes)
-    } else {
-        of_text(bytes, form, notes)
-    }
-}
-
-/// The cells of a sheet. Rows that begin with `#` are comments, as in texts.
-fn of_workbook(bytes: &[u8], form: Form<'_>, notes: &mut Vec<String>) -> Result<Table, MeasuredFault> {
-    let sheet = workbook::sheet(bytes, form.sheet, notes)?;
-    let part = format!("sheet `{}`", sheet.name);
-    let mut rows = sheet.rows;
-    rows.retain(|(_, cells)| {
-        !cells
-            .iter()
-            .find(|cell| !cell.is_empty())
-            .is_some_and(|cell| cell.starts_with('#'))
-    });
-    if form.decimal == Some(Decimal::Comma) {
-        // Numbers that are stored as texts; others have a point in any language of the spreadsheet.
-        let texts = rows
-            .iter_mut()
-            .flat_map(|(_, cells)| cells)
-            .filter(|cell| cell.contains(','));
-        texts.for_each(|cell| {
-            if Decimal::Comma.number(cell).is_some() {
-                *cell = cell.replace(',', ".");
-            }
-        });
-    }
-    let in_part = |wrong: MeasuredFault| MeasuredFault {
-        message: format!("{part}: {}", wrong.message),
-        ..wrong
-    };
-    let headed = headed(rows, notes, "delete it, or give its column a header").map_err(in_part)?;
-    Ok(Table {
-        part: Some(part),
-        ..headed
-    })
-}
-
-fn of_text(bytes: &[u8], form: Form<'_>, notes: &mut Vec<String>) -> Result<Table, MeasuredFault> {
+fn of_text(
+    bytes: &[u8],
+    form: &TableForm,
+    is_name: IsName<'_>,
+    notes: &mut Vec<String>,
+) -> Result<Table, MeasuredFault> {
     let text = decoded(bytes, form.encoding, notes)?;
-    let Some(first) = text
-        .lines()
-        .find(|line| !line.trim().is_empty() && !line.starts_with('#'))
-    else {
-        return Err(fault("the file is empty", "choose another file"));
+    let (head, separator, is_first) = locate(&text, form, is_name)?;
+    if !is_first && form.header_line.is_none() {
+        notes.push(format!("header in line {}", head.number));
+    }
+    if let Some(last) = form.last_line.filter(|last| *last <= head.number) {
+        let message = format!("`last_line: {last}` is not after the header in line {}", head.number);
+        return Err(MeasuredFault::new(
+            "last_line",
+            message,
+            "count the lines from 1 on, comments included",
+        ));
+    }
+    let sign = match separator {
+        Separator::Comma => b',',
+        Separator::Semicolon => b';',
+        Separator::Tab => b'\t',
+        Separator::Blank => b' ',
     };
-    let separator = form.separator.unwrap_or_else(|| {
-        let found = separator(first);
-        if found != Separator::Comma {
-            notes.push(format!(
-                "cells separated by `{}`",
-                char::from(found.byte()).escape_default()
+    match separator {
+        Separator::Comma => {}
+        Separator::Blank => notes.push("cells separated by blanks".to_owned()),
+        _ => notes.push(format!("cells separated by `{}`", char::from(sign).escape_default())),
+    }
+    // Before a line is divided: each cell takes more memory than its sign.
+    let is_long =
+        |line: &str| line.len() > MOST_COLUMNS && line.bytes().filter(|byte| *byte == sign).count() >= MOST_COLUMNS;
+    if let Some((number, _)) = (1_u64..).zip(text.lines()).find(|(_, line)| is_long(line)) {
+        return Err(fault(
+            format!("line {number}: more than {MOST_COLUMNS} cells"),
+            "export the columns that are used",
+        ));
+    }
+    let mut rows: Vec<(u64, Vec<String>)> = Vec::new();
+    let is_commented = is_comment(&head);
+    let from = if is_commented {
+        rows.push((head.number, split(head.text.trim_start_matches('#'), separator)));
+        head.end
+    } else {
+        head.begin
+    };
+    let line_of_first = if is_commented { head.number + 1 } else { head.number };
+    let body = &text[from..];
+    let mut filled = 0;
+    let mut push = |line: u64, cells: Vec<String>| {
+        filled += cells.len();
+        rows.push((line, cells));
+        if filled > MOST_CELLS {
+            return Err(fault(
+                format!("line {line}: the file has more than {MOST_CELLS} cells"),
+                "export the columns that are used, or read a part by `last_line`",
             ));
         }
-        found
-    });
-    let mut reader = csv::ReaderBuilder::new()
-        .delimiter(separator.byte())
-        .comment(Some(b'#'))
-        .trim(csv::Trim::All)
-        .has_headers(false)
-        .flexible(true)
-        .from_reader(text.as_bytes());
-    let mut rows: Vec<(u64, Vec<String>)> = Vec::new();
-    for record in reader.records() {
-        let record = record.map_err(|e| fault(e.to_string(), "check quotes and separators"))?;
-        let line = record.position().map_or(0, |at| line_of(&text, at));
-        if record.iter().all(str::is_empty) {
-            continue;
+        Ok(())
+    };
+    if separator == Separator::Blank {
+        for line in lines(body).filter(|line| !is_comment(line) && !line.text.trim().is_empty()) {
+            push(line_of_first + line.number - 1, between_blanks(line.text))?;
         }
-        rows.push((line, record.iter().map(str::to_owned).collect()));
+    } else {
+        let mut reader = csv::ReaderBuilder::new()
+            .delimiter(sign)
+            .comment(Some(b'#'))
+            .trim(csv::Trim::All)
+            .has_headers(false)
+            .flexible(true)
+            .from_reader(body.as_bytes());
+        let mut record = csv::StringRecord::new();
+        loop {
+            let more = reader.read_record(&mut record);
+            if !more.map_err(|e| fault(e.to_string(), "check quotes and separators"))? {
+                break;
+            }
+            let line = record.position().map_or(0, |at| line_of(body, at)) + line_of_first - 1;
+            if form.last_line.is_some_and(|last| line > last) {
+                break;
+            }
+            if !record.iter().all(str::is_empty) {
+                push(line, record.iter().map(str::to_owned).collect())?;
+            }
+        }
+    }
+    if text.contains(" #") || text.contains("\t#") || text.contains(",#") || text.contains(";#") {
+        cut_comments(&mut rows);
     }
     let help = "if a decimal comma splits numbers, state `separator` or quote such cells";
-    let headed = headed(rows, notes, help)?;
+    let headed = headed(rows, form, notes, help)?;
     Ok(Table {
-        decimal: decimal(&headed.rows, form, notes)?,
+        numbers: numbers::style(&headed.rows, (form, separator), notes)?,
         ..headed
     })
+}
+
+/// Removes comments after cells: what follows a `#` after a number or unit, or after the last cell.
+fn cut_comments(rows: &mut [(u64, Vec<String>)]) {
+    let Some(((_, header), rest)) = rows.split_first_mut() else {
+        return;
+    };
+    let mark = |cell: &str| cell.find(" #").or_else(|| cell.find("\t#"));
+    let width = header.len();
+    for (_, cells) in rest.iter_mut() {
+        cut_comment(cells, width);
+    }
+    // A `#` in a name, as in `Point #,torque [Nm]`, is no comment if the rows below go on behind it.
+    let begin = header
+        .iter()
+        .position(|cell| mark(cell).is_some() || cell.starts_with("# "));
+    if let Some(place) = begin {
+        let before = mark(&header[place]).map(|at| header[place][..at].trim().to_owned());
+        let width = place + usize::from(before.is_some());
+        if width > 0 && rest.first().is_some_and(|(_, cells)| cells.len() <= width) {
+            header.truncate(width);
+            if let Some(before) = before {
+                header[place] = before;
+            }
+        }
+    }
+    let width = header.len();
+    for (_, cells) in rest {
+        cut_comment(cells, width);
+    }
+}
+
+fn cut_comment(cells: &mut Vec<String>, width: usize) {
+    let is_number = |cell: &str| cell.is_empty() || cell.replace(',', ".").parse::<f64>().is_ok();
+    let is_unit = |cell: &str| Unit::read(cell.trim_matches(['[', ']', '(', ')'])).is_some();
+    for place in 0..cells.len() {
+        let cell = &cells[place];
+        if place > 0 && cell.starts_with('#') && (place >= width || cell.starts_with("# ")) {
+            cells.truncate(place);
+            return;
+        }
+        if let Some(at) = cell.find(" #").or_else(|| cell.find("\t#")) {
+            let before = cell[..at].trim();
+            if is_number(before) || (place + 1 >= width && is_unit(before)) {
+                cells[place] = before.to_owned();
+                cells.truncate(place + 1);
+                return;
+            }
+        }
+    }
 }
 
 /// Takes the header and a row of units from the rows. `too_long` is the help for a row with more cells than the header.
-fn headed(mut rows: Vec<(u64, Vec<String>)>, notes: &mut Vec<String>, too_long: &str) -> Result<Table, MeasuredFault> {
+fn headed(
+    mut rows: Vec<(u64, Vec<String>)>,
+    form: &TableForm,
+    notes: &mut Vec<String>,
+    too_long: &str,
+) -> Result<Table, MeasuredFault> {
     if rows.is_empty() {
         return Err(fault("the file is empty", "choose another file"));
     }
     let (header_line, header) = rows.remove(0);
     let (names, mut units): (Vec<String>, Vec<Option<String>>) = header.iter().map(|h| name_and_unit(h)).unzip();
-    // A row of units: every cell is a unit, and at least one is not a number.
-    let numeric = |cell: &String| cell.replace(',', ".").parse::<f64>().is_ok();
-    let unit_row = rows.first().is_some_and(|(_, cells)| {
-        cells.iter().all(|c| is_unit(c)) && cells.iter().any(|c| !c.is_empty() && !numeric(c))
-    });
-    if unit_row {
-        let (line, cells) = rows.remove(0);
-        notes.push(format!("units in line {line}"));
-        for (unit, cell) in units.iter_mut().zip(&cells) {
-            let bare = cell.trim_start_matches(['[', '(']).trim_end_matches([']', ')']);
-            if !bare.is_empty() {
-                *unit = Some(bare.to_owned());
-            }
-        }
-    }
+    let mut unit_lines = vec![header_line; names.len()];
+    header::take_units(&mut rows, (&mut units, &mut unit_lines), notes);
+    header::keep_stated_lines(&mut rows, form);
     for (line, cells) in &rows {
         if cells.len() > names.len() {
             return Err(fault(
@@ -365,43 +623,26 @@ fn headed(mut rows: Vec<(u64, Vec<String>)>, notes: &mut Vec<String>, too_long: 
     Ok(Table {
         part: None,
         unread: Vec::new(),
-        decimal: Decimal::Point,
+        numbers: NumberStyle::PLAIN,
+        repeated: repeated(&rows, &header),
         names,
         units,
+        unit_lines,
         header_line,
         rows,
     })
 }
 
-/// The decimal sign: a comma if numbers contain commas and none contains a point.
-fn decimal(rows: &[(u64, Vec<String>)], form: Form<'_>, notes: &mut Vec<String>) -> Result<Decimal, MeasuredFault> {
-    if let Some(stated) = form.decimal {
-        return Ok(stated);
-    }
-    let digits = |cell: &str, sign: char| {
-        cell.contains(sign)
-            && cell
-                .chars()
-                .all(|c| c.is_ascii_digit() || matches!(c, '.' | ',' | '-' | '+' | 'e' | 'E'))
-    };
-    let with = |sign: char| {
-        let cells = rows
-            .iter()
-            .flat_map(|(line, cells)| cells.iter().map(move |c| (*line, c)));
-        cells
-            .into_iter()
-            .find(|(_, cell)| digits(cell, sign))
-            .map(|(line, _)| line)
-    };
-    match (with(','), with('.')) {
-        (Some(comma), Some(point)) => Err(fault(
-            format!("line {comma} has a decimal comma and line {point} a decimal point"),
-            "state `decimal: comma` or `decimal: point`, and write numbers without thousands separators",
-        )),
-        (Some(_), None) => {
-            notes.push("decimal comma".to_owned());
-            Ok(Decimal::Comma)
-        }
-        _ => Ok(Decimal::Point),
-    }
+/// The line that repeats the header, and the last line of numbers before it.
+fn repeated(rows: &[(u64, Vec<String>)], header: &[String]) -> Option<(u64, u64)> {
+    let place = rows
+        .iter()
+        .position(|(_, cells)| cells.first() == header.first() && *cells == header)?;
+    let is_number = |cell: &&String| cell.replace(',', ".").parse::<f64>().is_ok();
+    let numbers = |cells: &[String]| cells.iter().filter(is_number).count();
+    let most = rows[..place].iter().map(|(_, cells)| numbers(cells)).max().unwrap_or(0);
+    let last = rows[..place]
+        .iter()
+        .rfind(|(_, cells)| numbers(cells) == most && most > 0);
+    Some((rows[place].0, last.map_or(rows[place].0 - 1, |(line, _)| *line)))
 }

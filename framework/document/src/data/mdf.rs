@@ -8,7 +8,8 @@ mod channel;
 mod conversion;
 mod samples;
 
-use super::cells::{Decimal, Table, written};
+use super::cells::{Table, written};
+use super::numbers::NumberStyle;
 use super::{MeasuredFault, fault};
 use crate::did_you_mean;
 use blocks::{Block, MdfFile};
@@ -213,15 +214,17 @@ fn cells(file: &MdfFile<'_>, group: &Group<'_>) -> Result<Table, MeasuredFault> 
         }
         rows.push((index as u64 + 1, cells));
     }
-    let (names, units) = channels.into_iter().map(|channel| (channel.name, channel.unit)).unzip();
+    let (names, units): (Vec<_>, Vec<_>) = channels.into_iter().map(|channel| (channel.name, channel.unit)).unzip();
     Ok(Table {
         part: None,
+        unit_lines: vec![0; names.len()],
         names,
         units,
         unread,
         header_line: 0,
         rows,
-        decimal: Decimal::Point,
+        numbers: NumberStyle::PLAIN,
+        repeated: None,
     })
 }
 

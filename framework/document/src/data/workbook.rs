@@ -10,6 +10,7 @@ use std::collections::BTreeMap;
 use quick_xml::events::{BytesStart, Event};
 use quick_xml::{Reader, XmlVersion};
 
+use super::numbers::{GROUP_SIGNS, NumberStyle};
 use super::{MeasuredFault, fault};
 use crate::archive::{Archive, ArchiveFault};
 use crate::did_you_mean;
@@ -50,11 +51,17 @@ fn is_old(bytes: &[u8]) -> bool {
     bytes.starts_with(b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1")
 }
 
-/// Reads the cells of the sheet of this name, or of the first visible one, and notes which if there are several.
+/// Reads the cells of the sheet of this name, or of the first visible one, and notes which if there are several. `texts` states how numbers
+/// are written that are stored as texts.
 ///
 /// # Errors
 /// If it is no workbook, is damaged or beyond limits, or has no such sheet.
-pub fn sheet(bytes: &[u8], wanted: Option<&str>, notes: &mut Vec<String>) -> Result<SheetCells, MeasuredFault> {
+pub fn sheet(
+    bytes: &[u8],
+    wanted: Option<&str>,
+    texts: Option<NumberStyle>,
+    notes: &mut Vec<String>,
+) -> Result<SheetCells, MeasuredFault> {
     if is_old(bytes) {
         return Err(fault(
             "an Excel file of the old format (.xls), or with a password",
@@ -97,6 +104,7 @@ pub fn sheet(bytes: &[u8], wanted: Option<&str>, notes: &mut Vec<String>) -> Res
     let reader = SheetReader {
         shared: &shared,
         dates: &dates,
+        texts,
         rows: Vec::new(),
         filled: 0,
         bytes: 0,
@@ -326,6 +334,8 @@ struct SheetReader<'a> {
     shared: &'a [String],
     /// Whether each format of cells is that of a date.
     dates: &'a [bool],
+    /// How numbers are written that are stored as texts, if that is stated.
+    texts: Option<NumberStyle>,
     rows: Vec<(u64, Vec<String>)>,
     /// Number of cells so far.
     filled: usize,
@@ -442,11 +452,11 @@ impl SheetReader<'_> {
         match cell.kind.as_str() {
             "s" => {
                 let shared = text.parse::<usize>().ok().and_then(|number| self.shared.get(number));
-                shared.map_or_else(String::new, |text| text.trim().to_owned())
+                shared.map_or_else(String::new, |text| self.number_in(text.trim()))
             }
             "b" => if text == "1" { "TRUE" } else { "FALSE" }.to_owned(),
             "d" => format!("{DATE}{text}"),
-            "str" | "inlineStr" => text.to_owned(),
+            "str" | "inlineStr" => self.number_in(text),
             // `#N/A` alone would begin a comment.
             "e" => format!("error {text}"),
             _ if text.is_empty() => String::new(),
@@ -456,6 +466,15 @@ impl SheetReader<'_> {
                 _ => text.to_owned(),
             },
         }
+    }
+}
+
+impl SheetReader<'_> {
+    /// A text, with a decimal point if it is a number that is written otherwise.
+    fn number_in(&self, text: &str) -> String {
+        let is_signed = text.contains([',', '.']) || text.contains(GROUP_SIGNS);
+        let plain = self.texts.filter(|_| is_signed).and_then(|style| style.plain(text));
+        plain.unwrap_or_else(|| text.to_owned())
     }
 }
 

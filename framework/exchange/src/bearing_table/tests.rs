@@ -3,7 +3,7 @@
 use super::*;
 
 fn read(text: &str, options: &Options) -> Result<Catalogue, Vec<Diagnostic>> {
-    let shipped = CatalogueTable::from_csv("designation,bore,outside\n6208,40 mm,80 mm\n").unwrap();
+    let shipped = CatalogueTable::from_file("designation,bore,outside\n6208,40 mm,80 mm\n").unwrap();
     import(text.as_bytes(), "maker.csv", options, Some(&shipped))
 }
 

@@ -397,20 +397,21 @@ fn battery_of(cx: &Context<'_>, path: &str, vehicle: &VehicleEntry) -> Result<Op
         });
         return unused.map_or(Ok(None), Err);
     };
-    let Some(file) = &vehicle.motor_map else {
+    let Some(map) = &vehicle.motor_map else {
         return Ok(Some(Battery {
             entry,
             motor: None,
             fixed_efficiency: vehicle.efficiency.is_some(),
         }));
     };
-    let at = format!("{path}.motor_map");
+    let (at, file) = (format!("{path}.motor_map"), map.name());
     let bytes = cx.study.read_file(file);
     let bytes = bytes
         .map_err(|e| vec![Diagnostic::error(&at, format!("cannot read {file}: {e}")).help("check the file name")])?;
     cx.keep_input(file, &bytes);
     let of_file = |fault: MeasuredFault| Diagnostic::error(&at, format!("{file}: {}", fault.message)).help(fault.help);
-    let motor = MotorMap::read(&bytes).map_err(|faults| faults.into_iter().map(of_file).collect::<Vec<_>>())?;
+    let motor =
+        MotorMap::read_stated(map, &bytes).map_err(|faults| faults.into_iter().map(of_file).collect::<Vec<_>>())?;
     Ok(Some(Battery {
         entry,
         motor: Some(motor),

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{Interval, Spectrum, Trace, Vehicle};
-use crate::measured::{Decimal, Encoding, MeasuredFault, Separator, fault};
+use crate::measured::{MeasuredFault, TableForm, fault};
 use gearloss_framework::description::Ordered;
 use gearloss_framework::document::did_you_mean;
 use gearloss_framework::registry::Registry;
@@ -65,16 +65,9 @@ pub struct FileCycleEntry {
     #[serde(default = "input")]
     #[schemars(extend("x-refers-to" = "ports"))]
     pub port: String,
-    /// Sheet of a workbook (.xlsx); default: the first one.
-    pub sheet: Option<String>,
-    /// Channel group of an MDF file (.mf4), by its name or its number from 1 on; needed if several have samples.
-    pub group: Option<String>,
-    /// Cell separator; default: detected.
-    pub separator: Option<Separator>,
-    /// Decimal sign; default: detected. In a workbook that of numbers stored as texts, a point unless stated.
-    pub decimal: Option<Decimal>,
-    /// Encoding; default: UTF-8, or Latin-1 if that fails.
-    pub encoding: Option<Encoding>,
+    /// How the file is written.
+    #[serde(flatten)]
+    pub form: TableForm,
     /// Phases of the cycle by name, in order, for comparisons.
     #[serde(default)]
     pub phases: Ordered<PhaseEntry>,
@@ -292,11 +285,7 @@ impl FileCycleEntry {
             units: Ordered::default(),
             units_override: false,
             port: input(),
-            sheet: None,
-            group: None,
-            separator: None,
-            decimal: None,
-            encoding: None,
+            form: TableForm::default(),
             phases: Ordered::default(),
             repeat: one_time(),
             start: None,

@@ -4,8 +4,8 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{Demand, Given, Interval};
-use crate::measured::text::Form;
-use crate::measured::{Decimal, Encoding, MeasuredFault, Separator, fault};
+use crate::measured::{MeasuredFault, TableForm, fault};
+use gearloss_document::data::missing::CELL_HELP;
 use gearloss_document::data::sheet::{Assigned, Sheet, Wanted, limited_faults};
 use gearloss_framework::description::Ordered;
 
@@ -57,16 +57,9 @@ pub struct SpectrumFile {
     /// `units` have precedence where the file states different ones; otherwise that is an error.
     #[serde(default)]
     pub units_override: bool,
-    /// Sheet of a workbook (.xlsx); default: the first one.
-    pub sheet: Option<String>,
-    /// Channel group of an MDF file (.mf4), by its name or its number from 1 on; needed if several have samples.
-    pub group: Option<String>,
-    /// Cell separator; default: detected.
-    pub separator: Option<Separator>,
-    /// Decimal sign; default: detected. In a workbook that of numbers stored as texts, a point unless stated.
-    pub decimal: Option<Decimal>,
-    /// Encoding; default: UTF-8, or Latin-1 if that fails.
-    pub encoding: Option<Encoding>,
+    /// How the file is written.
+    #[serde(flatten)]
+    pub form: TableForm,
 }
 
 const QUANTITIES: [Wanted; 5] = [
@@ -80,23 +73,17 @@ const QUANTITIES: [Wanted; 5] = [
 impl SpectrumFile {
     /// Reads the bytes of the file.
     pub(super) fn read(&self, bytes: &[u8]) -> Result<Vec<SpectrumPoint>, Vec<MeasuredFault>> {
-        let form = Form {
-            sheet: self.sheet.as_deref(),
-            group: self.group.as_deref(),
-            separator: self.separator,
-            decimal: self.decimal,
-            encoding: self.encoding,
-        };
-        let sheet = Sheet::open(
-            bytes,
-            form,
-            &QUANTITIES,
-            Assigned {
+        let sheet = Sheet::open(bytes, &self.form, &QUANTITIES, Assigned {
                 columns: Some(&self.columns),
                 units: Some(&self.units),
                 units_override: self.units_override,
-            },
-        )?;
+            })?;
+        if let Some(place) = sheet.omitted.first() {
+            return Err(sheet.table.placed(vec![fault(
+                format!("{place}: a load case with a missing value"),
+                "complete the value, or delete the row and correct the shares",
+            )]));
+        }
         let due = [("the torque", "torque"), ("the speed", "speed")];
         let lacks: Vec<_> = due
             .iter()
@@ -127,9 +114,7 @@ impl SpectrumFile {
         if faulty.is_empty() {
             Ok(loads)
         } else {
-            Err(sheet
-                .table
-                .placed(limited_faults(faulty, "correct the cell, or delete the row")))
+            Err(sheet.table.placed(limited_faults(faulty, CELL_HELP)))
         }
     }
 }
@@ -206,11 +191,7 @@ mod tests {
             columns: Ordered::default(),
             units: Ordered::default(),
             units_override: false,
-            sheet: None,
-            group: None,
-            separator: None,
-            decimal: None,
-            encoding: None,
+            form: TableForm::default(),
         }
     }
 

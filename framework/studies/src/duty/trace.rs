@@ -1,8 +1,8 @@
 //! A time series: checked rows of a file, and the intervals between them.
 
 use super::{Demand, FileCycleEntry, Given, Interval, Vehicle};
-use crate::measured::text::Form;
 use crate::measured::{MeasuredFault, fault};
+use gearloss_document::data::missing::CELL_HELP;
 use gearloss_document::data::sheet::{Assigned, Sheet, Wanted, limited_faults};
 
 /// One row of a series; SI.
@@ -88,7 +88,7 @@ impl Trace {
             }
         }
         if !faulty.is_empty() {
-            return Err(limited_faults(faulty, "correct the cell, or delete the row"));
+            return Err(limited_faults(faulty, CELL_HELP));
         }
         let found = sheet.table.rows.len();
         let inside = |s: &Sample| entry.start.is_none_or(|t| s.time >= t) && entry.end.is_none_or(|t| s.time <= t);
@@ -96,7 +96,7 @@ impl Trace {
         if !ordered.is_empty() {
             return Err(limited_faults(
                 ordered,
-                "sort the rows by time and remove duplicates; put a restarted recording into another file",
+                "sort the rows by time and remove duplicates; of a recording that restarts, read a part by `first_line` and `last_line`",
             ));
         }
         samples.retain(inside);
@@ -205,13 +205,6 @@ fn mean_given(a: &Given, b: &Given) -> Given {
 }
 
 fn open(entry: &FileCycleEntry, bytes: &[u8]) -> Result<Sheet, Vec<MeasuredFault>> {
-    let form = Form {
-        sheet: entry.sheet.as_deref(),
-        group: entry.group.as_deref(),
-        separator: entry.separator,
-        decimal: entry.decimal,
-        encoding: entry.encoding,
-    };
     let mut wanted: Vec<Wanted> = QUANTITIES.to_vec();
     wanted.extend(entry.temperatures.ids().map(|node| (node, "degC")));
     let mut columns = entry.columns.clone();
@@ -224,16 +217,11 @@ fn open(entry: &FileCycleEntry, bytes: &[u8]) -> Result<Sheet, Vec<MeasuredFault
         }
         columns.0.push((name.to_owned(), column.clone()));
     }
-    let sheet = Sheet::open(
-        bytes,
-        form,
-        &wanted,
-        Assigned {
-            columns: Some(&columns),
-            units: Some(&entry.units),
-            units_override: entry.units_override,
-        },
-    )?;
+    let sheet = Sheet::open_series(bytes, &entry.form, &wanted, Assigned {
+                columns: Some(&columns),
+                units: Some(&entry.units),
+                units_override: entry.units_override,
+            }, "time")?;
     let mut lacks = Vec::new();
     if !sheet.holds(TIME) {
         lacks.push(sheet.lacks("the time", "time"));

@@ -6,6 +6,7 @@ use serde::Deserialize;
 
 use super::{BatteryEntry, Demand};
 use gearloss_framework::document::Diagnostic;
+use gearloss_framework::document::data::TableFile;
 
 /// Standard gravity. \[m/s2\]
 pub const STANDARD_GRAVITY: f64 = 9.806_65;
@@ -44,10 +45,10 @@ pub struct VehicleEntry {
     pub efficiency: Option<f64>,
     /// Battery: with it, cycles report consumption, recuperation and range.
     pub battery: Option<BatteryEntry>,
-    /// Losses of the motor at the reference port, for gearboxes without a motor in a thermal network: CSV file, workbook or MDF file relative to the study with
-    /// `speed [rpm]`, `torque [Nm]`, and `efficiency [-]` or `loss [W]`. Needs `battery`.
+    /// Losses of the motor at the reference port, for gearboxes without a motor in a thermal network: CSV file, workbook or MDF file relative to the study, or an
+    /// entry with `file`, `columns` and `units`; with `speed [rpm]`, `torque [Nm]`, and `efficiency [-]` or `loss [W]`. Needs `battery`.
     #[schemars(extend("x-refers-to" = "file"))]
-    pub motor_map: Option<String>,
+    pub motor_map: Option<TableFile>,
 }
 
 fn rotating_mass_factor() -> f64 {

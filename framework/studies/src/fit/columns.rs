@@ -1,6 +1,8 @@
-//! Columns of a CSV file by name, in SI: `name [unit]` in the header, comments after `#`.
+//! Columns of a table by name, in SI: `name [unit]` in the header, comments after `#`.
 
 use crate::codes;
+use gearloss_document::data::TableForm;
+use gearloss_document::data::cells::{self, FoundColumn, Table};
 use gearloss_framework::document::{Diagnostic, Dimension, Unit, did_you_mean};
 
 /// Largest amount of a quantity, SI: above pressures and shear rates of any test, so that squares remain finite.
@@ -60,81 +62,49 @@ impl Quantity {
 /// The cells of a file.
 pub struct Columns {
     file: String,
-    /// Line of the header.
-    head: u64,
-    /// Name and unit of each column.
-    names: Vec<(String, String)>,
-    rows: Vec<(u64, Vec<String>)>,
+    table: Table,
 }
 
 fn wrong_input(message: String, help: impl Into<String>) -> Diagnostic {
     Diagnostic::error("", message).help(help).code(codes::DATA)
 }
 
-fn cells(record: &csv::StringRecord) -> Vec<String> {
-    record.iter().map(str::to_owned).collect()
-}
-
 impl Columns {
-    /// Reads the text of a file; errors name the file.
+    /// Reads the bytes of a file; errors name the file. Its header is the first line, unless another has more texts.
     ///
     /// # Errors
     /// A row that has another number of cells than the header, or no row at all.
-    pub fn of_text(file: &str, text: &str) -> Result<Self, Diagnostic> {
-        let file = file.to_owned();
-        let mut rows: Vec<(u64, Vec<String>)> = Vec::new();
-        // Line by line: a reader of the whole text would count comments to the next record.
-        for (line, text) in (1..).zip(text.trim_start_matches('\u{feff}').lines()) {
-            if text.trim().is_empty() || text.starts_with('#') {
-                continue;
-            }
-            let mut reader = csv::ReaderBuilder::new()
-                .trim(csv::Trim::All)
-                .has_headers(false)
-                .from_reader(text.as_bytes());
-            let cells: Vec<String> = reader.records().flatten().flat_map(|r| cells(&r)).collect();
-            if let Some((_, header)) = rows.first().filter(|(_, header)| header.len() != cells.len()) {
-                return Err(wrong_input(
-                    format!(
-                        "{file}: line {line}: {} cells, but the header has {}",
-                        cells.len(),
-                        header.len()
-                    ),
-                    "separate cells by commas and use a decimal point",
-                ));
-            }
-            rows.push((line, cells));
+    pub fn of_file(file: &str, bytes: &[u8]) -> Result<Self, Diagnostic> {
+        let is_text = |name: &str| name.parse::<f64>().is_err();
+        let table = cells::table(bytes, &TableForm::default(), &is_text, &mut Vec::new())
+            .map_err(|wrong| wrong_input(format!("{file}: {}", wrong.message), wrong.help))?;
+        let width = table.names.len();
+        if let Some((line, cells)) = table.rows.iter().find(|(_, cells)| cells.len() != width) {
+            return Err(wrong_input(
+                format!("{file}: line {line}: {} cells, but the header has {width}", cells.len()),
+                "complete the row",
+            ));
         }
-        if rows.len() < 2 {
+        if table.rows.is_empty() {
             return Err(wrong_input(
                 format!("{file}: no row of numbers"),
                 "write a header and a row for each point",
             ));
         }
-        let (head, header) = rows.remove(0);
-        let names = header
-            .iter()
-            .map(|cell| match cell.split_once('[') {
-                Some((name, unit)) => (name.trim().to_owned(), unit.trim_end_matches(']').trim().to_owned()),
-                None => (cell.clone(), String::new()),
-            })
-            .collect();
         Ok(Self {
-            file,
-            head,
-            names,
-            rows,
+            file: file.to_owned(),
+            table,
         })
     }
 
     /// Whether there is a column of this name.
     pub fn has(&self, quantity: &Quantity) -> bool {
-        self.names.iter().any(|(name, _)| name == quantity.name)
+        self.table.names.iter().any(|name| name == quantity.name)
     }
 
     /// An input error in a row of the file (index from zero); without a row, in the header.
     pub fn wrong(&self, row: Option<usize>, message: &str, help: impl Into<String>) -> Diagnostic {
-        let line = row.map_or(self.head, |row| self.rows[row].0);
+        let line = row.map_or(self.table.header_line, |row| self.table.rows[row].0);
         wrong_input(format!("{}: line {line}: {message}", self.file), help)
     }
 
@@ -143,8 +113,16 @@ impl Columns {
     /// # Errors
     /// If there is no such column, its unit is none of the quantity, or a cell is no such number.
     pub fn numbers(&self, quantity: &Quantity) -> Result<Vec<f64>, Diagnostic> {
-        let Some(column) = self.names.iter().position(|(name, _)| name == quantity.name) else {
-            let there: Vec<&str> = self.names.iter().map(|(name, _)| name.as_str()).collect();
+        let column = match self.table.column(quantity.name) {
+            FoundColumn::At(column) => Some(column),
+            FoundColumn::Several(places) => {
+                let (message, _) = self.table.ambiguous(quantity.name, &places, quantity.name);
+                return Err(self.wrong(None, &message, "delete or rename all but one of them"));
+            }
+            FoundColumn::Absent => None,
+        };
+        let Some(column) = column else {
+            let there: Vec<&str> = self.table.names.iter().map(String::as_str).collect();
             let near = did_you_mean(quantity.name, there.iter().copied());
             let help = match near {
                 Some(near) => format!("rename `{near}`, or add {}", quantity.header()),
@@ -153,7 +131,7 @@ impl Columns {
             let message = format!("no column `{}`; there are: {}", quantity.name, there.join(", "));
             return Err(self.wrong(None, &message, help));
         };
-        let unit = self.names[column].1.as_str();
+        let unit = self.table.units[column].as_deref().unwrap_or_default();
         let Some((factor, zero)) = quantity.conversion(unit) else {
             let message = match unit {
                 "" => format!("`{}` has no unit", quantity.name),
@@ -166,9 +144,9 @@ impl Columns {
         };
         let any = quantity.measure == Measure::Of(Dimension::Temperature);
         let cell = |row: usize| {
-            let cell = &self.rows[row].1[column];
+            let cell = &self.table.rows[row].1[column];
             let place = format!("column {} `{}`", column + 1, quantity.name);
-            let number = cell.parse::<f64>().ok().filter(|x| x.is_finite()).ok_or_else(|| {
+            let number = self.table.numbers.number(cell).ok_or_else(|| {
                 let message = format!("{place}: `{cell}` is not a number");
                 self.wrong(Some(row), &message, "write a number, or delete the row")
             })?;
@@ -183,7 +161,7 @@ impl Columns {
                 Err(self.wrong(Some(row), &message, "write magnitudes, and delete points at standstill"))
             }
         };
-        (0..self.rows.len()).map(cell).collect()
+        (0..self.table.rows.len()).map(cell).collect()
     }
 
     /// Checks that there is either one quantity or others in its place.
@@ -203,7 +181,7 @@ impl Columns {
     /// Names of columns other than these quantities: those that are not used.
     pub fn unused(&self, quantities: &[Quantity]) -> Vec<&str> {
         let known = |name: &str| quantities.iter().any(|q| q.name == name);
-        let names = self.names.iter().map(|(name, _)| name.as_str());
+        let names = self.table.names.iter().map(String::as_str);
         names.filter(|name| !known(name)).collect()
     }
 }

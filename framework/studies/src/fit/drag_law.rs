@@ -28,13 +28,13 @@ pub struct DragLaw {
 }
 
 impl DragLaw {
-    /// Fits the law to the text of a table as drag models read it; moments in several columns are added up.
+    /// Fits the law to the bytes of a table as drag models read it; moments in several columns are added up.
     ///
     /// # Errors
     /// If it is no such table, or its moments do not determine the law.
-    pub fn of_table(text: &str) -> Result<Self, Diagnostic> {
+    pub fn of_table(bytes: &[u8]) -> Result<Self, Diagnostic> {
         let wrong = |fault: String| wrong(fault, "write the table in the format of the drag model `table`");
-        let names = columns(text).map_err(wrong)?;
+        let names = columns(bytes).map_err(wrong)?;
         let known = |name: &String| AXES.iter().find(|(axis, ..)| axis == name);
         let count = names.iter().take_while(|name| known(name).is_some()).count();
         for needed in ["speed", "nu"] {
@@ -45,7 +45,7 @@ impl DragLaw {
                 ));
             }
         }
-        let tables = Table::several_from_csv(text, &Reading::default(), count).map_err(wrong)?;
+        let tables = Table::several_from_file(bytes, &Reading::default(), count).map_err(wrong)?;
         for axis in tables[0].axes() {
             if let Some((_, unit, _)) = known(&axis.name).filter(|(_, unit, _)| !Unit::is_same(unit, &axis.unit)) {
                 return Err(self::wrong(

@@ -5,7 +5,9 @@ use serde::Deserialize;
 
 use super::files::MeasuredFile;
 use super::{FaultPlace, MeasuredEntry, MeasuredFault, text};
-use gearloss_document::data::{StatedUnit, scale, sheet::overridden};
+use gearloss_document::data::cells::FoundColumn;
+use gearloss_document::data::sheet::{is_name_of, overridden};
+use gearloss_document::data::{StatedUnit, scale};
 use gearloss_framework::document::{Unit, did_you_mean};
 
 /// The column of a quantity.
@@ -44,7 +46,7 @@ impl From<&str> for ColumnEntry {
 }
 
 impl ColumnEntry {
-    fn header(&self) -> &str {
+    pub(super) fn header(&self) -> &str {
         match self {
             Self::Header(header) => header,
             Self::Changed(changed) => &changed.column,
@@ -169,8 +171,13 @@ impl<'a> Finder<'a> {
     }
 
     fn fault(&mut self, place: FaultPlace, message: &str, help: impl Into<String>) {
-        let file = self.table.named(self.file.name);
-        let message = format!("{file}: {}{message}", self.table.at_header());
+        let message = format!("{}{message}", self.table.at_header());
+        self.fault_at(place, &message, help);
+    }
+
+    /// An error whose message begins with its line.
+    fn fault_at(&mut self, place: FaultPlace, message: &str, help: impl Into<String>) {
+        let message = format!("{}: {message}", self.table.named(self.file.name));
         self.faults.push(MeasuredFault {
             place,
             message,
@@ -179,7 +186,7 @@ impl<'a> Finder<'a> {
     }
 
     fn headers(&self) -> String {
-        self.table.names.join(", ")
+        self.table.list()
     }
 
     /// Headers of columns that are not assigned to a quantity.
@@ -215,15 +222,33 @@ impl<'a> Finder<'a> {
         let written = self.written(quantity).map(ColumnEntry::header);
         // A column that is assigned to another quantity is not used by its own name.
         let taken = written.is_none()
-            && (KNOWN.iter().filter_map(|known| self.written(known.name))).any(|column| column.header() == quantity);
+            && (KNOWN.iter().filter_map(|known| self.written(known.name)))
+                .any(|column| is_name_of(quantity, column.header()));
         if taken {
             return None;
         }
         let header = written.unwrap_or(quantity);
-        match (self.table.names.iter().position(|name| name == header), written) {
-            (Some(place), _) => Some((place, header.to_owned())),
-            (None, None) => None,
-            (None, Some(_)) => {
+        let due = KNOWN
+            .iter()
+            .find(|known| known.name == quantity && !known.unit.is_empty());
+        let has_unit = self.stated_own_unit(quantity).is_some();
+        let fits = |unit: Option<&str>| {
+            let due = due.filter(|_| !has_unit && unit.is_some());
+            let stated = StatedUnit {
+                file: unit,
+                ..StatedUnit::default()
+            };
+            due.is_some_and(|due| scale((due.name, due.unit), stated, header).is_ok())
+        };
+        match (self.table.column_with_unit(header, fits), written) {
+            (FoundColumn::At(place), _) => Some((place, header.to_owned())),
+            (FoundColumn::Several(places), _) => {
+                let (message, help) = self.table.ambiguous(header, &places, quantity);
+                self.fault(self.key("columns", quantity), &message, help);
+                None
+            }
+            (FoundColumn::Absent, None) => None,
+            (FoundColumn::Absent, Some(_)) => {
                 let message = self.table.lacks(header);
                 let help = match did_you_mean(header, self.free_headers()) {
                     Some(close) => format!("write `{close}`"),
@@ -290,16 +315,21 @@ impl<'a> Finder<'a> {
                 Some(unit)
             }
             Err(fault) => {
-                self.fault(self.key("units", name), &fault.message, fault.help);
+                let message = format!("{}{}", self.table.at_unit(place), fault.message);
+                self.fault_at(self.key("units", name), &message, fault.help);
                 None
             }
         }
     }
 
-    fn stated_unit(&self, quantity: &str, place: usize) -> StatedUnit<'a> {
+    fn stated_own_unit(&self, quantity: &str) -> Option<&'a str> {
         let own = self.file.own.and_then(|own| own.units.get(quantity));
+        own.or_else(|| self.entry.units.get(quantity)).map(String::as_str)
+    }
+
+    fn stated_unit(&self, quantity: &str, place: usize) -> StatedUnit<'a> {
         StatedUnit {
-            study: own.or_else(|| self.entry.units.get(quantity)).map(String::as_str),
+            study: self.stated_own_unit(quantity),
             file: self.table.units[place].as_deref(),
             overrides: (self.file.own.and_then(|own| own.units_override)).unwrap_or(self.entry.units_override),
         }
@@ -371,14 +401,27 @@ impl<'a> Finder<'a> {
     }
 
     fn time(&mut self, header: &str, notes: &mut Vec<String>) -> Option<Column> {
-        let place = self.table.names.iter().position(|name| name == header);
+        let at = || FaultPlace::Entry("steady.time".to_owned());
+        let place = match self.table.column(header) {
+            FoundColumn::At(place) => Some(place),
+            FoundColumn::Several(places) => {
+                let (message, _) = self.table.ambiguous(header, &places, "time");
+                self.fault(
+                    at(),
+                    &message,
+                    format!("choose one by its order: `time: \"{header}#1\"`"),
+                );
+                return None;
+            }
+            FoundColumn::Absent => None,
+        };
         let Some(place) = place else {
             let message = self.table.lacks(header);
             let help = match did_you_mean(header, self.table.names.iter().map(String::as_str)) {
                 Some(close) => format!("write `time: {close}`"),
                 None => "state the column of the time, `time: ...`".to_owned(),
             };
-            self.fault(FaultPlace::Entry("steady.time".to_owned()), &message, help);
+            self.fault(at(), &message, help);
             return None;
         };
         let unit = self.unit(("time", "s"), place, header, notes)?;

@@ -6,6 +6,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize, Serializer};
 
 use super::columns::ColumnEntry;
+use gearloss_document::data::TableForm;
 use gearloss_framework::description::Ordered;
 
 /// One file of measured points, or several.
@@ -36,10 +37,9 @@ pub struct OwnFileEntry {
     pub file: String,
     /// Name of the file in messages and tables; default: the file name.
     pub name: Option<String>,
-    /// Sheet of a workbook (.xlsx); default: the first one.
-    pub sheet: Option<String>,
-    /// Channel group of an MDF file (.mf4), by its name or its number from 1 on; needed if several have samples.
-    pub group: Option<String>,
+    /// How the file is written; what is not stated here is as stated for the measurement.
+    #[serde(flatten)]
+    pub form: TableForm,
     /// Columns of this file; they replace those of the measurement, quantity by quantity.
     #[serde(default)]
     pub columns: Ordered<ColumnEntry>,

@@ -1,13 +1,15 @@
 //! Reads the files of a measurement and collects all errors.
 
 use super::columns::{Column, Columns, Finder, KNOWN};
-use super::files::{MeasuredFile, OwnFileEntry};
+use super::files::MeasuredFile;
 use super::text::{self, Table};
 use super::{
-    Accuracies, Condition, ConditionFault, Decimal, FaultyRows, FileColumn, Instruments, Measured, MeasuredEntry,
-    MeasuredFault, Rig, Row, fault, steady,
+    Accuracies, Condition, ConditionFault, FaultPlace, FaultyRows, FileColumn, Instruments, Measured, MeasuredEntry,
+    MeasuredFault, Rig, Row, TableForm, fault, steady,
 };
+use gearloss_document::data::cells::FoundColumn;
 use gearloss_document::data::greatest;
+use gearloss_document::data::sheet::is_name_of;
 use gearloss_framework::document::{Dimension, Unit, did_you_mean};
 
 /// Maximum number of listed faulty cells of a file.
@@ -22,15 +24,25 @@ impl MeasuredEntry {
         self.stated_as.divisor(self.coverage_factor)
     }
 
-    fn form<'a>(&'a self, file: MeasuredFile<'a>) -> text::Form<'a> {
-        let own = |of: fn(&OwnFileEntry) -> &Option<String>| file.own.and_then(|own| of(own).as_deref());
-        text::Form {
-            sheet: own(|own| &own.sheet).or(self.sheet.as_deref()),
-            group: own(|own| &own.group).or(self.group.as_deref()),
-            separator: self.separator,
-            decimal: self.decimal,
-            encoding: self.encoding,
-        }
+    fn form(&self, file: MeasuredFile<'_>) -> TableForm {
+        file.own
+            .map_or_else(|| self.form.clone(), |own| own.form.or(&self.form))
+    }
+
+    /// Whether a header is that of a quantity, of a bound column or of the time.
+    fn is_name(&self, file: MeasuredFile<'_>, bind: &[&str], header: &str) -> bool {
+        let of_file = |quantity: &str| file.own.and_then(|own| own.columns.get(quantity));
+        let written = |quantity: &str| of_file(quantity).or_else(|| self.columns.get(quantity));
+        let is_of = |quantity: &str| match written(quantity) {
+            Some(column) => is_name_of(header, column.header()),
+            None => header == quantity,
+        };
+        KNOWN.iter().any(|known| is_of(known.name))
+            || bind.iter().any(|name| is_of(name))
+            || self
+                .steady
+                .as_ref()
+                .is_some_and(|steady| is_name_of(header, &steady.time))
     }
 
     /// Reads the bytes of its single file. `bind` lists columns that change the gearbox.
@@ -187,7 +199,9 @@ impl MeasuredEntry {
         notes: &mut Vec<String>,
         faults: &mut Vec<MeasuredFault>,
     ) -> Option<ReadFile> {
-        let table = match text::table(bytes, self.form(file), notes) {
+        let form = self.form(file);
+        let table = self.table(file, bytes, (&form, bind), notes);
+        let table = match table {
             Ok(table) => table,
             Err(wrong) => {
                 let message = format!("{}: {}", file.name, wrong.message);
@@ -202,6 +216,20 @@ impl MeasuredEntry {
             faults: Vec::new(),
         };
         let columns = finder.columns(bind);
+        if form.missing.is_none() {
+            let used = columns
+                .quantities
+                .iter()
+                .chain(columns.bound.iter().map(|bound| &bound.column));
+            let marks = used
+                .filter(|column| column.unit.is_some())
+                .filter_map(|column| table.unstated_mark(column.place));
+            let placed = marks.map(|wrong| MeasuredFault {
+                message: format!("{}: {}", table.named(file.name), wrong.message),
+                ..wrong
+            });
+            finder.faults.extend(placed);
+        }
         let wrong_columns = !finder.faults.is_empty();
         faults.append(&mut finder.faults);
         notes.extend(columns.notes.iter().cloned());
@@ -232,9 +260,41 @@ impl MeasuredEntry {
         })
     }
 
+    /// The cells of a file, with its times in seconds and without marks of missing values.
+    fn table(
+        &self,
+        file: MeasuredFile<'_>,
+        bytes: &[u8],
+        (form, bind): (&TableForm, &[&str]),
+        notes: &mut Vec<String>,
+    ) -> Result<Table, MeasuredFault> {
+        let mut table = text::table(bytes, form, &|header| self.is_name(file, bind, header), notes)?;
+        // Of points without a time, the repeated header is a row to be skipped.
+        if (self.steady.is_some() || self.faulty_rows != FaultyRows::Skip)
+            && let Some(wrong) = table.segments()
+        {
+            return Err(wrong);
+        }
+        table.empty_marks(form.missing.as_deref().unwrap_or_default());
+        if let Some(steady) = &self.steady
+            && let FoundColumn::At(place) = table.column(&steady.time)
+            && table.take_times(place, form.date_order, notes)?
+        {
+            let own = file.own.and_then(|own| own.units.get("time"));
+            if own.or_else(|| self.units.get("time")).is_some_and(|unit| unit != "s") {
+                return Err(MeasuredFault {
+                    place: FaultPlace::Entry("units.time".to_owned()),
+                    message: format!("column `{}` has dates or clock times, which have no unit", steady.time),
+                    help: "delete `time` from `units`".to_owned(),
+                });
+            }
+        }
+        Ok(table)
+    }
+
     /// All columns from the header.
     fn file_columns(&self, table: &Table, columns: &Columns) -> Vec<FileColumn> {
-        let column = |(place, header): (usize, &String)| {
+        let column = |(place, header): (usize, String)| {
             let own = columns.bound.iter().find(|bound| bound.column.place == place);
             let name = own.map(|bound| bound.name.clone());
             let unit = match own {
@@ -245,13 +305,13 @@ impl MeasuredEntry {
             let has_dimension =
                 |unit: &String| unit == "%" || Unit::read(unit).is_some_and(|u| u.dimension != Dimension::None);
             FileColumn {
-                header: header.clone(),
+                header,
                 unit: unit.filter(has_dimension),
                 bound: name,
                 quantity: columns.quantities.iter().find(|c| c.place == place).map(|c| c.name),
             }
         };
-        table.names.iter().enumerate().map(column).collect()
+        table.distinct_names().into_iter().enumerate().map(column).collect()
     }
 
     /// The rows of a file, each with its time; faulty rows are rejected together, or omitted with a note.
@@ -302,7 +362,7 @@ impl MeasuredEntry {
         };
         faults.push(fault(
             format!("{}: {shown}{more}", table.named(file.name)),
-            "correct the cell, or write `faulty_rows: skip` to omit such rows",
+            "correct the cell, or write `faulty_rows: skip` to omit such rows; marks of missing values are stated: `missing: [-9999, \"n/a\"]`",
         ));
         None
     }
@@ -436,7 +496,7 @@ fn timed_row(
     faulty: FaultyRows,
 ) -> Result<(f64, Row), Vec<String>> {
     let number = |column: &Column| {
-        let number = text::number(table.decimal, (line, cells), (column.place, &column.header))?;
+        let number = text::number(table, (line, cells), column.place)?;
         Ok::<f64, String>(number * column.change)
     };
     let mut row = Row { line, ..Row::default() };
@@ -455,10 +515,7 @@ fn timed_row(
             (None, _) => row.name = text(),
         }
     }
-    let plain = |cell: &String| match table.decimal {
-        Decimal::Comma if table.decimal.number(cell).is_some() => cell.replace(',', "."),
-        _ => cell.clone(),
-    };
+    let plain = |cell: &String| table.numbers.plain(cell).unwrap_or_else(|| cell.clone());
     row.cells = cells.iter().map(plain).collect();
     for bound in &columns.bound {
         match number(&bound.column) {

@@ -273,17 +273,17 @@ fn motor(path: &str, entry: &MotorEntry, around: &Around<'_>, found: &mut Vec<Di
     if let Err(fault) = entry.rotor_share.share_at(0.0) {
         found.push(Diagnostic::error(format!("{path}.rotor_share"), fault.message).help(fault.help));
     }
-    let map = match around.files.bytes(&entry.map) {
+    let map = match around.files.bytes(entry.map.name()) {
         Err(reason) => {
             let error = Diagnostic::error(format!("{path}.map"), reason);
             found.push(error.help("file names are relative to the gearbox document"));
             None
         }
-        Ok(bytes) => match MotorMap::read(&bytes) {
+        Ok(bytes) => match MotorMap::read_stated(&entry.map, &bytes) {
             Ok(map) => Some(map),
             Err(faults) => {
                 for fault in faults {
-                    let message = format!("{}: {}", entry.map, fault.message);
+                    let message = format!("{}: {}", entry.map.name(), fault.message);
                     found.push(Diagnostic::error(format!("{path}.map"), message).help(fault.help));
                 }
                 None

@@ -5,7 +5,7 @@ use std::cell::Cell;
 use super::{damaged, limit};
 use crate::data::{MeasuredFault, fault};
 
-/// Most blocks that are visited, and bytes of all texts that are read.
+/// Most blocks that are visited, and bytes of all texts that are looked through.
 const MOST_BLOCKS: usize = 500_000;
 const MOST_TEXT: usize = 64 << 20;
 /// Longest name, unit or text of a value; the rest is cut off. \[byte\]
@@ -150,22 +150,25 @@ impl<'a> MdfFile<'a> {
             return Ok(String::new());
         }
         let block = self.any(at)?;
-        let text = match &block.id {
-            b"##TX" => cut(block.data, LONGEST_TEXT),
-            b"##MD" => text_of_xml(&cut(block.data, 100 * LONGEST_TEXT)),
+        let longest = match &block.id {
+            b"##TX" => LONGEST_TEXT,
+            b"##MD" => 100 * LONGEST_TEXT,
             _ => return Err(damaged(format!("no text at byte {at}"))),
         };
+        let text = cut(block.data, longest);
         let left = self.text.get().checked_sub(text.len());
         self.text
             .set(left.ok_or_else(|| limit(format!("names and texts of more than {} MB", MOST_TEXT >> 20)))?);
+        let text = if block.id == *b"##MD" { text_of_xml(&text) } else { text };
         Ok(text.trim().to_owned())
     }
 }
 
 /// Bytes up to the first zero as a text of limited length.
 pub(super) fn cut(bytes: &[u8], longest: usize) -> String {
+    let bytes = &bytes[..bytes.len().min(longest)];
     let end = bytes.iter().position(|byte| *byte == 0).unwrap_or(bytes.len());
-    String::from_utf8_lossy(&bytes[..end.min(longest)]).into_owned()
+    String::from_utf8_lossy(&bytes[..end]).into_owned()
 }
 
 /// The element `TX` of a comment in XML.

@@ -2,7 +2,7 @@
 
 use super::builder::{ChannelFields, MdfBuilder, simple};
 use super::*;
-use crate::data::cells::{self, Form};
+use crate::data::{TableForm, cells};
 
 fn read(bytes: &[u8], group: Option<&str>) -> Table {
     table(bytes, group, &mut Vec::new()).unwrap()
@@ -28,7 +28,7 @@ fn a_simple_file_is_a_table_with_units() {
         &[vec![0.0, 0.1, -5.0], vec![0.01, 1e-7, f64::NAN]],
     );
     let mut notes = Vec::new();
-    let found = cells::table(&bytes, Form::default(), &mut notes).unwrap();
+    let found = cells::table(&bytes, &TableForm::default(), &|_| true, &mut notes).unwrap();
     assert_eq!(found.names, ["t", "T_in", "n"]);
     assert_eq!(found.units, [Some("s".to_owned()), Some("Nm".to_owned()), None]);
     assert_eq!(rows(&found), [["0", "0.1", "-5"], ["0.01", "1e-7", "NaN"]]);
@@ -37,10 +37,11 @@ fn a_simple_file_is_a_table_with_units() {
     assert!(
         cells::table(
             &bytes,
-            Form {
-                sheet: Some("a"),
-                ..Form::default()
+            &TableForm {
+                sheet: Some("a".to_owned()),
+                ..TableForm::default()
             },
+            &|_| true,
             &mut notes
         )
         .is_err()

@@ -3,7 +3,8 @@
 use std::io::Write as _;
 
 use super::*;
-use crate::data::cells::{Decimal, Form, table};
+use crate::data::cells::table;
+use crate::data::{Decimal, TableForm};
 
 /// An archive of files.
 fn archive(files: &[(&str, &str)]) -> Vec<u8> {
@@ -50,7 +51,7 @@ fn book(sheet: &str) -> Vec<u8> {
 const HEADER: &str = r#"<row r="3"><c r="B3" t="s"><v>0</v></c><c r="C3" t="s"><v>1</v></c></row>"#;
 
 fn read(sheet: &str) -> Result<SheetCells, MeasuredFault> {
-    super::sheet(&book(sheet), None, &mut Vec::new())
+    super::sheet(&book(sheet), None, None, &mut Vec::new())
 }
 
 #[test]
@@ -62,7 +63,7 @@ fn cells_of_all_kinds_are_read_with_the_rows_of_the_sheet() {
         <row r="7"><c r="B7" t="e"><v>#N/A</v></c><c t="str"><f>A1</f><v>1,5</v></c></row>
         <row><c r="B8" t="b"><v>1</v></c><c r="C8" s="1"><v>0.5</v></c></row><row><c r="B9" t="d"><v>2024-01-31</v></c></row>"#
     ));
-    let found = table(&bytes, Form::default(), &mut notes).unwrap();
+    let found = table(&bytes, &TableForm::default(), &|_| true, &mut notes).unwrap();
     assert_eq!(found.part.as_deref(), Some("sheet `Rig & data`"));
     assert!(
         notes[0].contains("sheet `Rig & data` is read; `sheet` chooses another: `Old`"),
@@ -79,48 +80,57 @@ fn cells_of_all_kinds_are_read_with_the_rows_of_the_sheet() {
     assert_eq!(rows[1], (7, vec!["", "error #N/A", "1,5"]));
     assert_eq!(rows[2], (8, vec!["", "TRUE", "date or time 0.5"]));
     assert_eq!(rows[3], (9, vec!["", "date or time 2024-01-31"]));
-    let date = crate::data::cells::number(found.decimal, (8, &found.rows[2].1), (2, "speed")).unwrap_err();
+    let date = crate::data::cells::number(&found, (8, &found.rows[2].1), 2).unwrap_err();
     assert_eq!(
         date,
         "line 8, column 3 `speed`: a date or time, stored as `0.5`: give the cell the format of a number"
     );
     // Numbers that are stored as texts in the language of the writer.
-    let comma = Form {
+    let comma = TableForm {
         decimal: Some(Decimal::Comma),
-        ..Form::default()
+        ..TableForm::default()
     };
-    assert_eq!(table(&bytes, comma, &mut notes).unwrap().rows[1].1[2], "1.5");
+    assert_eq!(
+        table(&bytes, &comma, &|_| true, &mut notes).unwrap().rows[1].1[2],
+        "1.5"
+    );
 }
 
 #[test]
 fn a_sheet_is_chosen_by_its_name() {
     let mut notes = Vec::new();
-    let found = super::sheet(&book(HEADER), Some("Old"), &mut notes).unwrap();
+    let found = super::sheet(&book(HEADER), Some("Old"), None, &mut notes).unwrap();
     assert_eq!((found.rows.len(), notes.len()), (1, 0));
-    let wrong = super::sheet(&book(HEADER), Some("old"), &mut notes).unwrap_err();
+    let wrong = super::sheet(&book(HEADER), Some("old"), None, &mut notes).unwrap_err();
     assert_eq!(wrong.message, "there is no sheet `old`; there are: `Old`, `Rig & data`");
     assert_eq!(wrong.help, "write `sheet: Old`");
-    let form = Form {
+    let form = TableForm {
         separator: Some(super::super::Separator::Tab),
-        ..Form::default()
+        ..TableForm::default()
     };
     assert_eq!(
-        table(&book(HEADER), form, &mut notes).err().unwrap().message,
+        table(&book(HEADER), &form, &|_| true, &mut notes)
+            .err()
+            .unwrap()
+            .message,
         "a workbook has no `separator`"
     );
-    let form = Form {
-        sheet: Some("Old"),
-        ..Form::default()
+    let form = TableForm {
+        sheet: Some("Old".to_owned()),
+        ..TableForm::default()
     };
     assert_eq!(
-        table(b"a,b\n1,2\n", form, &mut notes).err().unwrap().message,
+        table(b"a,b\n1,2\n", &form, &|_| true, &mut notes)
+            .err()
+            .unwrap()
+            .message,
         "a text file (CSV) has no `sheet`"
     );
 }
 
 #[test]
 fn other_files_of_spreadsheets_are_named() {
-    let refused = |bytes: &[u8]| super::sheet(bytes, None, &mut Vec::new()).unwrap_err().message;
+    let refused = |bytes: &[u8]| super::sheet(bytes, None, None, &mut Vec::new()).unwrap_err().message;
     assert!(refused(b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1 and so on").contains("(.xls)"));
     assert!(refused(&archive(&[("xl/workbook.bin", "")])).contains("(.xlsb)"));
     assert!(refused(&archive(&[("mimetype", ""), ("content.xml", "")])).contains("(.ods)"));
@@ -171,7 +181,7 @@ fn small_files_do_not_become_large() {
             &format!("<worksheet><row>{cells}</row></worksheet>"),
         ),
     ]);
-    let wrong = super::sheet(&bytes, None, &mut Vec::new()).unwrap_err();
+    let wrong = super::sheet(&bytes, None, None, &mut Vec::new()).unwrap_err();
     assert!(
         wrong.message.contains("the texts of the sheet have more than 256 MB"),
         "{}",
@@ -198,14 +208,15 @@ fn changed_files_never_panic() {
             let mut bytes = whole.clone();
             let at = next() as usize % bytes.len();
             bytes[at] = next() as u8;
-            let _ = table(&bytes, Form::default(), &mut Vec::new());
+            let _ = table(&bytes, &TableForm::default(), &|_| true, &mut Vec::new());
         } else {
             let mut text: Vec<char> = sheet.chars().collect();
             let (at, from) = (next() as usize % text.len(), next() as usize % text.len());
             text[at] = text[from];
             let _ = table(
                 &book(&text.iter().collect::<String>()),
-                Form::default(),
+                &TableForm::default(),
+                &|_| true,
                 &mut Vec::new(),
             );
         }

@@ -100,6 +100,9 @@ pub struct ComparedPoint {
     /// Weight of the point; one if no column states it. [-]
     #[serde(skip)]
     pub weight: f64,
+    /// True if there is no loss because nothing turns: no difference is stated.
+    #[serde(skip)]
+    pub still: bool,
 }
 
 /// Model sets in order of agreement with the measurement.
@@ -134,10 +137,18 @@ pub(super) fn compare(
         return Err(cx.wrong(&path, message, help));
     }
     let built: Vec<&Built<'_>> = solved.iter().flat_map(|s| &s.built).collect();
+    let mut notes = measured.notes.clone();
+    let still = all.first().map_or(0, |c| c.points.iter().filter(|p| p.still).count());
+    if still > 0 {
+        let points = if still == 1 { "point" } else { "points" };
+        notes.push(format!(
+            "{still} {points} at standstill, where measurement and model have no loss: not counted in the differences"
+        ));
+    }
     let data = DataOfComparison {
         file,
         points: measured.rows.len(),
-        notes: measured.notes.clone(),
+        notes,
     };
     Ok((cx.head(&built), data, all))
 }
@@ -176,6 +187,10 @@ fn compared(
     let seen = Seen::without_rig(measured, row, point);
     let (saw, model) = (seen.quantity(entry.quantity), entry.quantity.value(point));
     let losses = seen.loss.zip(point.loss);
+    // A loss is zero at standstill whatever the model is.
+    let still = entry.quantity == Quantity::Loss
+        && point.reference_speed == 0.0
+        && saw.zip(model).is_some_and(|(saw, model)| saw == 0.0 && model == 0.0);
     ComparedPoint {
         line: row.line,
         name: row.name.clone(),
@@ -187,6 +202,7 @@ fn compared(
         model,
         difference: saw
             .zip(model)
+            .filter(|_| !still)
             .filter(|(saw, model)| entry.difference == Difference::Points || is_measurable(*saw, *model))
             .and_then(|(saw, model)| entry.quantity.difference(entry.difference, saw, model)),
         loss_difference_percent_of_loss: losses
@@ -195,6 +211,7 @@ fn compared(
         accuracy: seen.accuracy(entry.quantity),
         file: measured.file(row).map(str::to_owned),
         speed: point.speed,
+        still,
         omitted: losses.is_some_and(|(saw, model)| !is_measurable(saw, model)),
         weight: measured.value(row, "weight").unwrap_or(1.0),
     }

@@ -130,7 +130,8 @@ fn a_window_takes_the_rows_within() {
 
 #[test]
 fn times_that_repeat_or_fall_are_refused() {
-    let help = "sort the rows by time and remove duplicates; put a restarted recording into another file";
+    let help = "sort the rows by time and remove duplicates; of a recording that restarts, read a part by `first_line` and \
+                `last_line`";
     assert_eq!(
         faults(&entry(), "t [s],v [m/s]\n0,0\n1,0\n1,0\n2,0\n0.5,0\n"),
         [
@@ -158,7 +159,7 @@ fn a_gap_is_refused_unless_it_is_accepted() {
 
 #[test]
 fn cells_without_a_number_are_reported_together() {
-    let help = "correct the cell, or delete the row";
+    let help = CELL_HELP;
     assert_eq!(
         faults(&entry(), "t [s],v [m/s]\n0,NaN\n1,\n2,fast\n3,-0.1\n"),
         [

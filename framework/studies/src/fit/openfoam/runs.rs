@@ -158,7 +158,7 @@ fn read(text: &str) -> Result<Runs, String> {
 
 /// Full grid, known axes and units.
 fn is_of_a_drag_model(table: &str, axes: usize) -> Result<(), String> {
-    let read = Table::several_from_csv(table, &Reading::default(), axes)?;
+    let read = Table::several_from_file(table, &Reading::default(), axes)?;
     for axis in read.iter().flat_map(Table::axes) {
         let Some(quantity) = PlanetaryDrag::QUANTITIES.iter().find(|q| q.name == axis.name) else {
             let names: Vec<&str> = PlanetaryDrag::QUANTITIES.iter().map(|q| q.name).collect();
