@@ -1,7 +1,7 @@
 //! The electric drive unit: geometry, forces and losses of the example against the check cases of the method it follows.
 //!
-//! The checks take every loss from torques without losses and all oil at 40 degC, the conductivity of their own base oil, and 0.05 K/W
-//! from each gear to the oil.
+//! The checks take every loss from torques without losses and all oil at 40 degC, the conductivity of their own base oil, 0.05 K/W
+//! from each gear to the oil, no oil in any bearing and no swell between the gears.
 
 use crate::common::{RPM, file, language};
 use gearloss_framework::evaluate::{Point, PowerFlow};
@@ -33,6 +33,12 @@ fn unit(language: &Language, path: &str, changes: &[(&str, Value)]) -> Transmiss
     let fixed = [
         ("thermal.mode", json!("fixed")),
         ("lubricants.fluid.conductivity", json!("0.14 W/(m K)")),
+        ("bearings.B3.oil_height", json!("0 mm")),
+        ("bearings.B4.oil_height", json!("0 mm")),
+        ("bearings.B5.oil_height", json!("0 mm")),
+        ("bearings.B6.oil_height", json!("0 mm")),
+        ("gears.W1.drag.churning.swell", json!(0.0)),
+        ("gears.W2.drag.churning.swell", json!(0.0)),
     ];
     let choice = Choice {
         overrides: fixed

@@ -25,6 +25,40 @@ inventory::submit! {
 mod tests {
     use crate::printed::Printed;
 
+    /// Outside diameters of a series grow with the bore (ISO 15), and C0/C, f0 and C0/Pu of deep groove ball bearings stay near those of their
+    /// neighbours: a row that mixes two bearings breaks these rules.
+    #[test]
+    fn rows_of_a_series_of_bearings_belong_together() {
+        let catalogue = Printed::read(include_str!("../catalogues/bearings.csv"));
+        let mut series: std::collections::BTreeMap<String, Vec<[f64; 6]>> = std::collections::BTreeMap::new();
+        for row in catalogue.rows().filter(|row| row.text("kind") == "deep_groove_ball") {
+            let own = [
+                "bore [mm]",
+                "outside [mm]",
+                "c [N]",
+                "c0 [N]",
+                "calculation_factor [-]",
+                "pu [N]",
+            ];
+            let values = own.map(|column| row.number(column));
+            series.entry(row.text("series").to_owned()).or_default().push(values);
+        }
+        assert_eq!(series.len(), 7);
+        for (name, rows) in &mut series {
+            rows.sort_by(|a, b| a[0].total_cmp(&b[0]));
+            for pair in rows.array_windows::<2>() {
+                let [a, b] = pair;
+                assert!(b[1] > a[1], "{name}: {a:?} {b:?}");
+                let ratio = (b[3] / b[2]) / (a[3] / a[2]);
+                assert!((0.82..1.2).contains(&ratio), "{name}: C0/C of {a:?} and {b:?}");
+            }
+            for row in rows {
+                assert!((19.0..30.0).contains(&(row[3] / row[5])), "{name}: C0/Pu of {row:?}");
+                assert!((11.0..=17.0).contains(&row[4]), "{name}: f0 of {row:?}");
+            }
+        }
+    }
+
     #[test]
     fn every_oil_follows_from_the_constants_of_its_source() {
         let source = Printed::read(include_str!("../tests/tables/oils.csv"));

@@ -9,7 +9,7 @@ import zipfile
 import numpy as np
 import pytest
 
-from conftest import TWO_SPEED, UNIT
+from conftest import ROOT, TWO_SPEED, UNIT
 
 fmpy = pytest.importorskip("fmpy", reason="FMPy is not installed: FMUs are not checked")
 scipy_io = pytest.importorskip("scipy.io", reason="SciPy is not installed: MAT-files are not checked")
@@ -489,3 +489,34 @@ def test_tables_are_complete_at_zero_torque(maps):
     # From standstill, which the grid includes, to the lowest speed.
     assert found["loss.torque"][2:].tolist() == [found["loss.torque"][0]] * 2
     assert found["loss.power"][2] == 0 and not found["outside"].any()
+
+
+@pytest.fixture(scope="module")
+def start_values(program, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("start_values")
+    case = ROOT / "tests" / "trade" / "fmu-start-values"
+    program("run", case / "study.yaml", "-o", folder / "results")
+    return [folder / "results" / f"losses-own-{version}.fmu" for version in ("fmi2", "fmi3")]
+
+
+@pytest.mark.parametrize("kind", ["CoSimulation", "ModelExchange"])
+def test_fmus_use_start_values_of_their_inputs_without_a_signal(start_values, kind):
+    """The loss at 100 rad/s and 50 Nm, which `solve` has as 58.97 W, from the beginning and from 100 s."""
+
+    def last(fmu, **more):
+        outputs = ["loss.power", "outside", "efficiency"]
+        return fmpy.simulate_fmu(str(fmu), fmi_type=kind, output=outputs, **{"stop_time": 1.0, **more})[-1]
+
+    for fmu in start_values:
+        drive = {"input.speed": 100.0, "input.torque": 50.0}
+        for times in ({}, {"start_time": 100.0, "stop_time": 110.0}):
+            own = last(fmu, start_values=drive, **times)
+            assert own["loss.power"] == pytest.approx(58.97, rel=3e-3)
+            assert not own["outside"]
+        # The loss follows the sign of the speed.
+        back = last(fmu, start_values={"input.speed": -100.0, "input.torque": -50.0})
+        assert back["loss.power"] == pytest.approx(58.97, rel=3e-3)
+        # The defaults are standstill without torque: nothing is divided by zero.
+        own = last(fmu)
+        assert own["loss.power"] == 0.0 and own["efficiency"] == 0.0
+        assert last(fmu, start_values={**drive, "input.speed": 1000.0})["outside"]

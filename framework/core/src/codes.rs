@@ -91,4 +91,8 @@ gearloss_document::codes! {
     RATED_OUTSIDE = "W0306", "quantity of a rating is outside its bound at the rating",
         cause: "At the rated torque and speed, a component exceeds what a rating under `ratings` allows, such as its load or its speed.",
         help: "Change the component, or state another bound under `ratings`; `gearloss models rating` lists them.";
+    CANNOT_CARRY = "W0307", "a bearing cannot carry what is assigned to it",
+        cause: "`axial` or `spring_preload` of a bearing does not match its design: a needle roller cage or an NU bearing carries no thrust, a tapered roller \
+                bearing carries thrust in one direction, a thrust bearing nothing else.",
+        help: "Change `axial`, assign the thrust to another bearing, or choose another bearing.";
 }

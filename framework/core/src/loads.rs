@@ -4,6 +4,7 @@
 //! costs a few multiplications. The bearings that take thrust depend on its direction, so thrust is distributed at every point.
 
 mod beam;
+mod carries;
 mod layout;
 mod shaft_loads;
 mod static_rating;
@@ -11,6 +12,7 @@ mod statics;
 mod thrust;
 
 pub use beam::{Beam, BeamFault, BeamLoad, BeamSupport};
+pub use carries::{Carries, Thrust};
 pub use layout::{Layout, LoadFault, MemberLayout, MeshLayout, PlanetBody, Section, SupportLayout};
 pub use shaft_loads::ShaftLoads;
 pub use static_rating::{LEAST_STATIC_SAFETY, StaticFactors, StaticRating};

@@ -33,7 +33,7 @@ use serde::de::DeserializeOwned;
 
 use crate::attach::Attach;
 use crate::document::Unit;
-use crate::loads::StaticRating;
+use crate::loads::{Carries, StaticRating};
 use crate::loss::{Loss, Notes, Term, Undefined};
 use crate::real::{Dual, Lane, Points, Real};
 
@@ -187,6 +187,14 @@ pub trait Component: Mechanism<Answer = Loss> {
     /// Static load rating of a part that carries load, if known.
     fn static_rating(_part: &Self::Part) -> Option<StaticRating> {
         None
+    }
+    /// The loads that a part can carry by its design.
+    fn carries(_part: &Self::Part) -> Carries {
+        Carries::ANY
+    }
+    /// Name of a part in messages about it, such as its designation.
+    fn name(_part: &Self::Part) -> String {
+        Self::KEY.to_owned()
     }
 }
 

@@ -1,5 +1,7 @@
 //! Losses of an electric motor from a map over speed and torque.
 
+use std::collections::BTreeMap;
+
 use gearloss_document::data::missing::CELL_HELP;
 use gearloss_document::data::sheet::{Sheet, Wanted, limited_faults};
 use gearloss_document::data::{MeasuredFault, TableFile, fault};
@@ -12,7 +14,7 @@ use crate::table::{Axis, Interpolation, Outside, Reading, Table, clamped};
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct MotorEntry {
     /// CSV file, workbook or MDF file, relative to this one, or an entry with `file`, `columns` and `units`: `speed [rpm]`, `torque [Nm]`, and `efficiency [-]` or `loss [W]`; with `temperature [degC]`, one
-    /// map for each temperature. Rows with negative torque are for generating.
+    /// map for each temperature. Rows with negative torque are for generating, those of 0 Nm for both.
     #[schemars(extend("x-refers-to" = "file"))]
     pub map: TableFile,
     /// Share of the losses that occurs in the rotor.
@@ -93,7 +95,9 @@ pub struct MotorLoss {
 
 /// Losses over speed, torque and, if the file has it, temperature.
 ///
-/// The loss is interpolated, not the efficiency, which is undefined without power. Below the lowest speed and the smallest torque
+/// The loss is interpolated, not the efficiency, which is undefined without power. Motoring and generating share the nodes at zero
+/// torque, so that the loss is continuous there. Where no row has zero torque, as in a map of efficiencies, it is linear between the
+/// smallest torques of both signs; without negative torques, the loss of the smallest torque is used below it. Below the lowest speed
 /// the loss of the nearest node is used. The same applies in corners that the motor does not reach, where it is that of the largest
 /// torque at that speed. At standstill without torque the motor is off: the loss is zero.
 #[derive(Debug, Clone)]
@@ -202,14 +206,32 @@ impl MotorMap {
                 "{silent} rows without speed or torque skipped: an efficiency defines no loss there"
             ));
         }
-        let [motoring, generating] = quadrants;
+        let [mut motoring, mut generating] = quadrants;
+        if generating.is_empty() {
+            notes.push("no negative torques: generating has the losses of motoring at the same torque".to_owned());
+        } else {
+            // Zero torque is the border of both parts.
+            generating.extend(motoring.iter().filter(|node| node.torque == 0.0).copied());
+        }
+        two_of_each(&motoring, "motoring").map_err(|f| vec![f])?;
+        if !generating.is_empty() {
+            two_of_each(&generating, "generating").map_err(|f| vec![f])?;
+            let between = between_signs(&motoring, &generating);
+            if !between.is_empty() {
+                notes.push(format!(
+                    "no loss at 0 Nm at {} speeds: linear between the smallest torques of both signs",
+                    rising(between.iter().map(|node| node.speed)).len()
+                ));
+            }
+            motoring.extend(&between);
+            generating.extend(&between);
+        }
+        let quadrant = |nodes: &[Node], what: &str| Quadrant::from_nodes(nodes, what).map_err(|f| vec![f]);
         Ok(Self {
-            motoring: Quadrant::from_nodes(&motoring, "motoring").map_err(|f| vec![f])?,
-            generating: if generating.is_empty() {
-                notes.push("no negative torques: generating has the losses of motoring at the same torque".to_owned());
-                None
-            } else {
-                Some(Quadrant::from_nodes(&generating, "generating").map_err(|f| vec![f])?)
+            motoring: quadrant(&motoring, "motoring")?,
+            generating: match generating.is_empty() {
+                true => None,
+                false => Some(quadrant(&generating, "generating")?),
             },
             notes,
         })
@@ -293,6 +315,46 @@ fn node(sheet: &Sheet, row: usize) -> Result<Option<(Node, bool)>, String> {
     Ok(Some((node, torque < 0.0)))
 }
 
+/// Refuses a part that has one speed or one torque.
+fn two_of_each(nodes: &[Node], what: &str) -> Result<(), MeasuredFault> {
+    let count = |value: fn(&Node) -> f64| rising(nodes.iter().map(value)).len();
+    let (speeds, torques) = (count(|n| n.speed), count(|n| n.torque));
+    if speeds < 2 || torques < 2 {
+        return Err(fault(
+            format!("the {what} part has {speeds} speeds and {torques} torques; a map requires two of each"),
+            "add rows",
+        ));
+    }
+    Ok(())
+}
+
+/// Nodes at zero torque where the rows have none but reach both signs, linear between the smallest torques of each sign.
+fn between_signs(motoring: &[Node], generating: &[Node]) -> Vec<Node> {
+    let [positive, negative] = [motoring, generating].map(smallest_torques);
+    let both = positive.iter().filter_map(|(key, a)| Some((a, negative.get(key)?)));
+    both.filter(|(a, _)| a.torque > 0.0)
+        .map(|(a, b)| Node {
+            torque: 0.0,
+            loss: (a.loss * b.torque + b.loss * a.torque) / (a.torque + b.torque),
+            ..**a
+        })
+        .collect()
+}
+
+/// The node of the smallest torque at each speed and temperature.
+fn smallest_torques(nodes: &[Node]) -> BTreeMap<[u64; 2], &Node> {
+    let mut smallest = BTreeMap::new();
+    for node in nodes {
+        let least = smallest
+            .entry([node.speed, node.temperature].map(f64::to_bits))
+            .or_insert(node);
+        if node.torque < least.torque {
+            *least = node;
+        }
+    }
+    smallest
+}
+
 /// The distinct values, increasing.
 fn rising(values: impl Iterator<Item = f64>) -> Vec<f64> {
     let mut values: Vec<f64> = values.collect();
@@ -313,16 +375,6 @@ impl Quadrant {
         let speeds = rising(nodes.iter().map(|n| n.speed));
         let torques = rising(nodes.iter().map(|n| n.torque));
         let temperatures = rising(nodes.iter().map(|n| n.temperature));
-        if speeds.len() < 2 || torques.len() < 2 {
-            return Err(fault(
-                format!(
-                    "the {what} part has {} speeds and {} torques; a map requires two of each",
-                    speeds.len(),
-                    torques.len()
-                ),
-                "add rows",
-            ));
-        }
         let (m, k) = (torques.len(), temperatures.len());
         let count = speeds.len().saturating_mul(m).saturating_mul(k);
         if (nodes.len() as f64) < LEAST_FILLED * count as f64 {

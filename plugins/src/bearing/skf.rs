@@ -363,7 +363,33 @@ fn check_viscosity<R: Real>(at: &BearingAt<'_, R>, drag: &Drag) -> Result<(), Un
 
 fn prepare(params: Skf, cx: &mut Build<'_>) -> Result<Model, Diagnostic> {
     let part = cx.own_part::<Bearing>()?;
-    Model::new(&params, part).map_err(|(message, help)| cx.error(message).help(help))
+    let unused = unused(&params, part);
+    let model = Model::new(&params, part).map_err(|(message, help)| cx.error(message).help(help))?;
+    cx.leave_unused(unused);
+    Ok(model)
+}
+
+/// Parameters on which the loss of a bearing does not depend.
+fn unused(params: &Skf, part: &BearingPart) -> Vec<&'static str> {
+    let (jet, bath) = (
+        part.lubrication == Lubrication::Jet,
+        part.lubrication == Lubrication::Bath,
+    );
+    let used = [
+        ("ball", jet),
+        ("vertical", bath),
+        ("v_m", params.edition == Edition::Y2004),
+        ("beyond", jet || bath),
+        (
+            "blend_to",
+            matches!(
+                part.kind,
+                BearingKind::DeepGrooveBall | BearingKind::DeepGrooveBallDoubleRow
+            ),
+        ),
+        ("needle_as_full_complement", part.kind == BearingKind::NeedleCage),
+    ];
+    used.iter().filter(|(_, used)| !used).map(|(key, _)| *key).collect()
 }
 
 impl BearingLaw for Model {
@@ -442,7 +468,7 @@ register!(Bearing, "skf", Skf,
     evidence: [
         formula(Evidence::SeveralSources, "catalogue pages and two or three transcriptions agree, except for S2 of C22 and C23 and R1 of series H"),
         default_of("edition", Evidence::SeveralSources, "both editions are printed"),
-        default_of("ball", Evidence::Assumed, "typical share of the cross-section"),
+        default_of("ball", Evidence::Assumed, "typical diameter of a ball or roller over the cross-section"),
         default_of("mu_bl", Evidence::SeveralSources, "0.15 in 2013, 0.12 for running bearings in 2018, unless the oil states its own"),
         default_of("mu_ehl", Evidence::SeveralSources, "by the kind of oil: 0.05 mineral, 0.04 synthetic, 0.10 transmission fluid; its use for roller thrust bearings is an interpretation of the catalogue, whose tables list them separately from cylindrical roller bearings"),
         default_of("vertical", Evidence::OneSource, "horizontal shafts; one source for the share of the width"),

@@ -6,7 +6,8 @@
 //! f = 0.0127 lg(0.02966 (W/b)/(eta v_S v_T^2)), P_S = f W v_S, h = 2.051e-7 (v_T eta)^0.67 W^-0.067 R^0.464,
 //! P_R = 9e7 h b v_T eps_alpha. The speed constants are exact; the full load W acts at a mean sliding speed. The original limits f
 //! to 0.01 to 0.02 (quoted from memory, not checked); here that is an option. External spur gears of steel; a rough model that
-//! usually gives more than the path integral.
+//! usually gives more than the path integral. For helical gears, which are outside its range, W is the normal force and b the length of
+//! its line of contact.
 
 use std::f64::consts::LOG10_E;
 
@@ -73,7 +74,8 @@ struct OnePoint {
     cos_base_helix: f64,
     path: f64,
     contact_ratio: f64,
-    facewidth: f64,
+    /// Length of the line of contact of one pair.
+    line_length: f64,
 }
 
 struct Answer<R> {
@@ -97,7 +99,7 @@ impl OnePoint {
             cos_base_helix: pair.base_helix.cos(),
             path: end - start,
             contact_ratio: pair.contact_ratio,
-            facewidth: pair.facewidth,
+            line_length: pair.line_length(),
         }
     }
 
@@ -111,7 +113,7 @@ impl OnePoint {
         let v_s = speed * (0.25 * (1.0 + m) / m * l);
         let v_t = speed * 2.0 * (0.5 * self.diameter * sin - 0.125 * (m - 1.0) / m * l);
         let load = torque * 2.0 / (self.diameter * self.angle.cos() * self.cos_base_helix);
-        let argument = load * (c.argument_factor / self.facewidth) / (eta * v_s * v_t * v_t);
+        let argument = load * (c.argument_factor / self.line_length) / (eta * v_s * v_t * v_t);
         let f = (argument.logarithm() * (c.friction_factor * LOG10_E)).at_least(0.0);
         let f = self.limits.map_or(f, |[least, most]| f.at_least(least).at_most(most));
         let rho_1 = 0.5 * self.diameter * sin + 0.25 * l;
@@ -124,7 +126,7 @@ impl OnePoint {
             f,
             film,
             sliding: f * load * v_s,
-            rolling: film * c.rolling_factor * self.facewidth * v_t * self.contact_ratio,
+            rolling: film * c.rolling_factor * self.line_length * v_t * self.contact_ratio,
         }
     }
 }

@@ -5,11 +5,11 @@
 //! An option averages over the travel of one tooth with double contact counted twice, as in equation 3 of Shen and Rinderknecht
 //! (Modelling of transmission losses with parameter identification); for constant friction the result is 20 % above the mesh-cycle
 //! average of an FZG C gear.
-//! Assumes rigid teeth with a stated load sharing among pairs of teeth. The line load is that of the pair over the face width; with
-//! `contact_lines` it is that over the inclined lines of contact.
+//! Assumes rigid teeth with a stated load sharing among pairs of teeth. The line load is the normal force of the pair over the length of its
+//! line of contact, b/cos beta_b for helical teeth: F_bt/b times the share.
 //! Rolling friction is optional. One law is Goksem and Hargreaves, J. Lubr. Tech. 100 (1978) 346-352, times the factor for film
 //! thinning by inlet heating (Gupta et al. in the form of Arana et al. 2019; at least a twentieth, where the fit ends), because the
-//! isothermal law grows too fast with viscosity and speed. The other is 9e7 N/m2 times film thickness and face width according to Crook
+//! isothermal law grows too fast with viscosity and speed. The other is 9e7 N/m2 times film thickness and line length according to Crook
 //! 1963 as used by Anderson and Loewenthal, with the minimum film thickness of Dowson and Higginson, times the sum velocity (some
 //! authors use half of it, which is an option). Without torque the loss is zero; rolling friction hardly depends on load, so with
 //! it the loss jumps at zero torque by about a watt.
@@ -143,7 +143,7 @@ fn prepare(params: PathIntegral, cx: &mut Build<'_>) -> Result<Integral, Diagnos
 const GOKSEM_HARGREAVES: [f64; 3] = [0.658, 0.0126, 0.658 - 1.0];
 const CROOK: [f64; 3] = [0.7, -0.13, 0.54];
 
-/// Rolling force per face width from the line load in N/m, radius of relative curvature in m, viscosity in Pa s, mean rolling speed
+/// Rolling force per length of the line of contact from the line load in N/m, radius of relative curvature in m, viscosity in Pa s, mean rolling speed
 /// in m/s, pressure-viscosity coefficient in 1/Pa, reduced modulus in Pa. \[N/m\]
 fn goksem_hargreaves(line_load: f64, radius: f64, eta: f64, rolling: f64, alpha: f64, modulus: f64) -> f64 {
     let (g, u, w) = (
@@ -154,7 +154,7 @@ fn goksem_hargreaves(line_load: f64, radius: f64, eta: f64, rolling: f64, alpha:
     4.318 * (g * u).power(0.658) * w.power(0.0126) * radius / alpha
 }
 
-/// Rolling force per face width from the film. \[N/m\]
+/// Rolling force per length of the line of contact from the film. \[N/m\]
 fn crook(film: f64) -> f64 {
     film * 9.0e7
 }
@@ -196,7 +196,7 @@ impl RollingPath {
             Rolling::GoksemHargreaves => GOKSEM_HARGREAVES,
             Rolling::Crook => CROOK,
         };
-        let power = |(node, weight): (&PathNode, &f64)| force(node) * node.sum_speed * weight * part.pair.facewidth;
+        let power = |(node, weight): (&PathNode, &f64)| force(node) * node.sum_speed * weight * part.pair.line_length();
         let powers: Vec<f64> = nodes.iter().zip(weights).map(power).collect();
         let heats = params.rolling_thermal && params.rolling_friction == Rolling::GoksemHargreaves;
         Some(Self {
@@ -248,7 +248,7 @@ impl GearMeshLaw for Integral {
             .few()
             .at_operating_point(&mean, at.notes.nested_at_same_state(self.friction.notes))
             .with(|to| to.bodies = bodies);
-        at.show("F_bn/b", "N/m", at_path.line_load);
+        at.show("F_bt/b", "N/m", at_path.line_load);
         let friction = path.friction(&*self.friction, &at_path)?;
         at.observe(&MU_MEAN, friction.mean);
         at.observe(&LOSS_FACTOR, R::constant(*loss_factor));

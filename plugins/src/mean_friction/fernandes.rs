@@ -61,9 +61,7 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Fernandes, Diagnostic> 
     let part = cx.own_part::<MeanFriction>()?;
     Ok(Fernandes {
         x_l: params.x_l,
-        length: params
-            .contact_length
-            .unwrap_or(part.pair.facewidth / part.pair.base_helix.cos()),
+        length: params.contact_length.unwrap_or(part.pair.line_length()),
         greatest: params.greatest,
         coefficients: params.coefficients,
     })

@@ -102,10 +102,10 @@ impl MeanFrictionLaw for Local {
                     to.sliding = R::ZERO;
                     to.sum_speed = at.sum_speed;
                     to.radius = at.radius;
-                    to.line_load = at.normal_force / at.part.pair.facewidth;
+                    to.line_load = at.normal_force / at.part.pair.line_length();
                     to.pressure = at.pressure;
                     to.modulus = R::constant(at.part.modulus);
-                    to.length = R::constant(at.part.pair.facewidth / at.part.pair.base_helix.cos());
+                    to.length = R::constant(at.part.pair.line_length());
                     to.ra = at.ra;
                     to.rq = at.rq;
                     to.temperature = at.temperature;

@@ -6,14 +6,16 @@ use gearloss_framework::mechanism::gear_mesh::GearMeshAt;
 use gearloss_framework::mechanism::mean_friction::MeanFrictionAt;
 use gearloss_framework::mechanism::tooth_friction::{ContactAt, PathNode};
 
-/// Points on each section of the path, denser at its ends, where pressure and flash temperature have their maxima.
+/// Points on each section of the path besides its ends, where pressure and flash temperature jump and mostly have their maxima.
 const ORDER: usize = 14;
 
 /// The path of a pair; `None` if it has no involute flanks, or too many pairs in contact.
 pub fn path(pair: &Pair, sharing: LoadSharing) -> Option<Path> {
     let [start, .., end] = pair.points;
     let is_involute = end > start && pair.contact_ratio.is_finite();
-    is_involute.then(|| Path::new(pair, sharing, ORDER).ok()).flatten()
+    is_involute
+        .then(|| Path::with_ends(pair, sharing, ORDER).ok())
+        .flatten()
 }
 
 /// Calls a function with each loaded contact of the path, its node and its number; not without speed or torque.

@@ -168,6 +168,42 @@ mod tests {
         }
     }
 
+    /// ISO 6336-2 by hand for a whole overlap ratio: Z_H Z_E sqrt(F_t/(d b) (u + 1)/u/eps_alpha). The normal force F_bt/cos beta_b acts on a
+    /// line of length b/cos beta_b, whatever the load sharing.
+    #[test]
+    fn the_line_load_of_a_helical_pair_is_that_of_iso_6336() {
+        let part = "{ z: [25, 50], internal: false, normal_module: 2 mm, pressure_angle: 20 deg, helix_angle: 30 deg, \
+                    centre_distance: 86.602540378 mm, facewidth: 25.132741 mm, tip_diameter: [61.735 mm, 119.47 mm], ra: [0.4 um, 0.4 um], \
+                    rq: [0.5 um, 0.5 um], elastic_modulus: 206 GPa, poisson: 0.3 }";
+        for sharing in ["uniform", "contact_lines"] {
+            let found = rate(
+                "flank_contact",
+                &format!(
+                    "{{ part: {part}, at: {{ torque: 100 Nm, speed: 3000 rpm }}, rating: {{ load_sharing: {sharing} }} }}"
+                ),
+            );
+            assert_close(value(&found, "p_HC"), 680.843, 2e-6);
+        }
+    }
+
+    /// With rigid teeth the pressure is highest at the inner point of single contact of the pinion, where one pair begins to carry the whole
+    /// force.
+    #[test]
+    fn the_highest_pressure_is_at_the_end_of_a_section() {
+        let part = gearloss_framework::mechanism::gear_mesh::MeshPart::fzg_c().unwrap();
+        let pair = &part.pair;
+        let found = rated("{ torque: 100 Nm }", "{}");
+        let radius = |x: f64| pair.relative_radius(x);
+        let [_, inner, pitch, outer, _] = pair.points;
+        let at_ends = [inner, outer].map(|x| (radius(pitch) / radius(x)).sqrt());
+        let most = at_ends[0].max(at_ends[1]) * value(&found, "p_HC");
+        assert!(
+            value(&found, "p_H") > most * (1.0 - 1e-6),
+            "{} {most}",
+            value(&found, "p_H")
+        );
+    }
+
     #[test]
     fn pressure_grows_with_the_root_of_the_torque() {
         let [one, four] = ["50 Nm", "200 Nm"].map(|torque| rated(&format!("{{ torque: {torque} }}"), "{}"));

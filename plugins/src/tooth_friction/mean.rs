@@ -45,8 +45,8 @@ impl ToothFrictionLaw for Mean {
     fn mu<R: Answers>(&self, at: &ContactAt<'_, R>) -> Result<R, Undefined> {
         let usual = MeanFrictionAt::usual(&self.part, at.notes.nested(self.friction.notes));
         let at = usual.with(|to| {
-            to.line_load = at.line_load * self.part.pair.base_helix.cos();
-            to.normal_force = at.line_load * self.part.pair.facewidth;
+            to.line_load = at.line_load;
+            to.normal_force = at.line_load * self.part.pair.line_length();
             to.pressure = at.pressure;
             to.pitch_speed = at.sum_speed * 0.5 / self.part.pair.working_angle.sin();
             to.speed = at.sum_speed * 0.5 / (self.part.pair.working_angle.sin() * self.part.pair.working_radius[0]);

@@ -250,7 +250,7 @@ mod tests {
         let part = fzg_c14(0.4e-6, 0.5e-6);
         let extent = PathExtent::from_nodes(&nodes);
         let mean = MeanFrictionAt::usual(&part, Notes::MUTED);
-        let path = PathAt::new(&nodes, &extent, 0.02, &mean, Notes::MUTED).with(|to| {
+        let path = PathAt::new(&nodes, &extent, &mean, Notes::MUTED).with(|to| {
             to.speed = 300.0;
             to.line_load = 2e5;
         });

@@ -36,7 +36,7 @@ pub struct CutOff {
 impl CutOff {
     /// A path of sections with a number of points for a law with limits.
     pub fn new(path: &Path, order: usize, limits: FrictionLimits) -> Self {
-        let scale = |node: &PathNode| node.force * if limits.diverges { node.sliding } else { 1.0 };
+        let scale = |node: &PathNode| node.share * if limits.diverges { node.sliding } else { 1.0 };
         let rules = [order, KINKED].map(gauss::rule);
         let prepared = Self {
             limits,

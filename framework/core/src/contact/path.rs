@@ -47,7 +47,6 @@ pub struct Path {
     weights: Vec<f64>,
     /// Their sum.
     weight: f64,
-    length: f64,
 }
 
 impl Path {
@@ -59,7 +58,10 @@ impl Path {
     /// # Errors
     /// If the contact ratio is too high, as a sentence.
     pub fn new(pair: &Pair, sharing: LoadSharing, order: usize) -> Result<Self, String> {
-        let points = pair.graded_path(sharing, order);
+        Self::checked(pair, pair.graded_path(sharing, order))
+    }
+
+    fn checked(pair: &Pair, points: Vec<PathPoint>) -> Result<Self, String> {
         if points.len() > Self::MOST {
             return Err(format!(
                 "the contact ratio {:.2} is too high for a path integral",
@@ -69,19 +71,27 @@ impl Path {
         Ok(Self::from_points(pair, points))
     }
 
+    /// The same with both ends of every section in addition, without weight: a jump of the load share, and with it the maximum of pressure
+    /// or flash temperature, is at the end of a section, where no quadrature point is.
+    ///
+    /// # Errors
+    /// As [`Path::new`].
+    pub fn with_ends(pair: &Pair, sharing: LoadSharing, order: usize) -> Result<Self, String> {
+        Self::checked(pair, pair.graded_path_with_ends(sharing, order))
+    }
+
     /// The path of a pair through points with their weights.
     pub fn from_points(pair: &Pair, points: Vec<PathPoint>) -> Self {
         let nodes: Vec<PathNode> = points
             .iter()
             .map(|p| PathNode {
-                force: p.share,
                 weight: p.weight / pair.base_pitch,
                 first_faster: p.x > pair.points[2],
                 ..PathNode::new(
                     pair.sliding(p.x),
                     pair.sum_speed(p.x),
                     pair.relative_radius(p.x),
-                    p.line,
+                    p.share,
                 )
             })
             .collect();
@@ -91,7 +101,6 @@ impl Path {
             points,
             weights: Vec::new(),
             weight: 0.0,
-            length: pair.facewidth / pair.base_helix.cos(),
         };
         path.weighted(|point| point.weight / pair.base_pitch)
     }
@@ -148,7 +157,7 @@ impl Path {
         mean: &'a MeanFrictionAt<'a, R>,
         notes: Notes<'a, R>,
     ) -> PathAt<'a, R> {
-        PathAt::new(&self.nodes, &self.extent, self.length, mean, notes)
+        PathAt::new(&self.nodes, &self.extent, mean, notes)
     }
 
     /// Sliding power per normal force and speed of the first gear, for friction at each point. \[m\]

@@ -329,10 +329,16 @@ impl Pair {
         torque * (1.0 / (self.base_radius[0] * self.cos_base_helix))
     }
 
-    /// A force in N per face width. \[N/m\]
+    /// Length of the line of contact of a pair of teeth, which is inclined by the base helix angle. \[m\]
     #[inline(always)]
-    pub fn line_load<R: Real>(&self, force: R) -> R {
-        force * (1.0 / self.facewidth)
+    pub fn line_length(&self) -> f64 {
+        self.facewidth / self.cos_base_helix
+    }
+
+    /// Normal force in N on one pair of teeth over the length of its line of contact: F_bn/(b/cos beta_b) = F_bt/b. \[N/m\]
+    #[inline(always)]
+    pub fn line_load<R: Real>(&self, normal_force: R) -> R {
+        normal_force * (1.0 / self.line_length())
     }
 
     /// Computes the geometry.

@@ -28,6 +28,9 @@ pub enum LoadSharing {
     ContactLines,
 }
 
+/// Distance of the end points of a section from its ends, over its length: far enough that rounding does not move them into the next one.
+const INSIDE: f64 = 1e-9;
+
 /// One quadrature point on the path of contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PathPoint {
@@ -35,10 +38,8 @@ pub struct PathPoint {
     pub x: f64,
     /// Weight of the point in an integral along the path. \[m\]
     pub weight: f64,
-    /// Share of the mesh's normal force that this pair of teeth carries.
+    /// Share of the mesh's normal force that this pair of teeth carries, and of the line load under the full force.
     pub share: f64,
-    /// Line load relative to that of one pair with the full force over its face width.
-    pub line: f64,
     /// Number of pairs in contact.
     pub pairs: usize,
 }
@@ -106,16 +107,10 @@ impl Pair {
     }
 
     fn place(&self, x: f64, weight: f64, law: &Law) -> PathPoint {
-        let share = law.share(self, x);
         PathPoint {
             x,
             weight,
-            share,
-            // An inclined line is longer than the face width.
-            line: match law {
-                Law::Lines(_) => share * self.base_helix.cos(),
-                Law::Ramp(_) | Law::Plain(_) => share,
-            },
+            share: law.share(self, x),
             pairs: self.pairs_at(x),
         }
     }
@@ -129,6 +124,15 @@ impl Pair {
     /// powers of sliding and load.
     pub fn graded_path(&self, sharing: LoadSharing, order: usize) -> Vec<PathPoint> {
         self.points_of(sharing, &gauss::graded_rule(order))
+    }
+
+    /// As [`Self::graded_path`], with both ends of every section in addition. They have no weight, and the share of their section.
+    pub fn graded_path_with_ends(&self, sharing: LoadSharing, order: usize) -> Vec<PathPoint> {
+        let end = 1.0 - 2.0 * INSIDE;
+        let mut rule = gauss::graded_rule(order);
+        rule.insert(0, (-end, 0.0));
+        rule.push((end, 0.0));
+        self.points_of(sharing, &rule)
     }
 
     fn points_of(&self, sharing: LoadSharing, rule: &[(f64, f64)]) -> Vec<PathPoint> {

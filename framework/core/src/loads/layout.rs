@@ -60,6 +60,8 @@ pub struct SupportLayout {
     pub share: Option<f64>,
     /// Spring preload; a positive force pushes the shaft towards +x. \[N\]
     pub spring: f64,
+    /// Takes radial load; false for thrust bearings.
+    pub takes_radial: bool,
     /// Takes a tilting moment.
     pub takes_moment: bool,
     /// Radial stiffness; `None`: rigid. \[N/m\]

@@ -112,6 +112,7 @@ impl ShaftLoads {
     pub fn new(layout: &Layout) -> Result<Self, Vec<LoadFault>> {
         let n = layout.members.len();
         let mut own: Vec<Vec<(usize, SupportLayout)>> = vec![Vec::new(); n];
+        let mut radial = own.clone();
         let mut carrier_of: Vec<Vec<usize>> = vec![Vec::new(); n];
         let mut turned = Vec::new();
         for (i, support) in layout.supports.iter().enumerate() {
@@ -119,13 +120,22 @@ impl ShaftLoads {
             let support = from_the_carried(layout, support);
             carrier_of[support.inner].extend(support.outer);
             own[support.inner].push((i, support));
+            if support.takes_radial {
+                radial[support.inner].push((i, support));
+            }
         }
         let order = sort(&carrier_of).map_err(|members| vec![LoadFault::Cycle { members }])?;
         let mut faults = Vec::new();
         let mut statics = vec![Statics::None; n];
         let mut takings = Vec::new();
         for &m in &order {
-            match Statics::new(m, &layout.members[m], &own[m], &loaded_places(layout, m, &own[m])) {
+            if radial[m].is_empty() && !own[m].is_empty() {
+                faults.push(LoadFault::Mechanism {
+                    member: m,
+                    supports: own[m].iter().map(|(support, _)| *support).collect(),
+                });
+            }
+            match Statics::new(m, &layout.members[m], &radial[m], &loaded_places(layout, m, &radial[m])) {
                 Ok(found) => statics[m] = found,
                 Err(fault) => faults.push(fault),
             }
@@ -143,7 +153,10 @@ impl ShaftLoads {
         }
         let mut cases: Vec<Vec<Reaction>> = vec![Vec::new(); layout.supports.len()];
         let mut run = |actions: Vec<Vec<Action>>| {
-            for (support, reaction) in solve(layout, &order, &own, &statics, actions).into_iter().enumerate() {
+            for (support, reaction) in solve(layout, &order, &radial, &statics, actions)
+                .into_iter()
+                .enumerate()
+            {
                 cases[support].push(reaction);
             }
         };
@@ -168,7 +181,7 @@ impl ShaftLoads {
         let mut planets = Vec::new();
         for (m, member) in layout.members.iter().enumerate() {
             let Some(planet) = member.planet else { continue };
-            let at = middle(&own[m]);
+            let at = middle(&radial[m]);
             let mut actions = vec![Vec::new(); n];
             actions[m].push(Action {
                 at,

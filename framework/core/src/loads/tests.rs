@@ -20,6 +20,7 @@ fn support(inner: usize, at_mm: f64, axial: Axial) -> SupportLayout {
         axial,
         share: None,
         spring: 0.0,
+        takes_radial: true,
         takes_moment: false,
         radial_stiffness: None,
         tilting_stiffness: None,

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::attach::{Support, SupportSite};
-use crate::loads::{StaticFactors, StaticRating};
+use crate::loads::{Carries, StaticFactors, StaticRating, Thrust};
 use crate::loss::{Loss, Notes, Term, Undefined};
 use crate::mechanism::{Component, Mechanism, Scalar};
 use crate::real::{Dual, Lane, Points, Real};
@@ -318,6 +318,53 @@ impl BearingPart {
         Some(StaticFactors::radial(x0, y0))
     }
 
+    /// The loads that the bearing can carry, by its kind, and by the beginning of its designation where that states the flanges (ISO 5753,
+    /// DIN 5412) or the number of directions.
+    pub fn carries(&self) -> Carries {
+        let designation = self.designation.as_deref().unwrap_or_default();
+        let begins = |with: &[&str]| with.iter().any(|start| designation.starts_with(start));
+        let single_direction = || {
+            if begins(&[
+                "511", "512", "513", "514", "532", "533", "534", "811", "812", "893", "894", "292", "293", "294",
+            ]) {
+                Thrust::OneDirection
+            } else {
+                Thrust::Both
+            }
+        };
+        let thrust = match self.kind {
+            BearingKind::NeedleCage | BearingKind::ToroidalRoller | BearingKind::ToroidalRollerFullComplement => {
+                Thrust::None
+            }
+            BearingKind::CylindricalRoller | BearingKind::CylindricalRollerFullComplement => match () {
+                () if begins(&["NNCF", "NCF", "NJ", "NF"]) => Thrust::OneDirection,
+                () if begins(&[
+                    "NNCL", "NU1", "NU2", "NU3", "NU4", "RN", "N1", "N2", "N3", "N4", "NN3", "NN4", "NNU",
+                ]) =>
+                {
+                    Thrust::None
+                }
+                () => Thrust::Both,
+            },
+            BearingKind::AngularContactBall | BearingKind::TaperedRoller => Thrust::OneDirection,
+            BearingKind::ThrustBall
+            | BearingKind::CylindricalRollerThrust
+            | BearingKind::NeedleRollerThrust
+            | BearingKind::SphericalRollerThrust => single_direction(),
+            BearingKind::DeepGrooveBall
+            | BearingKind::DeepGrooveBallDoubleRow
+            | BearingKind::SelfAligningBall
+            | BearingKind::AngularContactBallDoubleRow
+            | BearingKind::FourPointContactBall
+            | BearingKind::SphericalRoller => Thrust::Both,
+        };
+        Carries {
+            // A contact angle of 90 degrees; spherical roller thrust bearings have about 50 degrees.
+            radial: !self.kind.is_thrust() || self.kind == BearingKind::SphericalRollerThrust,
+            thrust,
+        }
+    }
+
     /// Static load rating with the factors of P0; `None` if one of them is not known.
     pub fn static_rating(&self) -> Option<StaticRating> {
         Some(StaticRating {
@@ -349,6 +396,16 @@ impl BearingKind {
             | Self::NeedleRollerThrust
             | Self::SphericalRollerThrust => false,
         }
+    }
+
+    /// Its name in documents.
+    pub fn name(self) -> String {
+        let value = serde_json::to_value(self).ok();
+        value
+            .as_ref()
+            .and_then(|name| name.as_str())
+            .unwrap_or_default()
+            .to_owned()
     }
 
     /// True for a thrust bearing.
@@ -502,6 +559,17 @@ impl Component for Bearing {
 
     fn static_rating(part: &BearingPart) -> Option<StaticRating> {
         part.static_rating()
+    }
+
+    fn carries(part: &BearingPart) -> Carries {
+        part.carries()
+    }
+
+    fn name(part: &BearingPart) -> String {
+        match &part.designation {
+            Some(designation) => designation.clone(),
+            None => part.kind.name(),
+        }
     }
 }
 

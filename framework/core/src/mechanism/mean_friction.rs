@@ -59,7 +59,7 @@ impl<L: MeanFrictionLaw> MeanFrictionModel for L {
 context! {
     /// All inputs of a mean friction law: the mesh at its pitch point, in the frame of its carrier.
     pub struct MeanFrictionAt of MeanFriction {
-        /// Tangential force at the base circle over the face width. [N/mm]
+        /// Tangential force at the base circle over the face width, which is the normal force over the length of a line of contact. [N/mm]
         line_load: 200.0 in 0.0..=3000.0 from "torque of the mesh over its face width",
         /// Normal force of the mesh. [N]
         normal_force: 2800.0 in 0.0..=1000000.0 from "torque of the mesh and base circle",
@@ -96,13 +96,13 @@ context! {
     } laws {
         "eta = nu rho" { eta: |at| at.nu * at.rho, nu: |at| at.eta / at.rho, rho: |at| at.eta / at.nu }
         "normal_force = line_load facewidth/cos beta_b" {
-            normal_force: |at| at.line_load * at.part.pair.facewidth / at.part.pair.cos_base_helix,
-            line_load: |at| at.normal_force * at.part.pair.cos_base_helix / at.part.pair.facewidth,
+            normal_force: |at| at.line_load * at.part.pair.line_length(),
+            line_load: |at| at.normal_force / at.part.pair.line_length(),
         }
-        "pressure = sqrt(normal_force modulus/(2 pi radius facewidth))" {
-            pressure: |at| hertz(at.normal_force / at.part.pair.facewidth, at.part.modulus, at.radius),
-            normal_force: |at| load_at(at.pressure, at.part.modulus, at.radius) * at.part.pair.facewidth,
-            radius: |at| radius_at(at.pressure, at.part.modulus, at.normal_force / at.part.pair.facewidth),
+        "pressure = sqrt(line_load modulus/(2 pi radius))" {
+            pressure: |at| hertz(at.normal_force / at.part.pair.line_length(), at.part.modulus, at.radius),
+            normal_force: |at| load_at(at.pressure, at.part.modulus, at.radius) * at.part.pair.line_length(),
+            radius: |at| radius_at(at.pressure, at.part.modulus, at.normal_force / at.part.pair.line_length()),
         }
         "pitch_speed = speed working_diameter/2" {
             pitch_speed: |at| at.speed * at.part.pair.working_radius[0],
@@ -133,7 +133,7 @@ impl<'a, R: Real> MeanFrictionAt<'a, R> {
             line_load: tangential / pair.facewidth,
             normal_force,
             pressure: hertz(
-                normal_force / pair.facewidth,
+                normal_force / pair.line_length(),
                 R::constant(part.modulus),
                 R::constant(pair.pitch_radius),
             ),

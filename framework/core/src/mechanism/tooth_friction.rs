@@ -349,10 +349,8 @@ pub struct PathNode {
     pub sum_speed: f64,
     /// Radius of relative curvature in the normal plane. \[m\]
     pub radius: f64,
-    /// Line load at the node over the mesh's reference line load.
+    /// Share of the mesh's normal force that the pair of teeth carries, and of the line load under the full force.
     pub share: f64,
-    /// Share of the mesh's normal force that the pair of teeth carries.
-    pub force: f64,
     /// Length of path that the node represents, over the base pitch; the weights of a path sum to its contact ratio.
     pub weight: f64,
     /// True if the flank of the first gear is the faster one.
@@ -376,8 +374,8 @@ pub struct PathNode {
 }
 
 impl PathNode {
-    /// A node from sliding and sum velocity per speed of the first gear, radius and share; SI. Its line load is that share of the
-    /// force, its weight is one base pitch, and its first flank is the faster one.
+    /// A node from sliding and sum velocity per speed of the first gear, radius and share; SI. Its weight is one base pitch, and its
+    /// first flank is the faster one.
     pub fn new(sliding: f64, sum_speed: f64, radius: f64, share: f64) -> Self {
         let slide_roll = 2.0 * sliding / sum_speed;
         let root_load = (share / radius).sqrt();
@@ -387,7 +385,6 @@ impl PathNode {
             sum_speed,
             radius,
             share,
-            force: share,
             weight: 1.0,
             first_faster: true,
             slide_roll,
@@ -447,7 +444,7 @@ pub struct PathAt<'a, R: Real = f64> {
     pub extent: &'a PathExtent,
     /// Magnitude of the speed of the first gear in the carrier's frame, positive. \[rad/s\]
     pub speed: R,
-    /// Reference line load, positive. \[N/m\]
+    /// Line load of one pair of teeth under the full force, F_bt/b, positive. \[N/m\]
     pub line_load: R,
     /// Reduced modulus E/(1 - nu^2) of equal materials. \[Pa\]
     pub modulus: f64,
@@ -482,12 +479,11 @@ pub struct PathAt<'a, R: Real = f64> {
 }
 
 impl<'a, R: Real> PathAt<'a, R> {
-    /// The path of a mesh: its points, their extent and the length of the line of contact of one pair. \[m\]
+    /// The path of a mesh: its points and their extent.
     #[inline(always)]
     pub fn new(
         nodes: &'a [PathNode],
         extent: &'a PathExtent,
-        length: f64,
         mean: &'a MeanFrictionAt<'a, R>,
         notes: Notes<'a, R>,
     ) -> Self {
@@ -497,7 +493,7 @@ impl<'a, R: Real> PathAt<'a, R> {
             speed: mean.speed,
             line_load: mean.part.pair.line_load(mean.normal_force),
             modulus: mean.part.modulus,
-            length,
+            length: mean.part.pair.line_length(),
             ra: mean.ra,
             rq: mean.rq,
             temperature: mean.temperature,

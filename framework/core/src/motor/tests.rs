@@ -22,8 +22,12 @@ fn efficiencies_become_losses_before_they_are_interpolated() {
     assert!(close(at(1000.0, -10.0).loss, 10.0 * w * 0.2) && close(at(-1000.0, 10.0).loss, 10.0 * w * 0.2));
     assert!(close(at(2000.0, -20.0).loss, 20.0 * 2.0 * w));
     assert!(close(at(-1000.0, -10.0).loss, low));
-    // Below the lowest speed and the smallest torque the nearest loss is used; at standstill without torque the motor is off.
-    assert!(close(at(0.0, 10.0).loss, low) && close(at(1000.0, 0.0).loss, low) && !at(1000.0, 0.0).outside);
+    // Below the lowest speed the nearest loss is used; at standstill without torque the motor is off. An efficiency says nothing about
+    // 0 Nm: the loss is linear between the smallest torques of both signs.
+    assert!(close(at(0.0, 10.0).loss, low));
+    let none = 0.5 * (low + 10.0 * w * 0.2);
+    assert!(close(at(1000.0, 0.0).loss, none) && !at(1000.0, 0.0).outside);
+    assert!(close(at(1000.0, 5.0).loss, 0.5 * (low + none)) && close(at(1000.0, -1e-9).loss, none));
     assert_eq!(at(0.0, 0.0).loss, 0.0);
     // Outside the map the end value is used and reported.
     for (rpm, torque) in [(3000.0, 10.0), (2000.0, 30.0), (-3000.0, 30.0)] {
@@ -32,7 +36,10 @@ fn efficiencies_become_losses_before_they_are_interpolated() {
     assert!(close(at(3000.0, 10.0).loss, 2.0 * low));
     assert_eq!(
         map.notes,
-        ["5 rows without speed or torque skipped: an efficiency defines no loss there"]
+        [
+            "5 rows without speed or torque skipped: an efficiency defines no loss there",
+            "no loss at 0 Nm at 2 speeds: linear between the smallest torques of both signs",
+        ]
     );
 }
 
@@ -46,6 +53,47 @@ fn a_corner_that_the_motor_does_not_reach_has_the_last_loss_and_a_note() {
     assert!(!at(1500.0, 15.0).outside && at(1500.0, 15.1).outside);
     // Without generating rows the motoring losses are used.
     assert_eq!(at(1000.0, -20.0), at(1000.0, 20.0));
+}
+
+/// A loss of 100 W and 10 W/Nm: rows of 0 Nm belong to both signs.
+#[test]
+fn the_loss_is_continuous_through_zero_torque() {
+    let map = |torques: &[f64]| {
+        let rows = [0.0, 5000.0].into_iter().flat_map(|speed| {
+            let row = move |torque: &f64| format!("{speed},{torque},{}\n", 100.0 + 10.0 * torque.abs());
+            torques.iter().map(row).collect::<Vec<_>>()
+        });
+        let text: String = std::iter::once("speed [rpm],torque [Nm],loss [W]\n".to_owned())
+            .chain(rows)
+            .collect();
+        MotorMap::read(text.as_bytes()).unwrap()
+    };
+    for torques in [
+        &[-200.0, -100.0, 0.0, 100.0, 200.0][..],
+        &[-100.0, 0.0, 100.0],
+        &[-50.0, 0.0, 100.0],
+    ] {
+        let map = map(torques);
+        assert!(map.notes.is_empty(), "{:?}", map.notes);
+        for torque in [-40.0, -1.0, -1e-9, 0.0, 1.0, 40.0] {
+            for speed in [-100.0, 100.0] {
+                let found = map.loss(speed, torque, 20.0);
+                assert!(
+                    (found.loss - 100.0 - 10.0 * torque.abs()).abs() < 1e-7 && !found.outside,
+                    "{torque} {found:?}"
+                );
+            }
+        }
+    }
+    // A row of 0 Nm that is missing at one speed is between the neighbours of both signs there; one torque of a sign is no map.
+    let text = "speed [rpm],torque [Nm],loss [W]\n1000,-10,150\n1000,0,100\n1000,10,200\n2000,-10,250\n2000,10,350\n";
+    let gap = MotorMap::read(text.as_bytes()).unwrap();
+    assert!((gap.loss(2000.0 * PI / 30.0, 0.0, 20.0).loss - 300.0).abs() < 1e-9);
+    let text = "speed [rpm],torque [Nm],efficiency [-]\n1000,-10,0.9\n1000,10,0.9\n2000,-10,0.9\n2000,10,0.9\n";
+    assert_eq!(
+        messages(text),
+        ["the motoring part has 2 speeds and 1 torques; a map requires two of each"]
+    );
 }
 
 #[test]

@@ -147,6 +147,8 @@ pub struct Instance {
     pub entry: Entry,
     /// Position of its notes.
     pub notes: NoteBase,
+    /// Parameters that it does not use for its part, so that their defaults are no evidence of its result.
+    pub unused: Vec<&'static str>,
 }
 
 /// Context of a model while it is built: the registry for nested slots, its part, its path, files. Collects findings.
@@ -202,6 +204,13 @@ impl<'a> Build<'a> {
     /// The path that is being built.
     pub fn path(&self) -> &str {
         &self.path
+    }
+
+    /// States parameters of the model that is being built which its part does not need, so that the grades of their defaults do not count.
+    pub fn leave_unused(&mut self, keys: impl IntoIterator<Item = &'static str>) {
+        if let Some(own) = self.instances.iter_mut().rfind(|own| own.path == self.path) {
+            own.unused.extend(keys);
+        }
     }
 
     /// The part that the model belongs to, if it is one of this mechanism.
@@ -397,6 +406,7 @@ impl<'a> Build<'a> {
             path: self.path.clone(),
             entry,
             notes,
+            unused: Vec::new(),
         });
         let built = (entry.build)(value, self);
         self.around = outer;
@@ -426,6 +436,7 @@ impl<'a> Build<'a> {
             path: path.to_owned(),
             entry: *entry,
             notes,
+            unused: Vec::new(),
         });
         let built = (entry.build)(value, self);
         self.part = None;

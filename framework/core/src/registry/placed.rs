@@ -11,7 +11,7 @@ use super::{Entry, from_resolved};
 use crate::attach::{Attach, Common, Names, Spot, State};
 use crate::document::Diagnostic;
 use crate::evaluate::{Reading, readings};
-use crate::loads::StaticRating;
+use crate::loads::{Carries, StaticRating};
 use crate::loss::{Loss, NoteBase, Notebook, Notes, Undefined};
 use crate::mechanism::{Answers, Component, Slot};
 use crate::rating::{Rated, RatingSlot};
@@ -49,6 +49,14 @@ pub trait Placed: sealed::Sealed + Send + Sync {
     /// Static load rating, if known.
     fn static_rating(&self) -> Option<StaticRating> {
         None
+    }
+    /// The loads that it can carry by its design.
+    fn carries(&self) -> Carries {
+        Carries::ANY
+    }
+    /// Its name in messages, such as its designation.
+    fn name(&self) -> String {
+        String::new()
     }
     /// Builds a rating of its mechanism at a path, which only this component evaluates; `None` if it has no ratings.
     fn build_rating(
@@ -129,6 +137,12 @@ impl<C: Component> Placed for PlacedAs<C> {
     }
     fn static_rating(&self) -> Option<StaticRating> {
         C::static_rating(&self.part)
+    }
+    fn carries(&self) -> Carries {
+        C::carries(&self.part)
+    }
+    fn name(&self) -> String {
+        C::name(&self.part)
     }
     fn build_rating(
         &self,

@@ -17,6 +17,7 @@ use crate::codes;
 use crate::description::{GearboxEntry, NetworkChoice, ThermalMode};
 use crate::document::{Diagnostic, classify};
 use crate::language::Language;
+use crate::loads::Carries;
 use crate::mechanism::Mechanism;
 use crate::mechanism::ModelRef;
 use crate::mechanism::gear_mesh::{GearMesh, MeshPart};
@@ -94,7 +95,7 @@ impl Transmission {
             entry,
             members,
             &frame.meshes,
-            supports,
+            (supports, &models.carries()),
             &mut memory,
             &mut found,
             &mut warnings,
@@ -278,6 +279,17 @@ struct Models {
 }
 
 impl Models {
+    /// What each support can carry, with its name.
+    fn carries(&self) -> Vec<(Carries, String)> {
+        let mut carries = vec![(Carries::ANY, String::new()); self.supports.len()];
+        for placed in self.components.iter().map(|component| &component.placed) {
+            if let Some(support) = placed.support() {
+                carries[usize::from(support)] = (placed.carries(), placed.name());
+            }
+        }
+        carries
+    }
+
     fn new(
         language: &Language,
         resolved: &Resolved,

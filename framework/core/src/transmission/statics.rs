@@ -10,7 +10,8 @@ use crate::codes;
 use crate::description::{GearboxEntry, Unsupported};
 use crate::document::Diagnostic;
 use crate::loads::{
-    Layout, LoadFault, MemberLayout, MeshLayout, PlanetBody, Section, ShaftLoads, SupportLayout, SupportLoad,
+    Carries, Layout, LoadFault, MemberLayout, MeshLayout, PlanetBody, Section, ShaftLoads, SupportLayout, SupportLoad,
+    Thrust,
 };
 use crate::real::Real;
 use crate::registry::Memory;
@@ -84,7 +85,7 @@ pub fn shaft_loads(
     entry: &GearboxEntry,
     members: &Members,
     meshes: &[MeshSeat],
-    supports: &[SeatedSupport],
+    (supports, carries): (&[SeatedSupport], &[(Carries, String)]),
     memory: &mut Memory,
     found: &mut Vec<Diagnostic>,
     warnings: &mut Vec<Diagnostic>,
@@ -95,16 +96,33 @@ pub fn shaft_loads(
             .collect(),
         supports: supports
             .iter()
-            .map(|support| support_layout(support, members, found))
+            .zip(carries)
+            .map(|(support, (carries, _))| support_layout(support, *carries, members, found))
             .collect(),
         meshes: meshes.iter().map(|mesh| mesh_layout(mesh, entry, members)).collect(),
     };
     unsupported(entry, members, &layout, found, warnings);
+    warnings.extend(
+        supports
+            .iter()
+            .zip(carries)
+            .filter_map(|(support, (carries, name))| unsuited(support, *carries, name)),
+    );
     match memory.repeat("shaft loads", layout, |layout| ShaftLoads::new(layout).map(Arc::new)) {
         Ok(loads) => Some(loads),
         Err(faults) => {
             let path = |s: &usize| supports[*s].path.clone();
-            found.extend(faults.iter().map(|fault| explain(fault, members, &path)));
+            let thrust_bearings = |member: usize| -> Vec<usize> {
+                let at = |support: &SeatedSupport| [Some(support.inner), support.outer].contains(&Some(member as u16));
+                let thrust = supports.iter().zip(carries).enumerate();
+                let thrust = thrust.filter(|(_, (support, (carries, _)))| !carries.radial && at(support));
+                thrust.map(|(i, _)| i).collect()
+            };
+            found.extend(
+                faults
+                    .iter()
+                    .map(|fault| explain(fault, members, &path, &thrust_bearings)),
+            );
             None
         }
     }
@@ -168,7 +186,12 @@ fn member_layout(
 }
 
 /// A support; the two members that it connects are on one axis.
-fn support_layout(support: &SeatedSupport, members: &Members, found: &mut Vec<Diagnostic>) -> SupportLayout {
+fn support_layout(
+    support: &SeatedSupport,
+    carries: Carries,
+    members: &Members,
+    found: &mut Vec<Diagnostic>,
+) -> SupportLayout {
     let place = &support.place;
     let (inner, outer) = (support.inner as usize, support.outer.map(usize::from));
     if let Some(outer) = outer
@@ -193,6 +216,7 @@ fn support_layout(support: &SeatedSupport, members: &Members, found: &mut Vec<Di
         axial: place.axial,
         share: place.axial_share,
         spring: place.spring_preload,
+        takes_radial: carries.radial,
         takes_moment: place.takes_moment,
         radial_stiffness: place.radial_stiffness,
         tilting_stiffness: place.tilting_stiffness,
@@ -317,7 +341,47 @@ fn unsupported(
     }
 }
 
-fn explain(fault: &LoadFault, members: &Members, path: &dyn Fn(&usize) -> String) -> Diagnostic {
+/// Reports an assignment of thrust that does not match the design of a bearing.
+fn unsuited(support: &SeatedSupport, carries: Carries, name: &str) -> Option<Diagnostic> {
+    let (place, path) = (&support.place, &support.path);
+    let axial = match place.axial {
+        Axial::None => "none",
+        Axial::Left => "left",
+        Axial::Right => "right",
+        Axial::Both => "both",
+    };
+    let finding = match (carries.thrust, place.axial) {
+        (_, Axial::None) if !carries.radial => Diagnostic::warning(
+            format!("{path}.axial"),
+            format!("`{name}` carries thrust only, but no thrust is assigned to it: it has no load"),
+        )
+        .help("write `axial: left`, `right` or `both`"),
+        (Thrust::None, Axial::Left | Axial::Right | Axial::Both) => Diagnostic::warning(
+            format!("{path}.axial"),
+            format!("`{name}` carries no thrust, but `axial: {axial}` assigns thrust to it"),
+        )
+        .help("write `axial: none` here and assign the thrust to a bearing that carries it"),
+        (Thrust::None, Axial::None) if place.spring_preload != 0.0 => Diagnostic::warning(
+            format!("{path}.spring_preload"),
+            format!("`{name}` carries no thrust, but a spring loads it axially"),
+        )
+        .help("remove `spring_preload` here, or choose a bearing that carries thrust"),
+        (Thrust::OneDirection, Axial::Both) => Diagnostic::warning(
+            format!("{path}.axial"),
+            format!("`{name}` carries thrust in one direction, but `axial: both` assigns both to it"),
+        )
+        .help("write `axial: left` or `axial: right`, and assign the other direction to another bearing"),
+        _ => return None,
+    };
+    Some(finding.code(codes::CANNOT_CARRY))
+}
+
+fn explain(
+    fault: &LoadFault,
+    members: &Members,
+    path: &dyn Fn(&usize) -> String,
+    thrust_bearings: &dyn Fn(usize) -> Vec<usize>,
+) -> Diagnostic {
     let name = |m: usize| &members.names[m];
     let list = |supports: &[usize]| supports.iter().map(path).collect::<Vec<_>>().join(", ");
     let at = |m: usize| format!("{}.{}", if members.loose[m] { "gears" } else { "shafts" }, name(m));
@@ -327,15 +391,21 @@ fn explain(fault: &LoadFault, members: &Members, path: &dyn Fn(&usize) -> String
             Diagnostic::error("bearings", format!("{} support each other in a loop", names.join(", ")))
                 .help("one of them needs a bearing in the housing; swap `shaft` and `outer` of a bearing")
         }
-        LoadFault::Mechanism { member, supports } => Diagnostic::error(
-            at(*member),
-            format!(
-                "`{}` can tilt or move on its bearings: {}",
-                name(*member),
-                list(supports)
-            ),
-        )
-        .help("add two bearings at different positions, or a single one with `takes_moment: true`"),
+        LoadFault::Mechanism { member, supports } => {
+            let fault = Diagnostic::error(
+                at(*member),
+                format!(
+                    "`{}` can tilt or move on its bearings: {}",
+                    name(*member),
+                    list(supports)
+                ),
+            )
+            .help("add two bearings at different positions, or a single one with `takes_moment: true`");
+            match thrust_bearings(*member) {
+                thrust if thrust.is_empty() => fault,
+                thrust => fault.note(format!("thrust bearings carry no radial load: {}", list(&thrust))),
+            }
+        }
         LoadFault::AxialIndeterminate {
             member,
             supports,

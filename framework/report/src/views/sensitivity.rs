@@ -191,7 +191,7 @@ fn shares(name: &str, set: &SensitivityOfSet, loss: &OutputSensitivity, page: &m
         let moves = |k: &usize| shares.total[*k].value < SMALL && there.total[*k].value >= SMALL;
         let word = |k: usize| {
             let share = 100.0 * there.total[k].value;
-            format!("{}, with {share:.0} % of its variance", set.parameters[k].path)
+            format!("{}, with a total effect of {share:.0} %", set.parameters[k].path)
         };
         let moving: Vec<String> = (0..set.parameters.len()).filter(moves).map(word).collect();
         if !moving.is_empty() {
@@ -246,8 +246,8 @@ fn influences(loss: &OutputSensitivity) -> Option<Influences> {
         return Some(Influences {
             values: shares.total.iter().map(|share| 100.0 * share.value.max(0.0)).collect(),
             unit: "%",
-            of: "share of the variance of the mean loss",
-            brief: "of its variance",
+            of: "total effect on the variance of the mean loss, with interactions",
+            brief: "of its variance with interactions",
         });
     }
     if let Some(effects) = &loss.morris {

@@ -32,7 +32,7 @@ fn table(of_set: &ThermalLimitsOfSet, page: &mut Page) {
             number(Some(limit.limit_degc), 1),
             number(limit.solved_speed_rpm, 1),
             number(limit.torque_nm, 3),
-            limit.outcome.to_owned(),
+            limit.outcome.replace('_', " "),
             number(limit.loss_w, 2),
             number(limit.output_w, 1),
         ]);

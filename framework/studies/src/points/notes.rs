@@ -210,6 +210,9 @@ pub fn evidence(transmission: &Transmission, resolved: &Resolved, written: &dyn 
                 add(model.clone(), graded.grade, graded.because, &instance.path);
                 continue;
             }
+            if instance.unused.contains(&graded.key) {
+                continue;
+            }
             let path = format!("{}.{}", instance.path, graded.key);
             let value = lookup(&resolved.value, &path);
             let own = written(&path) || *resolved.source_of(&path) == ValueSource::Override;

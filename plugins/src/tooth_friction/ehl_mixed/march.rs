@@ -149,12 +149,11 @@ impl<R: Points> Sums<R> {
 impl<'a, R: Points> March<'a, R> {
     /// A path with its laws and oil.
     pub fn new(path: &'a PathAt<'a, R>, laws: &'a Laws, oil: &'a Oil<'a, R>) -> Self {
-        let line_load = path.line_load * path.mean.part.pair.cos_base_helix;
         Self {
             path,
             laws,
             oil,
-            ln_line_load: line_load.logarithm(),
+            ln_line_load: path.line_load.logarithm(),
             ln_modulus: R::constant(path.modulus).logarithm(),
             ln_length: R::constant(path.length).logarithm(),
             ln_speed: path.speed.logarithm(),
@@ -168,13 +167,10 @@ impl<'a, R: Points> March<'a, R> {
     }
 
     /// A point of the path; `None` without load.
-    ///
-    /// The line load is the force on the pair over the length of its line of contact, b/cos beta_b. The reference line load of a
-    /// path is the normal force over the face width, which is larger for helical gears.
     #[inline(always)]
     pub fn place<'b>(&self, node: &PathNode, conditions: &Conditions<'b, R>) -> Option<Place<'b, R>> {
         let path = self.path;
-        let line_load = path.line_load * (node.force * path.mean.part.pair.cos_base_helix);
+        let line_load = path.line_load * node.share;
         if !line_load.is_above(R::ZERO).any() {
             return None;
         }
@@ -197,7 +193,7 @@ impl<'a, R: Points> March<'a, R> {
             [0.5 * node.sliding, 2.0 * node.sum_speed.abs() / node.sliding].map(f64::ln)
         };
         let ln = Logarithms {
-            line_load: self.ln_line_load + node.force.ln(),
+            line_load: self.ln_line_load + node.share.ln(),
             radius: R::constant(node.ln_radius),
             modulus: self.ln_modulus,
             length: self.ln_length,

@@ -89,7 +89,7 @@ impl Rig {
             &mut mu,
             Some(|_: &Place<'_>, settled: &Settled| places.push(*settled)),
         );
-        let per_mu = |n: &PathNode| n.weight * n.force * n.sliding * mean.normal_force * mean.speed;
+        let per_mu = |n: &PathNode| n.weight * n.share * n.sliding * mean.normal_force * mean.speed;
         let loss: f64 = nodes.iter().zip(&mu).map(|(n, mu)| per_mu(n) * mu).sum();
         Solved {
             loss,
@@ -135,12 +135,12 @@ fn films_follow_from_velocities_and_loads() {
     let eta = rig.part.oil.as_ref().unwrap().lubricant.eta(oil);
     let alpha = Roelands::coefficient(0.60, eta);
     let line_load = torque / pair.base_radius[0] / pair.facewidth;
-    let length = pair.facewidth / pair.cos_base_helix;
+    let length = pair.line_length();
     assert_eq!(films.len(), nodes.len());
     for (node, place) in nodes.iter().zip(&films) {
         let speed = 0.5 * node.sum_speed.max(node.sliding) * rpm * RPM;
         let stiff = modulus * node.radius;
-        let w = 2.0 / 3.0 * line_load * node.force / stiff * (length / node.radius);
+        let w = 2.0 / 3.0 * line_load * node.share / stiff * (length / node.radius);
         let powers = (eta * speed / stiff).powf(0.68) * (alpha * modulus).powf(0.49) * w.powf(-0.073);
         // Rounding of sums of logarithms.
         within(place.film, node.radius * 4.31 * powers, 1e-13);
@@ -334,7 +334,7 @@ fn a_thin_slow_film_flows_after_newton() {
     for (place, node) in solved.places.iter().zip(rig.gauss()) {
         let newton = place.eta * node.sliding * 2000.0 * RPM / place.film;
         within(place.s * 1e9, newton, 1e-9);
-        let line_load = node.force * 5.0 / rig.part.pair.base_radius[0] / rig.part.pair.facewidth;
+        let line_load = node.share * 5.0 / rig.part.pair.base_radius[0] / rig.part.pair.facewidth;
         let contact = Contact::new(line_load, node.radius, rig.part.modulus, 0.03, [1.0, 1.0]);
         within(place.mu_film, (newton / contact.mean_pressure).min(0.055), 1e-4);
     }

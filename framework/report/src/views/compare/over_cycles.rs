@@ -15,8 +15,21 @@ pub fn show(name: &str, all: &[CycleComparison], page: &mut Page) {
         if own.iter().any(|c| !c.phases.is_empty()) {
             page.table(phases(&own));
         }
+        consumption(&own, page);
         page.line("");
         page.figure(format!("{name}-{cycle}"), bars(name, cycle, &own));
+    }
+}
+
+/// Differences of the consumption, if the vehicle has a battery.
+fn consumption(own: &[&CycleComparison], page: &mut Page) {
+    for c in own {
+        if let Some(difference) = c.consumption_difference_kwh_per_100_km {
+            page.line(format!(
+                "consumption with {} minus {}: {difference:+.4} kWh/100 km",
+                c.model_set, c.base
+            ));
+        }
     }
 }
 

@@ -1,5 +1,6 @@
 //! The limits of the first gear set in one sentence.
 
+use gearloss_framework::thermal::Limit;
 use gearloss_studies::analyses::thermal_limit::{Find, ThermalLimit, ThermalLimitOutcome};
 
 use crate::page::Page;
@@ -29,12 +30,12 @@ pub fn add(outcome: &ThermalLimitOutcome, page: &mut Page) {
         return;
     };
     let there = of_set.limits.iter().filter(|limit| given(limit) == Some(*middle));
-    let mut words = Vec::new();
+    let (mut reached, mut others) = (Vec::new(), Vec::new());
     for limit in there {
         let degrees = format!("{} °C", short(limit.limit_degc));
         match find(limit) {
             Some(value) => {
-                words.push(format!("{degrees} at {} {unit}", short(value)));
+                reached.push(format!("{degrees} at {} {unit}", short(value)));
                 page.key_figure(
                     &format!("{degrees} reached at"),
                     short(value),
@@ -42,12 +43,28 @@ pub fn add(outcome: &ThermalLimitOutcome, page: &mut Page) {
                     format!("{} {along}", short(*middle)),
                 );
             }
-            None => words.push(format!("{degrees}: {}", limit.outcome)),
+            None => others.push(format!("{degrees} {}", without_value(limit.outcome, of_set.find))),
         }
     }
-    page.headline = Some(format!(
-        "At {} {along} the oil would reach {}",
-        short(*middle),
-        words.join(", ")
-    ));
+    let mut clauses = Vec::new();
+    if !reached.is_empty() {
+        clauses.push(format!("the oil would reach {}", reached.join(", ")));
+    }
+    clauses.extend(others);
+    page.headline = Some(format!("At {} {along} {}", short(*middle), clauses.join("; ")));
+}
+
+/// An outcome without a value, as the predicate of a temperature.
+fn without_value(outcome: &str, find: Find) -> String {
+    let unknown = match find {
+        Find::Torque => "torques",
+        Find::Speed => "speeds",
+    };
+    if outcome == Limit::NotReached.name() {
+        format!("is not reached in the range of {unknown}")
+    } else if outcome == Limit::ExceededFromTheStart.name() {
+        format!("is exceeded from the start of the range of {unknown}")
+    } else {
+        "has no limit, because losses or heat have no value".to_owned()
+    }
 }
