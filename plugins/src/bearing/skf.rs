@@ -25,7 +25,7 @@ use drag::{Bath, Body, Depth, Drag};
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
-use gearloss_framework::mechanism::bearing::{Bearing, BearingAt, BearingLaw, BearingPart, Lubrication};
+use gearloss_framework::mechanism::bearing::{Bearing, BearingAt, BearingKind, BearingLaw, BearingPart, Lubrication};
 use gearloss_framework::real::{Mask as _, Real};
 use gearloss_framework::registry::{Build, Evidence, default_of, formula};
 use gearloss_framework::{coefficients, limits, observed, register, terms};
@@ -485,7 +485,7 @@ mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
     use gearloss_framework::loss::Notes;
-    use gearloss_framework::mechanism::bearing::{BearingEntry, BearingKind};
+    use gearloss_framework::mechanism::bearing::BearingEntry;
     use gearloss_framework::mechanism::bearing::{BearingSeals, SealDesign};
 
     fn params() -> Skf {

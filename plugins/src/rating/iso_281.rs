@@ -269,8 +269,7 @@ impl Rating<Bearing> for Iso281 {
 register_rating!(Bearing, "iso_281", Iso281,
     source: "ISO 281:2007",
     evidence: [
-        formula(Evidence::Recalled, "a_ISO, nu1, Cu and e_C from memory, checked by continuity; L10, p and P agree with several catalogues"),
-        default_of("oil_cleanliness", Evidence::Disputed, "not used unless stated; one constant of e_C, of an oil bath of -/13/10, is disputed"),
+        formula(Evidence::Recalled, "a_ISO, nu1, Cu and e_C from memory, checked by continuity, one constant of e_C disputed; L10, p and P agree with several catalogues"),
         default_of("contamination", Evidence::Assumed, "the limit between normal cleanliness and slight contamination"),
         default_of("calculation_factor", Evidence::Assumed, "a usual value; catalogues give 12 to 17"),
         default_of("least_load_ratio", Evidence::Assumed, "a common rule for heavily loaded bearings"),
