@@ -179,10 +179,6 @@ fn us_units_have_their_values() {
         ("353.15 K", "degC", 80.0),
     ] {
         let found = si(text, due);
-        assert!(
-            (found - value).abs() <= 1e-12 * value.abs().max(1.0) && close(found, found),
-            "{text}: {found} {value}"
-        );
         assert!((found - value).abs() <= 2e-12 * value.abs(), "{text}: {found} {value}");
     }
 }
@@ -241,7 +237,7 @@ fn help_never_repeats_the_number_with_another_unit() {
         ("220 SUS", "mm2/s"),
         ("220 SSU", "mm2/s"),
         ("25 cps", "mPa s"),
-        ("2 ton", "kg"),
+        ("17 ton", "kg"),
         ("100 lb", "N"),
         ("39.7 mPa s", "mm2/s"),
         ("3 nm", "Nm"),
@@ -803,7 +799,9 @@ fn misspelt_units_never_become_others() {
         let mut characters: Vec<char> = spelling.chars().collect();
         let at = random.below(characters.len());
         match random.below(4) {
-            0 => drop(characters.remove(at)),
+            0 => {
+                characters.remove(at);
+            }
             1 => characters.insert(at, characters[at]),
             2 if at + 1 < characters.len() => characters.swap(at, at + 1),
             _ => characters[at] = if characters[at].is_lowercase() { 'Q' } else { 'q' },
@@ -838,7 +836,9 @@ fn the_published_pattern_is_what_is_read() {
             match random.below(3) {
                 0 => characters[at] = other,
                 1 => characters.insert(at, other),
-                _ => drop(characters.remove(at)),
+                _ => {
+                    characters.remove(at);
+                }
             }
             spelling = characters.into_iter().collect();
         }
