@@ -49,6 +49,9 @@ pub enum Command {
     Lsp(LspArgs),
     /// Opens the workbench in the browser: a local page to edit, see and solve gearboxes and studies.
     Open(OpenArgs),
+    /// Fills a template for `run --template`.
+    #[command(hide = true)]
+    FillTemplate,
 }
 
 /// Arguments of `open`.

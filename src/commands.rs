@@ -5,6 +5,7 @@ pub mod catalogue;
 pub mod check;
 pub mod eval;
 pub mod explain;
+pub mod fill_template;
 pub mod fit;
 pub mod import;
 pub mod lsp;

@@ -33,6 +33,7 @@ mod args;
 mod commands;
 mod interrupt;
 mod output;
+mod own_process;
 mod shard;
 mod threads;
 
@@ -67,8 +68,17 @@ pub fn main() -> ExitCode {
         let _ = Out::error().text("This is a bug in gearloss. Please report the input and the lines above.\n");
         std::process::exit(3);
     }));
+    if let Ok(program) = std::env::current_exe() {
+        own_process::set(vec![program.into()]);
+    }
     interrupt::own_signals();
     ExitCode::from(call(std::env::args_os()))
+}
+
+/// States how a process of [`call`] is started, such as `["python", "-c", "..."]`: `run --template` does so, to fill the template apart. [`main`]
+/// knows it.
+pub fn started_by(words: impl IntoIterator<Item = OsString>) {
+    own_process::set(words.into_iter().collect());
 }
 
 /// Stops the command that runs in [`call`] on another thread, as the first Ctrl-C does: finished analyses are kept. Where `call` is used
@@ -147,6 +157,7 @@ fn run(args: Args) -> Result<End, Failure> {
         Command::Models(args) => commands::models::run(&args, &mut out),
         Command::Eval(args) => commands::eval::run(&args, &mut out),
         Command::Schema(args) => commands::schema::run(&args, &mut out),
+        Command::FillTemplate => commands::fill_template::run(),
         Command::Fit(args) => commands::fit::run(&args, &mut out),
         Command::Import(args) => commands::import::run(&args, &mut out),
         Command::New(args) => commands::new::run(&args, &mut out),

@@ -73,6 +73,11 @@ pub fn call(py: Python<'_>, arguments: Vec<String>) -> PyResult<u8> {
             "another thread runs a study; wait for it, or use `Study`",
         ));
     };
+    let executable: Option<String> = py.import("sys")?.getattr("executable")?.extract()?;
+    if let Some(python) = executable.filter(|python| !python.is_empty()) {
+        let program = "import sys; from gearloss import _core; sys.exit(_core.call(sys.argv[1:]))";
+        gearloss::started_by([python, "-c".to_owned(), program.to_owned()].map(Into::into));
+    }
     let arguments = std::iter::once("gearloss".to_owned()).chain(arguments);
     work::run_until(py, gearloss::interrupt, |_| gearloss::call(arguments.map(Into::into)))
 }

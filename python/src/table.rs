@@ -1,5 +1,7 @@
 //! Results as columns: arrays of NumPy, and the Arrow stream that data frames read.
 
+use std::sync::Arc;
+
 use gearloss::studies::table;
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
@@ -22,13 +24,10 @@ pub struct Column {
     cells: Cells,
 }
 
-/// Numbers belong to NumPy; of texts each row has the place of its text, or none.
+/// Numbers belong to NumPy.
 enum Cells {
     Numbers(Py<PyArray1<f64>>),
-    Texts {
-        kinds: Vec<String>,
-        codes: Vec<Option<u32>>,
-    },
+    Texts(Arc<table::Texts>),
 }
 
 impl Column {
@@ -47,23 +46,12 @@ impl Column {
         meaning: &str,
         texts: impl Iterator<Item = Option<&'t str>>,
     ) -> PyResult<Py<Self>> {
-        let mut kinds: Vec<String> = Vec::new();
-        let code = |text: &str, kinds: &mut Vec<String>| {
-            let known = kinds.iter().rposition(|kind| kind == text);
-            known.unwrap_or_else(|| {
-                kinds.push(text.to_owned());
-                kinds.len() - 1
-            })
-        };
-        let codes = texts.map(|text| text.and_then(|text| u32::try_from(code(text, &mut kinds)).ok()));
-        let codes = codes.collect();
-        Self::new(
-            py,
-            name.to_owned(),
-            "",
-            meaning.to_owned(),
-            Cells::Texts { kinds, codes },
-        )
+        let mut cells = table::Texts::default();
+        for text in texts {
+            cells.push(text.unwrap_or_default());
+        }
+        let cells = Cells::Texts(Arc::new(cells));
+        Self::new(py, name.to_owned(), "", meaning.to_owned(), cells)
     }
 
     fn new(py: Python<'_>, name: String, unit: &str, meaning: String, cells: Cells) -> PyResult<Py<Self>> {
@@ -87,9 +75,9 @@ impl Column {
     fn values(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
         match &self.cells {
             Cells::Numbers(numbers) => Ok(numbers.clone_ref(py).into_any()),
-            Cells::Texts { kinds, codes } => {
-                let texts = codes.iter().map(|code| code.map(|code| kinds[code as usize].as_str()));
-                Ok(PyList::new(py, texts.collect::<Vec<_>>())?.into_any().unbind())
+            Cells::Texts(texts) => {
+                let texts: Vec<Option<&str>> = texts.iter().collect();
+                Ok(PyList::new(py, texts)?.into_any().unbind())
             }
         }
     }
@@ -97,7 +85,7 @@ impl Column {
     fn __len__(&self, py: Python<'_>) -> PyResult<usize> {
         match &self.cells {
             Cells::Numbers(numbers) => numbers.bind(py).len(),
-            Cells::Texts { codes, .. } => Ok(codes.len()),
+            Cells::Texts(texts) => Ok(texts.codes().len()),
         }
     }
 
@@ -130,12 +118,11 @@ impl Table {
     pub fn from_outcome(py: Python<'_>, table: table::Table) -> PyResult<Self> {
         let columns = table.columns.into_iter().map(|column| match column.values {
             table::Values::Numbers(numbers) => {
-                let numbers = std::sync::Arc::unwrap_or_clone(numbers);
+                let numbers = Arc::unwrap_or_clone(numbers);
                 Column::numbers(py, column.name, &column.unit, column.meaning.into_owned(), numbers)
             }
             table::Values::Texts(texts) => {
-                let rows = (0..texts.codes().len()).map(|row| texts.get(row));
-                Column::texts(py, &column.name, &column.meaning, rows)
+                Column::new(py, column.name, "", column.meaning.into_owned(), Cells::Texts(texts))
             }
         });
         Ok(Self {
@@ -169,13 +156,11 @@ impl Table {
         let columns = self.columns.iter().map(|column| {
             let column = column.get();
             let cells = match &column.cells {
-                Cells::Numbers(numbers) => arrow::Cells::numbers(numbers.bind(py)),
-                Cells::Texts { kinds, codes } => {
-                    arrow::Cells::texts(codes.iter().map(|code| code.map(|code| kinds[code as usize].as_str())))
-                }
+                Cells::Numbers(numbers) => arrow::numbers(numbers.bind(py))?,
+                Cells::Texts(texts) => arrow::Cells::texts(texts.iter()),
             };
-            (column.name.clone(), column.unit.clone(), cells)
+            Ok((column.name.clone(), column.unit.clone(), cells))
         });
-        arrow::stream(py, columns.collect(), self.__len__(py)?)
+        arrow::stream(py, columns.collect::<PyResult<_>>()?, self.__len__(py)?)
     }
 }

@@ -9,6 +9,7 @@ mod shard;
 mod shard_tasks;
 mod table;
 mod task_file;
+mod template;
 mod write;
 
 pub(super) use shard::gather;
@@ -16,18 +17,18 @@ pub(super) use shard::gather;
 use self::console::Shown;
 use self::folder::Held;
 use self::runner::Run;
+use self::template::Template;
 
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use gearloss_framework::files::LONGEST_TEXT;
 use gearloss_framework::language::Language;
 use gearloss_studies::checked_study::Reported;
 use gearloss_studies::distinct::distinct;
 use gearloss_studies::study::{Cautions, Study};
 use gearloss_studies::tasks::TaskResults;
 
-use super::{browser, read_file};
+use super::browser;
 use crate::args::{ResultArgs, RunArgs};
 use crate::interrupt;
 use crate::output::{End, Failure, Out};
@@ -63,9 +64,7 @@ pub(crate) fn all(
             "write --deny extrapolation, or `check --deny GRADE` for evidence",
         ));
     }
-    let template = args.template.as_deref();
-    let template = template.map(|file| read_file(file, LONGEST_TEXT, "give a template with --template"));
-    let template = template.transpose()?;
+    let template = args.template.as_deref().map(Template::read).transpose()?;
     let names: Vec<&str> = study.entry.analyses.ids().collect();
     let shown = Shown::new(args.shown);
     let held = claim(&folder, &names, args.force, shown, out)?;
@@ -113,7 +112,7 @@ pub(crate) fn all(
         }
     }
     shown.outside(width, runner.report.borrow().stated_ranges(), out)?;
-    write::report(&runner, template.as_deref())?;
+    write::report(&runner, template.as_ref())?;
     held.finish();
     let report = runner.files.folder.join(write::REPORT);
     shown.report(&report, out)?;

@@ -6,6 +6,7 @@
 
 mod derive;
 mod equilibrium;
+mod factors;
 mod linear;
 mod solve;
 mod sparse;

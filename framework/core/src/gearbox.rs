@@ -26,9 +26,9 @@ const MOST_SHOWN: usize = 100;
 #[derive(Clone)]
 pub struct Gearbox {
     /// The checked description, SI.
-    pub value: Value,
+    pub value: Arc<Value>,
     /// Positions of all values.
-    pub places: Places,
+    pub places: Arc<Places>,
     /// The source texts.
     pub sources: Sources,
     /// Files named by the description.
@@ -193,8 +193,8 @@ impl Gearbox {
             });
         }
         Ok(Self {
-            value: walked.value,
-            places: walked.places,
+            value: Arc::new(walked.value),
+            places: Arc::new(walked.places),
             sources,
             files: Files::from_source(Arc::clone(source), folder),
         })

@@ -42,13 +42,19 @@ impl Row {
         }
     }
 
-    /// Coefficients over all columns.
-    pub fn dense(&self, columns: usize) -> Vec<f64> {
-        let mut dense = vec![0.0; columns];
-        for (column, value) in &self.terms {
-            dense[*column] += value;
-        }
-        dense
+    /// Column and coefficient by column, each column once, without zeros.
+    pub fn entries(&self) -> Vec<(usize, f64)> {
+        let mut entries = self.terms.clone();
+        entries.sort_by_key(|(column, _)| *column);
+        entries.dedup_by(|next, first| {
+            let repeats = next.0 == first.0;
+            if repeats {
+                first.1 += next.1;
+            }
+            repeats
+        });
+        entries.retain(|(_, coefficient)| *coefficient != 0.0);
+        entries
     }
 }
 

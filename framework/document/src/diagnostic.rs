@@ -1,5 +1,7 @@
 //! Findings: message, place and help.
 
+use std::sync::Arc;
+
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 use serde::Serialize;
 
@@ -177,20 +179,18 @@ pub struct FilePlace {
 
 /// The texts that spans point into, by number.
 #[derive(Debug, Clone, Default)]
-pub struct Sources(Vec<(String, String)>);
+pub struct Sources(Vec<(Arc<str>, Arc<str>)>);
 
 impl Sources {
     /// Adds a text with its printed name; returns its number.
-    pub fn add(&mut self, name: impl Into<String>, text: impl Into<String>) -> u16 {
+    pub fn add(&mut self, name: impl Into<Arc<str>>, text: impl Into<Arc<str>>) -> u16 {
         self.0.push((name.into(), text.into()));
         (self.0.len() - 1) as u16
     }
 
     /// Name and text of a number.
     pub fn get(&self, source: u16) -> Option<(&str, &str)> {
-        self.0
-            .get(source as usize)
-            .map(|(name, text)| (name.as_str(), text.as_str()))
+        self.0.get(source as usize).map(|(name, text)| (&**name, &**text))
     }
 
     /// Name, line and column (from one, in characters) of a span's start.

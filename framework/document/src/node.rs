@@ -1,5 +1,7 @@
 //! The tree of a document: values and their places.
 
+use std::collections::HashMap;
+
 use serde_json::Value;
 
 /// A range of bytes in one of the texts.
@@ -143,8 +145,11 @@ impl Node {
     pub fn merged_over(self, base: Node) -> Node {
         match (self.content, base.content) {
             (Content::Map(own), Content::Map(mut entries)) => {
+                let names = entries.iter().enumerate().map(|(i, (key, _))| (key.name.clone(), i));
+                let known: HashMap<String, usize> = names.collect();
+                // The keys of a document differ.
                 for (key, node) in own {
-                    match entries.iter().position(|(k, _)| k.name == key.name) {
+                    match known.get(&key.name).copied() {
                         Some(i) => {
                             let (_, under) = std::mem::replace(&mut entries[i], (key.clone(), NOTHING));
                             entries[i] = (key, node.merged_over(under));

@@ -1,6 +1,8 @@
 //! The walk over a document: collects every unknown key, missing key, wrong kind, wrong dimension, value out of range and unknown `type`;
 //! fills in defaults; converts quantities to SI.
 
+use std::collections::HashSet;
+
 use serde_json::{Map, Value};
 
 use super::code::Code;
@@ -596,9 +598,12 @@ impl<'a> Walker<'a> {
         let mut map = Map::new();
         let mut behind = None;
         let mut meant: Vec<String> = Vec::new();
+        let written: HashSet<&str> = entries.iter().map(|(key, _)| key.name.as_str()).collect();
+        let names = fields.iter().map(|(name, _)| name.as_str());
+        let open: Vec<&str> = names.filter(|name| !written.contains(name)).collect();
         for (key, node) in entries {
             if !fields.iter().any(|(name, _)| *name == key.name) {
-                meant.extend(self.unknown_key((key, node), (fields, tag), entries, behind));
+                meant.extend(self.unknown_key((key, node), (fields, tag), &open, behind));
             }
             behind = if let Content::Number(x) = node.content {
                 Some(x)
@@ -661,7 +666,7 @@ impl<'a> Walker<'a> {
         &mut self,
         (key, node): (&Key, &Node),
         (fields, tag): (&[(String, Field)], Option<Tag<'_>>),
-        entries: &[(Key, Node)],
+        open: &[&str],
         behind: Option<f64>,
     ) -> Option<String> {
         let comma = behind
@@ -680,9 +685,6 @@ impl<'a> Walker<'a> {
             ))
         } else {
             let names = || fields.iter().map(|(name, _)| name.as_str());
-            let open: Vec<&str> = names()
-                .filter(|name| entries.iter().all(|(k, _)| k.name != *name))
-                .collect();
             let error = Diagnostic::error(path, format!("unknown key `{}`", key.name));
             // The key may belong to a model of another `type`.
             let of_others = tag.map(|(own, variants)| {
@@ -693,7 +695,7 @@ impl<'a> Walker<'a> {
                 (own, others)
             });
             let inside = !self.path.is_empty();
-            let help = misplaced::help(self.schema, fields, &open, &key.name, inside && tag.is_none());
+            let help = misplaced::help(self.schema, fields, open, &key.name, inside && tag.is_none());
             meant = help.meant;
             match (help.words, of_others) {
                 (Some(words), _) => error.help(words),

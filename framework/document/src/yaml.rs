@@ -3,6 +3,8 @@
 //! Anchors, aliases, tags and second documents are rejected with specific messages. Numbers are plain decimals: `no`, `0x10`, `1_000`,
 //! `010` and `16:83` are texts.
 
+use std::collections::HashMap;
+
 use granit_parser::{Event, Parser, ScalarStyle};
 
 use super::codes;
@@ -205,6 +207,7 @@ impl<'a> Reader<'a> {
 
     fn map(&mut self, span: Span, depth: usize) -> Result<Node, Broken> {
         let mut entries: Vec<(Key, Node)> = Vec::new();
+        let mut first: HashMap<String, Span> = HashMap::new();
         loop {
             let (event, key_span) = self.next()?;
             let name = match event {
@@ -231,15 +234,18 @@ impl<'a> Reader<'a> {
             let (event, value_span) = self.next()?;
             let value = self.node(event, value_span, depth + 1)?;
             let Some(name) = name else { continue };
-            match entries.iter().find(|(key, _)| key.name == name) {
-                Some((key, _)) => self.findings.push(
+            match first.get(&name).copied() {
+                Some(first) => self.findings.push(
                     Diagnostic::error("", format!("the key `{name}` occurs twice"))
                         .at_span(key_span)
                         .code(codes::DUPLICATE_KEY)
-                        .label(key.span, "first occurrence")
+                        .label(first, "first occurrence")
                         .help("rename one of them or merge them"),
                 ),
-                None => entries.push((Key { name, span: key_span }, value)),
+                None => {
+                    first.insert(name.clone(), key_span);
+                    entries.push((Key { name, span: key_span }, value));
+                }
             }
         }
     }

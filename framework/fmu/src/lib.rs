@@ -12,7 +12,7 @@ mod library;
 mod reference;
 mod runtime;
 
-#[cfg(clippy)]
+#[cfg(any(test, clippy))]
 #[path = "runtime/border.rs"]
 mod border;
 

@@ -3,8 +3,8 @@
 mod collect;
 mod gearbox;
 mod point;
+mod template;
 
-use crate::codes;
 use gearloss_framework::description::AssumedEntry;
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::evaluate::PowerFlow;
@@ -12,13 +12,14 @@ use gearloss_framework::language::Language;
 use gearloss_studies::analyses::head::{hash, inputs};
 use gearloss_studies::study::Study;
 use minijinja::value::Serde;
-use minijinja::{AutoEscape, Environment, ErrorKind, Value as Filled};
+use minijinja::{AutoEscape, Environment, Value as Filled};
 use rayon::prelude::*;
 use serde::Serialize;
 use serde_json::Value;
 
 pub use gearbox::gearbox_page;
 pub use point::{losses_of_parts, place as point_of_report, waterfall};
+pub use template::{LONGEST_PAGE, LONGEST_TEMPLATE, fill_template};
 
 use crate::page::{Block, KeyFigure, Page};
 use crate::picture::{Picture, Screen};
@@ -244,7 +245,7 @@ impl Frame {
                     .as_slice(),
             ),
             packages: packages.iter().map(ToString::to_string).collect(),
-            study: study.text.clone(),
+            study: study.text.to_string(),
         }
     }
 }
@@ -266,35 +267,43 @@ fn conditions(study: &Study) -> String {
     )
 }
 
-/// The finding about an error of a template.
-fn template_fault(fault: minijinja::Error) -> Diagnostic {
-    let words = match fault.kind() {
-        ErrorKind::OutOfFuel => format!(
-            "it takes more than {} million steps; does it contain nested loops?",
-            MOST_STEPS / 1_000_000
-        ),
-        _ => format!("{fault:#}"),
-    };
-    Diagnostic::error("", format!("the template of the report: {words}"))
-        .help("correct it, or omit --template")
-        .code(codes::TEMPLATE)
+/// What a template can use besides `script` and `style`.
+#[derive(Serialize)]
+pub struct Content<'a> {
+    frame: &'a Frame,
+    sections: Vec<WithPictures<'a, Section>>,
+    gearboxes: Vec<WithPictures<'a, GearboxPage>>,
+    answers: &'a [String],
+    outside: Option<&'a TextTable>,
+    worst: &'a [String],
+    /// The data of all pictures as JSON.
+    pictures: String,
 }
 
 impl Report {
-    /// The page, by the user's template if there is one.
+    /// The page by the built-in template.
     ///
     /// # Errors
     /// Error of the template.
-    pub fn html(&self, frame: &Frame, template: Option<&str>) -> Result<String, Diagnostic> {
-        self.filled(frame, template).map_err(template_fault)
+    pub fn html(&self, frame: &Frame) -> Result<String, Diagnostic> {
+        let content = self.content(frame);
+        let values = minijinja::context! {
+            frame => Filled::from(Serde(content.frame)),
+            sections => Filled::from(Serde(&content.sections)),
+            gearboxes => Filled::from(Serde(&content.gearboxes)),
+            answers => Filled::from(Serde(content.answers)),
+            outside => Filled::from(Serde(content.outside)),
+            worst => Filled::from(Serde(content.worst)),
+            ..fixed(content.pictures),
+        };
+        let page = environment()
+            .template_from_named_str("report", TEMPLATE)
+            .and_then(|page| page.render(values));
+        page.map_err(|fault| template::fault("report", &fault))
     }
 
-    fn filled<'a>(&'a self, frame: &Frame, template: Option<&str>) -> Result<String, minijinja::Error> {
-        let mut environment = Environment::new();
-        environment.set_auto_escape_callback(|_| AutoEscape::Html);
-        environment.set_fuel(Some(MOST_STEPS));
-        // The environment has no named templates, so a template cannot include any, not even itself.
-        let page = environment.template_from_named_str("report", template.unwrap_or(TEMPLATE))?;
+    /// What a template of the user gets, to be serialised for [`fill_template`].
+    pub fn content<'a>(&'a self, frame: &'a Frame) -> Content<'a> {
         let id = |number: usize| format!("picture-{number}");
         let mut all: Vec<&Picture> = Vec::new();
         let mut placed = |pictures: &'a [Picture]| -> Vec<PictureOfPage<'a>> {
@@ -312,12 +321,12 @@ impl Report {
             own,
             pictures: placed(&own.pictures),
         });
-        let sections: Vec<_> = sections.collect();
+        let sections = sections.collect();
         let gearboxes = self.gearboxes.iter().map(|own| WithPictures {
             own,
             pictures: placed(&own.pictures),
         });
-        let gearboxes: Vec<_> = gearboxes.collect();
+        let gearboxes = gearboxes.collect();
         let datum = |(number, picture): (usize, &&Picture)| {
             let json = serde_json::to_value(picture).map(|mut value| {
                 shorten(&mut value);
@@ -328,18 +337,32 @@ impl Report {
             format!("\"{}\":{}", id(number), json.replace('<', "\\u003c"))
         };
         let data: Vec<String> = all.par_iter().enumerate().map(datum).collect();
-        let filled = minijinja::context! {
-            frame => Filled::from(Serde(frame)),
-            sections => Filled::from(Serde(&sections)),
-            gearboxes => Filled::from(Serde(&gearboxes)),
-            answers => Filled::from(Serde(&self.answers)),
-            outside => Filled::from(Serde(&self.outside)),
-            worst => Filled::from(Serde(&self.worst)),
-            script => Filled::from_safe_string(SCRIPT.to_owned()),
-            style => Filled::from_safe_string(STYLE.to_owned()),
-            pictures => Filled::from_safe_string(format!("{{{}}}", data.join(","))),
-        };
-        page.render(filled)
+        Content {
+            frame,
+            sections,
+            gearboxes,
+            answers: &self.answers,
+            outside: self.outside.as_ref(),
+            worst: &self.worst,
+            pictures: format!("{{{}}}", data.join(",")),
+        }
+    }
+}
+
+/// An environment without named templates, so that a template cannot include any, not even itself.
+fn environment<'a>() -> Environment<'a> {
+    let mut environment = Environment::new();
+    environment.set_auto_escape_callback(|_| AutoEscape::Html);
+    environment.set_fuel(Some(MOST_STEPS));
+    environment
+}
+
+/// What needs no escaping.
+fn fixed(pictures: String) -> Filled {
+    minijinja::context! {
+        script => Filled::from_safe_string(SCRIPT.to_owned()),
+        style => Filled::from_safe_string(STYLE.to_owned()),
+        pictures => Filled::from_safe_string(pictures),
     }
 }
 
@@ -408,7 +431,13 @@ mod tests {
     }
 
     fn page(report: &Report, template: Option<&str>) -> Result<String, String> {
-        report.html(&frame(), template).map_err(|fault| fault.message)
+        let Some(template) = template else {
+            return report.html(&frame()).map_err(|fault| fault.message);
+        };
+        let content = serde_json::to_value(report.content(&frame())).unwrap();
+        let mut page = Vec::new();
+        fill_template("own.html", template, content, &mut page).map_err(|fault| fault.message)?;
+        Ok(String::from_utf8(page).unwrap())
     }
 
     #[test]
@@ -430,9 +459,21 @@ mod tests {
         assert_eq!(page(&report(), Some(own)).unwrap(), "A &amp; B: limit 1");
         let fault = page(&report(), Some("{% for %}")).unwrap_err();
         assert!(
-            fault.starts_with("the template of the report") && fault.contains("syntax"),
+            fault.starts_with("the template own.html: ") && fault.contains("own.html:1") && fault.contains("syntax"),
             "{fault}"
         );
+    }
+
+    #[test]
+    fn the_built_in_template_is_filled_the_same_from_serialised_content() {
+        assert_eq!(page(&report(), Some(TEMPLATE)), page(&report(), None));
+    }
+
+    #[test]
+    fn a_page_has_a_limit() {
+        let long = "{% for a in range(99999) %}{{ script }}{% endfor %}";
+        let fault = page(&report(), Some(long)).unwrap_err();
+        assert!(fault.contains("the page has more than 256 MB"), "{fault}");
     }
 
     #[test]

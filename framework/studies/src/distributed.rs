@@ -211,7 +211,7 @@ impl Parcel {
     pub fn new(study: &Study, read: &Recorder, run: &StudyRun<'_>) -> Self {
         Self {
             program: program(run.language()),
-            text: study.text.clone(),
+            text: study.text.to_string(),
             folder: study.folder.clone(),
             files: read.files(),
             found: serde_json::json!(run.found_sets()).to_string(),

@@ -4,6 +4,7 @@
 //! because most columns repeat few texts.
 
 use std::borrow::Cow;
+use std::collections::HashMap;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -52,7 +53,9 @@ pub enum Values {
 /// Texts with many repetitions.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Texts {
-    kinds: Vec<String>,
+    kinds: Vec<Arc<str>>,
+    /// Code of each kind.
+    known: HashMap<Arc<str>, u32>,
     codes: Vec<Option<u32>>,
 }
 
@@ -88,12 +91,17 @@ impl Column {
 impl Texts {
     /// A text; absent for a gap.
     pub fn get(&self, row: usize) -> Option<&str> {
-        self.codes[row].map(|code| self.kinds[code as usize].as_str())
+        self.codes[row].map(|code| &*self.kinds[code as usize])
     }
 
-    /// The distinct texts, indexed by the codes.
-    pub fn kinds(&self) -> &[String] {
-        &self.kinds
+    /// The texts of all rows; absent ones are gaps.
+    pub fn iter(&self) -> impl Iterator<Item = Option<&str>> {
+        (0..self.codes.len()).map(|row| self.get(row))
+    }
+
+    /// The distinct texts, in the order of the codes.
+    pub fn kinds(&self) -> impl Iterator<Item = &str> {
+        self.kinds.iter().map(|kind| &**kind)
     }
 
     /// The code of each cell; absent for a gap.
@@ -103,27 +111,30 @@ impl Texts {
 
     /// Codes of other texts in this dictionary.
     fn codes_of(&mut self, other: &Self) -> Vec<u32> {
-        let code = |kind: &String| {
-            let known = self.kinds.iter().position(|own| own == kind);
-            known.unwrap_or_else(|| {
-                self.kinds.push(kind.clone());
-                self.kinds.len() - 1
-            }) as u32
-        };
-        other.kinds.iter().map(code).collect()
+        other.kinds.iter().map(|kind| self.code(kind)).collect()
     }
 
-    fn push(&mut self, text: &str) {
+    /// The code of a text, which is added if it is new.
+    fn code(&mut self, text: &str) -> u32 {
+        if let Some(known) = self.known.get(text) {
+            return *known;
+        }
+        let (kind, code) = (Arc::<str>::from(text), self.kinds.len() as u32);
+        self.kinds.push(Arc::clone(&kind));
+        self.known.insert(kind, code);
+        code
+    }
+
+    /// Appends a text; an empty one is a gap.
+    pub fn push(&mut self, text: &str) {
         if text.is_empty() {
             return self.codes.push(None);
         }
         // Usually the text of the previous row.
-        let known = self.kinds.iter().rposition(|kind| kind == text);
-        let code = known.unwrap_or_else(|| {
-            self.kinds.push(text.to_owned());
-            self.kinds.len() - 1
-        });
-        self.codes.push(Some(code as u32));
+        let last = self.codes.last().copied().flatten();
+        let last = last.filter(|code| *self.kinds[*code as usize] == *text);
+        let code = last.unwrap_or_else(|| self.code(text));
+        self.codes.push(Some(code));
     }
 }
 
@@ -322,6 +333,22 @@ impl RowSink for DiscardedRows {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn texts_have_one_code_each_in_the_order_of_their_rows() {
+        let names: Vec<String> = (0..200_000).map(|row| format!("row {}", row % 100_000)).collect();
+        let mut table = Table::of("t", &names)
+            .text("name", "Name", |name| name.as_str())
+            .finish();
+        let Values::Texts(texts) = &table.columns[0].values else {
+            panic!("texts")
+        };
+        assert_eq!(texts.kinds().count(), 100_000);
+        assert_eq!((texts.codes()[7], texts.codes()[100_007]), (Some(7), Some(7)));
+        let part = table.clone();
+        table.extend(&[part], &[(0, 5..6)]);
+        assert_eq!(table.columns[0].cell(200_000), "row 5");
+    }
 
     #[test]
     fn rows_become_columns_with_gaps() {

@@ -83,7 +83,7 @@ pub fn run(
         let own = run.study_for_analysis();
         report.complete(&Context::new(language, &own, "report", &Silent))?;
         let frame = Frame::new(&study, language, env!("CARGO_PKG_VERSION"));
-        let address = listener.report(report.html(&frame, None)?);
+        let address = listener.report(report.html(&frame)?);
         listener.event(json!({ "event": "report", "address": address }));
     }
     listener.event(json!({ "event": "end", "failed": failed }));

@@ -11,6 +11,7 @@ use gearloss_studies::table::Table;
 
 use super::result_files::Place;
 use super::runner::{Run, Runner};
+use super::template::Template;
 use crate::output::Failure;
 
 /// Writes an outcome as JSON.
@@ -33,13 +34,17 @@ pub fn workbook(run: &Run<'_>, name: &str, tables: &[Table]) -> Result<(), Failu
 pub const REPORT: &str = "report.html";
 
 /// Writes the page into the folder of the results.
-pub fn report(run: &Run<'_>, template: Option<&str>) -> Result<(), Failure> {
+pub fn report(run: &Run<'_>, template: Option<&Template>) -> Result<(), Failure> {
     let study = run.analyses.study_for_analysis();
     let context = run.context(&study, "report");
     let mut report = run.report.borrow_mut();
     report.complete(&context)?;
     let frame = Frame::new(run.study, run.language, env!("CARGO_PKG_VERSION"));
-    keep(run, REPORT, Ok(report.html(&frame, template)?.into_bytes()))
+    let page = match template {
+        Some(template) => template.fill(&report.content(&frame))?,
+        None => report.html(&frame)?.into_bytes(),
+    };
+    keep(run, REPORT, Ok(page))
 }
 
 /// Removes files of an earlier run of an analysis, which could be mistaken for current results. Files of this run are kept: an analysis may

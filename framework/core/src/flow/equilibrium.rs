@@ -1,7 +1,8 @@
-//! Equilibrium of every member at given losses: one product with the inverse, and one small system for friction.
+//! Equilibrium of every member at given losses: one product with the inverse, and one small system for friction; of large trains one
+//! elimination.
 
 use super::linear::{eliminate, substitute};
-use super::system::{Flow, MeshRow};
+use super::system::{Flow, MeshRow, Response, Solver};
 use super::work::{Drive, Work};
 use crate::real::{Mask as _, Points, Real};
 
@@ -94,7 +95,7 @@ impl Flow {
         }
     }
 
-    /// Factors the small system of the meshes with friction: identity plus responses times shares. Returns where it is regular.
+    /// Factors the system with friction. Returns where it is regular.
     #[inline(always)]
     fn friction<R: Points>(&self, work: &mut Work<R>) -> R::Mask {
         work.active.clear();
@@ -103,23 +104,39 @@ impl Flow {
                 work.active.push(mesh);
             }
         }
-        let n = work.active.len();
-        for (j, &mesh) in work.active.iter().enumerate() {
-            let share = work.used.share(mesh);
-            let coupling = &self.friction[mesh].sides[driven_side(work.drives[mesh])].coupling;
-            let column = &mut work.small[j * n..(j + 1) * n];
-            for (entry, &other) in column.iter_mut().zip(&work.active) {
-                *entry = share * coupling[other];
+        match &self.solver {
+            Solver::Inverse { responses, .. } => small_system(responses, work),
+            Solver::Elimination { elimination, changed } => {
+                elimination.write(&mut work.factors);
+                for &mesh in &work.active {
+                    let share = work.used.share(mesh);
+                    for (place, change) in &changed[mesh][driven_side(work.drives[mesh])] {
+                        work.factors[*place] += share * *change;
+                    }
+                }
+                elimination.eliminate(&mut work.factors)
             }
-            column[j] = column[j] + 1.0;
         }
-        eliminate(&mut work.small[..n * n], &mut work.order[..n])
     }
 
-    /// The solution for the right-hand side (Sherman, Morrison and Woodbury).
+    /// The solution for the right-hand side.
     #[inline(always)]
     fn step<R: Points>(&self, work: &mut Work<R>) {
-        self.inverse.product(&work.right, &mut work.step);
+        match &self.solver {
+            Solver::Inverse { inverse, responses } => {
+                inverse.product(&work.right, &mut work.step);
+                self.respond(responses, work);
+            }
+            Solver::Elimination { elimination, .. } => {
+                work.residual.copy_from_slice(&work.right);
+                elimination.solve(&work.factors, &mut work.residual, &mut work.step);
+            }
+        }
+    }
+
+    /// Adds the effect of friction to a solution without it (Sherman, Morrison and Woodbury).
+    #[inline(always)]
+    fn respond<R: Points>(&self, responses: &[[Response; 2]], work: &mut Work<R>) {
         let n = work.active.len();
         if n == 0 {
             return;
@@ -127,10 +144,10 @@ impl Flow {
         for (share, &mesh) in work.shares.iter_mut().zip(&work.active) {
             *share = work.step[self.friction[mesh].row];
         }
-        substitute(&work.small[..n * n], &work.order[..n], &mut work.shares[..n]);
+        substitute(&work.factors[..n * n], &work.order[..n], &mut work.shares[..n]);
         for (share, &mesh) in work.shares.iter().zip(&work.active) {
             let lost = *share * work.used.share(mesh);
-            let side = &self.friction[mesh].sides[driven_side(work.drives[mesh])];
+            let side = &responses[mesh][driven_side(work.drives[mesh])];
             side.response.add(-lost, &mut work.step);
         }
     }
@@ -155,6 +172,22 @@ impl Flow {
     }
 }
 
+/// Factors the small system of the meshes with friction: identity plus responses times shares. Returns where it is regular.
+#[inline(always)]
+fn small_system<R: Points>(responses: &[[Response; 2]], work: &mut Work<R>) -> R::Mask {
+    let n = work.active.len();
+    for (j, &mesh) in work.active.iter().enumerate() {
+        let share = work.used.share(mesh);
+        let coupling = &responses[mesh][driven_side(work.drives[mesh])].coupling;
+        let column = &mut work.factors[j * n..(j + 1) * n];
+        for (entry, &other) in column.iter_mut().zip(&work.active) {
+            *entry = share * coupling[other];
+        }
+        column[j] = column[j] + 1.0;
+    }
+    eliminate(&mut work.factors[..n * n], &mut work.order[..n])
+}
+
 /// Speed of a gear in the carrier's frame; zero if it is rounding error.
 #[inline(always)]
 fn relative_speed<R: Real>(gear: Option<usize>, mesh: &MeshRow, speeds: &[R], still: R) -> R {
@@ -163,7 +196,7 @@ fn relative_speed<R: Real>(gear: Option<usize>, mesh: &MeshRow, speeds: &[R], st
     R::select(relative.magnitude().is_above(still), relative, R::ZERO)
 }
 
-/// Which side of [`super::system::Friction`] loses torque.
+/// Which side of [`super::system::Friction`] and [`Response`] loses torque.
 pub(super) fn driven_side(drive: Drive) -> usize {
     usize::from(drive == Drive::Second)
 }

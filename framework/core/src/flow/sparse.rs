@@ -12,13 +12,18 @@ pub(super) struct SparseMatrix {
 }
 
 impl SparseMatrix {
-    /// A matrix from its columns.
-    pub fn new(matrix: &[f64], size: usize) -> Self {
-        let mut sparse = Self::default();
-        for row in 0..size {
-            let entries = (0..size).map(|column| (column, matrix[column * size + row]));
-            sparse.entries.extend(entries.filter(|(_, x)| *x != 0.0));
-            sparse.ends.push(sparse.entries.len());
+    /// A matrix from its entries in the order of rows, then of columns.
+    pub fn new(entries: impl IntoIterator<Item = ((usize, usize), f64)>, size: usize) -> Self {
+        let mut sparse = Self {
+            ends: vec![0; size],
+            ..Self::default()
+        };
+        for ((row, column), entry) in entries {
+            sparse.entries.push((column, entry));
+            sparse.ends[row] = sparse.entries.len();
+        }
+        for row in 1..size {
+            sparse.ends[row] = sparse.ends[row].max(sparse.ends[row - 1]);
         }
         sparse
     }
@@ -43,9 +48,13 @@ impl SparseMatrix {
 pub(super) struct SparseVector(Vec<(usize, f64)>);
 
 impl SparseVector {
-    pub fn new(vector: &[f64]) -> Self {
-        let entries = vector.iter().copied().enumerate().filter(|(_, x)| *x != 0.0);
-        Self(entries.collect())
+    /// The vector without its zeros.
+    pub fn new(entries: impl IntoIterator<Item = (usize, f64)>) -> Self {
+        Self(entries.into_iter().filter(|(_, x)| *x != 0.0).collect())
+    }
+
+    pub fn entries(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
+        self.0.iter().copied()
     }
 
     /// Adds the vector times a factor.

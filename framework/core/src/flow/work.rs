@@ -192,9 +192,9 @@ pub struct Work<R: Points = f64> {
     pub(super) residual: Vec<R>,
     pub(super) unknown: Vec<R>,
     pub(super) step: Vec<R>,
-    /// Meshes with friction in the present solve, and their small system.
+    /// Meshes with friction in the present solve, and the factors of their small system or of the whole one.
     pub(super) active: Vec<usize>,
-    pub(super) small: Vec<R>,
+    pub(super) factors: Vec<R>,
     /// The row that was exchanged with each row of the small system.
     pub(super) order: Vec<usize>,
     pub(super) shares: Vec<R>,
@@ -328,7 +328,7 @@ impl Flow {
             unknown: zeros(s),
             step: zeros(s),
             active: Vec::with_capacity(k),
-            small: zeros(k * k),
+            factors: zeros(self.solver.factor_count(k)),
             order: vec![0; k],
             shares: zeros(k),
         }

@@ -129,6 +129,33 @@ pub struct Layout {
     pub meshes: Vec<MeshLayout>,
 }
 
+impl Layout {
+    /// Meshes with a gear on each member.
+    pub fn meshes_by_member(&self) -> Vec<Vec<usize>> {
+        let mut lists = vec![Vec::new(); self.members.len()];
+        for (i, mesh) in self.meshes.iter().enumerate() {
+            let [first, second] = mesh.members;
+            lists[first].push(i);
+            if second != first {
+                lists[second].push(i);
+            }
+        }
+        lists
+    }
+
+    /// Supports of each member, inside or outside.
+    pub fn supports_by_member(&self) -> Vec<Vec<usize>> {
+        let mut lists = vec![Vec::new(); self.members.len()];
+        for (i, support) in self.supports.iter().enumerate() {
+            lists[support.inner].push(i);
+            if let Some(outer) = support.outer.filter(|outer| *outer != support.inner) {
+                lists[outer].push(i);
+            }
+        }
+        lists
+    }
+}
+
 /// Why loads cannot be found. Members and supports by number.
 #[derive(Debug, Clone, PartialEq)]
 pub enum LoadFault {

@@ -1,5 +1,7 @@
 //! Bearing loads: unit cases solved once, combined at every point.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use super::SupportLoad;
 use super::layout::{Layout, LoadFault, MemberLayout, SupportLayout};
 use super::statics::{Action, Reaction, Statics};
@@ -33,37 +35,36 @@ pub(super) struct Cases {
 }
 
 impl Cases {
-    fn new(reactions: &[Reaction], meshes: usize, carriers: &[usize]) -> Self {
+    /// From the reactions to permanent loads, to the units of each mesh that loads the support, and to the centrifugal force of each
+    /// planet body that does.
+    fn new(always: Reaction, units: &BTreeMap<usize, [Reaction; 2]>, planets: Vec<(usize, Reaction)>) -> Self {
         let nothing = Reaction::default();
-        let (pairs, planets) = reactions[1..].split_at(2 * meshes);
         // The part that depends on the magnitude of a force is added to or subtracted from the linear part.
-        let of_senses = |pair: &[Reaction]| {
+        let of_senses = |pair: &[Reaction; 2]| {
             [1.0, -1.0].map(|sense| {
                 let mut sum = pair[0];
                 add(&mut sum, &pair[1], sense);
                 sum
             })
         };
-        let meshes: Vec<(usize, [Reaction; 2])> = pairs
-            .chunks_exact(2)
-            .map(of_senses)
-            .enumerate()
+        let meshes: Vec<(usize, [Reaction; 2])> = units
+            .iter()
+            .map(|(mesh, pair)| (*mesh, of_senses(pair)))
             .filter(|(_, pair)| *pair != [nothing; 2])
             .collect();
-        let torqueless = reactions[0].force != [0.0; 2] || planets.iter().any(|planet| planet.force != [0.0; 2]);
+        let torqueless = always.force != [0.0; 2] || planets.iter().any(|(_, planet)| planet.force != [0.0; 2]);
         let only = match &meshes[..] {
             [(mesh, senses)] if !torqueless => Some((*mesh, senses.map(|reaction| length(reaction.force)))),
             _ => None,
         };
+        let mut reactions = units.values().flatten().chain(planets.iter().map(|(_, planet)| planet));
         Self {
             only,
-            couples: reactions.iter().any(|reaction| reaction.couple != [0.0; 2]),
-            always: reactions[0],
+            couples: always.couple != [0.0; 2] || reactions.any(|reaction| reaction.couple != [0.0; 2]),
+            always,
             meshes,
-            planets: carriers
-                .iter()
-                .copied()
-                .zip(planets.iter().copied())
+            planets: planets
+                .into_iter()
                 .filter(|(_, reaction)| *reaction != nothing)
                 .collect(),
         }
@@ -125,6 +126,12 @@ impl ShaftLoads {
             }
         }
         let order = sort(&carrier_of).map_err(|members| vec![LoadFault::Cycle { members }])?;
+        let mut places = vec![0; n];
+        for (place, m) in order.iter().enumerate() {
+            places[*m] = place;
+        }
+        let meshes_of = layout.meshes_by_member();
+        let loaded = loaded_places(layout, &radial, &meshes_of);
         let mut faults = Vec::new();
         let mut statics = vec![Statics::None; n];
         let mut takings = Vec::new();
@@ -135,7 +142,7 @@ impl ShaftLoads {
                     supports: own[m].iter().map(|(support, _)| *support).collect(),
                 });
             }
-            match Statics::new(m, &layout.members[m], &radial[m], &loaded_places(layout, m, &radial[m])) {
+            match Statics::new(m, &layout.members[m], &radial[m], &loaded[m]) {
                 Ok(found) => statics[m] = found,
                 Err(fault) => faults.push(fault),
             }
@@ -151,59 +158,59 @@ impl ShaftLoads {
         if !faults.is_empty() {
             return Err(faults);
         }
-        let mut cases: Vec<Vec<Reaction>> = vec![Vec::new(); layout.supports.len()];
-        let mut run = |actions: Vec<Vec<Action>>| {
-            for (support, reaction) in solve(layout, &order, &radial, &statics, actions)
-                .into_iter()
-                .enumerate()
-            {
-                cases[support].push(reaction);
-            }
+        let system = System {
+            layout,
+            order: &order,
+            places: &places,
+            own: &radial,
+            statics: &statics,
         };
-        run(layout.members.iter().map(always).collect());
-        for mesh in &layout.meshes {
+        let mut permanent = vec![Reaction::default(); layout.supports.len()];
+        for (support, reaction) in system.reactions(layout.members.iter().map(always).enumerate()) {
+            permanent[support] = reaction;
+        }
+        let mut units = vec![BTreeMap::new(); layout.supports.len()];
+        for (i, mesh) in layout.meshes.iter().enumerate() {
             for unit in 0..2 {
-                let mut actions = vec![Vec::new(); n];
-                for gear in 0..2 {
-                    if !mesh.central[gear] {
-                        let action = Action {
-                            at: mesh.at,
-                            arm: mesh.arm(gear),
-                            force: mesh.forces(gear)[unit],
-                            moment: [0.0; 2],
-                        };
-                        actions[mesh.members[gear]].push(action);
-                    }
+                let gears = (0..2).filter(|gear| !mesh.central[*gear]);
+                let actions = gears.map(|gear| {
+                    let action = Action {
+                        at: mesh.at,
+                        arm: mesh.arm(gear),
+                        force: mesh.forces(gear)[unit],
+                        moment: [0.0; 2],
+                    };
+                    (mesh.members[gear], vec![action])
+                });
+                for (support, reaction) in system.reactions(actions) {
+                    units[support].entry(i).or_insert([Reaction::default(); 2])[unit] = reaction;
                 }
-                run(actions);
             }
         }
-        let mut planets = Vec::new();
+        let mut planets = vec![Vec::new(); layout.supports.len()];
         for (m, member) in layout.members.iter().enumerate() {
             let Some(planet) = member.planet else { continue };
-            let at = middle(&radial[m]);
-            let mut actions = vec![Vec::new(); n];
-            actions[m].push(Action {
-                at,
+            let action = Action {
+                at: middle(&radial[m]),
                 force: [0.0, planet.mass * planet.orbit, 0.0],
                 ..Action::default()
-            });
-            planets.push(planet.carrier);
-            run(actions);
+            };
+            for (support, reaction) in system.reactions([(m, vec![action])]) {
+                planets[support].push((planet.carrier, reaction));
+            }
         }
-        let order = order
+        let axial = order
             .iter()
             .zip(takings)
-            .map(|(&m, taking)| axially(layout, m, &own[m], taking, &order))
+            .map(|(&m, taking)| axially(layout, m, &own[m], taking, &meshes_of[m], &places))
             .collect();
-        let order = passed_on(order);
+        let cases = permanent.into_iter().zip(&units).zip(planets);
         Ok(Self {
             cases: cases
-                .iter()
-                .map(|reactions| Cases::new(reactions, layout.meshes.len(), &planets))
+                .map(|((always, units), planets)| Cases::new(always, units, planets))
                 .collect(),
             turned,
-            order,
+            order: passed_on(axial),
         })
     }
 
@@ -293,19 +300,26 @@ fn from_the_carried(layout: &Layout, support: &SupportLayout) -> SupportLayout {
     }
 }
 
-/// Where loads can act on a member: its own forces and moments, meshes, members that it carries, a planet's centrifugal force. \[m\]
-fn loaded_places(layout: &Layout, member: usize, own: &[(usize, SupportLayout)]) -> Vec<f64> {
-    let loads = &layout.members[member];
-    let mut places: Vec<f64> = loads.forces.iter().map(|f| f.0).collect();
-    places.extend(loads.moments.iter().map(|f| f.0));
-    let meshes = layout.meshes.iter();
-    places.extend(meshes.filter(|mesh| mesh.members.contains(&member)).map(|m| m.at));
-    let supports = layout.supports.iter();
-    places.extend(supports.filter(|s| carried(layout, s).1 == Some(member)).map(|s| s.at));
-    if loads.planet.is_some() && !own.is_empty() {
-        places.push(middle(own));
+/// Where loads can act on each member: its own forces and moments, meshes, members that it carries, a planet's centrifugal force. \[m\]
+fn loaded_places(layout: &Layout, own: &[Vec<(usize, SupportLayout)>], meshes_of: &[Vec<usize>]) -> Vec<Vec<f64>> {
+    let mut loaded: Vec<Vec<f64>> = Vec::with_capacity(layout.members.len());
+    for (loads, meshes) in layout.members.iter().zip(meshes_of) {
+        let forces = loads.forces.iter().map(|f| f.0);
+        let moments = loads.moments.iter().map(|f| f.0);
+        let meshes = meshes.iter().map(|mesh| layout.meshes[*mesh].at);
+        loaded.push(forces.chain(moments).chain(meshes).collect());
     }
-    places
+    for support in &layout.supports {
+        if let Some(carrier) = carried(layout, support).1 {
+            loaded[carrier].push(support.at);
+        }
+    }
+    for ((places, member), own) in loaded.iter_mut().zip(&layout.members).zip(own) {
+        if member.planet.is_some() && !own.is_empty() {
+            places.push(middle(own));
+        }
+    }
+    loaded
 }
 
 /// Centre of the supports of a planet, where its centrifugal force acts.
@@ -353,16 +367,19 @@ fn sort(carrier_of: &[Vec<usize>]) -> Result<Vec<usize>, Vec<usize>> {
         }
     }
     let mut order = Vec::new();
-    let mut done = vec![false; n];
-    while order.len() < n {
-        let Some(next) = (0..n).find(|m| !done[*m] && waiting[*m] == 0) else {
-            return Err((0..n).filter(|m| !done[*m]).collect());
-        };
-        done[next] = true;
+    let mut ready: BTreeSet<usize> = (0..n).filter(|m| waiting[*m] == 0).collect();
+    while let Some(next) = ready.pop_first() {
         order.push(next);
         for &c in &carrier_of[next] {
             waiting[c] -= 1;
+            if waiting[c] == 0 {
+                ready.insert(c);
+            }
         }
+    }
+    if order.len() < n {
+        let sorted: BTreeSet<usize> = order.into_iter().collect();
+        return Err((0..n).filter(|m| !sorted.contains(m)).collect());
     }
     Ok(order)
 }
@@ -381,30 +398,42 @@ fn always(member: &MemberLayout) -> Vec<Action> {
     forces.chain(moments).collect()
 }
 
-fn solve(
-    layout: &Layout,
-    order: &[usize],
-    own: &[Vec<(usize, SupportLayout)>],
-    statics: &[Statics],
-    mut actions: Vec<Vec<Action>>,
-) -> Vec<Reaction> {
-    let mut reactions = vec![Reaction::default(); layout.supports.len()];
-    for &m in order {
-        let found = statics[m].reactions(&actions[m]);
-        for ((support, seat), reaction) in own[m].iter().zip(found) {
-            reactions[*support] = reaction;
-            // Planets of one set balance each other on their carrier.
-            if let (Some(carrier), None) = (seat.outer, layout.members[m].planet) {
-                actions[carrier].push(Action {
-                    at: seat.at,
-                    arm: [0.0; 2],
-                    force: [0.0, -reaction.force[0], -reaction.force[1]],
-                    moment: [-reaction.couple[0], -reaction.couple[1]],
-                });
+/// The static systems of all members, from the supported to the supporting.
+struct System<'a> {
+    layout: &'a Layout,
+    order: &'a [usize],
+    /// Place of each member in the order.
+    places: &'a [usize],
+    own: &'a [Vec<(usize, SupportLayout)>],
+    statics: &'a [Statics],
+}
+
+impl System<'_> {
+    /// Reactions of supports to actions on some members: of these members and of those that carry them. All others are zero.
+    fn reactions(&self, actions: impl IntoIterator<Item = (usize, Vec<Action>)>) -> Vec<(usize, Reaction)> {
+        let mut open: BTreeMap<usize, Vec<Action>> = BTreeMap::new();
+        for (member, actions) in actions {
+            open.entry(self.places[member]).or_default().extend(actions);
+        }
+        let mut reactions = Vec::new();
+        while let Some((place, actions)) = open.pop_first() {
+            let m = self.order[place];
+            let found = self.statics[m].reactions(&actions);
+            for ((support, seat), reaction) in self.own[m].iter().zip(found) {
+                reactions.push((*support, reaction));
+                // Planets of one set balance each other on their carrier.
+                if let (Some(carrier), None) = (seat.outer, self.layout.members[m].planet) {
+                    open.entry(self.places[carrier]).or_default().push(Action {
+                        at: seat.at,
+                        arm: [0.0; 2],
+                        force: [0.0, -reaction.force[0], -reaction.force[1]],
+                        moment: [-reaction.couple[0], -reaction.couple[1]],
+                    });
+                }
             }
         }
+        reactions
     }
-    reactions
 }
 
 /// Permanent axial forces on one member; true if no support takes thrust, so that it passes through to the supporting member.
@@ -413,10 +442,12 @@ fn axially(
     m: usize,
     own: &[(usize, SupportLayout)],
     taking: Taking,
-    order: &[usize],
+    meshes_of: &[usize],
+    places: &[usize],
 ) -> (Axially, bool) {
     let mut meshes = Vec::new();
-    for (i, mesh) in layout.meshes.iter().enumerate() {
+    for &i in meshes_of {
+        let mesh = &layout.meshes[i];
         for gear in 0..2 {
             if mesh.members[gear] == m && mesh.hand_tan_beta != 0.0 {
                 let copies = if mesh.central[gear] { mesh.count } else { 1.0 };
@@ -426,7 +457,6 @@ fn axially(
     }
     let carrier = own.iter().find_map(|(_, s)| s.outer);
     let copies = layout.members[m].planet.map_or(1.0, |p| p.count);
-    let place = |member: usize| order.iter().position(|o| *o == member);
     let passes = carrier.is_some()
         && own
             .iter()
@@ -436,7 +466,7 @@ fn axially(
         size: layout.members[m].forces.iter().map(|f| f.1[0].abs()).sum(),
         meshes,
         taking,
-        carrier: carrier.and_then(place).map(|place| (place, copies)),
+        carrier: carrier.map(|carrier| (places[carrier], copies)),
     };
     (axially, passes)
 }
@@ -460,7 +490,11 @@ fn passed_on(mut order: Vec<(Axially, bool)>) -> Vec<Axially> {
         .iter()
         .map(|(member, passes)| member.carrier.filter(|_| *passes))
         .collect();
-    let left: Vec<usize> = (0..order.len()).filter(|place| passing[*place].is_none()).collect();
+    // Places without the members through which thrust passes.
+    let mut left = vec![None; order.len()];
+    for (number, place) in (0..order.len()).filter(|place| passing[*place].is_none()).enumerate() {
+        left[place] = Some(number);
+    }
     let members = order.into_iter().map(|(mut member, _)| {
         // Thrust passed to a member that also passes it through is passed on to its supporting member.
         while let Some((carrier, copies)) = member.carrier {
@@ -471,7 +505,7 @@ fn passed_on(mut order: Vec<(Axially, bool)>) -> Vec<Axially> {
         }
         member.carrier = member
             .carrier
-            .and_then(|(carrier, copies)| Some((left.iter().position(|place| *place == carrier)?, copies)));
+            .and_then(|(carrier, copies)| Some((left[carrier]?, copies)));
         member
     });
     let members = members.zip(&passing).filter(|(_, passes)| passes.is_none());

@@ -259,15 +259,12 @@ fn unsupported(
     // A bearing with a fault does not support anything yet.
     let faulty = found.iter().any(|finding| finding.path.starts_with("bearings."));
     let mut planets = Vec::new();
+    let (supports_of, meshes_of) = (layout.supports_by_member(), layout.meshes_by_member());
     for (i, name) in members.names.iter().enumerate() {
         let section = if members.loose[i] { "gears" } else { "shafts" };
         let path = format!("{section}.{name}");
-        let own: Vec<&SupportLayout> = layout
-            .supports
-            .iter()
-            .filter(|s| s.inner == i || s.outer == Some(i))
-            .collect();
-        let meshes = layout.meshes.iter();
+        let own: Vec<&SupportLayout> = supports_of[i].iter().map(|s| &layout.supports[*s]).collect();
+        let meshes = meshes_of[i].iter().map(|mesh| &layout.meshes[*mesh]);
         let member = &layout.members[i];
         let loaded = meshes
             .clone()
@@ -305,7 +302,7 @@ fn unsupported(
             ),
             _ => {}
         }
-        let helical = meshes.clone().any(|m| m.members.contains(&i) && m.hand_tan_beta != 0.0);
+        let helical = meshes.clone().any(|m| m.hand_tan_beta != 0.0);
         if helical && !members.loose[i] && !own.is_empty() {
             for (side, words) in [(Axial::Right, "+x"), (Axial::Left, "-x")] {
                 let taken = own.iter().any(|s| s.axial == side || s.axial == Axial::Both);

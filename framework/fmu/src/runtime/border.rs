@@ -1,4 +1,4 @@
-//! The border to C, so that its lints are checked with those of the crate.
+//! The border to C, so that its lints are checked with those of the crate, and its tests run.
 
 #![allow(unsafe_code, dead_code)]
 
@@ -12,3 +12,7 @@ mod host;
 mod instance;
 
 use super::runtime::{content, model, uri, variables};
+
+#[cfg(test)]
+#[path = "border_tests.rs"]
+mod tests;

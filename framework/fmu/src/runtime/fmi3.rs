@@ -11,6 +11,8 @@ use core::ffi::{CStr, c_char, c_void};
 use super::instance::{ERROR, Instance, Log, OK, Status, free_state, keep_state, list, list_mut, put, state, text};
 use super::variables::{Causality, Kind};
 
+/// `bool` of C. It may come with any bits, which a `bool` of Rust must not have.
+type Boolean = u8;
 type Handle = *mut c_void;
 type Name = *const c_char;
 type Logger = unsafe extern "C" fn(*mut c_void, Status, Name, Name);
@@ -42,13 +44,13 @@ unsafe fn with(c: Handle, call: impl FnOnce(&mut Own) -> Status) -> Status {
 unsafe fn instance(
     token: Name,
     resources: Name,
-    logging: bool,
+    logging: Boolean,
     environment: *mut c_void,
     logger: Option<Logger>,
 ) -> Handle {
     let log = Receiver { logger, environment };
     // SAFETY: the standard.
-    unsafe { Own::into_pointer(Own::new(text(resources).map(<[u8]>::to_vec), token, log, logging)) }
+    unsafe { Own::into_pointer(Own::new(text(resources).map(<[u8]>::to_vec), token, log, logging != 0)) }
 }
 
 /// Fine without variables of a type that no variable has.
@@ -63,11 +65,16 @@ pub extern "C" fn fmi3GetVersion() -> Name {
 }
 
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3SetDebugLogging(c: Handle, on: bool, _count: usize, _categories: *const Name) -> Status {
+pub unsafe extern "C" fn fmi3SetDebugLogging(
+    c: Handle,
+    on: Boolean,
+    _count: usize,
+    _categories: *const Name,
+) -> Status {
     // SAFETY: the standard.
     unsafe {
         with(c, |own| {
-            own.logging = on;
+            own.logging = on != 0;
             OK
         })
     }
@@ -78,8 +85,8 @@ pub unsafe extern "C" fn fmi3InstantiateModelExchange(
     _name: Name,
     token: Name,
     resources: Name,
-    _visible: bool,
-    logging: bool,
+    _visible: Boolean,
+    logging: Boolean,
     environment: *mut c_void,
     logger: Option<Logger>,
 ) -> Handle {
@@ -92,10 +99,10 @@ pub unsafe extern "C" fn fmi3InstantiateCoSimulation(
     _name: Name,
     token: Name,
     resources: Name,
-    _visible: bool,
-    logging: bool,
-    _event_mode: bool,
-    _early_return: bool,
+    _visible: Boolean,
+    logging: Boolean,
+    _event_mode: Boolean,
+    _early_return: Boolean,
     _intermediate: *const u32,
     _intermediate_count: usize,
     environment: *mut c_void,
@@ -112,8 +119,8 @@ pub unsafe extern "C" fn fmi3InstantiateScheduledExecution(
     _name: Name,
     _token: Name,
     _resources: Name,
-    _visible: bool,
-    _logging: bool,
+    _visible: Boolean,
+    _logging: Boolean,
     _environment: *mut c_void,
     _logger: Option<Logger>,
     _update: *const c_void,
@@ -132,10 +139,10 @@ pub unsafe extern "C" fn fmi3FreeInstance(c: Handle) {
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3EnterInitializationMode(
     c: Handle,
-    _tolerance_defined: bool,
+    _tolerance_defined: Boolean,
     _tolerance: f64,
     start: f64,
-    _stop_defined: bool,
+    _stop_defined: Boolean,
     _stop: f64,
 ) -> Status {
     // SAFETY: the standard.
@@ -290,7 +297,7 @@ pub unsafe extern "C" fn fmi3GetBoolean(
     c: Handle,
     references: *const u32,
     count: usize,
-    values: *mut bool,
+    values: *mut Boolean,
     value_count: usize,
 ) -> Status {
     // SAFETY: the standard.
@@ -300,7 +307,7 @@ pub unsafe extern "C" fn fmi3GetBoolean(
                 list(references, count),
                 Kind::Boolean,
                 list_mut(values, value_count),
-                |x| x != 0.0,
+                |x| Boolean::from(x != 0.0),
             )
         })
     }
@@ -311,18 +318,15 @@ pub unsafe extern "C" fn fmi3SetBoolean(
     c: Handle,
     references: *const u32,
     count: usize,
-    values: *const bool,
+    values: *const Boolean,
     value_count: usize,
 ) -> Status {
     // SAFETY: the standard.
     unsafe {
         with(c, |own| {
-            own.set(
-                list(references, count),
-                Kind::Boolean,
-                list(values, value_count),
-                f64::from,
-            )
+            own.set(list(references, count), Kind::Boolean, list(values, value_count), |x| {
+                f64::from(u8::from(x != 0))
+            })
         })
     }
 }
@@ -384,7 +388,12 @@ pub unsafe extern "C" fn fmi3SetBinary(
 
 /// There are no clocks.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetClock(c: Handle, _references: *const u32, count: usize, _values: *mut bool) -> Status {
+pub unsafe extern "C" fn fmi3GetClock(
+    c: Handle,
+    _references: *const u32,
+    count: usize,
+    _values: *mut Boolean,
+) -> Status {
     // SAFETY: the standard.
     unsafe { none(c, count) }
 }
@@ -395,7 +404,7 @@ pub unsafe extern "C" fn fmi3SetClock(
     c: Handle,
     _references: *const u32,
     count: usize,
-    _values: *const bool,
+    _values: *const Boolean,
 ) -> Status {
     // SAFETY: the standard.
     unsafe { none(c, count) }
@@ -567,11 +576,11 @@ pub unsafe extern "C" fn fmi3GetAdjointDerivative(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3UpdateDiscreteStates(
     c: Handle,
-    again: *mut bool,
-    terminate: *mut bool,
-    nominals_changed: *mut bool,
-    values_changed: *mut bool,
-    next_event_time_defined: *mut bool,
+    again: *mut Boolean,
+    terminate: *mut Boolean,
+    nominals_changed: *mut Boolean,
+    values_changed: *mut Boolean,
+    next_event_time_defined: *mut Boolean,
     next_event_time: *mut f64,
 ) -> Status {
     // SAFETY: the standard.
@@ -584,7 +593,7 @@ pub unsafe extern "C" fn fmi3UpdateDiscreteStates(
                 values_changed,
                 next_event_time_defined,
             ] {
-                put(to, false);
+                put(to, 0);
             }
             put(next_event_time, 0.0);
             OK
@@ -595,15 +604,15 @@ pub unsafe extern "C" fn fmi3UpdateDiscreteStates(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3CompletedIntegratorStep(
     c: Handle,
-    _no_earlier: bool,
-    enter_event_mode: *mut bool,
-    terminate: *mut bool,
+    _no_earlier: Boolean,
+    enter_event_mode: *mut Boolean,
+    terminate: *mut Boolean,
 ) -> Status {
     // SAFETY: the standard.
     unsafe {
         with(c, |_| {
-            put(enter_event_mode, false);
-            put(terminate, false);
+            put(enter_event_mode, 0);
+            put(terminate, 0);
             OK
         })
     }
@@ -695,10 +704,10 @@ pub unsafe extern "C" fn fmi3DoStep(
     c: Handle,
     time: f64,
     length: f64,
-    _no_earlier: bool,
-    event: *mut bool,
-    terminate: *mut bool,
-    early: *mut bool,
+    _no_earlier: Boolean,
+    event: *mut Boolean,
+    terminate: *mut Boolean,
+    early: *mut Boolean,
     last: *mut f64,
 ) -> Status {
     // SAFETY: the standard.
@@ -706,7 +715,7 @@ pub unsafe extern "C" fn fmi3DoStep(
         with(c, |own| {
             let status = own.step(time, length);
             for to in [event, terminate, early] {
-                put(to, false);
+                put(to, 0);
             }
             put(last, own.model.time());
             status

@@ -1,6 +1,6 @@
 //! What the system provides: memory, files, the end of the process.
 
-#[cfg(not(hosted))]
+#[cfg(not(any(hosted, test)))]
 mod system {
     use alloc::ffi::CString;
     use alloc::vec::Vec;
@@ -47,7 +47,7 @@ mod system {
     #[global_allocator]
     static MEMORY: Memory = Memory;
 
-    #[cfg(not(any(test, clippy)))]
+    #[cfg(not(clippy))]
     #[panic_handler]
     fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
         // SAFETY: always allowed.
@@ -83,7 +83,7 @@ mod system {
     }
 }
 
-#[cfg(hosted)]
+#[cfg(any(hosted, test))]
 mod system {
     use std::io::Read;
 

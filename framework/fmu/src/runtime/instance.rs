@@ -1,6 +1,7 @@
 //! Instances as the other program sees them: pointers, texts, messages.
 
 use alloc::boxed::Box;
+use alloc::rc::Rc;
 use alloc::vec::Vec;
 use core::ffi::{CStr, c_char, c_void};
 
@@ -33,8 +34,10 @@ pub trait Log {
 pub struct Instance<L> {
     /// Its model.
     pub model: Model,
-    /// Receiver of messages.
-    pub log: L,
+    /// Receiver of messages, shared so that it gets them while nothing borrows the instance.
+    log: Rc<L>,
+    /// Messages of the present call: status, category, text.
+    messages: Vec<(Status, &'static CStr, &'static CStr)>,
     /// Whether messages are wanted.
     pub logging: bool,
     /// Whether it was reported that an input is beyond the tables.
@@ -76,7 +79,8 @@ impl<L: Log> Instance<L> {
         let model = Model::new(content);
         Some(Box::new(Self {
             model,
-            log,
+            log: Rc::new(log),
+            messages: Vec::new(),
             logging,
             warned: false,
         }))
@@ -91,7 +95,7 @@ impl<L: Log> Instance<L> {
                     Fault::NoSolution => (DISCARD, c"logStatusDiscard"),
                     _ => (ERROR, c"logStatusError"),
                 };
-                self.log.send(status, category, fault.words());
+                self.messages.push((status, category, fault.words()));
                 status
             }
         }
@@ -166,20 +170,27 @@ impl<L: Log> Instance<L> {
         if self.logging && !self.warned && self.model.is_outside() {
             self.warned = true;
             let text = c"an input is beyond the tables: their ends are used, and the variable `outside` is true";
-            self.log.send(WARNING, c"logStatusWarning", text);
+            self.messages.push((WARNING, c"logStatusWarning", text));
         }
     }
 
-    /// Runs a call on an instance behind a pointer.
+    /// Runs a call on an instance behind a pointer, then sends its messages: the receiver may call functions of the instance.
     ///
     /// # Safety
     /// The pointer is null or of [`Instance::new`], not freed, and not in use by another thread.
     pub unsafe fn with(pointer: *mut c_void, call: impl FnOnce(&mut Self) -> Status) -> Status {
         // SAFETY: as promised by the caller.
-        match unsafe { pointer.cast::<Self>().as_mut() } {
-            Some(own) => call(own),
-            None => ERROR,
+        let Some(own) = (unsafe { pointer.cast::<Self>().as_mut() }) else {
+            return ERROR;
+        };
+        let status = call(own);
+        if !own.messages.is_empty() {
+            let (log, messages) = (Rc::clone(&own.log), core::mem::take(&mut own.messages));
+            for (status, category, text) in messages {
+                log.send(status, category, text);
+            }
         }
+        status
     }
 
     /// As a pointer; null if there is none.
@@ -269,11 +280,12 @@ pub unsafe fn list_mut<'a, T>(pointer: *mut T, count: usize) -> &'a mut [T] {
 /// Writes a value unless the pointer is null.
 ///
 /// # Safety
-/// The pointer is null or to such a value.
+/// The pointer is null or to room for such a value.
 pub unsafe fn put<T>(pointer: *mut T, value: T) {
-    // SAFETY: as promised by the caller.
-    if let Some(own) = unsafe { pointer.as_mut() } {
-        *own = value;
+    // What was there may be no value of the type.
+    if !pointer.is_null() {
+        // SAFETY: as promised by the caller.
+        unsafe { pointer.write(value) }
     }
 }
 

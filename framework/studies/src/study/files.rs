@@ -23,24 +23,24 @@ use gearloss_framework::language::Language;
 use gearloss_framework::resolve::{Choice, OWN_MODELS, Resolved, called_own, expand_set, meets, sets_of};
 use gearloss_framework::transmission::{Case, Transmission, WHEELS};
 
-/// A study as read, with its gearboxes.
+/// A study as read, with its gearboxes. Copies share what is read, because each analysis has one.
 #[derive(Clone)]
 pub struct Study {
     /// The entry.
-    pub entry: StudyEntry,
+    pub entry: Arc<StudyEntry>,
     /// Its sets of models.
-    pub sets: Map<String, Value>,
+    pub sets: Arc<Map<String, Value>>,
     /// Its gearboxes by name.
     pub gearboxes: Vec<(String, Gearbox)>,
     /// Its text.
-    pub text: String,
+    pub text: Arc<str>,
     /// Folder of its files.
     pub folder: PathBuf,
     files: SharedSource,
-    places: Places,
+    places: Arc<Places>,
     sources: Sources,
-    promised: PromisedSets,
-    taken_over: TakenOver,
+    promised: Arc<PromisedSets>,
+    taken_over: Arc<TakenOver>,
 }
 
 impl Study {
@@ -151,16 +151,16 @@ impl Study {
             gearboxes.push((name.to_owned(), gearbox));
         }
         Ok(Self {
-            entry,
-            sets,
+            entry: Arc::new(entry),
+            sets: Arc::new(sets),
             gearboxes,
-            text,
+            text: text.into(),
             folder,
             files: Arc::clone(files),
-            places: walked.places,
+            places: Arc::new(walked.places),
             sources,
-            promised,
-            taken_over,
+            promised: Arc::new(promised),
+            taken_over: Arc::new(taken_over),
         })
     }
 
@@ -251,7 +251,7 @@ impl Study {
             .map(|(path, value)| (path.to_owned(), value.clone()));
         Choice {
             set: set.filter(|set| *set != OWN_MODELS).map(str::to_owned),
-            sets: self.sets.clone(),
+            sets: Map::clone(&self.sets),
             overrides: wheels.chain(changes).collect(),
         }
     }
@@ -306,7 +306,9 @@ impl Study {
 
     /// Fills the model set from `then` of an analysis with values, resolved path to value.
     pub(crate) fn fill_set(&mut self, set: &str, values: Map<String, Value>) {
-        if let Some(set) = self.sets.get_mut(set) {
+        if self.sets.contains_key(set)
+            && let Some(set) = Arc::make_mut(&mut self.sets).get_mut(set)
+        {
             set["set"] = Value::Object(values);
         }
     }

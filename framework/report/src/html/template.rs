@@ -1,0 +1,94 @@
+//! Templates of the user.
+//!
+//! Steps and the length of the page are limited here. The memory of values and the depth of nesting cannot be, so that a process of its own
+//! fills such a template (`gearloss fill-template`).
+
+use std::io::{self, Write};
+
+use gearloss_framework::document::Diagnostic;
+use minijinja::value::Serde;
+use minijinja::{Error, ErrorKind, Value as Filled};
+use serde_json::Value;
+
+use super::{MOST_STEPS, environment, fixed};
+use crate::codes;
+
+/// Maximum length of a template. \[byte\]
+pub const LONGEST_TEMPLATE: u64 = 256 << 10;
+
+/// Maximum length of a page. \[byte\]
+pub const LONGEST_PAGE: u64 = 256 << 20;
+
+/// Writes a page by a template of the user; `content` is a serialised [`Content`](super::Content).
+///
+/// # Errors
+/// What is wrong with the template and where.
+pub fn fill_template(name: &str, template: &str, content: Value, to: &mut impl Write) -> Result<(), Diagnostic> {
+    let mut content = content;
+    let pictures = content.get_mut("pictures").map(Value::take);
+    let pictures = pictures.as_ref().and_then(Value::as_str).unwrap_or_default().to_owned();
+    let value = |key: &str| Filled::from(Serde(&content[key]));
+    let values = minijinja::context! {
+        frame => value("frame"),
+        sections => value("sections"),
+        gearboxes => value("gearboxes"),
+        answers => value("answers"),
+        outside => value("outside"),
+        worst => value("worst"),
+        ..fixed(pictures),
+    };
+    let mut page = Page { to, left: LONGEST_PAGE };
+    let environment = environment();
+    let filled = environment.template_from_named_str(name, template);
+    let filled = filled.and_then(|template| template.render_captured_to(values, &mut page).map(drop));
+    match filled {
+        Ok(()) => Ok(()),
+        Err(_) if page.left == 0 => {
+            let most = LONGEST_PAGE >> 20;
+            Err(about(
+                name,
+                format!("the page has more than {most} MB; does a loop repeat it?"),
+            ))
+        }
+        Err(error) => Err(fault(name, &error)),
+    }
+}
+
+/// A page with a limited length.
+struct Page<'a, W> {
+    to: &'a mut W,
+    left: u64,
+}
+
+impl<W: Write> Write for Page<'_, W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.left = self.left.saturating_sub(bytes.len() as u64);
+        if self.left == 0 {
+            return Err(io::Error::from(io::ErrorKind::FileTooLarge));
+        }
+        self.to.write_all(bytes)?;
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.to.flush()
+    }
+}
+
+/// The finding about an error of a template.
+pub(super) fn fault(name: &str, error: &Error) -> Diagnostic {
+    let words = match error.kind() {
+        ErrorKind::OutOfFuel => format!(
+            "it takes more than {} million steps; does it contain nested loops?",
+            MOST_STEPS / 1_000_000
+        ),
+        _ => format!("{error:#}"),
+    };
+    about(name, words)
+}
+
+fn about(name: &str, words: impl std::fmt::Display) -> Diagnostic {
+    Diagnostic::error("", format!("the template {name}: {words}"))
+        .help("correct it, or omit --template")
+        .code(codes::TEMPLATE)
+}
