@@ -159,11 +159,25 @@ pub struct NewGearboxArgs {
     pub output: PathBuf,
 }
 
+/// Layouts that are asked for and cannot be described yet.
+const UNDESCRIBED: [&str; 9] = [
+    "worm",
+    "bevel",
+    "hypoid",
+    "chain",
+    "belt",
+    "cycloidal",
+    "strain-wave",
+    "bevel-helical",
+    "helical-worm",
+];
+
 /// Names of layouts with what they are.
 fn layouts() -> PossibleValuesParser {
-    LAYOUTS
-        .map(|layout| PossibleValue::new(layout.name).help(layout.about))
-        .into()
+    let layouts = LAYOUTS.map(|layout| PossibleValue::new(layout.name).help(layout.about));
+    // What cannot be described yet is refused with its reason.
+    let others = UNDESCRIBED.map(|name| PossibleValue::new(name).hide(true));
+    layouts.into_iter().chain(others).collect::<Vec<_>>().into()
 }
 
 /// Arguments of `new study`.
@@ -258,6 +272,9 @@ pub struct OpenfoamArgs {
     /// Axis of the moment.
     #[arg(long, value_enum)]
     pub axis: AxisArg,
+    /// The axis is one of the coordinate system that the function object states [default: of the mesh].
+    #[arg(long)]
+    pub local_axes: bool,
     /// Start of the averaging time, such as `"0.5 s"`.
     #[arg(long, value_name = "TIME")]
     pub from: String,

@@ -58,6 +58,38 @@ pub(super) fn checked(
     let wrong = |message: String| Failure::input(format!("{file}: {message}"), help);
     let table = CatalogueTable::from_file(bytes).map_err(wrong)?;
     let mut faults = Vec::new();
+    let keys = distinct(
+        table
+            .0
+            .values()
+            .flat_map(|row| &row.values)
+            .map(|(key, _)| key.as_str()),
+    );
+    let known = language.keys_of(section);
+    let is_known = |key: &&str| known.contains(&key.split('.').next().unwrap_or_default());
+    let unknown: Vec<&str> = keys.into_iter().filter(|key| !is_known(key)).collect();
+    if let [first, ..] = unknown[..] {
+        let names = unknown
+            .iter()
+            .map(|key| format!("`{key}`"))
+            .collect::<Vec<_>>()
+            .join(", ");
+        let noun = if unknown.len() == 1 { "column" } else { "columns" };
+        let close = did_you_mean(first, known.iter().copied());
+        let help = close.map_or_else(
+            || {
+                format!(
+                    "delete the {noun}, or rename it to a key of {section}: {}",
+                    known.join(", ")
+                )
+            },
+            |close| format!("write `{close}` instead of `{first}`, or delete the column"),
+        );
+        return Err(Failure::input(
+            format!("{file}: {section} have no key for the {noun} {names}"),
+            help,
+        ));
+    }
     for (designation, row) in &table.0 {
         for (key, value) in &row.values {
             if let Err(list) = language.checked(value, &format!("{section}.{designation}.{key}")) {

@@ -61,33 +61,50 @@ impl Findings {
         self.render_new(&mut BTreeSet::new())
     }
 
-    /// As [`Findings::render`], without findings already in `shown`: several files may extend the faulty one.
+    /// As [`Findings::render`], without the findings of files before this one, which are in `shown`: several files may extend the faulty
+    /// one. A finding that two stages made is one.
     pub fn render_new(&self, shown: &mut BTreeSet<String>) -> String {
         let mut text = String::new();
-        let mut again = 0;
-        for finding in self.list.iter().take(MOST_SHOWN) {
-            let rendered = self.sources.render(finding);
-            if shown.contains(&rendered) {
+        let (mut errors, mut again, mut listed) = (0, 0, 0);
+        let mut own = BTreeSet::new();
+        for finding in &self.list {
+            let key = self.key(finding);
+            if !own.insert(key.clone()) {
+                continue;
+            }
+            errors += usize::from(finding.severity == Severity::Error);
+            // Without a place, two files may have errors of the same words.
+            if !finding.spans.is_empty() && !shown.insert(key) {
                 again += 1;
-            } else {
-                text.push_str(&rendered);
+                continue;
+            }
+            listed += 1;
+            if listed <= MOST_SHOWN {
+                text.push_str(&self.sources.render(finding));
                 text.push_str("\n\n");
-                shown.insert(rendered);
             }
         }
-        if self.list.len() > MOST_SHOWN {
-            text.push_str(&format!("... and {} more\n", self.list.len() - MOST_SHOWN));
+        if listed > MOST_SHOWN {
+            text.push_str(&format!("... and {} more\n", listed - MOST_SHOWN));
         }
-        let errors = self.list.iter().filter(|d| d.severity == Severity::Error).count();
         let plural = if errors == 1 { "" } else { "s" };
         text.push_str(&format!("{errors} error{plural}"));
         if again > 0 {
             text.push_str(&format!(
-                ", {again} of them printed above: they are in a file that several files extend"
+                ", {again} of them printed above: they are in a file that was read before"
             ));
         }
         text.push('\n');
         text
+    }
+
+    /// What makes two findings the same: words and place.
+    fn key(&self, finding: &Diagnostic) -> String {
+        let place = finding.spans.first().map(|(span, _)| {
+            let file = self.sources.get(span.source).map(|(name, _)| name);
+            (file, span.start, span.end)
+        });
+        format!("{place:?} {} {:?}", finding.title(), finding.help)
     }
 }
 
@@ -253,13 +270,14 @@ impl Gearbox {
                 .find(|(path, ..)| meets(path, &finding.path))
         });
         if let Some((path, _, name)) = of_set {
-            return finding.moved(format!("model_sets.{name}.set"), &path);
+            return finding.moved(&format!("model_sets.{name}.set"), &path);
         }
         let changes = self.value.get("set").and_then(Value::as_object);
         let own = changes
             .into_iter()
             .flatten()
-            .find(|(path, _)| meets(path, &finding.path));
+            .filter(|(path, _)| meets(path, &finding.path))
+            .max_by_key(|(path, _)| path.split('.').count());
         match own {
             Some((path, _)) => finding.moved("set", path),
             None => finding,

@@ -2,12 +2,15 @@
 
 mod compose;
 mod readable;
+mod undescribed;
 
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
 use schemars::SchemaGenerator;
 use serde_json::Value;
+
+pub use undescribed::{DESCRIBE_THE_REST, undescribed_stage};
 
 use crate::codes;
 use crate::coefficients::COEFFICIENTS;
@@ -173,7 +176,11 @@ impl Language {
 
     /// Checks a gearbox.
     pub fn walk_gearbox(&self, node: &Node) -> Walked {
-        walk(node, self.gearbox())
+        let walked = walk(node, self.gearbox());
+        Walked {
+            findings: undescribed::explained(walked.findings, node),
+            ..walked
+        }
     }
 
     /// Checks a study.
@@ -249,6 +256,14 @@ impl Language {
     /// True if a resolved document accepts a path: the keys of a model are those of its `type`.
     pub fn has_place(&self, document: &Value, path: &str) -> bool {
         self.shape_at(document, path).is_some()
+    }
+
+    /// The keys of an entry of a section, such as `bearings`.
+    pub fn keys_of(&self, section: &str) -> Vec<&str> {
+        match self.gearbox().shape_at(&format!("{section}.id"), |_| None) {
+            Some(Shape::Record(fields)) => fields.iter().map(|(name, _)| name.as_str()).collect(),
+            _ => Vec::new(),
+        }
     }
 
     fn shape_at(&self, document: &Value, path: &str) -> Option<&Shape> {

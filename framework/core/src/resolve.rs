@@ -4,6 +4,7 @@
 //! an override of this document, so a change is: write it, resolve again, build again.
 
 mod bearing_designation;
+mod bearing_series;
 mod catalogue;
 mod choice;
 mod designation;
@@ -16,6 +17,7 @@ use std::collections::BTreeMap;
 use serde_json::{Map, Value};
 
 pub use bearing_designation::{Designation, read as read_designation};
+pub use bearing_series::{BasicDesignation, basic_designation};
 pub use catalogue::{CatalogueHits, CatalogueRow, CatalogueTable};
 pub use choice::{Choice, ModelSet, OWN_MODELS, called_own, expand_set, sets_of};
 pub use designation::known_start;

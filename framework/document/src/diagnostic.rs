@@ -95,11 +95,10 @@ impl Diagnostic {
         self
     }
 
-    /// Moves a finding about a path to another place: to the change that caused it.
-    pub fn moved(self, place: impl Into<String>, path: &str) -> Self {
+    /// Moves a finding about a path to the change that caused it: the entry `path` of the map `place`.
+    pub fn moved(self, place: &str, path: &str) -> Self {
         Self {
-            path: place.into(),
-            message: format!("`{path}`: {}", self.message),
+            path: format!("{place}.{path}"),
             spans: Vec::new(),
             ..self
         }
@@ -331,9 +330,36 @@ fn misspelt<'a>(word: &str, candidates: &[&'a str]) -> Option<(usize, &'a str)> 
                 return None;
             }
             let away = distance(word, candidate);
-            (away * 3 <= length + 1 && away < length).then_some((away, candidate))
+            (away * 3 <= length + 1 && away < length && !is_another_thing(word, candidate)).then_some((away, candidate))
         })
         .min_by_key(|(away, _)| *away)
+}
+
+/// Whether two names that look alike are those of different things: their numbers differ (`utf8` and `utf16`), or one has a whole word more
+/// (`needle_roller` and `needle_roller_thrust`).
+fn is_another_thing(word: &str, candidate: &str) -> bool {
+    let words = |name: &'_ str| -> Vec<String> {
+        let parts = name.split(|c: char| !c.is_alphanumeric());
+        parts.filter(|part| !part.is_empty()).map(str::to_lowercase).collect()
+    };
+    let (own, other) = (words(word), words(candidate));
+    let has_all =
+        |few: &[String], many: &[String]| few.len() < many.len() && few.iter().all(|part| many.contains(part));
+    numbers(word) != numbers(candidate) || has_all(&own, &other) || has_all(&other, &own)
+}
+
+/// The groups of digits of a name. A letter that looks like a digit counts as one beside a digit: `62O5`.
+fn numbers(name: &str) -> Vec<String> {
+    let letters: Vec<char> = name.chars().collect();
+    let is_digit = |i: Option<usize>| i.and_then(|i| letters.get(i)).is_some_and(char::is_ascii_digit);
+    let digits = letters.iter().enumerate().map(|(i, letter)| match letter {
+        'o' | 'O' if is_digit(i.checked_sub(1)) && is_digit(Some(i + 1)) => '0',
+        'l' | 'I' if is_digit(i.checked_sub(1)) && is_digit(Some(i + 1)) => '1',
+        letter if letter.is_ascii_digit() => *letter,
+        _ => ' ',
+    });
+    let digits: String = digits.collect();
+    digits.split_whitespace().map(str::to_owned).collect()
 }
 
 /// Edit distance, with a swap of neighbours as one edit (optimal string alignment).
@@ -369,6 +395,20 @@ mod tests {
         assert_eq!(did_you_mean("palmgrem", ["coulomb", "palmgren"]), Some("palmgren"));
         assert_eq!(did_you_mean("facewdith", ["facewidth", "face"]), Some("facewidth"));
         assert_eq!(did_you_mean("xyz", ["facewidth"]), None);
+    }
+
+    #[test]
+    fn names_of_other_things_are_no_misspellings() {
+        assert_eq!(did_you_mean("utf16", ["utf8", "latin1"]), None);
+        assert_eq!(did_you_mean("kv50", ["kv40", "kv100"]), None);
+        assert_eq!(did_you_mean("B3", ["B1", "B2"]), None);
+        assert_eq!(
+            did_you_mean("needle_roller", ["needle_cage", "needle_roller_thrust"]),
+            None
+        );
+        assert_eq!(did_you_mean("62O5", ["6208", "6205"]), Some("6205"));
+        assert_eq!(did_you_mean("utf_8", ["utf8", "latin1"]), Some("utf8"));
+        assert_eq!(did_you_mean("iso14197_2", ["iso14179_1", "iso14179_2"]), None);
     }
 
     #[test]

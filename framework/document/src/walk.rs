@@ -197,7 +197,16 @@ impl<'a> Walker<'a> {
             Shape::Record(fields) => self.record(node, fields, None),
             Shape::Ids { item, digits_first } => self.ids(node, item, *digits_first),
             Shape::Paths => match &node.content {
-                Content::Map(_) => Some(node.to_json()),
+                Content::Map(entries) => {
+                    for (key, node) in entries {
+                        let place = Place {
+                            value: node.span,
+                            key: key.span,
+                        };
+                        self.within(&key.name, |w| w.places.0.insert(w.path.clone(), place));
+                    }
+                    Some(node.to_json())
+                }
                 _ => self.wrong(node, "a map from paths to values"),
             },
             Shape::List { item, least, most } => self.list(node, item, *least, *most),
@@ -329,7 +338,10 @@ impl<'a> Walker<'a> {
             _ => return self.wrong(node, "text"),
         };
         if !words.is_empty() && !words.contains(text) {
-            let close = did_you_mean(text, words.iter().map(String::as_str)).map(str::to_owned);
+            let close = match words.as_slice() {
+                [only] => Some(only.clone()),
+                _ => did_you_mean(text, words.iter().map(String::as_str)).map(str::to_owned),
+            };
             let finding = Diagnostic::error(self.path.clone(), format!("`{text}` is not an allowed value"))
                 .at_span(node.span)
                 .note(format!("allowed values: {}", words.join(", ")))
@@ -573,6 +585,23 @@ impl<'a> Walker<'a> {
             }
             _ => 0,
         };
+        if let (Content::Map(entries), true) = (
+            &node.content,
+            shapes.iter().any(|s| matches!(schema.follow(s), Shape::List { .. })),
+        ) && let [(key, list)] = entries.as_slice()
+            && matches!(list.content, Content::List(_))
+            && !shapes.iter().any(|s| known(&s) > 0)
+        {
+            let own = self.path.rsplit('.').next().unwrap_or_default();
+            let finding = Diagnostic::error(
+                format!("{}.{}", self.path, key.name),
+                format!("unknown key `{}`", key.name),
+            )
+            .at_span(key.span)
+            .help(format!("write the list itself: `{own}: [...]`, without `{}`", key.name));
+            self.findings.push(finding.code(codes::UNKNOWN_KEY));
+            return None;
+        }
         if let Some(shape) = text_first.or_else(|| shapes.iter().filter(fits).rev().max_by_key(known)) {
             self.value(node, shape)
         } else {

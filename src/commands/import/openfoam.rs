@@ -4,7 +4,7 @@ use std::path::Path;
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::files::LONGEST_TEXT;
-use gearloss_studies::fit::openfoam::{Axis, Mean, Runs, history};
+use gearloss_studies::fit::openfoam::{Axis, Frame, Mean, Runs, history};
 
 use super::super::new;
 use super::super::point::quantity;
@@ -26,6 +26,7 @@ pub fn run(args: &OpenfoamArgs, out: &mut Out) -> Result<End, Failure> {
         .map_or(Ok(f64::INFINITY), |to| quantity("--to", to, "s"))?;
     let window = [from, to];
     let axis = [Axis::X, Axis::Y, Axis::Z][args.axis as usize];
+    let frame = if args.local_axes { Frame::Local } else { Frame::Global };
     let text = super::super::read_file(runs, LONGEST_TEXT, "check the file name")?;
     let in_list = |fault: Diagnostic| Diagnostic {
         message: format!("{}: {}", runs.display(), fault.message),
@@ -42,14 +43,8 @@ pub fn run(args: &OpenfoamArgs, out: &mut Out) -> Result<End, Failure> {
                 help,
             )
         };
-        let samples = history(&folder).map_err(|fault| {
-            failed(
-                &fault,
-                "give the folder under `postProcessing` with the output of the function object",
-            )
-        })?;
-        let mean = Mean::over_time(&samples, axis, window)
-            .map_err(|fault| failed(&fault, "choose --from and --to within the times of the run"))?;
+        let samples = history(&folder, frame).map_err(|fault| failed(&fault, &fault.help))?;
+        let mean = Mean::over_time(&samples, axis, window).map_err(|fault| failed(&fault, fault.help()))?;
         means.push(mean.times(args.factor));
     }
     let means = list.opposing(means, axis).map_err(in_list)?;

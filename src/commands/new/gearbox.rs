@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use gearloss_framework::language::Kind;
+use gearloss_framework::language::{DESCRIBE_THE_REST, Kind, undescribed_stage};
 use gearloss_workbench::form::{LAYOUTS, Layout};
 
 use super::{print_next, word, write, write_schema};
@@ -11,7 +11,7 @@ use crate::output::{End, Failure, Out};
 
 pub fn run(args: &NewGearboxArgs, out: &mut Out) -> Result<End, Failure> {
     let Some(layout) = args.layout.as_deref().and_then(Layout::named) else {
-        return Err(unnamed());
+        return Err(args.layout.as_deref().map_or_else(unnamed, undescribed));
     };
     let file = args.output.as_path();
     write(file, layout.text, out)?;
@@ -45,6 +45,12 @@ fn study_of(file: &Path) -> String {
         command += &format!(" -o {}", word(&study));
     }
     command
+}
+
+/// A layout whose physics is not modelled.
+fn undescribed(layout: &str) -> Failure {
+    let stage = undescribed_stage(layout).unwrap_or("such gearboxes");
+    Failure::input(format!("{stage} cannot be described yet"), DESCRIBE_THE_REST)
 }
 
 fn unnamed() -> Failure {

@@ -95,6 +95,7 @@ const SUFFIXES: &[(&str, Meaning)] = &[
     ("TN", Meaning::Cage("polyamide")),
     ("TVP2", Meaning::Cage("polyamide with glass fibre")),
     ("TVP", Meaning::Cage("polyamide with glass fibre")),
+    ("TV", Meaning::Cage("polyamide with glass fibre")),
     ("TVH", Meaning::Cage("polyamide with glass fibre")),
     ("T2XA", Meaning::Cage("polyamide")),
     (
@@ -107,6 +108,7 @@ const SUFFIXES: &[(&str, Meaning)] = &[
     ("M1", Meaning::Cage("machined brass, riveted")),
     ("M", Meaning::Cage("machined brass")),
     ("J", Meaning::Cage("pressed steel")),
+    ("J2", Meaning::Cage("pressed steel")),
     ("JP", Meaning::Cage("pressed steel")),
     ("Y", Meaning::Cage("pressed brass")),
     ("PH", Meaning::Cage("PEEK")),
@@ -122,6 +124,7 @@ const SUFFIXES: &[(&str, Meaning)] = &[
     ("EC", Meaning::Other("optimised internal design")),
     ("E1", Meaning::Other("optimised internal design")),
     ("E", Meaning::Other("optimised internal design")),
+    ("CC", Meaning::Other("optimised internal design")),
     (
         "B",
         Meaning::Other("contact angle of 40 degrees, or changed internal design"),
@@ -153,16 +156,35 @@ fn separates(c: char) -> bool {
     matches!(c, '-' | '/' | '.' | '_') || c.is_whitespace()
 }
 
-/// Suffixes after a basic designation; `None` if a part is unknown.
+/// Place of a suffix among those that are written without a separator (DIN 623-1): internal design, matching, external design and
+/// seals, cage, the rest.
+fn rank(name: &str, meaning: Meaning) -> u8 {
+    match (meaning, name) {
+        (Meaning::Other(_), "EC" | "E1" | "E" | "CC" | "A" | "B" | "C") => 1,
+        (Meaning::Other(_), "CB" | "CA" | "UA" | "GA") => 2,
+        (Meaning::Seals(..), _) | (Meaning::Other(_), "K" | "N" | "NR" | "N2" | "X") => 3,
+        (Meaning::Cage(_), _) => 4,
+        _ => 5,
+    }
+}
+
+/// Suffixes after a basic designation; `None` if a part is unknown. Letters without a separator are read as several suffixes only in
+/// the order of designations and one of each sort, so that `XYZ` is not X and Y and Z.
 fn suffixes(rest: &str) -> Option<Vec<Suffix>> {
     let mut all = Vec::new();
     let upper = rest.to_ascii_uppercase();
     for token in upper.split(separates).filter(|token| !token.is_empty()) {
         let mut left = token;
+        let mut before: Vec<(u8, std::mem::Discriminant<Meaning>)> = Vec::new();
         while !left.is_empty() {
             let fits = SUFFIXES.iter().filter(|(name, _)| left.starts_with(name));
             // The rest must be known too: `C3` after `RS1`, not `1C3` after `RS`.
             let (name, meaning) = fits.max_by_key(|(name, _)| name.len())?;
+            let sort = (rank(name, *meaning), std::mem::discriminant(meaning));
+            if before.iter().any(|own| own.0 > sort.0 || *own == sort) {
+                return None;
+            }
+            before.push(sort);
             all.push(Suffix {
                 written: (*name).to_owned(),
                 meaning: *meaning,
@@ -195,7 +217,9 @@ pub fn read<'a>(written: &str, known: impl Iterator<Item = &'a str>) -> Option<D
     let of_base = |base: &'a str| {
         // `NU 205` and `32005` on drawings are `NU205EC` and `32005X` in catalogues. A letter after an angular contact ball bearing is its
         // contact angle, which must be the same.
-        let short = base.strip_suffix("EC").or_else(|| base.strip_suffix('X'));
+        let plain = base.strip_suffix("EC").or_else(|| base.strip_suffix('X'));
+        // `7208 B` has the contact angle of `7208BE`.
+        let short = plain.or_else(|| base.strip_suffix('E').filter(|base| base.ends_with('B')));
         let forms = [Some(base), short]
             .map(|form| form.and_then(|form| matched(written, form).map(|end| (base, end, form.len()))));
         forms.into_iter().flatten()
@@ -209,12 +233,13 @@ pub fn read<'a>(written: &str, known: impl Iterator<Item = &'a str>) -> Option<D
         } else {
             suffixes(rest)?
         };
-        let is_short = !written[..end].to_ascii_uppercase().ends_with("EC");
-        if base.ends_with("EC") && is_short {
-            suffixes.push(Suffix {
-                written: "without EC".to_owned(),
-                meaning: Meaning::Other("an older design has lower load ratings than these"),
-            });
+        for design in ["EC", "BE"] {
+            if base.ends_with(design) && !written[..end].to_ascii_uppercase().ends_with(design) {
+                suffixes.push(Suffix {
+                    written: format!("without {}", design.trim_start_matches('B')),
+                    meaning: Meaning::Other("an older design has lower load ratings than these"),
+                });
+            }
         }
         let designation = Designation { base, suffixes };
         designation.is_consistent().then_some(designation)
@@ -262,7 +287,9 @@ impl Designation<'_> {
                 .suffixes
                 .iter()
                 .any(|own| matches!(own.written.as_str(), "B" | "C"));
-        seals <= 1 && clearances <= 1 && !angle
+        // Only tapered roller bearings have two sizes of one designation.
+        let size = !self.base.starts_with('3') && self.suffixes.iter().any(|own| own.written == "X");
+        seals <= 1 && clearances <= 1 && !angle && !size
     }
 
     /// Keys of a bearing that the suffixes state, and keys of the basic bearing that no longer hold.

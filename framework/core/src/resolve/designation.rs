@@ -1,29 +1,11 @@
 //! Suggestions for an unknown designation.
 
+use super::bearing_series::basic_designation;
 use super::catalogue::CatalogueRow;
 use crate::document::{Diagnostic, did_you_mean, distance};
 
 /// Number of suggested designations.
 const SUGGESTED: usize = 5;
-
-/// Bore encoded in the designation of a rolling bearing. \[mm\]
-///
-/// Source: DIN 623-1. The last two of four or five digits are a fifth of the bore, from 04 on; 00 to 03 are 10, 12, 15 and 17 mm.
-fn stated_bore(designation: &str) -> Option<f64> {
-    let start = designation.find(|c: char| c.is_ascii_digit())?;
-    let digits = designation[start..].split(|c: char| !c.is_ascii_digit()).next()?;
-    if !(4..=5).contains(&digits.len()) {
-        return None;
-    }
-    match digits[digits.len() - 2..].parse::<u32>().ok()? {
-        0 => Some(10.0),
-        1 => Some(12.0),
-        2 => Some(15.0),
-        3 => Some(17.0),
-        code if code <= 96 => Some(5.0 * f64::from(code)),
-        _ => None,
-    }
-}
 
 /// A length in a row. \[mm\]
 fn length(row: &CatalogueRow, key: &str) -> Option<f64> {
@@ -31,8 +13,13 @@ fn length(row: &CatalogueRow, key: &str) -> Option<f64> {
     value.as_str().and_then(|text| text.strip_suffix(" mm"))?.parse().ok()
 }
 
-/// The known designation at the start of a longer one, as a sentence with what is behind it.
-pub fn known_start<'a>(designation: &str, known: impl Iterator<Item = &'a str>) -> Option<String> {
+/// A text of a row.
+fn text<'a>(row: &'a CatalogueRow, key: &str) -> Option<&'a str> {
+    row.values.iter().find(|(own, _)| own == key)?.1.as_str()
+}
+
+/// The known designation at the start of a longer one, with what is behind it.
+fn start_and_rest<'w, 'k>(designation: &'w str, known: impl Iterator<Item = &'k str>) -> Option<(&'k str, &'w str)> {
     let starts = |own: &&str| {
         let start = designation.get(..own.len());
         // A digit behind it would make it another designation.
@@ -40,68 +27,58 @@ pub fn known_start<'a>(designation: &str, known: impl Iterator<Item = &'a str>) 
         start.is_some_and(|start| start.eq_ignore_ascii_case(own)) && !designation[own.len()..].starts_with(goes_on)
     };
     let own = known.filter(starts).max_by_key(|own| own.len())?;
-    let rest = designation[own.len()..].trim();
-    (!rest.is_empty()).then(|| format!("`{own}` is known, but not what `{rest}` behind it means"))
+    let rest = designation[own.len()..].trim_matches(|c: char| c.is_whitespace() || c == '-' || c == '/');
+    (!rest.is_empty()).then_some((own, rest))
+}
+
+/// The known designation at the start of a longer one, as a sentence with what is behind it.
+pub fn known_start<'a>(designation: &str, known: impl Iterator<Item = &'a str>) -> Option<String> {
+    let (own, rest) = start_and_rest(designation, known)?;
+    Some(format!("`{own}` is known, but not what `{rest}` behind it means"))
 }
 
 /// Adds suggestions for the designation to an error; `here` lists what can be stated instead.
 ///
-/// Another size is not a misspelling: if other rows have the encoded bore, they are suggested in addition to those with the most
-/// similar names.
+/// Another part is not a misspelling: only rows of the same kind and bore are suggested, and as the correct spelling only a name with
+/// the same numbers for what is no usual designation.
 pub(super) fn suggest(error: Diagnostic, designation: &str, rows: &[(&str, &CatalogueRow)], here: &str) -> Diagnostic {
-    let error = match known_start(designation, rows.iter().map(|(name, _)| *name)) {
-        Some(known) => error.note(known),
-        None => error,
+    if let Some((own, rest)) = start_and_rest(designation, rows.iter().map(|(name, _)| *name)) {
+        return error
+            .note(format!("`{own}` is known, but not what `{rest}` behind it means"))
+            .help(format!(
+                "write `{own}` if `{rest}` changes neither dimensions nor ratings, or {here}"
+            ));
+    }
+    let Some(basic) = basic_designation(designation).filter(|_| has_bores(rows)) else {
+        let close = did_you_mean(designation, rows.iter().map(|(name, _)| *name));
+        return match close {
+            Some(close) => error.help(format!("write `{close}`, or {here}")),
+            None => error.help(format!("{here}, or add a CSV file under `catalogues`")),
+        };
     };
-    let close = nearest(designation, rows);
-    let has_bores = rows.iter().any(|(_, row)| length(row, "bore").is_some());
-    let Some(bore) = stated_bore(designation).filter(|_| has_bores) else {
-        return spelling(error, close.first().map(|(name, _)| *name), here);
+    let is_same = |(_, row): &&(&str, &CatalogueRow)| {
+        let kind = text(row, "kind").is_none_or(|kind| kind == basic.kind);
+        let other = length(row, "bore");
+        kind && basic
+            .bore
+            .zip(other)
+            .is_some_and(|(bore, other)| (bore - other).abs() < 0.5)
     };
-    let has_bore =
-        |(_, row): &&(&str, &CatalogueRow)| length(row, "bore").is_some_and(|other| (other - bore).abs() < 0.5);
-    let mut same: Vec<(&str, &CatalogueRow)> = rows.iter().filter(has_bore).copied().collect();
+    let mut same: Vec<(&str, &CatalogueRow)> = rows.iter().filter(is_same).copied().collect();
     same.sort_by_key(|(name, _)| (distance(designation, name), *name));
     same.truncate(SUGGESTED);
-    let first = close.first();
-    if same.is_empty() || first.is_some_and(|row| has_bore(&row)) {
-        let error = match close.len() {
-            0 | 1 => error,
-            _ => error.note(format!("similar names: {}", listed(&close))),
-        };
-        return spelling(error, first.map(|(name, _)| *name), here);
+    if same.is_empty() {
+        return error.help(format!("{here}, or add a CSV file under `catalogues`"));
     }
-    let error = error.note(format!("with the encoded bore of {bore} mm: {}", listed(&same)));
-    let error = if close.is_empty() {
-        error
-    } else {
-        error.note(format!("similar names: {}", listed(&close)))
-    };
-    error.help(format!(
-        "{here}, add a CSV file under `catalogues`, or write another designation if that is the bearing"
-    ))
+    error
+        .note(format!("of this kind and bore: {}", listed(&same)))
+        .help(format!(
+            "{here}, add a CSV file under `catalogues`, or write another designation if that is the bearing"
+        ))
 }
 
-/// Rows with the fewest edits from a designation, if these are few; swapped digits first.
-fn nearest<'a>(designation: &str, rows: &[(&'a str, &'a CatalogueRow)]) -> Vec<(&'a str, &'a CatalogueRow)> {
-    let Some(closest) = did_you_mean(designation, rows.iter().map(|(name, _)| *name)) else {
-        return Vec::new();
-    };
-    let fewest = distance(designation, closest);
-    let mut near: Vec<_> = rows
-        .iter()
-        .filter(|(name, _)| distance(designation, name) == fewest)
-        .copied()
-        .collect();
-    let sorted = |name: &str| {
-        let mut letters: Vec<char> = name.chars().collect();
-        letters.sort_unstable();
-        letters
-    };
-    let own = sorted(designation);
-    near.sort_by_key(|(name, _)| (sorted(name) != own, name.len().abs_diff(designation.len()), *name));
-    near.truncate(SUGGESTED);
-    near
+fn has_bores(rows: &[(&str, &CatalogueRow)]) -> bool {
+    rows.iter().any(|(_, row)| length(row, "bore").is_some())
 }
 
 /// Designations with their dimensions.
@@ -114,13 +91,6 @@ fn listed(rows: &[(&str, &CatalogueRow)]) -> String {
     rows.iter().map(with_sizes).collect::<Vec<_>>().join(", ")
 }
 
-fn spelling(error: Diagnostic, close: Option<&str>, here: &str) -> Diagnostic {
-    match close {
-        Some(close) => error.help(format!("write `{close}`, or {here}")),
-        None => error.help(format!("{here}, or add a CSV file under `catalogues`")),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
@@ -128,44 +98,61 @@ mod tests {
 
     use super::*;
 
-    #[test]
-    fn the_last_two_digits_state_the_bore() {
-        for (designation, bore) in [
-            ("6205", Some(25.0)),
-            ("6200-2RS", Some(10.0)),
-            ("16013", Some(65.0)),
-            ("NU 1003", Some(17.0)),
-            ("30206 A", Some(30.0)),
-            ("608", None),
-            ("HK", None),
-            ("6299", None),
-        ] {
-            assert_eq!(stated_bore(designation), bore, "{designation}");
+    fn row(kind: &str, bore: &str) -> CatalogueRow {
+        CatalogueRow {
+            values: vec![
+                ("kind".to_owned(), Value::from(kind)),
+                ("bore".to_owned(), Value::from(bore)),
+            ],
+            confidence: String::new(),
+            basis: String::new(),
         }
     }
 
-    #[test]
-    fn another_size_is_no_spelling_mistake() {
-        let row = |bore: &str| CatalogueRow {
-            values: vec![("bore".to_owned(), Value::from(bore))],
-            confidence: String::new(),
-            basis: String::new(),
-        };
-        let rows = [("16012", row("60 mm")), ("6013", row("65 mm")), ("6205", row("25 mm"))];
+    fn suggested(designation: &str) -> (Vec<String>, String) {
+        let ball = "deep_groove_ball";
+        let rows = [
+            ("16012", row(ball, "60 mm")),
+            ("6013", row(ball, "65 mm")),
+            ("6205", row(ball, "25 mm")),
+            ("6208", row(ball, "40 mm")),
+            ("6213", row(ball, "65 mm")),
+            ("30210", row("tapered_roller", "50 mm")),
+            ("NU208EC", row("cylindrical_roller", "40 mm")),
+        ];
         let rows: Vec<(&str, &CatalogueRow)> = rows.iter().map(|(name, row)| (*name, row)).collect();
-        let found = suggest(Diagnostic::error("", "unknown"), "16013", &rows, "state it here");
+        let found = suggest(Diagnostic::error("", "unknown"), designation, &rows, "state it here");
+        (found.notes, found.help.unwrap())
+    }
+
+    #[test]
+    fn only_the_same_kind_and_bore_is_suggested() {
+        let nothing = "state it here, or add a CSV file under `catalogues`";
+        for other in ["32313", "32310", "6250", "22213"] {
+            let (notes, help) = suggested(other);
+            assert!(notes.is_empty() && help == nothing, "{other}: {notes:?} {help}");
+        }
+        let (notes, help) = suggested("16013");
+        assert_eq!(notes, ["of this kind and bore: 6013 (65 mm), 6213 (65 mm)"]);
+        assert!(help.starts_with("state it here"), "{help}");
+        let (notes, help) = suggested("N208");
+        assert_eq!(notes, ["of this kind and bore: NU208EC (40 mm)"]);
+        assert!(help.starts_with("state it here"), "{help}");
+    }
+
+    #[test]
+    fn a_letter_for_a_digit_is_a_spelling_mistake() {
+        assert_eq!(suggested("62O5").1, "write `6205`, or state it here");
+        assert!(!suggested("62O6").1.contains("write"));
+    }
+
+    #[test]
+    fn an_unknown_suffix_is_named() {
+        let (notes, help) = suggested("6208-XYZ");
+        assert_eq!(notes, ["`6208` is known, but not what `XYZ` behind it means"]);
         assert_eq!(
-            found.notes,
-            [
-                "with the encoded bore of 65 mm: 6013 (65 mm)",
-                "similar names: 16012 (60 mm), 6013 (65 mm)"
-            ]
+            help,
+            "write `6208` if `XYZ` changes neither dimensions nor ratings, or state it here"
         );
-        assert!(found.help.unwrap().starts_with("state it here"));
-        // No row has a bore of 250 mm, and two digits are swapped.
-        let found = suggest(Diagnostic::error("", "unknown"), "6250", &rows, "state it here");
-        assert!(found.help.unwrap().starts_with("write `6205`"));
-        let found = suggest(Diagnostic::error("", "unknown"), "62O5", &rows, "state it here");
-        assert!(found.help.unwrap().starts_with("write `6205`"));
     }
 }

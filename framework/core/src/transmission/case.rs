@@ -3,7 +3,7 @@
 use std::sync::{Mutex, PoisonError};
 
 use super::Transmission;
-use super::states::{GearState, all_ports, explain, prescribed};
+use super::states::{GearState, all_ports, explain, path_of_state, prescribed};
 use crate::codes;
 use crate::document::{Diagnostic, classify};
 use crate::flow::{Flow, FlowFault};
@@ -64,7 +64,7 @@ impl Transmission {
     pub fn case(&self, gear: &str, speeds: &[&str], torques: &[&str]) -> Result<Case, Vec<Diagnostic>> {
         let index = self.state(gear).map_err(|e| vec![e])?;
         let state = &self.states[index];
-        let path = format!("gear_states.{gear}");
+        let path = path_of_state(gear);
         let mut found = Vec::new();
         let mut numbers = |names: &[&str]| -> Vec<usize> {
             names
@@ -220,7 +220,7 @@ impl Transmission {
         let others: Vec<&str> = others.map(|(_, port)| port.name.as_str()).collect();
         let plural = |count: usize| if count == 1 { "" } else { "s" };
         let error = Diagnostic::error(
-            format!("gear_states.{}", own.name),
+            path_of_state(&own.name),
             format!(
                 "`{}` requires {} given speed{} and {torques} given torque{}, but an analysis states one of each",
                 own.name,

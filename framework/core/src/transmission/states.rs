@@ -62,6 +62,18 @@ struct Plan {
 /// Gear states with their cases, and what is wrong with them.
 type Planned = (Arc<Vec<GearState>>, Arc<Cases>, Vec<Diagnostic>);
 
+/// Name of the gear state of a description that states none.
+const ONLY: &str = "only";
+
+/// The key of a gear state in the description: without `gear_states` its ports are what a reader can change.
+pub(super) fn path_of_state(name: &str) -> String {
+    if name == ONLY {
+        "ports".to_owned()
+    } else {
+        format!("gear_states.{name}")
+    }
+}
+
 /// Builds and checks every gear state of a description without faults so far.
 pub fn states(
     entry: &GearboxEntry,
@@ -77,7 +89,7 @@ pub fn states(
     }
     let base = all_open(entry, members, meshes, wheels, found);
     let written = if entry.gear_states.is_empty() {
-        vec![("only".to_owned(), Vec::new(), Vec::new())]
+        vec![(ONLY.to_owned(), Vec::new(), Vec::new())]
     } else {
         entry
             .gear_states
@@ -113,7 +125,7 @@ fn planned(plan: &Plan) -> Planned {
     let closable: Vec<&str> = clearances.iter().map(|c| c.id.as_str()).collect();
     let mut states = Vec::new();
     for (name, engaged, standstill) in written {
-        let path = format!("gear_states.{name}");
+        let path = path_of_state(name);
         let before = found.len();
         let mut state = GearState {
             name: name.clone(),

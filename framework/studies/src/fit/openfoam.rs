@@ -1,10 +1,13 @@
 //! Output of OpenFOAM's `forces` function object: `forces.dat` (all releases until about 2016, and openfoam.org) and `moment.dat`
-//! (openfoam.com), with or without parentheses and porous parts.
+//! (openfoam.com), with or without parentheses, porous parts and local axes.
 
 mod history;
+mod layout;
 mod runs;
 
-pub use history::history;
+pub use history::{HistoryFault, history};
+pub use layout::Frame;
+use layout::{Heading, NoMoments};
 pub use runs::{Run, Runs};
 
 /// Axis of the moment.
@@ -36,13 +39,27 @@ pub enum MomentsError {
         /// The word.
         word: String,
     },
-    /// The number of columns belongs to no format.
-    #[error("line {line}: {count} numbers; moment.dat has 10 or 13, forces.dat 13 or 19")]
+    /// The number of columns belongs to no format, or not to the heading.
+    #[error("line {line}: {count} numbers; {due}")]
     Columns {
         /// Line, from 1.
         line: usize,
         /// Number of columns.
         count: usize,
+        /// What there should be.
+        due: String,
+    },
+    /// The file has forces, not moments.
+    #[error("these are forces in N, not moments")]
+    Forces,
+    /// Neither heading nor name of the file say what it has.
+    #[error("neither its heading nor its name says whether these are moments or forces")]
+    Unknown,
+    /// The moments are in other axes.
+    #[error("it has no moments in {} axes", if *.frame == Frame::Local { "local" } else { "global" })]
+    Axes {
+        /// The wanted axes.
+        frame: Frame,
     },
     /// The time is not later than that of the line before.
     #[error("line {line}: time {time} does not increase")]
@@ -63,6 +80,29 @@ pub enum MomentsError {
         /// Times of the first and the last of all samples. \[s\]
         of: Option<[f64; 2]>,
     },
+}
+
+impl MomentsError {
+    /// How to fix it.
+    pub fn help(&self) -> &'static str {
+        match self {
+            Self::NotANumber { .. } | Self::Columns { .. } => {
+                "delete the line if the solver was stopped while it wrote; otherwise name the file that the function object wrote"
+            }
+            Self::Forces => "name the file of moments, `moment.dat` or `forces.dat`, or the folder that contains it",
+            Self::Unknown => {
+                "name the folder or the file as OpenFOAM wrote it: `moment.dat`, or `forces.dat` with its comments"
+            }
+            Self::Axes { frame: Frame::Local } => "omit `--local-axes`",
+            Self::Axes { frame: Frame::Global } => {
+                "state `--local-axes` if `--axis` is one of the local axes, or name the file in global axes"
+            }
+            Self::Time { .. } => {
+                "delete the repeated lines; if the solver was started several times, name the folder above the folders of its starts"
+            }
+            Self::TooFewSamples { .. } => "choose --from and --to within the times of the run",
+        }
+    }
 }
 
 /// Moments at one time. \[Nm\]
@@ -142,15 +182,20 @@ impl Mean {
 }
 
 /// Samples of one file. `forces.dat` contains forces, then moments, each as pressure, viscous and optionally porous; `moment.dat` contains
-/// the total, pressure, viscous and optionally porous moment. The number of columns identifies the format.
+/// the total, pressure, viscous and optionally porous moment. The heading, else the `name` of the file identifies the format.
 ///
 /// # Errors
 /// The line that cannot be read, and why.
-pub fn samples(text: &str) -> Result<Vec<Sample>, MomentsError> {
+pub fn samples(text: &str, name: &str, frame: Frame) -> Result<Vec<Sample>, MomentsError> {
+    let mut heading = Heading::of_name(name);
     let mut samples: Vec<Sample> = Vec::new();
     for (line, content) in (1..).zip(text.lines()) {
         let content = content.trim();
-        if content.is_empty() || content.starts_with('#') {
+        if content.is_empty() {
+            continue;
+        }
+        if content.starts_with('#') {
+            heading.take(content);
             continue;
         }
         let words = content.split(|c: char| c.is_whitespace() || c == '(' || c == ')' || c == ',');
@@ -164,20 +209,21 @@ pub fn samples(text: &str) -> Result<Vec<Sample>, MomentsError> {
                 })
             })
             .collect::<Result<_, _>>()?;
-        let nested = content.contains("((");
-        let pressure = match (numbers.len(), nested) {
-            // Time, forces and moments by pressure and viscous; the same with porous.
-            (13, true) => 7,
-            (19, _) => 10,
-            // Time, total, pressure, viscous; the same with porous.
-            (10, _) | (13, false) => 4,
-            (count, _) => return Err(MomentsError::Columns { line, count }),
-        };
+        let count = numbers.len();
+        let columns = |due: String| MomentsError::Columns { line, count, due };
+        let places = heading.places(count, content.contains("(("), frame);
+        let [pressure, viscous] = places.map_err(|none| match none {
+            NoMoments::Forces => MomentsError::Forces,
+            NoMoments::Unknown => MomentsError::Unknown,
+            NoMoments::Axes(frame) => MomentsError::Axes { frame },
+            NoMoments::Count(due) => columns(format!("a file of this kind has {due}")),
+            NoMoments::Heading(due) => columns(format!("the heading names {due} columns")),
+        })?;
         let three = |at: usize| [numbers[at], numbers[at + 1], numbers[at + 2]];
         let sample = Sample {
             time: numbers[0],
             pressure: three(pressure),
-            viscous: three(pressure + 3),
+            viscous: three(viscous),
         };
         if samples.last().is_some_and(|last| last.time >= sample.time) {
             return Err(MomentsError::Time {
@@ -206,17 +252,26 @@ mod tests {
         let old = "# Time forces(pressure viscous porous) moment(pressure viscous porous)\n\
             1 ((9 9 9) (9 9 9) (0 0 0)) ((1 2 3) (4 5 6) (0 0 0))\n2 ((9 9 9) (9 9 9) (0 0 0)) ((3 2 1) (4 5 6) (0 0 0))\n";
         let oldest = "1 ((9 9 9) (9 9 9)) ((1 2 3) (4 5 6))\n2 ((9 9 9) (9 9 9)) ((3 2 1) (4 5 6))\n";
-        let expected = samples(SPACED).unwrap();
+        let expected = samples(SPACED, "moment.dat", Frame::Global).unwrap();
         assert_eq!(expected[0].pressure, [1.0, 2.0, 3.0]);
-        for text in [bracketed, porous, old, oldest] {
-            assert_eq!(samples(text).unwrap(), expected);
+        for (text, name) in [
+            (bracketed, "moment.dat"),
+            (porous, "moment.dat"),
+            (old, "copy.dat"),
+            (oldest, "forces.dat"),
+        ] {
+            assert_eq!(samples(text, name, Frame::Global).unwrap(), expected);
         }
     }
 
     #[test]
     fn means_weigh_by_time_and_faults_name_the_line() {
-        let all =
-            samples("0 0 0 0 9 0 0 0 0 0\n1 0 0 0 1 0 0 1 0 0\n2 0 0 0 1 0 0 1 0 0\n6 0 0 0 3 0 0 1 0 0\n").unwrap();
+        let all = samples(
+            "0 0 0 0 9 0 0 0 0 0\n1 0 0 0 1 0 0 1 0 0\n2 0 0 0 1 0 0 1 0 0\n6 0 0 0 3 0 0 1 0 0\n",
+            "moment.dat",
+            Frame::Global,
+        )
+        .unwrap();
         let mean = Mean::over_time(&all, Axis::X, [1.0, f64::INFINITY]).unwrap();
         assert_eq!(
             (mean.pressure, mean.viscous, mean.samples),
@@ -225,7 +280,7 @@ mod tests {
         assert!(mean.spread > 0.0 && mean.times(2.0).total() == 2.0 * mean.total());
         let few = Mean::over_time(&all, Axis::X, [3.0, 7.0]).unwrap_err().to_string();
         assert_eq!(few, "1 samples in the averaging time; times are 0 to 6 s");
-        let wrong = |text: &str| samples(text).unwrap_err().to_string();
+        let wrong = |text: &str| samples(text, "moment.dat", Frame::Global).unwrap_err().to_string();
         assert!(wrong("1 2 3\n").contains("line 1: 3 numbers"));
         assert!(wrong("1 a 0 0 0 0 0 0 0 0\n").contains("`a` is not a number"));
         assert!(wrong("2 0 0 0 0 0 0 0 0 0\n1 0 0 0 0 0 0 0 0 0\n").contains("does not increase"));

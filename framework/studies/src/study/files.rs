@@ -281,7 +281,7 @@ impl Study {
                 let in_own_set = self
                     .sets
                     .keys()
-                    .any(|name| finding.path == format!("model_sets.{name}.set"));
+                    .any(|name| finding.path.starts_with(&format!("model_sets.{name}.set.")));
                 if in_own_set {
                     return Some(Diagnostic {
                         spans: Vec::new(),

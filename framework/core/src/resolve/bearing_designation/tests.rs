@@ -68,6 +68,9 @@ fn fifty_usual_designations_are_found() {
         ("32005 X/Q", "32005X"),
         ("6208N", "6208"),
         ("6208-2RS1NR", "6208"),
+        ("30208 J2/Q", "30208"),
+        ("7208-B-TVP", "7208BE"),
+        ("7208-B-TV", "7208BE"),
     ];
     assert!(all.len() >= 50);
     for (written, base) in all {
@@ -83,6 +86,11 @@ fn other_bearings_are_not_taken_for_known_ones() {
         "6209",
         "620",
         "6208-QWV",
+        "6208-XYZ",
+        "6208-ABC",
+        "6208-ZYX",
+        "6208-X",
+        "7208-AC",
         "NU 2050",
         "72080",
         "6208-2RS17",

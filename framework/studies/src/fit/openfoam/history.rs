@@ -4,23 +4,51 @@ use std::path::{Path, PathBuf};
 
 use gearloss_framework::files::{LONGEST_DATA, read_text};
 
-use super::{Sample, samples};
+use super::{Frame, MomentsError, Sample, samples};
+
+/// Help for a place without files of moments.
+const NAME_THE_FOLDER: &str = "give the folder under `postProcessing` with the output of the function object";
+
+/// Why a run has no samples.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("{message}")]
+pub struct HistoryFault {
+    /// What is wrong, with the file.
+    pub message: String,
+    /// How to fix it.
+    pub help: String,
+}
+
+fn fault(message: String) -> HistoryFault {
+    HistoryFault {
+        message,
+        help: NAME_THE_FOLDER.to_owned(),
+    }
+}
 
 /// All samples of a run: from a file, or from a folder with one subfolder for each start of the solver. Samples of a later start replace
 /// earlier samples at the same times.
 ///
 /// # Errors
 /// The file that cannot be read, and why.
-pub fn history(place: &Path) -> Result<Vec<Sample>, String> {
+pub fn history(place: &Path, frame: Frame) -> Result<Vec<Sample>, HistoryFault> {
     let files = if place.is_file() {
         vec![place.to_path_buf()]
     } else {
-        files(place)?
+        files(place, frame)?
     };
     let mut all: Vec<Sample> = Vec::new();
     for file in files {
-        let text = read_text(&file, LONGEST_DATA).map_err(|e| format!("cannot read {}: {e}", file.display()))?;
-        let samples = samples(&text).map_err(|fault| format!("{}, {fault}", file.display()))?;
+        let text = read_text(&file, LONGEST_DATA).map_err(|e| fault(format!("cannot read {}: {e}", file.display())))?;
+        let name = file.file_name().unwrap_or_default().to_string_lossy();
+        let samples = samples(&text, &name, frame).map_err(|error| {
+            let help = match moments_beside(&file, &name).filter(|_| error == MomentsError::Forces) {
+                Some(beside) => format!("the moments are beside it: name {}", beside.display()),
+                None => error.help().to_owned(),
+            };
+            let message = format!("{}, {error}", file.display());
+            HistoryFault { message, help }
+        })?;
         if let Some(first) = samples.first() {
             all.retain(|s| s.time < first.time);
         }
@@ -29,17 +57,27 @@ pub fn history(place: &Path) -> Result<Vec<Sample>, String> {
     Ok(all)
 }
 
-fn files(folder: &Path) -> Result<Vec<PathBuf>, String> {
+/// The file of moments that openfoam.com writes beside one of forces.
+fn moments_beside(file: &Path, name: &str) -> Option<PathBuf> {
+    let rest = name.strip_prefix("force")?;
+    let own = file.with_file_name(format!("moment{rest}"));
+    let written = file.with_file_name("moment.dat");
+    [own, written].into_iter().find(|file| file.is_file())
+}
+
+fn files(folder: &Path, frame: Frame) -> Result<Vec<PathBuf>, HistoryFault> {
+    let names: &[&str] = match frame {
+        Frame::Global => &["moment.dat", "forces.dat"],
+        Frame::Local => &["localMoment.dat", "moment.dat", "forces.dat"],
+    };
     let own = |folder: &Path| {
-        ["moment.dat", "forces.dat"]
-            .map(|name| folder.join(name))
-            .into_iter()
-            .find(|file| file.is_file())
+        let mut files = names.iter().map(|name| folder.join(name));
+        files.find(|file| file.is_file())
     };
     if let Some(file) = own(folder) {
         return Ok(vec![file]);
     }
-    let entries = std::fs::read_dir(folder).map_err(|e| format!("cannot read: {e}"))?;
+    let entries = std::fs::read_dir(folder).map_err(|e| fault(format!("cannot read: {e}")))?;
     let mut starts: Vec<(f64, PathBuf)> = entries
         .filter_map(|entry| {
             let path = entry.ok()?.path();
@@ -49,7 +87,8 @@ fn files(folder: &Path) -> Result<Vec<PathBuf>, String> {
         .collect();
     starts.sort_by(|a, b| a.0.total_cmp(&b.0));
     if starts.is_empty() {
-        return Err("no moment.dat or forces.dat in the folder or in its time folders".to_owned());
+        let names = names.join(" or ");
+        return Err(fault(format!("no {names} in the folder or in its time folders")));
     }
     Ok(starts.into_iter().map(|(_, file)| file).collect())
 }
