@@ -3,6 +3,7 @@
 //! Columns are found by their headings, numbers by the way in which the whole file is written. Nothing is guessed: a unit that is
 //! stated nowhere and a sign that may separate decimals or thousands are errors.
 
+mod derived;
 mod headings;
 mod kind;
 mod numbers;
@@ -99,8 +100,9 @@ pub fn import(
     let style = style(&table, &used, name, options)?;
     let mut warnings = Vec::new();
     let rows = read_rows(&table, &used, style, name, options, &mut warnings)?;
-    let rows = without_repeated(rows, name, &mut warnings);
-    for row in &rows {
+    let mut rows = without_repeated(rows, name, &mut warnings);
+    for row in &mut rows {
+        derived::complete(row);
         plausible::check(row, name, shipped, &mut warnings);
     }
     let rows: Vec<Row> = rows.into_iter().filter(plausible::can_be_built).collect();
@@ -130,8 +132,8 @@ struct Row {
     line: u64,
     designation: String,
     kind: Option<String>,
-    /// Kind was found from the designation.
-    is_kind_derived: bool,
+    /// Keys that the table does not state, with what they were derived from.
+    derived: BTreeMap<&'static str, &'static str>,
     texts: BTreeMap<&'static str, String>,
     numbers: BTreeMap<&'static str, f64>,
 }
@@ -208,6 +210,12 @@ fn columns(table: &Table, name: &str, options: &Options) -> Result<(Vec<Used>, V
             unused.push(header.clone());
             continue;
         };
+        // `C [mm]` of a tapered roller bearing is the width of its outer ring if another column is `C [kN]`.
+        if !stated.contains_key(&place) && is_another_quantity(key, place, table) {
+            let unit = table.units[place].as_deref().unwrap_or_default();
+            unused.push(format!("{header} [{unit}]"));
+            continue;
+        }
         // Total width or height of a bearing instead of that of a ring: both are read.
         if used
             .iter()
@@ -256,6 +264,21 @@ fn columns(table: &Table, name: &str, options: &Options) -> Result<(Vec<Used>, V
     } else {
         Err(limited(found))
     }
+}
+
+/// Whether the unit of a column is not one of its key, but that of another column of the same key is.
+fn is_another_quantity(key: &Key, place: usize, table: &Table) -> bool {
+    let fits = |place: usize| {
+        let unit = table.units[place].as_deref().and_then(headings::unit);
+        let due = Unit::of_symbol(key.unit);
+        unit.zip(due).map(|(unit, due)| unit.dimension == due.dimension)
+    };
+    let mut others = (0..table.names.len()).filter(|other| *other != place);
+    fits(place) == Some(false)
+        && others.any(|other| {
+            let of_key = headings::key(&table.names[other]).is_some_and(|own| own.name == key.name);
+            of_key && fits(other) == Some(true)
+        })
 }
 
 /// Place, key and unit of a column that an option states.
@@ -348,7 +371,7 @@ fn read_rows(
             line: *line,
             designation: String::new(),
             kind: None,
-            is_kind_derived: false,
+            derived: BTreeMap::new(),
             texts: BTreeMap::new(),
             numbers: BTreeMap::new(),
         };
@@ -391,13 +414,7 @@ fn read_rows(
                 format!("{at}: `{cell}` is no known kind of bearing"),
                 "write a kind of a gearbox file, such as deep_groove_ball; or state `--kind` and delete the column",
             )),
-            None => {
-                row.kind.clone_from(&options.kind);
-                if row.kind.is_none() {
-                    row.kind = kind::from_designation(&row.designation).map(str::to_owned);
-                    row.is_kind_derived = row.kind.is_some();
-                }
-            }
+            None => row.kind.clone_from(&options.kind),
         }
         rows.push(row);
     }
@@ -450,8 +467,8 @@ fn report_columns(used: &[Used], unused: &[String], rows: &[Row], options: &Opti
     let mut lines = vec!["Taken:".to_owned()];
     let has = |row: &&Row, key: &str| match key {
         "designation" => true,
-        "kind" => row.kind.is_some() && !row.is_kind_derived,
-        _ => row.numbers.contains_key(key) || row.texts.contains_key(key),
+        "kind" => row.kind.is_some() && !row.derived.contains_key(key),
+        _ => !row.derived.contains_key(key) && (row.numbers.contains_key(key) || row.texts.contains_key(key)),
     };
     for column in used {
         let count = rows.iter().filter(|row| has(row, column.key.name)).count();
@@ -474,12 +491,12 @@ fn report_columns(used: &[Used], unused: &[String], rows: &[Row], options: &Opti
     {
         lines.push(format!("- kind: {kind} for all, as stated"));
     }
-    let derived = rows.iter().filter(|row| row.is_kind_derived).count();
-    if derived > 0 {
-        lines.push(format!(
-            "- kind from the series in the designation: {derived} of {} bearings",
-            rows.len()
-        ));
+    let mut derived: BTreeMap<(&str, &str), usize> = BTreeMap::new();
+    for (key, from) in rows.iter().flat_map(|row| &row.derived) {
+        *derived.entry((key, from)).or_default() += 1;
+    }
+    for ((key, from), count) in derived {
+        lines.push(format!("- {key} from {from}: {count} of {} bearings", rows.len()));
     }
     if !unused.is_empty() {
         lines.push(format!("Not used: {}", unused.join(", ")));
@@ -511,13 +528,19 @@ fn report_columns(used: &[Used], unused: &[String], rows: &[Row], options: &Opti
     lines
 }
 
+/// Columns that are last in a catalogue: how far a row is trusted and where it is from.
+const ORIGIN: [&str; 2] = ["confidence", "basis"];
+
 /// The catalogue as CSV in the units of the shipped one.
 fn written(rows: &[Row], used: &[Used], name: &str) -> String {
     let has = |key: &str| used.iter().any(|column| column.key.name == key);
-    let kinds = rows.iter().any(|row| row.kind.is_some());
+    let derived = |key: &str| rows.iter().any(|row| row.derived.contains_key(key));
     let keys: Vec<&Key> = KEYS
         .iter()
-        .filter(|key| !key.total && (has(key.name) || (key.name == "kind" && kinds)))
+        .filter(|key| !key.total && !ORIGIN.contains(&key.name))
+        .filter(|key| {
+            has(key.name) || derived(key.name) || (key.name == "kind" && rows.iter().any(|row| row.kind.is_some()))
+        })
         .collect();
     let heading = |key: &&Key| {
         if key.unit.is_empty() {
@@ -530,7 +553,7 @@ fn written(rows: &[Row], used: &[Used], name: &str) -> String {
         format!("# Imported from {name}"),
         keys.iter()
             .map(heading)
-            .chain(["confidence".into(), "basis".into()])
+            .chain(ORIGIN.map(str::to_owned))
             .collect::<Vec<_>>()
             .join(","),
     ];
@@ -543,10 +566,16 @@ fn written(rows: &[Row], used: &[Used], name: &str) -> String {
                 None => row.texts.get(key).cloned().unwrap_or_default(),
             },
         };
-        let cells = keys
-            .iter()
-            .map(cell)
-            .chain(["medium".to_owned(), format!("{name}, line {}", row.line)]);
+        let cells = keys.iter().map(cell).chain([
+            row.texts
+                .get("confidence")
+                .cloned()
+                .unwrap_or_else(|| "medium".to_owned()),
+            row.texts
+                .get("basis")
+                .cloned()
+                .unwrap_or_else(|| format!("{name}, line {}", row.line)),
+        ]);
         lines.push(cells.map(quoted).collect::<Vec<_>>().join(","));
     }
     lines.join("\n") + "\n"

@@ -2,12 +2,17 @@
 //!
 //! Needs are found by trial: an input is needed if building fails without it.
 
+use std::collections::BTreeMap;
+
+use gearloss_framework::document::Diagnostic;
 use gearloss_framework::gearbox::{Findings, Gearbox};
 use gearloss_framework::language::{DRAGS, HELD, Language};
-use gearloss_framework::registry::{Entry, MechanismEntry};
-use gearloss_framework::resolve::{Choice, Resolved, ValueSource, lookup};
+use gearloss_framework::mechanism::Mechanism as _;
+use gearloss_framework::mechanism::bearing::Bearing;
+use gearloss_framework::registry::{Entry, Files, MechanismEntry};
+use gearloss_framework::resolve::{CatalogueTable, Choice, Resolved, ValueSource, lookup};
 use gearloss_framework::transmission::Transmission;
-use serde_json::Value;
+use serde_json::{Map, Value};
 
 /// An input of a model beyond the inputs of every gearbox.
 #[derive(Debug, Clone)]
@@ -49,6 +54,82 @@ pub fn needs(language: &Language, gearbox: &Gearbox, only: Option<&str>) -> Resu
         }
     }
     Ok(needs)
+}
+
+/// What a model of bearing losses lacks in the bearings of a catalogue.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BearingNeeds {
+    /// Name of the model.
+    pub model: &'static str,
+    /// Number of bearings that it can be used for as they are.
+    pub ready: usize,
+    /// Reasons with help, and the designations of the other bearings.
+    pub lacks: Vec<(String, Vec<String>)>,
+}
+
+/// What each linked model of bearing losses lacks in a catalogue. The models are built for the bearings, one of each kind, series and set
+/// of keys; bearings without a kind are not considered.
+///
+/// # Errors
+/// Values that are no values of a bearing.
+pub fn bearing_needs(language: &Language, table: &CatalogueTable) -> Result<Vec<BearingNeeds>, Vec<Diagnostic>> {
+    let registry = language.registry();
+    let Some(mechanism) = registry.mechanism(Bearing::KEY) else {
+        return Ok(Vec::new());
+    };
+    let mut alike: BTreeMap<String, (Map<String, Value>, Vec<String>)> = BTreeMap::new();
+    for (designation, row) in &table.0 {
+        let mut part = Map::new();
+        for (key, value) in &row.values {
+            part.insert(key.clone(), language.checked(value, &format!("bearings.own.{key}"))?);
+        }
+        let Some(kind) = part.get("kind") else { continue };
+        let keys: Vec<&String> = part.keys().collect();
+        let sort = format!("{kind} {:?} {keys:?}", part.get("series"));
+        alike
+            .entry(sort)
+            .or_insert_with(|| (part, Vec::new()))
+            .1
+            .push(designation.clone());
+    }
+    let mut all = Vec::new();
+    for entry in registry
+        .models(Bearing::KEY)
+        .filter(|entry| !entry.is_user_defined() && entry.name != "none")
+    {
+        let (model, _) = language.example_of(entry)?;
+        let files = Files::default();
+        for (name, text) in entry.files {
+            files.put(name, text);
+        }
+        let mut needs = BearingNeeds {
+            model: entry.name,
+            ready: 0,
+            lacks: Vec::new(),
+        };
+        for (part, designations) in alike.values() {
+            match (mechanism.eval)(registry, &files, &model, &Value::Object(part.clone()), &Map::new()) {
+                Ok(_) => needs.ready += designations.len(),
+                Err(error) => {
+                    let reason = reason(error);
+                    match needs.lacks.iter_mut().find(|(own, _)| *own == reason) {
+                        Some((_, all)) => all.extend(designations.iter().cloned()),
+                        None => needs.lacks.push((reason, designations.clone())),
+                    }
+                }
+            }
+        }
+        all.push(needs);
+    }
+    Ok(all)
+}
+
+/// What is missing, with the help.
+fn reason(error: Diagnostic) -> String {
+    match error.help {
+        Some(help) => format!("{}; {help}", error.message),
+        None => error.message,
+    }
 }
 
 /// Paths of the model slots of a mechanism, and of the records that its parts are built from.
@@ -125,10 +206,8 @@ fn inputs(
         // One row for each distinct reason, with its components.
         let mut reasons: Vec<(String, Vec<String>)> = Vec::new();
         for error in list {
-            let text = error
-                .help
-                .map_or_else(|| error.message.clone(), |help| format!("{}; {help}", error.message));
             let place = error.path.split('.').take(2).collect::<Vec<_>>().join(".");
+            let text = reason(error);
             match reasons.iter_mut().find(|(reason, _)| *reason == text) {
                 Some((_, places)) => places.push(place),
                 None => reasons.push((text, vec![place])),

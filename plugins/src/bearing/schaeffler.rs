@@ -39,7 +39,11 @@ fn row(part: &BearingPart) -> Result<Row, Lack> {
     let series = part.series.as_deref().unwrap_or("").trim();
     let none = || {
         (
-            format!("schaeffler has no row for this kind of bearing with series `{series}`"),
+            if series.is_empty() {
+                "schaeffler has no row for this kind of bearing without `series`".to_owned()
+            } else {
+                format!("schaeffler has no row for this kind of bearing with series `{series}`")
+            },
             "write `series` as in the catalogue, or give the bearing its own model".to_owned(),
         )
     };

@@ -198,6 +198,8 @@ struct Model {
     seals: f64,
     /// True if the diameter of the counterface of the seals is not stated.
     counterface_is_estimated: bool,
+    /// True if the constants are those of all series without a row of their own.
+    is_of_other_series: bool,
 }
 
 impl Model {
@@ -243,6 +245,7 @@ impl Model {
             },
             seals,
             counterface_is_estimated: params.seals.is_none() && seals > 0.0,
+            is_of_other_series: rows::is_of_other_series(part),
         })
     }
 }
@@ -409,6 +412,9 @@ impl BearingLaw for Model {
         at.show("G_sl", "-", g_sl);
         self.check_speeds(at, n)?;
         let seals = R::constant(self.seals.nmm_in_nm());
+        if self.is_of_other_series {
+            at.branch("the catalogue has no row for this series: its row of all other series");
+        }
         if self.counterface_is_estimated {
             at.branch("counterface of the seals at d + 0.32 (D - d): not stated");
         }

@@ -22,7 +22,7 @@ pub(super) struct Key {
 }
 
 /// All keys, in the order of the catalogue.
-pub(super) const KEYS: [Key; 17] = [
+pub(super) const KEYS: [Key; 19] = [
     Key {
         name: "designation",
         unit: "",
@@ -167,11 +167,31 @@ pub(super) const KEYS: [Key; 17] = [
         words: "limitingspeed limitingspeedoil speedlimit speedratinglimiting mechanicallimitingspeed maximumspeed grenzdrehzahl grenzdrehzahlöl \
                 nlim ng nmax",
     },
+    Key {
+        name: "confidence",
+        unit: "",
+        total: false,
+        purpose: "",
+        symbols: "",
+        words: "confidence",
+    },
+    Key {
+        name: "basis",
+        unit: "",
+        total: false,
+        purpose: "",
+        symbols: "",
+        words: "basis",
+    },
 ];
 
 /// The key of a heading without unit.
 pub(super) fn key(heading: &str) -> Option<&'static Key> {
     let heading = heading.trim();
+    // The own format: `c`, `y`.
+    if let Some(key) = KEYS.iter().find(|key| !key.total && key.name == heading) {
+        return Some(key);
+    }
     let by_symbol = |symbol: &str| {
         KEYS.iter()
             .find(|key| key.symbols.split_whitespace().any(|own| own == symbol))

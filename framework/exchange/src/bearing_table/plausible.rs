@@ -7,6 +7,8 @@ use super::{Row, warning};
 
 /// C0/C of radial and thrust bearings of all kinds: 0.4 for small balls, 4 for rollers between washers.
 const STATIC_TO_DYNAMIC: [f64; 2] = [0.25, 6.0];
+/// C0/C of self-aligning ball bearings, whose outer raceway touches the balls in nearly a point: 0.21 to 0.5.
+const STATIC_TO_DYNAMIC_SELF_ALIGNING: [f64; 2] = [0.15, 1.0];
 /// C per area of the section, C / ((D - d) B): bearings have 20 to 200. \[N/mm2\]
 const RATING_PER_AREA: [f64; 2] = [4.0, 800.0];
 /// Pu/C0: 1/22 (ball) to 1/8.2 (roller) by ISO 281, less for large bearings.
@@ -51,9 +53,9 @@ pub(super) fn check(row: &Row, name: &str, shipped: Option<&CatalogueTable>, war
     }
     let outside_of = |value: f64, [low, high]: [f64; 2]| value > 0.0 && !(low..=high).contains(&value);
     if let (Some(c), Some(c0)) = (c, c0)
-        && outside_of(c0 / c, STATIC_TO_DYNAMIC)
+        && outside_of(c0 / c, static_to_dynamic(row))
     {
-        let [low, high] = STATIC_TO_DYNAMIC;
+        let [low, high] = static_to_dynamic(row);
         warn(
             format!("C0/C is {:.3}, usually {low} to {high}", c0 / c),
             "check both columns and their units",
@@ -94,6 +96,13 @@ pub(super) fn check(row: &Row, name: &str, shipped: Option<&CatalogueTable>, war
             format!("d {bore} mm, D {outside} mm; the shipped catalogue has {own_bore} and {own_outside} mm"),
             "check the designation and the columns",
         );
+    }
+}
+
+fn static_to_dynamic(row: &Row) -> [f64; 2] {
+    match row.kind.as_deref() {
+        Some("self_aligning_ball") => STATIC_TO_DYNAMIC_SELF_ALIGNING,
+        _ => STATIC_TO_DYNAMIC,
     }
 }
 

@@ -45,17 +45,17 @@ fn an_english_table_becomes_a_catalogue() {
     let lines = lines(&found.text);
     assert_eq!(
         lines[0],
-        "designation,kind,bore [mm],outside [mm],width [mm],c [N],c0 [N],pu [N],calculation_factor [-],minimum_load_factor [-],reference_speed [rpm],limiting_speed [rpm],confidence,basis"
+        "designation,kind,series,bore [mm],outside [mm],width [mm],c [N],c0 [N],pu [N],calculation_factor [-],minimum_load_factor [-],reference_speed [rpm],limiting_speed [rpm],confidence,basis"
     );
     assert_eq!(
         lines[1],
-        "6208,deep_groove_ball,40,80,18,32500,19000,800,14,0.025,18000,11000,medium,\"maker.csv, line 4\""
+        "6208,deep_groove_ball,62,40,80,18,32500,19000,800,14,0.025,18000,11000,medium,\"maker.csv, line 4\""
     );
     assert_eq!(
         lines[2],
-        "NU 208 ECP,cylindrical_roller,40,80,18,62000,53000,6700,,0.15,9500,12000,medium,\"maker.csv, line 5\""
+        "NU 208 ECP,cylindrical_roller,2,40,80,18,62000,53000,6700,,0.15,9500,12000,medium,\"maker.csv, line 5\""
     );
-    assert!(lines[3].starts_with("30208,tapered_roller,40,80,19.75,74900,"));
+    assert!(lines[3].starts_with("30208,tapered_roller,302,40,80,19.75,74900,"));
     let report = found.report.join("\n");
     assert!(
         report.contains("- c [N] from `Basic dynamic load rating C`: 3 of 3 bearings"),
@@ -103,12 +103,12 @@ fn symbols_keep_their_case_and_total_widths_have_precedence() {
     let found = read(text, &Options::default()).unwrap();
     let lines = lines(&found.text);
     assert!(
-        lines[1].starts_with("32208,tapered_roller,40,80,24.75,93500,104000,11400,6800,9700,"),
+        lines[1].starts_with("32208,tapered_roller,322,40,80,24.75,93500,104000,11400,6800,9700,"),
         "{}",
         lines[1]
     );
     assert!(
-        lines[2].starts_with("6208,deep_groove_ball,40,80,18,32500,"),
+        lines[2].starts_with("6208,deep_groove_ball,62,40,80,18,32500,"),
         "{}",
         lines[2]
     );

@@ -189,22 +189,47 @@ pub struct Row {
     pub mu_ehl: Option<f64>,
 }
 
-fn pick<const N: usize>(rows: Rows<N>, part: &BearingPart) -> Result<[f64; N], Lack> {
-    let written = part.series.as_deref().unwrap_or("");
+/// The row of a series.
+fn row_of<const N: usize>(rows: Rows<N>, series: &str) -> Option<[f64; N]> {
     // `72BE` and `72 BE` are the same series.
     let is_same_series = |name: &&str| {
         name.split_whitespace()
             .flat_map(str::chars)
-            .eq(written.split_whitespace().flat_map(str::chars))
+            .eq(series.split_whitespace().flat_map(str::chars))
     };
     let row = rows.iter().find(|(names, _)| names.iter().any(is_same_series));
-    row.map(|(_, row)| *row).ok_or_else(|| {
-        let known: Vec<&str> = rows.iter().flat_map(|(names, _)| names.iter().copied()).collect();
+    row.map(|(_, row)| *row)
+}
+
+/// The row of a stated series, else that of all other series if the catalogue has one.
+fn pick<const N: usize>(rows: Rows<N>, part: &BearingPart) -> Result<[f64; N], Lack> {
+    let known = || -> String {
+        let names: Vec<&str> = rows.iter().flat_map(|(names, _)| names.iter().copied()).collect();
+        names.join(", ")
+    };
+    let Some(series) = part.series.as_deref().filter(|series| !series.trim().is_empty()) else {
+        return Err((
+            "skf needs the `series` of this bearing".to_owned(),
+            format!("add `series:`, one of {}, or a `designation`", known()),
+        ));
+    };
+    row_of(rows, series).or_else(|| row_of(rows, "other")).ok_or_else(|| {
         (
-            format!("skf has no constants for series `{written}` of this kind of bearing"),
-            format!("set `series` to one of {}", known.join(", ")),
+            format!("skf has no constants for series `{series}` of this kind of bearing"),
+            format!("set `series` to one of {}", known()),
         )
     })
+}
+
+/// True if the catalogue has no row for the series itself, so that its row of all other series applies.
+pub fn is_of_other_series(part: &BearingPart) -> bool {
+    let series = part.series.as_deref().unwrap_or("");
+    match part.kind {
+        BearingKind::AngularContactBall => row_of(ANGULAR, series).is_none(),
+        BearingKind::AngularContactBallDoubleRow => row_of(ANGULAR_DOUBLE, series).is_none(),
+        BearingKind::TaperedRoller => row_of(TAPERED, series).is_none(),
+        _ => false,
+    }
 }
 
 /// The constants of a bearing; lengths in mm.
