@@ -7,10 +7,12 @@
 mod aliases;
 mod bearings;
 mod check;
+mod coded;
 mod draft;
 mod file;
 mod gears;
 mod graph;
+mod incomplete;
 mod json;
 mod loads;
 mod map;
@@ -80,7 +82,7 @@ pub fn import(bytes: &[u8], name: &str, language: &Language) -> Result<Imported,
             });
         }
     };
-    let (model, mut found) = match text.format {
+    let (mut model, mut found) = match text.format {
         Format::Xml => xml::read(&text.text),
         Format::Json => json::read(&text.text),
     };
@@ -95,7 +97,9 @@ pub fn import(bytes: &[u8], name: &str, language: &Language) -> Result<Imported,
             sources,
         });
     }
+    let left_out = incomplete::leave_out(&mut model);
     let source = Source::new(&model);
+    left_out.into_iter().for_each(|line| source.note(line));
     let converted = convert(&source, title(name), language);
     let list = source.findings();
     match converted {

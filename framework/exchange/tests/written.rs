@@ -481,7 +481,7 @@ fn models_of_bearings_follow_from_their_data() {
             "c0: 20000 N, axial: both, model: { type: iso14179_2 } }",
             "c0: 20000 N, axial: none, model: none }",
             "# - bearing_12 (rolling_bearing_with_catalog_geometry 12): the model is iso14179_2, because skf publishes no row",
-            "# - bearing_13 (rolling_bearing_with_catalog_geometry 13): skf has no constants for series",
+            "# - bearing_13 (rolling_bearing_with_catalog_geometry 13): skf needs the `series` of this bearing",
         ],
     );
     gearbox(&imported.gearbox);
@@ -547,4 +547,59 @@ fn names_of_components_do_no_harm() {
         &["# 11 \"a b: { # c\"\"\n", "title: \"we\\\"ird : name\"\n"],
     );
     gearbox(&imported.gearbox);
+}
+
+/// Parts that were begun and never filled in: a shaft with a section, a material and two couplings to it.
+#[test]
+fn empty_components_are_left_out() {
+    let with_stub = |model: &mut Model| {
+        model
+            .component(97, "shaft", "")
+            .component(98, "shaft_section", "")
+            .component(99, "material", "")
+            .component(100, "coupling", "")
+            .component(101, "coupling", "")
+            .relation("assembly", &[("assembly", 1), ("part", 97)])
+            .relation("assembly", &[("assembly", 97), ("part", 98)])
+            .relation("reference", &[("origin", 97), ("referenced", 99)])
+            .relation("side", &[("assembly", 100), ("inner_part", 97), ("outer_part", 20)])
+            .relation("side", &[("assembly", 101), ("inner_part", 10), ("outer_part", 97)]);
+    };
+    let plain = one_stage("0,100,0").imported();
+    let mut model = one_stage("0,100,0");
+    with_stub(&mut model);
+    let imported = model.imported();
+    has(
+        &imported.gearbox,
+        &[
+            "left out, because they have no data and nothing needs them: shaft 97, shaft_section 98, material 99, coupling 100, coupling 101",
+        ],
+    );
+    let without_report = |text: &str| text.split("# Ignored or changed").next().unwrap().to_owned();
+    let head = |text: &str| -> Vec<String> {
+        let lines = text.lines().take_while(|line| !line.starts_with("# Missing"));
+        lines.map(str::to_owned).collect()
+    };
+    assert_eq!(
+        head(&without_report(&imported.gearbox)),
+        head(&without_report(&plain.gearbox))
+    );
+    // A gear on the shaft needs it: then its position is missing.
+    model.gear(96, Some(97), "50,0,0", "number_of_teeth=40");
+    has(&model.refused(), &["shaft 97: it has no position"]);
+}
+
+/// `code` with Base64: float64 of 50, 100, 0.
+#[test]
+fn encoded_arrays_are_vectors() {
+    let model = one_stage("0,100,0");
+    let plain = model.xml();
+    let array = "<array><c>50</c><c>100</c><c>0</c></array>";
+    let coded = plain.replace(
+        array,
+        "<array code=\"float64\">AAAAAAAASUAAAAAAAABZQAAAAAAAAAAA</array>",
+    );
+    assert_ne!(plain, coded);
+    let text = |xml: &str| import(xml.as_bytes(), "model.rexs", language()).unwrap().gearbox;
+    assert_eq!(text(&coded), text(&plain));
 }

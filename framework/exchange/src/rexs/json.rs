@@ -6,6 +6,7 @@ use gearloss_document::{Diagnostic, Span};
 use serde::Deserialize;
 use serde_json::value::RawValue;
 
+use super::coded;
 use super::graph::Builder;
 use super::model::{Attribute, Component, Id, LONGEST_LIST, LoadCase, Model, Relation, Spectrum, Value};
 use crate::codes;
@@ -59,6 +60,13 @@ struct ComponentPart<'a> {
     name: Option<String>,
     #[serde(borrow)]
     attributes: Raw<'a>,
+}
+
+/// An encoded array.
+#[derive(Deserialize)]
+struct CodedPart {
+    code: String,
+    value: String,
 }
 
 #[derive(Deserialize)]
@@ -278,6 +286,10 @@ fn value(raw: &str) -> Value {
             _ => Some(raw.to_owned()),
         }
     };
+    if raw.starts_with('{') {
+        let part = serde_json::from_str::<CodedPart>(raw);
+        return part.map_or(Value::Other, |part| coded::array(&part.code, &part.value));
+    }
     if !raw.starts_with('[') {
         return scalar(raw).map_or(Value::Other, Value::Text);
     }
@@ -289,4 +301,16 @@ fn value(raw: &str) -> Value {
     }
     let cells: Option<Vec<String>> = cells.iter().map(|cell| scalar(cell.get())).collect();
     cells.map_or(Value::Other, Value::List)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn encoded_arrays_are_lists() {
+        let list = Value::List(vec!["1".to_owned(), "-2".to_owned()]);
+        assert_eq!(value(r#"{ "code": "int32", "value": "AQAAAP7///8=" }"#), list);
+        assert_eq!(value(r#"{ "other": 1 }"#), Value::Other);
+    }
 }

@@ -53,7 +53,7 @@ pub enum Value {
     Text(String),
     /// An array.
     List(Vec<String>),
-    /// Matrices, encoded arrays and arrays too long for a vector or a table: only results have them.
+    /// Matrices and arrays too long for a vector or a table: only results have them.
     Other,
 }
 

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use gearloss_document::{Diagnostic, Span};
 use roxmltree::{Document, Node, ParsingOptions};
 
+use super::coded;
 use super::graph::Builder;
 use super::model::{Attribute, Component, Id, LONGEST_LIST, LoadCase, Model, Relation, Spectrum, Value};
 use crate::codes;
@@ -207,8 +208,11 @@ fn value(node: Node<'_, '_>) -> Value {
     let Some(content) = elements(node).next() else {
         return Value::Text(node.text().unwrap_or_default().trim().to_owned());
     };
-    if content.tag_name().name() != "array" || content.attribute("code").is_some() {
+    if content.tag_name().name() != "array" {
         return Value::Other;
+    }
+    if let Some(code) = content.attribute("code") {
+        return coded::array(code, content.text().unwrap_or_default());
     }
     let cells: Vec<String> = elements(content)
         .take(LONGEST_LIST + 1)
