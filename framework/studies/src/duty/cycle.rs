@@ -49,7 +49,7 @@ pub struct FileCycleEntry {
     pub about: Option<String>,
     /// Column of each quantity, unless it has the name of the quantity: `torque: T_in`. Quantities: `time`, `vehicle_speed`, `grade` (rise
     /// over run), `torque` and `speed` at the port, `oil_flow`, `oil_temperature`, `coolant_flow`, `coolant_temperature`, `ambient`,
-    /// `gear`.
+    /// `gear`; instead of `time` `distance`, which must be stated here, and `stop`.
     #[serde(default)]
     pub columns: Ordered<String>,
     /// Columns of measured temperatures by node of the thermal network.
@@ -84,6 +84,14 @@ pub struct FileCycleEntry {
     /// Maximum step between rows; longer steps are gaps. Default: five times the median step. [s]
     #[schemars(range(min = 0.0, max = 1e9))]
     pub gap: Option<f64>,
+    /// Acceleration towards a target speed of a cycle over distance. [m/s2]
+    #[serde(default = "driver")]
+    #[schemars(range(min = 0.05, max = 12.0))]
+    pub acceleration: f64,
+    /// Deceleration towards a target speed or a stop of a cycle over distance. [m/s2]
+    #[serde(default = "driver")]
+    #[schemars(range(min = 0.05, max = 12.0))]
+    pub deceleration: f64,
     /// Maximum plausible acceleration of the vehicle. [m/s2]
     #[serde(default = "most_acceleration")]
     #[schemars(range(min = 0.1, max = 1000.0))]
@@ -125,6 +133,10 @@ pub(super) fn input() -> String {
 // Assumed: a tyre on dry road allows about one g; larger values are recording errors.
 pub(super) fn most_acceleration() -> f64 {
     12.0
+}
+// Assumed: the acceleration curves of VECTO begin at about 1 m/s2 and brake with 1 m/s2 or less.
+pub(super) fn driver() -> f64 {
+    1.0
 }
 fn hour() -> f64 {
     3600.0
@@ -291,6 +303,8 @@ impl FileCycleEntry {
             start: None,
             end: None,
             gap: None,
+            acceleration: driver(),
+            deceleration: driver(),
             most_acceleration: most_acceleration(),
             most_speed_change: None,
         }

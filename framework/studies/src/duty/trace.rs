@@ -1,5 +1,7 @@
 //! A time series: checked rows of a file, and the intervals between them.
 
+mod distance;
+
 use super::{Demand, FileCycleEntry, Given, Interval, Vehicle};
 use crate::measured::{MeasuredFault, fault};
 use gearloss_document::data::missing::CELL_HELP;
@@ -68,6 +70,10 @@ const QUANTITIES: [Wanted; 11] = [
     ("gear", ""),
 ];
 
+/// Quantities of a cycle over distance instead of time. They are the last ones of a file, after the nodes.
+const OF_DISTANCE: [Wanted; 2] = [(DISTANCE, "m"), ("stop", "s")];
+const DISTANCE: &str = "distance";
+
 impl Trace {
     /// Reads the bytes of the file of an entry.
     ///
@@ -91,6 +97,14 @@ impl Trace {
             return Err(limited_faults(faulty, CELL_HELP));
         }
         let found = sheet.table.rows.len();
+        let mut notes = sheet.notes.clone();
+        if is_over_distance(entry) {
+            samples = over_time(entry, sheet, samples)?;
+            notes.push(format!(
+                "distances were converted to times with an acceleration of {} and a deceleration of {} m/s2",
+                entry.acceleration, entry.deceleration
+            ));
+        }
         let inside = |s: &Sample| entry.start.is_none_or(|t| s.time >= t) && entry.end.is_none_or(|t| s.time <= t);
         let ordered = not_rising(&samples);
         if !ordered.is_empty() {
@@ -113,16 +127,19 @@ impl Trace {
                 help,
             )]);
         }
-        let mut wrong = gaps(&samples, entry.gap);
-        wrong.extend(jumps(&samples, entry));
-        if !wrong.is_empty() {
-            return Err(wrong);
+        // Steps of a route follow from its speeds.
+        if !is_over_distance(entry) {
+            let mut wrong = gaps(&samples, entry.gap);
+            wrong.extend(jumps(&samples, entry));
+            if !wrong.is_empty() {
+                return Err(wrong);
+            }
         }
         Ok(Self {
             samples,
             nodes: entry.temperatures.ids().map(str::to_owned).collect(),
             repeat: entry.repeat,
-            notes: sheet.notes.clone(),
+            notes,
         })
     }
 
@@ -217,14 +234,43 @@ fn open(entry: &FileCycleEntry, bytes: &[u8]) -> Result<Sheet, Vec<MeasuredFault
         }
         columns.0.push((name.to_owned(), column.clone()));
     }
-    let sheet = Sheet::open_series(bytes, &entry.form, &wanted, Assigned {
-                columns: Some(&columns),
-                units: Some(&entry.units),
-                units_override: entry.units_override,
-            }, "time")?;
+    let over_distance = is_over_distance(entry);
+    if !over_distance && entry.columns.get("stop").is_some() {
+        return Err(vec![fault(
+            "`stop` belongs to a cycle over distance",
+            "state the column of `distance`, too, or delete `stop` from `columns` and `units`",
+        )]);
+    }
+    if over_distance {
+        if entry.columns.get("time").is_some() {
+            return Err(vec![fault(
+                "a cycle is over distance or over time",
+                "delete `time` or `distance` from `columns`",
+            )]);
+        }
+        wanted.extend(OF_DISTANCE);
+    }
+    let assigned = Assigned {
+        columns: Some(&columns),
+        units: Some(&entry.units),
+        units_override: entry.units_override,
+    };
+    let sheet = Sheet::open_series(bytes, &entry.form, &wanted, assigned, "time")?;
     let mut lacks = Vec::new();
-    if !sheet.holds(TIME) {
-        lacks.push(sheet.lacks("the time", "time"));
+    if over_distance && (sheet.holds(TORQUE) || sheet.holds(SPEED)) {
+        lacks.push(fault(
+            "a cycle over distance has no torque and no speed at a port: its times follow from `vehicle_speed`",
+            "delete `distance` from `columns`, or the columns of torque and speed from the file",
+        ));
+    }
+    if over_distance && !sheet.holds(wanted.len() - OF_DISTANCE.len()) {
+        lacks.push(sheet.lacks("the distance", DISTANCE));
+    }
+    if !over_distance && !sheet.holds(TIME) {
+        let mut lack = sheet.lacks("the time", "time");
+        lack.help
+            .push_str("; a cycle over distance states `distance` under `columns`");
+        lacks.push(lack);
     }
     match (sheet.holds(VEHICLE_SPEED), sheet.holds(TORQUE), sheet.holds(SPEED)) {
         (_, true, false) => lacks.push(sheet.lacks("the speed in addition to the torque", "speed")),
@@ -237,6 +283,36 @@ fn open(entry: &FileCycleEntry, bytes: &[u8]) -> Result<Sheet, Vec<MeasuredFault
     } else {
         Err(sheet.table.placed(lacks))
     }
+}
+
+/// True if a column is stated as the distance.
+fn is_over_distance(entry: &FileCycleEntry) -> bool {
+    entry.columns.get(DISTANCE).is_some()
+}
+
+/// The rows of a cycle over distance as a series over time.
+fn over_time(entry: &FileCycleEntry, sheet: &Sheet, samples: Vec<Sample>) -> Result<Vec<Sample>, Vec<MeasuredFault>> {
+    let at = QUANTITIES.len() + entry.temperatures.ids().count();
+    let mut rows = Vec::new();
+    let mut faulty = Vec::new();
+    for (row, sample) in samples.into_iter().enumerate() {
+        match (sheet.number(row, at), sheet.not_negative(row, at + 1)) {
+            (Ok(distance), Ok(stop)) => rows.push(distance::Row {
+                distance: distance.unwrap_or(0.0),
+                stop: stop.unwrap_or(0.0),
+                sample,
+            }),
+            (distance, stop) => faulty.extend(distance.err().into_iter().chain(stop.err())),
+        }
+    }
+    if !faulty.is_empty() {
+        return Err(limited_faults(faulty, "correct the cell, or delete the row"));
+    }
+    let driver = distance::Driver {
+        acceleration: entry.acceleration,
+        deceleration: entry.deceleration,
+    };
+    distance::over_time(&rows, driver)
 }
 
 fn sample(sheet: &Sheet, row: usize, nodes: usize) -> Result<Sample, String> {
