@@ -1,1 +1,215 @@
 //! Gearbox files: what is absent, misspelt or set from elsewhere.
+
+use super::Case;
+
+/// A finding about a value of `set` points at its own line and column.
+#[test]
+fn a_finding_about_set_points_at_its_entry() {
+    let case = Case::new("set_of_another_file", "line");
+    let said = case.gearloss(&["check", "set.yaml"]);
+    assert_eq!(said.code, Some(2));
+    assert!(
+        said.text
+            .contains("set.shafts.a.nonsense: the key `nonsense` does not exist here")
+            && said.text.contains("set.yaml:6:22"),
+        "{}",
+        said.text
+    );
+    // The same for a model set, and for a value that only building refuses.
+    let gearbox = std::fs::read_to_string(case.path("gearbox.yaml")).unwrap();
+    case.write(
+        "own.yaml",
+        gearbox + "model_sets:\n  mine:\n    set:\n      thermal.oil: 70 degC\n      shafts.b.nonsense: 3\n",
+    );
+    let said = case.gearloss(&["check", "own.yaml", "--models", "mine"]);
+    assert!(
+        said.code == Some(2) && said.text.contains("own.yaml:18:26"),
+        "{}",
+        said.text
+    );
+}
+
+fn bearings(case: &Case, designation: &str) -> String {
+    let gearbox = format!(
+        "gearloss: gearbox/1\nextends: gearbox.yaml\nbearings:\n  A: {{ shaft: a, at: 0 mm, designation: \"{designation}\" }}\n"
+    );
+    case.write("bearing.yaml", gearbox);
+    case.gearloss(&["check", "bearing.yaml"]).text
+}
+
+/// Help about a designation never leads to another kind or bore.
+#[test]
+fn no_help_leads_to_another_bearing() {
+    let case = Case::new("set_of_another_file", "designations");
+    for (designation, others) in [
+        ("32313", &["6213", "6313"][..]),
+        ("32310", &["30210", "6310"]),
+        ("N208", &["6208"]),
+        ("NU2213", &["6213"]),
+        ("22213", &["6213"]),
+        ("7213", &["6213"]),
+    ] {
+        let said = bearings(&case, designation);
+        assert!(said.contains(&format!("no catalogue has `{designation}`")), "{said}");
+        for other in others {
+            assert!(!said.contains(other), "{designation}: {said}");
+        }
+    }
+    // The same kind and bore is offered, as a note with its sizes.
+    let said = bearings(&case, "N208");
+    assert!(
+        said.contains("of this kind and bore: NU208EC (40 x 80 x 18 mm)"),
+        "{said}"
+    );
+    let said = bearings(&case, "62O8");
+    assert!(said.contains("write `6208`"), "{said}");
+    let said = bearings(&case, "6208-XYZ");
+    assert!(
+        said.contains("`6208` is known, but not what `XYZ` behind it means"),
+        "{said}"
+    );
+}
+
+/// Words that look alike and mean other things.
+#[test]
+fn no_help_leads_to_another_thing() {
+    let case = Case::new("set_of_another_file", "words");
+    case.write(
+        "kind.yaml",
+        "gearloss: gearbox/1\nextends: gearbox.yaml\nbearings:\n  A: { shaft: a, at: 0 mm, kind: needle_roller, bore: 30 mm, outside: 40 mm }\n",
+    );
+    let said = case.gearloss(&["check", "kind.yaml"]);
+    assert!(
+        said.code == Some(2)
+            && said.text.contains("needle_cage")
+            && !said.text.contains("write `needle_roller_thrust`"),
+        "{}",
+        said.text
+    );
+}
+
+#[test]
+fn physics_that_is_absent_is_named() {
+    let case = Case::new("set_of_another_file", "undescribed");
+    let gearbox = std::fs::read_to_string(case.path("gearbox.yaml")).unwrap();
+    for (changed, what) in [
+        (
+            gearbox.replace("normal_module: 2 mm,", "normal_module: 2 mm, type: worm,"),
+            "worm stages cannot be described yet",
+        ),
+        (
+            gearbox.replace("normal_module: 2 mm,", "normal_module: 2 mm, kind: spiral_bevel,"),
+            "bevel stages cannot be described yet",
+        ),
+        (
+            gearbox.replace("axis: [60 mm, 0 mm]", "axis: [60 mm, 0 mm], direction: [0, 0, 1]"),
+            "all shafts are parallel to x",
+        ),
+        (
+            gearbox.clone() + "chains: { c: { sprockets: [p, w] } }\n",
+            "chain drives cannot be described yet",
+        ),
+    ] {
+        case.write("changed.yaml", changed);
+        let said = case.gearloss(&["check", "changed.yaml"]);
+        assert!(
+            said.code == Some(2) && said.text.contains(what),
+            "{what}: {}",
+            said.text
+        );
+        assert!(
+            !said.text.contains("choose one of these keys") && said.text.contains("parallel shafts"),
+            "{}",
+            said.text
+        );
+    }
+    for layout in ["worm", "bevel", "hypoid", "chain"] {
+        let said = case.gearloss(&["new", "gearbox", layout, "-o", "new.yaml"]);
+        assert!(
+            said.code == Some(2) && said.text.contains("cannot be described yet"),
+            "{}",
+            said.text
+        );
+    }
+    let said = case.gearloss(&["new", "gearbox", "--help"]);
+    assert!(!said.text.contains("worm"), "{}", said.text);
+}
+
+#[test]
+fn lists_and_words_in_the_wrong_place_are_led_to_theirs() {
+    let case = Case::new("set_of_another_file", "places");
+    let gearbox = std::fs::read_to_string(case.path("gearbox.yaml")).unwrap();
+    case.write("none.yaml", gearbox.clone() + "bearings: none\n");
+    let said = case.gearloss(&["check", "none.yaml"]);
+    assert!(
+        said.code == Some(2) && said.text.contains("is a key of a single shaft"),
+        "{}",
+        said.text
+    );
+    case.write(
+        "gear.yaml",
+        gearbox.replace("p: { shaft: a,", "p: { bearings: none, shaft: a,"),
+    );
+    let said = case.gearloss(&["check", "gear.yaml"]);
+    assert!(
+        said.code == Some(2) && said.text.contains("write `bearings: none` for the shaft"),
+        "{}",
+        said.text
+    );
+    case.write(
+        "study.yaml",
+        "gearloss: study/1\ngearboxes: { g: gearbox.yaml }\ncycles:\n  d: { spectrum: { loads: [ { torque: 40 Nm, speed: 4000 rpm, share: 1 } ] } }\n\
+         analyses:\n  c: { type: cycle, cycles: [d] }\n",
+    );
+    let said = case.gearloss(&["check", "study.yaml"]);
+    assert!(
+        said.code == Some(2)
+            && said
+                .text
+                .contains("write the list itself: `spectrum: [...]`, without `loads`")
+            && said.text.contains("\n1 error\n"),
+        "{}",
+        said.text
+    );
+}
+
+/// A gearbox without `gear_states` has no such key in its messages.
+#[test]
+fn messages_name_keys_of_the_file() {
+    let case = Case::new("set_of_another_file", "gear-states");
+    let gearbox = std::fs::read_to_string(case.path("gearbox.yaml")).unwrap();
+    let held = gearbox.replace(
+        "  m: {",
+        "  second: { gears: [q, x], normal_module: 2 mm, model: none }\n  m: {",
+    );
+    let held = held.replace(
+        "gears:\n",
+        "gears:\n  q: { shaft: a, at: 60 mm, z: 30, facewidth: 20 mm }\n  x: { shaft: b, at: 60 mm, z: 30, facewidth: 20 mm }\n",
+    );
+    case.write("held.yaml", held);
+    let said = case.gearloss(&["check", "held.yaml"]);
+    assert!(
+        said.code == Some(2) && said.text.contains("ports: ") && !said.text.contains("gear_states"),
+        "{}",
+        said.text
+    );
+}
+
+/// A file that two others extend is reported once, and what is repeated is counted as such.
+#[test]
+fn errors_of_a_common_file_are_shown_once() {
+    let case = Case::new("set_of_another_file", "common");
+    let gearbox = std::fs::read_to_string(case.path("gearbox.yaml")).unwrap();
+    case.write("gearbox.yaml", gearbox.replace("z: 20,", "z: 20 mm,"));
+    for name in ["first.yaml", "second.yaml"] {
+        case.write(name, "gearloss: gearbox/1\nextends: gearbox.yaml\n");
+    }
+    let said = case.gearloss(&["check", "first.yaml", "second.yaml"]);
+    assert_eq!(said.text.matches("error[").count(), 1, "{}", said.text);
+    assert!(
+        said.text
+            .contains("1 error, 1 of them printed above: they are in a file that was read before"),
+        "{}",
+        said.text
+    );
+}

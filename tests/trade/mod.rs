@@ -2,6 +2,7 @@
 //! file holds the files of a case; a test runs the program in a copy of it.
 
 mod descriptions;
+mod documents;
 mod files;
 mod imports;
 mod losses;

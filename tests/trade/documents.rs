@@ -1,0 +1,163 @@
+//! Every YAML block of README and docs is what the program accepts.
+//!
+//! A block is a document if it states `gearloss:`. Otherwise it is put into one: a block of `docs/gallery.md` under `analyses`, one of
+//! `docs/models/` is an input of `eval` for the mechanism of its page, any other is part of a study if all its keys are those of a study,
+//! else of a gearbox. A block that is nothing of gearloss has a comment before it, `<!-- not gearloss: REASON -->`, which readers of the
+//! page do not see. Blocks with `file=` are the files of `examples/in-house-plugin`, whose tests run them.
+
+use std::path::{Path, PathBuf};
+
+use gearloss_framework::document::{Diagnostic, read_yaml};
+use gearloss_framework::language::{Kind, Language};
+
+use crate::common::file;
+
+const MARK: &str = "<!-- not gearloss: ";
+
+/// A fenced block.
+struct Block {
+    page: PathBuf,
+    line: usize,
+    text: String,
+}
+
+fn pages() -> Vec<PathBuf> {
+    let mut pages = Vec::new();
+    for folder in ["", "docs", "docs/models", "examples"] {
+        for entry in std::fs::read_dir(file(folder)).unwrap() {
+            let path = entry.unwrap().path();
+            let page = if path.is_dir() && folder == "examples" {
+                path.join("README.md")
+            } else {
+                path
+            };
+            if page.extension().is_some_and(|end| end == "md") && page.is_file() {
+                pages.push(page);
+            }
+        }
+    }
+    pages.sort();
+    pages
+}
+
+/// The blocks of a page, without those that are marked with a reason.
+fn blocks(page: &Path) -> Vec<Block> {
+    let text = std::fs::read_to_string(page).unwrap();
+    let lines: Vec<&str> = text.lines().collect();
+    let mut blocks = Vec::new();
+    let mut number = 0;
+    while number < lines.len() {
+        let line = lines[number];
+        let fence = line.trim_start();
+        let indent = line.len() - fence.len();
+        // The pages of a guide are files of its example, whose tests run them.
+        if fence.contains("file=") || !(fence.starts_with("```yaml") || fence.starts_with("```yml")) {
+            number += 1;
+            continue;
+        }
+        let end = (number + 1..lines.len())
+            .find(|at| lines[*at].trim_start().starts_with("```"))
+            .unwrap();
+        let inside = lines[number + 1..end]
+            .iter()
+            .map(|line| line.get(indent..).unwrap_or(""));
+        let before = lines[..number].iter().rev().find(|line| !line.trim().is_empty());
+        let reason = before.and_then(|line| line.trim().strip_prefix(MARK));
+        match reason {
+            Some(reason) => assert!(
+                reason.trim_end_matches("-->").trim().len() > 10,
+                "{}: {reason}",
+                page.display()
+            ),
+            None => blocks.push(Block {
+                page: page.to_path_buf(),
+                line: number + 1,
+                text: inside.fold(String::new(), |text, line| text + line + "\n"),
+            }),
+        }
+        number = end + 1;
+    }
+    blocks
+}
+
+fn indented(text: &str) -> String {
+    text.lines().fold(String::new(), |all, line| all + "  " + line + "\n")
+}
+
+/// The top-level keys of a block.
+fn keys(text: &str) -> Vec<&str> {
+    text.lines()
+        .filter(|line| line.starts_with(|c: char| c.is_ascii_alphabetic()))
+        .filter_map(|line| Some(line.split_once(':')?.0))
+        .collect()
+}
+
+/// The keys of a study.
+fn study_keys(language: &Language) -> Vec<String> {
+    let schema = language.published(Kind::Study);
+    schema["properties"].as_object().unwrap().keys().cloned().collect()
+}
+
+fn findings(language: &Language, study_keys: &[String], block: &Block) -> Vec<Diagnostic> {
+    let is_in = |folder: &str| block.page.parent().is_some_and(|parent| parent.ends_with(folder));
+    let name = block.page.file_stem().unwrap().to_str().unwrap();
+    let of_study = |key: &str| study_keys.iter().any(|own| own == key);
+    let study = |text: &str| {
+        let mut text = format!("gearloss: study/1\n{text}");
+        for (key, line) in [
+            ("gearboxes", "gearboxes: { own: gearbox.yaml }\n"),
+            ("analyses", "analyses: {}\n"),
+        ] {
+            if !keys(&text).contains(&key) {
+                text.push_str(line);
+            }
+        }
+        text
+    };
+    let (text, is_study) = if block.text.contains("gearloss: ") {
+        (block.text.clone(), block.text.contains("gearloss: study/1"))
+    } else if name == "gallery" {
+        (study(&format!("analyses:\n{}", indented(&block.text))), true)
+    } else if !is_in("docs/models") && keys(&block.text).into_iter().all(of_study) {
+        (study(&block.text), true)
+    } else {
+        (
+            format!("gearloss: gearbox/1\nextends: base.yaml\n{}", block.text),
+            false,
+        )
+    };
+    if is_in("docs/models") {
+        let read = read_yaml(0, &block.text);
+        let walked = language.walk_eval(name, &read.node).unwrap();
+        return [read.findings, walked.findings].concat();
+    }
+    let read = read_yaml(0, &text);
+    let walked = if is_study {
+        language.walk_study(&read.node)
+    } else {
+        language.walk_gearbox(&read.node)
+    };
+    // Sections that the base of a gearbox has.
+    let of_base = |finding: &Diagnostic| finding.path.is_empty() && finding.message.ends_with("is missing");
+    let extends = keys(&text).contains(&"extends");
+    let found = [read.findings, walked.findings].concat();
+    found
+        .into_iter()
+        .filter(|finding| !(extends && of_base(finding)))
+        .collect()
+}
+
+#[test]
+fn every_yaml_block_of_the_docs_is_accepted() {
+    let language = Language::linked().unwrap();
+    let study_keys = study_keys(&language);
+    let blocks: Vec<Block> = pages().iter().flat_map(|page| blocks(page)).collect();
+    assert!(blocks.len() > 150, "{} blocks", blocks.len());
+    let mut wrong = Vec::new();
+    for block in &blocks {
+        for finding in findings(&language, &study_keys, block) {
+            wrong.push(format!("{}:{}: {finding}", block.page.display(), block.line));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
