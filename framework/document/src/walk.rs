@@ -338,7 +338,7 @@ impl<'a> Walker<'a> {
             _ => return self.wrong(node, "text"),
         };
         if !words.is_empty() && !words.contains(text) {
-            let close = match words.as_slice() {
+            let close = match words {
                 [only] => Some(only.clone()),
                 _ => did_you_mean(text, words.iter().map(String::as_str)).map(str::to_owned),
             };

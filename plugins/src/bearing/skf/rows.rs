@@ -213,12 +213,26 @@ fn pick<const N: usize>(rows: Rows<N>, part: &BearingPart) -> Result<[f64; N], L
             format!("add `series:`, one of {}, or a `designation`", known()),
         ));
     };
-    row_of(rows, series).or_else(|| row_of(rows, "other")).ok_or_else(|| {
+    let others = || row_of(rows, "other").filter(|_| is_series_of(part.kind, series));
+    row_of(rows, series).or_else(others).ok_or_else(|| {
         (
             format!("skf has no constants for series `{series}` of this kind of bearing"),
             format!("set `series` to one of {}", known()),
         )
     })
+}
+
+/// True for a series that bearings of the kind have. The row of all other series is not that of a wrong series: a pair of single-row
+/// bearings is no double row.
+fn is_series_of(kind: BearingKind, series: &str) -> bool {
+    let digits: String = series.chars().take_while(char::is_ascii_digit).collect();
+    let known: &[&str] = match kind {
+        BearingKind::AngularContactBall => &["70", "72", "73", "74", "708", "709", "718", "719"],
+        BearingKind::AngularContactBallDoubleRow => &["30", "32", "33", "38", "39", "52", "53"],
+        BearingKind::TaperedRoller => &["302", "303", "313", "320", "322", "323", "329", "330", "331", "332"],
+        _ => &[],
+    };
+    known.contains(&digits.as_str())
 }
 
 /// True if the catalogue has no row for the series itself, so that its row of all other series applies.
@@ -716,11 +730,18 @@ mod tests {
                 .contains("63")
         );
         assert!(
-            row(&part(BearingKind::AngularContactBall, "718", 65.0), false)
+            row(&part(BearingKind::AngularContactBall, "62", 65.0), false)
                 .unwrap_err()
                 .1
                 .contains("other")
         );
+        // A series of the kind without a row of its own takes that of all others.
+        let rows = ["other", "718", "72 B"].map(|series| {
+            let part = part(BearingKind::AngularContactBall, series, 65.0);
+            assert_eq!(is_of_other_series(&part), series != "other");
+            format!("{:?}", row(&part, false).unwrap())
+        });
+        assert!(rows.iter().all(|own| *own == rows[0]));
         assert!(row(&part(BearingKind::AngularContactBall, "72BE", 65.0), false).is_ok());
         // A pair of single-row bearings is two bearings, not a double row.
         assert!(row(&part(BearingKind::AngularContactBallDoubleRow, "72 BE", 65.0), false).is_err());
