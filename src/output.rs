@@ -2,11 +2,12 @@
 
 use std::io::{self, IsTerminal, Write};
 
-use gearloss_framework::document::Diagnostic;
+use gearloss_framework::document::{Diagnostic, visible, visible_json};
 use gearloss_framework::gearbox::Findings;
 pub use gearloss_report::text::{TextTable as Table, figures, number, significant};
 use gearloss_studies::analyses::Stopped;
 use gearloss_studies::tasks::StorageError;
+use serde::Serialize;
 
 /// How a command ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -134,8 +135,23 @@ impl Out {
         self.terminal
     }
 
-    /// Prints a text unchanged.
+    /// Prints a text, with hidden characters as escapes: parts of it are from documents, and a terminal obeys some of them.
     pub fn text(&mut self, text: &str) -> io::Result<()> {
+        self.write(&visible(text))
+    }
+
+    /// Prints a line.
+    pub fn line(&mut self, text: impl AsRef<str>) -> io::Result<()> {
+        self.text(&format!("{}\n", text.as_ref()))
+    }
+
+    /// Prints a value as JSON.
+    pub fn json(&mut self, value: &impl Serialize) -> Result<(), Failure> {
+        let json = serde_json::to_string_pretty(value).map_err(|e| Failure::Input(format!("error: {e}\n")))?;
+        Ok(self.write(&visible_json(&format!("{json}\n")))?)
+    }
+
+    fn write(&mut self, text: &str) -> io::Result<()> {
         if self.closed {
             return Ok(());
         }
@@ -146,10 +162,5 @@ impl Out {
             }
             other => other,
         }
-    }
-
-    /// Prints a line.
-    pub fn line(&mut self, text: impl AsRef<str>) -> io::Result<()> {
-        self.text(&format!("{}\n", text.as_ref()))
     }
 }

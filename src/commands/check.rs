@@ -100,7 +100,7 @@ fn print_json(language: &Language, args: &CheckArgs, deny: Option<Evidence>, out
         wrong |= record.wrong;
         files.push(record.json(&file.display().to_string(), deny));
     }
-    out.line(serde_json::to_string_pretty(&document(language, files)).unwrap_or_default())?;
+    out.json(&document(language, files))?;
     if wrong {
         Err(Failure::Input(String::new()))
     } else {

@@ -25,7 +25,7 @@ pub fn run(args: &EvalArgs, out: &mut Out) -> Result<End, Failure> {
         let rated = eval::rate_input(language, plugin, &source, &text, &folder)?;
         if args.format == Format::Json {
             let value = rated_json(plugin, &rated, language.registry().packages());
-            out.line(serde_json::to_string_pretty(&value).unwrap_or_default())?;
+            out.json(&value)?;
         } else {
             out.text(&rated_text(plugin, &rated))?;
         }
@@ -41,7 +41,7 @@ pub fn run(args: &EvalArgs, out: &mut Out) -> Result<End, Failure> {
     }
     if args.format == Format::Json {
         let value = eval_json(mechanism, entry, &evaluated, language.registry().packages());
-        out.line(serde_json::to_string_pretty(&value).unwrap_or_default())?;
+        out.json(&value)?;
     } else {
         out.text(&eval_text(mechanism, entry, &evaluated))?;
     }

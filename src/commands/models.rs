@@ -36,7 +36,7 @@ pub fn run(args: &ModelsArgs, out: &mut Out) -> Result<End, Failure> {
     match (args.format, mechanism, model) {
         (Format::Json, ..) => {
             let value = models_json(language, mechanism, model);
-            out.line(serde_json::to_string_pretty(&value).unwrap_or_default())?;
+            out.json(&value)?;
         }
         (Format::Table, None, _) => out.text(&models_text(language))?,
         (Format::Table, Some(mechanism), None) => out.text(&mechanism_text(language, mechanism))?,

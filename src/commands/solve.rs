@@ -52,7 +52,7 @@ pub fn run(args: &SolveArgs, out: &mut Out) -> Result<End, Failure> {
             if !derivatives.is_empty() {
                 value["derivatives"] = json!(derivatives);
             }
-            out.line(serde_json::to_string_pretty(&value).unwrap_or_default())?;
+            out.json(&value)?;
         }
         Format::Table => {
             out.text(&point_text(&transmission, &prepared, &solved))?;

@@ -1,6 +1,7 @@
 //! Gearbox files: what is absent, misspelt or set from elsewhere.
 
 use super::Case;
+use gearloss_framework::document::visible;
 
 /// A finding about a value of `set` points at its own line and column.
 #[test]
@@ -212,4 +213,69 @@ fn errors_of_a_common_file_are_shown_once() {
         "{}",
         said.text
     );
+}
+
+/// Titles with escape sequences, marks of direction and characters without width: a terminal does not obey them, and the report shows them.
+#[test]
+fn hidden_characters_of_titles_are_shown_as_escapes() {
+    let case = Case::new("hidden-characters", "titles");
+    case.gearloss(&["new", "gearbox", "single-stage", "-o", "template.yaml"]);
+    let at = ["--torque", "20 Nm", "--speed", "1500 rpm"];
+    let solve = [&["solve", "gearbox.yaml"], &at[..]].concat();
+    for arguments in [
+        &["check", "gearbox.yaml"][..],
+        &["check", "--resolved", "gearbox.yaml"],
+        &["check", "--resolved", "--format", "json", "gearbox.yaml"],
+        &["check", "study.yaml"],
+        &solve,
+        &["run", "study.yaml", "-o", "results", "--verbose"],
+    ] {
+        let said = case.gearloss(arguments);
+        assert_eq!(said.code, Some(0), "{arguments:?}: {}", said.text);
+        assert_eq!(visible(&said.text), said.text, "{arguments:?}");
+    }
+    // Errors: names in messages and help, and the excerpt with its caret.
+    let said = case.gearloss(&["check", "wrong.yaml"]);
+    assert_eq!(said.code, Some(2), "{}", said.text);
+    assert_eq!(visible(&said.text), said.text);
+    for shown in [r"\u{1b}[31mgears", r"a\u{202e}b", r"# \u{200b}\u{202e} hidden"] {
+        assert!(said.text.contains(shown), "{shown}: {}", said.text);
+    }
+    // What is printed as JSON or YAML has the same value as before.
+    let said = case.gearloss(&["check", "--resolved", "--format", "json", "gearbox.yaml"]);
+    let title = "Öl µ ≥ 2 °C \u{1b}[31m\u{1b}[2J \u{202e}esrever\u{202c} \u{9b}2J \u{200b}";
+    let json: serde_json::Value = serde_json::from_str(&said.text).unwrap();
+    assert_eq!(
+        json.pointer("/files/0/resolved/title").and_then(|title| title.as_str()),
+        Some(title)
+    );
+    let said = case.gearloss(&["check", "--resolved", "gearbox.yaml"]);
+    case.write("resolved.yaml", &said.text);
+    let again = case.gearloss(&["check", "--resolved", "--format", "json", "resolved.yaml"]);
+    let json: serde_json::Value = serde_json::from_str(&again.text).unwrap();
+    assert_eq!(
+        json.pointer("/files/0/resolved/title").and_then(|title| title.as_str()),
+        Some(title),
+        "{}",
+        said.text
+    );
+    // The files of the run; JSON is read by programs.
+    let mut texts = 0;
+    for entry in std::fs::read_dir(case.path("results")).unwrap().flatten() {
+        let name = entry.file_name().to_string_lossy().into_owned();
+        if !name.ends_with(".json") && !name.ends_with(".xlsx") {
+            let text = std::fs::read_to_string(entry.path()).unwrap();
+            assert_eq!(visible(&text), text, "{name}");
+            texts += 1;
+        }
+    }
+    assert!(texts >= 3, "{texts}");
+    let report = std::fs::read_to_string(case.path("results/report.html")).unwrap();
+    for shown in [
+        r"Größe \u{1b}]0;owned\u{7} \u{202e}esrever",
+        r"Is \u{2066}this\u{2069} safe?",
+        r"Map \u{9b}2J \u{202e}esrever",
+    ] {
+        assert!(report.contains(shown), "{shown}");
+    }
 }

@@ -1,5 +1,6 @@
 //! Findings: message, place and help.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
@@ -8,6 +9,7 @@ use serde::Serialize;
 use super::code::Code;
 use super::codes;
 use super::node::Span;
+use super::visible::visible;
 
 /// Severity of a finding.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -233,32 +235,42 @@ impl Sources {
         }
     }
 
-    /// A finding with an excerpt of its text, without colours.
+    /// A finding with an excerpt of its text, without colours; hidden characters of documents are shown as escapes.
     pub fn render(&self, finding: &Diagnostic) -> String {
         let level = match finding.severity {
             Severity::Error => Level::ERROR,
             Severity::Warning => Level::WARNING,
         };
         let title = finding.title();
+        let title = visible(&title);
+        let labels: Vec<Cow<'_, str>> = finding.spans.iter().map(|(_, label)| visible(label)).collect();
+        let notes: Vec<Cow<'_, str>> = finding.notes.iter().map(|note| visible(note)).collect();
+        let help = finding.help.as_deref().map(visible);
         let mut group = level
-            .primary_title(title.as_str())
+            .primary_title(title.as_ref())
             .id(finding.code_or_other().id())
             .elements(std::iter::empty::<annotate_snippets::Padding>());
         let mut by_source: Vec<(u16, Vec<(bool, &Span, &str)>)> = Vec::new();
-        for (i, (span, label)) in finding.spans.iter().enumerate() {
-            let entry = (i == 0, span, label.as_str());
+        for (i, (span, _)) in finding.spans.iter().enumerate() {
+            let entry = (i == 0, span, labels[i].as_ref());
             match by_source.iter_mut().find(|(source, _)| *source == span.source) {
                 Some((_, list)) => list.push(entry),
                 None => by_source.push((span.source, vec![entry])),
             }
         }
-        for (source, spans) in &by_source {
-            let Some((name, text)) = self.get(*source) else {
-                continue;
-            };
-            let mut snippet = Snippet::source(text).path(name).fold(true);
-            for (primary, span, label) in spans {
+        let excerpts = by_source.iter().filter_map(|(source, spans)| {
+            let (name, text) = self.get(*source)?;
+            Some((visible(name), text, visible(text), spans))
+        });
+        let excerpts: Vec<_> = excerpts.collect();
+        for (name, text, shown, spans) in &excerpts {
+            let mut snippet = Snippet::source(shown.as_ref()).path(name.as_ref()).fold(true);
+            for (primary, span, label) in *spans {
                 let range = clip(text, **span);
+                let range = match shown {
+                    Cow::Borrowed(_) => range,
+                    Cow::Owned(_) => shown_at(text, range.start)..shown_at(text, range.end),
+                };
                 let kind = if *primary {
                     AnnotationKind::Primary
                 } else {
@@ -273,14 +285,26 @@ impl Sources {
             }
             group = group.element(snippet);
         }
-        for note in &finding.notes {
-            group = group.element(Level::NOTE.message(note.as_str()));
+        for note in &notes {
+            group = group.element(Level::NOTE.message(note.as_ref()));
         }
-        if let Some(help) = &finding.help {
-            group = group.element(Level::HELP.message(help.as_str()));
+        if let Some(help) = &help {
+            group = group.element(Level::HELP.message(help.as_ref()));
         }
         Renderer::plain().render(&[group])
     }
+}
+
+/// Where a place of a text is after its hidden characters have become escapes.
+fn shown_at(text: &str, at: usize) -> usize {
+    let (before, after) = text.split_at(at);
+    // The two characters of a line end belong together.
+    let before = if after.starts_with('\n') {
+        before.strip_suffix('\r').unwrap_or(before)
+    } else {
+        before
+    };
+    visible(before).len()
 }
 
 /// A range of the text at character boundaries, at least one character if there is one.
@@ -417,6 +441,43 @@ mod tests {
         assert_eq!(did_you_mean("gear", ["gears", "gear_mesh"]), Some("gears"));
         assert_eq!(did_you_mean("pitch", ["pitch_point", "pitch_speed"]), None);
         assert_eq!(did_you_mean("in", ["torque_in"]), None);
+    }
+
+    /// No part of a finding reaches a terminal as it is in the document, and the caret is below the place.
+    #[test]
+    fn hidden_characters_of_a_document_are_escapes_in_a_finding() {
+        let text = "a: \u{202e}\u{9b}x\r\nb: \u{200b}30 Nm\n";
+        let mut sources = Sources::default();
+        let source = sources.add("gear\u{1b}.yaml", text);
+        let start = text.find("30").unwrap() as u32;
+        let span = Span {
+            source,
+            start,
+            end: start + 5,
+        };
+        let finding = Diagnostic::error("b\u{202e}", "a torque \u{1b}[31m")
+            .label(span, "here \u{2066}")
+            .note("note \u{7}")
+            .help("write \u{200b}");
+        let shown = sources.render(&finding);
+        assert_eq!(visible(&shown), shown);
+        for part in [
+            r"b\u{202e}: a torque \u{1b}[31m",
+            r"gear\u{1b}.yaml:2:12",
+            r"b: \u{200b}30 Nm",
+            r"here \u{2066}",
+            r"note \u{7}",
+            r"write \u{200b}",
+        ] {
+            assert!(shown.contains(part), "{part}: {shown}");
+        }
+        let lines: Vec<&str> = shown.lines().collect();
+        let excerpt = lines.iter().position(|line| line.contains("30 Nm")).unwrap();
+        assert_eq!(
+            lines[excerpt].find("30 Nm"),
+            lines[excerpt + 1].find("^^^^^"),
+            "{shown}"
+        );
     }
 
     #[test]

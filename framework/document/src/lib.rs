@@ -15,6 +15,7 @@ mod publish;
 mod quantity;
 mod schema;
 mod unit;
+mod visible;
 mod walk;
 mod yaml;
 
@@ -31,5 +32,6 @@ pub use publish::publish;
 pub use quantity::{QuantityFault, number_length, parse_quantity};
 pub use schema::{Field, Schema, Shape, Unsupported};
 pub use unit::{Conversion, Dimension, Unit, UnitFault};
+pub use visible::{visible, visible_json};
 pub use walk::{Walked, walk, walk_at, walk_shape};
 pub use yaml::{Read, read_yaml};

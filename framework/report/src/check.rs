@@ -2,7 +2,7 @@
 
 pub mod document;
 
-use gearloss_framework::document::{Diagnostic, PlacedDiagnostic, Sources};
+use gearloss_framework::document::{Diagnostic, PlacedDiagnostic, Sources, visible_json};
 use gearloss_framework::language::Language;
 use gearloss_framework::transmission::{GearState, Transmission};
 use gearloss_studies::bearings::bearing_cards;
@@ -32,7 +32,7 @@ pub fn resolved_text(language: &Language, file: &str, checked: &CheckedGearbox) 
             text.push('\n');
         }
     }
-    text.push_str(&yaml);
+    text.push_str(&visible_json(&yaml));
     // As comments, because they are not keys of a gearbox.
     text.push_str("# derived geometry\n");
     for stage in transmission.stages() {

@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use std::io;
 use std::ops::Range;
 
+use gearloss_framework::document::visible;
 use gearloss_studies::table::{Table, Values};
 use rayon::prelude::*;
 
@@ -84,13 +85,13 @@ fn add_digits(number: f64, text: &mut String) {
 }
 
 /// A text that no spreadsheet evaluates as a formula: texts that would begin a formula get an apostrophe in front, which marks a text in
-/// spreadsheets. Numbers keep their sign; a sign alone, such as the unit `-`, is not a formula.
+/// spreadsheets. Numbers keep their sign; a sign alone, such as the unit `-`, is not a formula. Hidden characters are shown as escapes.
 fn inert(text: &str) -> Cow<'_, str> {
     let is_formula = text.starts_with(['=', '+', '-', '@', '\t', '\r']);
     if !is_formula || text.len() == 1 || text.parse().is_ok_and(f64::is_finite) {
-        Cow::Borrowed(text)
+        visible(text)
     } else {
-        Cow::Owned(format!("'{text}"))
+        Cow::Owned(format!("'{}", visible(text)))
     }
 }
 
@@ -104,19 +105,12 @@ mod tests {
         for harmless in ["-5.5", "+1e-3", "12", "", "-0", "-"] {
             assert_eq!(inert(harmless), harmless);
         }
-        for text in [
-            "=1+1",
-            "+cmd|' /C calc'!A0",
-            "-2+3",
-            "@SUM(A1)",
-            "\t=1",
-            "\r=1",
-            "-inf",
-            "+NaN",
-        ] {
+        for text in ["=1+1", "+cmd|' /C calc'!A0", "-2+3", "@SUM(A1)", "\t=1", "-inf", "+NaN"] {
             assert_eq!(inert(text), format!("'{text}"));
         }
+        assert_eq!(inert("\r=1"), r"'\u{d}=1");
         assert_eq!(inert("a=b"), "a=b");
+        assert_eq!(inert("\u{1b}[2J\u{202e}"), r"\u{1b}[2J\u{202e}");
     }
 
     #[test]

@@ -5,8 +5,10 @@ mod gearbox;
 mod point;
 mod template;
 
+use std::borrow::Cow;
+
 use gearloss_framework::description::AssumedEntry;
-use gearloss_framework::document::Diagnostic;
+use gearloss_framework::document::{Diagnostic, visible, visible_json};
 use gearloss_framework::evaluate::PowerFlow;
 use gearloss_framework::language::Language;
 use gearloss_studies::analyses::head::{hash, inputs};
@@ -281,7 +283,7 @@ pub struct Content<'a> {
 }
 
 impl Report {
-    /// The page by the built-in template.
+    /// The page by the built-in template. Hidden characters of documents are shown as escapes wherever they are.
     ///
     /// # Errors
     /// Error of the template.
@@ -299,7 +301,11 @@ impl Report {
         let page = environment()
             .template_from_named_str("report", TEMPLATE)
             .and_then(|page| page.render(values));
-        page.map_err(|fault| template::fault("report", &fault))
+        let page = page.map_err(|fault| template::fault("report", &fault))?;
+        Ok(match visible(&page) {
+            Cow::Borrowed(_) => page,
+            Cow::Owned(shown) => shown,
+        })
     }
 
     /// What a template of the user gets, to be serialised for [`fill_template`].
@@ -334,7 +340,8 @@ impl Report {
             });
             let json = json.unwrap_or_default();
             // A text in the data must neither end the enclosing script nor start a comment or script in it.
-            format!("\"{}\":{}", id(number), json.replace('<', "\\u003c"))
+            let json = visible_json(&json).replace('<', "\\u003c");
+            format!("\"{}\":{json}", id(number))
         };
         let data: Vec<String> = all.par_iter().enumerate().map(datum).collect();
         Content {
@@ -431,13 +438,35 @@ mod tests {
     }
 
     fn page(report: &Report, template: Option<&str>) -> Result<String, String> {
+        page_of(report, &frame(), template)
+    }
+
+    fn page_of(report: &Report, frame: &Frame, template: Option<&str>) -> Result<String, String> {
         let Some(template) = template else {
-            return report.html(&frame()).map_err(|fault| fault.message);
+            return report.html(frame).map_err(|fault| fault.message);
         };
-        let content = serde_json::to_value(report.content(&frame())).unwrap();
+        let content = serde_json::to_value(report.content(frame)).unwrap();
         let mut page = Vec::new();
         fill_template("own.html", template, content, &mut page).map_err(|fault| fault.message)?;
         Ok(String::from_utf8(page).unwrap())
+    }
+
+    /// Neither in the texts of the page nor in the data of its pictures.
+    #[test]
+    fn no_hidden_character_of_a_document_reaches_the_page() {
+        let mut report = report();
+        let hidden = "\u{202e}fdp\u{1b}[2J\u{200b}";
+        report.sections[0].title = hidden.to_owned();
+        *report.sections[0].pictures[0].title_mut() = hidden.to_owned();
+        for template in [None, Some("{{ sections[0].title }} {{ frame.study }} {{ pictures }}")] {
+            let mut frame = frame();
+            frame.study = format!("title: \"{hidden}\" # µ °C\n");
+            let page = page_of(&report, &frame, template).unwrap();
+            assert_eq!(visible(&page), page);
+            assert!(page.contains(r"\u{202e}fdp\u{1b}[2J\u{200b}"), "{template:?}");
+            assert!(page.contains(r"\u202efdp\u001b[2J\u200b"), "{template:?}");
+            assert!(page.contains("# µ °C"));
+        }
     }
 
     #[test]

@@ -6,6 +6,7 @@
 mod field;
 mod intervals;
 
+use gearloss_framework::document::visible;
 use plotters::coord::Shift;
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
@@ -100,7 +101,7 @@ fn drawn(
         root.present().map_err(fault)?;
     }
     // The unit as readers write it.
-    Ok(svg.replace("degC", "°C"))
+    Ok(visible(&svg).replace("degC", "°C"))
 }
 
 fn fault(error: impl std::fmt::Display) -> PlotError {

@@ -4,6 +4,7 @@ use rust_xlsxwriter::{
     Chart, ChartType, DocProperties, ExcelDateTime, Format, FormatAlign, Workbook, Worksheet, XlsxError,
 };
 
+use gearloss_framework::document::visible;
 use gearloss_studies::table::{Column, Table, Values};
 
 use crate::html::Section;
@@ -32,7 +33,7 @@ pub enum WorkbookError {
 }
 
 /// A workbook: the result with its key figures and notes, then a sheet for each table with names, units and meanings of its columns,
-/// and a chart of the first table.
+/// and a chart of the first table. Hidden characters of documents are shown as escapes.
 ///
 /// # Errors
 /// If a table is too long, or the library cannot write it.
@@ -67,18 +68,18 @@ fn about(sheet: &mut Worksheet, section: &Section) -> Result<(), XlsxError> {
     let bold = Format::new().set_bold();
     sheet.set_column_width(0, 40)?;
     sheet.set_column_width(1, 16)?;
-    sheet.write_with_format(0, 0, &section.title, &bold)?;
-    sheet.write(1, 0, section.result())?;
+    sheet.write_with_format(0, 0, visible(&section.title).as_ref(), &bold)?;
+    sheet.write(1, 0, visible(&section.result()).as_ref())?;
     let mut row = 3;
     for figure in &section.key_figures {
-        sheet.write(row, 0, &figure.label)?;
+        sheet.write(row, 0, visible(&figure.label).as_ref())?;
         // Digits are in groups.
         match figure.value.replace('\u{202f}', "").parse::<f64>() {
             Ok(number) => sheet.write(row, 1, number)?,
-            Err(_) => sheet.write(row, 1, &figure.value)?,
+            Err(_) => sheet.write(row, 1, visible(&figure.value).as_ref())?,
         };
-        sheet.write(row, 2, &figure.unit)?;
-        sheet.write(row, 3, &figure.detail)?;
+        sheet.write(row, 2, visible(&figure.unit).as_ref())?;
+        sheet.write(row, 3, visible(&figure.detail).as_ref())?;
         row += 1;
     }
     let lists = [
@@ -91,7 +92,7 @@ fn about(sheet: &mut Worksheet, section: &Section) -> Result<(), XlsxError> {
         sheet.write_with_format(row, 0, title, &bold)?;
         for line in lines {
             row += 1;
-            sheet.write(row, 0, line)?;
+            sheet.write(row, 0, visible(line).as_ref())?;
         }
     }
     Ok(())
@@ -104,9 +105,9 @@ fn write_table(sheet: &mut Worksheet, table: &Table) -> Result<(), XlsxError> {
     sheet.set_freeze_panes(HEAD, 0)?;
     for (i, column) in table.columns.iter().enumerate() {
         let at = i as u16;
-        sheet.write_with_format(0, at, &column.name, &bold)?;
+        sheet.write_with_format(0, at, visible(&column.name).as_ref(), &bold)?;
         sheet.write(1, at, column.unit.as_ref())?;
-        sheet.write_with_format(2, at, column.meaning.as_ref(), &small)?;
+        sheet.write_with_format(2, at, visible(&column.meaning).as_ref(), &small)?;
         sheet.set_column_width(at, column.name.len().max(10) as f64)?;
         match &column.values {
             Values::Numbers(numbers) => {
@@ -117,7 +118,11 @@ fn write_table(sheet: &mut Worksheet, table: &Table) -> Result<(), XlsxError> {
             Values::Texts(texts) => {
                 for row in 0..table.len() {
                     // Written as text, so that no spreadsheet takes it for a formula.
-                    sheet.write_string(HEAD + row as u32, at, texts.get(row).unwrap_or_default())?;
+                    sheet.write_string(
+                        HEAD + row as u32,
+                        at,
+                        visible(texts.get(row).unwrap_or_default()).as_ref(),
+                    )?;
                 }
             }
         }

@@ -2,6 +2,7 @@
 
 use gearloss_framework::coefficients::changed_from_source;
 use gearloss_framework::description::AssumedEntry;
+use gearloss_framework::document::visible_json;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::transmission::Transmission;
 use gearloss_studies::analyses::numbers::RPM;
@@ -47,9 +48,9 @@ pub fn gearbox_page(cx: &Context<'_>, name: &str, gearbox: &Gearbox) -> Result<G
         name: name.to_owned(),
         point: point.as_ref().map(|p| p.words.clone()).unwrap_or_default(),
         place: point.as_ref().map(|p| p.place.clone()).unwrap_or_default(),
-        losses: point
-            .as_ref()
-            .map_or_else(String::new, |p| serde_json::to_string(&p.losses).unwrap_or_default()),
+        losses: point.as_ref().map_or_else(String::new, |p| {
+            visible_json(&serde_json::to_string(&p.losses).unwrap_or_default()).into_owned()
+        }),
         pictures: point.iter().flat_map(|p| p.pictures.clone()).collect(),
         point_tables: point.map(|p| p.tables).unwrap_or_default(),
         title: text("title"),

@@ -5,7 +5,7 @@
 
 use std::io::{self, Write};
 
-use gearloss_framework::document::Diagnostic;
+use gearloss_framework::document::{Diagnostic, visible};
 use minijinja::value::Serde;
 use minijinja::{Error, ErrorKind, Value as Filled};
 use serde_json::Value;
@@ -54,7 +54,7 @@ pub fn fill_template(name: &str, template: &str, content: Value, to: &mut impl W
     }
 }
 
-/// A page with a limited length.
+/// A page with a limited length, in which hidden characters are shown as escapes.
 struct Page<'a, W> {
     to: &'a mut W,
     left: u64,
@@ -62,11 +62,13 @@ struct Page<'a, W> {
 
 impl<W: Write> Write for Page<'_, W> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.left = self.left.saturating_sub(bytes.len() as u64);
+        let text = std::str::from_utf8(bytes).map_err(io::Error::other)?;
+        let shown = visible(text);
+        self.left = self.left.saturating_sub(shown.len() as u64);
         if self.left == 0 {
             return Err(io::Error::from(io::ErrorKind::FileTooLarge));
         }
-        self.to.write_all(bytes)?;
+        self.to.write_all(shown.as_bytes())?;
         Ok(bytes.len())
     }
 

@@ -4,6 +4,7 @@ mod words;
 
 use std::fmt::Write as _;
 
+use gearloss_framework::document::visible;
 use words::Word;
 
 /// Height of the letters. \[px\]
@@ -86,10 +87,10 @@ pub(super) struct Canvas {
     words: Vec<Word>,
 }
 
-/// A text with the special characters of XML escaped.
+/// A text with the special characters of XML and hidden characters escaped.
 pub(super) fn escaped(text: &str) -> String {
     let mut safe = String::new();
-    for c in text.chars() {
+    for c in visible(text).chars() {
         match c {
             '&' => safe.push_str("&amp;"),
             '<' => safe.push_str("&lt;"),
