@@ -1,6 +1,7 @@
 //! `open`: the workbench in the browser.
 
 use gearloss_workbench::disk::Folder;
+use gearloss_workbench::drafts::state_folder;
 use gearloss_workbench::{Served, serve};
 
 use super::browser;
@@ -16,6 +17,7 @@ pub fn run(args: &OpenArgs, out: &mut Out) -> Result<End, Failure> {
             "give a folder, or a gearbox or study in it",
         )
     })?;
+    let folder = folder.with_drafts(state_folder().as_deref());
     let served = Served::bind(folder, args.keep).map_err(|error| {
         Failure::input(
             format!("cannot serve on this computer: {error}"),

@@ -1,5 +1,7 @@
 // Numbers and words as engineers write them.
 
+import { visible } from "./visible.ts";
+
 const THIN = "\u202f";
 const MINUS = "\u2212";
 
@@ -70,7 +72,7 @@ function named(text: string): string {
 
 /** Words of the data in the field's typography. */
 export function words(text: string): string {
-  return named(text)
+  return visible(named(text))
     .replace(/\bdeg ?C\b/g, "°C")
     .replace(/\bmm2\b/g, "mm²")
     .replace(/\bmm3\b/g, "mm³")

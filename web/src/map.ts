@@ -7,6 +7,7 @@ import { decimalsOf, fixed, nameOf, significant, unitOf, withUnit, words } from 
 import { colourBar, drawField, fieldScale, gridOf, halo, pointScale } from "./field.ts";
 import { Entry, Frame, Stage, Tooltip, axes, canvas, fitted, hatching, html, leftMargin, legend, movable, onScreen, pointer, svg, textWidth } from "./svg.ts";
 import type { Cloud, FieldMap } from "./types.ts";
+import { visible } from "./visible.ts";
 
 /** Coordinates as ascending numbers, with the order of their values; absent if they are texts. */
 export function numbersOf(labels: string[]): number[] | null {
@@ -98,7 +99,7 @@ export function place(name: string, value: number): { name: string; value: strin
 export function note(stage: Stage, text: string): void {
   const element = document.createElement("p");
   element.className = "gl-note";
-  element.textContent = text;
+  element.textContent = visible(text);
   stage.root.append(element);
 }
 

@@ -3,17 +3,21 @@
 import { ColourBook } from "./colours.ts";
 import { axisNumbers, words } from "./format.ts";
 import { ticks } from "./levels.ts";
+import { visible } from "./visible.ts";
 
 type Attributes = Record<string, string | number | undefined>;
 
 const SVG = "http://www.w3.org/2000/svg";
 
+/** An attribute; those that a reader gets to see have no hidden characters. */
+const read = (key: string, value: string) => (key === "title" || key === "aria-label" || key === "placeholder" ? visible(value) : value);
+
 /** Adds an SVG element. */
 export function svg<K extends keyof SVGElementTagNameMap>(parent: Element, name: K, attributes: Attributes = {}, text?: string): SVGElementTagNameMap[K] {
   const element = document.createElementNS(SVG, name);
   for (const [key, value] of Object.entries(attributes))
-    if (value !== undefined) element.setAttribute(key, typeof value === "number" ? String(Math.round(value * 100) / 100) : value);
-  if (text !== undefined) element.textContent = text;
+    if (value !== undefined) element.setAttribute(key, typeof value === "number" ? String(Math.round(value * 100) / 100) : read(key, value));
+  if (text !== undefined) element.textContent = visible(text);
   parent.append(element);
   return element;
 }
@@ -21,8 +25,8 @@ export function svg<K extends keyof SVGElementTagNameMap>(parent: Element, name:
 /** Adds an HTML element. */
 export function html<K extends keyof HTMLElementTagNameMap>(parent: Element | null, name: K, attributes: Attributes = {}, text?: string): HTMLElementTagNameMap[K] {
   const element = document.createElement(name);
-  for (const [key, value] of Object.entries(attributes)) if (value !== undefined) element.setAttribute(key, String(value));
-  if (text !== undefined) element.textContent = text;
+  for (const [key, value] of Object.entries(attributes)) if (value !== undefined) element.setAttribute(key, read(key, String(value)));
+  if (text !== undefined) element.textContent = visible(text);
   parent?.append(element);
   return element;
 }

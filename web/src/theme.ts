@@ -1,14 +1,8 @@
 // Light and dark colours: those of the system until the button chooses.
 
-const KEY = "gearloss-theme";
+import { remember, remembered } from "./remembered.ts";
 
-function remembered(): string | null {
-  try {
-    return localStorage.getItem(KEY);
-  } catch {
-    return null;
-  }
-}
+const KEY = "gearloss-theme";
 
 export function theme(button: HTMLElement): void {
   const dark = matchMedia("(prefers-color-scheme: dark)");
@@ -20,15 +14,11 @@ export function theme(button: HTMLElement): void {
     button.textContent = isDark ? "Light" : "Dark";
     button.setAttribute("aria-label", `${button.textContent} colours`);
   };
-  apply(remembered());
-  dark.addEventListener("change", () => apply(remembered()));
+  apply(remembered(KEY));
+  dark.addEventListener("change", () => apply(remembered(KEY)));
   button.addEventListener("click", () => {
     const next = button.dataset.next ?? "dark";
-    try {
-      localStorage.setItem(KEY, next);
-    } catch {
-      // A browser without storage forgets it.
-    }
+    remember(KEY, next);
     apply(next);
   });
 }

@@ -3,6 +3,7 @@
 
 import { execFileSync, spawn } from "node:child_process";
 import { cp, mkdir, mkdtemp, readFile, rename, rm, writeFile } from "node:fs/promises";
+import { createServer } from "node:http";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import puppeteer from "puppeteer-core";
@@ -34,7 +35,7 @@ const pause = (ms) => new Promise((done) => setTimeout(done, ms));
 
 /** Starts the program; returns it with its address. */
 async function start() {
-  const child = spawn(program, ["open", folder, "--no-browser", "--keep"], { stdio: ["ignore", "pipe", "pipe"] });
+  const child = spawn(program, ["open", folder, "--no-browser", "--keep"], { stdio: ["ignore", "pipe", "pipe"], env: { ...process.env, XDG_STATE_HOME: join(root, "state") } });
   let text = "";
   const address = await new Promise((done, fail) => {
     const read = (data) => {
@@ -821,7 +822,10 @@ await step("Accessibility, colours, size of texts", async () => {
   await image(page, "dark");
   await page.click("#theme");
   const dark = await open(1440, 900, "dark");
-  await dark.evaluate(() => localStorage.removeItem("gearloss-theme"));
+  await dark.evaluate(() => {
+    document.cookie = "gearloss-theme=; path=/; max-age=0";
+    localStorage.removeItem("gearloss-theme");
+  });
   await dark.reload({ waitUntil: "load" });
   await ready(dark);
   check((await dark.evaluate(() => getComputedStyle(document.querySelector(".pane")).backgroundColor)) !== light, "no dark colours by the system");
@@ -910,7 +914,7 @@ await step("The program ends", async () => {
   await page.bringToFront();
   await cursor(page, 0, 0);
   await page.keyboard.sendCharacter("# typed before the end\n");
-  await pause(100);
+  await pause(600);
   ended = true;
   const gone = new Promise((done) => child.on("exit", done));
   child.kill("SIGTERM");
@@ -920,22 +924,49 @@ await step("The program ends", async () => {
   await page.keyboard.type("# and after it ");
   await pause(600);
   check((await textOf(page)).startsWith("# typed before the end\n# and after it "), "the text is lost");
-  const kept = await page.evaluate(() => Object.values(localStorage).some((v) => v.includes("typed before the end\\n# and after it")));
-  check(kept, "the browser does not keep the text");
+  // What the browser keeps for the address is readable for whoever takes its port.
+  const stored = await page.evaluate(() => JSON.stringify([{ ...localStorage }, { ...sessionStorage }, document.cookie]));
+  check(!stored.includes("typed before the end") && !stored.includes("facewidth"), "the browser keeps a text");
   check(await page.evaluate(() => [...document.querySelectorAll(".notice button")].some((b) => b.textContent.startsWith("Download"))), "no offer to download the text");
   await image(page, "ended");
 
-  // Started again, the program has the address of before, and the next page offers the text.
+  // Another program takes the port, and answers everything as ours would; it knows the token, which the page shows to it.
+  const heard = [];
+  const thief = createServer((request, response) => {
+    let body = "";
+    request.on("data", (data) => (body += data));
+    request.on("end", () => {
+      heard.push(body);
+      response.writeHead(200, { "Content-Type": "application/x-ndjson", "Gearloss-Proof": "0".repeat(64) });
+      response.end('{"event":"alive"}\n');
+    });
+  });
+  await new Promise((done) => thief.listen(new URL(address).port, "127.0.0.1", done));
+  await until(page, "the page knows that another program answers", () => /another one answers/.test(document.getElementById("notices").textContent));
+  await page.focus(".cm-content");
+  await page.keyboard.type("# for nobody else ");
+  await pause(1000);
+  check(heard.length > 0 && heard.every((body) => body === '{"request":"hello"}'), `another program at the address gets ${JSON.stringify(heard).slice(0, 200)}`);
+  await new Promise((done) => {
+    thief.close(done);
+    thief.closeAllConnections();
+  });
+
+  // Started again, the program offers the text in the next page.
   const again = await start();
-  if (new URL(again.address).port === new URL(address).port) {
-    await until(page, "the page knows that it has no access", () => /started again/.test(document.getElementById("notices").textContent));
-    const next = await open(1440, 900, "light", again.address);
-    await ready(next);
-    await until(next, "the text of the page before is offered", () => [...document.querySelectorAll(".notice")].some((n) => n.textContent.includes("gearbox.yaml") && n.textContent.includes("not saved")));
-    await next.evaluate((file) => [...document.querySelector(`[data-notice="draft ${file}"]`).querySelectorAll("button")].find((b) => b.textContent === "Restore").click(), gearbox);
-    await until(next, "the text of the page before is restored", () => document.querySelector(".cm-content").textContent.includes("and after it"));
-    await next.close({ runBeforeUnload: false });
-  } else figures.other_port = true;
+  const next = await open(1440, 900, "light", again.address);
+  await ready(next);
+  await until(next, "the text of the page before is offered", () => [...document.querySelectorAll(".notice")].some((n) => n.textContent.includes("gearbox.yaml") && n.textContent.includes("not saved")));
+  await next.evaluate((file) => [...document.querySelector(`[data-notice="draft ${file}"]`).querySelectorAll("button")].find((b) => b.textContent === "Restore").click(), gearbox);
+  await until(next, "the text of the page before is restored", () => document.querySelector(".cm-content").textContent.includes("typed before the end"));
+  // How the user likes the page does not depend on the port.
+  check(await next.evaluate(() => document.cookie.includes("gearloss-")), "the look of the page is forgotten");
+  // Hidden characters of a title.
+  const other = "planetary-reducer/gearbox.yaml";
+  await replaceFile(join(folder, other), (await readFile(join(folder, other), "utf8")).replace(/^title:.*$/m, 'title: "\\u202Eesrever \\e[31m"'));
+  await openFile(next, other);
+  await until(next, "the title shows its hidden characters", () => document.getElementById("gearbox-title").textContent === "\\u{202e}esrever \\u{1b}[31m");
+  await next.close({ runBeforeUnload: false });
   again.child.kill();
 });
 

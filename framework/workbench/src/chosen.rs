@@ -4,11 +4,12 @@ use std::path::Path;
 
 use gearloss_framework::evaluate::PowerFlow;
 use gearloss_framework::files::SharedSource;
-use gearloss_framework::gearbox::{Findings, Gearbox};
+use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::Language;
 use gearloss_framework::resolve::{Choice, OWN_MODELS, Resolved};
 use gearloss_framework::transmission::Transmission;
 use gearloss_studies::analyses::numbers::RPM;
+use gearloss_studies::analyses::progress::Progress;
 use gearloss_studies::points::{OilTemperature, PreparedPoint};
 
 use crate::answer::Fault;
@@ -22,18 +23,32 @@ pub struct Chosen {
 }
 
 impl Chosen {
-    /// Reads, resolves and builds a gearbox.
-    pub fn read(language: &Language, files: &SharedSource, file: &str, set: &str) -> Result<Self, Findings> {
+    /// Reads, resolves and builds a gearbox, unless nobody waits for it any more.
+    pub fn read(
+        language: &Language,
+        files: &SharedSource,
+        file: &str,
+        set: &str,
+        progress: &dyn Progress,
+    ) -> Result<Self, Fault> {
+        let wanted = || match progress.should_continue() {
+            true => Ok(()),
+            false => Err(Fault::interrupted()),
+        };
         let gearbox = Gearbox::read_from(language, files, Path::new(file))?;
         let choice = Choice {
             set: Some(set.to_owned()).filter(|set| !set.is_empty() && set != OWN_MODELS),
             ..Choice::default()
         };
+        wanted()?;
         let resolved = gearbox.resolve(language, &choice)?;
+        wanted()?;
+        let transmission = gearbox.build(language, &resolved)?;
+        wanted()?;
         Ok(Self {
-            transmission: gearbox.build(language, &resolved)?,
             gearbox,
             resolved,
+            transmission,
         })
     }
 

@@ -9,7 +9,7 @@ use gearloss_framework::transmission::Transmission;
 use gearloss_report::html::point_of_report;
 use gearloss_studies::analyses::Context;
 use gearloss_studies::analyses::numbers::RPM;
-use gearloss_studies::analyses::progress::Silent;
+use gearloss_studies::analyses::progress::{Progress, Silent};
 use gearloss_studies::study::Study;
 use serde::Serialize;
 use serde_json::Value;
@@ -89,15 +89,16 @@ pub fn controls(
     files: &SharedSource,
     gearbox: &str,
     studies: &dyn Fn() -> Vec<String>,
+    progress: &dyn Progress,
 ) -> Result<Controls, Fault> {
-    let chosen = Chosen::read(language, files, gearbox, "")?;
+    let chosen = Chosen::read(language, files, gearbox, "", progress)?;
     let transmission = &chosen.transmission;
     let ends = transmission
         .rating
         .as_ref()
         .map(|rating| [rating.torque, rating.speed * RPM]);
     let ends = ends.or_else(|| {
-        let mut studies = studies().into_iter();
+        let mut studies = studies().into_iter().take_while(|_| progress.should_continue());
         studies.find_map(|study| in_study(language, files, &study, gearbox, transmission))
     });
     let mode = thermal_mode(&chosen.resolved.value);

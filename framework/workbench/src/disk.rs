@@ -1,6 +1,7 @@
 //! A folder of the computer. Only what is in it is read and written for the page; what documents name is read as the command line reads
 //! it.
 
+use std::collections::BTreeSet;
 use std::fs::{self, Permissions};
 use std::io::{self, ErrorKind, Write as _};
 use std::path::{Path, PathBuf};
@@ -10,7 +11,16 @@ use gearloss_editor::folder;
 use gearloss_framework::files::{FileSource, LONGEST_TEXT, SharedSource, read_bytes, read_text};
 
 use crate::answer::Fault;
-use crate::store::{Saved, Store, check_name, hash};
+use crate::drafts::{Draft, Drafts, KeptDraft};
+use crate::lock::{SaveLock, part_of};
+use crate::store::{Saved, Store, check_name, check_new_name, hash};
+
+fn no_drafts() -> Fault {
+    Fault::new(
+        "this computer has no folder for texts that are not saved",
+        "save often; to keep them, state a home folder (HOME)",
+    )
+}
 
 /// Maximum depth of the listed folders.
 const DEEPEST: usize = 3;
@@ -22,6 +32,8 @@ pub struct Folder {
     first: Option<String>,
     /// Held while a file is saved.
     saving: Mutex<()>,
+    /// Texts that are not saved; absent if they are kept in the page only.
+    drafts: Option<Drafts>,
 }
 
 impl Folder {
@@ -38,7 +50,9 @@ impl Folder {
                 first: first.map(str::to_owned),
                 root: path,
                 saving: Mutex::default(),
-            });
+                drafts: None,
+            }
+            .cleaned());
         }
         let name = path.file_name().and_then(|name| name.to_str()).map(str::to_owned);
         let root = path.parent().map(Path::to_owned);
@@ -46,7 +60,28 @@ impl Folder {
             root: root.ok_or_else(|| io::Error::new(ErrorKind::NotFound, "it has no folder"))?,
             first: name,
             saving: Mutex::default(),
-        })
+            drafts: None,
+        }
+        .cleaned())
+    }
+
+    /// Removes what saves that were killed have left in the folders of the listed files.
+    fn cleaned(self) -> Self {
+        let folders = self.names().into_iter();
+        let folders = folders.filter_map(|file| self.root.join(file).parent().map(Path::to_owned));
+        let folders: BTreeSet<PathBuf> = folders.chain([self.root.clone()]).collect();
+        for folder in folders.iter().filter(|folder| crate::lock::has_left(folder)) {
+            if let Ok(lock) = SaveLock::take(folder) {
+                lock.clean();
+            }
+        }
+        self
+    }
+
+    /// Keeps texts that are not saved in a folder that only this user may read.
+    pub fn with_drafts(mut self, state: Option<&Path>) -> Self {
+        self.drafts = state.map(|state| Drafts::new(state, &self.root));
+        self
     }
 
     /// The folder.
@@ -110,7 +145,7 @@ impl Store for Folder {
         }
     }
 
-    /// Written next to the file and moved there, so that it is never half a file.
+    /// Written next to the file and moved there, so that it is never half a file. Other programs of this kind wait meanwhile.
     fn save(&self, file: &str, text: &str, known: Option<&str>) -> Result<Saved, Fault> {
         let path = self.path(file)?;
         if text.len() as u64 > LONGEST_TEXT {
@@ -118,25 +153,51 @@ impl Store for Folder {
         }
         // Two pages may save at the same time: one of them must see what the other has written.
         let _saving = self.saving.lock().unwrap_or_else(PoisonError::into_inner);
-        let present = self.text(file)?;
-        let now = present.as_deref().map(hash);
+        let cannot_write = |error: io::Error| {
+            let help = match error.kind() {
+                ErrorKind::WouldBlock => "save again",
+                _ => "check the rights of the folder",
+            };
+            Fault::new(format!("cannot write {file}: {error}"), help)
+        };
         // What is already there needs not be written.
-        if present.as_deref() != Some(text) {
-            if now.as_deref() != known {
-                return Ok(Saved::Changed {
-                    text: present,
-                    hash: now,
-                });
-            }
-            let written = replace(&path, text);
-            written.map_err(|error| {
-                Fault::new(
-                    format!("cannot write {file}: {error}"),
-                    "check the rights of the folder",
-                )
-            })?;
+        if self.text(file)?.as_deref() == Some(text) {
+            return Ok(Saved::Saved(hash(text)));
         }
-        Ok(Saved::Saved(hash(text)))
+        let lock = SaveLock::take(path.parent().unwrap_or(&self.root)).map_err(cannot_write)?;
+        lock.clean();
+        let present = self.text(file)?;
+        let is_known = |text: &Option<String>| text.as_deref().map(hash).as_deref() == known;
+        let changed = |text: Option<String>| {
+            let hash = text.as_deref().map(hash);
+            Ok(Saved::Changed { text, hash })
+        };
+        if !is_known(&present) {
+            return changed(present);
+        }
+        if present.is_none() {
+            check_new_name(file, &self.names())?;
+        }
+        // An editor takes no lock: the last look is right before the file is replaced.
+        let replaced = replace(&path, text, || self.text(file).is_ok_and(|text| is_known(&text)));
+        if replaced.map_err(cannot_write)? {
+            return Ok(Saved::Saved(hash(text)));
+        }
+        changed(self.text(file)?)
+    }
+
+    fn keep(&self, tab: &str, draft: &Draft) -> Result<String, Fault> {
+        check_name(&draft.file)?;
+        let drafts = self.drafts.as_ref().ok_or_else(no_drafts)?;
+        drafts.keep(tab, draft)
+    }
+
+    fn forget(&self, id: &str) -> Result<(), Fault> {
+        self.drafts.as_ref().map_or(Ok(()), |drafts| drafts.forget(id))
+    }
+
+    fn drafts(&self) -> Vec<KeptDraft> {
+        self.drafts.as_ref().map(Drafts::list).unwrap_or_default()
     }
 
     fn source(&self) -> SharedSource {
@@ -144,22 +205,45 @@ impl Store for Folder {
     }
 }
 
-/// Replaces a file by another with the same rights, or makes a new one.
-fn replace(path: &Path, text: &str) -> io::Result<()> {
+/// Replaces a file by another with the same rights, or makes a new one. False, and nothing is replaced, if the file is not `current` any
+/// more when the new one is complete.
+fn replace(path: &Path, text: &str, is_current: impl Fn() -> bool) -> io::Result<bool> {
     let rights = fs::metadata(path).ok().map(|data| data.permissions());
     if rights.as_ref().is_some_and(Permissions::readonly) {
         return Err(io::Error::new(ErrorKind::PermissionDenied, "the file is read-only"));
     }
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let part = path.with_file_name(format!(".{name}.{}.part", std::process::id()));
-    let mut file = fs::OpenOptions::new().write(true).create_new(true).open(&part)?;
+    let part = part_of(path);
+    let mut options = fs::OpenOptions::new();
+    options.write(true).create_new(true);
+    // What others may not read they may not read meanwhile.
+    #[cfg(unix)]
+    if rights.is_some() {
+        std::os::unix::fs::OpenOptionsExt::mode(&mut options, 0o600);
+    }
+    let mut file = options.open(&part)?;
     let written = file.write_all(text.as_bytes()).and_then(|()| file.sync_all());
     let kept = written.and_then(|()| rights.map_or(Ok(()), |rights| fs::set_permissions(&part, rights)));
-    let moved = kept.and_then(|()| fs::rename(&part, path));
-    if moved.is_err() {
+    let moved = kept.and_then(|()| {
+        let is_current = is_current();
+        if is_current {
+            fs::rename(&part, path)?;
+            sync_folder(path);
+        }
+        Ok(is_current)
+    });
+    if !matches!(moved, Ok(true)) {
         let _ = fs::remove_file(&part);
     }
     moved
+}
+
+/// Writes the names of a folder to the disk, so that a new file survives a power failure, too. Not every system can.
+fn sync_folder(path: &Path) {
+    if cfg!(unix)
+        && let Some(folder) = path.parent()
+    {
+        let _ = fs::File::open(folder).and_then(|folder| folder.sync_all());
+    }
 }
 
 /// Files relative to a folder.
@@ -169,5 +253,31 @@ struct Below(PathBuf);
 impl FileSource for Below {
     fn read(&self, path: &Path, longest: u64) -> io::Result<Vec<u8>> {
         read_bytes(&self.0.join(path), longest)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    /// An editor that writes while a save is under way keeps its text.
+    #[test]
+    fn a_file_that_changes_before_it_is_replaced_stays() {
+        let folder = std::env::temp_dir().join(format!("gearloss-replace-{}", std::process::id()));
+        let _ = fs::remove_dir_all(&folder);
+        fs::create_dir_all(&folder).unwrap();
+        let path = folder.join("gearbox.yaml");
+        fs::write(&path, "old\n").unwrap();
+        let is_replaced = replace(&path, "new\n", || {
+            fs::write(&path, "of the editor\n").unwrap();
+            fs::read_to_string(&path).unwrap() == "old\n"
+        });
+        assert!(!is_replaced.unwrap());
+        assert_eq!(fs::read_to_string(&path).unwrap(), "of the editor\n");
+        assert!(replace(&path, "new\n", || true).unwrap());
+        assert_eq!(fs::read_to_string(&path).unwrap(), "new\n");
+        assert_eq!(fs::read_dir(&folder).unwrap().count(), 1, "a temporary file is left");
+        fs::remove_dir_all(folder).unwrap();
     }
 }

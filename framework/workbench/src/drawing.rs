@@ -6,6 +6,7 @@ use gearloss_editor::{FileRange, Workspace};
 use gearloss_framework::files::SharedSource;
 use gearloss_framework::language::Language;
 use gearloss_report::schematic::schematic;
+use gearloss_studies::analyses::progress::Progress;
 use serde::Serialize;
 
 use crate::answer::Fault;
@@ -26,8 +27,9 @@ pub fn drawing(
     workspace: &Workspace<'_>,
     files: &SharedSource,
     gearbox: &str,
+    progress: &dyn Progress,
 ) -> Result<Drawing, Fault> {
-    let chosen = Chosen::read(language, files, gearbox, "")?;
+    let chosen = Chosen::read(language, files, gearbox, "", progress)?;
     let svg = schematic(&chosen.transmission, &chosen.resolved.value);
     let mut places = BTreeMap::new();
     for part in parts(&svg) {

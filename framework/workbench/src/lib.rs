@@ -6,6 +6,7 @@
 
 // What the page asks and gets.
 pub mod answer;
+pub mod drafts;
 pub mod request;
 mod session;
 pub mod store;
@@ -26,6 +27,8 @@ mod study;
 // A folder of a computer, and a browser on it.
 #[cfg(not(target_family = "wasm"))]
 pub mod disk;
+#[cfg(not(target_family = "wasm"))]
+mod lock;
 #[cfg(not(target_family = "wasm"))]
 mod server;
 

@@ -21,7 +21,7 @@ const MOST: usize = 60;
 
 /// Computes a map.
 pub fn map(language: &Language, files: &SharedSource, of: &MapOf, progress: &dyn Progress) -> Result<Value, Fault> {
-    let study = study(language, files, of)?;
+    let study = study(language, files, of, progress)?;
     let run = StudyRun::new(language, &study);
     let study = run.study_for_analysis();
     let cx = Context::new(language, &study, "map", progress);
@@ -38,8 +38,8 @@ pub fn map(language: &Language, files: &SharedSource, of: &MapOf, progress: &dyn
 }
 
 /// The study of a map.
-fn study(language: &Language, files: &SharedSource, of: &MapOf) -> Result<Study, Fault> {
-    let ports = ports(language, files, of)?;
+fn study(language: &Language, files: &SharedSource, of: &MapOf, progress: &dyn Progress) -> Result<Study, Fault> {
+    let ports = ports(language, files, of, progress)?;
     let file = Path::new(&of.gearbox);
     let [torque_at, speed_at] = ports;
     let sets: Vec<&str> = Some(of.model_set.as_str())
@@ -68,8 +68,8 @@ fn study(language: &Language, files: &SharedSource, of: &MapOf) -> Result<Study,
 }
 
 /// Ports of torque and speed, as in the controls.
-fn ports(language: &Language, files: &SharedSource, of: &MapOf) -> Result<[String; 2], Fault> {
-    let chosen = Chosen::read(language, files, &of.gearbox, &of.model_set)?;
+fn ports(language: &Language, files: &SharedSource, of: &MapOf, progress: &dyn Progress) -> Result<[String; 2], Fault> {
+    let chosen = Chosen::read(language, files, &of.gearbox, &of.model_set, progress)?;
     let transmission = &chosen.transmission;
     let state = transmission
         .state(&of.gear)

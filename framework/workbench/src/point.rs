@@ -6,6 +6,7 @@ use gearloss_framework::language::Language;
 use gearloss_report::html::{losses_of_parts, waterfall};
 use gearloss_report::picture::Picture;
 use gearloss_report::point::{Explained, outside_ranges, point_json, point_text, ratings_text, remarks};
+use gearloss_studies::analyses::progress::Progress;
 use gearloss_studies::points::{SolvedPoint, evidence};
 use gearloss_studies::ratings::rated;
 use serde::Serialize;
@@ -59,8 +60,13 @@ pub struct ComponentLoss {
 }
 
 /// Solves a point.
-pub fn point(language: &Language, files: &SharedSource, of: &PointOf) -> Result<PointAnswer, Fault> {
-    let chosen = Chosen::read(language, files, &of.gearbox, &of.model_set)?;
+pub fn point(
+    language: &Language,
+    files: &SharedSource,
+    of: &PointOf,
+    progress: &dyn Progress,
+) -> Result<PointAnswer, Fault> {
+    let chosen = Chosen::read(language, files, &of.gearbox, &of.model_set, progress)?;
     let Chosen {
         gearbox,
         resolved,
@@ -135,8 +141,14 @@ fn components(chosen: &Chosen, solved: &SolvedPoint<'_>) -> Vec<ComponentLoss> {
 }
 
 /// Every step of the loss of a component, as text.
-pub fn explain(language: &Language, files: &SharedSource, part: &str, of: &PointOf) -> Result<String, Fault> {
-    let chosen = Chosen::read(language, files, &of.gearbox, &of.model_set)?;
+pub fn explain(
+    language: &Language,
+    files: &SharedSource,
+    part: &str,
+    of: &PointOf,
+    progress: &dyn Progress,
+) -> Result<String, Fault> {
+    let chosen = Chosen::read(language, files, &of.gearbox, &of.model_set, progress)?;
     let Chosen {
         gearbox,
         resolved,

@@ -5,6 +5,8 @@ use std::collections::BTreeMap;
 use gearloss_editor::Request as EditRequest;
 use serde::Deserialize;
 
+use crate::drafts::Draft;
+
 /// Unsaved texts by file.
 pub type Texts = BTreeMap<String, String>;
 
@@ -12,6 +14,8 @@ pub type Texts = BTreeMap<String, String>;
 #[derive(Debug, Clone, Deserialize)]
 #[serde(tag = "request", rename_all = "snake_case")]
 pub enum Request {
+    /// Whether the program answers. It carries nothing of the page.
+    Hello,
     /// Files of the folder, and the forms for new gearboxes.
     Folder,
     /// Text of a file.
@@ -28,6 +32,20 @@ pub enum Request {
         /// Hash of what the page has read; absent for a new file.
         hash: Option<String>,
     },
+    /// Keeps a text that is not saved.
+    Keep {
+        /// Name of the tab.
+        tab: String,
+        /// What is kept.
+        draft: Draft,
+    },
+    /// Forgets a text that was kept.
+    Forget {
+        /// Name among the drafts.
+        id: String,
+    },
+    /// Texts that were kept.
+    Drafts,
     /// A request of the editor.
     Edit {
         /// Unsaved texts.
@@ -130,13 +148,32 @@ impl Request {
             Self::Point { point, .. } | Self::Explain { point, .. } => vec![&point.gearbox],
             Self::Map { map, .. } => vec![&map.gearbox],
             Self::Analyses { study, .. } | Self::Run { study, .. } => vec![study],
-            Self::Folder
+            Self::Hello
+            | Self::Folder
             | Self::Read { .. }
             | Self::Save { .. }
+            | Self::Keep { .. }
+            | Self::Forget { .. }
+            | Self::Drafts
             | Self::New { .. }
             | Self::Catalogue { .. }
             | Self::Watch { .. } => Vec::new(),
         }
+    }
+
+    /// Whether the answer is computed: it may take long. The others read and write files.
+    #[cfg(not(target_family = "wasm"))]
+    pub(crate) fn computes(&self) -> bool {
+        !matches!(
+            self,
+            Self::Hello
+                | Self::Folder
+                | Self::Read { .. }
+                | Self::Save { .. }
+                | Self::Keep { .. }
+                | Self::Forget { .. }
+                | Self::Drafts
+        )
     }
 }
 

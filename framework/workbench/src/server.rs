@@ -3,6 +3,7 @@
 //! Every request passes [`guard`] before anything else. One thread serves all connections; each piece of work runs on a thread of its own
 //! and is interrupted when the page no longer waits for it.
 
+mod activity;
 mod guard;
 mod page;
 mod reply;
@@ -14,11 +15,10 @@ use std::convert::Infallible;
 use std::io;
 use std::net::{Ipv4Addr, TcpListener};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
 use gearloss_framework::language::Language;
-use gearloss_studies::analyses::head::fnv1a_64;
 use hyper::server::conn::http1;
 use hyper::service::service_fn;
 use hyper_util::rt::{TokioIo, TokioTimer};
@@ -28,11 +28,15 @@ use tokio::time::{Instant, sleep};
 use crate::disk::Folder;
 use crate::session::Session;
 
+use activity::Activity;
 use guard::Guard;
 use work::Work;
 
-/// Connections at once: two browsers with six each, and some that are being closed.
-const MOST_CONNECTIONS: usize = 16;
+/// Connections at once: several browsers with six each. Others wait in the queue of the system.
+const MOST_CONNECTIONS: usize = 64;
+
+/// Maximum length of the head of a request. \[byte\]
+const LONGEST_HEAD: usize = 64 << 10;
 
 /// How long the head of a request may take.
 const SLOWEST_HEAD: Duration = Duration::from_secs(10);
@@ -40,14 +44,11 @@ const SLOWEST_HEAD: Duration = Duration::from_secs(10);
 /// Pause after an error of the system.
 const PAUSE: Duration = Duration::from_millis(50);
 
+/// Time between two looks for a place, if there is none.
+const TURN: Duration = Duration::from_millis(5);
+
 /// How long the server waits for a page: for the first one, and after the last one.
 const WAITS: [Duration; 2] = [Duration::from_mins(10), Duration::from_mins(1)];
-
-/// Ports below those that systems hand out to connections: the first, and how many.
-const PORTS: [u16; 2] = [20_000, 12_000];
-
-/// Ports of one folder, for programs that serve it at the same time.
-const PORTS_OF_FOLDER: u16 = 4;
 
 /// A folder that is ready to be served.
 #[derive(Debug)]
@@ -59,17 +60,13 @@ pub struct Served {
 }
 
 impl Served {
-    /// Binds the loopback address. The port follows from the folder if it is free, because a browser keeps unsaved texts by
-    /// address: it finds them again after a restart. It is no secret; the token is.
+    /// Binds the loopback address, at a port that the system chooses: an address that others know before could be theirs when a browser
+    /// opens it, and what a browser keeps for an address is theirs, too.
     ///
     /// # Errors
     /// If the address cannot be bound, or the system has no random numbers.
     pub fn bind(folder: Folder, keep: bool) -> io::Result<Self> {
-        let first = fnv1a_64(folder.root().to_string_lossy().as_bytes());
-        let own = (0..PORTS_OF_FOLDER).map(|k| PORTS[0] + ((first + u64::from(k)) % u64::from(PORTS[1])) as u16);
-        let bind = |port: u16| TcpListener::bind((Ipv4Addr::LOCALHOST, port));
-        let bound = own.map(bind).find_map(Result::ok);
-        let listener = bound.map_or_else(|| bind(0), Ok)?;
+        let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0))?;
         listener.set_nonblocking(true)?;
         let port = listener.local_addr()?.port();
         Ok(Self {
@@ -119,8 +116,7 @@ pub fn serve(language: &'static Language, served: Served) -> io::Result<()> {
 
 /// A connection that is open.
 struct Connection {
-    /// Whether a request on it has shown the token.
-    known: Arc<AtomicBool>,
+    activity: Arc<Activity>,
     task: JoinHandle<()>,
 }
 
@@ -133,32 +129,42 @@ async fn accept(listener: tokio::net::TcpListener, work: Arc<Work>) {
             sleep(PAUSE).await;
             continue;
         };
-        open.retain(|connection| !connection.task.is_finished());
-        if open.len() >= MOST_CONNECTIONS {
-            // Whoever has no token must not keep out those who have.
-            let Some(stranger) = open
-                .iter()
-                .position(|connection| !connection.known.load(Ordering::Relaxed))
-            else {
-                continue;
-            };
-            open.remove(stranger).task.abort();
-        }
-        let known = Arc::new(AtomicBool::new(false));
-        let (work, own) = (Arc::clone(&work), Arc::clone(&known));
+        has_place(&mut open).await;
+        let activity = Activity::begin();
+        let (work, own) = (Arc::clone(&work), Arc::clone(&activity));
         let task = tokio::spawn(async move {
             let service = service_fn(|request| {
-                let (work, known) = (Arc::clone(&work), Arc::clone(&own));
-                async move { Ok::<_, Infallible>(reply::reply(&work, request, &known).await) }
+                let (work, own) = (Arc::clone(&work), Arc::clone(&own));
+                async move { Ok::<_, Infallible>(reply::reply(&work, request, &own).await) }
             });
             // A connection that breaks off concerns nobody else.
             let _ = http1::Builder::new()
                 .timer(TokioTimer::new())
                 .header_read_timeout(SLOWEST_HEAD)
+                .max_buf_size(LONGEST_HEAD)
                 .serve_connection(TokioIo::new(stream), service)
                 .await;
         });
-        open.push(Connection { known, task });
+        open.push(Connection { activity, task });
+    }
+}
+
+/// Returns when there is a place for one more connection. Meanwhile new ones wait in the queue of the system; none is closed without an
+/// answer that it may expect.
+async fn has_place(open: &mut Vec<Connection>) {
+    loop {
+        open.retain(|connection| !connection.task.is_finished());
+        if open.len() < MOST_CONNECTIONS {
+            return;
+        }
+        let dispensable = open
+            .iter()
+            .enumerate()
+            .filter_map(|(at, connection)| Some((connection.activity.dispensable()?, at)));
+        match dispensable.max() {
+            Some((_, at)) => open.swap_remove(at).task.abort(),
+            None => sleep(TURN).await,
+        }
     }
 }
 

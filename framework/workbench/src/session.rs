@@ -59,13 +59,21 @@ impl<'l> Session<'l> {
         for file in request.files() {
             self.store.check(file)?;
         }
+        // It may have waited for its turn until nobody waits for it.
+        if !progress.should_continue() {
+            return Err(Fault::interrupted());
+        }
         match request {
+            Request::Hello => Ok(Value::Null),
             Request::Folder => Ok(self.folder()),
             Request::Read { file } => {
                 let text = self.store.read(file)?;
                 Ok(json!({ "hash": hash(&text), "text": text }))
             }
             Request::Save { file, text, hash } => Ok(json!(self.store.save(file, text, hash.as_deref())?)),
+            Request::Keep { tab, draft } => Ok(json!({ "id": self.store.keep(tab, draft)? })),
+            Request::Forget { id } => Ok(json!(self.store.forget(id)?)),
+            Request::Drafts => Ok(json!(self.store.drafts())),
             Request::Edit { texts, edit } => self.edit(texts, edit, progress),
             Request::Controls { texts, gearbox } => {
                 let (_, files) = self.opened(texts);
@@ -74,15 +82,15 @@ impl<'l> Session<'l> {
                     let studies = listed.filter(|file| file.kind == FileKind::Study);
                     studies.map(|file| file.file).collect()
                 };
-                Ok(json!(controls(language, &files, gearbox, &studies)?))
+                Ok(json!(controls(language, &files, gearbox, &studies, progress)?))
             }
-            Request::Point { texts, point: of } => Ok(json!(point(language, &self.opened(texts).1, of)?)),
+            Request::Point { texts, point: of } => Ok(json!(point(language, &self.opened(texts).1, of, progress)?)),
             Request::Drawing { texts, gearbox } => {
                 let (workspace, files) = self.opened(texts);
-                Ok(json!(drawing(language, &workspace, &files, gearbox)?))
+                Ok(json!(drawing(language, &workspace, &files, gearbox, progress)?))
             }
             Request::Explain { texts, part, point } => {
-                let text = explain(language, &self.opened(texts).1, part, point)?;
+                let text = explain(language, &self.opened(texts).1, part, point, progress)?;
                 Ok(json!({ "text": text }))
             }
             Request::Map { texts, map: of } => map(language, &self.opened(texts).1, of, progress),

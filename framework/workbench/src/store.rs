@@ -4,12 +4,14 @@ use std::fmt::Debug;
 use std::path::{Component, Path};
 use std::sync::{Mutex, PoisonError};
 
+use gearloss_document::visible;
 use gearloss_editor::outline;
 use gearloss_framework::files::{InMemory, SharedSource};
 use gearloss_studies::analyses::head::{fnv1a_64, hexadecimal};
 use serde::Serialize;
 
 use crate::answer::Fault;
+use crate::drafts::{Draft, KeptDraft};
 
 /// What a file is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -70,17 +72,68 @@ pub(crate) fn check_name(file: &str) -> Result<(), Fault> {
     let is_plain = path.components().all(|part| matches!(part, Component::Normal(_)));
     if !is_plain || file.is_empty() || file.contains(['\\', ':', '\0']) || file.contains("//") || file.starts_with("./")
     {
-        let message = format!("`{file}` is not in the opened folder");
+        let message = format!("`{}` is not in the opened folder", visible(file));
         return Err(Fault::new(message, "open its folder with `gearloss open`"));
     }
     if file.split('/').any(|part| part.starts_with('.')) {
-        let message = format!("`{file}` is hidden");
+        let message = format!("`{}` is hidden", visible(file));
         return Err(Fault::new(message, "choose a name that does not begin with a dot"));
     }
     let extension = path.extension().and_then(|extension| extension.to_str());
     if !matches!(extension, Some("yaml" | "yml" | "csv")) {
-        let message = format!("`{file}` is not a document");
+        let message = format!("`{}` is not a document", visible(file));
         return Err(Fault::new(message, "let its name end with .yaml"));
+    }
+    Ok(())
+}
+
+/// Names of devices on Windows, with any extension; there are ports with a digit, too.
+const DEVICES: [&str; 4] = ["con", "prn", "aux", "nul"];
+
+/// Refuses the name of a new file that some computer cannot have, that hides what it is, or that is in no folder of the `known` files.
+/// `web/src/workbench/names.ts` has the same rules for the page.
+pub(crate) fn check_new_name(file: &str, known: &[String]) -> Result<(), Fault> {
+    check_name(file)?;
+    let (folder, name) = file.rsplit_once('/').unwrap_or(("", file));
+    let shown = visible(file);
+    let folders = known.iter().filter_map(|known| known.rsplit_once('/'));
+    // A folder is known by the files in it and in its folders.
+    let is_known = |(parent, _): (&str, &str)| parent == folder || parent.starts_with(&format!("{folder}/"));
+    if !folder.is_empty() && !folders.clone().any(is_known) {
+        return Err(Fault::new(
+            format!("the opened folder has no documents in the folder of `{shown}`"),
+            "use a folder of the list, or none",
+        ));
+    }
+    let is_usual = |c: char| c.is_alphanumeric() || matches!(c, '_' | '-' | '.' | ' ');
+    let begins = name
+        .chars()
+        .next()
+        .is_some_and(|c| c.is_alphanumeric() || matches!(c, '_' | '-'));
+    if !begins || !name.chars().all(is_usual) {
+        return Err(Fault::new(
+            format!("`{shown}` has signs that names of new files may not have"),
+            "write letters, digits, spaces, `_`, `-` and dots, and begin with none of the last two",
+        ));
+    }
+    let stem = name.split('.').next().unwrap_or_default().trim_end().to_lowercase();
+    let port = stem.strip_prefix("com").or_else(|| stem.strip_prefix("lpt"));
+    let is_port = port.is_some_and(|number| number.len() == 1 && number.bytes().all(|digit| digit.is_ascii_digit()));
+    if DEVICES.contains(&stem.as_str()) || is_port {
+        return Err(Fault::new(
+            format!("`{shown}` is the name of a device on Windows"),
+            "choose another name",
+        ));
+    }
+    let is_same = |known: &&String| known.to_lowercase() == file.to_lowercase();
+    if let Some(known) = known.iter().find(is_same) {
+        return Err(Fault::new(
+            format!(
+                "`{shown}` differs from the file `{}` by large and small letters only",
+                visible(known)
+            ),
+            "choose another name: some disks do not tell them apart",
+        ));
     }
     Ok(())
 }
@@ -142,11 +195,33 @@ pub trait Store: Debug + Send + Sync {
     /// Writes a file whose hash is known; a new file must not exist.
     ///
     /// # Errors
-    /// If it is outside of the folder, or cannot be written.
+    /// If it is outside of the folder, if a new file cannot have this name, or if it cannot be written.
     fn save(&self, file: &str, text: &str, known: Option<&str>) -> Result<Saved, Fault>;
 
     /// What documents read.
     fn source(&self) -> SharedSource;
+
+    /// Keeps a text that is not saved, for a page after a reload or a restart of the program; its name among the drafts. A store without
+    /// drafts keeps nothing.
+    ///
+    /// # Errors
+    /// If it cannot be kept.
+    fn keep(&self, _tab: &str, _draft: &Draft) -> Result<String, Fault> {
+        Ok(String::new())
+    }
+
+    /// Forgets a draft; one that is unknown is forgotten already.
+    ///
+    /// # Errors
+    /// If it cannot be removed.
+    fn forget(&self, _id: &str) -> Result<(), Fault> {
+        Ok(())
+    }
+
+    /// Drafts of this program, and of those that have ended.
+    fn drafts(&self) -> Vec<KeptDraft> {
+        Vec::new()
+    }
 }
 
 /// Files in memory.
@@ -197,6 +272,8 @@ impl Store for Memory {
     fn save(&self, file: &str, text: &str, known: Option<&str>) -> Result<Saved, Fault> {
         let mut files = self.files();
         let Some((_, own)) = files.iter_mut().find(|(own, _)| own == file) else {
+            let known: Vec<String> = files.iter().map(|(file, _)| file.clone()).collect();
+            check_new_name(file, &known)?;
             files.push((file.to_owned(), text.to_owned()));
             return Ok(Saved::Saved(hash(text)));
         };
@@ -217,5 +294,68 @@ impl Store for Memory {
                 .map(|(file, text)| (Path::new(file), text.as_bytes())),
         )
         .shared()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn new_files_have_names_that_every_computer_can_have() {
+        let known: Vec<String> = ["gearbox.yaml", "sub/study.yaml", "a/b/c.yaml"]
+            .map(str::to_owned)
+            .into();
+        for file in [
+            "new.yaml",
+            "Größe 2.yaml",
+            "減速機.yml",
+            "_x-1.2.csv",
+            "sub/new.yaml",
+            "a/new.yaml",
+            "a/b/new.yaml",
+        ] {
+            assert_eq!(check_new_name(file, &known), Ok(()), "{file}");
+        }
+        for file in [
+            "../new.yaml",
+            "/new.yaml",
+            "sub/../new.yaml",
+            "sub//new.yaml",
+            "./new.yaml",
+            "new\0.yaml",
+            "C:new.yaml",
+            "sub\\new.yaml",
+            "",
+            "new.yaml.",
+            "new.yaml ",
+            "new",
+            ".yaml",
+            ".new.yaml",
+            " new.yaml",
+            "new\u{202e}.yaml",
+            "new\u{200b}.yaml",
+            "new\n.yaml",
+            "new?.yaml",
+            "a*b.yaml",
+            "new|x.yaml",
+            "\"new\".yaml",
+            "<new>.yaml",
+            "$(new).yaml",
+            "other/new.yaml",
+            "su/new.yaml",
+            "con.yaml",
+            "Nul.yaml",
+            "AUX .yaml",
+            "com1.yaml",
+            "LPT9.x.yaml",
+            "conout$.yaml",
+            "Gearbox.YAML",
+            "Gearbox.yaml",
+            "SUB/new.yaml",
+            "sub/Study.yaml",
+        ] {
+            assert!(check_new_name(file, &known).is_err(), "{file}");
+        }
     }
 }

@@ -1,11 +1,16 @@
 //! Reading and writing in the opened folder only.
 
 use std::fs;
+use std::io::Write as _;
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+use std::time::Duration;
 
+use gearloss_workbench::Session;
 use gearloss_workbench::disk::Folder;
 use gearloss_workbench::form::LAYOUTS;
 use gearloss_workbench::store::{Memory, Saved, Store, hash};
-use serde_json::json;
+use serde_json::{Value, json};
 
 use super::common::{empty, fault, session, value};
 
@@ -41,6 +46,7 @@ fn nothing_outside_of_the_folder_is_read_or_written() {
     let inside = root.join("inside");
     fs::create_dir_all(inside.join("sub")).unwrap();
     fs::write(root.join("secret.yaml"), "secret\n").unwrap();
+    fs::write(inside.join("sub/study.yaml"), "").unwrap();
     #[cfg(unix)]
     {
         std::os::unix::fs::symlink(root.join("secret.yaml"), inside.join("link.yaml")).unwrap();
@@ -143,6 +149,227 @@ fn two_pages_save_one_after_the_other() {
     }
     assert_eq!(fs::read_dir(&root).unwrap().count(), 1, "a temporary file is left");
     fs::remove_dir_all(root).unwrap();
+}
+
+/// Folder, name and number of saves of a program of the tests below.
+const PROGRAM: &str = "GEARLOSS_TEST_SAVES";
+
+/// Not a test: one of the programs that save to one folder. Each adds a line to what it reads, and prints those that were saved.
+#[test]
+#[ignore = "a program of the tests below"]
+fn a_program_saves() {
+    let Ok(stated) = std::env::var(PROGRAM) else {
+        return;
+    };
+    let [root, name, count] = stated.split('|').collect::<Vec<_>>().try_into().unwrap();
+    let folder = Folder::open(Path::new(root)).unwrap();
+    for k in 0..count.parse::<usize>().unwrap() {
+        let before = folder.read("gearbox.yaml").unwrap();
+        let line = format!("{name} {k}");
+        let saved = folder.save("gearbox.yaml", &format!("{before}{line}\n"), Some(&hash(&before)));
+        if matches!(saved, Ok(Saved::Saved(_))) {
+            writeln!(std::io::stdout(), "\nsaved:{line}").unwrap();
+        }
+    }
+}
+
+/// Starts a program that saves.
+fn program(root: &Path, name: &str, count: usize) -> Child {
+    Command::new(std::env::current_exe().unwrap())
+        .args(["--exact", "files::a_program_saves", "--ignored", "--nocapture"])
+        .env(PROGRAM, format!("{}|{name}|{count}", root.display()))
+        .stdout(Stdio::piped())
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap()
+}
+
+/// The lines that a program has reported as saved.
+fn reported(child: Child) -> Vec<String> {
+    let output = child.wait_with_output().unwrap();
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
+    let lines = text.lines().filter_map(|line| line.strip_prefix("saved:"));
+    lines.map(str::to_owned).collect()
+}
+
+/// Names of the files of a folder, hidden ones too.
+fn names_in(folder: &Path) -> Vec<String> {
+    let entries = fs::read_dir(folder).unwrap().flatten();
+    let mut names: Vec<String> = entries
+        .map(|entry| entry.file_name().to_string_lossy().into_owned())
+        .collect();
+    names.sort();
+    names
+}
+
+/// What a program reports as saved is in the file, whatever other programs save at the same time.
+#[test]
+fn programs_with_one_folder_lose_no_save() {
+    let root = empty("programs");
+    fs::write(root.join("gearbox.yaml"), "").unwrap();
+    let programs = ["one", "two", "three"].map(|name| program(&root, name, 60));
+    let reported: Vec<String> = programs.into_iter().flat_map(reported).collect();
+    let text = fs::read_to_string(root.join("gearbox.yaml")).unwrap();
+    let is_lost = |line: &&String| !text.lines().any(|own| own == *line);
+    let lost: Vec<&String> = reported.iter().filter(is_lost).collect();
+    assert!(
+        lost.is_empty(),
+        "{} of {} are lost: {lost:?}",
+        lost.len(),
+        reported.len()
+    );
+    assert_eq!(text.lines().count(), reported.len(), "a save was not reported");
+    assert!(["one", "two", "three"].iter().all(|name| text.contains(name)), "{text}");
+    assert_eq!(names_in(&root), ["gearbox.yaml"]);
+    fs::remove_dir_all(root).unwrap();
+}
+
+/// Programs that are killed while they save leave a whole file, and nothing else once the folder is opened again.
+#[test]
+fn what_a_killed_program_leaves_is_removed() {
+    let root = empty("killed");
+    fs::create_dir(root.join("sub")).unwrap();
+    fs::write(root.join("gearbox.yaml"), "").unwrap();
+    fs::write(root.join("sub/study.yaml"), "").unwrap();
+    for round in 0..6 {
+        let mut child = program(&root, &format!("killed{round}"), 100_000);
+        std::thread::sleep(Duration::from_millis(150 + 17 * round));
+        child.kill().unwrap();
+        child.wait().unwrap();
+    }
+    // What a save leaves that is killed right before its end.
+    let left = [
+        ".gearbox.yaml.4242.part",
+        "sub/.study.yaml.17.part",
+        ".gearloss-save.lock",
+    ];
+    for part in left {
+        fs::write(root.join(part), "half a te").unwrap();
+    }
+    fs::write(root.join(".mine.part"), "of the user").unwrap();
+    let folder = Folder::open(&root).unwrap();
+    assert_eq!(names_in(&root), [".mine.part", "gearbox.yaml", "sub"]);
+    assert_eq!(names_in(&root.join("sub")), ["study.yaml"]);
+    // A save cleans up, too, and the file is whole.
+    fs::write(root.join(".gearbox.yaml.4243.part"), "half a te").unwrap();
+    let text = folder.read("gearbox.yaml").unwrap();
+    assert!(text.is_empty() || text.ends_with('\n'), "half a file");
+    folder.save("gearbox.yaml", "new\n", Some(&hash(&text))).unwrap();
+    assert_eq!(names_in(&root), [".mine.part", "gearbox.yaml", "sub"]);
+    fs::remove_dir_all(root).unwrap();
+}
+
+/// The program checks the names of new files as the page does; files that are there keep theirs.
+#[test]
+fn new_files_have_usual_names() {
+    let root = empty("names");
+    fs::create_dir(root.join("sub")).unwrap();
+    fs::create_dir(root.join("empty")).unwrap();
+    fs::write(root.join("sub/study.yaml"), "").unwrap();
+    fs::write(root.join("gear (1).yaml"), "one\n").unwrap();
+    let folder = Folder::open(&root).unwrap();
+    for file in [
+        "new\u{202e}.yaml",
+        "a*b.yaml",
+        "nul.yaml",
+        "new.yaml.",
+        "empty/new.yaml",
+        "SUB/new.yaml",
+        "sub/Study.yaml",
+        "gear (2).yaml",
+    ] {
+        folder.save(file, "x", None).unwrap_err();
+    }
+    for file in ["Größe 2.yaml", "sub/new.yaml"] {
+        assert!(matches!(folder.save(file, "x", None), Ok(Saved::Saved(_))), "{file}");
+    }
+    let saved = folder.save("gear (1).yaml", "two\n", Some(&hash("one\n")));
+    assert!(matches!(saved, Ok(Saved::Saved(_))));
+    assert_eq!(
+        folder.names(),
+        ["Größe 2.yaml", "gear (1).yaml", "sub/new.yaml", "sub/study.yaml"]
+    );
+    fs::remove_dir_all(root).unwrap();
+}
+
+/// A request that keeps a draft.
+fn keep(tab: &str, file: &str, text: &str) -> Value {
+    let draft = json!({ "file": file, "text": text, "hash": null, "base": "", "time": 1.0 });
+    json!({ "request": "keep", "tab": tab, "draft": draft })
+}
+
+/// Texts of the drafts that a page is offered.
+fn drafts(session: &Session<'_>) -> Vec<String> {
+    let list = value(session, json!({ "request": "drafts" }));
+    let list = list.as_array().unwrap().iter();
+    list.map(|kept| kept["draft"]["text"].as_str().unwrap().to_owned())
+        .collect()
+}
+
+/// Drafts of a program that runs are its own; those of one that has ended are offered by the next one of the folder.
+#[test]
+fn drafts_survive_their_program() {
+    let (root, other, state) = (empty("drafts"), empty("drafts-other"), empty("drafts-state"));
+    let open = |root: &Path| session(Folder::open(root).unwrap().with_drafts(Some(&state)));
+    let first = open(&root);
+    value(&first, keep("0a1b", "gearbox.yaml", "one"));
+    let kept = value(&first, keep("0a1b", "gearbox.yaml", "two"));
+    assert_eq!(drafts(&first), ["two"]);
+    let second = open(&root);
+    assert!(
+        drafts(&second).is_empty(),
+        "the draft of a program that runs is offered"
+    );
+    drop(first);
+    assert_eq!(drafts(&second), ["two"]);
+    assert!(
+        drafts(&open(&other)).is_empty(),
+        "the draft of another folder is offered"
+    );
+    value(&second, json!({ "request": "forget", "id": kept["id"] }));
+    assert!(drafts(&second).is_empty());
+    for wrong in [
+        keep("0a1b", "../gearbox.yaml", "x"),
+        keep("../x", "gearbox.yaml", "x"),
+        json!({ "request": "forget", "id": "../../x" }),
+        json!({ "request": "forget", "id": "a/../b" }),
+    ] {
+        fault(&second, wrong);
+    }
+    // Without a place for them the page is told.
+    let without = session(Folder::open(&root).unwrap().with_drafts(None));
+    fault(&without, keep("0a1b", "gearbox.yaml", "x"));
+    for folder in [root, other, state] {
+        fs::remove_dir_all(folder).unwrap();
+    }
+}
+
+/// No other user of the computer may read drafts, whatever the usual rights of new files are.
+#[cfg(unix)]
+#[test]
+fn drafts_are_files_of_this_user_alone() {
+    use std::os::unix::fs::PermissionsExt as _;
+    let (root, state) = (empty("private"), empty("private-state"));
+    let session = session(Folder::open(&root).unwrap().with_drafts(Some(&state)));
+    value(&session, keep("0a1b", "gearbox.yaml", "secret"));
+    let mut folders = vec![state.join("drafts")];
+    let mut files = 0;
+    while let Some(folder) = folders.pop() {
+        for path in fs::read_dir(&folder).unwrap().flatten().map(|entry| entry.path()) {
+            let rights = fs::metadata(&path).unwrap().permissions().mode() & 0o777;
+            if path.is_dir() {
+                assert_eq!(rights, 0o700, "{}", path.display());
+                folders.push(path);
+            } else {
+                assert_eq!(rights, 0o600, "{}", path.display());
+                files += 1;
+            }
+        }
+    }
+    assert_eq!(files, 2, "a draft and a lock");
+    for folder in [root, state] {
+        fs::remove_dir_all(folder).unwrap();
+    }
 }
 
 /// Rights of a file are kept; one that is read-only is not replaced.

@@ -148,8 +148,8 @@ fn everybody_else_is_refused() {
 fn strangers_do_not_keep_out_a_page() {
     let root = super::common::empty("crowded");
     let (host, token) = start(&root);
-    let silent: Vec<TcpStream> = (0..40).map(|_| TcpStream::connect(&host).unwrap()).collect();
-    let greedy: Vec<TcpStream> = (0..40)
+    let silent: Vec<TcpStream> = (0..60).map(|_| TcpStream::connect(&host).unwrap()).collect();
+    let greedy: Vec<TcpStream> = (0..60)
         .map(|_| {
             let mut stream = TcpStream::connect(&host).unwrap();
             let _ = stream.write_all(
@@ -173,6 +173,79 @@ fn strangers_do_not_keep_out_a_page() {
     assert_eq!(status(&answer), 200, "{answer}");
     drop((silent, greedy));
     std::fs::remove_dir_all(root).unwrap();
+}
+
+/// Two hundred requests at once: each is answered, or told to come again.
+#[test]
+fn every_request_of_a_flood_is_answered() {
+    let (host, token) = start(&example("two-speed-ev"));
+    let session = super::common::about("two-speed-ev");
+    let point = super::common::first_point(&session, &json!({}), "gearbox.yaml").to_string();
+    let ask = |k: usize| -> std::io::Result<String> {
+        let body = [FOLDER, &point][k % 2];
+        // Half of them keep their connection, as browsers do.
+        let connection = ["close", "keep-alive"][k / 2 % 2];
+        let mut stream = TcpStream::connect(&host)?;
+        stream.set_read_timeout(Some(Duration::from_secs(120)))?;
+        let head = format!(
+            "POST /api HTTP/1.1\r\nHost: {host}\r\nAuthorization: Bearer {token}\r\nContent-Type: application/json\r\n\
+             Connection: {connection}\r\nContent-Length: {}\r\n\r\n{body}",
+            body.len()
+        );
+        stream.write_all(head.as_bytes())?;
+        let mut answer = BufReader::new(stream);
+        let (mut head, mut line) = (String::new(), String::new());
+        while line != "\r\n" {
+            line.clear();
+            if answer.read_line(&mut line)? == 0 {
+                return Err(std::io::ErrorKind::UnexpectedEof.into());
+            }
+            head.push_str(&line);
+        }
+        let length = head.lines().find_map(|line| line.strip_prefix("content-length: "));
+        let mut body = vec![0; length.and_then(|length| length.parse().ok()).unwrap_or(0)];
+        answer.read_exact(&mut body)?;
+        // The connection stays open for a while.
+        std::thread::sleep(Duration::from_millis(50));
+        Ok(head)
+    };
+    let answers: Vec<_> = std::thread::scope(|scope| {
+        let ask = &ask;
+        let all: Vec<_> = (0..200).map(|k| scope.spawn(move || ask(k))).collect();
+        all.into_iter().map(|thread| thread.join().unwrap()).collect()
+    });
+    let is_answered = |head: &str| status(head) == 200 || (status(head) == 503 && head.contains("retry-after: "));
+    let wrong: Vec<_> = answers
+        .iter()
+        .filter(|answer| !answer.as_ref().is_ok_and(|head| is_answered(head)))
+        .collect();
+    assert!(wrong.is_empty(), "{} of 200: {:?}", wrong.len(), wrong[0]);
+}
+
+/// Answers to who has the token prove that they are of this program; others see no proof.
+#[test]
+fn answers_prove_their_program() {
+    let proof = |answer: &str| {
+        let head = answer.split("\r\n\r\n").next().unwrap_or_default();
+        let found = head.lines().find_map(|line| line.strip_prefix("gearloss-proof: "));
+        found.map(str::to_owned)
+    };
+    let hello = raw(&post(r#"{"request":"hello"}"#, |line| Some(line.to_owned())));
+    let own = proof(&hello).unwrap();
+    assert!(
+        own.len() == 64 && own != SERVER.1 && hello.ends_with(r#"{"value":null}"#),
+        "{hello}"
+    );
+    // A refusal of a known page, too.
+    let unknown = raw(&post(r#"{"request":"shell"}"#, |line| Some(line.to_owned())));
+    assert_eq!((status(&unknown), proof(&unknown)), (400, Some(own)));
+    for request in [
+        post(FOLDER, replace("Authorization:", "")),
+        post(FOLDER, replace("Host:", "Host: evil.example")),
+        format!("GET / HTTP/1.1\r\nHost: {}\r\nConnection: close\r\n\r\n", SERVER.0),
+    ] {
+        assert_eq!(proof(&raw(&request)), None);
+    }
 }
 
 #[test]

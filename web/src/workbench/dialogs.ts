@@ -2,6 +2,7 @@
 
 import { html } from "../svg.ts";
 import { rows } from "./diff.ts";
+import { visible } from "../visible.ts";
 
 /** Asks for a name; null if the dialog is left. A name for which `fault` has a sentence is not taken. */
 export function askName(title: string, label: string, value: string, at?: { left: number; top: number }, fault: (name: string) => string | null = () => null): Promise<string | null> {
@@ -24,7 +25,7 @@ export function askName(title: string, label: string, value: string, at?: { left
     const found = fault(input.value.trim());
     if (found === null) return;
     event.preventDefault();
-    wrong.textContent = found;
+    wrong.textContent = visible(found);
     input.setAttribute("aria-invalid", "true");
     input.focus();
   });
@@ -70,7 +71,7 @@ export function showDifference(title: string, mine: string, theirs: string, acti
   for (const row of rows(theirs, mine)) {
     const line = html(box, "div", { class: row.kind });
     html(line, "span", { class: "sign" }, { same: " ", removed: "−", added: "+", gap: "⋯" }[row.kind]);
-    line.append(row.text || " ");
+    line.append(visible(row.text || " "));
   }
   const line = html(dialog, "div", { class: "dialog-actions" });
   return new Promise((done) => {

@@ -7,7 +7,7 @@ import { bracketMatching, foldGutter, foldKeymap, indentOnInput, indentUnit } fr
 import { type Diagnostic, lintGutter, lintKeymap, setDiagnostics } from "@codemirror/lint";
 import { highlightSelectionMatches, openSearchPanel, search, searchKeymap } from "@codemirror/search";
 import { EditorState, Prec, Transaction } from "@codemirror/state";
-import { EditorView, drawSelection, highlightActiveLine, highlightActiveLineGutter, hoverTooltip, keymap, lineNumbers } from "@codemirror/view";
+import { EditorView, drawSelection, highlightActiveLine, highlightActiveLineGutter, highlightSpecialChars, hoverTooltip, keymap, lineNumbers } from "@codemirror/view";
 import { colouring } from "./colouring.ts";
 import { replacement } from "./diff.ts";
 import { describeFinding, once } from "./findings.ts";
@@ -16,6 +16,8 @@ import { render } from "./markdown.ts";
 import { byteOf, unitsOf } from "./offsets.ts";
 import { fitting } from "./suggestions.ts";
 import type { EditAnswer, EditRequest, FileRange, Finding } from "./protocol.ts";
+import { html } from "../svg.ts";
+import { escaped, hidden } from "../visible.ts";
 
 export interface EditorHooks {
   files: Files;
@@ -53,6 +55,7 @@ export class Editor {
         highlightActiveLineGutter(),
         history(),
         drawSelection(),
+        highlightSpecialChars({ specialChars: hidden(), render: (code) => html(null, "span", { class: "cm-specialChar", title: "a character that cannot be seen" }, escaped(String.fromCodePoint(code))) }),
         indentOnInput(),
         indentUnit.of("  "),
         bracketMatching(),

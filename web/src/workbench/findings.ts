@@ -2,16 +2,17 @@
 
 import { html } from "../svg.ts";
 import type { Fault, FileRange, Finding } from "./protocol.ts";
+import { visible } from "../visible.ts";
 
 /** The code, message, notes and help of a finding. */
 export function describeFinding(parent: Element, finding: Finding): void {
   const head = html(parent, "p");
-  head.append(finding.message);
+  head.append(visible(finding.message));
   for (const note of finding.notes) html(parent, "p", { class: "note" }, note);
   if (finding.help) {
     const help = html(parent, "p", { class: "help" });
     html(help, "b", {}, "help: ");
-    help.append(finding.help);
+    help.append(visible(finding.help));
   }
   html(parent, "p", { class: "code" }, [finding.severity, finding.code, finding.path].filter(Boolean).join(" · "));
 }
@@ -57,7 +58,7 @@ export class FindingsList {
     const [errors, warnings] = [count("error"), count("warning")];
     const several = (n: number, word: string) => (n === 0 ? "" : `${n} ${word}${n === 1 ? "" : "s"}`);
     const text = [several(errors, "error"), several(warnings, "warning")].filter(Boolean).join(", ") || "no findings";
-    this.head.textContent = `${file}: ${text}`;
+    this.head.textContent = visible(`${file}: ${text}`);
     this.head.dataset.state = errors ? "bad" : warnings ? "warn" : "good";
     this.list.replaceChildren();
     const order = [...findings].sort((a, b) => Number(a.severity === "warning") - Number(b.severity === "warning"));
@@ -68,11 +69,11 @@ export class FindingsList {
       const where = place ? `${place.file === file ? "" : `${place.file} `}line ${place.range.start.line + 1}` : finding.path;
       html(button, "span", { class: "where" }, where);
       const text = html(button, "span", { class: "what" });
-      text.append(finding.message);
+      text.append(visible(finding.message));
       if (finding.help) {
         html(text, "br");
         html(text, "b", {}, "help: ");
-        text.append(finding.help);
+        text.append(visible(finding.help));
       }
       if (place) button.addEventListener("click", () => this.goTo(place));
       else button.disabled = true;

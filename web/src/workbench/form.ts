@@ -9,6 +9,7 @@ import { fileName, freeName, nameFault } from "./names.ts";
 import { Quiet } from "./pace.ts";
 import type { Fault, Field, Finding, Layout } from "./protocol.ts";
 import { Newest, Refused, type Transport } from "./transport.ts";
+import { visible } from "../visible.ts";
 
 /** The field that a finding belongs to: its path is that of the field, or inside of it, or around it. */
 export function fieldOf(path: string, fields: string[]): string | null {
@@ -79,7 +80,7 @@ export function newGearbox(layouts: Layout[], transport: Transport, taken: () =>
     try {
       const answer = await newest.ask({ request: "new", layout: select.value, values });
       if (!answer) return;
-      preview.textContent = answer.text;
+      preview.textContent = visible(answer.text);
       delete preview.dataset.stale;
       // A value that cannot be a value of its field, or does not fit the others, is a finding of the text.
       const file = "new-gearbox.yaml";
@@ -143,7 +144,7 @@ export function newGearbox(layouts: Layout[], transport: Transport, taken: () =>
     const file = fileName(name.value);
     const fault = nameFault(file, taken());
     if (fault !== null) {
-      nameError.textContent = fault;
+      nameError.textContent = visible(fault);
       name.setAttribute("aria-invalid", "true");
       name.focus();
       return;

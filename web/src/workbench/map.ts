@@ -7,6 +7,7 @@ import type { Picture } from "../types.ts";
 import type { ColourBook } from "../colours.ts";
 import { differenceOf } from "./difference.ts";
 import type { Section } from "./protocol.ts";
+import { visible } from "../visible.ts";
 
 export interface Place {
   torque: number;
@@ -63,7 +64,7 @@ export class MapPane {
   }
 
   say(text: string): void {
-    this.status.textContent = text;
+    this.status.textContent = visible(text);
   }
 
   /** Height of the plot with which the picture fills the pane: controls and legends take a part, which is known after drawing. */

@@ -1,5 +1,7 @@
 // The part of Markdown that explanations use, as elements: paragraphs, headings, lists, rules, code, bold, emphasis, links as text. No HTML passes.
 
+import { visible } from "../visible.ts";
+
 export type Piece = { text: string; style?: "code" | "bold" | "emphasis" };
 
 export type Block =
@@ -105,11 +107,11 @@ function once(list: Block[]): Block[] {
 function write(parent: Element, list: Piece[]): void {
   for (const { text, style } of list) {
     if (!style) {
-      parent.append(text);
+      parent.append(visible(text));
       continue;
     }
     const element = document.createElement({ code: "code", bold: "strong", emphasis: "em" }[style]);
-    element.textContent = text;
+    element.textContent = visible(text);
     parent.append(element);
   }
 }
@@ -133,7 +135,7 @@ export function render(parent: Element, markdown: string): void {
         add("hr");
         break;
       case "code":
-        add("pre").textContent = block.text;
+        add("pre").textContent = visible(block.text);
         break;
       case "list": {
         const list = add("ul");

@@ -1,4 +1,4 @@
-// Names of new files: what the program can write.
+// Names of new files: what the program accepts (`check_new_name` in `framework/workbench/src/store.rs`).
 
 /** A name as it is saved: without spaces around it, with the extension of YAML. */
 export function fileName(typed: string, extension = "yaml"): string {
@@ -8,6 +8,9 @@ export function fileName(typed: string, extension = "yaml"): string {
   if (found && (extension === "csv") === (found[1].toLowerCase() === "csv")) return name.slice(0, found.index) + found[0].toLowerCase();
   return `${name}.${extension}`;
 }
+
+/** Names of devices on Windows, with any extension. */
+const DEVICE = /^(con|prn|aux|nul|(com|lpt)\d) *(\.|$)/i;
 
 const folderOf = (file: string) => file.slice(0, file.lastIndexOf("/") + 1);
 
@@ -30,6 +33,7 @@ export function nameFault(name: string, known: string[]): string | null {
   }
   if (last.startsWith(".")) return `${last} begins with a dot. Begin with a letter or a digit.`;
   if (!/^[\p{L}\p{N}_-][\p{L}\p{N} _.-]*$/u.test(last)) return `${last} has signs that names of files may not have. Write letters, digits, spaces, _, - and dots.`;
+  if (DEVICE.test(last)) return `${last} is the name of a device on Windows. Choose another name.`;
   if (isTaken(name, known)) return `${name} exists already. Choose another name.`;
   return null;
 }

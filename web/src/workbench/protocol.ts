@@ -195,10 +195,33 @@ export interface CatalogueRow {
   origin: string;
 }
 
+/** A text that is not saved. */
+export interface Draft {
+  file: string;
+  text: string;
+  /** Hash of the file on the disk from which the text was made; null for a new file. */
+  hash: string | null;
+  /** Text of that file, for a merge. */
+  base: string;
+  time: number; // ms since 1970
+}
+
+/** A draft that the program keeps. */
+export interface KeptDraft {
+  id: string;
+  /** Tab that kept it. */
+  tab: string;
+  draft: Draft;
+}
+
 export type Request =
+  | { request: "hello" } // carries nothing: whether the program answers
   | { request: "folder" }
   | { request: "read"; file: string }
   | { request: "save"; file: string; text: string; hash: string | null } // hash of the file as read; null: a new file
+  | { request: "keep"; tab: string; draft: Draft }
+  | { request: "forget"; id: string }
+  | { request: "drafts" }
   | { request: "edit"; texts: Texts; edit: EditRequest }
   | { request: "controls"; texts: Texts; gearbox: string }
   | ({ request: "point"; texts: Texts } & PointOf)
@@ -223,6 +246,11 @@ export interface Answers {
   };
   read: { text: string; hash: string };
   save: { saved: string } | { changed: { text: string | null; hash: string | null } }; // changed: what is on the disk instead
+  hello: null;
+  keep: { id: string };
+  forget: null;
+  /** Of this program, and of those that have ended. */
+  drafts: KeptDraft[];
   edit: EditAnswer;
   controls: Controls;
   point: PointAnswer;

@@ -10,6 +10,7 @@ import { namedBy } from "./names.ts";
 import type { Answers, Fault, FileRange, RunEvent, Texts } from "./protocol.ts";
 import { drawSection } from "./sections.ts";
 import { type Transport, Refused, isAbort } from "./transport.ts";
+import { visible } from "../visible.ts";
 
 export class StudyPane {
   private readonly list: HTMLElement;
@@ -100,7 +101,7 @@ export class StudyPane {
     const isOwn = ran !== null && ran.study === study;
     this.body.hidden = this.report.hidden = this.head.hidden = !isOwn;
     this.elsewhere.hidden = isOwn || !this.running || !ran;
-    if (ran) this.elsewhere.textContent = `${ran.study} is running. Its results are shown when it is the shown study.`;
+    if (ran) this.elsewhere.textContent = visible(`${ran.study} is running. Its results are shown when it is the shown study.`);
     if (isOwn) this.compare();
   }
 
@@ -111,7 +112,7 @@ export class StudyPane {
     const now = this.files.everything();
     const isChanged = namedBy(ran.study, now).some((file) => (file in ran.texts ? ran.texts[file] !== now[file] : this.files.isUnsaved(file)));
     const text = isChanged ? `Results of ${ran.study}. The text has changed since this run.` : `Results of ${ran.study}`;
-    if (this.head.textContent !== text) this.head.textContent = text;
+    if (this.head.textContent !== text) this.head.textContent = visible(text);
     this.head.classList.toggle("stale", isChanged);
   }
 
@@ -122,7 +123,7 @@ export class StudyPane {
     this.study = study;
     this.arrange();
     this.all.disabled = this.running !== null || analyses.length === 0;
-    if (!this.running) this.status.textContent = `${study}: ${analyses.length} analyses`;
+    if (!this.running) this.status.textContent = visible(`${study}: ${analyses.length} analyses`);
     this.list.replaceChildren();
     for (const { name, title, type, about } of analyses) {
       const item = html(this.list, "li", { title: about });
@@ -136,7 +137,7 @@ export class StudyPane {
   }
 
   fault(fault: Fault): void {
-    if (!this.running) this.status.textContent = fault.message;
+    if (!this.running) this.status.textContent = visible(fault.message);
   }
 
   private clear(): void {
@@ -157,7 +158,7 @@ export class StudyPane {
     this.progress.hidden = false;
     this.progress.removeAttribute("value");
     for (const button of [this.all, ...this.list.querySelectorAll("button")]) button.disabled = true;
-    this.status.textContent = `${study}: starting`;
+    this.status.textContent = visible(`${study}: starting`);
     return own;
   }
 
@@ -169,7 +170,7 @@ export class StudyPane {
     const buttons = [...this.list.querySelectorAll("button")];
     for (const button of buttons) button.disabled = false;
     this.all.disabled = buttons.length === 0;
-    this.status.textContent = text;
+    this.status.textContent = visible(text);
     this.arrange();
   }
 
@@ -201,11 +202,11 @@ export class StudyPane {
   private take(event: RunEvent): string | null {
     switch (event.event) {
       case "begin":
-        this.status.textContent = `${this.ran?.study}: ${words(event.title || event.analysis)}`;
+        this.status.textContent = visible(`${this.ran?.study}: ${words(event.title || event.analysis)}`);
         this.progress.removeAttribute("value");
         return null;
       case "progress":
-        this.status.textContent = `${this.ran?.study}: ${event.analysis}, ${event.label} ${event.done} of ${event.count}`;
+        this.status.textContent = visible(`${this.ran?.study}: ${event.analysis}, ${event.label} ${event.done} of ${event.count}`);
         if (event.count > 0) this.progress.value = event.done / event.count;
         return null;
       case "section":

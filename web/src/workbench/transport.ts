@@ -29,26 +29,62 @@ export function isAbort(fault: unknown): boolean {
   return fault instanceof DOMException && fault.name === "AbortError";
 }
 
-/** Over HTTP, with a token. */
+/** How long the program that answered last is known to be there without an open stream. [ms] */
+const FRESH = 2000;
+
+/** How often a request is repeated that the program was too busy to answer. */
+const REPEATS = 5;
+
+/** Length up to which a browser sends a request while its page is closed. [byte] */
+const LAST_WORDS = 60_000;
+
+/**
+ * Over HTTP, with a token. Requests carry texts that are not saved. When the program has ended, another user of the computer may listen on its
+ * port; so each answer of the program states a secret, which this page keeps in its memory alone, and without a sign of the program a request
+ * that carries nothing goes first.
+ */
 export class Http implements Transport {
+  private proof: string | null = null;
+  private heard = -Infinity;
+  private streams = 0;
+
   constructor(private readonly token: string | null) {}
 
   private async send(request: Request, signal?: AbortSignal): Promise<Response> {
+    if (this.streams === 0 && performance.now() - this.heard > FRESH) await this.post({ request: "hello" }, signal);
+    for (let k = 0; ; k++) {
+      const response = await this.post(request, signal);
+      if (response.status !== 503 || k === REPEATS) return response;
+      await new Promise((done) => setTimeout(done, 1000 * Number(response.headers.get("Retry-After") ?? 1)));
+      signal?.throwIfAborted();
+    }
+  }
+
+  private async post(request: Request, signal?: AbortSignal): Promise<Response> {
     if (!this.token) throw new Locked("no token");
+    const body = JSON.stringify(request);
     let response: Response;
     try {
       response = await fetch("/api", {
         method: "POST",
         headers: { "Content-Type": "application/json", Authorization: `Bearer ${this.token}` },
-        body: JSON.stringify(request),
+        body,
         cache: "no-store",
+        keepalive: request.request === "keep" && new Blob([body]).size < LAST_WORDS,
         signal,
       });
     } catch (fault) {
       if (isAbort(fault)) throw fault;
+      this.heard = -Infinity;
       throw new Gone("no answer");
     }
-    if (response.status === 401 || response.status === 403) throw new Locked(`status ${response.status}`);
+    const proof = response.headers.get("Gearloss-Proof");
+    if (response.status === 401 || response.status === 403 || proof === null || (this.proof !== null && proof !== this.proof)) {
+      this.heard = -Infinity;
+      throw new Locked(`status ${response.status}`);
+    }
+    this.proof = proof;
+    this.heard = performance.now();
     return response;
   }
 
@@ -71,20 +107,26 @@ export class Http implements Transport {
     if (!response.ok || !response.body) throw new Refused({ message: `the program answers with status ${response.status}`, help: null, findings: [] });
     const reader = response.body.pipeThrough(new TextDecoderStream()).getReader();
     let rest = "";
-    for (;;) {
-      let part: ReadableStreamReadResult<string>;
-      try {
-        part = await reader.read();
-      } catch (fault) {
-        if (isAbort(fault) || signal?.aborted) throw new DOMException("aborted", "AbortError");
-        throw new Gone("the stream ends early");
+    this.streams++;
+    try {
+      for (;;) {
+        let part: ReadableStreamReadResult<string>;
+        try {
+          part = await reader.read();
+        } catch (fault) {
+          if (isAbort(fault) || signal?.aborted) throw new DOMException("aborted", "AbortError");
+          this.heard = -Infinity;
+          throw new Gone("the stream ends early");
+        }
+        if (part.done) break;
+        const lines = (rest + part.value).split("\n");
+        rest = lines.pop() ?? "";
+        for (const line of lines) if (line.trim()) yield JSON.parse(line) as E;
       }
-      if (part.done) break;
-      const lines = (rest + part.value).split("\n");
-      rest = lines.pop() ?? "";
-      for (const line of lines) if (line.trim()) yield JSON.parse(line) as E;
+      if (rest.trim()) yield JSON.parse(rest) as E;
+    } finally {
+      this.streams--;
     }
-    if (rest.trim()) yield JSON.parse(rest) as E;
   }
 }
 

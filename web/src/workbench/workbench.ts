@@ -30,6 +30,7 @@ import { StudyPane } from "./study.ts";
 import { Tabs } from "./tabs.ts";
 import { Gone, Locked, Newest, Patient, Refused, type Transport } from "./transport.ts";
 import { Watch } from "./watch.ts";
+import { visible } from "../visible.ts";
 
 /** Files that this tab has open, for a reload. */
 const OPEN = "gearloss-workbench-open";
@@ -184,12 +185,16 @@ export class Workbench {
       void this.lost(fault);
       return;
     }
-    document.title = `${this.folder.name} – gearloss`;
-    at("folder").textContent = this.folder.name;
+    document.title = `${visible(this.folder.name)} – gearloss`;
+    at("folder").textContent = visible(this.folder.name);
     at("version").textContent = `gearloss ${this.folder.version}`;
     (at("new") as HTMLButtonElement).disabled = this.folder.layouts.length === 0;
     this.showOthers();
-    this.drafts = await Drafts.open(this.folder.name);
+    try {
+      this.drafts = await Drafts.open(this.transport);
+    } catch (fault) {
+      void this.lost(fault);
+    }
     this.offerDrafts();
     const { files, open } = this.folder;
     const before = stored<{ folder: string; files: string[]; current: string | null } | null>(OPEN, null, sessionStorage);
@@ -492,7 +497,9 @@ export class Workbench {
     for (const { file, text, hash, saved } of this.files.open.values()) {
       if (this.files.isUnsaved(file)) {
         this.drafted.add(file);
-        if (this.drafts && !this.drafts.keep({ file, text, hash, base: saved })) this.notices.show("storage", { text: "The browser has no room to keep unsaved texts. Save often.", kind: "warn", actions: [{ label: "Close", act: () => undefined }] });
+        void this.drafts?.keep({ file, text, hash, base: saved }).then((fault) => {
+          if (fault !== null) this.notices.show("storage", { text: `Unsaved texts are not kept: ${fault}. Save often.`, kind: "warn", actions: [{ label: "Close", act: () => undefined }] });
+        });
       } else if (this.drafted.delete(file)) this.drafts?.drop(file);
     }
     document.documentElement.dataset.kept = String(this.generation);
@@ -500,12 +507,13 @@ export class Workbench {
 
   private offerDrafts(): void {
     const seen = new Set<string>();
-    for (const { key, draft } of this.drafts?.kept() ?? []) {
+    for (const kept of this.drafts?.kept() ?? []) {
+      const { draft } = kept;
       if (seen.has(draft.file)) continue;
       seen.add(draft.file);
       const time = new Date(draft.time).toLocaleString(undefined, { dateStyle: "medium", timeStyle: "short" });
       this.notices.show(`draft ${draft.file}`, {
-        text: `Text of ${draft.file} that was not saved is kept in this browser (${time}).`,
+        text: `Text of ${draft.file} that was not saved is kept (${time}).`,
         actions: [
           {
             label: "Restore",
@@ -521,12 +529,12 @@ export class Workbench {
                 this.editor.replace(draft.file, draft.text);
                 this.disk.changed(draft.file, disk, hash);
               } else this.editor.replace(draft.file, draft.text);
-              this.drafts?.dropKey(key);
+              this.drafts?.dropKept(kept);
               this.keepDrafts();
               this.show(draft.file);
             },
           },
-          { label: "Discard", act: () => this.drafts?.dropKey(key) },
+          { label: "Discard", act: () => this.drafts?.dropKept(kept) },
         ],
       });
     }
@@ -595,15 +603,15 @@ export class Workbench {
     try {
       const controls = await this.newestOf("controls").ask({ request: "controls", texts: this.files.texts(), gearbox });
       if (!controls || gearbox !== this.gearbox) return;
-      at("gearbox-title").textContent = controls.title || gearbox;
-      at("gearbox-title").title = gearbox;
+      at("gearbox-title").textContent = visible(controls.title || gearbox);
+      at("gearbox-title").title = visible(gearbox);
       if (this.point.show(controls)) {
         this.solve.call();
         this.remap.call();
       }
     } catch (fault) {
       if (fault instanceof Refused && !this.point.point()) {
-        at("gearbox-title").textContent = gearbox;
+        at("gearbox-title").textContent = visible(gearbox);
         this.stale(refusal(fault.fault, this.names(), false));
       } else void this.lost(fault);
     }
@@ -702,7 +710,7 @@ export class Workbench {
       this.showLosses();
       return;
     }
-    at("explain-title").textContent = nameOf(part);
+    at("explain-title").textContent = visible(nameOf(part));
     at("explain-text").textContent = "";
     delete at("explain-text").dataset.of;
     at("explain-choice").replaceChildren();
@@ -735,13 +743,13 @@ export class Workbench {
       const answer = await this.newestOf("explain").ask({ request: "explain", texts: this.files.texts(), part: component, ...of });
       if (!answer || part !== this.part) return;
       const isNew = text.dataset.of !== component;
-      text.textContent = answer.text;
+      text.textContent = visible(answer.text);
       text.dataset.of = component;
       // What concerns the point comes first; the component is what was asked for. A later answer keeps the place.
       const line = answer.text.split("\n").findIndex((l) => l.startsWith(`${component}:`));
       if (isNew) text.scrollTop = Math.max(0, line) * parseFloat(getComputedStyle(text).lineHeight);
     } catch (fault) {
-      if (fault instanceof Refused) text.textContent = fault.message;
+      if (fault instanceof Refused) text.textContent = visible(fault.message);
       else void this.lost(fault);
     }
   }
@@ -855,8 +863,8 @@ export class Workbench {
   private up(): void {
     if (!this.isDown) return;
     this.isDown = false;
-    this.drafts?.share(false);
     this.notices.hide("down");
+    this.keep.call();
     this.check.call();
     this.control.call();
     this.solve.call();
@@ -880,11 +888,9 @@ export class Workbench {
     }
     if (this.isDown) return;
     this.isDown = true;
-    this.keep.flush();
-    this.drafts?.share(true);
     const unsaved = this.files.unsaved().length > 0;
     this.notices.show("down", {
-      text: `The program has ended. ${unsaved ? "Texts that are not saved are kept in this browser. " : ""}The page tries to connect again; start the program with gearloss open.`,
+      text: `The program has ended. ${unsaved ? "What was typed until then is offered when gearloss open is started again; what is typed now is in this page only. " : ""}The page tries to connect again.`,
       kind: "bad",
       actions: unsaved ? [{ label: "Download unsaved texts", act: () => this.download(), stays: true, primary: true }] : [],
     });
@@ -896,10 +902,8 @@ export class Workbench {
       return;
     }
     const unsaved = this.files.unsaved().length > 0;
-    this.keep.flush();
-    this.drafts?.share(true);
     this.notices.show("down", {
-      text: "The program was started again and does not know this page. Open the address that it printed; texts that are not saved are offered there.",
+      text: "The program has ended, and another one answers at its address, which gets nothing from this page. Start gearloss open again; what was typed until then is offered there, what is typed now is in this page only.",
       kind: "bad",
       actions: unsaved ? [{ label: "Download unsaved texts", act: () => this.download(), stays: true, primary: true }] : [],
     });

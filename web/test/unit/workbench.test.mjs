@@ -343,3 +343,85 @@ test("the difference of two maps needs the same points", () => {
   assert.equal(found.quantities[0].diverging, true);
   assert.equal(differenceOf(panels([1, 2, 3, 4]), panels([1, 2, 3, 4], [1, 3])), null);
 });
+
+test("hidden characters are shown as escapes, letters of all languages as they are", async () => {
+  const { visible } = await load("../visible");
+  assert.equal(visible("\u202egpj\u001b[2J\u009b\u200b\u{e0041}"), "\\u{202e}gpj\\u{1b}[2J\\u{9b}\\u{200b}\\u{e0041}");
+  for (const text of ["Größe µ ≥ 2 °C", "減速機 גלגל", "two\nlines\r\nand\ta tab"]) assert.equal(visible(text), text);
+});
+
+test("a page sends texts to the program that made it alone", async () => {
+  const { Gone, Http, Locked } = await load("transport");
+  const save = { request: "save", file: "a.yaml", text: "secret", hash: null };
+  const sent = [];
+  let proof = "of the program";
+  let down = false;
+  const before = globalThis.fetch;
+  globalThis.fetch = async (_, { body }) => {
+    if (down) throw new TypeError("refused");
+    sent.push(JSON.parse(body).request);
+    return new Response('{ "value": null }', { headers: proof ? { "Gearloss-Proof": proof } : {} });
+  };
+  try {
+    const page = new Http("0");
+    await page.ask(save);
+    await page.ask(save);
+    assert.deepEqual(sent, ["hello", "save", "save"]);
+    // The program ends, and another one takes its port.
+    for (const other of ["of another", ""]) {
+      down = true;
+      await assert.rejects(page.ask(save), Gone);
+      [down, proof] = [false, other];
+      sent.length = 0;
+      await assert.rejects(page.ask(save), Locked);
+      assert.deepEqual(sent, ["hello"], "it gets a text");
+    }
+    // It was only slow.
+    [proof, sent.length] = ["of the program", 0];
+    await page.ask(save);
+    assert.deepEqual(sent, ["hello", "save"]);
+  } finally {
+    globalThis.fetch = before;
+  }
+});
+
+test("a busy program is asked again when it says so", async () => {
+  const { Http } = await load("transport");
+  const before = globalThis.fetch;
+  let answers = 0;
+  globalThis.fetch = async () => {
+    const headers = { "Gearloss-Proof": "1", "Retry-After": "0.01" };
+    return ++answers < 4 ? new Response("busy", { status: answers === 1 ? 200 : 503, headers }) : new Response('{ "value": 7 }', { headers });
+  };
+  try {
+    assert.equal(await new Http("0").ask({ request: "read", file: "a.yaml" }), 7);
+    assert.equal(answers, 4);
+  } finally {
+    globalThis.fetch = before;
+  }
+});
+
+test("drafts are kept in the program, the newest text of a file, and nothing in the storage of the browser", async () => {
+  const { Drafts } = await load("drafts");
+  const items = new Map();
+  globalThis.sessionStorage = { getItem: (key) => items.get(key) ?? null, setItem: (key, value) => items.set(key, value) };
+  Object.defineProperty(globalThis, "navigator", { value: {}, configurable: true });
+  const asked = [];
+  const other = { id: "p/t-1", tab: "t", draft: { file: "b.yaml", text: "of a closed tab", hash: null, base: "", time: 1 } };
+  const transport = {
+    ask: async (request) => {
+      asked.push(request);
+      if (request.request === "drafts") return [other];
+      return request.request === "keep" ? { id: `p/${request.draft.file}` } : null;
+    },
+  };
+  const drafts = await Drafts.open(transport);
+  assert.deepEqual(drafts.kept(), [other]);
+  const keep = (text) => drafts.keep({ file: "a.yaml", text, hash: "1", base: "" });
+  await Promise.all([keep("one"), keep("two"), keep("two")]);
+  drafts.drop("a.yaml");
+  drafts.dropKept(other);
+  await keep("three");
+  assert.deepEqual(asked.slice(1).map((own) => own.draft?.text ?? own.id), ["two", "p/a.yaml", "p/t-1", "three"]);
+  assert.ok(![...items.values()].some((value) => value.includes("two") || value.includes("three")));
+});

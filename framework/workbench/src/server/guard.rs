@@ -6,27 +6,36 @@ use std::io;
 use hyper::header::{AUTHORIZATION, CONTENT_TYPE, HOST, HeaderMap, HeaderName, ORIGIN};
 use hyper::{Method, StatusCode};
 
-/// Names and token that a request must state.
+/// Names and token that a request must state, and what proves to the page that this program answers.
 pub struct Guard {
     hosts: [String; 2],
     origins: [String; 2],
     token: String,
+    /// In each answer to a request with the token. The page keeps it in its memory alone and sends nothing to who does not know it: after the
+    /// end of this program another user of the computer may listen on its port.
+    proof: String,
 }
 
 impl Guard {
-    /// For a port, with a new random token.
+    /// For a port, with new random secrets.
     pub fn new(port: u16) -> io::Result<Self> {
         let hosts = [format!("127.0.0.1:{port}"), format!("localhost:{port}")];
         Ok(Self {
             origins: hosts.clone().map(|host| format!("http://{host}")),
             hosts,
             token: secret()?,
+            proof: secret()?,
         })
     }
 
     /// The address of the page with the token.
     pub fn address(&self) -> String {
         format!("{}/#t={}", self.origins[0], self.token)
+    }
+
+    /// What proves that this program answers.
+    pub fn proof(&self) -> &str {
+        &self.proof
     }
 
     /// Refuses what does not come from a browser at this address: a page of another origin, or a name that leads here.
@@ -63,7 +72,7 @@ impl Guard {
     }
 }
 
-/// Without the token.
+/// Without the secrets.
 impl Debug for Guard {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Guard")
