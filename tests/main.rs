@@ -17,6 +17,7 @@ mod consumption;
 mod counts;
 mod coverage;
 mod cycle;
+mod dependencies;
 mod derivatives;
 mod distributed;
 mod editor;
