@@ -6,7 +6,7 @@ use super::{MeasuredFault, fault};
 const MATLAB: &str = "export it in MATLAB by `writetable(T, 'NAME.csv')`, or `writematrix` and a header line";
 
 /// First bytes, what the file is, and how its table is exported.
-const KNOWN: [(&[u8], &str, &str); 21] = [
+const KNOWN: [(&[u8], &str, &str); 22] = [
     (b"MATLAB 5.0 MAT-file", "a MAT-file of MATLAB", MATLAB),
     (
         b"MATLAB 7.3 MAT-file",
@@ -39,6 +39,7 @@ const KNOWN: [(&[u8], &str, &str); 21] = [
         "write it by `numpy.savetxt(..., delimiter=',', header=...)`",
     ),
     (b"SQLite format 3\0", "an SQLite database", "export the table as CSV"),
+    (b"PK\x05\x06", "an empty zip archive", "choose the file with the data"),
     (b"\x1f\x8b", "a file packed by gzip", "unpack it: `gunzip FILE`"),
     (b"BZh", "a file packed by bzip2", "unpack it: `bunzip2 FILE`"),
     (b"\xfd7zXZ\0", "a file packed by xz", "unpack it: `unxz FILE`"),
