@@ -44,7 +44,7 @@ fn no_help_leads_to_another_bearing() {
     let case = Case::new("set_of_another_file", "designations");
     for (designation, others) in [
         ("32313", &["6213", "6313"][..]),
-        ("32310", &["30210", "6310"]),
+        ("32310", &["write `30210`", "6310"]),
         ("N208", &["6208"]),
         ("NU2213", &["6213"]),
         ("22213", &["6213"]),
