@@ -6,8 +6,7 @@
 
 use std::f64::consts::PI;
 
-use gearloss_framework::document::Ordered;
-use gearloss_framework::document::data::sheet::{Sheet, Wanted};
+use gearloss_framework::document::data::sheet::{Assigned, Sheet, Wanted};
 use gearloss_framework::document::data::{DateOrder, Decimal, Encoding, Separator, TableForm, Thousands};
 use rust_xlsxwriter::Workbook;
 
@@ -305,8 +304,7 @@ fn written(random: &mut Random) -> Written {
 
 /// The rows in SI, or the first error.
 fn read(bytes: &[u8], form: &TableForm) -> Result<Vec<[f64; 4]>, String> {
-    let none = Ordered::default();
-    let sheet = Sheet::open_series(bytes, form, &WANTED, (&none, &none), "time")
+    let sheet = Sheet::open_series(bytes, form, &WANTED, Assigned::default(), "time")
         .map_err(|faults| format!("{}: {}", faults[0].message, faults[0].help))?;
     let row = |row: usize| -> Result<[f64; 4], String> {
         let mut values = [0.0; 4];

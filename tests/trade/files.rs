@@ -525,7 +525,10 @@ fn marks_of_missing_values_are_stated_or_refused() {
 
 #[test]
 fn files_of_other_kinds_are_named() {
-    let case = comparison("foreign", "file: rig.csv, columns: { torque: T, speed: \"n\", loss: P }");
+    let case = comparison(
+        "foreign",
+        "file: rig.csv, columns: { torque: T, speed: \"n\", loss: P }",
+    );
     for (bytes, told) in [
         (
             b"MATLAB 5.0 MAT-file, Platform: GLNXA64\0\0\0\0".as_slice(),

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use gearloss_document::data::cells::{Form, table};
+use gearloss_document::data::TableForm;
 use gearloss_document::data::sheet::{Assigned, Sheet};
 use gearloss_framework::document::{Content, Unit, parse_quantity, read_yaml};
 use rust_xlsxwriter::Workbook;
@@ -10,10 +10,7 @@ use serde_json::Value;
 
 use super::Case;
 use crate::common;
-
-#[allow(dead_code)]
-#[path = "../../framework/document/src/data/mdf/builder.rs"]
-mod builder;
+use crate::measured_formats::builder;
 
 fn unit(symbol: &str) -> &'static Unit {
     Unit::of_symbol(symbol).unwrap()
@@ -691,7 +688,7 @@ fn assert_same(what: &str, found: Option<f64>, expected: f64, refused: &mut usiz
 /// The number of a column in a file, in SI.
 fn in_table(bytes: &[u8], due: &'static str) -> Option<f64> {
     let wanted = [("x", due)];
-    let sheet = Sheet::open(bytes, Form::default(), &wanted, Assigned::default()).ok()?;
+    let sheet = Sheet::open(bytes, &TableForm::default(), &wanted, Assigned::default()).ok()?;
     sheet.number(0, 0).ok()?
 }
 
@@ -888,5 +885,4 @@ fn the_page_of_units_states_their_values() {
     for symbol in Unit::all_symbols().filter(|symbol| *symbol != "-") {
         assert!(page.contains(&format!("`{symbol}`")), "`{symbol}` is not on the page");
     }
-    let _ = table(b"a [Nm]\n1\n", Form::default(), &mut Vec::new());
 }

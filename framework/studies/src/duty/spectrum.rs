@@ -73,11 +73,16 @@ const QUANTITIES: [Wanted; 5] = [
 impl SpectrumFile {
     /// Reads the bytes of the file.
     pub(super) fn read(&self, bytes: &[u8]) -> Result<Vec<SpectrumPoint>, Vec<MeasuredFault>> {
-        let sheet = Sheet::open(bytes, &self.form, &QUANTITIES, Assigned {
+        let sheet = Sheet::open(
+            bytes,
+            &self.form,
+            &QUANTITIES,
+            Assigned {
                 columns: Some(&self.columns),
                 units: Some(&self.units),
                 units_override: self.units_override,
-            })?;
+            },
+        )?;
         if let Some(place) = sheet.omitted.first() {
             return Err(sheet.table.placed(vec![fault(
                 format!("{place}: a load case with a missing value"),
