@@ -912,6 +912,7 @@ await step("Many pages", async () => {
 // The program ends: the text is kept.
 await step("The program ends", async () => {
   await page.bringToFront();
+  await page.click("#theme");
   await cursor(page, 0, 0);
   await page.keyboard.sendCharacter("# typed before the end\n");
   await pause(600);
@@ -964,7 +965,7 @@ await step("The program ends", async () => {
   // Hidden characters of a title.
   const other = "planetary-reducer/gearbox.yaml";
   await replaceFile(join(folder, other), (await readFile(join(folder, other), "utf8")).replace(/^title:.*$/m, 'title: "\\u202Eesrever \\e[31m"'));
-  await openFile(next, other);
+  await next.click(`.file[data-file="${other}"] button`);
   await until(next, "the title shows its hidden characters", () => document.getElementById("gearbox-title").textContent === "\\u{202e}esrever \\u{1b}[31m");
   await next.close({ runBeforeUnload: false });
   again.child.kill();
