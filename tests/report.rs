@@ -91,3 +91,81 @@ fn a_template_of_the_user_makes_the_page() {
         "[tests][loaded][unloaded][limit][fastest][convergence]"
     );
 }
+
+/// A run with a template; its exit code, and what it printed about errors.
+fn run_with_template(name: &str, template: &str) -> (Option<i32>, String) {
+    let file = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{name}.html"));
+    std::fs::write(&file, template).unwrap();
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("template-{name}"));
+    let _ = std::fs::remove_dir_all(&folder);
+    let output = Command::new(env!("CARGO_BIN_EXE_gearloss"))
+        .arg("run")
+        .arg(common::file("tests/trade/chain-of-shafts/study.yaml"))
+        .args([
+            "-q",
+            "-o",
+            folder.to_str().unwrap(),
+            "--template",
+            file.to_str().unwrap(),
+        ])
+        .output()
+        .unwrap();
+    (
+        output.status.code(),
+        String::from_utf8_lossy(&output.stderr).into_owned(),
+    )
+}
+
+#[test]
+fn a_template_that_needs_much_memory_is_stopped() {
+    let doubled = "{% set x = namespace(t='a'*1000) %}{% for i in range(60) %}{% set x.t = x.t ~ x.t %}{% endfor %}";
+    let replaced = "{% set a = 'a'*100000 %}{{ a|replace('a', a)|replace('a', a)|length }}";
+    for (name, template) in [
+        ("doubled", doubled),
+        ("replaced", replaced),
+        ("padded", "{{ '%2000000000d'|format(1) }}"),
+    ] {
+        let (code, text) = run_with_template(name, template);
+        assert_eq!(code, Some(2), "{name}: {text}");
+        assert!(
+            text.contains(&format!("{name}.html: it needs more than 1 GB of memory")),
+            "{text}"
+        );
+    }
+}
+
+#[test]
+fn a_template_that_is_nested_deeply_does_not_break_the_program_off() {
+    let nested = |open: &str, count: usize| open.repeat(count);
+    for (name, template, codes) in [
+        (
+            "elif",
+            format!("{{% if a %}}{}{{% endif %}}", nested("{% elif a %}", 21_000)),
+            vec![0, 2],
+        ),
+        ("minus", format!("{{{{ {}1 }}}}", nested("-", 260_000)), vec![0, 2]),
+        ("not", format!("{{{{ {}a }}}}", nested("not ", 20_000)), vec![0, 2]),
+        (
+            "long_elif",
+            format!("{{% if a %}}{}{{% endif %}}", nested("{% elif a %}", 32_000)),
+            vec![2],
+        ),
+        ("long_not", format!("{{{{ {}a }}}}", nested("not ", 128_000)), vec![2]),
+    ] {
+        let (code, text) = run_with_template(name, &template);
+        assert!(
+            codes.iter().any(|expected| code == Some(*expected)),
+            "{name}: {code:?} {text}"
+        );
+        if codes == [2] {
+            assert!(text.contains("at most 256 kB are read"), "{name}: {text}");
+        }
+    }
+}
+
+#[test]
+fn a_fault_of_a_template_has_its_file_and_line() {
+    let (code, text) = run_with_template("faulty", "one\n{% for %}\n");
+    assert_eq!(code, Some(2));
+    assert!(text.contains("faulty.html:2"), "{text}");
+}

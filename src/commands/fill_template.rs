@@ -18,7 +18,7 @@ pub const COMMAND: &str = "fill-template";
 const MOST_MEMORY: usize = 1 << 30;
 
 /// Maximum time.
-const MOST_TIME: Duration = Duration::from_secs(60);
+const MOST_TIME: Duration = Duration::from_secs(30);
 
 /// Time between two looks at memory and time.
 const PERIOD: Duration = Duration::from_millis(2);

@@ -203,8 +203,13 @@ fn within(length: u64, longest: u64) -> Result<()> {
     if length <= longest {
         return Ok(());
     }
-    let [length, longest] = [length, longest].map(|bytes| bytes.div_ceil(1 << 20));
-    let message = format!("it has {length} MB; at most {longest} MB are read");
+    let (size, unit) = if longest < 1 << 20 {
+        (1 << 10, "kB")
+    } else {
+        (1 << 20, "MB")
+    };
+    let [length, longest] = [length, longest].map(|bytes| bytes.div_ceil(size));
+    let message = format!("it has {length} {unit}; at most {longest} {unit} are read");
     Err(Error::other(message))
 }
 
@@ -248,7 +253,7 @@ mod tests {
         std::fs::write(&file, "sixteen letters.").unwrap();
         assert_eq!(read_text(&file, 16).unwrap(), "sixteen letters.");
         std::fs::write(&file, "seventeen letters").unwrap();
-        assert_eq!(refused(&file), "it has 1 MB; at most 1 MB are read");
+        assert_eq!(refused(&file), "it has 1 kB; at most 1 kB are read");
         std::fs::write(&file, [0xff]).unwrap();
         assert_eq!(refused(&file), "it is not UTF-8 text");
         assert_eq!(refused(&folder), "it is a folder, not a file");
@@ -266,7 +271,7 @@ mod tests {
             ErrorKind::NotFound
         );
         let long = files.read(Path::new("rig.csv"), 2).unwrap_err().to_string();
-        assert_eq!(long, "it has 1 MB; at most 1 MB are read");
+        assert_eq!(long, "it has 1 kB; at most 1 kB are read");
     }
 
     #[cfg(unix)]

@@ -1,6 +1,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod epicyclic;
+mod large;
 mod properties;
 mod sharing;
 mod two_speed;

@@ -200,6 +200,12 @@ impl Reduced {
             .collect()
     }
 
+    /// Operations on rows, and the entries that are left.
+    #[cfg(test)]
+    pub fn work(&self) -> usize {
+        self.steps.len() + self.rows.iter().map(Vec::len).sum::<usize>()
+    }
+
     pub fn rank(&self) -> usize {
         self.pivots.iter().flatten().count()
     }

@@ -185,3 +185,77 @@ fn a7_planetary_speeds() {
         );
     }
 }
+
+/// A chain of shafts with ratios around one.
+fn chain(shafts: usize) -> Train {
+    let row = |i: usize| {
+        Row::mesh(
+            Some(i),
+            (20 + i * 7 % 5) as f64,
+            Some(i + 1),
+            (20 + i * 11 % 5) as f64,
+            None,
+        )
+    };
+    Train {
+        columns: shafts,
+        rows: (0..shafts - 1).map(row).collect(),
+    }
+}
+
+/// Shafts around a common one.
+fn star(shafts: usize) -> Train {
+    let row = |i: usize| Row::mesh(Some(0), 60.0, Some(i), (17 + i % 9) as f64, None);
+    Train {
+        columns: shafts,
+        rows: (1..shafts).map(row).collect(),
+    }
+}
+
+#[test]
+fn work_grows_with_the_number_of_shafts() {
+    for train in [chain, star] {
+        let work = |shafts: usize| {
+            let reduced = Reduced::new(&train(shafts), &[0, shafts - 1], &[0]);
+            assert_eq!(reduced.rank(), shafts - 1);
+            reduced.work()
+        };
+        assert!(
+            work(4000) <= 4 * work(1000) + 100,
+            "{} after {}",
+            work(4000),
+            work(1000)
+        );
+    }
+}
+
+#[test]
+fn long_chains_move_by_the_product_of_their_ratios() {
+    let train = chain(3000);
+    let motion = Motion::new(&train, &[0, 2999], &[0]).unwrap();
+    let mut speeds = vec![0.0; 3000];
+    motion.speeds(&[100.0], &mut speeds);
+    let mut speed = 100.0;
+    for (i, own) in speeds.iter().enumerate() {
+        assert!(
+            (own - speed).abs() <= 1e-12 * speed.abs() * (i + 1) as f64,
+            "{i}: {own}, {speed}"
+        );
+        speed *= -((20 + i * 7 % 5) as f64) / (20 + i * 11 % 5) as f64;
+    }
+}
+
+#[test]
+fn the_rows_of_a_fault_in_a_long_chain_are_named() {
+    let mut train = chain(500);
+    // An odd number of meshes reverses the sense of rotation.
+    train.rows.push(Row::joined(Some(200), Some(261)));
+    let Err(faults) = Motion::new(&train, &[0], &[0]) else {
+        panic!("a loop with another ratio moves")
+    };
+    let rows: Vec<usize> = (200..261).chain([499]).collect();
+    let [Fault::Locked { port: 0, rows: own }] = &faults[..] else {
+        panic!("{faults:?}")
+    };
+    assert!(rows.iter().all(|row| own.contains(row)), "{own:?}");
+}

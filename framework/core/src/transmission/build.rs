@@ -28,6 +28,7 @@ use crate::thermal::Housing;
 use crate::thermal::network::{Around, Network};
 use serde::Deserialize;
 use serde_json::Value;
+use std::collections::HashMap;
 use std::sync::Arc;
 
 impl Transmission {
@@ -155,7 +156,16 @@ impl Transmission {
 }
 
 fn in_document_order(resolved: &Resolved, mut parts: Vec<PartInfo>) -> Vec<PartInfo> {
-    parts.sort_by_cached_key(|part| document_order(resolved, &part.path));
+    let sections = resolved.value.as_object().into_iter().flatten();
+    let places: Vec<HashMap<&str, usize>> = sections
+        .clone()
+        .map(|(_, section)| {
+            let ids = section.as_object().into_iter().flat_map(|section| section.keys());
+            ids.enumerate().map(|(place, id)| (id.as_str(), place)).collect()
+        })
+        .collect();
+    let numbers: HashMap<&str, usize> = sections.enumerate().map(|(i, (name, _))| (name.as_str(), i)).collect();
+    parts.sort_by_cached_key(|part| document_order(&numbers, &places, &part.path));
     parts
 }
 
@@ -461,28 +471,19 @@ fn unused(entry: &GearboxEntry, laid_out: bool, found: &mut Vec<Diagnostic>, war
 }
 
 /// Sections in the usual order: gears, bearings, then the others as written.
-fn document_order(resolved: &Resolved, path: &str) -> (usize, usize) {
+fn document_order(numbers: &HashMap<&str, usize>, places: &[HashMap<&str, usize>], path: &str) -> (usize, usize) {
     let section = path.split('.').next().unwrap_or_default();
     let id = path.split('.').nth(1).unwrap_or_default();
+    let number = numbers.get(section);
     let rank = match section {
         "meshes" => 0,
         "gears" => 1,
         "planetary_sets" => 2,
         "bearings" => 3,
-        other => {
-            4 + resolved
-                .value
-                .as_object()
-                .and_then(|m| m.keys().position(|k| k == other))
-                .unwrap_or(0)
-        }
+        _ => 4 + number.copied().unwrap_or(0),
     };
-    let place = resolved
-        .value
-        .get(section)
-        .and_then(|s| s.as_object())
-        .and_then(|m| m.keys().position(|k| k == id));
-    (rank, place.unwrap_or(0))
+    let place = number.and_then(|number| places[*number].get(id));
+    (rank, place.copied().unwrap_or(0))
 }
 
 fn ports(entry: &GearboxEntry, members: &Members, found: &mut Vec<Diagnostic>) -> Vec<Port> {

@@ -4,6 +4,9 @@ use crate::attach::dangling;
 use crate::description::{GearboxEntry, Mounting};
 use crate::document::Diagnostic;
 
+/// Maximum number of members: their numbers have 16 bits.
+const MOST_MEMBERS: usize = u16::MAX as usize;
+
 /// A planet body on its carrier.
 #[derive(Debug, Clone, Copy)]
 pub struct OnCarrier {
@@ -52,6 +55,13 @@ impl Members {
             } else {
                 of_gear.push(shaft);
             }
+        }
+        if names.len() > MOST_MEMBERS {
+            let message = format!(
+                "{} shafts and idler gears; at most {MOST_MEMBERS} are possible",
+                names.len()
+            );
+            found.push(Diagnostic::error("shafts", message).help("describe the train in several files"));
         }
         let mut planets = vec![None; names.len()];
         for (id, set) in entry.planetary_sets.iter() {
