@@ -6,6 +6,7 @@ mod documents;
 mod files;
 mod imports;
 mod losses;
+mod mistakes;
 mod units;
 
 use std::path::{Path, PathBuf};
@@ -52,8 +53,13 @@ impl Case {
 
     /// Runs the program in the folder.
     pub fn gearloss(&self, arguments: &[&str]) -> Said {
+        self.gearloss_in(Path::new(""), arguments)
+    }
+
+    /// Runs the program in a folder inside of it.
+    pub fn gearloss_in(&self, folder: &Path, arguments: &[&str]) -> Said {
         let output = Command::new(env!("CARGO_BIN_EXE_gearloss"))
-            .current_dir(&self.folder)
+            .current_dir(self.folder.join(folder))
             .args(arguments)
             .output()
             .unwrap();

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
+use annotate_snippets::{AnnotationKind, Level, Origin, Renderer, Snippet};
 use serde::Serialize;
 
 use super::code::Code;
@@ -258,11 +258,22 @@ impl Sources {
                 None => by_source.push((span.source, vec![entry])),
             }
         }
-        let excerpts = by_source.iter().filter_map(|(source, spans)| {
-            let (name, text) = self.get(*source)?;
-            Some((visible(name), text, visible(text), spans))
-        });
-        let excerpts: Vec<_> = excerpts.collect();
+        let mut excerpts = Vec::new();
+        let mut origins = Vec::new();
+        for (source, spans) in &by_source {
+            let Some((name, text)) = self.get(*source) else {
+                continue;
+            };
+            if spans.iter().any(|(_, span, _)| is_in_a_long_line(text, **span)) {
+                let places = spans.iter().filter_map(|(_, span, _)| self.locate(**span));
+                origins.extend(places.map(|(name, line, column)| (visible(name), line, column)));
+            } else {
+                excerpts.push((visible(name), text, visible(text), spans));
+            }
+        }
+        for (name, line, column) in &origins {
+            group = group.element(Origin::path(name.as_ref()).line(*line).char_column(*column));
+        }
         for (name, text, shown, spans) in &excerpts {
             let mut snippet = Snippet::source(shown.as_ref()).path(name.as_ref()).fold(true);
             for (primary, span, label) in *spans {
@@ -293,6 +304,20 @@ impl Sources {
         }
         Renderer::plain().render(&[group])
     }
+}
+
+/// Longest line of which an excerpt is shown, as files of programs may have a single one. \[byte\]
+const LONGEST_LINE: usize = 10_000;
+
+fn is_in_a_long_line(text: &str, span: Span) -> bool {
+    let at = clip(text, span).start;
+    let before = text[..at]
+        .bytes()
+        .rev()
+        .take(LONGEST_LINE)
+        .take_while(|byte| *byte != b'\n');
+    let after = text[at..].bytes().take(LONGEST_LINE).take_while(|byte| *byte != b'\n');
+    before.count() + after.count() >= LONGEST_LINE
 }
 
 /// Where a place of a text is after its hidden characters have become escapes.
@@ -414,6 +439,24 @@ mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
 
+    /// Fifty findings in a file of one line of megabytes would take seconds and print megabytes.
+    #[test]
+    fn a_place_in_a_very_long_line_has_no_excerpt() {
+        let mut sources = Sources::default();
+        let source = sources.add("model.rexsj", format!("{{\"a\": \"{}\"}}", "x".repeat(LONGEST_LINE)));
+        let span = Span {
+            source,
+            start: 6,
+            end: 9,
+        };
+        let text = sources.render(&Diagnostic::error("", "wrong").at_span(span).help("correct it"));
+        assert!(
+            text.contains("model.rexsj:1:7") && text.contains("help: correct it"),
+            "{text}"
+        );
+        assert!(text.len() < 200, "{text}");
+    }
+
     #[test]
     fn a_misspelt_word_finds_its_neighbour() {
         assert_eq!(did_you_mean("palmgrem", ["coulomb", "palmgren"]), Some("palmgren"));
@@ -432,7 +475,7 @@ mod tests {
         );
         assert_eq!(did_you_mean("62O5", ["6208", "6205"]), Some("6205"));
         assert_eq!(did_you_mean("utf_8", ["utf8", "latin1"]), Some("utf8"));
-        assert_eq!(did_you_mean("iso14197_2", ["iso14179_1", "iso14179_2"]), None);
+        assert_eq!(did_you_mean("law14197_2", ["law14179_1", "law14179_2"]), None);
     }
 
     #[test]

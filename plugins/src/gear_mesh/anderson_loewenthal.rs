@@ -195,7 +195,7 @@ mod tests {
             cos_base_helix: 1.0,
             path: 19.4291e-3,
             contact_ratio: 1.46253,
-            facewidth: 14e-3,
+            line_length: 14e-3,
         }
     }
 
@@ -224,7 +224,7 @@ mod tests {
             angle: 20.0_f64.to_radians(),
             path: 14e-3,
             contact_ratio: 1.6,
-            facewidth: 20e-3,
+            line_length: 20e-3,
             ..point(None)
         };
         let answer = model.answer(20.0, 6000.0 * std::f64::consts::PI / 30.0, 20e-3);

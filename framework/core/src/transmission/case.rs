@@ -3,7 +3,7 @@
 use std::sync::{Mutex, PoisonError};
 
 use super::Transmission;
-use super::states::{GearState, all_ports, explain, path_of_state, prescribed};
+use super::states::{GearState, all_ports, explain, in_state, path_of_state, prescribed};
 use crate::codes;
 use crate::document::{Diagnostic, classify};
 use crate::flow::{Flow, FlowFault};
@@ -280,8 +280,8 @@ impl Transmission {
                 Diagnostic::error(
                     "torque_shares",
                     format!(
-                        "parallel paths split the torque in `{}`, but the split is not stated",
-                        state.name
+                        "parallel paths split the torque{}, but the split is not stated",
+                        in_state(&state.name)
                     ),
                 )
                 .note(format!("the loop: {}", rows.join("; ")))
@@ -290,7 +290,7 @@ impl Transmission {
             }
             FlowFault::Singular => Diagnostic::error(
                 path,
-                format!("the given torques depend on each other in `{}`", state.name),
+                format!("the given torques depend on each other{}", in_state(&state.name)),
             )
             .help("state a torque at another port, or correct the torque shares")
             .code(codes::POWER_FLOW),

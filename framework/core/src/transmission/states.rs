@@ -74,6 +74,15 @@ pub(super) fn path_of_state(name: &str) -> String {
     }
 }
 
+/// The gear state behind a sentence; nothing if the description states none.
+pub(super) fn in_state(name: &str) -> String {
+    if name == ONLY {
+        String::new()
+    } else {
+        format!(" in `{name}`")
+    }
+}
+
 /// Builds and checks every gear state of a description without faults so far.
 pub fn states(
     entry: &GearboxEntry,
@@ -353,16 +362,19 @@ pub(crate) fn explain(
             .find(|p| p.member == *column)
             .map_or_else(|| name(column), |p| p.name.clone())
     };
+    let in_state = in_state(&state.name);
     match fault {
         Fault::Under { columns, ports: among } => {
-            let error = Diagnostic::error(path, format!("{} can rotate freely in `{}`", list(columns), state.name))
+            let error = Diagnostic::error(path, format!("{} can rotate freely{in_state}", list(columns)))
                 .code(codes::UNDERDETERMINED);
             if among.is_empty() {
-                error.help(format!(
-                    "engage a coupling, or write `{}: {{ engaged: [...], standstill: [{}] }}`",
-                    state.name,
-                    columns.first().map(name).unwrap_or_default()
-                ))
+                let standing = columns.first().map(name).unwrap_or_default();
+                error.help(match state.name.as_str() {
+                    ONLY => format!(
+                        "connect it by a mesh, or hold it: `gear_states: {{ drive: {{ engaged: [], standstill: [{standing}] }} }}`"
+                    ),
+                    state => format!("engage a coupling, or write `{state}: {{ engaged: [...], standstill: [{standing}] }}`"),
+                })
             } else {
                 error.help(format!(
                     "also prescribe the speed of {}",
@@ -382,10 +394,9 @@ pub(crate) fn explain(
             Diagnostic::error(
                 path,
                 format!(
-                    "the speed of {} follows from that of {} in `{}`",
+                    "the speed of {} follows from that of {}{in_state}",
                     port(tied),
-                    ratios.join(" and "),
-                    state.name
+                    ratios.join(" and ")
                 ),
             )
             .note(format!("tied by {}", rows(by)))
@@ -393,9 +404,13 @@ pub(crate) fn explain(
             .code(codes::OVERDETERMINED)
         }
         Fault::Locked { port: locked, rows: by } => {
-            Diagnostic::error(path, format!("{} cannot rotate in `{}`", port(locked), state.name))
+            let help = match state.name.as_str() {
+                ONLY => "correct the tooth numbers of the loop, or delete a mesh of it",
+                _ => "engage fewer couplings, or correct the tooth numbers of the loop",
+            };
+            Diagnostic::error(path, format!("{} cannot rotate{in_state}", port(locked)))
                 .note(format!("locked by {}", rows(by)))
-                .help("engage fewer couplings, or correct the tooth numbers of the loop")
+                .help(help)
                 .code(codes::OVERDETERMINED)
         }
     }
