@@ -112,7 +112,7 @@ fn points_of_a_map_take_three_passes() {
         }
         (passes, LANES * 250)
     };
-    assert_eq!([of_set("iso"), of_set("joint")], [(12_000, 4_000), (12_008, 4_000)]);
+    assert_eq!([of_set("iso"), of_set("joint")], [(12_000, 4_000), (12_005, 4_000)]);
 }
 
 /// Ways along the path, passes over its places, and places, of each mesh; the third one turns idly. Ways change with the limit

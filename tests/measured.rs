@@ -249,7 +249,7 @@ analyses:
     let text = check(&folder);
     for told in [
         "measurements.rig.columns.efficency: `efficency` is not a measured quantity",
-        "measurements.rig.units.torque: rig.csv: line 1: column `torque` has no unit",
+        "measurements.rig.units.torque: rig.csv: line 1, column `torque` has no unit",
         "measurements.rig.columns.loss: rig.csv: line 1: there is no column `P_loss`",
         "write `P_los`",
         "measurements.rig: rig.csv: line 3, column 2 `speed`: `x` is not a number",

@@ -137,10 +137,7 @@ fn an_unknown_unit_in_a_row_of_units_is_named_and_the_others_hold() {
     let rig = |unit: &str| format!("T;n_in;P\nNm;{unit};W\n10,0;1000;104,72\n12,0;1000;125,66\n");
     case.write("rig.csv", rig("furlong"));
     let text = refused(&case);
-    assert!(
-        text.contains("line 2, column `n_in`: `furlong` is not a unit of"),
-        "{text}"
-    );
+    assert!(text.contains("line 2, column `n_in`: unknown unit `furlong`"), "{text}");
     assert!(
         !text.contains("has no unit") && !text.contains("not a number"),
         "{text}"
@@ -539,7 +536,10 @@ fn files_of_other_kinds_are_named() {
         (b"TDSm\x0e\0\0\0", "a TDMS file of LabVIEW"),
         (b"{ \"T\": [1, 2] }", "a JSON file"),
         (b"[{\"T\": 1}]", "a JSON file"),
-        (b"PK\x05\x06\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0", "a zip archive"),
+        (
+            b"PK\x05\x06\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0",
+            "an empty zip archive",
+        ),
         (b"\x1f\x8b\x08\0", "packed by gzip"),
         (b"PAR1\x15\x04", "a Parquet file"),
         (b"%PDF-1.7", "a PDF document"),

@@ -10,6 +10,7 @@ mod mdf;
 pub mod missing;
 pub mod numbers;
 pub mod sheet;
+mod table;
 mod times;
 mod workbook;
 

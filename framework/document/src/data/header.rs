@@ -95,8 +95,10 @@ pub(super) fn stated_separator(line: &str) -> Option<Separator> {
     }
 }
 
+/// A cell without the brackets around all of it.
 fn bare(cell: &str) -> &str {
-    cell.trim_start_matches(['[', '(']).trim_end_matches([']', ')']).trim()
+    let inside = |open, close| cell.strip_prefix(open)?.strip_suffix(close);
+    inside('[', ']').or_else(|| inside('(', ')')).unwrap_or(cell).trim()
 }
 
 /// Takes a row of units: no cell is a number, and at least one is a unit. Other cells keep their spelling, so that the one that is not known

@@ -8,8 +8,8 @@ mod channel;
 mod conversion;
 mod samples;
 
-use super::cells::{Table, written};
-use super::numbers::NumberStyle;
+use super::numbers::{NumberStyle, written};
+use super::table::Table;
 use super::{MeasuredFault, fault};
 use crate::did_you_mean;
 use blocks::{Block, MdfFile};

@@ -1,8 +1,8 @@
 //! Marks that a file has in place of missing values.
 
 use super::MeasuredFault;
-use super::cells::Table;
 use super::form::MissingMark;
+use super::table::Table;
 
 /// Numbers that loggers write for missing values.
 const USUAL: [f64; 5] = [-999.0, -9999.0, -99999.0, -999_999.0, -999.25];

@@ -70,7 +70,7 @@ impl NumberStyle {
             if self.decimal == Decimal::Comma && self.thousands.is_none() && !has_groups {
                 cell.replace(',', ".")
             } else {
-                super::cells::written(number)
+                written(number)
             },
         )
     }
@@ -260,6 +260,15 @@ fn unclear(line: u64, cell: &str) -> MeasuredFault {
             "state `decimal: {sign}` if the {sign} is the decimal sign, or `decimal: {other}` and `thousands: {sign}` if it divides thousands"
         ),
     )
+}
+
+/// A number as in a file with decimal points; reading it gives the same number.
+pub(super) fn written(number: f64) -> String {
+    if number.fract() == 0.0 && number.abs() < 9e15 {
+        return (number as i64).to_string();
+    }
+    // Small and large numbers have an exponent.
+    format!("{number:?}")
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! Dates and clock times as a time axis: seconds from the first row.
 
-use super::cells::Table;
 use super::form::{DateOrder, Decimal};
+use super::table::Table;
 use super::workbook::DATE;
 use super::{MeasuredFault, fault};
 
@@ -111,7 +111,7 @@ impl Table {
         }
         let decimal = self.numbers.decimal;
         for ((row, ..), seconds) in stamps.iter().zip(seconds) {
-            let number = super::cells::written(seconds);
+            let number = super::numbers::written(seconds);
             self.rows[*row].1[place] = match decimal {
                 Decimal::Point => number,
                 Decimal::Comma => number.replace('.', ","),

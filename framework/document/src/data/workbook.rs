@@ -462,7 +462,7 @@ impl SheetReader<'_> {
             _ if text.is_empty() => String::new(),
             _ if cell.is_date => format!("{DATE}{text}"),
             _ => match text.parse::<f64>() {
-                Ok(number) if number.is_finite() => super::cells::written(number),
+                Ok(number) if number.is_finite() => super::numbers::written(number),
                 _ => text.to_owned(),
             },
         }
