@@ -214,7 +214,7 @@ def constants():
             {
                 "force": 1.0 / mesh["working_radius"][0],
                 "normal": mesh["working_radius"][0] / mesh["base_radius"] / mesh["cos_base_helix"],
-                "facewidth": mesh["facewidth"],
+                "line_length": mesh["facewidth"] / mesh["cos_base_helix"],
                 "nodes": {key: [node[key] for node in mesh["nodes"]] for key in mesh["nodes"][0]},
             }
             for mesh in meshes.values()

@@ -35,7 +35,7 @@ class Gearbox:
         for mesh in known["meshes"]:
             nodes = mesh["nodes"]
             # Unit pressure in GPa over the root of the normal force.
-            unit = 1e-9 * sqrt(known["modulus"] / (2.0 * pi * mesh["facewidth"]))
+            unit = 1e-9 * sqrt(known["modulus"] / (2.0 * pi * mesh["line_length"]))
             front = exp(B[0] + B[8] * exp(rough) + B[1] * log(unit) + B[6] * log(eta))
             path = [
                 (

@@ -48,7 +48,7 @@ class Mesh:
     def __init__(self, known, modulus):
         nodes = {key: np.array(values) for key, values in known["nodes"].items()}
         # Unit pressure in GPa over the root of the torque of the first gear.
-        unit = 1e-9 * np.sqrt(modulus * known["normal"] * known["force"] / (2.0 * np.pi * known["facewidth"]))
+        unit = 1e-9 * np.sqrt(modulus * known["normal"] * known["force"] / (2.0 * np.pi * known["line_length"]))
         self.force = known["force"]
         self.rise = (unit * nodes["root_load"] * nodes["slide_roll"])[:, None]
         self.inner, self.outer = -self.rise, B[3] * self.rise
