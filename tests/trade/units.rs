@@ -736,7 +736,7 @@ fn a_quantity_has_the_same_value_in_every_format_or_is_an_error() {
         same("CSV", in_table(format!("x [{spelling}]\n{number}\n").as_bytes(), due));
         same(
             "row of units",
-            in_table(format!("x;y\n{spelling};s\n{number};1\n").as_bytes(), due),
+            in_table(format!("x,y\n{spelling},s\n{number},1\n").as_bytes(), due),
         );
         same(
             "MDF",
