@@ -429,7 +429,8 @@ mod tests {
             };
             let span = Span::new([unit.to_si(from), unit.to_si(to), difference], unit.dimension);
             let values = span.values().unwrap();
-            let exact = unit.offset == 0.0;
+            // Numbers that are short in Hz are short in rpm, too, which comes first.
+            let exact = unit.offset == 0.0 && symbol != "Hz";
             for (i, value) in values.iter().enumerate() {
                 let text = format!("{:.3}", from + i as f64 * step);
                 let written = unit.to_si(text.parse().unwrap());

@@ -194,7 +194,8 @@ fn missing_columns_tell_those_there_are() {
     assert_eq!(
         faults(&bare, "t [s],v [m/s]\n0,0\n1,0\n"),
         [
-            "line 1: there is no column for the time; there are: t, v | state one under `columns: { time: ... }`",
+            "line 1: there is no column for the time; there are: t, v | state one under `columns: { time: ... }`; a cycle over distance \
+             states `distance` under `columns`",
             "line 1: there is no column for the vehicle speed, or torque and speed; there are: t, v | state one under `columns: { \
              vehicle_speed: ... }`",
         ]
