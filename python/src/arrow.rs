@@ -25,6 +25,6 @@ pub fn stream(py: Python<'_>, columns: Vec<(String, String, Cells)>, rows: usize
     let stream = Stream::new(columns, rows).map_err(PyValueError::new_err)?;
     // A consumer moves the stream out and leaves it without `release`.
     PyCapsule::new_with_value_and_destructor(py, stream, c"arrow_array_stream", |mut stream: Stream, _| {
-        stream.release()
+        stream.release();
     })
 }

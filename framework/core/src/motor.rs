@@ -229,9 +229,10 @@ impl MotorMap {
         let quadrant = |nodes: &[Node], what: &str| Quadrant::from_nodes(nodes, what).map_err(|f| vec![f]);
         Ok(Self {
             motoring: quadrant(&motoring, "motoring")?,
-            generating: match generating.is_empty() {
-                true => None,
-                false => Some(quadrant(&generating, "generating")?),
+            generating: if generating.is_empty() {
+                None
+            } else {
+                Some(quadrant(&generating, "generating")?)
             },
             notes,
         })

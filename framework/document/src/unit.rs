@@ -455,12 +455,11 @@ impl UnitFault {
             ),
             None => format!("unknown unit `{text}`"),
         };
-        let known = match dimension {
-            Dimension::None => "this is a plain number: only `%` may follow it".to_owned(),
-            _ => {
-                let symbols: Vec<&str> = Unit::symbols(dimension).collect();
-                format!("{} is written in {}", dimension.with_article(), symbols.join(", "))
-            }
+        let known = if dimension == Dimension::None {
+            "this is a plain number: only `%` may follow it".to_owned()
+        } else {
+            let symbols: Vec<&str> = Unit::symbols(dimension).collect();
+            format!("{} is written in {}", dimension.with_article(), symbols.join(", "))
         };
         let is_dynamic = Unit::read(text).is_some_and(|found| found.dimension == Dimension::DynamicViscosity);
         let why = match dimension {

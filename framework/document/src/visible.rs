@@ -48,9 +48,8 @@ fn escaped(text: &str, write: impl Fn(char, &mut String)) -> Cow<'_, str> {
 /// Whether a character is shown as an escape.
 fn is_hidden(c: char) -> bool {
     match c {
-        '\n' | '\t' => false,
         // Most texts have no others.
-        ' '..='~' => false,
+        '\n' | '\t' | ' '..='~' => false,
         c if c.is_control() => true,
         // Soft hyphen; marks of direction; spaces without width, joiners; separators of lines; overrides, isolates and invisible operators;
         // the mark of the byte order; annotations; tags.

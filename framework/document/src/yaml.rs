@@ -234,18 +234,17 @@ impl<'a> Reader<'a> {
             let (event, value_span) = self.next()?;
             let value = self.node(event, value_span, depth + 1)?;
             let Some(name) = name else { continue };
-            match first.get(&name).copied() {
-                Some(first) => self.findings.push(
+            if let Some(first) = first.get(&name).copied() {
+                self.findings.push(
                     Diagnostic::error("", format!("the key `{name}` occurs twice"))
                         .at_span(key_span)
                         .code(codes::DUPLICATE_KEY)
                         .label(first, "first occurrence")
                         .help("rename one of them or merge them"),
-                ),
-                None => {
-                    first.insert(name.clone(), key_span);
-                    entries.push((Key { name, span: key_span }, value));
-                }
+                );
+            } else {
+                first.insert(name.clone(), key_span);
+                entries.push((Key { name, span: key_span }, value));
             }
         }
     }

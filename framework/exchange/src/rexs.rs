@@ -99,7 +99,9 @@ pub fn import(bytes: &[u8], name: &str, language: &Language) -> Result<Imported,
     }
     let left_out = incomplete::leave_out(&mut model);
     let source = Source::new(&model);
-    left_out.into_iter().for_each(|line| source.note(line));
+    for line in left_out {
+        source.note(line);
+    }
     let converted = convert(&source, title(name), language);
     let list = source.findings();
     match converted {

@@ -31,10 +31,7 @@ impl Chosen {
         set: &str,
         progress: &dyn Progress,
     ) -> Result<Self, Fault> {
-        let wanted = || match progress.should_continue() {
-            true => Ok(()),
-            false => Err(Fault::interrupted()),
-        };
+        let wanted = || if progress.should_continue() { Ok(()) } else { Err(Fault::interrupted()) };
         let gearbox = Gearbox::read_from(language, files, Path::new(file))?;
         let choice = Choice {
             set: Some(set.to_owned()).filter(|set| !set.is_empty() && set != OWN_MODELS),

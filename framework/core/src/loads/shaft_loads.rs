@@ -110,6 +110,7 @@ impl ShaftLoads {
     ///
     /// # Errors
     /// All faults of the arrangement.
+    #[allow(clippy::too_many_lines)]
     pub fn new(layout: &Layout) -> Result<Self, Vec<LoadFault>> {
         let n = layout.members.len();
         let mut own: Vec<Vec<(usize, SupportLayout)>> = vec![Vec::new(); n];

@@ -80,9 +80,12 @@ fn utf16(bytes: &[u8], is_high_first: bool) -> Result<String, MeasuredFault> {
     if !bytes.len().is_multiple_of(2) {
         return Err(wrong(bytes.len() - 1));
     }
-    let units = bytes.chunks_exact(2).map(|pair| match is_high_first {
-        true => u16::from_be_bytes([pair[0], pair[1]]),
-        false => u16::from_le_bytes([pair[0], pair[1]]),
+    let units = bytes.chunks_exact(2).map(|pair| {
+        if is_high_first {
+            u16::from_be_bytes([pair[0], pair[1]])
+        } else {
+            u16::from_le_bytes([pair[0], pair[1]])
+        }
     });
     let mut text = String::with_capacity(bytes.len() / 2);
     for (place, letter) in char::decode_utf16(units).enumerate() {

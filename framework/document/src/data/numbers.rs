@@ -119,9 +119,12 @@ fn shows(cell: &str) -> Shows {
             _ => return Shows::Nothing,
         }
     }
-    let one = |sign: char, decimal: Decimal| match in_groups(cell, sign) {
-        true => Shows::Either(decimal),
-        false => Shows::Decimal(decimal),
+    let one = |sign: char, decimal: Decimal| {
+        if in_groups(cell, sign) {
+            Shows::Either(decimal)
+        } else {
+            Shows::Decimal(decimal)
+        }
     };
     match (points, commas) {
         (0, 0) => Shows::Nothing,
@@ -236,8 +239,7 @@ pub(super) fn style(
         {
             Err(unclear(*line, cell))
         }
-        (None, Some(_)) => Ok(NumberStyle::PLAIN),
-        (None, None) => Ok(NumberStyle::PLAIN),
+        (None, _) => Ok(NumberStyle::PLAIN),
     }
 }
 

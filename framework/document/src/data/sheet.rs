@@ -142,12 +142,11 @@ impl Sheet {
             .filter(|c| c.unit.is_some())
             .map(|c| c.place)
             .collect();
-        let omitted = match &form.missing {
-            Some(marks) => table.omit_marked(&numeric, marks),
-            None => {
-                found.extend(numeric.iter().filter_map(|place| table.unstated_mark(*place)));
-                Vec::new()
-            }
+        let omitted = if let Some(marks) = &form.missing {
+            table.omit_marked(&numeric, marks)
+        } else {
+            found.extend(numeric.iter().filter_map(|place| table.unstated_mark(*place)));
+            Vec::new()
         };
         found.extend(table.segments());
         if !found.is_empty() {

@@ -255,7 +255,7 @@ impl MeasuredEntry {
         };
         Some(ReadFile {
             quantities,
-            columns: self.file_columns(&table, &columns),
+            columns: Self::file_columns(&table, &columns),
             rows,
         })
     }
@@ -293,7 +293,7 @@ impl MeasuredEntry {
     }
 
     /// All columns from the header.
-    fn file_columns(&self, table: &Table, columns: &Columns) -> Vec<FileColumn> {
+    fn file_columns(table: &Table, columns: &Columns) -> Vec<FileColumn> {
         let column = |(place, header): (usize, String)| {
             let own = columns.bound.iter().find(|bound| bound.column.place == place);
             let name = own.map(|bound| bound.name.clone());

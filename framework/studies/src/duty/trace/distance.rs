@@ -176,7 +176,8 @@ impl Route {
     ) -> Result<(), Vec<MeasuredFault>> {
         let duration = 2.0 * piece / (from + to);
         let steps = (duration / STEP - 1e-9).ceil().max(1.0);
-        if !(self.samples.len() as f64 + steps < MOST_INTERVALS as f64) {
+        let is_short = self.samples.len() as f64 + steps < MOST_INTERVALS as f64;
+        if !is_short {
             return Err(vec![fault(
                 format!(
                     "line {}: the way to this row takes {} s",
