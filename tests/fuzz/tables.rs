@@ -3,6 +3,7 @@
 //!
 //! 2000 tables; `TABLE_CASES=100000 TABLE_SEED=5 cargo test --release --test all fuzz::tables -- --nocapture` reads more or others, and
 //! `TABLE_ONE=123` prints one.
+#![allow(clippy::cast_possible_wrap)]
 
 use std::f64::consts::PI;
 
@@ -135,10 +136,7 @@ fn stamp(form: usize, milliseconds: i64) -> String {
 fn written(random: &mut Random) -> Written {
     let count = 1 + random.below(8);
     // Most are the usual ones, so that most tables are read.
-    let units: [Spelling; 4] = UNITS.map(|list| match random.once_in(6) {
-        true => *random.one(list),
-        false => list[0],
-    });
+    let units: [Spelling; 4] = UNITS.map(|list| if random.once_in(6) { *random.one(list) } else { list[0] });
     let mut milliseconds = 0;
     let mut rows: Vec<[(i64, usize); 4]> = Vec::new();
     for _ in 0..count {
@@ -215,9 +213,12 @@ fn written(random: &mut Random) -> Written {
         }
     }
     let mut lines: Vec<String> = Vec::new();
-    let cell = |cell: String| match cell.contains(sign) {
-        true => format!("\"{cell}\""),
-        false => cell,
+    let cell = |cell: String| {
+        if cell.contains(sign) {
+            format!("\"{cell}\"")
+        } else {
+            cell
+        }
     };
     for _ in 0..random.below(4) {
         lines.push(
@@ -237,9 +238,12 @@ fn written(random: &mut Random) -> Written {
         lines.insert(0, format!("sep={sign}"));
     }
     let in_row = random.once_in(2);
-    let heading = |i: usize| match in_row || (i == 0 && dates.is_some()) {
-        true => names[i].to_owned(),
-        false => format!("{} [{}]", names[i], units[i].0),
+    let heading = |i: usize| {
+        if in_row || (i == 0 && dates.is_some()) {
+            names[i].to_owned()
+        } else {
+            format!("{} [{}]", names[i], units[i].0)
+        }
     };
     let join = |cells: Vec<String>| cells.join(&sign.to_string());
     lines.push(join((0..4).map(heading).collect()));
@@ -247,9 +251,12 @@ fn written(random: &mut Random) -> Written {
         form.header_line = Some(lines.len() as u64);
     }
     if in_row {
-        let unit = |i: usize| match i == 0 && dates.is_some() {
-            true => "hh:mm:ss".to_owned(),
-            false => units[i].0.replace(' ', if is_blank { "" } else { " " }),
+        let unit = |i: usize| {
+            if i == 0 && dates.is_some() {
+                "hh:mm:ss".to_owned()
+            } else {
+                units[i].0.replace(' ', if is_blank { "" } else { " " })
+            }
         };
         lines.push(join((0..4).map(unit).collect()));
     }

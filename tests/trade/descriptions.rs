@@ -1,4 +1,5 @@
 //! Gearbox files: what is absent, misspelt or set from elsewhere.
+#![allow(clippy::case_sensitive_file_extension_comparisons)]
 
 use super::Case;
 use gearloss_framework::document::visible;

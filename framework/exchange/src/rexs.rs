@@ -99,7 +99,7 @@ pub fn import(bytes: &[u8], name: &str, language: &Language) -> Result<Imported,
     }
     let left_out = incomplete::leave_out(&mut model);
     let source = Source::new(&model);
-    for line in left_out {
+    if let Some(line) = left_out {
         source.note(line);
     }
     let converted = convert(&source, title(name), language);

@@ -31,7 +31,13 @@ impl Chosen {
         set: &str,
         progress: &dyn Progress,
     ) -> Result<Self, Fault> {
-        let wanted = || if progress.should_continue() { Ok(()) } else { Err(Fault::interrupted()) };
+        let wanted = || {
+            if progress.should_continue() {
+                Ok(())
+            } else {
+                Err(Fault::interrupted())
+            }
+        };
         let gearbox = Gearbox::read_from(language, files, Path::new(file))?;
         let choice = Choice {
             set: Some(set.to_owned()).filter(|set| !set.is_empty() && set != OWN_MODELS),

@@ -186,7 +186,7 @@ fn every_request_of_a_flood_is_answered() {
         // Half of them keep their connection, as browsers do.
         let connection = ["close", "keep-alive"][k / 2 % 2];
         let mut stream = TcpStream::connect(&host)?;
-        stream.set_read_timeout(Some(Duration::from_secs(120)))?;
+        stream.set_read_timeout(Some(Duration::from_mins(2)))?;
         let head = format!(
             "POST /api HTTP/1.1\r\nHost: {host}\r\nAuthorization: Bearer {token}\r\nContent-Type: application/json\r\n\
              Connection: {connection}\r\nContent-Length: {}\r\n\r\n{body}",

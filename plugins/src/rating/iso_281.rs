@@ -327,12 +327,12 @@ mod tests {
     /// of the same code, and every code dirtier than the one before.
     #[test]
     fn a_clean_oil_bath_is_close_to_filtered_oil() {
+        use OilCleanliness::{Bath13, Bath15, Bath17, Bath19, Bath21};
         let bath = OilCleanliness::Bath13.contamination(1.0, 60.0);
         let by_hand = 0.0864 * 60.0_f64.powf(0.55) * (1.0 - 0.5796 / 60.0_f64.cbrt());
         assert_close(bath, by_hand, 1e-12);
         let filtered = OilCleanliness::Filtered13.contamination(1.0, 60.0);
         assert!((0.99..1.0).contains(&(bath / filtered)), "{bath} {filtered}");
-        use OilCleanliness::{Bath13, Bath15, Bath17, Bath19, Bath21};
         for diameter in [20.0, 100.0, 500.0] {
             for codes in [Bath13, Bath15, Bath17, Bath19, Bath21].windows(2) {
                 let [clean, dirty] = [0, 1].map(|i| codes[i].contamination(1.0, diameter));

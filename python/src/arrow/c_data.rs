@@ -345,6 +345,7 @@ unsafe extern "C" fn release_array(array: *mut Array) {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::float_cmp)]
     use super::*;
 
     /// A stream of numbers and texts with a gap.

@@ -130,7 +130,11 @@ impl Work {
                 Some(body)
             }
             request => {
-                let turn = if request.computes() { Some(self.turn(&self.turns).await?) } else { None };
+                let turn = if request.computes() {
+                    Some(self.turn(&self.turns).await?)
+                } else {
+                    None
+                };
                 let session = Arc::clone(&self.session);
                 let work = tokio::task::spawn_blocking(move || {
                     // Until the work has ended, whether somebody still waits for it or not.

@@ -1,4 +1,5 @@
 //! Trains beyond the size whose inverse is computed.
+#![allow(clippy::cast_possible_wrap)]
 
 use super::*;
 use crate::flow::system::Solver;
