@@ -201,7 +201,9 @@ mod tests {
 
     fn heading(name: &str, comments: &[&str]) -> Heading {
         let mut heading = Heading::of_name(name);
-        comments.iter().for_each(|comment| heading.take(comment));
+        for comment in comments {
+            heading.take(comment);
+        }
         heading
     }
 
