@@ -339,10 +339,14 @@ fn implausible_oils_are_findings_on_both_sides() {
 #[test]
 fn cells_of_a_map_equal_listed_values_to_the_bit() {
     let case = Case::new("grid-in-rpm", "map");
-    let said = case.gearloss(&["run", "study.yaml", "-o", "results"]);
-    assert_eq!(said.code, Some(0), "{}", said.text);
-    let of = |name: &str| std::fs::read_to_string(case.path(&format!("results/{name}.csv"))).unwrap();
-    assert_eq!(of("steps"), of("listed"));
+    let study = std::fs::read_to_string(case.path("study.yaml")).unwrap();
+    for (speed, torque) in [("000 rpm", "Nm"), (" Hz", "N mm"), ("00 U/min", "lbf in")] {
+        case.write("study.yaml", study.replace("000 rpm", speed).replace("Nm", torque));
+        let said = case.gearloss(&["run", "study.yaml", "-o", "results"]);
+        assert_eq!(said.code, Some(0), "{}", said.text);
+        let of = |name: &str| std::fs::read_to_string(case.path(&format!("results/{name}.csv"))).unwrap();
+        assert_eq!(of("steps"), of("listed"), "{speed} {torque}");
+    }
 }
 
 #[test]

@@ -359,18 +359,6 @@ impl Unit {
         (si - self.offset) / self.factor
     }
 
-    /// The number in this unit from which the same bits in SI are read; `None` if it has more than 13 digits.
-    pub fn written(&self, si: f64) -> Option<f64> {
-        let own = self.from_si(si);
-        let tidy: f64 = format!("{own:.12e}").parse().unwrap_or(own);
-        (self.to_si(tidy).to_bits() == si.to_bits()).then_some(tidy)
-    }
-
-    /// The usual units of a dimension.
-    pub fn usual(dimension: Dimension) -> impl Iterator<Item = &'static Unit> {
-        UNITS.iter().filter(move |unit| unit.dimension == dimension)
-    }
-
     /// Regular expression of a quantity of this unit's dimension written as text.
     pub fn pattern(&self) -> String {
         format!(
@@ -432,6 +420,13 @@ impl Conversion {
     #[inline]
     pub fn to_si(&self, x: f64) -> f64 {
         x * self.factor + self.offset
+    }
+
+    /// The number in this unit from which the same bits in SI are read; `None` if it has more than 13 digits.
+    pub fn written(&self, si: f64) -> Option<f64> {
+        let own = (si - self.offset) / self.factor;
+        let tidy: f64 = format!("{own:.12e}").parse().unwrap_or(own);
+        (self.to_si(tidy).to_bits() == si.to_bits()).then_some(tidy)
     }
 }
 

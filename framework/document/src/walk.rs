@@ -11,7 +11,7 @@ use super::diagnostic::{Diagnostic, did_you_mean};
 use super::misplaced;
 use super::node::{Content, Key, Node};
 use super::places::{Place, Places};
-use super::quantity::parse_quantity;
+use super::quantity::{number_length, parse_quantity};
 use super::schema::{Field, Schema, Shape};
 use super::unit::{Dimension, Unit};
 
@@ -124,6 +124,25 @@ fn split_number(pair: &[Node]) -> Option<(String, &str, &Node)> {
     };
     let touch = first.span.source == second.span.source && first.span.end + 1 == second.span.start;
     (touch && text.starts_with(|c: char| c.is_ascii_digit())).then(|| (tidy(*whole), text, second))
+}
+
+/// Key of the unit in which all of `from`, `to` and `step` are written: numbers add up to what is written in this unit alone. The walk adds
+/// it; no document has it.
+pub const UNIT_OF_STEPS: &str = "unit of steps";
+
+fn unit_of_steps<'a>(entries: &'a [(Key, Node)], fields: &[(String, Field)]) -> Option<&'a str> {
+    let are_steps = fields.len() == 3
+        && ["from", "to", "step"]
+            .iter()
+            .all(|key| fields.iter().any(|(name, _)| name == key));
+    let mut units = entries.iter().map(|(_, node)| {
+        let text = node.text()?;
+        Some(text[number_length(text)..].trim())
+    });
+    let first = units.next().filter(|_| are_steps)??;
+    units
+        .all(|unit| unit.is_some_and(|unit| Unit::is_same(unit, first)))
+        .then_some(first)
 }
 
 struct Walker<'a> {
@@ -687,6 +706,9 @@ impl<'a> Walker<'a> {
             if let Some(value) = value {
                 map.insert(name.clone(), value);
             }
+        }
+        if let Some(unit) = unit_of_steps(entries, fields) {
+            map.insert(UNIT_OF_STEPS.to_owned(), Value::from(unit));
         }
         Some(Value::Object(map))
     }

@@ -52,7 +52,7 @@ fn quantity(si: f64, documented: &'static Unit) -> Option<Value> {
     let own = documented.from_si(si);
     let exact = |number: &f64| documented.to_si(*number).to_bits() == si.to_bits();
     let written = |number: f64, unit: &Unit| format!("{number} {}", unit.symbol);
-    if let Some(tidy) = documented.written(si) {
+    if let Some(tidy) = documented.conversion().written(si) {
         return Some(Value::from(written(tidy, documented)));
     }
     // A number with many digits in its documented unit may have few in SI.

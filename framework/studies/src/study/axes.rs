@@ -1,14 +1,11 @@
 //! Axes of grids: one value, a list, or from, to and step.
 
-use gearloss_framework::document::{Dimension, Unit};
+use gearloss_framework::document::{Conversion, Unit};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Maximum number of values of one axis.
 const MOST: usize = 100_000;
-
-/// Digits of numbers that people write; a number of another unit has more.
-const FEW: usize = 7;
 
 /// Why an axis has no values.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -33,19 +30,23 @@ pub struct Span {
     pub to: f64,
     /// Step.
     pub step: f64,
-    /// What the axis measures.
-    pub dimension: Dimension,
+    /// The unit in which they are written.
+    pub unit: Conversion,
+}
+
+const fn unit(symbol: &str) -> &'static Unit {
+    match Unit::of_symbol(symbol) {
+        Some(unit) => unit,
+        None => Unit::ONE,
+    }
 }
 
 impl Span {
-    /// From, to and step of a dimension.
-    pub fn new([from, to, step]: [f64; 3], dimension: Dimension) -> Self {
-        Self {
-            from,
-            to,
-            step,
-            dimension,
-        }
+    /// From, to and step in SI, written in a unit, or in that of the documentation.
+    pub fn new([from, to, step]: [f64; 3], unit: Option<&str>, documented: &Unit) -> Self {
+        let written = unit.and_then(|unit| Unit::read_as(unit, documented.dimension).ok());
+        let unit = written.unwrap_or_else(|| documented.conversion());
+        Self { from, to, step, unit }
     }
 
     /// The values: to the bit those that are read if each is written in the unit of `from`, `to` and `step`.
@@ -61,29 +62,17 @@ impl Span {
             return Err(AxisError::TooMany);
         }
         let count = (count * (1.0 + 1e-12) + 1e-9).floor() as usize;
-        let written = self.written();
+        let difference = Conversion {
+            offset: 0.0,
+            ..self.unit
+        };
+        let decimal = |unit: Conversion, si| unit.written(si).and_then(Decimal::new);
+        let written = decimal(self.unit, self.from).zip(decimal(difference, self.step));
         let value = |i: usize| match written {
-            Some((unit, from, step)) => unit.to_si(Decimal::after(from, step, i)),
+            Some((from, step)) => self.unit.to_si(Decimal::after(from, step, i)),
             None => self.from + i as f64 * self.step,
         };
         Ok((0..=count).map(value).collect())
-    }
-
-    /// The unit in which `from`, `to` and `step` were probably written, because they have few digits in it, with the first and last.
-    fn written(&self) -> Option<(&'static Unit, Decimal, Decimal)> {
-        let units = Unit::usual(self.dimension).filter_map(|unit| {
-            let difference = Unit { offset: 0.0, ..*unit };
-            let [from, to] = [self.from, self.to].map(|si| unit.written(si).and_then(Decimal::new));
-            let step = difference.written(self.step).and_then(Decimal::new)?;
-            let (from, to) = (from?, to?);
-            let digits = [from, to, step].map(|number| number.digits);
-            Some((digits.into_iter().max().unwrap_or(0), (unit, from, step)))
-        });
-        // The most usual unit comes first.
-        let units: Vec<_> = units.collect();
-        let few = units.iter().find(|(digits, _)| *digits <= FEW);
-        let fewest = || units.iter().min_by_key(|(digits, _)| *digits);
-        few.or_else(fewest).map(|(_, written)| *written)
     }
 }
 
@@ -92,7 +81,6 @@ impl Span {
 struct Decimal {
     whole: i128,
     decimals: usize,
-    digits: usize,
 }
 
 impl Decimal {
@@ -104,11 +92,6 @@ impl Decimal {
         (fraction.len() <= 25).then_some(Self {
             whole: format!("{whole}{fraction}").parse().ok()?,
             decimals: fraction.len(),
-            digits: text
-                .trim_start_matches('-')
-                .trim_start_matches("0.")
-                .trim_end_matches('0')
-                .len(),
         })
     }
 
@@ -157,7 +140,7 @@ impl OfRating {
         let rating = rating.ok_or(AxisError::NoRating)?;
         let shares = match &self.of_rating {
             Shares::List(list) => list.clone(),
-            Shares::Steps(s) => Span::new([s.from, s.to, s.step], Dimension::None).values()?,
+            Shares::Steps(s) => Span::new([s.from, s.to, s.step], None, Unit::ONE).values()?,
         };
         Ok(shares.into_iter().map(|share| share * rating).collect())
     }
@@ -178,7 +161,7 @@ pub enum TorqueAxis {
 }
 
 /// Torques at equal steps.
-#[derive(Debug, Clone, Copy, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct TorqueSpan {
     /// First torque. [Nm]
     #[schemars(range(min = -1e9, max = 1e9))]
@@ -189,6 +172,10 @@ pub struct TorqueSpan {
     /// Step. [Nm]
     #[schemars(range(min = -1e9, max = 1e9))]
     pub step: f64,
+    /// The unit in which all three are written.
+    #[serde(default, rename = "unit of steps", skip_serializing_if = "Option::is_none")]
+    #[schemars(skip)]
+    pub unit: Option<String>,
 }
 
 impl TorqueAxis {
@@ -200,7 +187,7 @@ impl TorqueAxis {
         match self {
             Self::One(torque) => Ok(vec![*torque]),
             Self::List(list) => Ok(list.clone()),
-            Self::Steps(s) => Span::new([s.from, s.to, s.step], Dimension::Torque).values(),
+            Self::Steps(s) => Span::new([s.from, s.to, s.step], s.unit.as_deref(), unit("Nm")).values(),
             Self::Rated(shares) => shares.values(rating),
         }
     }
@@ -226,7 +213,7 @@ pub enum SpeedAxis {
 }
 
 /// Speeds at equal steps.
-#[derive(Debug, Clone, Copy, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct SpeedSpan {
     /// First speed. [rpm]
     #[schemars(range(min = -1e6, max = 1e6))]
@@ -237,6 +224,10 @@ pub struct SpeedSpan {
     /// Step. [rpm]
     #[schemars(range(min = -1e6, max = 1e6))]
     pub step: f64,
+    /// The unit in which all three are written.
+    #[serde(default, rename = "unit of steps", skip_serializing_if = "Option::is_none")]
+    #[schemars(skip)]
+    pub unit: Option<String>,
 }
 
 impl SpeedAxis {
@@ -248,7 +239,7 @@ impl SpeedAxis {
         match self {
             Self::One(speed) => Ok(vec![*speed]),
             Self::List(list) => Ok(list.clone()),
-            Self::Steps(s) => Span::new([s.from, s.to, s.step], Dimension::AngularSpeed).values(),
+            Self::Steps(s) => Span::new([s.from, s.to, s.step], s.unit.as_deref(), unit("rpm")).values(),
             Self::Rated(shares) => shares.values(rating),
         }
     }
@@ -272,7 +263,7 @@ pub enum PowerAxis {
 }
 
 /// Powers at equal steps.
-#[derive(Debug, Clone, Copy, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct PowerSpan {
     /// First power. [W]
     #[schemars(range(min = -1e9, max = 1e9))]
@@ -283,6 +274,10 @@ pub struct PowerSpan {
     /// Step. [W]
     #[schemars(range(min = -1e9, max = 1e9))]
     pub step: f64,
+    /// The unit in which all three are written.
+    #[serde(default, rename = "unit of steps", skip_serializing_if = "Option::is_none")]
+    #[schemars(skip)]
+    pub unit: Option<String>,
 }
 
 impl PowerAxis {
@@ -294,7 +289,7 @@ impl PowerAxis {
         match self {
             Self::One(power) => Ok(vec![*power]),
             Self::List(list) => Ok(list.clone()),
-            Self::Steps(s) => Span::new([s.from, s.to, s.step], Dimension::Power).values(),
+            Self::Steps(s) => Span::new([s.from, s.to, s.step], s.unit.as_deref(), unit("W")).values(),
         }
     }
 }
@@ -312,7 +307,7 @@ pub enum TemperatureAxis {
 }
 
 /// Temperatures at equal steps.
-#[derive(Debug, Clone, Copy, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct TemperatureSpan {
     /// First temperature. [degC]
     #[schemars(range(min = -60.0, max = 250.0))]
@@ -323,6 +318,10 @@ pub struct TemperatureSpan {
     /// Step. [K]
     #[schemars(range(min = -60.0, max = 250.0))]
     pub step: f64,
+    /// The unit in which all three are written.
+    #[serde(default, rename = "unit of steps", skip_serializing_if = "Option::is_none")]
+    #[schemars(skip)]
+    pub unit: Option<String>,
 }
 
 impl TemperatureAxis {
@@ -334,7 +333,7 @@ impl TemperatureAxis {
         match self {
             Self::One(temperature) => Ok(vec![*temperature]),
             Self::List(list) => Ok(list.clone()),
-            Self::Steps(s) => Span::new([s.from, s.to, s.step], Dimension::Temperature).values(),
+            Self::Steps(s) => Span::new([s.from, s.to, s.step], s.unit.as_deref(), unit("degC")).values(),
         }
     }
 }
@@ -395,53 +394,40 @@ impl Envelope {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
+    use gearloss_framework::document::parse_quantity;
 
     #[test]
     fn steps_reach_both_ends() {
         let rpm = std::f64::consts::PI / 30.0;
-        let span = Span::new([1000.0 * rpm, 22000.0 * rpm, 1000.0 * rpm], Dimension::AngularSpeed);
+        let span = Span::new([1000.0 * rpm, 22000.0 * rpm, 1000.0 * rpm], None, unit("rpm"));
         assert_eq!(span.values().unwrap().len(), 22);
-        let values = |numbers: [f64; 3]| Span::new(numbers, Dimension::Torque).values().unwrap();
+        let values = |numbers: [f64; 3]| Span::new(numbers, None, unit("Nm")).values().unwrap();
         assert_eq!(values([3.0, 3.0, 1.0]), [3.0]);
         assert_eq!(values([3.0, 1.0, -1.0]), [3.0, 2.0, 1.0]);
     }
 
     #[test]
     fn values_are_those_of_the_written_numbers_to_the_bit() {
-        for (symbol, [from, to, step]) in [
-            ("rpm", [0.0, 12000.0, 500.0]),
-            ("rpm", [1000.0, 22000.0, 1000.0]),
-            ("rad/s", [0.1, 0.9, 0.1]),
-            ("Hz", [-2.0, 5.0, 0.125]),
-            ("Nm", [0.0, 1.0, 0.1]),
-            ("N mm", [12.5, 900.0, 12.5]),
-            ("lbf ft", [-60.0, 60.0, 20.0]),
-            ("kW", [0.3, 3.0, 0.3]),
-            ("degC", [-10.0, 90.0, 0.7]),
-            ("degF", [140.0, 212.0, 9.0]),
+        for (symbol, documented, [from, to, step]) in [
+            ("rpm", "rpm", [0.0, 12000.0, 500.0]),
+            ("U/min", "rpm", [1000.0, 22000.0, 1000.0]),
+            ("rad/s", "rpm", [0.1, 0.9, 0.1]),
+            ("Hz", "rpm", [-2.0, 5.0, 0.125]),
+            ("Nm", "Nm", [0.0, 1.0, 0.1]),
+            ("N mm", "Nm", [12.5, 900.0, 12.5]),
+            ("lbf ft", "Nm", [-60.0, 60.0, 20.0]),
+            ("kW", "W", [0.3, 3.0, 0.3]),
+            ("degC", "degC", [-10.0, 90.0, 0.7]),
+            ("degF", "degC", [140.0, 212.0, 9.0]),
         ] {
-            let unit = Unit::of_symbol(symbol).unwrap();
-            let difference = unit.to_si(step) - if step == 0.0 { 0.0 } else { unit.offset };
-            let difference = if unit.offset == 0.0 {
-                unit.to_si(step)
-            } else {
-                difference
-            };
-            let span = Span::new([unit.to_si(from), unit.to_si(to), difference], unit.dimension);
-            let values = span.values().unwrap();
-            // Numbers that are short in Hz are short in rpm, too, which comes first.
-            let exact = unit.offset == 0.0 && symbol != "Hz";
-            for (i, value) in values.iter().enumerate() {
-                let text = format!("{:.3}", from + i as f64 * step);
-                let written = unit.to_si(text.parse().unwrap());
-                if exact {
-                    assert_eq!(value.to_bits(), written.to_bits(), "{text} {symbol}: {value} {written}");
-                } else {
-                    assert!(
-                        (value - written).abs() < 1e-12 * written.abs().max(100.0),
-                        "{text} {symbol}"
-                    );
-                }
+            let documented = unit(documented);
+            let si = |number: f64| parse_quantity(&format!("{number} {symbol}"), documented).unwrap();
+            let difference = si(step) - si(0.0);
+            let span = Span::new([si(from), si(to), difference], Some(symbol), documented);
+            for (i, value) in span.values().unwrap().iter().enumerate() {
+                let text = format!("{:.3} {symbol}", from + i as f64 * step);
+                let written = parse_quantity(&text, documented).unwrap();
+                assert_eq!(value.to_bits(), written.to_bits(), "{text}: {value} {written}");
             }
         }
     }
@@ -449,7 +435,7 @@ mod tests {
     #[test]
     fn a_step_that_leads_nowhere_is_refused() {
         for numbers in [[1.0, 2.0, 0.0], [1.0, 2.0, -1.0], [0.0, 1.0, 1e-9]] {
-            assert!(Span::new(numbers, Dimension::Torque).values().is_err());
+            assert!(Span::new(numbers, None, unit("Nm")).values().is_err());
         }
     }
 
