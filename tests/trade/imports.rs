@@ -2,6 +2,7 @@
 #![allow(clippy::format_collect, clippy::approx_constant)]
 
 use super::Case;
+use super::losses::solved;
 
 /// A drag table of two runs, as OpenFOAM's function object writes them.
 const IMPORT_MOMENTS: [&str; 8] = [
@@ -107,6 +108,26 @@ fn a_makers_table_serves_every_bearing_model() {
         let said = case.gearloss(&point);
         assert_eq!(said.code, Some(0), "{model}: {}", said.text);
     }
+    // The shipped bearings lose as much.
+    let catalogue = std::fs::read_to_string(case.path("cat.csv")).unwrap();
+    for row in [
+        "6206,deep_groove_ball,62,30,62,16,20300,11200,",
+        "6208,deep_groove_ball,62,40,80,18,32500,19000,",
+    ] {
+        assert!(catalogue.contains(&format!("\n{row}")), "{catalogue}");
+    }
+    let gearbox = std::fs::read_to_string(case.path("gearbox.yaml")).unwrap();
+    case.write(
+        "shipped.yaml",
+        gearbox.replace("catalogues: { bearings: cat.csv }\n", ""),
+    );
+    let loss = |file: &str| solved(&case, file, "10 Nm", "1000 rpm")["loss_w"].as_f64().unwrap();
+    assert!((loss("gearbox.yaml") - loss("shipped.yaml")).abs() < 1e-9);
+    assert!(
+        (loss("gearbox.yaml") - 12.6181).abs() < 1e-3,
+        "{}",
+        loss("gearbox.yaml")
+    );
 }
 
 /// One bearing of each kind with what makers' tables state.
@@ -283,8 +304,38 @@ fn a_cycle_over_time_has_the_torque_of_its_acceleration() {
     let mut lines = csv.lines().filter(|line| !line.starts_with('#'));
     let header: Vec<&str> = lines.next().unwrap().split(',').collect();
     let first: Vec<&str> = lines.next().unwrap().split(',').collect();
-    let near = |cell: &&str| cell.parse::<f64>().is_ok_and(|torque| (torque - 99.983).abs() < 1e-3);
-    assert!(first.iter().any(near), "{header:?}\n{first:?}");
+    let place = header.iter().position(|name| *name == "torque_nm").unwrap();
+    let torque: f64 = first[place].parse().unwrap();
+    assert!((torque - 99.982_97).abs() < 1e-4, "{torque}");
+}
+
+/// The vehicle stands for 2 s in line 2 and for 3 s in line 8.
+#[test]
+fn stops_are_not_dropped_if_their_column_is_not_stated() {
+    let case = Case::new("distance_cycle", "without-stops");
+    let study = std::fs::read_to_string(case.path("study.yaml")).unwrap();
+    case.write(
+        "study.yaml",
+        study.replace(", stop: \"<stop>\"", "").replace(", stop: s", ""),
+    );
+    let told = |what: &str| {
+        let said = case.gearloss(&["check", "study.yaml"]);
+        assert_eq!(said.code, Some(2), "{}", said.text);
+        assert!(
+            said.text.contains(what) && said.text.contains("\n1 error\n"),
+            "{}",
+            said.text
+        );
+    };
+    told("line 2: the vehicle stands here, and no column says for how long");
+    told("columns: { stop: \"<stop>\" }");
+    // Without the column, the first row is only the start.
+    let route = std::fs::read_to_string(case.path("route.vdri")).unwrap();
+    let rows = route
+        .lines()
+        .map(|line| line.rsplit_once(',').unwrap().0.to_owned() + "\n");
+    case.write("route.vdri", rows.collect::<String>());
+    told("line 8: the vehicle stands here");
 }
 
 #[test]

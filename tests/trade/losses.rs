@@ -23,7 +23,7 @@ fn number_after(said: &Said, label: &str) -> f64 {
 }
 
 /// A solved point as its record.
-fn solved(case: &Case, gearbox: &str, torque: &str, speed: &str) -> Value {
+pub(super) fn solved(case: &Case, gearbox: &str, torque: &str, speed: &str) -> Value {
     let said = case.gearloss(&[
         "solve", gearbox, "--torque", torque, "--speed", speed, "--format", "json",
     ]);

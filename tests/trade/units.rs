@@ -162,6 +162,8 @@ fn us_units_have_their_values() {
         ("10 knots", "m/s", 5.144444444444445),
         ("1 BTU/(h ft2 degF)", "W/(m2 K)", 5.678263341113488),
         // Others of the trade.
+        ("10 N.m", "Nm", 10.0),
+        ("2 kN.m", "Nm", 2000.0),
         ("1.75 krpm", "rpm", 1750.0 * std::f64::consts::PI / 30.0),
         ("58.3 rps", "rpm", 58.3 * 2.0 * std::f64::consts::PI),
         ("400 nm", "um", 400e-9),
@@ -228,6 +230,7 @@ fn help_never_repeats_the_number_with_another_unit() {
         ("47 mmm", "mm"),
         ("46 cst", "mm2/s"),
         ("600 degN", "degC"),
+        ("600 degR", "degC"),
         ("15 Grad", "deg"),
         ("15 grad", "deg"),
         ("58.3 1/s", "rpm"),
@@ -623,7 +626,7 @@ fn random_unit(random: &mut Random) -> (&'static str, String, f64, f64) {
         match part {
             Text("/") => text.push_str(random.pick(&["/", "/", " / ", "/ "])),
             Text(own) => text.push_str(own),
-            Times => text.push_str(random.pick(&[" ", "·", "*", " · ", "-", "⋅"])),
+            Times => text.push_str(random.pick(&[" ", "·", "*", " · ", "-", ".", "⋅"])),
             Of(kind, power) => {
                 let all = kind.bare.len() + kind.si.len();
                 let which = random.below(all);

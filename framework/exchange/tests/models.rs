@@ -3,14 +3,15 @@
 use std::f64::consts::PI;
 
 use gearloss_document::files::InMemory;
-use gearloss_exchange::rexs::Imported;
+use gearloss_exchange::rexs::{Imported, import};
 use gearloss_studies::analyses::cycle::CycleOutcome;
 use gearloss_studies::analyses::operating_points::{OperatingPoint, OperatingPointsOutcome};
 use gearloss_studies::points::{Field, Given, PointResult, Points, run_grid};
 use gearloss_studies::run::StudyRun;
 use gearloss_studies::study::Study;
 
-use crate::common::{PLANETARY, THREE_STAGE, TWO_STAGE, WORM, data, gearbox, imported, language, refused};
+use crate::common::{PLANETARY, THREE_STAGE, TWO_STAGE, WORM, data, gearbox, imported, language, refused, text};
+use crate::formats::json_of;
 
 /// One point of the first gear of an imported gearbox.
 fn point(imported: &Imported, gear: &str, torque: f64, rpm: f64) -> PointResult {
@@ -307,6 +308,54 @@ fn options_are_valid() {
         assert!(point(&imported, gear, 5.0, 100.0).loss.is_some());
         let study = study(&imported);
         assert!(StudyRun::new(language(), &study).analysis("map").is_ok());
+    }
+}
+
+/// A model as programs write it that keep components without data: a shaft with a section, a material and two couplings.
+#[test]
+fn empty_components_of_the_planetary_model_are_left_out() {
+    let components = [
+        (97, "shaft"),
+        (98, "shaft_section"),
+        (99, "material"),
+        (100, "coupling"),
+        (101, "coupling"),
+    ]
+    .map(|(id, kind)| format!("<component id=\"{id}\" type=\"{kind}\"/>"));
+    let relations = [
+        ("assembly", [("assembly", 1), ("part", 97)].as_slice()),
+        ("assembly", &[("assembly", 97), ("part", 98)]),
+        ("reference", &[("origin", 97), ("referenced", 99)]),
+        ("side", &[("assembly", 100), ("inner_part", 97), ("outer_part", 4)]),
+        ("side", &[("assembly", 101), ("inner_part", 4), ("outer_part", 97)]),
+    ];
+    let relations = relations.iter().zip(9001..).map(|((kind, refs), id)| {
+        let refs: String = refs
+            .iter()
+            .map(|(role, id)| format!("<ref id=\"{id}\" role=\"{role}\"/>"))
+            .collect();
+        format!("<relation id=\"{id}\" type=\"{kind}\">{refs}</relation>")
+    });
+    let xml = text(PLANETARY)
+        .replacen("</components>", &format!("{}</components>", components.concat()), 1)
+        .replacen(
+            "</relations>",
+            &format!("{}</relations>", relations.collect::<String>()),
+            1,
+        );
+    let json = json_of(&xml);
+    // Without any `attributes` instead of empty ones.
+    let bare = json.replace(",\n        \"attributes\": []", "");
+    assert!(bare != json, "every component has attributes");
+    for (name, content) in [("xml", &xml), ("json", &json), ("bare json", &bare)] {
+        let imported =
+            import(content.as_bytes(), PLANETARY, language()).unwrap_or_else(|e| panic!("{name}: {}", e.render()));
+        let left_out = "left out, because they have no data and nothing needs them: shaft 97, shaft_section 98, material 99, coupling 100, \
+                        coupling 101";
+        assert!(imported.gearbox.contains(left_out), "{name}: {}", imported.gearbox);
+        let solved = point(&imported, "gear_1", 1591.549, 1500.0);
+        near(solved.speed / solved.output_speed.unwrap(), 4.588_235_294_117_647, 1e-9);
+        assert!(solved.loss.is_some());
     }
 }
 

@@ -571,9 +571,10 @@ fn normalised(text: &str) -> String {
                     .is_some_and(char::is_ascii_digit)
                 && !matches!(plain[i + 1..], ['-' | '⁻', '-' | '⁻', ..]) => {}
             '⁻' => text.push('-'),
-            // `lb-ft`, but not `min-1`.
-            '-' if before.is_some_and(|c| c.is_ascii_alphanumeric())
-                && next.is_some_and(|c| c.is_ascii_alphabetic()) =>
+            // `lb-ft` and `N.m`, but not `min-1`.
+            '-' | '.'
+                if before.is_some_and(|c| c.is_ascii_alphanumeric())
+                    && next.is_some_and(|c| c.is_ascii_alphabetic()) =>
             {
                 text.push('·');
             }
@@ -619,7 +620,7 @@ pub(super) fn pattern(dimension: Dimension) -> &'static str {
 }
 
 /// Spellings of a multiplication.
-const TIMES: &str = r"(\s*[·⋅∙×*]\s*|\s+|-)";
+const TIMES: &str = r"(\s*[·⋅∙×*]\s*|\s+|[-.])";
 
 /// Regular expression of the spellings of a normalised text.
 fn spellings(text: &str, at_start: bool) -> String {

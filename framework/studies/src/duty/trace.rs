@@ -293,6 +293,9 @@ fn is_over_distance(entry: &FileCycleEntry) -> bool {
 /// The rows of a cycle over distance as a series over time.
 fn over_time(entry: &FileCycleEntry, sheet: &Sheet, samples: Vec<Sample>) -> Result<Vec<Sample>, Vec<MeasuredFault>> {
     let at = QUANTITIES.len() + entry.temperatures.ids().count();
+    if !sheet.holds(at + 1) {
+        untimed_stops(sheet, &samples)?;
+    }
     let mut rows = Vec::new();
     let mut faulty = Vec::new();
     for (row, sample) in samples.into_iter().enumerate() {
@@ -313,6 +316,31 @@ fn over_time(entry: &FileCycleEntry, sheet: &Sheet, samples: Vec<Sample>) -> Res
         deceleration: entry.deceleration,
     };
     distance::over_time(&rows, driver)
+}
+
+/// Stops of a route in a file whose column of their times is not stated. The first and the last row stand without being a stop.
+fn untimed_stops(sheet: &Sheet, samples: &[Sample]) -> Result<(), Vec<MeasuredFault>> {
+    let column = sheet
+        .table
+        .names
+        .iter()
+        .find(|name| name.to_lowercase().contains("stop"));
+    let stands = |sample: &&Sample| sample.given.vehicle_speed == Some(0.0);
+    let between = samples.len().checked_sub(1).and_then(|last| samples.get(1..last));
+    let first = match column {
+        Some(_) => samples.iter().find(stands),
+        None => between.unwrap_or_default().iter().find(stands),
+    };
+    let Some(first) = first else { return Ok(()) };
+    let message = format!(
+        "line {}: the vehicle stands here, and no column says for how long",
+        first.line
+    );
+    let help = match column {
+        Some(column) => format!("state its column: `columns: {{ stop: \"{column}\" }}`"),
+        None => "add a column of the times at standstill, and state it: `columns: { stop: NAME }`".to_owned(),
+    };
+    Err(vec![fault(message, help)])
 }
 
 fn sample(sheet: &Sheet, row: usize, nodes: usize) -> Result<Sample, String> {
