@@ -330,17 +330,17 @@ fn empty_components_of_the_planetary_model_are_left_out() {
         ("side", &[("assembly", 101), ("inner_part", 4), ("outer_part", 97)]),
     ];
     let relations = relations.iter().zip(9001..).map(|((kind, refs), id)| {
-        let refs: String = refs
+        let refs = refs
             .iter()
-            .map(|(role, id)| format!("<ref id=\"{id}\" role=\"{role}\"/>"))
-            .collect();
+            .map(|(role, id)| format!("<ref id=\"{id}\" role=\"{role}\"/>"));
+        let refs = refs.collect::<Vec<_>>().concat();
         format!("<relation id=\"{id}\" type=\"{kind}\">{refs}</relation>")
     });
     let xml = text(PLANETARY)
         .replacen("</components>", &format!("{}</components>", components.concat()), 1)
         .replacen(
             "</relations>",
-            &format!("{}</relations>", relations.collect::<String>()),
+            &format!("{}</relations>", relations.collect::<Vec<_>>().concat()),
             1,
         );
     let json = json_of(&xml);

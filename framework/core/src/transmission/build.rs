@@ -185,10 +185,10 @@ fn limited(
             list.extend((first..first + instance.entry.limits.len()).map(|cell| (cell, part)));
         }
     }
+    let places: HashMap<&str, usize> = parts.iter().map(|own| own.path.as_str()).zip(0..).collect();
     for (i, rated) in rated.iter().enumerate() {
-        let path = &supports[rated.support].path;
-        let bearing = parts.iter().position(|part| part.path == *path);
-        list.extend(bearing.map(|part| (cells + i, part)));
+        let bearing = places.get(supports[rated.support].path.as_str());
+        list.extend(bearing.map(|part| (cells + i, *part)));
     }
     list.into()
 }

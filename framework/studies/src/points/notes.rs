@@ -1,5 +1,7 @@
 //! Notes on limits and observed quantities with the paths of their models, and evidence of models.
 
+use std::collections::HashSet;
+
 use super::{Driven, PointResult};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -235,6 +237,7 @@ pub fn evidence(transmission: &Transmission, resolved: &Resolved, written: &dyn 
         let because = "capacities and conductances by size";
         add("network: auto".to_owned(), Evidence::Assumed, because, path);
     }
+    let mut seen = HashSet::new();
     for (path, came) in &resolved.sources {
         if let ValueSource::Catalogue {
             designation,
@@ -248,20 +251,13 @@ pub fn evidence(transmission: &Transmission, resolved: &Resolved, written: &dyn 
                 _ => Evidence::User,
             };
             let owner = path.rsplit_once('.').map_or(path.as_str(), |(owner, _)| owner);
-            let what = format!("catalogue row {designation}");
-            if !points
-                .iter()
-                .any(|p| p.what == what && p.paths.iter().any(|p| p == owner))
-            {
-                match points.iter_mut().find(|p| p.what == what) {
-                    Some(point) => point.paths.push(owner.to_owned()),
-                    None => points.push(WeakPoint {
-                        what,
-                        grade,
-                        because: format!("confidence {confidence}"),
-                        paths: vec![owner.to_owned()],
-                    }),
-                }
+            if seen.insert((designation, owner)) {
+                add(
+                    format!("catalogue row {designation}"),
+                    grade,
+                    &format!("confidence {confidence}"),
+                    owner,
+                );
             }
         }
     }
