@@ -34,6 +34,7 @@ mod commands;
 mod interrupt;
 mod output;
 mod own_process;
+mod registers;
 mod shard;
 mod threads;
 
@@ -145,6 +146,7 @@ fn exit_code(end: Result<End, Failure>) -> u8 {
 
 fn run(args: Args) -> Result<End, Failure> {
     threads::limit()?;
+    registers::check()?;
     let mut out = Out::standard();
     match args.command {
         Command::Catalogue(args) => commands::catalogue::run(&args, &mut out),

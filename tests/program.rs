@@ -780,6 +780,27 @@ fn too_many_threads_are_limited_with_a_note() {
 }
 
 #[test]
+fn a_limit_of_registers_is_one_of_their_widths() {
+    for (width, code) in [("avx2", 0), ("avx1024", 2)] {
+        let output = Command::cargo_bin("gearloss")
+            .unwrap()
+            .current_dir(env!("CARGO_MANIFEST_DIR"))
+            .env("GEARLOSS_REGISTERS", width)
+            .args(["check", GEARBOX])
+            .timeout(std::time::Duration::from_mins(1))
+            .output()
+            .unwrap();
+        assert_eq!(output.status.code(), Some(code), "{width}");
+        let text = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(
+            text.contains("write sse2, avx2, avx512, or delete the variable"),
+            code == 2,
+            "{text}"
+        );
+    }
+}
+
+#[test]
 fn huge_speeds_are_printed_in_engineering_notation() {
     let output = gearloss(&[
         "solve",

@@ -8,6 +8,7 @@
 mod dual;
 mod elementary;
 mod lane;
+mod registers;
 mod stencil;
 
 use std::fmt::Debug;
@@ -16,6 +17,7 @@ use std::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, Neg, Not, Sub, SubAssign
 pub use dual::{DIRECTIONS, Dual};
 pub use elementary::{cube_root, exp, ln, sine};
 pub use lane::{LANES, Lane, LaneMask};
+pub use registers::{LIMIT, WIDTHS, registers};
 pub use stencil::Stencil;
 
 use crate::loss::Undefined;

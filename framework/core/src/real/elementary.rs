@@ -133,7 +133,8 @@ pub fn sine(x: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::real::{LANES, Lane, Points as _};
+    use crate::real::registers::limited;
+    use crate::real::{LANES, Lane, Points as _, Real, WIDTHS};
 
     #[test]
     fn the_exponential_agrees_with_the_standard_library() {
@@ -192,13 +193,24 @@ mod tests {
     #[test]
     fn wide_instructions_have_the_bits_of_single_numbers() {
         let x = Lane::each(|i| 0.37 + 11.3 * i as f64);
-        let together = pulp::Arch::new().dispatch(
-            #[inline(always)]
-            || [x.map(exp), x.map(ln), x.map(cube_root), x.map(|x| sine(x * 0.007))],
-        );
-        for i in 0..LANES {
-            let alone = [exp(x[i]), ln(x[i]), cube_root(x[i]), sine(x[i] * 0.007)];
-            assert_eq!(together.map(|lane: Lane| lane[i].to_bits()), alone.map(f64::to_bits));
+        for width in WIDTHS {
+            let together = limited(Some(width)).dispatch(
+                #[inline(always)]
+                || {
+                    let sum = x * x * 0.3 + x / 7.0 - x.power(1.6);
+                    [x.map(exp), x.map(ln), x.map(cube_root), x.map(|x| sine(x * 0.007)), sum]
+                },
+            );
+            for i in 0..LANES {
+                let x = x[i];
+                let sum = x * x * 0.3 + x / 7.0 - x.power(1.6);
+                let alone = [exp(x), ln(x), cube_root(x), sine(x * 0.007), sum];
+                assert_eq!(
+                    together.map(|lane: Lane| lane[i].to_bits()),
+                    alone.map(f64::to_bits),
+                    "{width}"
+                );
+            }
         }
     }
 }

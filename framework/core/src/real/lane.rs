@@ -292,7 +292,7 @@ impl Points for Lane {
         if cfg!(debug_assertions) {
             work()
         } else {
-            pulp::Arch::new().dispatch(work)
+            super::registers::arch().dispatch(work)
         }
     }
 }

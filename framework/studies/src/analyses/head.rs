@@ -7,6 +7,7 @@ use gearloss_framework::coefficients::{Changed, changed_from_source};
 use gearloss_framework::description::Ordered;
 use gearloss_framework::evaluate::PowerFlow;
 use gearloss_framework::files::open_regular;
+use gearloss_framework::real::registers;
 use gearloss_framework::registry::Package;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -25,6 +26,8 @@ pub struct Head {
     pub gearloss: &'static str,
     /// Crates with models.
     pub packages: Vec<Package>,
+    /// Registers in which the points were computed, such as `avx2`; they change the time, not the results.
+    pub registers: &'static str,
     /// Title of the study.
     pub study: Option<String>,
     /// Name of the analysis.
@@ -108,6 +111,7 @@ impl Head {
             format: crate::results::FORMAT,
             gearloss: env!("CARGO_PKG_VERSION"),
             packages: cx.language.registry().packages(),
+            registers: registers(),
             study: cx.study.entry.title.clone(),
             analysis: cx.name.to_owned(),
             conditions: ConditionsOfResult {
