@@ -1,30 +1,36 @@
-//! Tables as Parquet: numbers as nullable doubles, texts as strings. Not in WebAssembly.
+//! Tables as Parquet: numbers as nullable doubles, texts as nullable strings. Not in WebAssembly.
 
 use std::io::Write;
+use std::ops::Range;
 use std::sync::Arc;
 
-use arrow_array::types::UInt32Type;
-use arrow_array::{ArrayRef, DictionaryArray, Float64Array, RecordBatch, StringArray};
-use arrow_schema::{DataType, Field, Schema, SchemaRef};
 use gearloss_studies::table::{Column, Table, Values};
-use parquet::arrow::ArrowWriter;
-use parquet::arrow::arrow_writer::ArrowWriterOptions;
-use parquet::basic::Compression;
+use parquet::basic::{Compression, LogicalType, Repetition, Type as Physical};
+use parquet::data_type::{ByteArray, ByteArrayType, DataType, DoubleType};
 use parquet::errors::ParquetError;
 use parquet::file::properties::WriterProperties;
-use parquet::schema::types::ColumnPath;
+use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
+use parquet::schema::types::{ColumnPath, Type};
 
 /// A table that is written in batches of rows.
 pub struct ParquetTable<W: Write + Send> {
-    writer: ArrowWriter<W>,
-    schema: SchemaRef,
+    writer: SerializedFileWriter<W>,
+    /// Rows of the incomplete row group, by column.
+    waiting: Vec<Cells>,
+    count: usize,
 }
 
-/// Number of rows of a row group; those of the incomplete one are in memory in packed form.
+/// Number of rows of a row group.
 const GROUP: usize = 32_768;
 
 /// Number columns with so many repeated values that a dictionary saves space.
 const REPEATED: [&str; 3] = ["torque_nm", "speed_rpm", "oil_temperature_degc"];
+
+/// Cells of a column; gaps are not among the values, and have the level 0.
+enum Cells {
+    Numbers(Vec<f64>, Vec<i16>),
+    Texts(Vec<ByteArray>, Vec<i16>),
+}
 
 impl<W: Write + Send> ParquetTable<W> {
     /// Writes the schema of the columns.
@@ -34,27 +40,33 @@ impl<W: Write + Send> ParquetTable<W> {
     pub fn new(to: W, header: &Table) -> Result<Self, ParquetError> {
         let mut properties = WriterProperties::builder()
             .set_compression(Compression::SNAPPY)
-            .set_max_row_group_row_count(Some(GROUP))
             .set_created_by(concat!("gearloss ", env!("CARGO_PKG_VERSION")).to_owned());
         let mut fields = Vec::new();
+        let mut waiting = Vec::new();
         for Column { name, values, .. } in &header.columns {
-            let kind = match values {
-                Values::Texts(_) => DataType::Dictionary(Box::new(DataType::UInt32), Box::new(DataType::Utf8)),
-                Values::Numbers(_) => DataType::Float64,
+            let (kind, logical, cells) = match values {
+                Values::Texts(_) => (
+                    Physical::BYTE_ARRAY,
+                    Some(LogicalType::String),
+                    Cells::Texts(Vec::new(), Vec::new()),
+                ),
+                Values::Numbers(_) => (Physical::DOUBLE, None, Cells::Numbers(Vec::new(), Vec::new())),
             };
-            if kind == DataType::Float64 && !REPEATED.contains(&name.as_str()) {
+            if kind == Physical::DOUBLE && !REPEATED.contains(&name.as_str()) {
                 properties = properties.set_column_dictionary_enabled(ColumnPath::from(vec![name.clone()]), false);
             }
-            fields.push(Field::new(name, kind, true));
+            let field = Type::primitive_type_builder(name, kind)
+                .with_repetition(Repetition::OPTIONAL)
+                .with_logical_type(logical);
+            fields.push(Arc::new(field.build()?));
+            waiting.push(cells);
         }
-        let schema = Arc::new(Schema::new(fields));
-        // Without the schema of Arrow, in which texts are codes of a dictionary: for every reader they are strings.
-        let options = ArrowWriterOptions::new()
-            .with_properties(properties.build())
-            .with_skip_arrow_metadata(true)
-            .with_schema_root("results".to_owned());
-        let writer = ArrowWriter::try_new_with_options(to, Arc::clone(&schema), options)?;
-        Ok(Self { writer, schema })
+        let schema = Type::group_type_builder("results").with_fields(fields).build()?;
+        Ok(Self {
+            writer: SerializedFileWriter::new(to, Arc::new(schema), Arc::new(properties.build()))?,
+            waiting,
+            count: 0,
+        })
     }
 
     /// Adds rows.
@@ -62,33 +74,84 @@ impl<W: Write + Send> ParquetTable<W> {
     /// # Errors
     /// Errors of the writer.
     pub fn rows(&mut self, rows: &Table) -> Result<(), ParquetError> {
-        let columns = rows.columns.iter().map(|column| array(&column.values)).collect();
-        self.writer
-            .write(&RecordBatch::try_new(Arc::clone(&self.schema), columns)?)
+        let mut at = 0;
+        while at < rows.len() {
+            let some = at..rows.len().min(at + GROUP - self.count);
+            for (cells, column) in self.waiting.iter_mut().zip(&rows.columns) {
+                cells.add(&column.values, some.clone())?;
+            }
+            self.count += some.len();
+            at = some.end;
+            if self.count == GROUP {
+                self.end_group()?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Writes the rows that wait.
+    fn end_group(&mut self) -> Result<(), ParquetError> {
+        self.count = 0;
+        let mut group = self.writer.next_row_group()?;
+        for cells in &mut self.waiting {
+            match cells {
+                Cells::Numbers(values, levels) => column::<DoubleType, _>(&mut group, values, levels)?,
+                Cells::Texts(values, levels) => column::<ByteArrayType, _>(&mut group, values, levels)?,
+            }
+        }
+        group.close().map(|_| ())
     }
 
     /// Completes the table.
     ///
     /// # Errors
     /// Errors of the writer.
-    pub fn finish(self) -> Result<(), ParquetError> {
+    pub fn finish(mut self) -> Result<(), ParquetError> {
+        if self.count > 0 {
+            self.end_group()?;
+        }
         self.writer.close().map(|_| ())
     }
 }
 
-/// The values of a column; gaps are nulls.
-fn array(values: &Values) -> ArrayRef {
-    match values {
-        Values::Numbers(numbers) => {
-            let known = numbers.iter().map(|x| Some(*x).filter(|x| !x.is_nan()));
-            Arc::new(known.collect::<Float64Array>())
+impl Cells {
+    fn add(&mut self, column: &Values, rows: Range<usize>) -> Result<(), ParquetError> {
+        match (self, column) {
+            (Self::Numbers(values, levels), Values::Numbers(numbers)) => {
+                let numbers = &numbers[rows];
+                values.extend(numbers.iter().filter(|x| !x.is_nan()));
+                levels.extend(numbers.iter().map(|x| i16::from(!x.is_nan())));
+            }
+            (Self::Texts(values, levels), Values::Texts(texts)) => {
+                // The cells of one text share its bytes.
+                let kinds: Vec<ByteArray> = texts.kinds().map(ByteArray::from).collect();
+                let codes = &texts.codes()[rows];
+                values.extend(codes.iter().flatten().map(|code| kinds[*code as usize].clone()));
+                levels.extend(codes.iter().map(|code| i16::from(code.is_some())));
+            }
+            _ => {
+                return Err(ParquetError::General(
+                    "a column of another kind than in the header".to_owned(),
+                ));
+            }
         }
-        Values::Texts(texts) => {
-            let kinds = StringArray::from_iter_values(texts.kinds());
-            let codes = texts.codes().iter().copied().collect();
-            Arc::new(DictionaryArray::<UInt32Type>::new(codes, Arc::new(kinds)))
-        }
+        Ok(())
     }
+}
+
+/// Writes the next column of a row group, and empties its cells.
+fn column<T: DataType, W: Write + Send>(
+    group: &mut SerializedRowGroupWriter<'_, W>,
+    values: &mut Vec<T::T>,
+    levels: &mut Vec<i16>,
+) -> Result<(), ParquetError> {
+    let mut writer = group
+        .next_column()?
+        .ok_or_else(|| ParquetError::General("a column more than the schema has".to_owned()))?;
+    writer.typed::<T>().write_batch(values, Some(levels), None)?;
+    values.clear();
+    levels.clear();
+    writer.close()
 }
 
 #[cfg(test)]
@@ -111,7 +174,7 @@ mod tests {
         let mut bytes = Vec::new();
         let mut file = ParquetTable::new(&mut bytes, &table).unwrap();
         file.rows(&table).unwrap();
-        file.writer.flush().unwrap();
+        file.end_group().unwrap();
         file.rows(&table.header()).unwrap();
         file.rows(&table).unwrap();
         file.finish().unwrap();
