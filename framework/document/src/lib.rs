@@ -33,5 +33,5 @@ pub use quantity::{QuantityFault, number_length, parse_quantity};
 pub use schema::{Field, Schema, Shape, Unsupported};
 pub use unit::{Conversion, Dimension, Unit, UnitFault};
 pub use visible::{visible, visible_json};
-pub use walk::{UNIT_OF_STEPS, Walked, walk, walk_at, walk_shape};
+pub use walk::{Walked, walk, walk_at, walk_shape};
 pub use yaml::{Read, read_yaml};

@@ -128,7 +128,7 @@ fn split_number(pair: &[Node]) -> Option<(String, &str, &Node)> {
 
 /// Key of the unit in which all of `from`, `to` and `step` are written: numbers add up to what is written in this unit alone. The walk adds
 /// it; no document has it.
-pub const UNIT_OF_STEPS: &str = "unit of steps";
+const UNIT_OF_STEPS: &str = "unit of steps";
 
 fn unit_of_steps<'a>(entries: &'a [(Key, Node)], fields: &[(String, Field)]) -> Option<&'a str> {
     let are_steps = fields.len() == 3
