@@ -29,6 +29,8 @@ pub enum Command {
     Run(RunArgs),
     /// Counts the tasks of a study and proposes a number of shards for `run --shard K/N`.
     Shards(ShardsArgs),
+    /// Makes the report of a run again from its files, without computing anything.
+    Report(ReportArgs),
     /// Merges the parts of `run --shard` into the results of the whole study.
     Merge(MergeArgs),
     /// Lists mechanisms and models, or the inputs that a gearbox lacks for them.
@@ -331,6 +333,9 @@ pub struct CheckArgs {
     /// Prints the resolved document of a gearbox, with all defaults, catalogue values and models.
     #[arg(long)]
     pub resolved: bool,
+    /// Prints what each analysis of a study computes: points, cycles, searches.
+    #[arg(long)]
+    pub plan: bool,
     /// Exit with code 1 if a result depends on evidence of this grade or lower, such as `recalled`.
     #[arg(long, value_name = "GRADE")]
     pub deny: Option<String>,
@@ -441,6 +446,19 @@ pub struct MergeArgs {
     pub parts: Vec<PathBuf>,
     #[command(flatten)]
     pub results: ResultArgs,
+}
+
+/// Arguments of `report`.
+#[derive(Debug, ClapArgs)]
+pub struct ReportArgs {
+    /// Folder of the results of a run.
+    pub results: PathBuf,
+    /// File to write [default: `report.html` in that folder].
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// Template of the page, as of `run --template`.
+    #[arg(long, value_name = "FILE")]
+    pub template: Option<PathBuf>,
 }
 
 /// Output and exit code of a study.

@@ -14,6 +14,7 @@ pub mod models;
 pub mod new;
 pub mod open;
 mod point;
+pub mod report;
 pub mod run;
 pub mod schema;
 mod set;

@@ -155,6 +155,7 @@ fn run(args: Args) -> Result<End, Failure> {
         Command::Explain(args) => commands::explain::run(&args, &mut out),
         Command::Run(args) => commands::run::run(&args, &mut out),
         Command::Shards(args) => commands::shards::run(&args, &mut out),
+        Command::Report(args) => commands::report::run(&args, &mut out),
         Command::Merge(args) => commands::merge::run(&args, &mut out),
         Command::Models(args) => commands::models::run(&args, &mut out),
         Command::Eval(args) => commands::eval::run(&args, &mut out),

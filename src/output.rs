@@ -68,7 +68,7 @@ impl From<Stopped> for Failure {
             Stopped::Found(findings) => Self::Found(findings),
             Stopped::Several(list) => list.as_slice().into(),
             Stopped::Unwritten(error) => error.into(),
-            Stopped::Interrupted | Stopped::Checked | Stopped::Elsewhere => Self::Interrupted,
+            Stopped::Interrupted | Stopped::Elsewhere => Self::Interrupted,
         }
     }
 }

@@ -188,7 +188,13 @@ fn one_run_at_a_time_writes_into_a_folder() {
     );
     assert_eq!(
         names(&results),
-        ["field.csv", "field.json", "field.parquet", "report.html"]
+        [
+            "field.csv",
+            "field.json",
+            "field.parquet",
+            "report.html",
+            "report.html.json"
+        ]
     );
     let again = gearloss(&folder, &["run", "study.yaml"]);
     assert!(text(&again.stdout).contains("replacing the results"));
@@ -226,7 +232,13 @@ fn a_run_that_was_killed_is_gone_on_with() {
     assert!(output.status.success(), "{}", text(&output.stderr));
     assert_eq!(
         names(&results),
-        ["field.csv", "field.json", "field.parquet", "report.html"]
+        [
+            "field.csv",
+            "field.json",
+            "field.parquet",
+            "report.html",
+            "report.html.json"
+        ]
     );
     // Files of somebody else are not taken for those of a run.
     fs::remove_file(results.join("report.html")).unwrap();

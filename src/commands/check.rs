@@ -41,6 +41,11 @@ pub fn run(args: &CheckArgs, out: &mut Out) -> Result<End, Failure> {
             if looked.refused.is_empty() {
                 out.line(format!("{}: fine", file.display()))?;
             }
+            for (analysis, work) in looked.plans.iter().filter(|_| args.plan) {
+                for part in work {
+                    out.line(format!("  {analysis}: {part}"))?;
+                }
+            }
             for note in &looked.notes {
                 out.line(format!("  note: {note}"))?;
             }
@@ -53,6 +58,7 @@ pub fn run(args: &CheckArgs, out: &mut Out) -> Result<End, Failure> {
             }
             continue;
         }
+        belongs_to_study(args, file)?;
         match gearbox(language, file, args) {
             Ok((text, weakest)) => {
                 out.text(&text)?;
@@ -92,6 +98,7 @@ fn print_json(language: &Language, args: &CheckArgs, deny: Option<Evidence>, out
             }
             FileRecord::of_study(&study)
         } else {
+            belongs_to_study(args, file)?;
             FileRecord::of_gearbox(&checked(language, file, &args.choice), args.resolved)
         };
         if record.is_denied(deny) {
@@ -123,6 +130,17 @@ fn belongs_to_gearboxes(args: &CheckArgs, file: &Path) -> Result<(), Failure> {
         )),
         None => Ok(()),
     }
+}
+
+/// Rejects an option that does not apply to a gearbox.
+fn belongs_to_study(args: &CheckArgs, file: &Path) -> Result<(), Failure> {
+    if args.plan {
+        return Err(Failure::input(
+            format!("--plan does not apply to {}, which is a gearbox", file.display()),
+            "check a study with it",
+        ));
+    }
+    Ok(())
 }
 
 /// No progress, until Ctrl-C.

@@ -13,11 +13,12 @@ mod template;
 mod write;
 
 pub(super) use shard::gather;
+pub(super) use template::Template;
+pub(super) use write::{CONTENT, REPORT, page};
 
 use self::console::Shown;
 use self::folder::Held;
 use self::runner::Run;
-use self::template::Template;
 
 use std::path::{Path, PathBuf};
 use std::time::Instant;

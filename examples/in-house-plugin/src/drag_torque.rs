@@ -57,35 +57,40 @@ pub struct DragTorqueOfSet {
 #[derive(Debug, Clone, Copy, Serialize, JsonSchema)]
 pub struct DragTorque {
     /// Temperature of the oil. [degC]
-    pub oil_temperature_degc: f64,
+    pub oil_temperature_degc: Option<f64>,
     /// Torque; absent if a loss has no value. [Nm]
     pub torque_nm: Option<f64>,
 }
 
 impl Analysis for DragTorqueEntry {
     const TYPE: &'static str = "drag_torque";
+    type Plan<'a> = Runs<'a>;
     type Outcome = DragTorqueOutcome;
 
     fn uses(&self) -> Uses<'_> {
         Uses::new(self.gearbox.as_ref(), &self.model_sets).in_gears(&self.gear)
     }
 
-    fn run(&self, cx: &Context<'_>) -> Result<DragTorqueOutcome, Stopped> {
+    fn plan<'a>(&'a self, cx: &Planner<'a>) -> Result<Runs<'a>, Stopped> {
         let built = cx.built(cx.gearbox(self.gearbox.as_ref())?, &self.model_sets)?;
         let path = format!("{}.oil_temperature", cx.path());
         let temperatures = axis(cx, &path, self.oil_temperature.values())?;
-        let mut all = Vec::new();
-        for b in &built {
-            let points = self.points(cx, &b.transmission, &temperatures);
-            cx.checked(b, &points)?;
-            all.push((b, points));
-        }
-        // All errors were found above: `check` ends here.
-        cx.begin()?;
-        let solve = |(b, points): (&Built<'_>, Points)| Ok(of_set(b, &temperatures, &cx.solve(b, &points)?));
-        let sets = all.into_iter().map(solve).collect::<Result<_, Stopped>>()?;
-        let head = cx.head(&built.iter().collect::<Vec<_>>());
-        Ok(DragTorqueOutcome { head, sets })
+        Runs::of(&built, |b| {
+            Run::new(cx, b, self.points(cx, &b.transmission, &temperatures))
+        })
+    }
+
+    fn reduce<'a>(&'a self, plan: Runs<'a>, engine: &Engine<'a>) -> Result<DragTorqueOutcome, Stopped> {
+        let solved = engine.solve_all(&plan)?;
+        Ok(DragTorqueOutcome {
+            head: engine.head(&plan.built()),
+            sets: plan
+                .0
+                .iter()
+                .zip(&solved)
+                .map(|(run, solved)| of_set(run, solved))
+                .collect(),
+        })
     }
 
     fn formats(&self) -> &[Write] {
@@ -95,7 +100,7 @@ impl Analysis for DragTorqueEntry {
 
 impl DragTorqueEntry {
     /// The turned port has the speed; no torque acts on the others.
-    fn points(&self, cx: &Context<'_>, t: &Transmission, temperatures: &[f64]) -> Points {
+    fn points(&self, cx: &Planner<'_>, t: &Transmission, temperatures: &[f64]) -> Points {
         let given = |oil: &f64| Given {
             oil: Some(*oil),
             ..Given::new(0.0, self.speed)
@@ -108,21 +113,18 @@ impl DragTorqueEntry {
     }
 }
 
-fn of_set(b: &Built<'_>, temperatures: &[f64], solved: &GridResult) -> DragTorqueOfSet {
-    let torques: Vec<DragTorque> = temperatures
-        .iter()
-        .zip(&solved.points)
-        .map(|(oil, point)| DragTorque {
-            oil_temperature_degc: *oil,
-            torque_nm: point.loss.map(|loss| loss / point.speed),
-        })
-        .collect();
+fn of_set(run: &Run<'_>, solved: &GridResult) -> DragTorqueOfSet {
+    let torque = |point: &PointResult| DragTorque {
+        oil_temperature_degc: point.oil,
+        torque_nm: point.loss.map(|loss| loss / point.speed),
+    };
+    let torques: Vec<DragTorque> = solved.points.iter().map(torque).collect();
     let ends = torques.first().zip(torques.last());
     DragTorqueOfSet {
-        model_set: b.name.clone(),
+        model_set: run.built.name.clone(),
         cold_over_warm: ends.and_then(|(first, last)| Some(first.torque_nm? / last.torque_nm?)),
         torques,
-        notes: notes(&b.transmission, &solved.seen),
+        notes: notes(&run.built.transmission, &solved.seen),
     }
 }
 

@@ -5,15 +5,12 @@ mod gearbox;
 mod point;
 mod template;
 
-use std::borrow::Cow;
-
 use gearloss_framework::description::AssumedEntry;
-use gearloss_framework::document::{Diagnostic, visible, visible_json};
+use gearloss_framework::document::{Diagnostic, visible_json};
 use gearloss_framework::evaluate::PowerFlow;
 use gearloss_framework::language::Language;
 use gearloss_studies::analyses::head::{hash, inputs};
 use gearloss_studies::study::Study;
-use minijinja::value::Serde;
 use minijinja::{AutoEscape, Environment, Value as Filled};
 use rayon::prelude::*;
 use serde::Serialize;
@@ -288,24 +285,8 @@ impl Report {
     /// # Errors
     /// Error of the template.
     pub fn html(&self, frame: &Frame) -> Result<String, Diagnostic> {
-        let content = self.content(frame);
-        let values = minijinja::context! {
-            frame => Filled::from(Serde(content.frame)),
-            sections => Filled::from(Serde(&content.sections)),
-            gearboxes => Filled::from(Serde(&content.gearboxes)),
-            answers => Filled::from(Serde(content.answers)),
-            outside => Filled::from(Serde(content.outside)),
-            worst => Filled::from(Serde(content.worst)),
-            ..fixed(content.pictures),
-        };
-        let page = environment()
-            .template_from_named_str("report", TEMPLATE)
-            .and_then(|page| page.render(values));
-        let page = page.map_err(|fault| template::fault("report", &fault))?;
-        Ok(match visible(&page) {
-            Cow::Borrowed(_) => page,
-            Cow::Owned(shown) => shown,
-        })
+        let content = serde_json::to_value(self.content(frame));
+        page(content.map_err(|fault| Diagnostic::error("", format!("the report cannot be encoded: {fault}")))?)
     }
 
     /// What a template of the user gets, to be serialised for [`fill_template`].
@@ -357,6 +338,16 @@ impl Report {
 }
 
 /// An environment without named templates, so that a template cannot include any, not even itself.
+/// The page of a report with this content: that of [`Report::content`], also as it was stored.
+///
+/// # Errors
+/// Content that is not that of a report.
+pub fn page(content: Value) -> Result<String, Diagnostic> {
+    let mut page = Vec::new();
+    fill_template("report", TEMPLATE, content, &mut page)?;
+    Ok(String::from_utf8_lossy(&page).into_owned())
+}
+
 fn environment<'a>() -> Environment<'a> {
     let mut environment = Environment::new();
     environment.set_auto_escape_callback(|_| AutoEscape::Html);
@@ -462,7 +453,7 @@ mod tests {
             let mut frame = frame();
             frame.study = format!("title: \"{hidden}\" # µ °C\n");
             let page = page_of(&report, &frame, template).unwrap();
-            assert_eq!(visible(&page), page);
+            assert_eq!(gearloss_framework::document::visible(&page), page);
             assert!(page.contains(r"\u{202e}fdp\u{1b}[2J\u{200b}"), "{template:?}");
             assert!(page.contains(r"\u202efdp\u001b[2J\u200b"), "{template:?}");
             assert!(page.contains("# µ °C"));

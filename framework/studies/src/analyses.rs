@@ -9,9 +9,9 @@ pub mod breakdown;
 pub mod compare;
 pub mod component_compare;
 pub mod contact_path;
-pub mod context;
 pub mod cycle;
 pub mod duties;
+pub mod engine;
 pub mod fluid_sweep;
 pub mod head;
 pub mod identify;
@@ -22,6 +22,8 @@ pub mod measurable;
 pub mod numbers;
 pub mod operating_points;
 pub mod optimise;
+pub mod plan;
+pub mod planner;
 pub mod progress;
 pub mod ranges;
 pub mod rms_surface;
@@ -29,6 +31,7 @@ pub mod rows;
 pub mod sensitivity;
 pub mod shares;
 pub mod spin_loss;
+pub mod stopped;
 pub mod sweep;
 pub mod temperature_sweep;
 pub mod thermal_limit;
@@ -36,6 +39,7 @@ pub mod tournament;
 pub mod trial;
 pub mod uncertainty;
 pub(crate) mod units;
+mod within;
 
 use std::any::Any;
 use std::fmt;
@@ -50,8 +54,12 @@ use serde::de::{DeserializeOwned, Error};
 use serde::{Deserialize, Deserializer, Serialize};
 use serde_json::Value;
 
-pub use context::{Built, Context, Stopped, gear_of};
+pub use engine::Engine;
 pub use head::Head;
+pub use plan::{Plan, Run, Runs, Work};
+pub use planner::{Built, Planner, gear_of};
+pub use stopped::Stopped;
+use within::JobsWithin;
 
 use crate::points::Note;
 use crate::study::{ParameterKey, Then, Uses, Write};
@@ -66,6 +74,8 @@ pub trait Analysis: DeserializeOwned + JsonSchema + Send + Sync + 'static {
     const TYPE: &'static str;
     /// The key whose entries may be names of parameters of the study.
     const PARAMETERS: Option<ParameterKey> = None;
+    /// What it computes, with all that was read and built for it.
+    type Plan<'a>: Plan;
     /// Outcome.
     type Outcome: Outcome + JsonSchema;
 
@@ -77,12 +87,17 @@ pub trait Analysis: DeserializeOwned + JsonSchema + Send + Sync + 'static {
         None
     }
 
-    /// Computes the outcome.
+    /// Reads, builds and checks everything that it asks for, and solves nothing: the whole of `check`.
     ///
     /// # Errors
-    /// All errors of the input, and an interruption by the caller. If the analysis is only checked, it ends with [`Stopped::Checked`]
-    /// before it computes.
-    fn run(&self, cx: &Context<'_>) -> Result<Self::Outcome, Stopped>;
+    /// All errors of the input.
+    fn plan<'a>(&'a self, cx: &Planner<'a>) -> Result<Self::Plan<'a>, Stopped>;
+
+    /// Computes the outcome of what was planned.
+    ///
+    /// # Errors
+    /// An interruption by the caller; that points have no solution without which there is no outcome.
+    fn reduce<'a>(&'a self, plan: Self::Plan<'a>, engine: &Engine<'a>) -> Result<Self::Outcome, Stopped>;
 
     /// Requested files.
     fn formats(&self) -> &[Write];
@@ -178,7 +193,8 @@ pub struct AnalysisKind {
     read: fn(Value) -> Result<Arc<Written>, serde_json::Error>,
     uses: fn(&Written) -> Uses<'_>,
     then: fn(&Written) -> Option<Then<'_>>,
-    run: fn(&Written, &Context<'_>) -> Result<Box<dyn Outcome>, Stopped>,
+    plan: fn(&Written, &Planner<'_>) -> Result<Vec<Work>, Stopped>,
+    run: fn(&Written, &Engine<'_>) -> Result<Box<dyn Outcome>, Stopped>,
     formats: fn(&Written) -> &[Write],
     outcome: fn(&mut SchemaGenerator) -> Schema,
 }
@@ -197,7 +213,21 @@ impl AnalysisKind {
             read: |value| Ok(Arc::new(serde_json::from_value::<A>(value)?)),
             uses: |entry| own::<A>(entry).uses(),
             then: |entry| own::<A>(entry).then(),
-            run: |entry, cx| Ok(Box::new(own::<A>(entry).run(cx)?)),
+            plan: |entry, cx| {
+                let plan = own::<A>(entry).plan(cx)?;
+                let work = plan.work();
+                let failures = plan.into_failures();
+                if failures.is_empty() {
+                    Ok(work)
+                } else {
+                    Err(Stopped::Several(failures))
+                }
+            },
+            run: |entry, engine| {
+                let entry = own::<A>(entry);
+                let plan = entry.plan(engine.planner())?;
+                Ok(Box::new(entry.reduce(plan, engine)?))
+            },
             formats: |entry| own::<A>(entry).formats(),
             outcome: SchemaGenerator::subschema_for::<A::Outcome>,
         }
@@ -297,12 +327,20 @@ impl AnalysisEntry {
         self.written.downcast_ref()
     }
 
-    /// Computes the outcome.
+    /// What it computes.
     ///
     /// # Errors
-    /// As [`Analysis::run`].
-    pub fn run(&self, cx: &Context<'_>) -> Result<Box<dyn Outcome>, Stopped> {
-        (self.kind.run)(self.written.as_ref(), cx)
+    /// As [`Analysis::plan`].
+    pub fn plan(&self, cx: &Planner<'_>) -> Result<Vec<Work>, Stopped> {
+        (self.kind.plan)(self.written.as_ref(), cx)
+    }
+
+    /// Plans, and computes the outcome.
+    ///
+    /// # Errors
+    /// As [`Analysis::plan`] and [`Analysis::reduce`].
+    pub fn run(&self, engine: &Engine<'_>) -> Result<Box<dyn Outcome>, Stopped> {
+        (self.kind.run)(self.written.as_ref(), engine)
     }
 
     /// Requested files.

@@ -7,7 +7,7 @@ use gearloss_framework::gearbox::Findings;
 use gearloss_framework::language::Language;
 
 use crate::analyses::progress::Progress;
-use crate::analyses::{Context, Stopped};
+use crate::analyses::{Planner, Stopped, Work};
 use crate::run::StudyRun;
 use crate::study::{Cautions, Study};
 
@@ -16,6 +16,8 @@ use crate::study::{Cautions, Study};
 pub struct CheckedStudy {
     /// Errors that `run` reports before it computes, by analysis, without repetition.
     pub refused: Vec<Stopped>,
+    /// What each analysis computes, by its name; nothing of those that are refused.
+    pub plans: Vec<(String, Vec<Work>)>,
     /// Warnings of its gearboxes.
     pub warnings: Vec<Findings>,
     /// Components of its gearboxes without a model, and coefficients that differ from their source.
@@ -43,6 +45,7 @@ impl CheckedStudy {
         let run = StudyRun::new(language, study);
         let mut reported = Reported::default();
         let mut refused: Vec<Stopped> = Vec::new();
+        let mut plans = Vec::new();
         if let Some(findings) = study.data_findings() {
             reported.add(&findings);
             refused.push(findings.into());
@@ -53,8 +56,12 @@ impl CheckedStudy {
                 break;
             }
             let own = run.study_for_analysis();
-            let Err(stopped) = run.run(&Context::new(language, &own, name, progress).checking()) else {
-                continue;
+            let stopped = match run.plan(&Planner::new(language, &own, name)) {
+                Ok(work) => {
+                    plans.push((name.to_owned(), work));
+                    continue;
+                }
+                Err(stopped) => stopped,
             };
             let Some(stopped) = reported.unreported(stopped) else {
                 continue;
@@ -67,6 +74,7 @@ impl CheckedStudy {
         let Cautions { warnings, notes } = study.cautions(language);
         Self {
             refused,
+            plans,
             warnings,
             notes,
         }
@@ -97,7 +105,6 @@ impl Reported {
     /// The part of the reason of an analysis that was not reported yet.
     fn unreported(&self, stopped: Stopped) -> Option<Stopped> {
         match stopped {
-            Stopped::Checked => None,
             Stopped::Found(findings) => self.new_findings(findings).map(Stopped::Found),
             other => Some(other),
         }

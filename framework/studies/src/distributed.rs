@@ -14,7 +14,7 @@ use gearloss_framework::language::Language;
 use serde::{Deserialize, Serialize};
 
 use crate::analyses::progress::Progress;
-use crate::analyses::{Context, Outcome, Stopped};
+use crate::analyses::{Engine, Outcome, Planner, Stopped};
 use crate::run::{FoundSets, StudyRun};
 use crate::study::Study;
 use crate::table::DiscardedRows;
@@ -67,8 +67,9 @@ impl Collected {
             collected: self,
             missing: Mutex::default(),
         };
-        let cx = Context::new(run.language(), &study, name, progress);
-        match run.run(&cx.with_tasks(Some(&lister)).with_sink(&DiscardedRows)) {
+        let planner = Planner::new(run.language(), &study, name);
+        let engine = Engine::new(&planner, progress);
+        match run.run(&engine.with_tasks(Some(&lister)).with_sink(&DiscardedRows)) {
             Ok(_) | Err(Stopped::Elsewhere) => {}
             Err(stopped) => return Err(stopped),
         }
@@ -90,7 +91,8 @@ impl Collected {
         progress: &dyn Progress,
     ) -> Result<Box<dyn Outcome>, Stopped> {
         let study = run.study_for_analysis();
-        run.run(&Context::new(run.language(), &study, name, progress).with_tasks(Some(self)))
+        let planner = Planner::new(run.language(), &study, name);
+        run.run(&Engine::new(&planner, progress).with_tasks(Some(self)))
     }
 
     fn all(&self) -> MutexGuard<'_, BTreeMap<String, Results>> {
@@ -281,8 +283,9 @@ pub fn compute(
         before,
         computed: Mutex::default(),
     };
-    let cx = Context::new(run.language(), &study, analysis, progress);
-    match run.run(&cx.with_tasks(Some(&own)).with_sink(&DiscardedRows)) {
+    let planner = Planner::new(run.language(), &study, analysis);
+    let engine = Engine::new(&planner, progress);
+    match run.run(&engine.with_tasks(Some(&own)).with_sink(&DiscardedRows)) {
         Ok(_) | Err(Stopped::Elsewhere) => {}
         Err(stopped) => return Err(stopped),
     }

@@ -7,8 +7,8 @@ use gearloss_framework::attach::dangling;
 use gearloss_framework::language::Language;
 use serde_json::{Map, Value};
 
-use crate::analyses::progress::Silent;
-use crate::analyses::{Context, Outcome, Stopped};
+use crate::analyses::progress::{Progress, Silent};
+use crate::analyses::{AnalysisEntry, Engine, Outcome, Planner, Stopped, Work};
 use crate::codes;
 use crate::study::Study;
 
@@ -66,8 +66,17 @@ impl<'a> StudyRun<'a> {
     /// # Errors
     /// That no analysis has the name; everything that is wrong with its input.
     pub fn analysis(&self, name: &str) -> Result<Box<dyn Outcome>, Stopped> {
+        self.analysis_with(name, &Silent)
+    }
+
+    /// The same with progress, by which the caller may interrupt.
+    ///
+    /// # Errors
+    /// As [`StudyRun::analysis`].
+    pub fn analysis_with(&self, name: &str, progress: &dyn Progress) -> Result<Box<dyn Outcome>, Stopped> {
         let study = self.study_for_analysis();
-        self.run(&Context::new(self.language, &study, name, &Silent))
+        let planner = Planner::new(self.language, &study, name);
+        self.run(&Engine::new(&planner, progress))
     }
 
     /// Every analysis with its name and its outcome, in the order of the study; each runs when the iterator reaches it. An error
@@ -77,22 +86,26 @@ impl<'a> StudyRun<'a> {
         names.map(|name| (name, self.analysis(name)))
     }
 
-    /// The outcome of the analysis of a context, which may report progress, keep results of tasks or take rows of large tables. The
-    /// study of the context is the one of [`StudyRun::study_for_analysis`].
+    /// The plan of the analysis of a planner, whose study is the one of [`StudyRun::study_for_analysis`]: the whole of `check`.
     ///
     /// # Errors
-    /// As [`StudyRun::analysis`], and [`Stopped::Checked`] of a context that only checks.
-    pub fn run(&self, cx: &Context<'_>) -> Result<Box<dyn Outcome>, Stopped> {
-        let Some(analysis) = cx.study.entry.analyses.get(cx.name) else {
-            let names: Vec<&str> = cx.study.entry.analyses.ids().collect();
-            return Err(cx.found(vec![dangling("analyses", "analysis", cx.name, &names)]));
-        };
-        if let Some((set, by)) = cx.study.pending(analysis).filter(|_| !cx.only_checks) {
+    /// That no analysis has the name; everything that is wrong with its input.
+    pub fn plan(&self, planner: &Planner<'_>) -> Result<Vec<Work>, Stopped> {
+        entry(planner)?.plan(planner)
+    }
+
+    /// The outcome of the analysis of an engine, which may report progress, keep results of tasks or take rows of large tables.
+    ///
+    /// # Errors
+    /// As [`StudyRun::analysis`].
+    pub fn run(&self, engine: &Engine<'_>) -> Result<Box<dyn Outcome>, Stopped> {
+        let analysis = entry(engine)?;
+        if let Some((set, by)) = engine.study.pending(analysis) {
             let message = format!("the model set `{set}` has no values, because the analysis `{by}` produced none");
             let help = format!("correct `{by}`, or choose another set");
-            return Err(cx.wrong_as(codes::NOT_FOUND_YET, &cx.path(), message, &help));
+            return Err(engine.wrong_as(codes::NOT_FOUND_YET, &engine.path(), message, &help));
         }
-        let outcome = analysis.run(cx)?;
+        let outcome = analysis.run(engine)?;
         if let Some(then) = analysis.then() {
             let values = outcome.found().into_iter().collect();
             self.found().insert(then.set.to_owned(), values);
@@ -103,4 +116,13 @@ impl<'a> StudyRun<'a> {
     fn found(&self) -> MutexGuard<'_, FoundSets> {
         self.found.lock().unwrap_or_else(PoisonError::into_inner)
     }
+}
+
+/// The analysis of a planner.
+fn entry<'a>(planner: &Planner<'a>) -> Result<&'a AnalysisEntry, Stopped> {
+    let analyses = &planner.study.entry.analyses;
+    analyses.get(planner.name).ok_or_else(|| {
+        let names: Vec<&str> = analyses.ids().collect();
+        planner.found(vec![dangling("analyses", "analysis", planner.name, &names)])
+    })
 }

@@ -1,16 +1,16 @@
 //! Tasks of an analysis, so that results can be stored and computed on several machines.
 //!
-//! An analysis computes in stages of many tasks that do not depend on each other: pieces of points ([`Context::solve_pieces`]), and
-//! samples, pairs of values or starts ([`Context::each`]). Parts of an analysis such as model sets do not wait for each other
-//! ([`Context::part`]). Other work is not split ([`Context::undivided`]).
+//! An analysis computes in stages of many tasks that do not depend on each other: pieces of points ([`Engine::solve`]), and samples, pairs
+//! of values or starts ([`Engine::jobs`]). Parts of an analysis such as model sets do not wait for each other ([`Engine::parts`]). Other
+//! work is not split ([`Engine::undivided`]).
 //!
 //! Without stored results all tasks run on the threads of this process. With them a run computes its own tasks, stores their
 //! results, and continues with the next stage only if all results of a stage are there.
 //!
-//! [`Context::solve_pieces`]: crate::analyses::Context::solve_pieces
-//! [`Context::each`]: crate::analyses::Context::each
-//! [`Context::part`]: crate::analyses::Context::part
-//! [`Context::undivided`]: crate::analyses::Context::undivided
+//! [`Engine::solve`]: crate::analyses::Engine::solve
+//! [`Engine::jobs`]: crate::analyses::Engine::jobs
+//! [`Engine::parts`]: crate::analyses::Engine::parts
+//! [`Engine::undivided`]: crate::analyses::Engine::undivided
 
 use std::io;
 use std::path::PathBuf;

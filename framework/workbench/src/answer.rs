@@ -61,7 +61,7 @@ impl From<Stopped> for Fault {
                 Self::of(stopped.findings().iter().flat_map(Finding::placed).collect())
             }
             Stopped::Interrupted => Self::interrupted(),
-            Stopped::Checked | Stopped::Elsewhere | Stopped::Unwritten(_) => {
+            Stopped::Elsewhere | Stopped::Unwritten(_) => {
                 Self::new(stopped.to_string(), "run the study with `gearloss run`")
             }
         }

@@ -7,9 +7,9 @@ use gearloss_framework::files::{SharedSource, without_dots};
 use gearloss_framework::language::Language;
 use gearloss_framework::transmission::Transmission;
 use gearloss_report::html::point_of_report;
-use gearloss_studies::analyses::Context;
+use gearloss_studies::analyses::Planner;
 use gearloss_studies::analyses::numbers::RPM;
-use gearloss_studies::analyses::progress::{Progress, Silent};
+use gearloss_studies::analyses::progress::Progress;
 use gearloss_studies::study::Study;
 use serde::Serialize;
 use serde_json::Value;
@@ -234,7 +234,7 @@ fn in_study(
     let folder = Path::new(study).parent()?;
     let uses = |file: &str| without_dots(&folder.join(file)) == without_dots(Path::new(gearbox));
     read.entry.gearboxes.iter().find(|(_, file)| uses(file))?;
-    let cx = Context::new(language, &read, "workbench", &Silent);
+    let cx = Planner::new(language, &read, "workbench");
     let (_, given) = point_of_report(&cx, transmission)?;
     let ends = [given.torque.abs(), given.speed.abs() * RPM];
     ends.iter().all(|end| *end > 0.0).then_some(ends)

@@ -5,8 +5,8 @@ use std::path::Path;
 use gearloss_framework::files::SharedSource;
 use gearloss_framework::language::Language;
 use gearloss_report::html::Report;
+use gearloss_studies::analyses::Stopped;
 use gearloss_studies::analyses::progress::Progress;
-use gearloss_studies::analyses::{Context, Stopped};
 use gearloss_studies::run::StudyRun;
 use gearloss_studies::study::Study;
 use serde_json::{Value, json};
@@ -22,10 +22,7 @@ const MOST: usize = 60;
 /// Computes a map.
 pub fn map(language: &Language, files: &SharedSource, of: &MapOf, progress: &dyn Progress) -> Result<Value, Fault> {
     let study = study(language, files, of, progress)?;
-    let run = StudyRun::new(language, &study);
-    let study = run.study_for_analysis();
-    let cx = Context::new(language, &study, "map", progress);
-    let outcome = run.run(&cx)?;
+    let outcome = StudyRun::new(language, &study).analysis_with("map", progress)?;
     let mut report = Report::default();
     if let Some(analysis) = study.entry.analyses.get("map") {
         report.begin("map", analysis);

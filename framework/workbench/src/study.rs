@@ -8,8 +8,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use gearloss_framework::files::SharedSource;
 use gearloss_framework::language::Language;
 use gearloss_report::html::{Frame, Report};
-use gearloss_studies::analyses::progress::{Progress, Silent, Steps};
-use gearloss_studies::analyses::{Context, Outcome, Stopped};
+use gearloss_studies::analyses::progress::{Progress, Steps};
+use gearloss_studies::analyses::{Outcome, Planner, Stopped};
 use gearloss_studies::run::StudyRun;
 use gearloss_studies::study::Study;
 use serde_json::{Value, json};
@@ -67,8 +67,7 @@ pub fn run(
             listener,
             analysis: name,
         };
-        let own = run.study_for_analysis();
-        match run.run(&Context::new(language, &own, name, &progress)) {
+        match run.analysis_with(name, &progress) {
             Ok(outcome) => failed += usize::from(!add(&mut report, name, outcome.as_ref(), &study)),
             Err(Stopped::Interrupted) => return Ok(()),
             Err(stopped) => {
@@ -81,7 +80,7 @@ pub fn run(
     }
     if wanted.is_empty() {
         let own = run.study_for_analysis();
-        report.complete(&Context::new(language, &own, "report", &Silent))?;
+        report.complete(&Planner::new(language, &own, "report"))?;
         let frame = Frame::new(&study, language, env!("CARGO_PKG_VERSION"));
         let address = listener.report(report.html(&frame)?);
         listener.event(json!({ "event": "report", "address": address }));

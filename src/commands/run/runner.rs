@@ -9,7 +9,7 @@ use gearloss_framework::language::Language;
 use gearloss_report::html::{Report, Section};
 use gearloss_studies::analyses::limits::reached::LimitReached;
 use gearloss_studies::analyses::progress::{Progress, Steps};
-use gearloss_studies::analyses::{AnalysisEntry, Context, Outcome};
+use gearloss_studies::analyses::{AnalysisEntry, Engine, Outcome, Planner};
 use gearloss_studies::distinct::distinct;
 use gearloss_studies::run::StudyRun;
 use gearloss_studies::study::{LimitEntry, Severity, Study, Write};
@@ -46,15 +46,15 @@ pub struct Run<'a> {
 
 /// One analysis of a run.
 pub struct Runner<'a> {
-    cx: Context<'a>,
+    engine: Engine<'a>,
     pub(super) run: &'a Run<'a>,
 }
 
 impl<'a> Deref for Runner<'a> {
-    type Target = Context<'a>;
+    type Target = Engine<'a>;
 
-    fn deref(&self) -> &Context<'a> {
-        &self.cx
+    fn deref(&self) -> &Engine<'a> {
+        &self.engine
     }
 }
 
@@ -127,9 +127,9 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// The context of an analysis; the study is that of [`StudyRun::study_for_analysis`].
-    pub(super) fn context<'r>(&'r self, study: &'r Study, name: &'r str) -> Context<'r> {
-        Context::new(self.language, study, name, &self.bars).with_tasks(self.tasks)
+    /// The engine of a planner, whose study is that of [`StudyRun::study_for_analysis`].
+    pub(super) fn engine<'r>(&'r self, planner: &'r Planner<'r>) -> Engine<'r> {
+        Engine::new(planner, &self.bars).with_tasks(self.tasks)
     }
 
     /// Limits of the study whose quantity no analysis knows.
@@ -154,11 +154,12 @@ impl<'a> Run<'a> {
         self.report.borrow_mut().begin(name, analysis);
         let tables = Tables::new(&self.files, analysis.formats());
         let study = self.analyses.study_for_analysis();
+        let planner = Planner::new(self.language, &study, name);
         let runner = Runner {
-            cx: self.context(&study, name).with_sink(&tables),
+            engine: self.engine(&planner).with_sink(&tables),
             run: self,
         };
-        match self.analyses.run(&runner.cx) {
+        match self.analyses.run(&runner.engine) {
             Ok(outcome) => {
                 let shown = runner.present(analysis, outcome.as_ref(), out);
                 drop(runner);

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use gearloss_framework::language::Language;
-use gearloss_studies::analyses::Stopped;
+use gearloss_studies::analyses::{Planner, Stopped};
 use gearloss_studies::study::Study;
 use gearloss_studies::table::DiscardedRows;
 
@@ -70,13 +70,13 @@ fn compute(run: &Run<'_>) -> Result<usize, Failure> {
         if study.pending(analysis).is_some() {
             continue;
         }
-        let cx = run.context(&study, name).with_sink(&DiscardedRows);
-        match run.analyses.run(&cx) {
+        let planner = Planner::new(run.language, &study, name);
+        match run.analyses.run(&run.engine(&planner).with_sink(&DiscardedRows)) {
             Err(Stopped::Found(findings)) => {
                 Out::error().text(&findings.render())?;
                 failed += 1;
             }
-            Ok(_) | Err(Stopped::Elsewhere | Stopped::Checked) => {}
+            Ok(_) | Err(Stopped::Elsewhere) => {}
             Err(stopped) => return Err(stopped.into()),
         }
     }

@@ -4,8 +4,8 @@ use std::io::Write as _;
 use std::path::Path;
 use std::process::Stdio;
 
-use gearloss_report::html::{Content, LONGEST_TEMPLATE};
-use serde_json::json;
+use gearloss_report::html::LONGEST_TEMPLATE;
+use serde_json::{Value, json};
 
 use crate::commands::fill_template::COMMAND;
 use crate::commands::read_file;
@@ -27,7 +27,7 @@ impl Template {
     }
 
     /// The page with this content.
-    pub fn fill(&self, content: &Content<'_>) -> Result<Vec<u8>, Failure> {
+    pub fn fill(&self, content: &Value) -> Result<Vec<u8>, Failure> {
         let cannot = |error: &dyn std::fmt::Display| {
             Failure::input(
                 format!("the template {}: no process can fill it: {error}", self.name),

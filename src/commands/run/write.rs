@@ -4,9 +4,9 @@ use std::fs;
 use std::io::{self, Write as _};
 
 use gearloss_report::Figure;
-use gearloss_report::html::Frame;
+use gearloss_report::html::{self, Frame};
 use gearloss_report::xlsx;
-use gearloss_studies::analyses::Outcome;
+use gearloss_studies::analyses::{Outcome, Planner};
 use gearloss_studies::table::Table;
 
 use super::result_files::Place;
@@ -33,18 +33,36 @@ pub fn workbook(run: &Run<'_>, name: &str, tables: &[Table]) -> Result<(), Failu
 /// Name of the report.
 pub const REPORT: &str = "report.html";
 
-/// Writes the page into the folder of the results.
+/// Name of its content, of which `gearloss report` makes it again.
+pub const CONTENT: &str = "report.html.json";
+
+/// Writes the page and its content into the folder of the results.
 pub fn report(run: &Run<'_>, template: Option<&Template>) -> Result<(), Failure> {
     let study = run.analyses.study_for_analysis();
-    let context = run.context(&study, "report");
     let mut report = run.report.borrow_mut();
-    report.complete(&context)?;
+    report.complete(&Planner::new(run.language, &study, "report"))?;
     let frame = Frame::new(run.study, run.language, env!("CARGO_PKG_VERSION"));
-    let page = match template {
-        Some(template) => template.fill(&report.content(&frame))?,
-        None => report.html(&frame)?.into_bytes(),
-    };
+    let content = serde_json::to_vec(&report.content(&frame));
+    let content =
+        content.map_err(|fault| Failure::input(format!("the report cannot be encoded: {fault}"), "report this"))?;
+    let page = page(&content, template)?;
+    keep(run, CONTENT, Ok(content))?;
     keep(run, REPORT, Ok(page))
+}
+
+/// The page of this content.
+pub fn page(content: &[u8], template: Option<&Template>) -> Result<Vec<u8>, Failure> {
+    let content = serde_json::from_slice(content);
+    let content = content.map_err(|fault| {
+        Failure::input(
+            format!("{CONTENT} is not the content of a report: {fault}"),
+            "run the study again",
+        )
+    })?;
+    match template {
+        Some(template) => template.fill(&content),
+        None => Ok(html::page(content)?.into_bytes()),
+    }
 }
 
 /// Removes files of an earlier run of an analysis, which could be mistaken for current results. Files of this run are kept: an analysis may

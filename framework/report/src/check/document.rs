@@ -4,6 +4,7 @@ use gearloss_framework::document::{PlacedDiagnostic, Severity};
 use gearloss_framework::gearbox::Findings;
 use gearloss_framework::language::Language;
 use gearloss_framework::registry::Evidence;
+use gearloss_studies::analyses::Work;
 use gearloss_studies::checked::CheckedGearbox;
 use gearloss_studies::checked_study::CheckedStudy;
 use serde_json::{Map, Value, json};
@@ -14,8 +15,8 @@ use super::{checked_json, placed, warnings};
 pub struct FileRecord {
     kind: &'static str,
     findings: Vec<PlacedDiagnostic>,
-    /// Of a study: components of its gearboxes without a model.
-    notes: Option<Vec<String>>,
+    /// Of a study: what its analyses compute, and components of its gearboxes without a model.
+    of_study: Option<(Value, Vec<String>)>,
     /// Whether the file cannot be used.
     pub wrong: bool,
     /// The result for a valid gearbox.
@@ -31,7 +32,7 @@ impl FileRecord {
         Self {
             kind: "study",
             findings: found.flat_map(|found| placed(&found.list, &found.sources)).collect(),
-            notes: Some(study.notes.clone()),
+            of_study: Some((plan(study), study.notes.clone())),
             wrong: !study.refused.is_empty(),
             built: None,
             lowest: None,
@@ -51,7 +52,7 @@ impl FileRecord {
         Self {
             kind: "gearbox",
             findings,
-            notes: None,
+            of_study: None,
             wrong,
             built: built.map(|checked| checked_json(checked, with_resolved)),
             lowest: built.and_then(CheckedGearbox::lowest_evidence),
@@ -71,7 +72,8 @@ impl FileRecord {
         record.insert("kind".to_owned(), self.kind.into());
         record.insert("fine".to_owned(), (!self.wrong).into());
         record.insert("findings".to_owned(), json!(self.findings));
-        if let Some(notes) = self.notes {
+        if let Some((plan, notes)) = self.of_study {
+            record.insert("plan".to_owned(), plan);
             record.insert("notes".to_owned(), json!(notes));
         }
         if let Some(built) = self.built {
@@ -80,6 +82,18 @@ impl FileRecord {
         }
         record.into()
     }
+}
+
+/// What each analysis of a study computes.
+fn plan(study: &CheckedStudy) -> Value {
+    let plans = study.plans.iter();
+    let all = plans.flat_map(|(analysis, work)| work.iter().map(move |part| (analysis, part)));
+    let part = |(analysis, part): (&String, &Work)| {
+        json!({
+            "analysis": analysis, "of": part.of, "count": part.count, "what": part.what, "at_most": part.at_most,
+        })
+    };
+    all.map(part).collect()
 }
 
 /// One document for the records of all files.

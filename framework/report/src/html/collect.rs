@@ -1,6 +1,6 @@
 //! The content of a report, collected while the analyses of a study run.
 
-use gearloss_studies::analyses::{AnalysisEntry, Context, Outcome, Stopped};
+use gearloss_studies::analyses::{AnalysisEntry, Outcome, Planner, Stopped};
 
 use super::{Report, Section, gearbox_page};
 use crate::page::{Block, Page};
@@ -44,7 +44,7 @@ impl Report {
     ///
     /// # Errors
     /// Everything that resolving and building the gearboxes find.
-    pub fn complete(&mut self, cx: &Context<'_>) -> Result<(), Stopped> {
+    pub fn complete(&mut self, cx: &Planner<'_>) -> Result<(), Stopped> {
         for (name, gearbox) in &cx.study.gearboxes {
             self.gearboxes.push(gearbox_page(cx, name, gearbox)?);
         }

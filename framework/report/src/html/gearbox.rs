@@ -6,7 +6,7 @@ use gearloss_framework::document::visible_json;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::transmission::Transmission;
 use gearloss_studies::analyses::numbers::RPM;
-use gearloss_studies::analyses::{Built, Context, Stopped};
+use gearloss_studies::analyses::{Built, Planner, Stopped};
 use gearloss_studies::distinct::distinct;
 use serde_json::Value;
 
@@ -19,7 +19,7 @@ use crate::text::number;
 ///
 /// # Errors
 /// Everything that resolving and building find.
-pub fn gearbox_page(cx: &Context<'_>, name: &str, gearbox: &Gearbox) -> Result<GearboxPage, Stopped> {
+pub fn gearbox_page(cx: &Planner<'_>, name: &str, gearbox: &Gearbox) -> Result<GearboxPage, Stopped> {
     let sets = cx.study.sets_used_for(name);
     // Overrides may apply only to the models of a set and not to the defaults of the gearbox.
     let own = cx.built(gearbox, &[]).or_else(|fault| match &sets[..] {
@@ -43,7 +43,7 @@ pub fn gearbox_page(cx: &Context<'_>, name: &str, gearbox: &Gearbox) -> Result<G
     let built = cx.built(gearbox, &sets)?;
     let point = point::page(cx, &built, &assumed);
     let mut tables = vec![gears(transmission), meshes(transmission), states(transmission)];
-    tables.extend(changed(own.iter().chain(&built)));
+    tables.extend(changed(own.iter().chain(&built).map(|b| &**b)));
     Ok(GearboxPage {
         name: name.to_owned(),
         point: point.as_ref().map(|p| p.words.clone()).unwrap_or_default(),

@@ -1,5 +1,7 @@
 //! One operating point of a gearbox in the report: loads, power balance, and the evidence of its losses.
 
+use std::sync::Arc;
+
 use gearloss_framework::description::AssumedEntry;
 use gearloss_framework::evaluate::{Point, Reading, Solution};
 use gearloss_framework::flow::Tolerance;
@@ -8,7 +10,7 @@ use gearloss_framework::registry::Evidence;
 use gearloss_framework::transmission::Transmission;
 use gearloss_studies::analyses::axes::{speeds, torques};
 use gearloss_studies::analyses::numbers::RPM;
-use gearloss_studies::analyses::{Built, Context, gear_of};
+use gearloss_studies::analyses::{Built, Planner, gear_of};
 use gearloss_studies::points::{Given, OilTemperature, evidence};
 
 use super::PageTable;
@@ -17,7 +19,7 @@ use crate::picture::{Picture, Screen, Waterfall};
 use crate::text::{fixed, number};
 
 /// The point of the report: from the study, or the largest torque and speed of its first grid.
-pub fn place(runner: &Context<'_>, t: &Transmission) -> Option<(String, Given)> {
+pub fn place(runner: &Planner<'_>, t: &Transmission) -> Option<(String, Given)> {
     let entry = &runner.study.entry;
     let given = |torque, speed| Given {
         torque,
@@ -52,7 +54,7 @@ pub struct Page {
 }
 
 /// Solves the point with every set.
-pub fn page(runner: &Context<'_>, sets: &[Built<'_>], assumed: &[AssumedEntry]) -> Option<Page> {
+pub fn page(runner: &Planner<'_>, sets: &[Arc<Built<'_>>], assumed: &[AssumedEntry]) -> Option<Page> {
     let first = sets.first()?;
     let (gear, given) = place(runner, &first.transmission)?;
     let (mut tables, mut pictures, mut rests, mut words) = (Vec::new(), Vec::new(), Vec::new(), String::new());

@@ -3,11 +3,11 @@
 use crate::study::{AxisError, Grid, SpeedAxis, TorqueAxis};
 use gearloss_framework::transmission::Transmission;
 
-use super::{Context, Stopped};
+use super::{Planner, Stopped};
 use crate::codes;
 
 /// Values of an axis, or the error with its path.
-pub fn axis(cx: &Context<'_>, path: &str, values: Result<Vec<f64>, AxisError>) -> Result<Vec<f64>, Stopped> {
+pub fn axis(cx: &Planner<'_>, path: &str, values: Result<Vec<f64>, AxisError>) -> Result<Vec<f64>, Stopped> {
     values.map_err(|error| {
         let help = if error == AxisError::NoRating {
             "add `rating: { torque: 20 Nm, speed: 22000 rpm }` to the gearbox, or give the axis its own values"
@@ -22,7 +22,7 @@ pub fn axis(cx: &Context<'_>, path: &str, values: Result<Vec<f64>, AxisError>) -
 const MOST_POINTS: usize = 20_000_000;
 
 /// Torques and speeds of a grid for a gearbox; both are monotonic.
-pub fn grid_axes(cx: &Context<'_>, name: &str, grid: &Grid, t: &Transmission) -> Result<(Vec<f64>, Vec<f64>), Stopped> {
+pub fn grid_axes(cx: &Planner<'_>, name: &str, grid: &Grid, t: &Transmission) -> Result<(Vec<f64>, Vec<f64>), Stopped> {
     let path = format!("grids.{name}");
     let own = (
         torques(cx, &format!("{path}.torque"), &grid.torque, t)?,
@@ -48,11 +48,11 @@ pub fn grid_axes(cx: &Context<'_>, name: &str, grid: &Grid, t: &Transmission) ->
 }
 
 /// Torques of an axis for a gearbox.
-pub fn torques(cx: &Context<'_>, path: &str, axis_of: &TorqueAxis, t: &Transmission) -> Result<Vec<f64>, Stopped> {
+pub fn torques(cx: &Planner<'_>, path: &str, axis_of: &TorqueAxis, t: &Transmission) -> Result<Vec<f64>, Stopped> {
     axis(cx, path, axis_of.values(t.rating.map(|r| r.torque)))
 }
 
 /// Speeds of an axis for a gearbox.
-pub fn speeds(cx: &Context<'_>, path: &str, axis_of: &SpeedAxis, t: &Transmission) -> Result<Vec<f64>, Stopped> {
+pub fn speeds(cx: &Planner<'_>, path: &str, axis_of: &SpeedAxis, t: &Transmission) -> Result<Vec<f64>, Stopped> {
     axis(cx, path, axis_of.values(t.rating.map(|r| r.speed)))
 }

@@ -1,5 +1,7 @@
 //! Heat balance of one point: losses and heat over temperature, and every step of the search.
 
+use std::sync::Arc;
+
 use gearloss_framework::description::{Ordered, ThermalMode};
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::evaluate::Point;
@@ -10,7 +12,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use super::{Analysis, Built, Context, Head, Outcome, Stopped, gear_of};
+use super::{Analysis, Built, Engine, Head, Outcome, Planner, Run, Runs, Stopped, gear_of};
 use crate::points::{Given, Note, notes};
 use crate::register_analysis;
 use crate::study::{Uses, Write};
@@ -222,55 +224,60 @@ pub fn reason(transmission: &Transmission, why: &Unbalanced) -> String {
 
 impl Analysis for BalanceEntry {
     const TYPE: &'static str = "balance";
+    type Plan<'a> = Runs<'a>;
     type Outcome = BalanceOutcome;
 
     fn uses(&self) -> Uses<'_> {
         Uses::new(self.gearbox.as_ref(), &self.model_sets).in_gears(&self.gear)
     }
 
-    fn run(&self, cx: &Context<'_>) -> Result<BalanceOutcome, Stopped> {
+    fn plan<'a>(&'a self, cx: &Planner<'a>) -> Result<Runs<'a>, Stopped> {
         let path = cx.path();
         let change = |(own, value): (&str, &Value)| (own.to_owned(), value.clone(), format!("{path}.set"));
         let set: Vec<(String, Value, String)> = self.set.iter().map(change).collect();
         let built = cx.built_with(cx.gearbox(self.gearbox.as_ref())?, &self.model_sets, &set)?;
-        let mut balances = Vec::new();
-        for b in &built {
+        let run = |b: &Arc<Built<'a>>| {
             needs_balance(cx, b)?;
             let t = &b.transmission;
-            let points = cx.points(t, gear_of(self.gear.as_deref(), t), Vec::new(), Vec::new());
-            let case = cx.case(b.gearbox, t, &points)?;
-            if cx.checked(b, &points)? {
-                continue;
-            }
+            Run::new(
+                cx,
+                b,
+                cx.points(t, gear_of(self.gear.as_deref(), t), Vec::new(), Vec::new()),
+            )
+        };
+        Runs::of(&built, run)
+    }
+
+    fn reduce<'a>(&'a self, plan: Runs<'a>, engine: &Engine<'a>) -> Result<BalanceOutcome, Stopped> {
+        let mut balances = Vec::new();
+        for run in &plan.0 {
+            let t = &run.built.transmission;
+            let case = engine.case(run.built.gearbox, t, &run.points)?;
             let torques = [self.torque];
             let point = Point {
                 speeds: &[self.speed],
                 torques: &torques[..case.torque_ports.len()],
-                flow: points.flow,
+                flow: run.points.flow,
                 tolerance: Tolerance::default(),
             };
-            let mut scratch = t.scratch(&case);
-            let found = t.equilibrium(&case, &point, &mut scratch);
-            if let Some(oil) = found.oil() {
-                // Notes belong to the temperature found.
-                t.evaluate(&case, &point, &[oil], &mut scratch);
-                let given = Given {
-                    torque: self.torque,
-                    speed: self.speed,
-                    oil: Some(oil),
-                };
-                cx.note_points(b, &points, vec![given])?;
-            }
+            let found = t.equilibrium(&case, &point, &mut t.scratch(&case));
+            // Notes belong to the temperature found.
+            let at = |oil| Given {
+                oil: Some(oil),
+                ..Given::new(self.torque, self.speed)
+            };
+            let solved = engine.solve_here(&run.at(found.oil().map(at).into_iter().collect()))?;
             balances.push(BalanceOfSet {
-                model_set: b.name.clone(),
-                gear: points.gear,
+                model_set: run.built.name.clone(),
+                gear: run.points.gear.clone(),
                 balance: BalanceOfPoint::new(t, &found),
-                notes: notes(t, &scratch.totals),
+                notes: notes(t, &solved.seen),
             });
         }
-        cx.begin()?;
-        let head = cx.head(&built.iter().collect::<Vec<_>>());
-        Ok(BalanceOutcome { head, balances })
+        Ok(BalanceOutcome {
+            head: engine.head(&plan.built()),
+            balances,
+        })
     }
 
     fn formats(&self) -> &[Write] {
@@ -279,7 +286,7 @@ impl Analysis for BalanceEntry {
 }
 
 /// Rejects a gearbox without a heat balance.
-pub fn needs_balance(cx: &Context<'_>, built: &Built<'_>) -> Result<(), Stopped> {
+pub fn needs_balance(cx: &Planner<'_>, built: &Built<'_>) -> Result<(), Stopped> {
     let path = cx.path();
     if cx.study.entry.conditions.oil_temperature.is_some() {
         let error = Diagnostic::error(

@@ -8,14 +8,15 @@ use serde::{Deserialize, Serialize};
 
 use super::axes::{axis, speeds, torques};
 use super::numbers::{RPM, tidy};
-use super::{Analysis, Built, Context, Stopped, gear_of};
+use super::{Analysis, Built, Engine, Plan, Planner, Stopped, Work, gear_of};
 use crate::measured::{Measured, Seen};
 use crate::points::{Given, PointResult};
 use crate::register_analysis;
 use crate::study::{By, Data, PowerAxis, Quantity, SpeedAxis, TorqueAxis, Uses, Write};
 
-pub(super) use self::bars::Stacks;
-pub use self::bars::{Along, As, BreakdownOfSet, BreakdownOutcome, Common, Losses, PointOfBreakdown, RowOfBars};
+pub use self::bars::{
+    Along, As, BarsPlan, BreakdownOfSet, BreakdownOutcome, Common, Losses, PointOfBreakdown, RowOfBars,
+};
 
 /// Loss breakdown over speed or torque.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -68,6 +69,7 @@ register_analysis!(BreakdownEntry);
 
 impl Analysis for BreakdownEntry {
     const TYPE: &'static str = "breakdown";
+    type Plan<'a> = BreakdownPlan<'a>;
     type Outcome = BreakdownOutcome;
 
     fn uses(&self) -> Uses<'_> {
@@ -76,16 +78,15 @@ impl Analysis for BreakdownEntry {
             .with("measured", self.measured.as_ref())
     }
 
-    fn run(&self, cx: &Context<'_>) -> Result<BreakdownOutcome, Stopped> {
+    fn plan<'a>(&'a self, cx: &Planner<'a>) -> Result<BreakdownPlan<'a>, Stopped> {
         let path = cx.path();
         let built = cx.built(cx.gearbox(self.gearbox.as_ref())?, &self.model_sets)?;
         let measured = match &self.measured {
             Some(data) => cx.read_at_ports(&format!("{path}.measured"), data, &[])?,
             None => Measured::default(),
         };
-        let stacks = Stacks::new(self.by, self.unit, &built);
-        let mut breakdowns = Vec::new();
-        for (i, b) in built.iter().enumerate() {
+        let mut bars = BarsPlan::new(self.by, self.unit, built.clone());
+        for b in &built {
             let speeds = speeds(cx, &format!("{path}.speed"), &self.speed, &b.transmission)?;
             let loads = self.loads(cx, &b.transmission, &speeds)?;
             cx.holds(&path, speeds.len(), loads.len())?;
@@ -96,13 +97,18 @@ impl Analysis for BreakdownEntry {
                 speed,
                 oil: None,
             });
-            let beside = |point: &PointResult| beside(&measured, point, gear);
-            breakdowns.extend(cx.part(i, || stacks.solve(cx, b, gear, rows, &beside))?.flatten());
+            bars.add(cx, b, gear, rows)?;
         }
-        cx.complete()?;
+        Ok(BreakdownPlan { bars, measured })
+    }
+
+    fn reduce<'a>(&'a self, plan: BreakdownPlan<'a>, engine: &Engine<'a>) -> Result<BreakdownOutcome, Stopped> {
+        let measured = plan.measured;
         Ok(BreakdownOutcome {
-            measured_notes: measured.notes,
-            ..stacks.outcome(cx, &built, breakdowns)?
+            measured_notes: measured.notes.clone(),
+            ..plan
+                .bars
+                .outcome(engine, &|point, gear| beside(&measured, point, gear))?
         })
     }
 
@@ -111,9 +117,21 @@ impl Analysis for BreakdownEntry {
     }
 }
 
+/// Rows of bars, and measured points beside them.
+pub struct BreakdownPlan<'a> {
+    bars: BarsPlan<'a>,
+    measured: Measured,
+}
+
+impl Plan for BreakdownPlan<'_> {
+    fn work(&self) -> Vec<Work> {
+        self.bars.work()
+    }
+}
+
 impl BreakdownEntry {
     /// Torques, or powers.
-    fn loads(&self, cx: &Context<'_>, t: &Transmission, turning: &[f64]) -> Result<Vec<Load>, Stopped> {
+    fn loads(&self, cx: &Planner<'_>, t: &Transmission, turning: &[f64]) -> Result<Vec<Load>, Stopped> {
         let path = cx.path();
         match (&self.torque, &self.power) {
             (Some(own), None) => {
@@ -171,7 +189,7 @@ impl BreakdownEntry {
 }
 
 /// Speed of the port with given torque over that of the port with given speed.
-fn ratio(cx: &Context<'_>, b: &Built<'_>, gear: &str) -> Result<f64, Stopped> {
+fn ratio(cx: &Planner<'_>, b: &Built<'_>, gear: &str) -> Result<f64, Stopped> {
     let t = &b.transmission;
     let case = cx.case(b.gearbox, t, &cx.points(t, gear, Vec::new(), Vec::new()))?;
     let port = |ports: &[usize]| ports.first().map(|p| t.ports()[*p].member);

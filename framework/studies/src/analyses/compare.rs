@@ -10,12 +10,14 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-pub use on_grid::{DifferenceAt, GridComparison, GridDifference};
+pub use on_grid::{DifferenceAt, GridComparison, GridDifference, GridPlan};
 pub use over_cycles::{CycleComparison, DifferenceOfPhase, DifferenceOfShare};
 pub use with_data::{Band, ComparedPoint, DataComparison, DataOfComparison, Ranking, ranking};
 
+use super::duties::DrivePlan;
 use super::measurable::countable;
-use super::{Analysis, Context, Head, Outcome, Stopped};
+use super::rows::RowsPlan;
+use super::{Analysis, Engine, Head, Outcome, Plan, Planner, Stopped, Work};
 use crate::points::Note;
 use crate::register_analysis;
 use crate::study::{By, Data, Difference, Quantity, RideEntry, Uses, Write};
@@ -108,8 +110,29 @@ pub enum Comparisons {
     WithData(Vec<DataComparison>),
 }
 
+/// What is compared.
+pub enum ComparePlan<'a> {
+    /// Sets with a base over a grid.
+    OnGrid(&'a str, GridPlan<'a>),
+    /// Sets with a base over cycles.
+    OverCycles(DrivePlan<'a>),
+    /// Sets with measured points.
+    WithData(&'a Data, RowsPlan<'a>),
+}
+
+impl Plan for ComparePlan<'_> {
+    fn work(&self) -> Vec<Work> {
+        match self {
+            Self::OnGrid(_, plan) => plan.work(),
+            Self::OverCycles(plan) => plan.work(),
+            Self::WithData(_, plan) => plan.work(),
+        }
+    }
+}
+
 impl Analysis for CompareEntry {
     const TYPE: &'static str = "compare";
+    type Plan<'a> = ComparePlan<'a>;
     type Outcome = CompareOutcome;
 
     fn uses(&self) -> Uses<'_> {
@@ -123,7 +146,7 @@ impl Analysis for CompareEntry {
         }
     }
 
-    fn run(&self, cx: &Context<'_>) -> Result<CompareOutcome, Stopped> {
+    fn plan<'a>(&'a self, cx: &Planner<'a>) -> Result<ComparePlan<'a>, Stopped> {
         let path = cx.path();
         countable(cx, &path, self.quantity, self.difference)?;
         if self.against.is_empty() && self.variants.is_empty() {
@@ -142,43 +165,51 @@ impl Analysis for CompareEntry {
             let message = "over cycles the mean losses are compared, in W and in percent";
             return Err(cx.wrong(&path, message, "delete `quantity`, `difference` and `accuracy`"));
         }
-        let (head, data, comparisons) = match (&self.grid, &self.drive, &self.base, &self.data) {
+        match (&self.grid, &self.drive, &self.base, &self.data) {
             (None, None, None, Some(_)) if !self.variants.is_empty() => {
                 let message = "a comparison with a measurement has no variants";
-                return Err(cx.wrong(
+                Err(cx.wrong(
                     &format!("{path}.variants"),
                     message,
                     "write them as model sets or gearboxes",
-                ));
+                ))
             }
-            (None, None, None, Some(data)) => {
-                let (head, data, comparisons) = with_data::compare(cx, self, data)?;
-                (head, Some(data), Comparisons::WithData(comparisons))
-            }
+            (None, None, None, Some(data)) => Ok(ComparePlan::WithData(data, with_data::plan(cx, self, data)?)),
             (.., None) if !self.bind.is_empty() => {
-                return Err(cx.wrong(&path, "`bind` belongs to `data`", "state it in the grid"));
+                Err(cx.wrong(&path, "`bind` belongs to `data`", "state it in the grid"))
             }
             (Some(_), None, Some(_), None) if self.gear.is_some() => {
-                return Err(cx.wrong(&path, "`gear` belongs to `data` or `drive`", "state it in the grid"));
+                Err(cx.wrong(&path, "`gear` belongs to `data` or `drive`", "state it in the grid"))
             }
-            (Some(grid), None, Some(base), None) => {
-                let (head, comparisons) = on_grid::compare(cx, self, grid, base)?;
-                (head, None, Comparisons::OnGrid(comparisons))
-            }
-            (None, Some(ride), Some(base), None) => {
-                let (head, comparisons) = over_cycles::compare(cx, self, ride, base)?;
-                (head, None, Comparisons::OverCycles(comparisons))
-            }
+            (Some(grid), None, Some(base), None) => Ok(ComparePlan::OnGrid(base, GridPlan::new(cx, self, grid, base)?)),
+            (None, Some(ride), Some(base), None) => Ok(ComparePlan::OverCycles(over_cycles::plan(cx, self, ride, base)?)),
             _ => {
-                return Err(cx.wrong(
+                Err(cx.wrong(
                     &path,
                     "a comparison needs `base` with `grid` or with `drive`, or else `data`",
                     "write `base: ...` with `grid: ...` or `drive: { cycles: [...] }` to compare sets, or `data: { file: ... }` to compare with a measurement",
-                ));
+                ))
+            }
+        }
+    }
+
+    fn reduce<'a>(&'a self, plan: ComparePlan<'a>, engine: &Engine<'a>) -> Result<CompareOutcome, Stopped> {
+        let (built, data, comparisons) = match &plan {
+            ComparePlan::OnGrid(base, plan) => {
+                let comparisons = plan.compare(engine, self, base)?;
+                (plan.built(), None, Comparisons::OnGrid(comparisons))
+            }
+            ComparePlan::OverCycles(plan) => {
+                let comparisons = over_cycles::compare(engine, self, plan)?;
+                (plan.built.clone(), None, Comparisons::OverCycles(comparisons))
+            }
+            ComparePlan::WithData(data, plan) => {
+                let (built, data, comparisons) = with_data::compare(engine, self, data, plan)?;
+                (built, Some(data), Comparisons::WithData(comparisons))
             }
         };
         Ok(CompareOutcome {
-            head,
+            head: engine.head(&built),
             data,
             comparisons,
             quantity: self.quantity,

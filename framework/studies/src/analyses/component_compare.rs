@@ -1,5 +1,7 @@
 //! Several models of one component over speed by term, compared with measured points.
 
+use std::sync::Arc;
+
 use gearloss_framework::attach::dangling;
 use gearloss_framework::description::Ordered;
 use gearloss_framework::evaluate::{PartLoss, Point};
@@ -15,7 +17,7 @@ use serde_json::Value;
 use super::axes::{speeds, torques};
 use super::measurable::is_measurable;
 use super::numbers::{RPM, tidy};
-use super::{Analysis, Built, Context, Head, Outcome, Stopped, gear_of};
+use super::{Analysis, Built, Engine, Head, Outcome, Plan, Planner, Run, Stopped, Work, gear_of};
 use crate::points::{Note, Points, notes};
 use crate::register_analysis;
 use crate::study::{Data, SpeedAxis, TorqueAxis, Uses, Write};
@@ -158,22 +160,43 @@ pub struct DeviationOfModel {
     pub rms_percent: f64,
 }
 
-/// Torque and speed of the points at which models are evaluated.
-struct Places {
-    /// Every torque at every speed. \[Nm, rad/s\]
-    grid: Vec<(f64, f64)>,
+/// The gearbox with each model, and the points.
+pub struct ComponentPlan<'a> {
+    models: Vec<Run<'a>>,
+    failures: Vec<Findings>,
+    torques: Vec<f64>,
+    speeds: Vec<f64>,
     measured: Vec<MeasuredLoss>,
 }
 
-/// One model as it was built, and its losses.
-struct Evaluated<'a> {
-    built: Built<'a>,
-    gear: String,
-    model: ModelOfComponent,
+impl ComponentPlan<'_> {
+    /// Every torque at every speed. \[Nm, rad/s\]
+    fn grid(&self) -> Vec<(f64, f64)> {
+        let grid = self
+            .torques
+            .iter()
+            .flat_map(|t| self.speeds.iter().map(move |w| (*t, *w)));
+        grid.collect()
+    }
+}
+
+impl Plan for ComponentPlan<'_> {
+    fn work(&self) -> Vec<Work> {
+        let count = self.torques.len() * self.speeds.len() + self.measured.len();
+        self.models
+            .iter()
+            .map(|run| Work::new(run.label(), "points", count))
+            .collect()
+    }
+
+    fn into_failures(self) -> Vec<Findings> {
+        self.failures
+    }
 }
 
 impl Analysis for ComponentCompareEntry {
     const TYPE: &'static str = "component_compare";
+    type Plan<'a> = ComponentPlan<'a>;
     type Outcome = ComponentCompareOutcome;
 
     fn uses(&self) -> Uses<'_> {
@@ -182,60 +205,64 @@ impl Analysis for ComponentCompareEntry {
             .with("measured", self.measured.as_ref())
     }
 
-    fn run(&self, cx: &Context<'_>) -> Result<ComponentCompareOutcome, Stopped> {
+    fn plan<'a>(&'a self, cx: &Planner<'a>) -> Result<ComponentPlan<'a>, Stopped> {
         let path = cx.path();
         let gearbox = cx.gearbox(self.gearbox.as_ref())?;
         let own = cx.built(gearbox, self.model_set.as_slice())?;
         // The models may define a drag slot.
-        let known = |b: &Built<'_>| b.transmission.parts().iter().any(|part| part.path == self.component);
+        let known = |b: &Arc<Built<'_>>| b.transmission.parts().iter().any(|part| part.path == self.component);
         if !self.component.contains(".drag.") && !own.iter().any(known) {
             return Err(no_part(cx, &self.component, &own[0].transmission));
         }
         let torques = torques(cx, &format!("{path}.torque"), &self.torque, &own[0].transmission)?;
         let speeds = speeds(cx, &format!("{path}.speed"), &self.speed, &own[0].transmission)?;
         cx.holds(&path, torques.len().saturating_mul(speeds.len()), self.models.len())?;
-        let grid = torques.iter().flat_map(|t| speeds.iter().map(move |w| (*t, *w)));
-        let places = Places {
-            grid: grid.collect(),
-            measured: match &self.measured {
-                Some(data) => measured(cx, &format!("{path}.measured"), data)?,
-                None => Vec::new(),
-            },
+        let measured = match &self.measured {
+            Some(data) => measured(cx, &format!("{path}.measured"), data)?,
+            None => Vec::new(),
         };
         self.check_names(cx)?;
-        cx.undivided()?;
         // A model that fails does not stop the others.
-        let (mut evaluated, mut failures) = (Vec::new(), Vec::new());
+        let (mut models, mut failures) = (Vec::new(), Vec::new());
         for (model, value) in self.models.iter() {
-            match self.evaluate(cx, gearbox, (model, value), &places) {
-                Ok(model) => evaluated.push(model),
+            match self.with_model(cx, gearbox, (model, value)) {
+                Ok(model) => models.push(model),
                 Err(Stopped::Found(findings)) => failures.push(findings),
                 Err(stopped) => return Err(stopped),
             }
         }
-        if !failures.is_empty() && (evaluated.is_empty() || cx.only_checks) {
-            return Err(Stopped::Several(failures));
-        }
-        cx.begin()?;
-        let head = cx.head(&evaluated.iter().map(|e| &e.built).collect::<Vec<_>>());
-        let given = cx.points(&evaluated[0].built.transmission, "", Vec::new(), Vec::new());
-        let gear = evaluated[0].gear.clone();
-        let models: Vec<ModelOfComponent> = evaluated.into_iter().map(|e| e.model).collect();
+        Ok(ComponentPlan {
+            models,
+            failures,
+            torques,
+            speeds,
+            measured,
+        })
+    }
+
+    fn reduce<'a>(&'a self, plan: ComponentPlan<'a>, engine: &Engine<'a>) -> Result<ComponentCompareOutcome, Stopped> {
+        let grid = plan.grid();
+        let compared = |run: &Run<'_>| self.compared(run, &grid, &plan.measured);
+        let models: Vec<ModelOfComponent> = engine.undivided(|| plan.models.iter().map(compared).collect())?;
+        let Some(first) = plan.models.first() else {
+            return Err(Stopped::Several(plan.failures));
+        };
+        let built: Vec<_> = plan.models.iter().map(|run| Arc::clone(&run.built)).collect();
         Ok(ComponentCompareOutcome {
-            head,
+            head: engine.head(&built),
             component_comparison: ComponentComparison {
                 component: self.component.clone(),
                 model_set: self.model_set.clone(),
-                gear,
-                oil_temperature_degc: given.oil.given(),
-                deviations: deviations(&models, &places.measured),
-                omitted: omitted(&models, &places.measured),
+                gear: first.points.gear.clone(),
+                oil_temperature_degc: first.points.oil.given(),
+                deviations: deviations(&models, &plan.measured),
+                omitted: omitted(&models, &plan.measured),
                 models,
-                measured: places.measured,
-                torques,
-                speeds,
+                measured: plan.measured,
+                torques: plan.torques,
+                speeds: plan.speeds,
             },
-            failures,
+            failures: plan.failures,
         })
     }
 
@@ -255,7 +282,7 @@ impl ComponentCompareEntry {
     }
 
     /// Rejects a comparison without models, and a model with the name of the measured points.
-    fn check_names(&self, cx: &Context<'_>) -> Result<(), Stopped> {
+    fn check_names(&self, cx: &Planner<'_>) -> Result<(), Stopped> {
         let path = format!("{}.models", cx.path());
         if self.models.is_empty() {
             let help = "write for example `models: { ours: { type: skf } }`";
@@ -268,54 +295,63 @@ impl ComponentCompareEntry {
         Ok(())
     }
 
-    /// One model at the points of the grid and at the measured ones.
-    fn evaluate<'a>(
-        &self,
-        cx: &Context<'_>,
+    /// The gearbox with one model.
+    fn with_model<'a>(
+        &'a self,
+        cx: &Planner<'a>,
         gearbox: &'a Gearbox,
         (model, value): (&str, &Value),
-        places: &Places,
-    ) -> Result<Evaluated<'a>, Stopped> {
+    ) -> Result<Run<'a>, Stopped> {
         let mut choice: Choice = cx.study.choice(self.model_set.as_deref());
         let set = self.set.iter().map(|(path, value)| (path.to_owned(), value.clone()));
         choice.overrides.extend(set);
         choice.overrides.push((self.slot(), value.clone()));
         let own = (self.slot(), format!("{}.models.{model}", cx.path()));
         let (resolved, transmission) = cx.study.built(cx.language, gearbox, &choice, &[own])?;
-        let gear = gear_of(self.gear.as_deref(), &transmission).to_owned();
-        let part = transmission.parts().iter().position(|p| p.path == self.component);
-        let Some(part) = part else {
+        if !transmission.parts().iter().any(|part| part.path == self.component) {
             return Err(no_part(cx, &self.component, &transmission));
-        };
-        let given = cx.points(&transmission, &gear, Vec::new(), Vec::new());
-        let case = cx.case(gearbox, &transmission, &given)?;
-        let grid: &[(f64, f64)] = if cx.only_checks { &[] } else { &places.grid };
-        let measured = places.measured.iter().map(|m| (m.torque_nm, m.speed));
+        }
+        let gear = gear_of(self.gear.as_deref(), &transmission);
+        let points = cx.points(&transmission, gear, Vec::new(), Vec::new());
+        let built = Arc::new(Built {
+            name: model.to_owned(),
+            gearbox,
+            resolved,
+            transmission,
+        });
+        Run::new(cx, &built, points)
+    }
+
+    /// One model at the points of the grid and at the measured ones.
+    fn compared(
+        &self,
+        run: &Run<'_>,
+        grid: &[(f64, f64)],
+        measured: &[MeasuredLoss],
+    ) -> Result<ModelOfComponent, Stopped> {
+        let t = &run.built.transmission;
+        let part = t
+            .parts()
+            .iter()
+            .position(|part| part.path == self.component)
+            .unwrap_or(0);
+        let case = run.points.case(t).map_err(|list| run.findings(list))?;
+        let measured = measured.iter().map(|m| (m.torque_nm, m.speed));
         let all: Vec<(f64, f64)> = grid.iter().copied().chain(measured).collect();
-        let instance = transmission.parts()[part].notes.instance();
-        let terms = transmission.instances()[instance].entry.terms;
-        let (mut points, notes) = losses(&transmission, (&given, &case), (part, terms), &all);
+        let terms = t.instances()[t.parts()[part].notes.instance()].entry.terms;
+        let (mut points, notes) = losses(t, (&run.points, &case), (part, terms), &all);
         let at_measured = points.split_off(grid.len());
-        Ok(Evaluated {
-            model: ModelOfComponent {
-                model: model.to_owned(),
-                points,
-                at_measured,
-                notes,
-                terms: terms.iter().map(|term| term.name).collect(),
-            },
-            gear,
-            built: Built {
-                name: model.to_owned(),
-                gearbox,
-                resolved,
-                transmission,
-            },
+        Ok(ModelOfComponent {
+            model: run.built.name.clone(),
+            points,
+            at_measured,
+            notes,
+            terms: terms.iter().map(|term| term.name).collect(),
         })
     }
 }
 
-fn no_part(cx: &Context<'_>, component: &str, transmission: &Transmission) -> Stopped {
+fn no_part(cx: &Planner<'_>, component: &str, transmission: &Transmission) -> Stopped {
     let paths: Vec<&str> = transmission.parts().iter().map(|p| p.path.as_str()).collect();
     let path = format!("{}.component", cx.path());
     cx.found(vec![dangling(&path, "component", component, &paths)])
@@ -395,7 +431,7 @@ fn omitted(models: &[ModelOfComponent], measured: &[MeasuredLoss]) -> usize {
 }
 
 /// Reads measured points.
-fn measured(cx: &Context<'_>, path: &str, data: &Data) -> Result<Vec<MeasuredLoss>, Stopped> {
+fn measured(cx: &Planner<'_>, path: &str, data: &Data) -> Result<Vec<MeasuredLoss>, Stopped> {
     let read = cx.read_at_ports(path, data, &[])?;
     let mut points = Vec::new();
     for row in &read.rows {

@@ -22,7 +22,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::numbers::{RPM, tidy};
-use super::{Analysis, Built, Context, Head, Outcome, Stopped, gear_of};
+use super::{Analysis, Built, Engine, Head, Outcome, Plan, Planner, Run, Stopped, Work, gear_of};
 use crate::points::Note;
 use crate::register_analysis;
 use crate::study::{Uses, Write};
@@ -165,19 +165,44 @@ impl Friction {
     }
 }
 
+/// The gearbox with each set, and the index of the mesh.
+pub struct ContactPathPlan<'a>(Vec<(Run<'a>, usize)>);
+
+impl Plan for ContactPathPlan<'_> {
+    fn work(&self) -> Vec<Work> {
+        self.0
+            .iter()
+            .map(|(run, _)| Work::new(run.label(), "points", 1))
+            .collect()
+    }
+}
+
 impl Analysis for ContactPathEntry {
     const TYPE: &'static str = "contact_path";
+    type Plan<'a> = ContactPathPlan<'a>;
     type Outcome = ContactPathOutcome;
 
     fn uses(&self) -> Uses<'_> {
         Uses::new(self.gearbox.as_ref(), &self.model_sets).in_gears(&self.gear)
     }
 
-    fn run(&self, cx: &Context<'_>) -> Result<ContactPathOutcome, Stopped> {
+    fn plan<'a>(&'a self, cx: &Planner<'a>) -> Result<ContactPathPlan<'a>, Stopped> {
         let built = cx.built(cx.gearbox(self.gearbox.as_ref())?, &self.model_sets)?;
-        let paths = built.iter().map(|b| self.path(cx, b)).collect::<Result<_, _>>()?;
-        cx.begin()?;
-        let head = cx.head(&built.iter().collect::<Vec<_>>());
+        let of_mesh = |b: &Arc<Built<'a>>| {
+            let t = &b.transmission;
+            let mesh = self.mesh(cx, t)?;
+            let points = cx.points(t, gear_of(self.gear.as_deref(), t), Vec::new(), Vec::new());
+            Ok((Run::new(cx, b, points)?, mesh))
+        };
+        let meshes = built.iter().map(of_mesh).collect::<Result<_, Stopped>>()?;
+        Ok(ContactPathPlan(meshes))
+    }
+
+    fn reduce<'a>(&'a self, plan: ContactPathPlan<'a>, engine: &Engine<'a>) -> Result<ContactPathOutcome, Stopped> {
+        let paths = plan.0.iter().map(|(run, mesh)| self.path(engine, run, *mesh));
+        let paths = paths.collect::<Result<_, _>>()?;
+        let built: Vec<_> = plan.0.into_iter().map(|(run, _)| run.built).collect();
+        let head = engine.head(&built);
         Ok(ContactPathOutcome { head, paths })
     }
 
@@ -188,11 +213,10 @@ impl Analysis for ContactPathEntry {
 
 impl ContactPathEntry {
     /// The path under one set.
-    fn path(&self, cx: &Context<'_>, built: &Built<'_>) -> Result<ContactPath, Stopped> {
+    fn path(&self, cx: &Planner<'_>, run: &Run<'_>, index: usize) -> Result<ContactPath, Stopped> {
+        let (built, given) = (&run.built, &run.points);
         let t = &built.transmission;
-        let index = self.mesh(cx, t)?;
-        let given = cx.points(t, gear_of(self.gear.as_deref(), t), Vec::new(), Vec::new());
-        let case = cx.case(built.gearbox, t, &given)?;
+        let case = cx.case(built.gearbox, t, given)?;
         let torques = [self.torque];
         let point = Point {
             speeds: &[self.speed],
@@ -229,7 +253,7 @@ impl ContactPathEntry {
     }
 
     /// Index of the mesh; an unknown mesh or a mesh without path of contact is an error.
-    fn mesh(&self, cx: &Context<'_>, t: &Transmission) -> Result<usize, Stopped> {
+    fn mesh(&self, cx: &Planner<'_>, t: &Transmission) -> Result<usize, Stopped> {
         let own = format!("meshes.{}", self.mesh);
         let path = format!("{}.mesh", cx.path());
         let Some((index, (_, part))) = t.meshes().enumerate().find(|(_, (path, _))| *path == own) else {
@@ -252,7 +276,7 @@ impl ContactPathEntry {
     /// The points on the path of a mesh at one operating point, and the reason if there is no friction.
     fn places(
         &self,
-        cx: &Context<'_>,
+        cx: &Planner<'_>,
         built: &Built<'_>,
         at: &GearMeshAt<'_>,
         (model, sharing): (&Value, LoadSharing),

@@ -8,6 +8,9 @@ pub(super) mod ratings;
 pub(super) mod results;
 mod tables;
 
+use std::sync::Arc;
+
+use gearloss_fmu::Library;
 use gearloss_framework::attach::dangling;
 use gearloss_framework::description::Ordered;
 use gearloss_framework::document::Diagnostic;
@@ -15,14 +18,15 @@ use gearloss_framework::gearbox::Findings;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::duties::{Duties, Read, sums_energies};
+use super::duties::{DrivePlan, Duties, Read, sums_energies};
 use super::inputs::Input;
+use super::limits::Limit;
 use super::limits::at_points;
 use super::limits::over_cycles::{limits_of, reached};
 use super::numbers::tidy;
 use super::shares::{Shares, together};
 use super::units::libraries;
-use super::{Analysis, Built, Context, Head, Outcome, Stopped};
+use super::{Analysis, Built, Engine, Head, Outcome, Plan, Planner, Stopped, Work};
 use crate::codes;
 use crate::distinct::distinct;
 use crate::points::{Driven, Note};
@@ -116,87 +120,103 @@ pub struct ReferenceLoss {
 
 register_analysis!(CycleAnalysisEntry);
 
+/// The gearbox with each set, its cycles, limits and uncertain inputs.
+pub struct CyclePlan<'a> {
+    drive: DrivePlan<'a>,
+    limits: Vec<Vec<Limit>>,
+    inputs: Vec<Vec<Input>>,
+    /// Number of samples of the inputs.
+    samples: usize,
+    libraries: Vec<Library>,
+}
+
+impl Plan for CyclePlan<'_> {
+    fn work(&self) -> Vec<Work> {
+        let mut work = self.drive.work();
+        if self.samples > 0 {
+            let count = self.samples * self.drive.duties.list.len();
+            let of_set = |b: &Arc<Built<'_>>| Work::new(&b.name, "cycles of samples", count);
+            work.extend(self.drive.built.iter().map(of_set));
+        }
+        work
+    }
+}
+
 impl Analysis for CycleAnalysisEntry {
     const TYPE: &'static str = "cycle";
+    type Plan<'a> = CyclePlan<'a>;
     type Outcome = CycleOutcome;
 
     fn uses(&self) -> Uses<'_> {
         Uses::driving(&self.drive)
     }
 
-    fn run(&self, cx: &Context<'_>) -> Result<CycleOutcome, Stopped> {
+    fn plan<'a>(&'a self, cx: &Planner<'a>) -> Result<CyclePlan<'a>, Stopped> {
         let path = cx.path();
         let gearbox = cx.gearbox(self.drive.gearbox.as_ref())?;
         let built = cx.built(gearbox, &self.drive.model_sets)?;
         sums_energies(cx, &path, self.by)?;
         let duties = Duties::new(cx, &path, &self.drive.ride, self.drive.gear.as_ref())?;
         self.check_reference(cx, &path, &duties)?;
-        let needs_network = self.export.iter().any(|format| format.is_network());
-        let needs_loads = self.export.iter().any(|format| !format.is_network());
-        if self.load_classes.is_some() && !needs_loads {
+        if self.load_classes.is_some() && !self.needs_loads() {
             let help = "delete it, or write `export: [bearing_loads]` or `[rexs_loads]`";
             return Err(cx.wrong(&format!("{path}.load_classes"), "no export has load cases", help));
         }
-        let libraries = libraries(cx, &self.fmu_libraries, needs_network)?;
-        let names = together(built.iter().map(|b| &b.transmission), self.by);
-        for b in &built {
-            duties.check(cx, &path, b)?;
-            limits_of(cx, &path, &Ordered::default(), &duties, b)?;
-            if needs_network {
-                tables::network(cx, b, &duties)?;
+        let libraries = libraries(cx, &self.fmu_libraries, self.needs_network())?;
+        let drive = DrivePlan::new(cx, &path, duties, built)?;
+        let (mut limits, mut inputs) = (Vec::new(), Vec::new());
+        for b in &drive.built {
+            limits.push(limits_of(cx, &path, &Ordered::default(), &drive.duties, b)?);
+            if self.needs_network() {
+                tables::network(cx, b, &drive.duties)?;
             }
-            if needs_loads && b.transmission.supports().is_empty() {
+            if self.needs_loads() && b.transmission.supports().is_empty() {
                 let message = format!("`{}` has no bearings, so there are no bearing loads", b.name);
-                return Err(cx.wrong(
-                    &format!("{path}.export"),
-                    message,
-                    "describe `bearings`, or delete the export",
-                ));
+                let help = "describe `bearings`, or delete the export";
+                return Err(cx.wrong(&format!("{path}.export"), message, help));
             }
-            if cx.only_checks {
-                Input::all(cx, &path, &self.inputs, b)?;
-            }
+            inputs.push(Input::all(cx, &path, &self.inputs, b)?);
         }
-        cx.begin()?;
-        let mut all_bands = Vec::new();
-        if !self.inputs.is_empty() {
-            for (i, b) in built.iter().enumerate() {
-                all_bands.extend(cx.part(i, || bands::bands(cx, self, b, (&duties, &names)))?);
-            }
-            cx.complete()?;
-        }
-        let count = duties.list.len();
-        let driven = cx.each("cycles", built.len() * count, |i| {
-            let b = &built[i / count];
-            let driven = duties.drive(&b.transmission, &duties.list[i % count], &|_| cx.should_continue());
-            driven.unwrap_or_else(|list| {
-                cx.end(b.gearbox.findings(list).into());
-                None
-            })
-        });
-        let driven: Option<Vec<Driven>> = match driven {
-            Ok(driven) => driven.into_iter().collect(),
-            Err(Stopped::Interrupted) => None,
-            Err(stopped) => return Err(stopped),
+        Ok(CyclePlan {
+            samples: if self.inputs.is_empty() {
+                0
+            } else {
+                self.samples as usize
+            },
+            drive,
+            limits,
+            inputs,
+            libraries,
+        })
+    }
+
+    fn reduce<'a>(&'a self, plan: CyclePlan<'a>, engine: &Engine<'a>) -> Result<CycleOutcome, Stopped> {
+        let DrivePlan { built, duties } = &plan.drive;
+        let names = together(built.iter().map(|b| &b.transmission), self.by);
+        let all_bands = if plan.samples > 0 {
+            let inputs = built.iter().zip(&plan.inputs);
+            engine.parts(inputs, |(b, inputs)| {
+                bands::bands(engine, self, (b, inputs), (duties, &names))
+            })?
+        } else {
+            Vec::new()
         };
-        let driven = driven.ok_or_else(|| cx.why_ended())?;
+        let driven = plan.drive.drive(engine)?;
         let mut cycles = Vec::new();
-        for (b, driven) in built.iter().zip(driven.chunks(count)) {
-            note_limits(cx, b, &duties, driven)?;
-            cycles.extend(self.results(cx, b, &duties, driven, &names)?);
+        for ((b, limits), driven) in built.iter().zip(&plan.limits).zip(&driven) {
+            note_limits(engine, b, limits, duties, driven)?;
+            cycles.extend(self.results(engine, b, duties, driven, &names)?);
         }
-        range_differences(&mut cycles, count);
-        let mut networks = Vec::new();
-        let is_whole = driven.iter().all(|driven| driven.broken.is_none());
-        if needs_network && is_whole {
-            for (b, driven) in built.iter().zip(driven.chunks(count)) {
-                networks.push(tables::tabulate(cx, b, &duties, driven)?);
-            }
-        }
-        let mut loads = Vec::new();
-        if needs_loads && is_whole {
-            for (b, driven) in built.iter().zip(driven.chunks(count)) {
-                loads.extend(self.loads(b, &duties, driven)?);
+        range_differences(&mut cycles, duties.list.len());
+        let (mut networks, mut loads) = (Vec::new(), Vec::new());
+        if driven.iter().flatten().all(|driven| driven.broken.is_none()) {
+            for (b, driven) in built.iter().zip(&driven) {
+                if self.needs_network() {
+                    networks.push(tables::tabulate(engine, b, duties, driven)?);
+                }
+                if self.needs_loads() {
+                    loads.extend(self.loads(b, duties, driven)?);
+                }
             }
         }
         let mut all_left = Vec::new();
@@ -205,9 +225,9 @@ impl Analysis for CycleAnalysisEntry {
             all_left.extend(bands.left());
         }
         Ok(CycleOutcome {
-            head: cx.head(&built.iter().collect::<Vec<_>>()),
-            failures: broken_off(&path, &cycles)
-                .map(|error| cx.study.findings(vec![error]))
+            head: engine.head(built),
+            failures: broken_off(&engine.path(), &cycles)
+                .map(|error| engine.study.findings(vec![error]))
                 .into_iter()
                 .collect(),
             cycles,
@@ -215,7 +235,7 @@ impl Analysis for CycleAnalysisEntry {
             networks,
             loads,
             exports: self.export.clone(),
-            libraries,
+            libraries: plan.libraries,
         })
     }
 
@@ -225,10 +245,18 @@ impl Analysis for CycleAnalysisEntry {
 }
 
 impl CycleAnalysisEntry {
+    fn needs_network(&self) -> bool {
+        self.export.iter().any(|format| format.is_network())
+    }
+
+    fn needs_loads(&self) -> bool {
+        self.export.iter().any(|format| !format.is_network())
+    }
+
     /// The results of the cycles with one set.
     fn results(
         &self,
-        cx: &Context<'_>,
+        cx: &Planner<'_>,
         b: &Built<'_>,
         duties: &Duties<'_>,
         driven: &[Driven],
@@ -263,7 +291,7 @@ impl CycleAnalysisEntry {
     }
 
     /// Rejects reference losses of cycles that the analysis does not have.
-    fn check_reference(&self, cx: &Context<'_>, path: &str, duties: &Duties<'_>) -> Result<(), Stopped> {
+    fn check_reference(&self, cx: &Planner<'_>, path: &str, duties: &Duties<'_>) -> Result<(), Stopped> {
         let names: Vec<&str> = duties.list.iter().map(|read| read.name.as_str()).collect();
         let Some(unknown) = self.reference.ids().find(|id| !names.contains(id)) else {
             return Ok(());
@@ -286,21 +314,26 @@ fn range_differences(cycles: &mut [DutyOfSet], count: usize) {
 }
 
 /// Notes what the limits of the study reach in the cycles of a set.
-fn note_limits(cx: &Context<'_>, b: &Built<'_>, duties: &Duties<'_>, driven: &[Driven]) -> Result<(), Stopped> {
-    let limits = limits_of(cx, &cx.path(), &Ordered::default(), duties, b)?;
+fn note_limits(
+    engine: &Engine<'_>,
+    b: &Built<'_>,
+    limits: &[Limit],
+    duties: &Duties<'_>,
+    driven: &[Driven],
+) -> Result<(), Stopped> {
     if limits.is_empty() {
         return Ok(());
     }
     let t = &b.transmission;
     let mut rated = Vec::new();
-    if let Some(ratings) = at_points::ratings(cx.scope(b), &limits, b.gearbox, &b.resolved)? {
+    if let Some(ratings) = at_points::ratings(engine.scope(b), limits, b.gearbox, &b.resolved)? {
         for (read, driven) in duties.list.iter().zip(driven) {
             let own = ratings::over_cycle(t, &ratings, &duties.ride(t, read), driven);
             rated.push(own.map_err(|list| b.gearbox.findings(list))?);
         }
     }
     let driven: Vec<&Driven> = driven.iter().collect();
-    cx.note_limits(&b.name, &limits, reached(&limits, duties, t, &driven, &rated));
+    engine.note_limits(&b.name, limits, reached(limits, duties, t, &driven, &rated));
     Ok(())
 }
 

@@ -1,5 +1,7 @@
 //! Reads and simulates the cycles of a study.
 
+use std::sync::Arc;
+
 use crate::codes;
 use crate::duty::{Battery, Consumption, Demand, Duty, Given, Interval, Vehicle, VehicleEntry};
 use crate::points::{Driven, OilTemperature, Ride, can_drive, drive};
@@ -13,7 +15,7 @@ use gearloss_framework::transmission::Transmission;
 use super::balance::reason;
 use super::shares::Shares;
 use super::trial::{Left, left};
-use super::{Built, Context, Stopped, gear_of};
+use super::{Built, Engine, Plan, Planner, Stopped, Work, gear_of};
 
 /// A cycle as read.
 pub struct Read {
@@ -44,9 +46,56 @@ pub struct Duties<'a> {
     conditions: &'a Conditions,
 }
 
+/// Gearboxes that drive the cycles of an analysis, which fit them.
+pub struct DrivePlan<'a> {
+    /// The gearbox with each set.
+    pub built: Vec<Arc<Built<'a>>>,
+    /// The cycles.
+    pub duties: Duties<'a>,
+}
+
+impl<'a> DrivePlan<'a> {
+    /// Cycles that fit the gearboxes. `path` is the place of the ride in the study.
+    ///
+    /// # Errors
+    /// As [`Duties::check`].
+    pub fn new(cx: &Planner<'a>, path: &str, duties: Duties<'a>, built: Vec<Arc<Built<'a>>>) -> Result<Self, Stopped> {
+        built.iter().try_for_each(|b| duties.check(cx, path, b))?;
+        Ok(Self { built, duties })
+    }
+
+    /// Drives every cycle with every set, in jobs: set by set.
+    ///
+    /// # Errors
+    /// An interruption, or cycles that do not fit.
+    pub fn drive(&self, engine: &Engine<'_>) -> Result<Vec<Vec<Driven>>, Stopped> {
+        let count = self.duties.list.len();
+        let driven = engine.jobs("cycles", self.built.len() * count, |i| {
+            let b = &self.built[i / count];
+            let read = &self.duties.list[i % count];
+            let driven = self.duties.drive(&b.transmission, read, &|_| engine.should_continue());
+            let driven = driven.map_err(|list| Stopped::from(b.gearbox.findings(list)))?;
+            driven.ok_or(Stopped::Interrupted)
+        })?;
+        let mut driven = driven.into_iter();
+        Ok(self
+            .built
+            .iter()
+            .map(|_| driven.by_ref().take(count).collect())
+            .collect())
+    }
+}
+
+impl Plan for DrivePlan<'_> {
+    fn work(&self) -> Vec<Work> {
+        let work = |b: &Arc<Built<'_>>| Work::new(&b.name, "cycles", self.duties.list.len());
+        self.built.iter().map(work).collect()
+    }
+}
+
 impl<'a> Duties<'a> {
     /// Reads the cycles of an analysis at a path.
-    pub fn new(cx: &Context<'a>, path: &str, entry: &'a RideEntry, gear: Option<&'a String>) -> Result<Self, Stopped> {
+    pub fn new(cx: &Planner<'a>, path: &str, entry: &'a RideEntry, gear: Option<&'a String>) -> Result<Self, Stopped> {
         let study = &cx.study.entry;
         if entry.step.is_some() && entry.tolerance.is_some() {
             let message = "both `step` and `tolerance` are given";
@@ -130,7 +179,7 @@ impl<'a> Duties<'a> {
     }
 
     /// Reasons why the cycles cannot be simulated with a gearbox.
-    pub fn check(&self, cx: &Context<'_>, path: &str, b: &Built<'_>) -> Result<(), Stopped> {
+    pub fn check(&self, cx: &Planner<'_>, path: &str, b: &Built<'_>) -> Result<(), Stopped> {
         let oil = OilTemperature::from_conditions(&b.transmission, self.conditions.oil_temperature);
         // A fixed temperature replaces the network with its motors.
         let motors = b.transmission.network().filter(|_| oil == OilTemperature::Network);
@@ -263,7 +312,7 @@ impl<'a> Duties<'a> {
 }
 
 /// Moves an error to the cycle that causes it.
-fn unfit(cx: &Context<'_>, read: &Read, list: Vec<Diagnostic>) -> Stopped {
+fn unfit(cx: &Planner<'_>, read: &Read, list: Vec<Diagnostic>) -> Stopped {
     let at_duty = |mut error: Diagnostic| {
         let key = if error.path == "ports" && read.port.is_some() {
             ".port"
@@ -327,11 +376,11 @@ impl Duties<'_> {
     ///
     /// # Errors
     /// If one cannot be driven to its end.
-    pub fn drive_all(&self, cx: &Context<'_>, t: &Transmission) -> Result<Vec<Driven>, Unfinished> {
+    pub fn drive_all(&self, engine: &Engine<'_>, t: &Transmission) -> Result<Vec<Driven>, Unfinished> {
         let mut all = Vec::new();
         for read in &self.list {
             let driven = self
-                .drive(t, read, &|_| cx.should_continue())
+                .drive(t, read, &|_| engine.should_continue())
                 .map_err(|list| list.first().map_or_else(String::new, |d| d.message.clone()))?
                 .ok_or_else(|| "interrupted".to_owned())?;
             if let Some((time, why)) = &driven.broken {
@@ -348,12 +397,12 @@ impl Duties<'_> {
     /// Mean losses of every cycle, with shares under common names of several transmissions, and quantities outside their stated ranges.
     pub fn mean_losses(
         &self,
-        cx: &Context<'_>,
+        engine: &Engine<'_>,
         t: &Transmission,
         by: By,
         names: &[String],
     ) -> Result<(Vec<MeanLoss>, Left), Unfinished> {
-        Ok(mean_losses_of(t, &self.drive_all(cx, t)?, by, names))
+        Ok(mean_losses_of(t, &self.drive_all(engine, t)?, by, names))
     }
 }
 
@@ -372,7 +421,7 @@ pub fn mean_losses_of(t: &Transmission, driven: &[Driven], by: By, names: &[Stri
 }
 
 /// Rejects sums by the terms of models, because energies of cycles are stored by component only.
-pub fn sums_energies(cx: &Context<'_>, path: &str, by: By) -> Result<(), Stopped> {
+pub fn sums_energies(cx: &Planner<'_>, path: &str, by: By) -> Result<(), Stopped> {
     if matches!(by, By::Term | By::Sum) {
         let message = "the energies of a cycle can be summed by mechanism, component or stage only";
         return Err(cx.wrong_as(
@@ -386,7 +435,7 @@ pub fn sums_energies(cx: &Context<'_>, path: &str, by: By) -> Result<(), Stopped
 }
 
 /// The battery of a vehicle with the losses of its motor.
-fn battery_of(cx: &Context<'_>, path: &str, vehicle: &VehicleEntry) -> Result<Option<Battery>, Vec<Diagnostic>> {
+fn battery_of(cx: &Planner<'_>, path: &str, vehicle: &VehicleEntry) -> Result<Option<Battery>, Vec<Diagnostic>> {
     let Some(entry) = vehicle.battery else {
         let unused = vehicle.motor_map.as_ref().map(|_| {
             let error = Diagnostic::error(

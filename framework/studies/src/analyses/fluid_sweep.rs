@@ -3,18 +3,20 @@
 mod least;
 mod swept;
 
+use std::sync::Arc;
+
 use gearloss_framework::description::Ordered;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use self::swept::Swept;
-use super::duties::{Duties, MeanLoss, Unfinished, mean_losses_of, sums_energies};
+use super::duties::{DrivePlan, Duties, MeanLoss, Unfinished, mean_losses_of, sums_energies};
 use super::limits::over_cycles::{built, limits_of, note_proposed, values, violation};
 use super::limits::{Limit, LimitRecord};
 use super::shares::together;
 use super::trial::{Left, Trial};
-use super::{Analysis, Built, Context, Head, Outcome, Stopped};
+use super::{Analysis, Built, Engine, Head, Outcome, Plan, Planner, Stopped, Work};
 use crate::points::Note;
 use crate::register_analysis;
 use crate::study::{By, DriveEntry, LimitEntry, Uses, Write};
@@ -163,7 +165,7 @@ struct Fluid {
 
 /// Simulates oils with one set.
 struct Search<'a> {
-    cx: &'a Context<'a>,
+    engine: &'a Engine<'a>,
     entry: &'a FluidSweepEntry,
     duties: &'a Duties<'a>,
     names: &'a [String],
@@ -179,60 +181,90 @@ struct Search<'a> {
     left: Left,
 }
 
+/// The gearbox with each set, its cycles, and the oils.
+pub struct FluidSweepPlan<'a> {
+    drive: DrivePlan<'a>,
+    oils: Vec<Oils>,
+}
+
+/// The oils of one set.
+struct Oils {
+    swept: Swept,
+    values: Vec<f64>,
+    limits: Vec<Limit>,
+}
+
+impl Plan for FluidSweepPlan<'_> {
+    fn work(&self) -> Vec<Work> {
+        let DrivePlan { built, duties } = &self.drive;
+        let work = |(b, oils): (&Arc<Built<'_>>, &Oils)| {
+            Work::new(&b.name, "cycles of oils", (oils.values.len() + 1) * duties.list.len())
+        };
+        built.iter().zip(&self.oils).map(work).collect()
+    }
+}
+
 impl Analysis for FluidSweepEntry {
     const TYPE: &'static str = "fluid_sweep";
+    type Plan<'a> = FluidSweepPlan<'a>;
     type Outcome = FluidSweepOutcome;
 
     fn uses(&self) -> Uses<'_> {
         Uses::driving(&self.drive)
     }
 
-    fn run(&self, cx: &Context<'_>) -> Result<FluidSweepOutcome, Stopped> {
+    fn plan<'a>(&'a self, cx: &Planner<'a>) -> Result<FluidSweepPlan<'a>, Stopped> {
         let path = cx.path();
         let gearbox = cx.gearbox(self.drive.gearbox.as_ref())?;
         sums_energies(cx, &path, self.by)?;
         self.check_keys(cx, &path)?;
         let duties = Duties::new(cx, &path, &self.drive.ride, self.drive.gear.as_ref())?;
-        let built = cx.built(gearbox, &self.drive.model_sets)?;
-        let names = together(built.iter().map(|b| &b.transmission), self.by);
-        let (mut sets, mut all_left) = (Vec::new(), Vec::new());
-        for (i, b) in built.iter().enumerate() {
-            duties.check(cx, &path, b)?;
+        let drive = DrivePlan::new(cx, &path, duties, cx.built(gearbox, &self.drive.model_sets)?)?;
+        let oils = |b: &Arc<Built<'a>>| {
             let swept = Swept::new(cx, &path, self, b)?;
             let values = swept.values(cx, &path, self)?;
-            let limits = limits_of(cx, &path, &self.limits, &duties, b)?;
+            let trial = Trial::new(cx, b);
+            for value in &values {
+                let oil = swept.overrides(*value).and_then(|changes| trial.build(changes));
+                oil.map_err(|reason| failed(cx, &value.to_string(), &reason))?;
+            }
+            let limits = limits_of(cx, &path, &self.limits, &drive.duties, b)?;
+            Ok(Oils { swept, values, limits })
+        };
+        let oils = drive.built.iter().map(oils).collect::<Result<_, Stopped>>()?;
+        Ok(FluidSweepPlan { drive, oils })
+    }
+
+    fn reduce<'a>(&'a self, plan: FluidSweepPlan<'a>, engine: &Engine<'a>) -> Result<FluidSweepOutcome, Stopped> {
+        let DrivePlan { built, duties } = &plan.drive;
+        let names = together(built.iter().map(|b| &b.transmission), self.by);
+        let mut all_left = Vec::new();
+        let sets = engine.parts(built.iter().zip(&plan.oils), |(b, oils)| {
             let mut search = Search {
-                cx,
+                engine,
                 entry: self,
-                duties: &duties,
+                duties,
                 names: &names,
-                swept: &swept,
-                trial: Trial::new(cx, b),
-                limits: &limits,
+                swept: &oils.swept,
+                trial: Trial::new(engine, b),
+                limits: &oils.limits,
                 label: format!("{} oils", b.name),
                 fluids: Vec::new(),
                 present: Default::default(),
                 left: Left::new(),
             };
-            if cx.only_checks {
-                search.check(&values)?;
-                continue;
+            search.drive_present()?;
+            search.drive(&oils.values, false)?;
+            if self.refine {
+                search.refine()?;
             }
-            let driven = cx.part(i, || {
-                search.drive_present()?;
-                search.drive(&values, false)?;
-                if self.refine { search.refine() } else { Ok(()) }
-            })?;
-            if driven.is_some() {
-                search.note_limits(b);
-                sets.push(search.result(b));
-                all_left.extend(search.left);
-            }
-        }
-        cx.begin()?;
-        cx.complete()?;
+            search.note_limits(b);
+            let set = search.result(b);
+            all_left.extend(search.left);
+            Ok(set)
+        })?;
         Ok(FluidSweepOutcome {
-            head: cx.head(&built.iter().collect::<Vec<_>>()),
+            head: engine.head(built),
             fluid_sweep: sets,
             start_degc: self.drive.ride.start,
             left: all_left,
@@ -246,7 +278,7 @@ impl Analysis for FluidSweepEntry {
 
 impl FluidSweepEntry {
     /// Rejects contradictory keys.
-    fn check_keys(&self, cx: &Context<'_>, path: &str) -> Result<(), Stopped> {
+    fn check_keys(&self, cx: &Planner<'_>, path: &str) -> Result<(), Stopped> {
         let viscosity = !self.kv100.is_empty() || self.vi.is_some();
         let message = match (&self.property, viscosity, self.values.is_empty()) {
             (Some(_), true, _) => "both `property` and `kv100` or `vi`",
@@ -259,23 +291,11 @@ impl FluidSweepEntry {
 }
 
 impl Search<'_> {
-    /// Builds the gearbox with every oil.
-    fn check(&self, values: &[f64]) -> Result<(), Stopped> {
-        for value in values {
-            let oil = self
-                .swept
-                .overrides(*value)
-                .and_then(|changes| self.trial.build(changes));
-            oil.map_err(|reason| self.failed(&value.to_string(), &reason))?;
-        }
-        Ok(())
-    }
-
     /// Simulates all cycles with the oil as described.
     fn drive_present(&mut self) -> Result<(), Stopped> {
-        let losses = self.cx.each(&self.label, 1, |_| self.mean_losses(Vec::new()))?;
+        let losses = self.engine.jobs(&self.label, 1, |_| Ok(self.mean_losses(Vec::new())))?;
         for result in losses {
-            let (losses, limited, _) = result.map_err(|reason| self.failed("the oil as described", &reason))?;
+            let (losses, limited, _) = result.map_err(|reason| failed(self.engine, "the oil as described", &reason))?;
             self.present = (losses.iter().map(|mean| mean.loss).collect(), limited);
         }
         Ok(())
@@ -283,11 +303,10 @@ impl Search<'_> {
 
     /// Simulates all cycles with oils of some values, and stores the results.
     fn drive(&mut self, values: &[f64], refined: bool) -> Result<(), Stopped> {
-        let all = self.cx.each(&self.label, values.len(), |i| {
-            self.mean_losses(self.swept.overrides(values[i])?)
-        })?;
+        let losses = |i: usize| self.mean_losses(self.swept.overrides(values[i])?);
+        let all = self.engine.jobs(&self.label, values.len(), |i| Ok(losses(i)))?;
         for (value, result) in values.iter().copied().zip(all) {
-            let (losses, limited, more) = result.map_err(|reason| self.failed(&value.to_string(), &reason))?;
+            let (losses, limited, more) = result.map_err(|reason| failed(self.engine, &value.to_string(), &reason))?;
             self.left.extend(more);
             self.fluids.push(Fluid {
                 value,
@@ -303,7 +322,7 @@ impl Search<'_> {
     /// Mean loss of each cycle, limited quantities, and quantities outside their stated ranges.
     fn mean_losses(&self, overrides: Vec<(String, Value)>) -> Result<(Vec<MeanLoss>, Vec<f64>, Left), String> {
         let (t, ratings) = built(&self.trial, self.limits, overrides)?;
-        let driven = self.duties.drive_all(self.cx, &t).map_err(Unfinished::text)?;
+        let driven = self.duties.drive_all(self.engine, &t).map_err(Unfinished::text)?;
         let limited = values(self.limits, self.duties, &t, ratings.as_ref(), &driven)?;
         let (losses, left) = mean_losses_of(&t, &driven, self.entry.by, self.names);
         Ok((losses, limited, left))
@@ -349,16 +368,8 @@ impl Search<'_> {
         let broken = |own: &Fluid| violation(self.limits, &own.limited);
         let better = |a: &&Fluid, b: &&Fluid| broken(a).total_cmp(&broken(b)).then(total(a).total_cmp(&total(b)));
         if let Some(best) = self.fluids.iter().min_by(better) {
-            note_proposed(self.cx, &b.name, self.limits, &best.limited, "the best oil");
+            note_proposed(self.engine, &b.name, self.limits, &best.limited, "the best oil");
         }
-    }
-
-    fn failed(&self, oil: &str, reason: &str) -> Stopped {
-        if !self.cx.should_continue() {
-            return self.cx.why_ended();
-        }
-        let help = "delete the value, or narrow the range";
-        self.cx.wrong(&self.cx.path(), format!("{oil}: {reason}"), help)
     }
 
     fn result(&self, b: &Built<'_>) -> FluidsOfSet {
@@ -399,6 +410,12 @@ impl Search<'_> {
             unit: self.swept.unit(),
         }
     }
+}
+
+/// An oil with which a cycle cannot be driven.
+fn failed(cx: &Planner<'_>, oil: &str, reason: &str) -> Stopped {
+    let help = "delete the value, or narrow the range";
+    cx.wrong(&cx.path(), format!("{oil}: {reason}"), help)
 }
 
 impl Outcome for FluidSweepOutcome {

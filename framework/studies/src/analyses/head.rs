@@ -13,8 +13,8 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
 
-use super::context::{Built, Context};
 use super::limits::reached::LimitReached;
+use super::{Built, Planner};
 use crate::study::Study;
 
 /// The head of every result.
@@ -103,7 +103,7 @@ impl InputFile {
 }
 
 impl Head {
-    pub(super) fn new(cx: &Context<'_>, built: &[&Built<'_>], read: &[InputFile], about: &[String]) -> Self {
+    pub(super) fn new(cx: &Planner<'_>, built: &[&Built<'_>], read: &[InputFile], about: &[String]) -> Self {
         let conditions = &cx.study.entry.conditions;
         let mut inputs = inputs(cx.study);
         inputs.extend_from_slice(read);

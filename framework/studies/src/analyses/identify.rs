@@ -17,6 +17,8 @@ pub mod search;
 mod tables;
 mod values;
 
+use std::sync::Arc;
+
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::variants::Variants;
@@ -27,7 +29,7 @@ pub use entry::{IdentifyEntry, NextEntry, PosteriorEntry, RobustEntry, RobustLos
 pub use folds::{FoldOfSet, FoldsOfSet};
 pub use outcome::{IdentificationOfSet, IdentifyOutcome};
 
-use super::{Analysis, Built, Context, Stopped, gear_of};
+use super::{Analysis, Built, Engine, JobsWithin, Plan, Planner, Stopped, Work, gear_of};
 use crate::codes;
 use crate::identify::{Faults, HoldOut, Identification, Settings, group_words};
 use crate::measured::Measured;
@@ -35,14 +37,28 @@ use crate::points::Rows;
 use crate::register_analysis;
 use crate::study::{FoldsEntry, IdentifiedEntry, ParameterKey, Then, Uses, Write};
 use found::{Found, Prepared};
-use next::Candidates;
 use outcome::{DataOfFit, HeldOutRows, Requested};
 
 register_analysis!(IdentifyEntry);
 
+/// The gearbox with each set, and the measured rows.
+pub struct IdentifyPlan<'a> {
+    built: Vec<Arc<Built<'a>>>,
+    points: Points,
+    starts: usize,
+}
+
+impl Plan for IdentifyPlan<'_> {
+    fn work(&self) -> Vec<Work> {
+        let work = |b: &Arc<Built<'_>>| Work::new(&b.name, "searches", self.starts);
+        self.built.iter().map(work).collect()
+    }
+}
+
 impl Analysis for IdentifyEntry {
     const TYPE: &'static str = "identify";
     const PARAMETERS: Option<ParameterKey> = Some(ParameterKey::Whole("parameters"));
+    type Plan<'a> = IdentifyPlan<'a>;
     type Outcome = IdentifyOutcome;
 
     fn uses(&self) -> Uses<'_> {
@@ -64,43 +80,47 @@ impl Analysis for IdentifyEntry {
         })
     }
 
-    fn run(&self, cx: &Context<'_>) -> Result<IdentifyOutcome, Stopped> {
-        let path = cx.path();
-        let data = format!("{path}.data");
+    fn plan<'a>(&'a self, cx: &Planner<'a>) -> Result<IdentifyPlan<'a>, Stopped> {
+        let data = format!("{}.data", cx.path());
         let bind: Vec<&str> = self.bind.ids().collect();
         let measured = cx.read(&data, &self.data, &bind)?;
         let file = cx.data(&data, &self.data)?.file.to_string();
         refuse(cx, self)?;
-        let held_out = held_out(cx, self, &measured)?;
-        let gearbox = cx.gearbox(self.gearbox.as_ref())?;
-        let built = cx.built(gearbox, &self.model_sets)?;
         let points = Points {
-            measured: &measured,
-            held_out: held_out.as_ref(),
-            file: &file,
+            held_out: held_out(cx, self, &measured)?,
+            measured,
+            file,
         };
-        let mut identifications = Vec::new();
-        for (i, b) in built.iter().enumerate() {
-            identifications.extend(cx.part(i, || identify(cx, self, b, &points))?.flatten());
+        let built = cx.built(cx.gearbox(self.gearbox.as_ref())?, &self.model_sets)?;
+        for b in &built {
+            prepare(cx, self, b, &points)?;
         }
-        cx.begin()?;
-        cx.complete()?;
+        Ok(IdentifyPlan {
+            built,
+            points,
+            starts: self.starts as usize,
+        })
+    }
+
+    fn reduce<'a>(&'a self, plan: IdentifyPlan<'a>, engine: &Engine<'a>) -> Result<IdentifyOutcome, Stopped> {
+        let IdentifyPlan { built, points, .. } = plan;
+        let identifications = engine.parts(&built, |b| identify(engine, self, b, &points))?;
         let (comparison_of_sets, not_compared) = match compare::compare(&identifications) {
             None => (None, None),
             Some(Ok(compared)) => (Some(compared), None),
             Some(Err(reason)) => (None, Some(reason)),
         };
         Ok(IdentifyOutcome {
-            head: cx.head(&built.iter().collect::<Vec<_>>()),
+            head: engine.head(&built),
             data: DataOfFit {
-                points: measured.rows.len(),
-                notes: measured.notes.clone(),
-                file,
+                points: points.measured.rows.len(),
+                notes: points.measured.notes,
+                file: points.file,
             },
             identifications,
             comparison_of_sets,
             not_compared,
-            held_out: held_out.map(|choice| HeldOutRows {
+            held_out: points.held_out.map(|choice| HeldOutRows {
                 rows: choice.held_out.rows.len(),
                 words: choice.words,
                 undecided: choice.undecided,
@@ -120,7 +140,7 @@ impl Analysis for IdentifyEntry {
 }
 
 /// Rejects contradictory keys.
-fn refuse(cx: &Context<'_>, entry: &IdentifyEntry) -> Result<(), Stopped> {
+fn refuse(cx: &Planner<'_>, entry: &IdentifyEntry) -> Result<(), Stopped> {
     let path = cx.path();
     if entry.folds == FoldsEntry::Torques(1) {
         let message = "cross-validation needs at least two groups";
@@ -133,29 +153,28 @@ fn refuse(cx: &Context<'_>, entry: &IdentifyEntry) -> Result<(), Stopped> {
     Ok(())
 }
 
-/// Measured points of an analysis.
-struct Points<'m> {
-    measured: &'m Measured,
-    held_out: Option<&'m HoldOut>,
-    /// Names of the files.
-    file: &'m str,
+/// The measured rows.
+struct Points {
+    measured: Measured,
+    held_out: Option<HoldOut>,
+    file: String,
 }
 
-impl Points<'_> {
-    /// Those that are fitted.
+impl Points {
+    /// The rows that are fitted.
     fn to_fit(&self) -> &Measured {
-        self.held_out.map_or(self.measured, |choice| &choice.fitted)
+        self.held_out.as_ref().map_or(&self.measured, |choice| &choice.fitted)
     }
 }
 
-/// Fits the parameters with one set; absent if the analysis is only checked.
-fn identify(
-    cx: &Context<'_>,
-    entry: &IdentifyEntry,
-    b: &Built<'_>,
-    points: &Points<'_>,
-) -> Result<Option<IdentificationOfSet>, Stopped> {
-    let mut identification = stated(cx, entry, b, points)?;
+/// The identification with one set as it was described, and what is chosen beside it.
+fn prepare<'s>(
+    cx: &'s Planner<'_>,
+    entry: &'s IdentifyEntry,
+    b: &'s Built<'s>,
+    points: &'s Points,
+) -> Result<(Identification<'s>, Prepared<'s>), Stopped> {
+    let identification = stated(cx, entry, b, points)?;
     if entry.accuracy_factors && identification.accuracy() == Accuracy::Estimated {
         let message = "`accuracy_factors` needs stated accuracies";
         let help = "state the accuracies, or delete it";
@@ -163,18 +182,28 @@ fn identify(
     }
     posterior::check(cx, entry, &identification)?;
     let groups = groups(cx, entry, &identification)?;
-    let candidates: Option<Result<Candidates, Stopped>> = entry.next.as_ref().map(|next| next::candidates(cx, next, b));
-    let candidates = candidates.transpose()?;
-    if cx.only_checks {
-        return Ok(None);
-    }
-    let pressed = || !cx.should_continue();
+    let candidates = entry.next.as_ref().map(|next| next::candidates(cx, next, b));
+    let prepared = Prepared {
+        candidates: candidates.transpose()?,
+        groups,
+        held_out: points.held_out.as_ref(),
+    };
+    Ok((identification, prepared))
+}
+
+/// Fits the parameters with one set.
+fn identify(
+    engine: &Engine<'_>,
+    entry: &IdentifyEntry,
+    b: &Built<'_>,
+    points: &Points,
+) -> Result<IdentificationOfSet, Stopped> {
+    let (mut identification, prepared) = prepare(engine, entry, b, points)?;
+    let jobs = JobsWithin::new(engine);
+    let pressed = || !jobs.should_continue();
     let searches = |count: usize, search: &OneSearch<'_>| {
-        let fits = cx.each(&format!("{} starts", b.name), count, search);
-        fits.unwrap_or_else(|stopped| {
-            cx.end(stopped);
-            vec![Err(Fault::single("the search", "it was aborted", "run it again"))]
-        })
+        let fits = jobs.jobs(&format!("{} starts", b.name), count, search);
+        fits.unwrap_or_else(|| vec![Err(Fault::single("the search", "it was aborted", "run it again"))])
     };
     let settings = Settings {
         loss: loss(entry),
@@ -184,33 +213,25 @@ fn identify(
         interrupt: Some(&pressed),
         searches: Some(&searches),
     };
-    let fitted = match identification.fit(&settings) {
-        Ok(fitted) => fitted,
-        Err(_) if pressed() => return Err(cx.why_ended()),
-        Err(fault) => return Err(fault_of_search(cx, &fault)),
-    };
+    let fitted = jobs.result(identification.fit(&settings))?;
+    let fitted = fitted.map_err(|fault| fault_of_search(engine, &fault))?;
     let gear = gear_of(entry.gear.as_deref(), &b.transmission);
-    let prepared = Prepared {
-        candidates,
-        groups,
-        held_out: points.held_out,
-    };
-    let (found, beside) = Found::new(cx, entry, &settings, gear, (identification, fitted), prepared)?;
-    Ok(Some(IdentificationOfSet::new(&b.name, entry, found, beside)))
+    let (found, beside) = Found::new(&jobs, entry, &settings, gear, (identification, fitted), prepared)?;
+    Ok(IdentificationOfSet::new(&b.name, entry, found, beside))
 }
 
 /// The identification with one set, before the fit.
 fn stated<'s>(
-    cx: &'s Context<'_>,
+    cx: &'s Planner<'_>,
     entry: &'s IdentifyEntry,
-    b: &Built<'s>,
-    points: &'s Points<'_>,
+    b: &'s Built<'s>,
+    points: &'s Points,
 ) -> Result<Identification<'s>, Stopped> {
     let rows = |measured| -> Rows<'s> { cx.study.rows(measured, &entry.bind, entry.gear.as_deref(), false) };
     let choice = cx.study.choice(b.set());
     let gearbox: &'s Gearbox = b.gearbox;
     let variants = Variants::new(cx.language, gearbox, choice.clone());
-    cx.rows_fit(&rows(points.measured), gearbox, &variants)?;
+    cx.rows_fit(&rows(&points.measured), gearbox, &variants)?;
     let made = Identification::new(
         cx.language,
         gearbox,
@@ -236,13 +257,13 @@ fn stated<'s>(
 }
 
 /// A finding of the study below the analysis.
-fn below(cx: &Context<'_>, found: Diagnostic) -> Stopped {
+fn below(cx: &Planner<'_>, found: Diagnostic) -> Stopped {
     let path = format!("{}.{}", cx.path(), found.path);
     cx.found(vec![Diagnostic { path, ..found }])
 }
 
 /// The held-out rows, if there are any.
-fn held_out(cx: &Context<'_>, entry: &IdentifyEntry, measured: &Measured) -> Result<Option<HoldOut>, Stopped> {
+fn held_out(cx: &Planner<'_>, entry: &IdentifyEntry, measured: &Measured) -> Result<Option<HoldOut>, Stopped> {
     let Some(chosen) = &entry.hold_out else {
         return Ok(None);
     };
@@ -259,7 +280,7 @@ fn held_out(cx: &Context<'_>, entry: &IdentifyEntry, measured: &Measured) -> Res
 
 /// Groups for cross-validation; the reason if there are none, absent if not requested.
 fn groups(
-    cx: &Context<'_>,
+    cx: &Planner<'_>,
     entry: &IdentifyEntry,
     identification: &Identification<'_>,
 ) -> Result<Option<Result<Vec<Fold>, String>>, Stopped> {
@@ -283,7 +304,7 @@ fn loss(entry: &IdentifyEntry) -> Loss {
 }
 
 /// Errors of the search at the analysis.
-fn fault_of_search(cx: &Context<'_>, fault: &Fault) -> Stopped {
+fn fault_of_search(cx: &Planner<'_>, fault: &Fault) -> Stopped {
     let path = cx.path();
     let finding = |f: &least_squares::Finding| {
         let message = format!("{}: {}", f.place, f.message);

@@ -5,7 +5,7 @@ use crate::study::{Shape, ToleranceEntry};
 use gearloss_numerics::sampling::Distribution;
 
 use super::ranges::{Range, once};
-use super::{Built, Context, Stopped};
+use super::{Built, Planner, Stopped};
 
 /// An uncertain input with its distribution, in the unit of the path.
 pub struct Input {
@@ -16,7 +16,7 @@ pub struct Input {
 
 impl Input {
     /// All inputs of an analysis at a path, without repetition.
-    pub fn all(cx: &Context<'_>, path: &str, entries: &[ToleranceEntry], b: &Built<'_>) -> Result<Vec<Self>, Stopped> {
+    pub fn all(cx: &Planner<'_>, path: &str, entries: &[ToleranceEntry], b: &Built<'_>) -> Result<Vec<Self>, Stopped> {
         let path = format!("{path}.inputs");
         let of = |(i, input)| Self::new(cx, &format!("{path}.{i}"), input, b);
         let inputs: Vec<Self> = entries.iter().enumerate().map(of).collect::<Result<_, _>>()?;
@@ -25,7 +25,7 @@ impl Input {
         Ok(inputs)
     }
 
-    fn new(cx: &Context<'_>, path: &str, entry: &ToleranceEntry, b: &Built<'_>) -> Result<Self, Stopped> {
+    fn new(cx: &Planner<'_>, path: &str, entry: &ToleranceEntry, b: &Built<'_>) -> Result<Self, Stopped> {
         let range = Range::new(cx, path, &entry.range, b)?;
         // Values outside the range of the schema are moved to its ends.
         if entry.distribution != Shape::Normal {

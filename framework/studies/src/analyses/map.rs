@@ -13,6 +13,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use gearloss_fmu::Library;
+use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::loss::Extent;
 use serde_json::Value;
 
@@ -28,12 +29,13 @@ use self::plan::{Planned, on_grid};
 use self::points::{RowsOf, Taken, Taker, UndefinedLoss};
 use self::shown::Selection;
 use super::limits::at_points::LimitColumn;
+use super::rows::RowsPlan;
 use super::units::libraries;
-use super::{Analysis, Built, Context, Stopped};
+use super::{Analysis, Built, Engine, Plan, Planner, Run, Stopped, Work};
 use crate::distinct::distinct;
-use crate::measured::Measured;
+use crate::measured::{Measured, Row};
 use crate::points::{
-    Field, Note, Numbered, OilTemperature, Piece, PointResult, SUMS, TotalLoss, evidence, merge, notes_with_shares,
+    Note, Numbered, OilTemperature, Piece, PointResult, SUMS, TotalLoss, evidence, merge, notes_with_shares,
 };
 use crate::register_analysis;
 use crate::study::{Data, Uses, Write};
@@ -41,8 +43,40 @@ use crate::table::Table;
 
 register_analysis!(MapEntry);
 
+/// The points of maps, and what is read beside them.
+pub struct MapPlan<'a> {
+    points: PointsOfMap<'a>,
+    libraries: Vec<Library>,
+    /// Measured points for figures.
+    measured: Measured,
+}
+
+/// The points of maps.
+enum PointsOfMap<'a> {
+    /// One map for each set, gear and combination of bound values of a grid.
+    Grid(Vec<Planned<'a>>),
+    /// Rows of a file.
+    List(ListedPoints<'a>),
+}
+
+/// Rows of a file with the notes on it.
+struct ListedPoints<'a> {
+    rows: RowsPlan<'a>,
+    about: Vec<String>,
+}
+
+impl Plan for MapPlan<'_> {
+    fn work(&self) -> Vec<Work> {
+        match &self.points {
+            PointsOfMap::Grid(planned) => Work::of_runs(planned.iter().map(|plan| &plan.run)),
+            PointsOfMap::List(listed) => listed.rows.work(),
+        }
+    }
+}
+
 impl Analysis for MapEntry {
     const TYPE: &'static str = "map";
+    type Plan<'a> = MapPlan<'a>;
     type Outcome = MapOutcome;
 
     fn uses(&self) -> Uses<'_> {
@@ -56,11 +90,65 @@ impl Analysis for MapEntry {
         }
     }
 
-    fn run(&self, cx: &Context<'_>) -> Result<MapOutcome, Stopped> {
-        match &self.points {
-            Some(points) if self.grid.is_none() => self.over_list(cx, points),
-            _ => self.over_grid(cx),
-        }
+    fn plan<'a>(&'a self, cx: &Planner<'a>) -> Result<MapPlan<'a>, Stopped> {
+        let path = cx.path();
+        let gearbox = cx.gearbox(self.gearbox.as_ref())?;
+        let points = match (&self.grid, &self.points) {
+            (Some(_), None) if !self.bind.is_empty() || self.gear.is_some() => {
+                return Err(cx.wrong(&path, "`bind` and `gear` belong to `points`", "state them in the grid"));
+            }
+            (Some(grid), None) => {
+                let planned = on_grid(cx, self, grid, gearbox)?;
+                exported::check(cx, &self.export, &planned)?;
+                PointsOfMap::Grid(planned)
+            }
+            (None, Some(points)) => PointsOfMap::List(self.listed(cx, gearbox, points)?),
+            _ => {
+                let help = "write `grid: NAME`, or `points: { file: ... }`";
+                return Err(cx.wrong(&path, "a map needs either `grid` or `points`", help));
+            }
+        };
+        // The libraries of FMUs, if one is exported.
+        let is_needed = self.export.iter().any(|name| name.format().has_library());
+        Ok(MapPlan {
+            points,
+            libraries: libraries(cx, &self.fmu_libraries, is_needed)?,
+            measured: match &self.measured {
+                Some(data) => cx.read_at_ports(&format!("{path}.measured"), data, &[])?,
+                None => Measured::default(),
+            },
+        })
+    }
+
+    fn reduce<'a>(&'a self, plan: MapPlan<'a>, engine: &Engine<'a>) -> Result<MapOutcome, Stopped> {
+        let (rows, maps, about_points) = match &plan.points {
+            PointsOfMap::Grid(planned) => {
+                let (rows, maps) = self.over_grid(engine, planned)?;
+                (rows, maps, Vec::new())
+            }
+            PointsOfMap::List(listed) => self.over_list(engine, listed)?,
+        };
+        let measured = plan.measured;
+        let built: Vec<Arc<Built<'_>>> = maps.iter().map(|map| Arc::clone(&map.run.built)).collect();
+        let grid = self.grid.as_ref().map(|name| engine.study.grid(&engine.path(), name));
+        let mark = |row: &Row| Mark {
+            gear: row.gear.clone(),
+            torque: measured.value(row, "torque").unwrap_or(0.0),
+            speed: measured.value(row, "speed").unwrap_or(0.0),
+        };
+        Ok(MapOutcome {
+            head: engine.head(&built),
+            envelope: grid.transpose()?.and_then(|grid| grid.envelope.clone()),
+            notes_of_sets: notes_of_sets(&maps),
+            maps: maps.into_iter().map(|map| map.outcome(&rows)).collect(),
+            about_points,
+            about_measured: measured.notes.clone(),
+            marks: measured.rows.iter().map(mark).collect(),
+            exports: self.export.clone(),
+            lossy_gear_limit: self.lossy_gear_limit,
+            libraries: plan.libraries,
+            table: rows.table,
+        })
     }
 
     fn formats(&self) -> &[Write] {
@@ -70,81 +158,44 @@ impl Analysis for MapEntry {
 
 impl MapEntry {
     /// The maps over the grid.
-    fn over_grid(&self, cx: &Context<'_>) -> Result<MapOutcome, Stopped> {
-        let planned = self.planned(cx)?;
-        for plan in &planned {
-            cx.checked(&plan.built, &plan.points)?;
-        }
-        exported::check(cx, &self.export, &planned)?;
-        let libraries = self.libraries(cx)?;
-        if cx.only_checks {
-            self.measured(cx)?;
-            return Err(Stopped::Checked);
-        }
+    fn over_grid<'a>(
+        &self,
+        engine: &'a Engine<'a>,
+        planned: &[Planned<'a>],
+    ) -> Result<(Rows<'a>, Vec<Map<'a>>), Stopped> {
         let bound: Vec<String> = planned.first().map_or_else(Vec::new, |first| {
             first.bound.iter().map(|(path, _)| path.clone()).collect()
         });
-        let all: Vec<&Built<'_>> = planned.iter().map(|plan| &*plan.built).collect();
-        let mut rows = Rows::new(cx, self, &bound, &all);
+        let all: Vec<&Built<'_>> = planned.iter().map(|plan| &*plan.run.built).collect();
+        let mut rows = Rows::new(engine, self, &bound, &all);
         let whole = !self.export.is_empty();
-        let mut maps = Vec::new();
-        for (number, plan) in planned.iter().enumerate() {
-            let mut map = Map::new(&plan.built, &plan.bound, &plan.points.gear, plan.points.oil, &rows);
+        let mut maps = engine.parts(planned, |plan| {
+            let mut map = Map::new(&plan.run, &plan.bound, plan.run.points.oil, &rows);
             map.shown = ShownMap::new(Some(&plan.axes), whole);
-            let taker = Taker {
-                built: &plan.built,
-                field: &plan.points.field,
-                rows: RowsOf::new(&plan.built, &plan.points.gear, &plan.bound, &rows.parts, &rows.limits),
-                selection: &Selection::new(Some(&plan.axes), whole),
-                wanted: rows.wanted,
-            };
+            let selection = Selection::new(Some(&plan.axes), whole);
+            let taker = rows.taker(&plan.run, &plan.bound, &selection);
             let take = |points: &mut Numbered<'_>| taker.take(points);
-            let solve = || cx.solve_pieces(&plan.built, &plan.points, &take, &mut |piece| map.add(piece, &mut rows));
-            if cx.part(number, solve)?.is_none() {
-                continue;
-            }
-            map.notes = notes_with_shares(&plan.built.transmission, &map.seen, map.lost);
-            maps.push(map);
-        }
-        cx.complete()?;
+            engine.solve_pieces(&plan.run, &take, &mut |piece| map.add(piece, &mut rows))?;
+            map.notes = notes_with_shares(&plan.run.built.transmission, &map.seen, map.lost);
+            Ok(map)
+        })?;
         for map in &mut maps {
-            map.export = ExportData::solve(cx, &self.export, map)?;
+            map.export = ExportData::solve(engine, &self.export, map)?;
         }
         if !self.export.is_empty() {
-            ExportData::solve_between_oils(cx, &mut maps)?;
+            ExportData::solve_between_oils(engine, &mut maps)?;
         }
-        Ok(MapOutcome {
-            libraries,
-            ..self.outcome(cx, rows, maps, Vec::new())?
-        })
+        Ok((rows, maps))
     }
 
-    /// The libraries of FMUs, if one is exported.
-    fn libraries(&self, cx: &Context<'_>) -> Result<Vec<Library>, Stopped> {
-        let is_needed = self.export.iter().any(|name| name.format().has_library());
-        libraries(cx, &self.fmu_libraries, is_needed)
-    }
-
-    /// The points of the maps over the grid of the entry.
-    fn planned<'s>(&'s self, cx: &'s Context<'_>) -> Result<Vec<Planned<'s>>, Stopped> {
+    /// The rows of a file.
+    fn listed<'a>(
+        &'a self,
+        cx: &Planner<'a>,
+        gearbox: &'a Gearbox,
+        points: &Data,
+    ) -> Result<ListedPoints<'a>, Stopped> {
         let path = cx.path();
-        let gearbox = cx.gearbox(self.gearbox.as_ref())?;
-        match (&self.grid, &self.points) {
-            (Some(_), None) if !self.bind.is_empty() || self.gear.is_some() => {
-                Err(cx.wrong(&path, "`bind` and `gear` belong to `points`", "state them in the grid"))
-            }
-            (Some(grid), None) => on_grid(cx, self, grid, gearbox),
-            _ => {
-                let help = "write `grid: NAME`, or `points: { file: ... }`";
-                Err(cx.wrong(&path, "a map needs either `grid` or `points`", help))
-            }
-        }
-    }
-
-    /// One map for each set, gear and combination of bound values of the rows of a file.
-    fn over_list(&self, cx: &Context<'_>, points: &Data) -> Result<MapOutcome, Stopped> {
-        let path = cx.path();
-        let gearbox = cx.gearbox(self.gearbox.as_ref())?;
         if !self.export.is_empty() {
             return Err(cx.wrong(
                 &format!("{path}.export"),
@@ -152,96 +203,51 @@ impl MapEntry {
                 "give `grid` instead of `points`",
             ));
         }
-        self.libraries(cx)?;
         let bind: Vec<&str> = self.bind.ids().collect();
         let listed = cx.read(&format!("{path}.points"), points, &bind)?;
         let file = &cx.data(&path, points)?.file;
-        let about = listed.notes.iter().map(|note| format!("{file}: {note}")).collect();
-        let solved = cx.at_rows(
-            gearbox,
-            &self.model_sets,
-            &self.bind,
-            self.gear.as_deref(),
-            &listed,
-            false,
-        )?;
-        if cx.only_checks {
-            self.measured(cx)?;
-            return Err(Stopped::Checked);
-        }
+        let gear = self.gear.as_deref();
+        Ok(ListedPoints {
+            about: listed.notes.iter().map(|note| format!("{file}: {note}")).collect(),
+            rows: RowsPlan::new(cx, gearbox, &self.model_sets, (listed, &self.bind), gear, false)?,
+        })
+    }
+
+    /// One map for each set, gear and combination of bound values of the rows of a file.
+    fn over_list<'a>(
+        &self,
+        engine: &'a Engine<'a>,
+        listed: &ListedPoints<'a>,
+    ) -> Result<(Rows<'a>, Vec<Map<'a>>, Vec<String>), Stopped> {
+        let solved = listed.rows.solve(engine)?;
         let paths: Vec<String> = self.bind.iter().map(|(_, path)| path.clone()).collect();
-        let all: Vec<&Built<'_>> = solved.iter().flat_map(|solved| &solved.built).collect();
-        let mut rows = Rows::new(cx, self, &paths, &all);
+        let all: Vec<&Built<'_>> = solved.iter().flat_map(|solved| &solved.built).map(|b| &**b).collect();
+        let mut rows = Rows::new(engine, self, &paths, &all);
         let mut maps = Vec::new();
-        for solved in solved {
-            let keys = distinct(solved.rows.iter().map(|(place, gear, _)| (*place, gear)));
-            let built: Vec<Arc<Built<'_>>> = solved.built.into_iter().map(Arc::new).collect();
-            for (place, gear) in keys {
+        for solved in &solved {
+            for (place, run) in &solved.runs {
+                let gear = &run.points.gear;
                 let own = solved
                     .rows
                     .iter()
-                    .zip(&listed.rows)
-                    .filter(|(row, _)| row.0 == place && row.1 == *gear);
+                    .zip(&listed.rows.measured.rows)
+                    .filter(|(row, _)| row.0 == *place && row.1 == *gear);
                 let bound: Vec<(String, Value)> = own.clone().next().map_or_else(Vec::new, |(_, row)| {
                     let values = row.bound.iter().map(|v| Value::from(v.as_str()));
                     paths.iter().cloned().zip(values).collect()
                 });
                 let points: Vec<PointResult> = own.map(|((_, _, point), _)| point.clone()).collect();
                 let oil = common(&points).map_or(OilTemperature::Balance, OilTemperature::Fixed);
-                let mut map = Map::new(&built[place], &bound, gear, oil, &rows);
-                let taker = Taker {
-                    built: &built[place],
-                    field: &Field::List(Vec::new()),
-                    rows: RowsOf::new(&built[place], gear, &bound, &rows.parts, &rows.limits),
-                    selection: &Selection::new(None, false),
-                    wanted: rows.wanted,
-                };
+                let mut map = Map::new(run, &bound, oil, &rows);
+                let selection = Selection::new(None, false);
+                let taker = rows.taker(run, &bound, &selection);
                 let piece = Piece::new(0, points, Vec::new()).made(0, &|points| taker.take(points));
                 map.add(piece, &mut rows)?;
                 map.notes.clone_from(&solved.notes);
                 maps.push(map);
             }
         }
-        self.outcome(cx, rows, maps, about)
-    }
-
-    /// Measured points for figures.
-    fn measured(&self, cx: &Context<'_>) -> Result<Measured, Stopped> {
-        match &self.measured {
-            Some(data) => cx.read_at_ports(&format!("{}.measured", cx.path()), data, &[]),
-            None => Ok(Measured::default()),
-        }
-    }
-
-    fn outcome(
-        &self,
-        cx: &Context<'_>,
-        rows: Rows<'_>,
-        maps: Vec<Map<'_>>,
-        about_points: Vec<String>,
-    ) -> Result<MapOutcome, Stopped> {
-        let head = cx.head(&maps.iter().map(|map| &*map.built).collect::<Vec<_>>());
-        let measured = self.measured(cx)?;
-        let grid = self.grid.as_ref().map(|name| cx.study.grid(&cx.path(), name));
-        let envelope = grid.transpose()?.and_then(|grid| grid.envelope.clone());
-        let mark = |row| Mark {
-            gear: crate::measured::Row::clone(row).gear,
-            torque: measured.value(row, "torque").unwrap_or(0.0),
-            speed: measured.value(row, "speed").unwrap_or(0.0),
-        };
-        Ok(MapOutcome {
-            head,
-            envelope,
-            notes_of_sets: notes_of_sets(&maps),
-            maps: maps.into_iter().map(|map| map.outcome(&rows)).collect(),
-            about_points,
-            about_measured: measured.notes.clone(),
-            marks: measured.rows.iter().map(mark).collect(),
-            exports: self.export.clone(),
-            lossy_gear_limit: self.lossy_gear_limit,
-            libraries: Vec::new(),
-            table: rows.table,
-        })
+        Ok((rows, maps, listed.about.clone()))
     }
 }
 
@@ -253,7 +259,7 @@ fn common(points: &[PointResult]) -> Option<f64> {
 
 /// The table of all maps while its rows are computed.
 struct Rows<'c> {
-    cx: &'c Context<'c>,
+    engine: &'c Engine<'c>,
     /// Paths of the components with a column; sets may have different components, and each component has one column.
     parts: Vec<String>,
     /// Limits of the study at points.
@@ -268,27 +274,37 @@ struct Rows<'c> {
 }
 
 impl<'c> Rows<'c> {
-    fn new(cx: &'c Context<'c>, entry: &MapEntry, bound: &[String], all: &[&Built<'_>]) -> Self {
+    fn new(engine: &'c Engine<'c>, entry: &MapEntry, bound: &[String], all: &[&Built<'_>]) -> Self {
         let parts = all.iter().flat_map(|built| built.transmission.parts());
         let parts: Vec<String> = distinct(parts.map(|part| &part.path)).into_iter().cloned().collect();
-        let limits = LimitColumn::all(cx.language, cx.study);
+        let limits = LimitColumn::all(engine.language, engine.study);
         Self {
-            table: RowsOf::none(bound, &parts, &limits).table(cx.name, []),
+            table: RowsOf::none(bound, &parts, &limits).table(engine.name, []),
             limits,
-            holds: cx.sink.is_none() || entry.write.contains(&Write::Json),
-            wanted: cx.sink.is_none() || entry.write.iter().any(|format| *format != Write::Svg),
+            holds: engine.sink.is_none() || entry.write.contains(&Write::Json),
+            wanted: engine.sink.is_none() || entry.write.iter().any(|format| *format != Write::Svg),
             constant: 2 + bound.len(),
             parts,
-            cx,
+            engine,
+        }
+    }
+
+    /// Takes the rows of a run.
+    fn taker<'r>(&self, run: &'r Run<'r>, bound: &[(String, Value)], selection: &'r Selection) -> Taker<'r> {
+        Taker {
+            rows: RowsOf::new(run, bound, &self.parts, &self.limits),
+            wanted: self.wanted,
+            selection,
+            run,
         }
     }
 }
 
 /// A map during computation.
 struct Map<'a> {
-    built: Arc<Built<'a>>,
+    /// Its points; of a list without them.
+    run: Run<'a>,
     bound: Vec<(String, Value)>,
-    gear: String,
     oil: OilTemperature,
     shown: ShownMap,
     seen: Vec<Extent>,
@@ -303,17 +319,10 @@ struct Map<'a> {
 
 impl<'a> Map<'a> {
     /// A map without points; its rows are the next in the table.
-    fn new(
-        built: &Arc<Built<'a>>,
-        bound: &[(String, Value)],
-        gear: &str,
-        oil: OilTemperature,
-        rows: &Rows<'_>,
-    ) -> Self {
+    fn new(run: &Run<'a>, bound: &[(String, Value)], oil: OilTemperature, rows: &Rows<'_>) -> Self {
         Self {
-            built: Arc::clone(built),
+            run: run.clone(),
             bound: bound.to_vec(),
-            gear: gear.to_owned(),
             oil,
             shown: ShownMap::new(None, false),
             seen: Vec::new(),
@@ -347,7 +356,7 @@ impl<'a> Map<'a> {
             self.undefined.extend(undefined);
             rows.table.extend(&tables, &order);
             self.rows.end = rows.table.len();
-        } else if let Some(sink) = rows.cx.sink {
+        } else if let Some(sink) = rows.engine.sink {
             let mut own = rows.table.header();
             own.extend(&tables, &order);
             sink.take(&own)?;
@@ -356,7 +365,8 @@ impl<'a> Map<'a> {
     }
 
     fn outcome(self, rows: &Rows<'_>) -> MapOfSet {
-        let (built, t) = (&self.built, &self.built.transmission);
+        let built = &self.run.built;
+        let t = &built.transmission;
         let column = |path: &String| rows.parts.iter().position(|part| part == path).unwrap_or(0);
         let columns: Vec<usize> = t.parts().iter().map(|part| column(&part.path)).collect();
         MapOfSet {
@@ -370,7 +380,7 @@ impl<'a> Map<'a> {
             ),
             limits: rows.limits.clone(),
             model_set: built.name.clone(),
-            gear: self.gear,
+            gear: self.run.points.gear.clone(),
             bound: self.bound.into_iter().collect(),
             oil_temperature_degc: self.oil.given(),
             sums: SUMS.iter().map(|(sum, meaning)| SumMeaning { sum, meaning }).collect(),
@@ -396,14 +406,15 @@ impl<'a> Map<'a> {
 /// Notes of all maps of each set, if the maps form one table over a bound value: their transmissions differ only in it.
 fn notes_of_sets(maps: &[Map<'_>]) -> Option<Vec<NotesOfSet>> {
     let first = maps.first()?;
-    let fits = |map: &Map<'_>| map.shown.is_line() && map.bound.len() == 1 && map.gear == first.gear;
+    let fits =
+        |map: &Map<'_>| map.shown.is_line() && map.bound.len() == 1 && map.run.points.gear == first.run.points.gear;
     if !maps.iter().all(fits) {
         return None;
     }
-    let names = distinct(maps.iter().map(|map| map.built.name.as_str()));
+    let names = distinct(maps.iter().map(|map| map.run.built.name.as_str()));
     let of_set = |name: &str| {
         let mut all = Vec::new();
-        let own = || maps.iter().filter(|map| map.built.name == name);
+        let own = || maps.iter().filter(|map| map.run.built.name == name);
         let mut lost = TotalLoss::default();
         for map in own() {
             merge(&mut all, &map.seen);
@@ -411,9 +422,9 @@ fn notes_of_sets(maps: &[Map<'_>]) -> Option<Vec<NotesOfSet>> {
         }
         NotesOfSet {
             model_set: name.to_owned(),
-            notes: own()
-                .next()
-                .map_or_else(Vec::new, |map| notes_with_shares(&map.built.transmission, &all, lost)),
+            notes: own().next().map_or_else(Vec::new, |map| {
+                notes_with_shares(&map.run.built.transmission, &all, lost)
+            }),
         }
     };
     Some(names.into_iter().map(of_set).collect())

@@ -1,6 +1,6 @@
 //! Deviations relative to measured losses.
 
-use super::{Context, Stopped};
+use super::{Planner, Stopped};
 use crate::study::{Difference, Quantity};
 
 /// Whether a deviation relative to a measured loss is meaningful: the measured loss must not be zero or below a millionth of the computed
@@ -17,7 +17,7 @@ pub fn note(omitted: usize, what: &str) -> String {
 }
 
 /// Rejects a kind of difference that does not apply to a quantity.
-pub fn countable(cx: &Context<'_>, path: &str, quantity: Quantity, difference: Difference) -> Result<(), Stopped> {
+pub fn countable(cx: &Planner<'_>, path: &str, quantity: Quantity, difference: Difference) -> Result<(), Stopped> {
     if (quantity, difference) == (Quantity::Temperature, Difference::Percent) {
         let message = "a temperature difference cannot be in percent";
         let help = "write `difference: points`, which is in kelvins";

@@ -1,5 +1,7 @@
 //! Losses of a list of operating points from a file, compared with measured values.
 
+use std::sync::Arc;
+
 use gearloss_framework::description::Ordered;
 use gearloss_framework::flow::Status;
 use gearloss_framework::thermal;
@@ -8,9 +10,9 @@ use serde::{Deserialize, Serialize};
 
 use super::limits::at_points::LimitColumn;
 use super::numbers::{RPM, tidy};
-use super::rows::Solved;
+use super::rows::{RowsPlan, Solved};
 use super::shares::{Shares, together};
-use super::{Analysis, Built, Context, Head, Outcome, Stopped};
+use super::{Analysis, Built, Engine, Head, Outcome, Planner, Stopped};
 use crate::measured::{Measured, Row};
 use crate::points::{Note, PointResult};
 use crate::register_analysis;
@@ -166,6 +168,7 @@ impl MeasuredAtPoint {
 
 impl Analysis for OperatingPointsEntry {
     const TYPE: &'static str = "operating_points";
+    type Plan<'a> = RowsPlan<'a>;
     type Outcome = OperatingPointsOutcome;
 
     fn uses(&self) -> Uses<'_> {
@@ -175,24 +178,25 @@ impl Analysis for OperatingPointsEntry {
             .with("data", Some(&self.data))
     }
 
-    fn run(&self, cx: &Context<'_>) -> Result<OperatingPointsOutcome, Stopped> {
-        let path = cx.path();
+    fn plan<'a>(&'a self, cx: &Planner<'a>) -> Result<RowsPlan<'a>, Stopped> {
         let gearbox = cx.gearbox(self.gearbox.as_ref())?;
         let bind: Vec<&str> = self.bind.ids().collect();
-        let listed = cx.read(&format!("{path}.data"), &self.data, &bind)?;
-        let gear = self.gear.as_deref();
-        let terms = self.by == By::Term;
-        cx.undivided()?;
-        let all = cx.at_rows(gearbox, &self.model_sets, &self.bind, gear, &listed, terms)?;
-        cx.begin()?;
-        let built: Vec<&Built<'_>> = all.iter().flat_map(|s| &s.built).collect();
+        let listed = cx.read(&format!("{}.data", cx.path()), &self.data, &bind)?;
+        let (gear, terms) = (self.gear.as_deref(), self.by == By::Term);
+        RowsPlan::new(cx, gearbox, &self.model_sets, (listed, &self.bind), gear, terms)
+    }
+
+    fn reduce<'a>(&'a self, plan: RowsPlan<'a>, engine: &Engine<'a>) -> Result<OperatingPointsOutcome, Stopped> {
+        let all = plan.solve(engine)?;
+        let built: Vec<Arc<Built<'_>>> = all.iter().flat_map(|s| &s.built).cloned().collect();
         let shares = together(built.iter().map(|b| &b.transmission), self.by);
-        let limits = LimitColumn::all(cx.language, cx.study);
+        let limits = LimitColumn::all(engine.language, engine.study);
+        let listed = plan.measured;
         Ok(OperatingPointsOutcome {
-            head: cx.head(&built),
+            head: engine.head(&built),
             operating_points: all.iter().map(|s| self.of_set(&listed, s, &shares, &limits)).collect(),
             limits,
-            file: cx.data(&path, &self.data)?.file.to_string(),
+            file: engine.data(&engine.path(), &self.data)?.file.to_string(),
             file_notes: listed.notes,
             bound: self.bind.ids().map(str::to_owned).collect(),
         })

@@ -19,11 +19,12 @@ pub use variables::{Scale, VariableEntry};
 use self::drives::Drives;
 use self::search::Search;
 use self::variables::Variable;
-use super::duties::Duties;
+use super::duties::{DrivePlan, Duties};
 use super::inputs::Input;
+use super::limits::Limit;
 use super::limits::over_cycles::{cycle, limits_of};
 use super::trial::Trial;
-use super::{Analysis, Context, Stopped};
+use super::{Analysis, Engine, Plan, Planner, Stopped, Work};
 use crate::register_analysis;
 use crate::study::{DriveEntry, LimitEntry, Then, ToleranceEntry, Uses, Write};
 
@@ -87,8 +88,27 @@ fn samples() -> u32 {
 
 register_analysis!(OptimiseEntry);
 
+/// The gearbox, its cycles, and what is searched.
+pub struct OptimisePlan<'a> {
+    drive: DrivePlan<'a>,
+    variables: Vec<Variable>,
+    /// Cycles whose mean loss is minimised.
+    objectives: Vec<usize>,
+    limits: Vec<Limit>,
+    inputs: Vec<Input>,
+    designs: usize,
+}
+
+impl Plan for OptimisePlan<'_> {
+    fn work(&self) -> Vec<Work> {
+        let cycles = self.designs * self.drive.duties.list.len();
+        vec![Work::new(&self.drive.built[0].name, "cycles of designs", cycles).at_most()]
+    }
+}
+
 impl Analysis for OptimiseEntry {
     const TYPE: &'static str = "optimise";
+    type Plan<'a> = OptimisePlan<'a>;
     type Outcome = OptimiseOutcome;
 
     fn uses(&self) -> Uses<'_> {
@@ -103,7 +123,7 @@ impl Analysis for OptimiseEntry {
         })
     }
 
-    fn run(&self, cx: &Context<'_>) -> Result<OptimiseOutcome, Stopped> {
+    fn plan<'a>(&'a self, cx: &Planner<'a>) -> Result<OptimisePlan<'a>, Stopped> {
         let path = cx.path();
         let gearbox = cx.gearbox(self.drive.gearbox.as_ref())?;
         if self.drive.model_sets.len() > 1 {
@@ -111,47 +131,47 @@ impl Analysis for OptimiseEntry {
             return Err(cx.wrong(&format!("{path}.model_sets"), "a search has one model set", help));
         }
         let duties = Duties::new(cx, &path, &self.drive.ride, self.drive.gear.as_ref())?;
-        let built = cx.built(gearbox, &self.drive.model_sets)?;
-        let b = &built[0];
-        duties.check(cx, &path, b)?;
+        let drive = DrivePlan::new(cx, &path, duties, cx.built(gearbox, &self.drive.model_sets)?)?;
+        let b = &drive.built[0];
         let variables = Variable::all(cx, &path, &self.variables, b)?;
-        let objectives = self.objectives(cx, &duties)?;
-        let limits = limits_of(cx, &path, &self.limits, &duties, b)?;
-        let inputs = Input::all(cx, &path, &self.inputs, b)?;
+        drives::check(cx, &Trial::new(cx, b), &variables)?;
+        Ok(OptimisePlan {
+            objectives: self.objectives(cx, &drive.duties)?,
+            limits: limits_of(cx, &path, &self.limits, &drive.duties, b)?,
+            inputs: Input::all(cx, &path, &self.inputs, b)?,
+            designs: self.designs as usize,
+            variables,
+            drive,
+        })
+    }
+
+    fn reduce<'a>(&'a self, plan: OptimisePlan<'a>, engine: &Engine<'a>) -> Result<OptimiseOutcome, Stopped> {
+        let b = &plan.drive.built[0];
+        let (objectives, inputs) = (&plan.objectives, &plan.inputs);
         let drives = Drives {
-            cx,
-            duties: &duties,
-            trial: Trial::new(cx, b),
-            variables: &variables,
-            limits: &limits,
+            engine,
+            duties: &plan.drive.duties,
+            trial: Trial::new(engine, b),
+            variables: &plan.variables,
+            limits: &plan.limits,
         };
-        drives.check()?;
-        cx.begin()?;
         let present = drives.present()?;
-        let mut search = Search::new(&drives, self, &present, &objectives);
+        let mut search = Search::new(&drives, self, &present, objectives);
         search.run()?;
         let chosen = search.chosen();
         let changes = match &chosen {
-            Some(chosen) => changes::of_design(&drives, &chosen.genes, &present, &objectives)?,
+            Some(chosen) => changes::of_design(&drives, &chosen.genes, &present, objectives)?,
             None => Vec::new(),
         };
         let band = match &chosen {
             Some(chosen) if !inputs.is_empty() => {
                 let changed: Vec<usize> = changes.iter().map(|change| change.variable).collect();
-                band::of_gain(&drives, self.samples, &inputs, &chosen.genes, &changed, &objectives)?
+                band::of_gain(&drives, self.samples, inputs, &chosen.genes, &changed, objectives)?
             }
             _ => Vec::new(),
         };
         Ok(outcome::put_together(
-            cx,
-            self,
-            b,
-            &drives,
-            &search,
-            &present,
-            &objectives,
-            changes,
-            band,
+            self, b, &drives, &search, &present, objectives, changes, band,
         ))
     }
 
@@ -162,7 +182,7 @@ impl Analysis for OptimiseEntry {
 
 impl OptimiseEntry {
     /// Indices of the cycles that are minimised.
-    fn objectives(&self, cx: &Context<'_>, duties: &Duties<'_>) -> Result<Vec<usize>, Stopped> {
+    fn objectives(&self, cx: &Planner<'_>, duties: &Duties<'_>) -> Result<Vec<usize>, Stopped> {
         if self.minimise.is_empty() {
             return Ok((0..duties.list.len()).collect());
         }

@@ -5,7 +5,7 @@ use crate::study::RangeEntry;
 use crate::varied::Varied;
 use serde_json::Value;
 
-use super::{Built, Context, Stopped};
+use super::{Built, Planner, Stopped};
 
 /// A varied quantity with its range, in the unit of the path.
 pub struct Range {
@@ -17,7 +17,7 @@ pub struct Range {
 
 impl Range {
     /// `path` is the entry's place in the study.
-    pub fn new(cx: &Context<'_>, path: &str, entry: &RangeEntry, b: &Built<'_>) -> Result<Self, Stopped> {
+    pub fn new(cx: &Planner<'_>, path: &str, entry: &RangeEntry, b: &Built<'_>) -> Result<Self, Stopped> {
         let wrong =
             |message: String, help: &str| cx.wrong_as(codes::VARIED, path, format!("{}: {message}", entry.path), help);
         let varied = varied(cx, path, (&entry.path, entry.tie), b)?;
@@ -64,7 +64,7 @@ impl Range {
     }
 
     /// Rejects a range outside the schema.
-    pub fn inside(&self, cx: &Context<'_>, path: &str) -> Result<(), Stopped> {
+    pub fn inside(&self, cx: &Planner<'_>, path: &str) -> Result<(), Stopped> {
         let ([low, high], [least, greatest]) = (self.ends, self.varied.range);
         if low >= least && high <= greatest {
             return Ok(());
@@ -107,7 +107,7 @@ pub fn published<'v>(all: impl Iterator<Item = &'v Varied>) -> Vec<PublishedCoef
 
 /// A varied quantity of a study; `path` is its place there.
 pub fn varied(
-    cx: &Context<'_>,
+    cx: &Planner<'_>,
     path: &str,
     (pattern, tie): (&str, crate::varied::Tie),
     b: &Built<'_>,
@@ -126,7 +126,7 @@ pub fn varied(
 }
 
 /// Rejects two quantities that change the same value; `place` is the key of a list in the study.
-pub fn once(cx: &Context<'_>, place: &str, all: &[&Varied]) -> Result<(), Stopped> {
+pub fn once(cx: &Planner<'_>, place: &str, all: &[&Varied]) -> Result<(), Stopped> {
     for (i, own) in all.iter().enumerate() {
         let twice = |other: &&&Varied| other.paths.iter().any(|p| own.paths.contains(p));
         if let Some(other) = all[..i].iter().find(twice) {

@@ -4,6 +4,8 @@ mod least;
 mod outcome;
 mod solve;
 
+use std::sync::Arc;
+
 use gearloss_framework::description::Ordered;
 use gearloss_framework::resolve::matches;
 use gearloss_framework::variants::Variants;
@@ -15,7 +17,7 @@ use self::solve::{Counted, Pair, counted_points, pairs};
 use super::measurable::countable;
 use super::ranges::varied;
 use super::trial::Left;
-use super::{Analysis, Built, Context, Stopped};
+use super::{Analysis, Built, Engine, Plan, Planner, Stopped, Work};
 use crate::measured::Measured;
 use crate::register_analysis;
 use crate::study::{Data, Difference, Quantity, Uses, Write};
@@ -82,8 +84,26 @@ pub struct SurfaceAxisEntry {
 
 register_analysis!(RmsSurfaceEntry);
 
+/// The gearbox with each set, both axes of each, and the measured rows.
+pub struct RmsSurfacePlan<'a> {
+    built: Vec<Arc<Built<'a>>>,
+    axes: Vec<[Axis; 2]>,
+    measured: Measured,
+}
+
+impl Plan for RmsSurfacePlan<'_> {
+    fn work(&self) -> Vec<Work> {
+        let work = |(b, [x, y]): (&Arc<Built<'_>>, &[Axis; 2])| {
+            let count = x.values.len() * y.values.len() * self.measured.rows.len();
+            Work::new(&b.name, "rows", count)
+        };
+        self.built.iter().zip(&self.axes).map(work).collect()
+    }
+}
+
 impl Analysis for RmsSurfaceEntry {
     const TYPE: &'static str = "rms_surface";
+    type Plan<'a> = RmsSurfacePlan<'a>;
     type Outcome = RmsSurfaceOutcome;
 
     fn uses(&self) -> Uses<'_> {
@@ -93,34 +113,36 @@ impl Analysis for RmsSurfaceEntry {
             .with("data", Some(&self.data))
     }
 
-    fn run(&self, cx: &Context<'_>) -> Result<RmsSurfaceOutcome, Stopped> {
+    fn plan<'a>(&'a self, cx: &Planner<'a>) -> Result<RmsSurfacePlan<'a>, Stopped> {
         let path = cx.path();
         countable(cx, &path, self.quantity, self.difference)?;
         let bind: Vec<&str> = self.bind.ids().collect();
         let measured = cx.read(&format!("{path}.data"), &self.data, &bind)?;
         let rows = cx.study.rows(&measured, &self.bind, self.gear.as_deref(), false);
-        let mut sets = Vec::new();
-        for built in cx.built(cx.gearbox(self.gearbox.as_ref())?, &self.against)? {
-            let axes = self.axes(cx, &measured, &built)?;
-            let variants = Variants::new(cx.language, built.gearbox, cx.study.choice(built.set()));
-            cx.rows_fit(&rows, built.gearbox, &variants)?;
-            sets.push((built, axes));
+        let (mut built, mut axes) = (Vec::new(), Vec::new());
+        for b in cx.built(cx.gearbox(self.gearbox.as_ref())?, &self.against)? {
+            axes.push(self.axes(cx, &measured, &b)?);
+            let variants = Variants::new(cx.language, b.gearbox, cx.study.choice(b.set()));
+            cx.rows_fit(&rows, b.gearbox, &variants)?;
+            built.push(b);
         }
-        cx.begin()?;
+        Ok(RmsSurfacePlan { built, axes, measured })
+    }
+
+    fn reduce<'a>(&'a self, plan: RmsSurfacePlan<'a>, engine: &Engine<'a>) -> Result<RmsSurfaceOutcome, Stopped> {
+        let RmsSurfacePlan { built, axes, measured } = plan;
+        let rows = engine.study.rows(&measured, &self.bind, self.gear.as_deref(), false);
         let mut left_at_pairs = Left::new();
-        let mut solved = Vec::new();
-        for (i, (built, axes)) in sets.iter().enumerate() {
-            solved.extend(cx.part(i, || pairs(cx, self, built, axes, &rows, &mut left_at_pairs))?);
-        }
-        cx.complete()?;
-        let counted = counted_points(cx, self, &measured, &sets, &solved)?;
-        let mut surfaces = Vec::new();
-        for ((built, axes), pairs) in sets.iter().zip(solved) {
-            surfaces.push(self.surface(cx, &measured, &counted, built, axes, pairs)?);
-        }
+        let sets = || built.iter().map(|b| &**b).zip(&axes);
+        let solved = engine.parts(sets(), |(b, axes)| {
+            pairs(engine, self, b, axes, &rows, &mut left_at_pairs)
+        })?;
+        let counted = counted_points(engine, self, &measured, sets().zip(&solved))?;
+        let surfaces = sets().zip(solved);
+        let surfaces = surfaces.map(|((b, axes), pairs)| self.surface(engine, &measured, &counted, b, axes, pairs));
         Ok(RmsSurfaceOutcome {
-            head: cx.head(&sets.iter().map(|(built, _)| built).collect::<Vec<_>>()),
-            surfaces,
+            surfaces: surfaces.collect::<Result<_, _>>()?,
+            head: engine.head(&built),
             difference: self.difference,
             measured_points: measured.rows.len(),
             measured_notes: measured.notes,
@@ -140,7 +162,7 @@ struct Axis {
 }
 
 impl Axis {
-    fn new(cx: &Context<'_>, path: &str, entry: &SurfaceAxisEntry, built: &Built<'_>) -> Result<Self, Stopped> {
+    fn new(cx: &Planner<'_>, path: &str, entry: &SurfaceAxisEntry, built: &Built<'_>) -> Result<Self, Stopped> {
         let varied = varied(cx, &format!("{path}.path"), (&entry.path, entry.tie), built)?;
         let mut values: Vec<f64> = Vec::new();
         for (i, written) in entry.values.iter().enumerate() {
@@ -180,7 +202,7 @@ impl Axis {
 
 impl RmsSurfaceEntry {
     /// Both axes under one set.
-    fn axes(&self, cx: &Context<'_>, measured: &Measured, built: &Built<'_>) -> Result<[Axis; 2], Stopped> {
+    fn axes(&self, cx: &Planner<'_>, measured: &Measured, built: &Built<'_>) -> Result<[Axis; 2], Stopped> {
         let path = cx.path();
         let x = Axis::new(cx, &format!("{path}.x"), &self.x, built)?;
         let y = Axis::new(cx, &format!("{path}.y"), &self.y, built)?;
@@ -219,7 +241,7 @@ impl RmsSurfaceEntry {
     /// The surface of one set.
     fn surface(
         &self,
-        cx: &Context<'_>,
+        cx: &Planner<'_>,
         measured: &Measured,
         counted: &Counted,
         built: &Built<'_>,

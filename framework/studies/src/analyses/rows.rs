@@ -1,33 +1,36 @@
 //! Reads points of a file and solves them with model sets.
 
-use crate::distinct::distinct;
+use std::sync::Arc;
+
 use crate::measured::{Measured, MeasuredEntry, PortSpeeds};
 use crate::points::{Note, OnRig, PointResult, Rows, TotalLoss, notes_with_shares};
 use crate::study::Data;
 use gearloss_framework::description::Ordered;
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::gearbox::Gearbox;
-use gearloss_framework::resolve::{OWN_MODELS, Resolved};
+use gearloss_framework::resolve::OWN_MODELS;
 use gearloss_framework::transmission::Transmission;
 use gearloss_framework::variants::Variants;
 use serde_json::Value;
 
 use super::trial::{Left, Trial, left, why};
-use super::{Built, Context, Stopped};
+use super::{Built, Engine, Plan, Planner, Run, Stopped, Work};
 
 /// All rows of a file with one set.
 pub struct Solved<'a> {
     /// Name of the set.
     pub name: String,
     /// One transmission for each combination of bound values.
-    pub built: Vec<Built<'a>>,
+    pub built: Vec<Arc<Built<'a>>>,
+    /// One for each transmission and gear, without points, with the index of the transmission.
+    pub runs: Vec<(usize, Run<'a>)>,
     /// For each row the index of its transmission, its gear and its point.
     pub rows: Vec<(usize, String, PointResult)>,
     /// Observed limits over all rows.
     pub notes: Vec<Note>,
 }
 
-impl Context<'_> {
+impl Planner<'_> {
     /// The data entry: from the measurements of the study, or from the analysis.
     pub fn data<'s>(&'s self, path: &str, data: &'s Data) -> Result<&'s MeasuredEntry, Stopped> {
         Ok(self.study.measurement(path, data)?)
@@ -46,7 +49,7 @@ impl Context<'_> {
         Ok(measured)
     }
 
-    /// As [`Context::read`], for analyses that need torque and speed at the ports of the conditions.
+    /// As [`Planner::read`], for analyses that need torque and speed at the ports of the conditions.
     pub fn read_at_ports(&self, path: &str, data: &Data, bind: &[&str]) -> Result<Measured, Stopped> {
         let measured = self.read(path, data, bind)?;
         let given = [
@@ -66,110 +69,6 @@ impl Context<'_> {
             )),
             None => Ok(measured),
         }
-    }
-
-    /// Solves every row with each set, with torques corrected for the rig; solves none if an analysis is only checked.
-    pub fn at_rows<'s>(
-        &'s self,
-        gearbox: &'s Gearbox,
-        sets: &'s [String],
-        bind: &Ordered<String>,
-        gear: Option<&str>,
-        measured: &Measured,
-        terms: bool,
-    ) -> Result<Vec<Solved<'s>>, Stopped> {
-        let rows = self.study.rows(measured, bind, gear, terms);
-        let own = |set: Option<&'s String>| -> Result<Option<Solved<'s>>, Stopped> {
-            let (gearbox, choice) = match set {
-                Some(name) => self.study.reference("analyses", name, gearbox)?,
-                None => (gearbox, None),
-            };
-            let name = set.map_or(OWN_MODELS, String::as_str);
-            let choice = self.study.choice(choice);
-            let variants = Variants::new(self.language, gearbox, choice);
-            let transmissions = self.rows_fit(&rows, gearbox, &variants)?;
-            if self.only_checks {
-                self.limits_fit(name, gearbox, rows.resolved(&variants)?, transmissions)?;
-                return Ok(None);
-            }
-            let running = self.running(measured.rows.len(), name);
-            let going = |n: usize| running.advance(n);
-            let solve = |transmissions: Vec<Transmission>, on: Option<OnRig<'_>>| {
-                let solved = rows.solve(transmissions, on, &going);
-                let solved = solved.map_err(|list| Stopped::from(gearbox.findings(list)))?;
-                solved.ok_or(Stopped::Interrupted)
-            };
-            let mut solved = solve(transmissions, None)?;
-            if !measured.rig.is_silent() {
-                let speeds = rows.speeds(&solved, measured.rig.at_out());
-                let speeds = speeds.map_err(|error| self.found(vec![error]))?;
-                let (rig, speeds) = (measured.rig, &speeds[..]);
-                solved = solve(solved.transmissions, Some(OnRig { rig, speeds }))?;
-            }
-            let resolved = rows.resolved(&variants)?;
-            let built = resolved.into_iter().zip(solved.transmissions);
-            let built = built.map(|(resolved, transmission)| Built {
-                name: name.to_owned(),
-                gearbox,
-                resolved,
-                transmission,
-            });
-            let built: Vec<Built<'s>> = built.collect();
-            self.mark_rows(&rows, &built, &mut solved.rows)?;
-            let lost = TotalLoss::of(solved.rows.iter().map(|(_, _, point)| point));
-            Ok(Some(Solved {
-                name: name.to_owned(),
-                rows: solved.rows,
-                notes: notes_with_shares(&built[0].transmission, &solved.seen, lost),
-                built,
-            }))
-        };
-        if sets.is_empty() {
-            return Ok(own(None)?.into_iter().collect());
-        }
-        let all: Vec<_> = sets.iter().map(|set| own(Some(set))).collect::<Result<_, Stopped>>()?;
-        Ok(all.into_iter().flatten().collect())
-    }
-
-    /// Whether the limits of the study fit the first transmission of rows.
-    fn limits_fit(
-        &self,
-        name: &str,
-        gearbox: &Gearbox,
-        resolved: Vec<Resolved>,
-        transmissions: Vec<Transmission>,
-    ) -> Result<(), Stopped> {
-        for (resolved, transmission) in resolved.into_iter().zip(transmissions).take(1) {
-            let built = Built {
-                name: name.to_owned(),
-                gearbox,
-                resolved,
-                transmission,
-            };
-            self.watch(&built)?;
-        }
-        Ok(())
-    }
-
-    /// Adds the limited quantities to solved rows, and notes what the limits reach.
-    fn mark_rows(
-        &self,
-        rows: &Rows<'_>,
-        built: &[Built<'_>],
-        solved: &mut [(usize, String, PointResult)],
-    ) -> Result<(), Stopped> {
-        for (place, b) in built.iter().enumerate() {
-            let Some(watch) = self.watch(b)? else { continue };
-            let gears = solved.iter().filter(|row| row.0 == place).map(|row| row.1.clone());
-            for gear in distinct(gears) {
-                let own = solved.iter_mut().enumerate();
-                let own = own.filter(|(_, row)| row.0 == place && row.1 == gear);
-                let mut own: Vec<(usize, &mut PointResult)> = own.map(|(i, row)| (i, &mut row.2)).collect();
-                let points = rows.points(&gear, &b.transmission, Vec::new());
-                self.mark(b, &watch, &points, &mut own);
-            }
-        }
-        Ok(())
     }
 
     /// The transmissions of rows; rows with invalid bound values, gears or ports are errors.
@@ -199,24 +98,150 @@ impl Context<'_> {
     }
 }
 
+/// Rows of a file with model sets: read, and built for each combination of bound values.
+pub struct RowsPlan<'a> {
+    /// The file.
+    pub measured: Measured,
+    bind: &'a Ordered<String>,
+    gear: Option<&'a str>,
+    terms: bool,
+    sets: Vec<RowsOfSet<'a>>,
+}
+
+/// Rows with one set.
+struct RowsOfSet<'a> {
+    name: String,
+    gearbox: &'a Gearbox,
+    built: Vec<Arc<Built<'a>>>,
+    /// One for each gear, with the index of its transmission.
+    runs: Vec<(usize, Run<'a>)>,
+}
+
+impl Plan for RowsPlan<'_> {
+    fn work(&self) -> Vec<Work> {
+        let work = |set: &RowsOfSet<'_>| Work::new(&set.name, "rows", self.measured.rows.len());
+        self.sets.iter().map(work).collect()
+    }
+}
+
+impl<'a> RowsPlan<'a> {
+    /// Builds the gearbox of every row with each set.
+    ///
+    /// # Errors
+    /// Rows with invalid bound values, gears or ports; wrong limits of the study.
+    pub fn new(
+        cx: &Planner<'a>,
+        gearbox: &'a Gearbox,
+        sets: &[String],
+        (measured, bind): (Measured, &'a Ordered<String>),
+        gear: Option<&'a str>,
+        terms: bool,
+    ) -> Result<Self, Stopped> {
+        let rows = cx.study.rows(&measured, bind, gear, terms);
+        let of_set = |set: Option<&String>| -> Result<RowsOfSet<'a>, Stopped> {
+            let (gearbox, choice) = match set {
+                Some(name) => cx.study.reference("analyses", name, gearbox)?,
+                None => (gearbox, None),
+            };
+            let name = set.map_or(OWN_MODELS, String::as_str).to_owned();
+            let variants = Variants::new(cx.language, gearbox, cx.study.choice(choice));
+            let transmissions = cx.rows_fit(&rows, gearbox, &variants)?;
+            let built = rows.resolved(&variants)?.into_iter().zip(transmissions);
+            let built = built.map(|(resolved, transmission)| {
+                Arc::new(Built {
+                    name: name.clone(),
+                    gearbox,
+                    resolved,
+                    transmission,
+                })
+            });
+            let built: Vec<_> = built.collect();
+            let transmissions: Vec<&Transmission> = built.iter().map(|b| &b.transmission).collect();
+            let runs = rows.kinds(&transmissions).into_iter();
+            let runs = runs.map(|(place, points)| Ok((place, Run::new(cx, &built[place], points)?)));
+            Ok(RowsOfSet {
+                runs: runs.collect::<Result<_, Stopped>>()?,
+                name,
+                gearbox,
+                built,
+            })
+        };
+        let sets = if sets.is_empty() {
+            vec![of_set(None)?]
+        } else {
+            sets.iter().map(|set| of_set(Some(set))).collect::<Result<_, _>>()?
+        };
+        Ok(Self {
+            sets,
+            measured,
+            bind,
+            gear,
+            terms,
+        })
+    }
+
+    /// Solves every row with each set, with torques corrected for the rig.
+    ///
+    /// # Errors
+    /// An interruption.
+    pub fn solve(&self, engine: &Engine<'_>) -> Result<Vec<Solved<'a>>, Stopped> {
+        let rows = engine.study.rows(&self.measured, self.bind, self.gear, self.terms);
+        let solve = |set| self.with_set(engine, &rows, set);
+        engine.undivided(|| self.sets.iter().map(solve).collect())
+    }
+
+    fn with_set(&self, engine: &Engine<'_>, rows: &Rows<'_>, set: &RowsOfSet<'a>) -> Result<Solved<'a>, Stopped> {
+        let rig = self.measured.rig;
+        let running = engine.running(self.measured.rows.len(), &set.name);
+        let solve = |on: Option<OnRig<'_>>| {
+            let transmissions: Vec<&Transmission> = set.built.iter().map(|b| &b.transmission).collect();
+            let solved = rows.solve(transmissions, on, &|n: usize| running.advance(n));
+            let solved = solved.map_err(|list| Stopped::from(set.gearbox.findings(list)))?;
+            solved.ok_or(Stopped::Interrupted)
+        };
+        let mut solved = solve(None)?;
+        if !rig.is_silent() {
+            let speeds = rows.speeds(&solved, rig.at_out());
+            let speeds = speeds.map_err(|error| engine.found(vec![error]))?;
+            solved = solve(Some(OnRig { rig, speeds: &speeds }))?;
+        }
+        let mut rows = solved.rows;
+        for (place, run) in &set.runs {
+            let own = rows.iter_mut().enumerate();
+            let own = own.filter(|(_, row)| row.0 == *place && row.1 == run.points.gear);
+            let mut own: Vec<(usize, &mut PointResult)> = own.map(|(i, row)| (i, &mut row.2)).collect();
+            engine.mark(run, &mut own);
+        }
+        let lost = TotalLoss::of(rows.iter().map(|(_, _, point)| point));
+        Ok(Solved {
+            name: set.name.clone(),
+            notes: notes_with_shares(&set.built[0].transmission, &solved.seen, lost),
+            built: set.built.clone(),
+            runs: set.runs.clone(),
+            rows,
+        })
+    }
+}
+
 /// A solved row: its point, and the reason if it has no loss.
 pub type SolvedRow = (PointResult, Option<String>);
 
 impl Trial<'_> {
     /// Speeds of the ports in every row, if the rig of the rows contributes.
-    pub fn speeds(&self, rows: &Rows<'_>) -> Result<Vec<PortSpeeds>, String> {
+    pub fn speeds(&self, engine: &Engine<'_>, rows: &Rows<'_>) -> Result<Vec<PortSpeeds>, String> {
         let rig = &rows.measured.rig;
         if rig.is_silent() {
             return Ok(Vec::new());
         }
-        let solved = self.solved_rows(rows, &[], None)?;
+        let solved = self.solved_rows(engine, rows, &[], None)?;
         rows.speeds(&solved, rig.at_out()).map_err(|error| error.message)
     }
 
-    /// Solves every row with further overrides, like [`Context::at_rows`], and adds quantities outside their stated ranges. The speeds are
+    /// Solves every row with further overrides, like [`RowsPlan::solve`], and adds quantities outside their stated ranges. The speeds are
     /// those of [`Trial::speeds`].
     pub fn rows(
         &self,
+        engine: &Engine<'_>,
         rows: &Rows<'_>,
         speeds: &[PortSpeeds],
         overrides: &[(String, Value)],
@@ -224,7 +249,7 @@ impl Trial<'_> {
     ) -> Result<Vec<SolvedRow>, String> {
         let rig = rows.measured.rig;
         let on = (!rig.is_silent()).then_some(OnRig { rig, speeds });
-        let solved = self.solved_rows(rows, overrides, on)?;
+        let solved = self.solved_rows(engine, rows, overrides, on)?;
         seen.extend(left(&solved.transmissions[0], &solved.seen));
         let row = |(place, _, point): (usize, String, PointResult)| {
             let why = point.loss.is_none().then(|| why(&solved.transmissions[place], &point));

@@ -3,7 +3,7 @@
 mod outcome;
 mod outputs;
 
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use gearloss_numerics::inference::{Parameter, Scale};
 use gearloss_numerics::sensitivity::{
@@ -22,7 +22,7 @@ use self::outputs::Outputs;
 use super::axes::grid_axes;
 use super::ranges::{Range, once};
 use super::trial::{Left, Trial, left};
-use super::{Analysis, Built, Context, Stopped};
+use super::{Analysis, Built, Engine, JobsWithin, Plan, Planner, Run, Stopped, Work};
 use crate::points::{Points, notes};
 use crate::register_analysis;
 use crate::study::{Grid, NameOr, ParameterKey, RangeEntry, Uses, Write};
@@ -99,9 +99,32 @@ impl Method {
 
 register_analysis!(SensitivityEntry);
 
+/// The points with each set, and the ranges of the parameters.
+pub struct SensitivityPlan<'a>(Vec<SensitivityOfOne<'a>>);
+
+/// One set.
+struct SensitivityOfOne<'a> {
+    run: Run<'a>,
+    ranges: Vec<Range>,
+    /// Start values of the slopes.
+    starts: Vec<Parameter>,
+    runs: RunsOfMethods,
+}
+
+impl Plan for SensitivityPlan<'_> {
+    fn work(&self) -> Vec<Work> {
+        let work = |set: &SensitivityOfOne<'_>| {
+            let count = (set.runs.count() + 1) * set.run.points.field.len();
+            Work::new(set.run.label(), "points", count)
+        };
+        self.0.iter().map(work).collect()
+    }
+}
+
 impl Analysis for SensitivityEntry {
     const TYPE: &'static str = "sensitivity";
     const PARAMETERS: Option<ParameterKey> = Some(ParameterKey::Range("parameters"));
+    type Plan<'a> = SensitivityPlan<'a>;
     type Outcome = SensitivityOutcome;
 
     fn uses(&self) -> Uses<'_> {
@@ -111,22 +134,44 @@ impl Analysis for SensitivityEntry {
         }
     }
 
-    fn run(&self, cx: &Context<'_>) -> Result<SensitivityOutcome, Stopped> {
+    fn plan<'a>(&'a self, cx: &Planner<'a>) -> Result<SensitivityPlan<'a>, Stopped> {
         let gearbox = cx.gearbox(self.gearbox.as_ref())?;
         let grid = self.checked_grid(cx)?;
-        let built = cx.built(gearbox, &self.model_sets)?;
-        let mut sensitivities = Vec::new();
-        for (i, b) in built.iter().enumerate() {
+        let set = |b: &Arc<Built<'a>>| {
             let gear = cx.one_gear(&cx.path(), grid, &b.transmission)?;
             let (torques, speeds) = grid_axes(cx, &self.grid, grid, &b.transmission)?;
-            let mut points = cx.points(&b.transmission, &gear, torques, speeds);
-            points.terms = true;
-            sensitivities.extend(cx.part(i, || self.under_set(cx, b, &points))?.flatten());
-        }
-        cx.begin()?;
-        cx.complete()?;
-        let head = cx.head(&built.iter().collect::<Vec<_>>());
-        Ok(SensitivityOutcome { head, sensitivities })
+            let ranges = self.ranges(cx, b)?;
+            let starts = if self.does(Method::Local) {
+                starts(cx, &ranges)?
+            } else {
+                Vec::new()
+            };
+            let runs = self.runs(ranges.len());
+            let kept = BYTES + Outputs::most(&b.transmission) * std::mem::size_of::<f64>();
+            cx.fit_in_memory(&cx.path(), runs.count(), kept)?;
+            let points = Points {
+                terms: true,
+                ..cx.points(&b.transmission, &gear, torques, speeds)
+            };
+            Ok(SensitivityOfOne {
+                run: Run::new(cx, b, points)?,
+                ranges,
+                starts,
+                runs,
+            })
+        };
+        let built = cx.built(gearbox, &self.model_sets)?;
+        let sets = built.iter().map(set).collect::<Result<_, Stopped>>()?;
+        Ok(SensitivityPlan(sets))
+    }
+
+    fn reduce<'a>(&'a self, plan: SensitivityPlan<'a>, engine: &Engine<'a>) -> Result<SensitivityOutcome, Stopped> {
+        let sensitivities = engine.parts(&plan.0, |set| self.under_set(engine, set))?;
+        let built: Vec<_> = plan.0.into_iter().map(|set| set.run.built).collect();
+        Ok(SensitivityOutcome {
+            head: engine.head(&built),
+            sensitivities,
+        })
     }
 
     fn formats(&self) -> &[Write] {
@@ -145,7 +190,7 @@ struct Found {
 
 /// Data of the evaluations, shared by threads.
 struct Evaluations<'a> {
-    cx: &'a Context<'a>,
+    jobs: JobsWithin<'a>,
     /// What progress is reported as.
     label: &'a str,
     trial: Trial<'a>,
@@ -175,12 +220,8 @@ impl Evaluate for At<'_> {
                 evaluations.solved(&point)
             }
         };
-        let all: Vec<(Result<Vec<f64>, String>, Left)> = match evaluations.cx.each(evaluations.label, count, evaluate) {
-            Ok(all) => all,
-            Err(stopped) => {
-                evaluations.cx.end(stopped);
-                return vec![Err("interrupted".to_owned())];
-            }
+        let Some(all) = evaluations.jobs.jobs(evaluations.label, count, evaluate) else {
+            return vec![Err("interrupted".to_owned())];
         };
         let mut seen = evaluations.left.lock().unwrap_or_else(PoisonError::into_inner);
         let outputs = all.into_iter().map(|(outputs, left)| {
@@ -199,7 +240,7 @@ impl Evaluations<'_> {
             let changes = self.ranges.iter().zip(values);
             let changes = changes.flat_map(|(range, value)| range.varied.overrides(*value));
             let transmission = self.trial.build(changes)?;
-            let solved = self.trial.solve(&transmission, self.points)?;
+            let solved = self.trial.solve(self.jobs.engine, &transmission, self.points)?;
             seen.extend(left(&transmission, &solved.seen));
             self.outputs.values(&transmission, &solved.points)
         };
@@ -214,7 +255,7 @@ impl SensitivityEntry {
     }
 
     /// The grid without bound values and envelope; rejects a number of samples that is not a power of two.
-    fn checked_grid<'s>(&self, cx: &Context<'s>) -> Result<&'s Grid, Stopped> {
+    fn checked_grid<'s>(&self, cx: &Planner<'s>) -> Result<&'s Grid, Stopped> {
         let path = cx.path();
         let grid = cx.study.grid(&path, &self.grid)?;
         if !grid.bind.is_empty() || grid.envelope.is_some() {
@@ -230,7 +271,7 @@ impl SensitivityEntry {
     }
 
     /// The parameters without repetition.
-    fn ranges(&self, cx: &Context<'_>, built: &Built<'_>) -> Result<Vec<Range>, Stopped> {
+    fn ranges(&self, cx: &Planner<'_>, built: &Built<'_>) -> Result<Vec<Range>, Stopped> {
         let mut ranges = Vec::new();
         for (i, parameter) in self.parameters.iter().enumerate() {
             let range = Range::new(cx, &place(cx, i), parameter, built)?;
@@ -253,65 +294,51 @@ impl SensitivityEntry {
         }
     }
 
-    /// Results of one set; absent if it is only checked.
-    fn under_set(
-        &self,
-        cx: &Context<'_>,
-        built: &Built<'_>,
-        points: &Points,
-    ) -> Result<Option<SensitivityOfSet>, Stopped> {
-        let ranges = self.ranges(cx, built)?;
-        let starts = if self.does(Method::Local) {
-            starts(cx, &ranges)?
-        } else {
-            Vec::new()
-        };
-        let runs = self.runs(ranges.len());
-        let count: usize = [runs.local, runs.morris, runs.sobol].into_iter().flatten().sum();
-        let kept = BYTES + Outputs::most(&built.transmission) * std::mem::size_of::<f64>();
-        cx.fit_in_memory(&cx.path(), count, kept)?;
-        if cx.checked(built, points)? {
-            return Ok(None);
-        }
+    /// The sensitivities with one set.
+    fn under_set(&self, engine: &Engine<'_>, set: &SensitivityOfOne<'_>) -> Result<SensitivityOfSet, Stopped> {
+        let SensitivityOfOne {
+            run,
+            ranges,
+            starts,
+            runs,
+        } = set;
+        let (built, points) = (&run.built, &run.points);
         let no_value = |reason: String| {
             let message = format!("models {}: {}", built.name, without_coordinates(&reason));
             let help = "narrow the ranges, or delete points without a value from the grid";
-            cx.wrong(&cx.path(), message, help)
+            engine.wrong(&engine.path(), message, help)
         };
         let t = &built.transmission;
-        let nominal = cx.solve_here(built, points)?;
+        let nominal = engine.solve_here(run)?;
         let relative = self.does(Method::Morris) || self.does(Method::Sobol);
         let outputs = Outputs::new(t, &nominal.points, relative);
         let means = outputs.values(t, &nominal.points).map_err(no_value)?;
         let evaluations = Evaluations {
-            cx,
+            jobs: JobsWithin::new(engine),
             label: &built.name,
-            trial: Trial::new(cx, built),
+            trial: Trial::new(engine, built),
             points,
-            ranges: &ranges,
+            ranges,
             outputs: &outputs,
             left: Mutex::default(),
         };
-        let found = self.found(&starts, &evaluations);
-        if !cx.should_continue() {
-            return Err(cx.why_ended());
-        }
+        let found = evaluations.jobs.result(self.found(starts, &evaluations))?;
         let found = found.map_err(no_value)?;
         let left_at_samples = evaluations.left.into_inner().unwrap_or_default();
-        Ok(Some(SensitivityOfSet {
+        Ok(SensitivityOfSet {
             model_set: built.name.clone(),
             gear: points.gear.clone(),
             points: points.field.len(),
             runs: RunsOfMethods {
                 morris: found.morris.as_ref().map(|morris| morris.runs),
-                ..runs
+                ..*runs
             },
-            outputs: outcome::outputs(&outputs.list, &means, &ranges, &found),
+            outputs: outcome::outputs(&outputs.list, &means, ranges, &found),
             parameters: ranges.iter().map(VariedParameter::new).collect(),
             samples: self.samples as usize,
             left_at_start: notes(t, &nominal.seen).iter().filter(|note| note.outside > 0).count(),
             left_at_samples,
-        }))
+        })
     }
 
     /// Results of the requested methods.
@@ -337,12 +364,12 @@ impl SensitivityEntry {
 }
 
 /// Place of a parameter in the study.
-fn place(cx: &Context<'_>, number: usize) -> String {
+fn place(cx: &Planner<'_>, number: usize) -> String {
     format!("{}.parameters.{number}", cx.path())
 }
 
 /// The parameters at the values of the gearbox, which must be within their ranges.
-fn starts(cx: &Context<'_>, ranges: &[Range]) -> Result<Vec<Parameter>, Stopped> {
+fn starts(cx: &Planner<'_>, ranges: &[Range]) -> Result<Vec<Parameter>, Stopped> {
     let start = |(i, range): (usize, &Range)| {
         let wrong = |message: String, help: &str| {
             let message = format!("{}: {message}", range.varied.pattern);

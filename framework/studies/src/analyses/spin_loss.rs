@@ -6,9 +6,10 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::axes::speeds;
-use super::breakdown::{Along, As, BreakdownOfSet, BreakdownOutcome, Common, RowOfBars, Stacks};
+use super::breakdown::{Along, As, BarsPlan, BreakdownOutcome, Common, RowOfBars};
 use super::numbers::RPM;
-use super::{Analysis, Built, Context, Stopped};
+use super::{Analysis, Built, Engine, Planner, Stopped};
+use crate::points::Points;
 use crate::register_analysis;
 use crate::study::{By, SpeedAxis, Uses, Write};
 
@@ -45,34 +46,36 @@ register_analysis!(SpinLossEntry);
 
 impl Analysis for SpinLossEntry {
     const TYPE: &'static str = "spin_loss";
+    type Plan<'a> = BarsPlan<'a>;
     type Outcome = BreakdownOutcome;
 
     fn uses(&self) -> Uses<'_> {
         Uses::new(self.gearbox.as_ref(), &self.model_sets).in_gears(&self.gears)
     }
 
-    fn run(&self, cx: &Context<'_>) -> Result<BreakdownOutcome, Stopped> {
-        let path = cx.path();
+    fn plan<'a>(&'a self, cx: &Planner<'a>) -> Result<BarsPlan<'a>, Stopped> {
         let built = cx.built(cx.gearbox(self.gearbox.as_ref())?, &self.model_sets)?;
-        let stacks = Stacks::new(self.by, As::Watts, &built);
-        let (mut breakdowns, mut number) = (Vec::new(), 0);
+        let turned = self.turned_at.as_ref().unwrap_or(&cx.study.entry.conditions.speed_at);
+        let mut plan = BarsPlan::new(self.by, As::Watts, built.clone()).turned_at(turned.clone());
         for b in &built {
             let t = &b.transmission;
-            let turned = self.turned(cx, t)?;
-            let speeds = speeds(cx, &format!("{path}.speed"), &self.speed, t)?;
+            let turned = turned_port(cx, t, turned)?;
+            let speeds = speeds(cx, &format!("{}.speed", cx.path()), &self.speed, t)?;
             let gears: Vec<&str> = if self.gears.is_empty() {
                 t.states().iter().map(|s| s.name.as_str()).collect()
             } else {
                 self.gears.iter().map(String::as_str).collect()
             };
             for gear in gears {
-                number += 1;
-                let unloaded = cx.part(number, || unloaded(cx, b, &stacks, gear, turned, &speeds))?;
-                breakdowns.extend(unloaded.flatten());
+                let (points, row) = unloaded(cx, b, gear, turned, &speeds)?;
+                plan.add_points(cx, b, points, vec![row])?;
             }
         }
-        cx.complete()?;
-        stacks.outcome(cx, &built, breakdowns)
+        Ok(plan)
+    }
+
+    fn reduce<'a>(&'a self, plan: BarsPlan<'a>, engine: &Engine<'a>) -> Result<BreakdownOutcome, Stopped> {
+        plan.outcome(engine, &|_, _| None)
     }
 
     fn formats(&self) -> &[Write] {
@@ -80,27 +83,23 @@ impl Analysis for SpinLossEntry {
     }
 }
 
-impl SpinLossEntry {
-    /// Index of the driven port.
-    fn turned(&self, cx: &Context<'_>, t: &Transmission) -> Result<usize, Stopped> {
-        let turned = self.turned_at.as_ref().unwrap_or(&cx.study.entry.conditions.speed_at);
-        t.ports().iter().position(|port| port.name == *turned).ok_or_else(|| {
-            let known: Vec<&str> = t.ports().iter().map(|port| port.name.as_str()).collect();
-            let path = format!("{}.turned_at", cx.path());
-            cx.found(vec![dangling(&path, "port", turned, &known)])
-        })
-    }
+/// Index of the driven port.
+fn turned_port(cx: &Planner<'_>, t: &Transmission, turned: &str) -> Result<usize, Stopped> {
+    t.ports().iter().position(|port| port.name == turned).ok_or_else(|| {
+        let known: Vec<&str> = t.ports().iter().map(|port| port.name.as_str()).collect();
+        let path = format!("{}.turned_at", cx.path());
+        cx.found(vec![dangling(&path, "port", turned, &known)])
+    })
 }
 
-/// The losses in one gear; absent if the analysis is only checked.
+/// The points of one gear, and their row of bars.
 fn unloaded(
-    cx: &Context<'_>,
+    cx: &Planner<'_>,
     b: &Built<'_>,
-    stacks: &Stacks,
     gear: &str,
     turned_port: usize,
     speeds: &[f64],
-) -> Result<Option<BreakdownOfSet>, Stopped> {
+) -> Result<(Points, RowOfBars), Stopped> {
     let t = &b.transmission;
     let name = |port: usize| t.ports()[port].name.clone();
     let turned = name(turned_port);
@@ -112,25 +111,16 @@ fn unloaded(
         .take(state.speed_ports.len() - 1)
         .map(|port| name(*port))
         .collect();
-    let mut points = cx.points(t, gear, vec![0.0], speeds.to_vec());
-    points.speed_at = std::iter::once(&turned).chain(&stationary).cloned().collect();
     let names = (0..t.ports().len()).map(name);
-    points.torque_at = names.filter(|port| *port != turned).collect();
-    points.terms = stacks.needs_terms();
-    if cx.checked(b, &points)? {
-        return Ok(None);
-    }
-    let solved = cx.solve(b, &points)?;
-    let row = RowOfBars {
-        common: Common::NoLoad {
-            turned: turned.clone(),
-            stationary,
-        },
-        along: Along::Speed,
-        values: solved.points.iter().map(|point| point.speed * RPM).collect(),
+    let points = Points {
+        speed_at: std::iter::once(&turned).chain(&stationary).cloned().collect(),
+        torque_at: names.filter(|port| *port != turned).collect(),
+        ..cx.points(t, gear, vec![0.0], speeds.to_vec())
     };
-    Ok(Some(BreakdownOfSet {
-        turned_at: Some(turned),
-        ..stacks.breakdown(b, &points, &solved, vec![row], &|_| None)
-    }))
+    let row = RowOfBars {
+        common: Common::NoLoad { turned, stationary },
+        along: Along::Speed,
+        values: speeds.iter().map(|speed| speed * RPM).collect(),
+    };
+    Ok((points, row))
 }

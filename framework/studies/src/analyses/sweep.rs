@@ -12,8 +12,8 @@ use super::limits::at_points::LimitColumn;
 use super::numbers::{RPM, tidy};
 use super::ranges::published;
 use super::shares::{Shares, together};
-use super::{Analysis, Built, Context, Stopped, gear_of};
-use crate::points::{GridResult, TotalLoss, notes_with_shares};
+use super::{Analysis, Engine, Plan, Planner, Run, Runs, Stopped, Work, gear_of};
+use crate::points::{GridResult, Points, TotalLoss, notes_with_shares};
 use crate::register_analysis;
 use crate::study::{By, SpeedAxis, TorqueAxis, Uses, Write};
 use crate::varied::{Tie, Varied};
@@ -68,30 +68,63 @@ register_analysis!(SweepEntry);
 
 impl Analysis for SweepEntry {
     const TYPE: &'static str = "sweep";
+    type Plan<'a> = SweepPlan<'a>;
     type Outcome = SweepOutcome;
 
     fn uses(&self) -> Uses<'_> {
         Uses::new(self.gearbox.as_ref(), &self.model_sets).in_gears(&self.gear)
     }
 
-    fn run(&self, cx: &Context<'_>) -> Result<SweepOutcome, Stopped> {
+    fn plan<'a>(&'a self, cx: &Planner<'a>) -> Result<SweepPlan<'a>, Stopped> {
         self.oil_is_free(cx)?;
-        let all = self.solve(cx)?;
-        cx.begin()?;
-        cx.complete()?;
-        let shares = together(all.iter().map(|value| &value.built.transmission), self.by);
-        let quantity = |built: &Built<'_>, path: &String| Varied::new(cx.language, &built.resolved, path, Tie::Value);
-        let varied: Vec<Varied> = match all.first() {
-            Some(first) => self
-                .paths()
-                .filter_map(|path| quantity(&first.built, path).ok())
-                .collect(),
-            None => Vec::new(),
+        let path = cx.path();
+        let gearbox = cx.gearbox(self.gearbox.as_ref())?;
+        let seconds: Vec<Option<(&String, &Value)>> = match &self.second {
+            Some(second) => second.values.iter().map(|value| Some((&second.path, value))).collect(),
+            None => vec![None],
         };
-        let limits = LimitColumn::all(cx.language, cx.study);
-        let sweep: Vec<SweepOfValue> = all.iter().map(|value| self.record(value, &shares, &limits)).collect();
+        let (mut runs, mut places, mut held) = (Vec::new(), Vec::new(), 0);
+        for (k, second) in seconds.iter().enumerate() {
+            for (i, value) in self.values.iter().enumerate() {
+                // If every value fails, the path is wrong, which is reported first.
+                let mut changes = vec![(self.path.clone(), value.clone(), format!("{path}.values.{i}"))];
+                let second =
+                    second.map(|(own, value)| (own.clone(), value.clone(), format!("{path}.second.values.{k}")));
+                changes.extend(second);
+                for built in cx.built_with(gearbox, &self.model_sets, &changes)? {
+                    let t = &built.transmission;
+                    let torques = torques(cx, &format!("{path}.torque"), &self.torque, t)?;
+                    let speeds = speeds(cx, &format!("{path}.speed"), &self.speed, t)?;
+                    let points = Points {
+                        terms: self.by == By::Term,
+                        ..cx.points(t, gear_of(self.gear.as_deref(), t), torques, speeds)
+                    };
+                    held += points.field.len();
+                    cx.holds(&path, held, 1)?;
+                    runs.push(Run::new(cx, &built, points)?);
+                    places.push([i, k]);
+                }
+            }
+        }
+        Ok(SweepPlan {
+            runs: Runs(runs),
+            places,
+        })
+    }
+
+    fn reduce<'a>(&'a self, plan: SweepPlan<'a>, engine: &Engine<'a>) -> Result<SweepOutcome, Stopped> {
+        let solved = engine.solve_all(&plan.runs)?;
+        let built = plan.runs.built();
+        let shares = together(built.iter().map(|b| &b.transmission), self.by);
+        let quantity = |path: &String| Varied::new(engine.language, &built[0].resolved, path, Tie::Value).ok();
+        let varied: Vec<Varied> = self.paths().filter_map(quantity).collect();
+        let limits = LimitColumn::all(engine.language, engine.study);
+        let values = plan.runs.0.iter().zip(&plan.places).zip(&solved);
+        let sweep: Vec<SweepOfValue> = values
+            .map(|((run, places), solved)| self.record(run, *places, solved, &shares, &limits))
+            .collect();
         Ok(SweepOutcome {
-            head: cx.head(&all.iter().map(|value| &value.built).collect::<Vec<_>>()),
+            head: engine.head(&built),
             notes: NotesOfSet::all(&sweep),
             sweep,
             limits,
@@ -104,13 +137,17 @@ impl Analysis for SweepEntry {
     }
 }
 
-/// All points with one set at one value.
-struct Solved<'a> {
-    /// Index of the value, and of the second one.
-    places: [usize; 2],
-    built: Built<'a>,
-    gear: String,
-    result: GridResult,
+/// Every set at every value.
+pub struct SweepPlan<'a> {
+    runs: Runs<'a>,
+    /// Index of the value, and of the second one, of each run.
+    places: Vec<[usize; 2]>,
+}
+
+impl Plan for SweepPlan<'_> {
+    fn work(&self) -> Vec<Work> {
+        self.runs.work()
+    }
 }
 
 impl SweepEntry {
@@ -120,7 +157,7 @@ impl SweepEntry {
     }
 
     /// Rejects a temperature that the conditions fix.
-    fn oil_is_free(&self, cx: &Context<'_>) -> Result<(), Stopped> {
+    fn oil_is_free(&self, cx: &Planner<'_>) -> Result<(), Stopped> {
         if cx.study.entry.conditions.oil_temperature.is_none() || self.paths().all(|path| path != "thermal.oil") {
             return Ok(());
         }
@@ -132,58 +169,21 @@ impl SweepEntry {
         Err(cx.found(vec![error]))
     }
 
-    /// Every set at every value; absent if the analysis is only checked.
-    fn solve<'s>(&'s self, cx: &'s Context<'_>) -> Result<Vec<Solved<'s>>, Stopped> {
-        let path = cx.path();
-        let gearbox = cx.gearbox(self.gearbox.as_ref())?;
-        let seconds: Vec<Option<(&String, &Value)>> = match &self.second {
-            Some(second) => second.values.iter().map(|value| Some((&second.path, value))).collect(),
-            None => vec![None],
-        };
-        let (mut all, mut held, mut number) = (Vec::new(), 0, 0);
-        for (k, second) in seconds.iter().enumerate() {
-            for (i, value) in self.values.iter().enumerate() {
-                // If every value fails, the path is wrong, which is reported first.
-                let mut changes = vec![(self.path.clone(), value.clone(), format!("{path}.values.{i}"))];
-                let second =
-                    second.map(|(own, value)| (own.clone(), value.clone(), format!("{path}.second.values.{k}")));
-                changes.extend(second);
-                for built in cx.built_with(gearbox, &self.model_sets, &changes)? {
-                    number += 1;
-                    let t = &built.transmission;
-                    let gear = gear_of(self.gear.as_deref(), t).to_owned();
-                    let torques = torques(cx, &format!("{path}.torque"), &self.torque, t)?;
-                    let speeds = speeds(cx, &format!("{path}.speed"), &self.speed, t)?;
-                    let mut points = cx.points(t, &gear, torques, speeds);
-                    points.terms = self.by == By::Term;
-                    cx.holds(&path, held + points.field.len(), 1)?;
-                    if cx.checked(&built, &points)? {
-                        continue;
-                    }
-                    held += points.field.len();
-                    let Some(result) = cx.part(number, || cx.solve(&built, &points))? else {
-                        continue;
-                    };
-                    all.push(Solved {
-                        places: [i, k],
-                        built,
-                        gear,
-                        result,
-                    });
-                }
-            }
-        }
-        Ok(all)
-    }
-
     /// The record of a solved value.
-    fn record(&self, solved: &Solved<'_>, shares: &[String], limits: &[LimitColumn]) -> SweepOfValue {
-        let t = &solved.built.transmission;
-        let [first, second] = solved.places;
+    fn record(
+        &self,
+        run: &Run<'_>,
+        places: [usize; 2],
+        solved: &GridResult,
+        shares: &[String],
+        limits: &[LimitColumn],
+    ) -> SweepOfValue {
+        let t = &run.built.transmission;
+        let [first, second] = places;
         let own = Shares::new(t, self.by).under(shares);
         SweepOfValue {
-            model_set: solved.built.name.clone(),
-            gear: solved.gear.clone(),
+            model_set: run.built.name.clone(),
+            gear: run.points.gear.clone(),
             path: self.path.clone(),
             value: self.values[first].clone(),
             second: self.second.as_ref().map(|entry| SecondValue {
@@ -192,7 +192,6 @@ impl SweepEntry {
             }),
             shares: shares.to_vec(),
             points: solved
-                .result
                 .points
                 .iter()
                 .map(|p| PointOfSweep {
@@ -209,8 +208,8 @@ impl SweepEntry {
                     solved_speed_rpm: p.speed * RPM,
                 })
                 .collect(),
-            notes: notes_with_shares(t, &solved.result.seen, TotalLoss::of(&solved.result.points)),
-            places: solved.places,
+            notes: notes_with_shares(t, &solved.seen, TotalLoss::of(&solved.points)),
+            places,
         }
     }
 }

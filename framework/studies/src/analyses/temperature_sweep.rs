@@ -4,9 +4,9 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::axes::{axis, speeds, torques};
-use super::breakdown::{Along, As, BreakdownOutcome, Common, RowOfBars, Stacks};
+use super::breakdown::{Along, As, BarsPlan, BreakdownOutcome, Common, RowOfBars};
 use super::numbers::{RPM, tidy};
-use super::{Analysis, Context, Stopped, gear_of};
+use super::{Analysis, Engine, Planner, Stopped, gear_of};
 use crate::points::Given;
 use crate::register_analysis;
 use crate::study::{By, SpeedAxis, TemperatureAxis, TorqueAxis, Uses, Write};
@@ -45,35 +45,35 @@ register_analysis!(TemperatureSweepEntry);
 
 impl Analysis for TemperatureSweepEntry {
     const TYPE: &'static str = "temperature_sweep";
+    type Plan<'a> = BarsPlan<'a>;
     type Outcome = BreakdownOutcome;
 
     fn uses(&self) -> Uses<'_> {
         Uses::new(self.gearbox.as_ref(), &self.model_sets).in_gears(&self.gear)
     }
 
-    fn run(&self, cx: &Context<'_>) -> Result<BreakdownOutcome, Stopped> {
+    fn plan<'a>(&'a self, cx: &Planner<'a>) -> Result<BarsPlan<'a>, Stopped> {
         let path = cx.path();
         let built = cx.built(cx.gearbox(self.gearbox.as_ref())?, &self.model_sets)?;
         let own = self.oil_temperature.values();
         let temperatures = axis(cx, &format!("{path}.oil_temperature"), own)?;
-        let stacks = Stacks::new(self.by, self.unit, &built);
-        let mut breakdowns = Vec::new();
-        for (i, b) in built.iter().enumerate() {
+        let mut plan = BarsPlan::new(self.by, self.unit, built.clone());
+        for b in &built {
             let t = &b.transmission;
             let speeds = speeds(cx, &format!("{path}.speed"), &self.speed, t)?;
             let torques = torques(cx, &format!("{path}.torque"), &self.torque, t)?;
             cx.holds(&path, torques.len().saturating_mul(speeds.len()), temperatures.len())?;
-            let mut rows = Vec::new();
-            for torque in &torques {
-                for speed in &speeds {
-                    rows.push(row(*torque, *speed, &temperatures));
-                }
-            }
-            let gear = gear_of(self.gear.as_deref(), t);
-            breakdowns.extend(cx.part(i, || stacks.solve(cx, b, gear, rows, &|_| None))?.flatten());
+            let pairs = torques
+                .iter()
+                .flat_map(|torque| speeds.iter().map(move |speed| (*torque, *speed)));
+            let rows = pairs.map(|(torque, speed)| row(torque, speed, &temperatures));
+            plan.add(cx, b, gear_of(self.gear.as_deref(), t), rows.collect())?;
         }
-        cx.complete()?;
-        stacks.outcome(cx, &built, breakdowns)
+        Ok(plan)
+    }
+
+    fn reduce<'a>(&'a self, plan: BarsPlan<'a>, engine: &Engine<'a>) -> Result<BreakdownOutcome, Stopped> {
+        plan.outcome(engine, &|_, _| None)
     }
 
     fn formats(&self) -> &[Write] {

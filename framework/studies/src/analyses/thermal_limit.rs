@@ -10,8 +10,8 @@ use serde::{Deserialize, Serialize};
 use super::axes::{speeds, torques};
 use super::balance::needs_balance;
 use super::numbers::{RPM, tidy};
-use super::{Analysis, Built, Context, Head, Outcome, Stopped, gear_of};
-use crate::points::{Given, Note, Points, notes};
+use super::{Analysis, Engine, Head, Outcome, Plan, Planner, Run, Stopped, Work, gear_of};
+use crate::points::{Given, Note, notes};
 use crate::register_analysis;
 use crate::study::{SpeedAxis, TorqueAxis, Uses, Write};
 use crate::table::Table;
@@ -111,19 +111,18 @@ pub struct ThermalLimit {
 
 impl Analysis for ThermalLimitEntry {
     const TYPE: &'static str = "thermal_limit";
+    type Plan<'a> = ThermalLimitPlan<'a>;
     type Outcome = ThermalLimitOutcome;
 
     fn uses(&self) -> Uses<'_> {
         Uses::new(self.gearbox.as_ref(), &self.model_sets).in_gears(&self.gear)
     }
 
-    fn run(&self, cx: &Context<'_>) -> Result<ThermalLimitOutcome, Stopped> {
+    fn plan<'a>(&'a self, cx: &Planner<'a>) -> Result<ThermalLimitPlan<'a>, Stopped> {
         let path = cx.path();
-        let built = cx.built(cx.gearbox(self.gearbox.as_ref())?, &self.model_sets)?;
-        cx.undivided()?;
-        let mut thermal_limits = Vec::new();
-        for b in &built {
-            needs_balance(cx, b)?;
+        let mut searches = Vec::new();
+        for b in cx.built(cx.gearbox(self.gearbox.as_ref())?, &self.model_sets)? {
+            needs_balance(cx, &b)?;
             let gear = gear_of(self.gear.as_deref(), &b.transmission);
             let torques = torques(cx, &format!("{path}.torque"), &self.torque, &b.transmission)?;
             let speeds = speeds(cx, &format!("{path}.speed"), &self.speed, &b.transmission)?;
@@ -137,20 +136,27 @@ impl Analysis for ThermalLimitEntry {
                 let message = format!("`{gear}` has no given torque, so there is no torque limit");
                 return Err(cx.wrong(&path, message, "choose another gear, or find the speed"));
             }
-            if cx.checked(b, &points)? {
-                continue;
-            }
-            let search = Search {
-                find: self.find,
-                built: b,
-                points: &points,
-                case: &case,
-            };
             let (range, fixed) = match self.find {
                 Find::Torque => (torques, speeds),
                 Find::Speed => (speeds, torques),
             };
-            let found = search.all(&self.temperature, outwards(&range), &fixed);
+            searches.push(Search {
+                find: self.find,
+                run: Run::new(cx, &b, points)?,
+                case,
+                temperatures: &self.temperature,
+                range: outwards(&range),
+                fixed,
+            });
+        }
+        Ok(ThermalLimitPlan(searches))
+    }
+
+    fn reduce<'a>(&'a self, plan: ThermalLimitPlan<'a>, engine: &Engine<'a>) -> Result<ThermalLimitOutcome, Stopped> {
+        let thermal_limits: Vec<ThermalLimitsOfSet> =
+            engine.undivided(|| Ok(plan.0.iter().map(Search::all).collect()))?;
+        for (search, found) in plan.0.iter().zip(&thermal_limits) {
+            // The limits of the study are read at the points that are reached.
             let given = |limit: &ThermalLimit| {
                 Some(Given {
                     torque: limit.torque_nm?,
@@ -159,12 +165,13 @@ impl Analysis for ThermalLimitEntry {
                 })
             };
             let reached = found.limits.iter().filter(|limit| limit.loss_w.is_some());
-            cx.note_points(b, &points, reached.filter_map(given).collect())?;
-            thermal_limits.push(found);
+            engine.solve_here(&search.run.at(reached.filter_map(given).collect()))?;
         }
-        cx.begin()?;
-        let head = cx.head(&built.iter().collect::<Vec<_>>());
-        Ok(ThermalLimitOutcome { head, thermal_limits })
+        let built: Vec<_> = plan.0.into_iter().map(|search| search.run.built).collect();
+        Ok(ThermalLimitOutcome {
+            head: engine.head(&built),
+            thermal_limits,
+        })
     }
 
     fn formats(&self) -> &[Write] {
@@ -173,7 +180,7 @@ impl Analysis for ThermalLimitEntry {
 }
 
 /// The search needs two values of the same sign.
-fn is_range(cx: &Context<'_>, path: &str, range: &[f64]) -> Result<(), Stopped> {
+fn is_range(cx: &Planner<'_>, path: &str, range: &[f64]) -> Result<(), Stopped> {
     let (Some(first), Some(last), true) = (range.first(), range.last(), range.len() > 1) else {
         let message = "the search for a limit needs a range, not one value";
         return Err(cx.wrong(path, message, "write `{ from: ..., to: ..., step: ... }`"));
@@ -196,28 +203,44 @@ fn outwards(range: &[f64]) -> [f64; 2] {
     [nearest, farthest].map(|end| end.unwrap_or(0.0))
 }
 
-/// Common data of all limits with one model set.
+/// The limits of one set at each temperature and each fixed torque or speed.
+pub struct ThermalLimitPlan<'a>(Vec<Search<'a>>);
+
+impl Plan for ThermalLimitPlan<'_> {
+    fn work(&self) -> Vec<Work> {
+        let work = |search: &Search<'_>| {
+            let count = search.temperatures.len() * search.fixed.len();
+            Work::new(search.run.label(), "searches", count)
+        };
+        self.0.iter().map(work).collect()
+    }
+}
+
+/// The searches with one set.
 struct Search<'a> {
     find: Find,
-    built: &'a Built<'a>,
-    points: &'a Points,
-    case: &'a Case,
+    run: Run<'a>,
+    case: Case,
+    temperatures: &'a [f64],
+    /// Range of what is found, from the end nearest to zero.
+    range: [f64; 2],
+    /// Values of the other quantity.
+    fixed: Vec<f64>,
 }
 
 impl Search<'_> {
-    /// The limits of all temperatures at all fixed values.
-    fn all(&self, temperatures: &[f64], range: [f64; 2], fixed: &[f64]) -> ThermalLimitsOfSet {
-        let transmission = &self.built.transmission;
-        let mut scratch = transmission.scratch(self.case);
+    fn all(&self) -> ThermalLimitsOfSet {
+        let transmission = &self.run.built.transmission;
+        let mut scratch = transmission.scratch(&self.case);
         let mut limits = Vec::new();
-        for temperature in temperatures {
-            for value in fixed {
-                limits.push(self.limit(*temperature, range, *value, &mut scratch));
+        for temperature in self.temperatures {
+            for value in &self.fixed {
+                limits.push(self.limit(*temperature, self.range, *value, &mut scratch));
             }
         }
         ThermalLimitsOfSet {
-            model_set: self.built.name.clone(),
-            gear: self.points.gear.clone(),
+            model_set: self.run.built.name.clone(),
+            gear: self.run.points.gear.clone(),
             find: self.find,
             limits,
             notes: notes(transmission, &scratch.totals),
@@ -234,13 +257,13 @@ impl Search<'_> {
 
     /// The limit of one temperature at one fixed value.
     fn limit(&self, temperature: f64, range: [f64; 2], fixed: f64, scratch: &mut Scratch) -> ThermalLimit {
-        let t = &self.built.transmission;
+        let t = &self.run.built.transmission;
         let count = self.case.torque_ports.len();
         let (speed, torque) = self.given(fixed, range[0]);
         let start = Point {
             speeds: &speed,
             torques: &torque[..count],
-            flow: self.points.flow,
+            flow: self.run.points.flow,
             tolerance: Tolerance::default(),
         };
         let set = |x: f64, speeds: &mut [f64], torques: &mut [f64]| {
@@ -248,7 +271,7 @@ impl Search<'_> {
             speeds.copy_from_slice(&speed);
             torques.copy_from_slice(&torque[..torques.len()]);
         };
-        let limit: Limit = t.thermal_limit(self.case, &start, temperature, range, set, scratch);
+        let limit: Limit = t.thermal_limit(&self.case, &start, temperature, range, set, scratch);
         let mut found = ThermalLimit {
             limit_degc: temperature,
             torque_nm: (self.find == Find::Speed).then_some(fixed),
@@ -268,8 +291,8 @@ impl Search<'_> {
                 torques: &torque[..count],
                 ..start
             };
-            found.lowest_balance_degc = t.equilibrium(self.case, &point, scratch).oil();
-            let solution = t.evaluate(self.case, &point, &[temperature], scratch);
+            found.lowest_balance_degc = t.equilibrium(&self.case, &point, scratch).oil();
+            let solution = t.evaluate(&self.case, &point, &[temperature], scratch);
             (found.torque_nm, found.solved_speed_rpm) = (Some(torque[0]), Some(speed[0] * RPM));
             (found.loss_w, found.efficiency) = (solution.loss(), solution.efficiency());
             (found.input_w, found.output_w) = (solution.input_power(), solution.output_power());

@@ -1,6 +1,7 @@
 //! Every combination of the models of some mechanisms: ranked by a measurement, or their spread.
 
 mod candidates;
+mod entrants;
 mod field;
 mod marks;
 mod measurements;
@@ -20,7 +21,10 @@ pub use outcome::{
     Ranking, ShareOfSpread, Spread, SpreadPoint, Tournament, TournamentOutcome,
 };
 
-use super::{Analysis, Context, Stopped};
+use self::entrants::Entrants;
+use self::measurements::OwnRows;
+use super::{Analysis, Engine, Plan, Planner, Run, Stopped, Work, gear_of};
+use crate::measured::Measured;
 use crate::register_analysis;
 use crate::study::{Data, Difference, Quantity, Uses, Write};
 
@@ -125,8 +129,30 @@ pub struct FactorsEntry {
 
 register_analysis!(TournamentEntry);
 
+/// The set, the models that take part, and the points.
+pub struct TournamentPlan<'a> {
+    /// The points of the grid; none of measured ones.
+    run: Run<'a>,
+    entrants: Vec<Entrants>,
+    /// Measured points, and the name of their file.
+    measured: Option<(Measured, String)>,
+}
+
+impl Plan for TournamentPlan<'_> {
+    fn work(&self) -> Vec<Work> {
+        let points = match &self.measured {
+            Some((measured, _)) => measured.rows.len(),
+            None => self.run.points.field.len(),
+        };
+        let models = |own: &Entrants| own.list.iter().filter(|entrant| entrant.built.is_ok()).count();
+        let work = |own: &Entrants| Work::new(&own.slot.name, "points of models", points * models(own)).at_most();
+        self.entrants.iter().map(work).collect()
+    }
+}
+
 impl Analysis for TournamentEntry {
     const TYPE: &'static str = "tournament";
+    type Plan<'a> = TournamentPlan<'a>;
     type Outcome = TournamentOutcome;
 
     fn uses(&self) -> Uses<'_> {
@@ -138,15 +164,21 @@ impl Analysis for TournamentEntry {
         }
     }
 
-    fn run(&self, cx: &Context<'_>) -> Result<TournamentOutcome, Stopped> {
+    fn plan<'a>(&'a self, cx: &Planner<'a>) -> Result<TournamentPlan<'a>, Stopped> {
         let gearbox = cx.gearbox(self.gearbox.as_ref())?;
         self.check(cx)?;
         let built = cx.built(gearbox, self.model_set.as_slice())?;
         let base = &built[0];
-        cx.undivided()?;
-        let tournament = match (&self.grid, &self.data) {
-            (Some(grid), None) => Tournament::Spread(Box::new(self.spread(cx, grid, base)?)),
-            (None, Some(data)) => Tournament::Ranking(Box::new(self.ranking(cx, data, base)?)),
+        let (run, measured) = match (&self.grid, &self.data) {
+            (Some(grid), None) => (self.grid_points(cx, grid, base)?, None),
+            (None, Some(data)) => {
+                let path = format!("{}.data", cx.path());
+                let measured = cx.read_at_ports(&path, data, &[])?;
+                let gear = gear_of(self.gear.as_deref(), &base.transmission);
+                OwnRows::new(cx, &measured, gear)?;
+                let run = Run::new(cx, base, cx.listed(&base.transmission, gear, Vec::new()))?;
+                (run, Some((measured, cx.data(&path, data)?.file.to_string())))
+            }
             _ => {
                 return Err(cx.wrong(
                     &cx.path(),
@@ -155,7 +187,27 @@ impl Analysis for TournamentEntry {
                 ));
             }
         };
-        let head = cx.head(&[base]);
+        Ok(TournamentPlan {
+            entrants: Entrants::all(cx, &self.mechanisms, base)?,
+            run,
+            measured,
+        })
+    }
+
+    fn reduce<'a>(&'a self, plan: TournamentPlan<'a>, engine: &Engine<'a>) -> Result<TournamentOutcome, Stopped> {
+        let TournamentPlan {
+            run,
+            entrants,
+            measured,
+        } = plan;
+        let tournament = engine.undivided(|| match &measured {
+            None => Ok(Tournament::Spread(Box::new(self.spread(engine, &run, &entrants)?))),
+            Some((measured, file)) => {
+                let ranking = self.ranking(engine, (measured, file), &run, &entrants)?;
+                Ok(Tournament::Ranking(Box::new(ranking)))
+            }
+        })?;
+        let head = engine.head(&[run.built]);
         Ok(TournamentOutcome { head, tournament })
     }
 
@@ -166,7 +218,7 @@ impl Analysis for TournamentEntry {
 
 impl TournamentEntry {
     /// Rejects invalid keys.
-    fn check(&self, cx: &Context<'_>) -> Result<(), Stopped> {
+    fn check(&self, cx: &Planner<'_>) -> Result<(), Stopped> {
         let path = cx.path();
         if self.quantity == Quantity::Temperature {
             let message = "combinations are ranked by losses, not by temperature";

@@ -9,7 +9,7 @@ use gearloss_framework::transmission::Transmission;
 use gearloss_framework::variants::Variants;
 use serde_json::Value;
 
-use super::{Built, Context};
+use super::{Built, Engine, Planner};
 use crate::study::Study;
 
 /// Stated ranges that were left: path and quantity.
@@ -17,16 +17,14 @@ pub type Left = BTreeSet<(String, String)>;
 
 /// Data for rebuilding.
 pub struct Trial<'a> {
-    cx: &'a Context<'a>,
     study: &'a Study,
     variants: Variants<'a>,
 }
 
 impl<'a> Trial<'a> {
     /// For a gearbox with a set.
-    pub fn new(cx: &'a Context<'a>, built: &'a Built<'_>) -> Self {
+    pub fn new(cx: &Planner<'a>, built: &'a Built<'_>) -> Self {
         Self {
-            cx,
             study: cx.study,
             variants: Variants::new(cx.language, built.gearbox, cx.study.choice(built.set())),
         }
@@ -46,12 +44,17 @@ impl<'a> Trial<'a> {
     }
 
     /// Solves all points. Their temperature follows the overrides unless given otherwise.
-    pub fn solve(&self, transmission: &Transmission, points: &Points) -> Result<GridResult, String> {
+    pub fn solve(
+        &self,
+        engine: &Engine<'_>,
+        transmission: &Transmission,
+        points: &Points,
+    ) -> Result<GridResult, String> {
         let points = Points {
             oil: OilTemperature::from_conditions(transmission, self.study.entry.conditions.oil_temperature),
             ..points.clone()
         };
-        let solved = run_grid(transmission, &points, &|_| self.cx.should_continue());
+        let solved = run_grid(transmission, &points, &|_| engine.should_continue());
         let solved = solved.map_err(|list| list.first().map_or_else(String::new, |d| d.message.clone()))?;
         solved.ok_or_else(|| "interrupted".to_owned())
     }
@@ -59,6 +62,7 @@ impl<'a> Trial<'a> {
     /// Rows of a file with overrides.
     pub fn solved_rows(
         &self,
+        engine: &Engine<'_>,
         rows: &Rows<'_>,
         overrides: &[(String, Value)],
         on: Option<OnRig<'_>>,
@@ -66,7 +70,7 @@ impl<'a> Trial<'a> {
         let built = rows
             .build(&self.variants, overrides)
             .map_err(|findings| findings.first())?;
-        let solved = rows.solve(built, on, &|_| self.cx.should_continue());
+        let solved = rows.solve(built, on, &|_| engine.should_continue());
         let solved = solved.map_err(|list| list.first().map_or_else(String::new, |d| d.message.clone()))?;
         solved.ok_or_else(|| "interrupted".to_owned())
     }

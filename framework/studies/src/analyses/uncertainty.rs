@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::ranges::{PublishedCoefficient, published};
 use super::trial::Left;
-use super::{Analysis, Context, Head, Outcome, Stopped};
+use super::{Analysis, Engine, Head, Outcome, Plan, Planner, Run, Stopped, Work};
 use crate::analyses::axes::grid_axes;
 use crate::analyses::inputs::Input;
 use crate::points::Note;
@@ -155,9 +155,24 @@ impl QuantityBand {
     }
 }
 
+/// The points with each set, and the uncertain inputs.
+pub struct UncertaintyPlan<'a> {
+    samples: usize,
+    runs: Vec<Run<'a>>,
+    inputs: Vec<Vec<Input>>,
+}
+
+impl Plan for UncertaintyPlan<'_> {
+    fn work(&self) -> Vec<Work> {
+        let work = |run: &Run<'_>| Work::new(run.label(), "points", (self.samples + 1) * run.points.field.len());
+        self.runs.iter().map(work).collect()
+    }
+}
+
 impl Analysis for UncertaintyEntry {
     const TYPE: &'static str = "uncertainty";
     const PARAMETERS: Option<ParameterKey> = Some(ParameterKey::Range("inputs"));
+    type Plan<'a> = UncertaintyPlan<'a>;
     type Outcome = UncertaintyOutcome;
 
     fn uses(&self) -> Uses<'_> {
@@ -167,7 +182,7 @@ impl Analysis for UncertaintyEntry {
         }
     }
 
-    fn run(&self, cx: &Context<'_>) -> Result<UncertaintyOutcome, Stopped> {
+    fn plan<'a>(&'a self, cx: &Planner<'a>) -> Result<UncertaintyPlan<'a>, Stopped> {
         let path = cx.path();
         let gearbox = cx.gearbox(self.gearbox.as_ref())?;
         let grid = cx.study.grid(&path, &self.grid)?;
@@ -177,41 +192,48 @@ impl Analysis for UncertaintyEntry {
         }
         let built = cx.built(gearbox, &self.model_sets)?;
         let gear = cx.one_gear(&path, grid, &built[0].transmission)?;
-        let (mut bands, mut all_left) = (Vec::new(), Vec::new());
-        for (i, b) in built.iter().enumerate() {
+        let (mut runs, mut inputs) = (Vec::new(), Vec::new());
+        for b in &built {
             let (torques, speeds) = grid_axes(cx, &self.grid, grid, &b.transmission)?;
-            let points = cx.points(&b.transmission, &gear, torques.clone(), speeds.clone());
+            let points = cx.points(&b.transmission, &gear, torques, speeds);
             let kept = points.field.len().saturating_mul(samples::BYTES);
             cx.fit_in_memory(&format!("{path}.samples"), self.samples as usize, kept)?;
-            let inputs = Input::all(cx, &path, &self.inputs, b)?;
-            if cx.checked(b, &points)? {
-                continue;
-            }
+            inputs.push(Input::all(cx, &path, &self.inputs, b)?);
+            runs.push(Run::new(cx, b, points)?);
+        }
+        Ok(UncertaintyPlan {
+            samples: self.samples as usize,
+            runs,
+            inputs,
+        })
+    }
+
+    fn reduce<'a>(&'a self, plan: UncertaintyPlan<'a>, engine: &Engine<'a>) -> Result<UncertaintyOutcome, Stopped> {
+        let mut all_left = Vec::new();
+        let bands = engine.parts(plan.runs.iter().zip(&plan.inputs), |(run, inputs)| {
             let mut left = Left::new();
-            let samples = cx.part(i, || samples::solve(cx, self.samples, b, &inputs, &points, &mut left))?;
-            let Some(samples) = samples else { continue };
-            let nominal = cx.solve_here(b, &points)?;
-            left.extend(super::trial::left(&b.transmission, &nominal.seen));
+            let samples = samples::solve(engine, self.samples, run, inputs, &mut left)?;
+            let nominal = engine.solve_here(run)?;
+            left.extend(super::trial::left(&run.built.transmission, &nominal.seen));
             all_left.extend(left);
-            let points = samples.points(&nominal.points);
-            bands.push(BandsOfSet {
-                model_set: b.name.clone(),
-                gear: gear.clone(),
+            let [torques, speeds] = run.points.field.axes().unwrap_or_default();
+            Ok(BandsOfSet {
+                model_set: run.built.name.clone(),
+                gear: run.points.gear.clone(),
                 samples: samples.solved.len(),
                 failed: samples.failed.len(),
                 quantiles: samples::SHARES,
-                inputs: samples.ranked(&inputs),
-                points,
-                torques_nm: torques,
+                inputs: samples.ranked(inputs),
+                points: samples.points(&nominal.points),
+                torques_nm: torques.to_vec(),
                 speeds_rpm: speeds.iter().map(|speed| speed * super::numbers::RPM).collect(),
                 first_failure: samples.failed.into_iter().next(),
                 published: published(inputs.iter().map(|input| &input.range.varied)),
-            });
-        }
-        cx.begin()?;
-        cx.complete()?;
+            })
+        })?;
+        let built: Vec<_> = plan.runs.into_iter().map(|run| run.built).collect();
         Ok(UncertaintyOutcome {
-            head: cx.head(&built.iter().collect::<Vec<_>>()),
+            head: engine.head(&built),
             bands,
             left: all_left,
         })

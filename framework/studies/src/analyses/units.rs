@@ -4,11 +4,11 @@ use gearloss_fmu::Library;
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::transmission::Transmission;
 
-use super::{Context, Stopped};
+use super::{Planner, Stopped};
 use crate::codes;
 
 /// The libraries of FMUs: that of the own platform, and those of the files.
-pub fn libraries(cx: &Context<'_>, files: &[String], is_needed: bool) -> Result<Vec<Library>, Stopped> {
+pub fn libraries(cx: &Planner<'_>, files: &[String], is_needed: bool) -> Result<Vec<Library>, Stopped> {
     let path = format!("{}.fmu_libraries", cx.path());
     if !is_needed {
         return match files {

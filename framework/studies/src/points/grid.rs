@@ -115,6 +115,14 @@ impl Field {
         }
     }
 
+    /// Torques and speeds of a grid; absent for a list.
+    pub fn axes(&self) -> Option<[&[f64]; 2]> {
+        match self {
+            Self::Grid { torques, speeds } | Self::Part { torques, speeds, .. } => Some([torques, speeds]),
+            Self::List(_) => None,
+        }
+    }
+
     /// The position on the grid of a point by its index; the index itself for a list.
     pub fn place(&self, i: usize) -> usize {
         match self {

@@ -1,5 +1,7 @@
 //! Points of a file, solved with one choice of models, with the transmissions for their bound columns.
 
+use std::borrow::Borrow;
+
 use serde_json::Value;
 
 use super::{Field, Given, OilTemperature, PointResult, Points, merge, run_grid};
@@ -45,9 +47,9 @@ pub struct OnRig<'a> {
 }
 
 /// Solved rows.
-pub struct SolvedRows {
+pub struct SolvedRows<T = Transmission> {
     /// One transmission for each combination of bound values, in order of first occurrence.
-    pub transmissions: Vec<Transmission>,
+    pub transmissions: Vec<T>,
     /// For each row the index of its transmission, its gear and its point.
     pub rows: Vec<(usize, String, PointResult)>,
     /// Observed limits and quantities over all rows.
@@ -90,25 +92,25 @@ impl Rows<'_> {
     }
 
     /// The points of each gear of each transmission, with the index of the latter; without torques and speeds.
-    pub fn kinds(&self, transmissions: &[Transmission]) -> Vec<(usize, Points)> {
+    pub fn kinds<T: Borrow<Transmission>>(&self, transmissions: &[T]) -> Vec<(usize, Points)> {
         let mut kinds: Vec<(usize, Points)> = Vec::new();
         for (place, gear) in self.keys(transmissions) {
             if !kinds
                 .iter()
                 .any(|(own, points)| (*own, points.gear.as_str()) == (place, gear))
             {
-                kinds.push((place, self.points(gear, &transmissions[place], Vec::new())));
+                kinds.push((place, self.points(gear, transmissions[place].borrow(), Vec::new())));
             }
         }
         kinds
     }
 
     /// Index of the transmission and gear of each row.
-    fn keys<'s>(&'s self, transmissions: &'s [Transmission]) -> Vec<(usize, &'s str)> {
+    fn keys<'s, T: Borrow<Transmission>>(&'s self, transmissions: &'s [T]) -> Vec<(usize, &'s str)> {
         let combinations = self.combinations();
         let key = |row: &'s Row| {
             let place = combinations.iter().position(|c| **c == row.bound).unwrap_or(0);
-            (place, self.state(row, &transmissions[place]))
+            (place, self.state(row, transmissions[place].borrow()))
         };
         self.measured.rows.iter().map(key).collect()
     }
@@ -179,12 +181,12 @@ impl Rows<'_> {
     ///
     /// # Errors
     /// If the gear of a row or the ports are invalid.
-    pub fn solve(
+    pub fn solve<T: Borrow<Transmission>>(
         &self,
-        transmissions: Vec<Transmission>,
+        transmissions: Vec<T>,
         rig: Option<OnRig<'_>>,
         progress: &(dyn Fn(usize) -> bool + Sync),
-    ) -> Result<Option<SolvedRows>, Vec<Diagnostic>> {
+    ) -> Result<Option<SolvedRows<T>>, Vec<Diagnostic>> {
         let keys = self.keys(&transmissions);
         let mut found: Vec<Option<PointResult>> = vec![None; keys.len()];
         let mut seen: Vec<Extent> = Vec::new();
@@ -194,7 +196,7 @@ impl Rows<'_> {
                 continue;
             }
             let own: Vec<usize> = (i..keys.len()).filter(|k| keys[*k] == *key).collect();
-            let transmission = &transmissions[key.0];
+            let transmission = transmissions[key.0].borrow();
             let signs = self.signs(key.1, transmission);
             let list = own.iter().map(|k| self.given(*k, transmission, signs, rig)).collect();
             let points = self.points(key.1, transmission, list);
@@ -289,7 +291,7 @@ impl Rows<'_> {
     ///
     /// # Errors
     /// If a rig contributes at a second port, but the transmission does not have two ports.
-    pub fn speeds(&self, solved: &SolvedRows, at_out: bool) -> Result<Vec<PortSpeeds>, Diagnostic> {
+    pub fn speeds<T>(&self, solved: &SolvedRows<T>, at_out: bool) -> Result<Vec<PortSpeeds>, Diagnostic> {
         let of = |(_, _, point): &(usize, String, PointResult)| match point.output_speed {
             None if at_out => Err(Diagnostic::error(
                 "",

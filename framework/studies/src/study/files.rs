@@ -225,12 +225,12 @@ impl Study {
     ///
     /// # Errors
     /// If there is no such product.
-    pub fn reference<'a>(
+    pub fn reference<'a, 'n>(
         &'a self,
         path: &str,
-        name: &'a str,
+        name: &'n str,
         gearbox: &'a Gearbox,
-    ) -> Result<(&'a Gearbox, Option<&'a str>), Findings> {
+    ) -> Result<(&'a Gearbox, Option<&'n str>), Findings> {
         let Some((product, set)) = name.split_once('/') else {
             return Ok((gearbox, Some(name).filter(|set| *set != OWN_MODELS)));
         };

@@ -1,11 +1,13 @@
 //! Rows of stacked bars: the common outcome of breakdowns, spin losses and temperature sweeps.
 
+use std::sync::Arc;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::analyses::numbers::{RPM, tidy};
 use crate::analyses::shares::{Shares, together};
-use crate::analyses::{Built, Context, Head, Outcome, Stopped};
+use crate::analyses::{Built, Engine, Head, Outcome, Plan, Planner, Run, Runs, Stopped, Work};
 use crate::points::{Given, GridResult, Note, PointResult, Points, TotalLoss, notes_with_shares};
 use crate::study::By;
 use crate::table::Table;
@@ -205,98 +207,135 @@ pub enum Along {
     OilTemperature,
 }
 
-/// Measured loss at a point and its accuracy. \[W\]
-pub(in crate::analyses) type MeasuredAt<'m> = &'m dyn Fn(&PointResult) -> Option<(f64, f64)>;
+/// Measured loss at a point in a gear, and its accuracy. \[W\]
+pub type MeasuredAt<'m> = &'m dyn Fn(&PointResult, &str) -> Option<(f64, f64)>;
 
-/// Shares and unit of the losses of all sets.
-pub(in crate::analyses) struct Stacks {
+/// The plan of breakdowns: runs, each with its rows of bars.
+pub struct BarsPlan<'a> {
     by: By,
     unit: As,
-    names: Vec<String>,
+    /// The sets.
+    pub built: Vec<Arc<Built<'a>>>,
+    runs: Runs<'a>,
+    rows: Vec<Vec<RowOfBars>>,
+    /// Driven port of free ones.
+    turned_at: Option<String>,
 }
 
-impl Stacks {
-    pub fn new(by: By, unit: As, built: &[Built<'_>]) -> Self {
+impl Plan for BarsPlan<'_> {
+    fn work(&self) -> Vec<Work> {
+        self.runs.work()
+    }
+}
+
+impl<'a> BarsPlan<'a> {
+    /// Without runs.
+    pub fn new(by: By, unit: As, built: Vec<Arc<Built<'a>>>) -> Self {
         Self {
-            names: together(built.iter().map(|b| &b.transmission), by),
             by,
             unit,
+            built,
+            runs: Runs(Vec::new()),
+            rows: Vec::new(),
+            turned_at: None,
         }
     }
 
-    /// True if points must keep their terms.
-    pub fn needs_terms(&self) -> bool {
-        self.by == By::Term
+    /// With a driven port.
+    pub fn turned_at(self, port: String) -> Self {
+        Self {
+            turned_at: Some(port),
+            ..self
+        }
     }
 
-    /// Solves rows of bars of one set; absent if an analysis is only checked.
-    pub fn solve(
-        &self,
-        cx: &Context<'_>,
-        b: &Built<'_>,
+    /// Adds rows of bars with their points.
+    ///
+    /// # Errors
+    /// As [`Run::new`].
+    pub fn add(
+        &mut self,
+        cx: &Planner<'a>,
+        b: &Arc<Built<'a>>,
         gear: &str,
         rows: Vec<(RowOfBars, Vec<Given>)>,
-        measured: MeasuredAt<'_>,
-    ) -> Result<Option<BreakdownOfSet>, Stopped> {
+    ) -> Result<(), Stopped> {
         let (rows, given): (Vec<RowOfBars>, Vec<Vec<Given>>) = rows.into_iter().unzip();
-        let mut points = cx.listed(&b.transmission, gear, given.concat());
-        points.terms = self.needs_terms();
-        if cx.checked(b, &points)? {
-            return Ok(None);
-        }
-        let solved = cx.solve(b, &points)?;
-        Ok(Some(self.breakdown(b, &points, &solved, rows, measured)))
+        self.add_points(cx, b, cx.listed(&b.transmission, gear, given.concat()), rows)
     }
 
-    /// The breakdown of solved points.
-    pub fn breakdown(
-        &self,
-        b: &Built<'_>,
-        points: &Points,
-        solved: &GridResult,
+    /// Adds rows of bars of points.
+    ///
+    /// # Errors
+    /// As [`Run::new`].
+    pub fn add_points(
+        &mut self,
+        cx: &Planner<'a>,
+        b: &Arc<Built<'a>>,
+        points: Points,
         rows: Vec<RowOfBars>,
-        measured: MeasuredAt<'_>,
-    ) -> BreakdownOfSet {
-        let shares = Shares::new(&b.transmission, self.by).under(&self.names);
-        let point = |p: &PointResult| {
-            let scale = self.unit.scale(p);
-            let scaled = |stack: Vec<f64>, scale: f64| stack.into_iter().map(|w| w * scale).collect();
-            let losses = scale.and_then(|scale| Some(scaled(shares.stack(p)?, scale)));
-            let seen = scale.and_then(|scale| measured(p).map(|(loss, accuracy)| (loss * scale, accuracy * scale)));
-            PointOfBreakdown {
-                torque_nm: p.torque,
-                speed_rpm: tidy(p.speed * RPM),
-                oil_temperature_degc: p.oil,
-                losses: Losses::new(self.unit, losses, seen.map(|(loss, _)| loss)),
-                accuracy: seen.map(|(_, accuracy)| accuracy),
-            }
-        };
-        BreakdownOfSet {
-            model_set: b.name.clone(),
-            gear: points.gear.clone(),
-            unit: self.unit.name(),
-            shares: self.names.clone(),
-            notes: notes_with_shares(&b.transmission, &solved.seen, TotalLoss::of(&solved.points)),
-            points: solved.points.iter().map(point).collect(),
-            turned_at: None,
-            rows,
-        }
+    ) -> Result<(), Stopped> {
+        let terms = self.by == By::Term;
+        self.runs.0.push(Run::new(cx, b, Points { terms, ..points })?);
+        self.rows.push(rows);
+        Ok(())
     }
 
-    /// The outcome of an analysis.
-    pub fn outcome(
-        &self,
-        cx: &Context<'_>,
-        built: &[Built<'_>],
-        breakdowns: Vec<BreakdownOfSet>,
-    ) -> Result<BreakdownOutcome, Stopped> {
-        cx.begin()?;
+    /// The outcome, with measured losses beside the bars.
+    ///
+    /// # Errors
+    /// As [`Engine::solve`].
+    pub fn outcome(self, engine: &Engine<'_>, measured: MeasuredAt<'_>) -> Result<BreakdownOutcome, Stopped> {
+        let solved = engine.solve_all(&self.runs)?;
+        let names = together(self.built.iter().map(|b| &b.transmission), self.by);
+        let runs = self.runs.0.iter().zip(self.rows).zip(&solved);
+        let breakdowns = runs.map(|((run, rows), solved)| BreakdownOfSet {
+            turned_at: self.turned_at.clone(),
+            ..of_run(self.by, self.unit, &names, run, rows, solved, measured)
+        });
         Ok(BreakdownOutcome {
-            head: cx.head(&built.iter().collect::<Vec<_>>()),
-            breakdowns,
+            breakdowns: breakdowns.collect(),
+            head: engine.head(&self.built),
             unit: self.unit,
             measured_notes: Vec::new(),
         })
+    }
+}
+
+/// The breakdown of a solved run.
+fn of_run(
+    by: By,
+    unit: As,
+    names: &[String],
+    run: &Run<'_>,
+    rows: Vec<RowOfBars>,
+    solved: &GridResult,
+    measured: MeasuredAt<'_>,
+) -> BreakdownOfSet {
+    let (t, gear) = (&run.built.transmission, &run.points.gear);
+    let shares = Shares::new(t, by).under(names);
+    let point = |p: &PointResult| {
+        let scale = unit.scale(p);
+        let scaled = |stack: Vec<f64>, scale: f64| stack.into_iter().map(|w| w * scale).collect();
+        let losses = scale.and_then(|scale| Some(scaled(shares.stack(p)?, scale)));
+        let seen = scale.and_then(|scale| measured(p, gear).map(|(loss, accuracy)| (loss * scale, accuracy * scale)));
+        PointOfBreakdown {
+            torque_nm: p.torque,
+            speed_rpm: tidy(p.speed * RPM),
+            oil_temperature_degc: p.oil,
+            losses: Losses::new(unit, losses, seen.map(|(loss, _)| loss)),
+            accuracy: seen.map(|(_, accuracy)| accuracy),
+        }
+    };
+    BreakdownOfSet {
+        model_set: run.built.name.clone(),
+        gear: gear.clone(),
+        unit: unit.name(),
+        shares: names.to_vec(),
+        notes: notes_with_shares(t, &solved.seen, TotalLoss::of(&solved.points)),
+        points: solved.points.iter().map(point).collect(),
+        turned_at: None,
+        rows,
     }
 }
 

@@ -1,9 +1,11 @@
 //! What is compared: the base, model sets, and variants of the base.
 
+use std::sync::Arc;
+
 use gearloss_framework::gearbox::Gearbox;
 
 use super::CompareEntry;
-use crate::analyses::{Built, Context, Stopped};
+use crate::analyses::{Built, Planner, Stopped};
 
 /// The base and the sets, by name.
 pub fn names(entry: &CompareEntry, base: &str) -> Vec<String> {
@@ -12,12 +14,12 @@ pub fn names(entry: &CompareEntry, base: &str) -> Vec<String> {
 }
 
 /// The base, the sets and the variants, each with its name.
-pub fn cases<'s>(
-    cx: &'s Context<'_>,
-    entry: &'s CompareEntry,
-    gearbox: &'s Gearbox,
-    sets: &'s [String],
-) -> Result<Vec<Built<'s>>, Stopped> {
+pub fn cases<'a>(
+    cx: &Planner<'a>,
+    entry: &CompareEntry,
+    gearbox: &'a Gearbox,
+    sets: &[String],
+) -> Result<Vec<Arc<Built<'a>>>, Stopped> {
     let mut built = cx.built(gearbox, sets)?;
     for (name, values) in entry.variants.iter() {
         let place = format!("{}.variants.{name}", cx.path());
@@ -29,12 +31,8 @@ pub fn cases<'s>(
             .iter()
             .map(|(path, value)| (path.to_owned(), value.clone(), place.clone()))
             .collect();
-        for variant in cx.built_with(gearbox, &sets[..1], &changes)? {
-            built.push(Built {
-                name: name.to_owned(),
-                ..variant
-            });
-        }
+        let base = sets.first().map(String::as_str);
+        built.push(Arc::new(cx.built_as(gearbox, base, Some(name), &changes)?));
     }
     Ok(built)
 }

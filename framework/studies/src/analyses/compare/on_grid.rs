@@ -1,5 +1,7 @@
 //! Differences of model sets from a base over a grid: the other set minus the base.
 
+use std::sync::Arc;
+
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -9,7 +11,7 @@ use super::{CompareEntry, unit};
 use crate::analyses::axes::grid_axes;
 use crate::analyses::numbers::{RPM, tidy};
 use crate::analyses::shares::{Shares, together};
-use crate::analyses::{Built, Context, Head, Stopped};
+use crate::analyses::{Built, Engine, Plan, Planner, Run, Runs, Stopped, Work};
 use crate::points::{GridResult, Note, PointResult, Statistics, TotalLoss, notes, notes_with_shares};
 use crate::study::{By, Difference, Grid, Quantity};
 use crate::table::Table;
@@ -98,52 +100,71 @@ struct Base<'a> {
     ranges_left: usize,
 }
 
-pub(super) fn compare(
-    cx: &Context<'_>,
-    entry: &CompareEntry,
-    grid_name: &str,
-    base: &str,
-) -> Result<(Head, Vec<GridComparison>), Stopped> {
-    let path = cx.path();
-    let gearbox = cx.gearbox(entry.gearbox.as_ref())?;
-    let grid = cx.study.grid(&path, grid_name)?;
-    check_grid(cx, grid_name, grid)?;
-    let sets = names(entry, base);
-    let built = cases(cx, entry, gearbox, &sets)?;
-    let gear = cx.one_gear(&path, grid, &built[0].transmission)?;
-    let mut solved: Vec<GridResult> = Vec::new();
-    // Axes in fractions of a rating have different values for each product; tables and figures show those of the base.
-    let (mut torques, mut speeds) = (Vec::new(), Vec::new());
-    for (i, b) in built.iter().enumerate().rev() {
-        (torques, speeds) = grid_axes(cx, grid_name, grid, &b.transmission)?;
-        let points = cx.points(&b.transmission, &gear, torques.clone(), speeds.clone());
-        if cx.checked(b, &points)? {
-            continue;
-        }
-        if let Some(result) = cx.part(i, || cx.solve(b, &points))? {
-            solved.insert(0, result);
-        }
+/// The base and the compared sets over a grid.
+pub struct GridPlan<'a> {
+    /// The base first.
+    runs: Runs<'a>,
+    /// Axes in fractions of a rating have different values for each product; tables and figures show those of the base.
+    axes: [Vec<f64>; 2],
+}
+
+impl Plan for GridPlan<'_> {
+    fn work(&self) -> Vec<Work> {
+        self.runs.work()
     }
-    cx.begin()?;
-    cx.complete()?;
-    let seen = notes(&built[0].transmission, &solved[0].seen);
-    let base = Base {
-        name: base,
-        built: &built[0],
-        gear: &gear,
-        torques: &torques,
-        speeds: &speeds,
-        points: &solved[0].points,
-        ranges_left: seen.iter().filter(|note| note.outside > 0).count(),
-    };
-    let others = built.iter().zip(&solved).skip(1);
-    let comparisons = others.map(|(b, other)| comparison(entry, &base, b, other));
-    let comparisons = comparisons.collect();
-    Ok((cx.head(&built.iter().collect::<Vec<_>>()), comparisons))
+}
+
+impl<'a> GridPlan<'a> {
+    pub(super) fn new(cx: &Planner<'a>, entry: &CompareEntry, grid_name: &str, base: &str) -> Result<Self, Stopped> {
+        let path = cx.path();
+        let gearbox = cx.gearbox(entry.gearbox.as_ref())?;
+        let grid = cx.study.grid(&path, grid_name)?;
+        check_grid(cx, grid_name, grid)?;
+        let built = cases(cx, entry, gearbox, &names(entry, base))?;
+        let gear = cx.one_gear(&path, grid, &built[0].transmission)?;
+        let run = |b: &Arc<Built<'a>>| {
+            let (torques, speeds) = grid_axes(cx, grid_name, grid, &b.transmission)?;
+            Run::new(cx, b, cx.points(&b.transmission, &gear, torques, speeds))
+        };
+        let (torques, speeds) = grid_axes(cx, grid_name, grid, &built[0].transmission)?;
+        Ok(Self {
+            runs: Runs::of(&built, run)?,
+            axes: [torques, speeds],
+        })
+    }
+
+    pub(super) fn compare(
+        &self,
+        engine: &Engine<'_>,
+        entry: &CompareEntry,
+        base: &str,
+    ) -> Result<Vec<GridComparison>, Stopped> {
+        let solved = engine.solve_all(&self.runs)?;
+        let own = &self.runs.0[0];
+        let seen = notes(&own.built.transmission, &solved[0].seen);
+        let base = Base {
+            name: base,
+            built: &own.built,
+            gear: &own.points.gear,
+            torques: &self.axes[0],
+            speeds: &self.axes[1],
+            points: &solved[0].points,
+            ranges_left: seen.iter().filter(|note| note.outside > 0).count(),
+        };
+        let others = self.runs.0.iter().zip(&solved).skip(1);
+        Ok(others
+            .map(|(run, other)| comparison(entry, &base, &run.built, other))
+            .collect())
+    }
+
+    /// The base and the sets.
+    pub(super) fn built(&self) -> Vec<Arc<Built<'a>>> {
+        self.runs.built()
+    }
 }
 
 /// Rejects a grid with bound values or an envelope.
-fn check_grid(cx: &Context<'_>, name: &str, grid: &Grid) -> Result<(), Stopped> {
+fn check_grid(cx: &Planner<'_>, name: &str, grid: &Grid) -> Result<(), Stopped> {
     if !grid.bind.is_empty() {
         return Err(cx.wrong(
             &format!("grids.{name}.bind"),

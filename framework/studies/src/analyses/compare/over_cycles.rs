@@ -5,10 +5,12 @@ use serde::Serialize;
 
 use super::CompareEntry;
 use super::cases::{cases, names};
+use crate::analyses::balance::reason;
 use crate::analyses::cycle::results::per_distance;
-use crate::analyses::duties::{Duties, Read, sums_energies};
+use crate::analyses::duties::{DrivePlan, Duties, Read, sums_energies};
 use crate::analyses::shares::{Shares, together};
-use crate::analyses::{Built, Context, Head, Stopped};
+use crate::analyses::{Built, Engine, Planner, Stopped};
+use crate::codes;
 use crate::points::{Driven, Note, notes, notes_over_time};
 use crate::study::RideEntry;
 use crate::table::Table;
@@ -79,27 +81,32 @@ pub struct DifferenceOfPhase {
     pub difference_w: f64,
 }
 
-pub(super) fn compare(
-    cx: &Context<'_>,
-    entry: &CompareEntry,
-    ride: &RideEntry,
+/// Cycles of the base and the compared sets, the base first.
+pub(super) fn plan<'a>(
+    cx: &Planner<'a>,
+    entry: &'a CompareEntry,
+    ride: &'a RideEntry,
     base: &str,
-) -> Result<(Head, Vec<CycleComparison>), Stopped> {
+) -> Result<DrivePlan<'a>, Stopped> {
     let path = cx.path();
     let gearbox = cx.gearbox(entry.gearbox.as_ref())?;
     sums_energies(cx, &path, entry.by)?;
     let duties = Duties::new(cx, &format!("{path}.drive"), ride, entry.gear.as_ref())?;
-    let sets = names(entry, base);
-    let built = cases(cx, entry, gearbox, &sets)?;
-    for b in &built {
-        duties.check(cx, &path, b)?;
-    }
-    cx.begin()?;
-    cx.undivided()?;
+    let built = cases(cx, entry, gearbox, &names(entry, base))?;
+    DrivePlan::new(cx, &path, duties, built)
+}
+
+pub(super) fn compare(
+    engine: &Engine<'_>,
+    entry: &CompareEntry,
+    plan: &DrivePlan<'_>,
+) -> Result<Vec<CycleComparison>, Stopped> {
+    let DrivePlan { built, duties } = plan;
+    let driven = plan.drive(engine)?;
+    whole(engine, plan, &driven)?;
     let share_names = together(built.iter().map(|b| &b.transmission), entry.by);
-    let driven: Vec<Vec<Driven>> = built.iter().map(|b| drive(cx, &duties, b)).collect::<Result<_, _>>()?;
     let (Some((base, others)), Some((of_base, of_others))) = (built.split_first(), driven.split_first()) else {
-        return Ok((cx.head(&[]), Vec::new()));
+        return Ok(Vec::new());
     };
     let mut comparisons = Vec::new();
     for (b, own) in others.iter().zip(of_others) {
@@ -116,36 +123,28 @@ pub(super) fn compare(
             comparisons.push(own);
         }
     }
-    Ok((cx.head(&built.iter().collect::<Vec<_>>()), comparisons))
+    Ok(comparisons)
 }
 
 /// All cycles with one case; each must reach its end.
-fn drive(cx: &Context<'_>, duties: &Duties<'_>, b: &Built<'_>) -> Result<Vec<Driven>, Stopped> {
-    let running = cx.running(duties.intervals(), &b.name);
-    let mut all = Vec::new();
-    for read in &duties.list {
-        let driven = duties.drive(&b.transmission, read, &|n| running.advance(n));
-        let driven = driven.map_err(|list| Stopped::from(b.gearbox.findings(list)))?;
-        let driven = driven.ok_or(Stopped::Interrupted)?;
-        if let Some((time, why)) = &driven.broken {
-            let why = crate::analyses::balance::reason(&b.transmission, why);
+/// Rejects a cycle that broke off.
+fn whole(engine: &Engine<'_>, plan: &DrivePlan<'_>, driven: &[Vec<Driven>]) -> Result<(), Stopped> {
+    for (b, own) in plan.built.iter().zip(driven) {
+        for (read, driven) in plan.duties.list.iter().zip(own) {
+            let Some((time, why)) = &driven.broken else { continue };
             let message = format!(
-                "`{}` could not be simulated with `{}` beyond {time} s: {why}",
-                read.name, b.name
+                "`{}` could not be simulated with `{}` beyond {time} s: {}",
+                read.name,
+                b.name,
+                reason(&b.transmission, why)
             );
-            return Err(cx.wrong_as(
-                crate::codes::BROKEN_OFF,
-                &cx.path(),
-                message,
-                "examine the point with `explain`",
-            ));
+            let help = "examine the point with `explain`";
+            return Err(engine.wrong_as(codes::BROKEN_OFF, &engine.path(), message, help));
         }
-        all.push(driven);
     }
-    Ok(all)
+    Ok(())
 }
 
-/// Base and case over one cycle.
 fn comparison(read: &Read, pair: [(&Built<'_>, &Driven); 2], shares: &[Shares; 2]) -> CycleComparison {
     let [(base, of_base), (b, driven)] = pair;
     // A cycle without time has no energy.

@@ -1,13 +1,15 @@
 //! Comparison with measured points: model minus measurement.
 
+use std::sync::Arc;
+
 use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::{CompareEntry, unit};
 use crate::analyses::measurable::is_measurable;
 use crate::analyses::numbers::{RPM, tidy};
-use crate::analyses::rows::Solved;
-use crate::analyses::{Built, Context, Head, Stopped};
+use crate::analyses::rows::{RowsPlan, Solved};
+use crate::analyses::{Built, Engine, Planner, Stopped};
 use crate::measured::{Measured, Row, Seen, counted};
 use crate::points::{Note, PointResult, Statistics, bands};
 use crate::study::{Data, Difference, Quantity};
@@ -116,27 +118,34 @@ pub struct Ranking {
     pub omitted: usize,
 }
 
-pub(super) fn compare(
-    cx: &Context<'_>,
-    entry: &CompareEntry,
-    data: &Data,
-) -> Result<(Head, DataOfComparison, Vec<DataComparison>), Stopped> {
-    let path = format!("{}.data", cx.path());
+pub(super) fn plan<'a>(cx: &Planner<'a>, entry: &'a CompareEntry, data: &Data) -> Result<RowsPlan<'a>, Stopped> {
     let bind: Vec<&str> = entry.bind.ids().collect();
-    let measured = cx.read(&path, data, &bind)?;
-    let file = cx.data(&path, data)?.file.to_string();
+    let measured = cx.read(&format!("{}.data", cx.path()), data, &bind)?;
     let gearbox = cx.gearbox(entry.gearbox.as_ref())?;
     let gear = entry.gear.as_deref();
-    cx.undivided()?;
-    let solved = cx.at_rows(gearbox, &entry.against, &entry.bind, gear, &measured, false)?;
-    cx.begin()?;
-    let all: Vec<DataComparison> = solved.iter().map(|s| comparison(entry, &measured, s)).collect();
+    RowsPlan::new(cx, gearbox, &entry.against, (measured, &entry.bind), gear, false)
+}
+
+/// The sets, the measurement, and the comparisons.
+type Compared<'a> = (Vec<Arc<Built<'a>>>, DataOfComparison, Vec<DataComparison>);
+
+pub(super) fn compare<'a>(
+    engine: &Engine<'_>,
+    entry: &CompareEntry,
+    data: &Data,
+    plan: &RowsPlan<'a>,
+) -> Result<Compared<'a>, Stopped> {
+    let path = format!("{}.data", engine.path());
+    let file = engine.data(&path, data)?.file.to_string();
+    let solved = plan.solve(engine)?;
+    let measured = &plan.measured;
+    let all: Vec<DataComparison> = solved.iter().map(|s| comparison(entry, measured, s)).collect();
     if all.iter().all(|c| c.points.iter().all(|p| p.measured.is_none())) {
         let message = format!("{file}: there is no measured {}", entry.quantity.name());
         let help = "add a column of it, or columns of torque and speed at both ports";
-        return Err(cx.wrong(&path, message, help));
+        return Err(engine.wrong(&path, message, help));
     }
-    let built: Vec<&Built<'_>> = solved.iter().flat_map(|s| &s.built).collect();
+    let built = solved.iter().flat_map(|s| &s.built).cloned().collect();
     let mut notes = measured.notes.clone();
     let still = all.first().map_or(0, |c| c.points.iter().filter(|p| p.still).count());
     if still > 0 {
@@ -150,7 +159,7 @@ pub(super) fn compare(
         points: measured.rows.len(),
         notes,
     };
-    Ok((cx.head(&built), data, all))
+    Ok((built, data, all))
 }
 
 fn comparison(entry: &CompareEntry, measured: &Measured, solved: &Solved<'_>) -> DataComparison {

@@ -7,7 +7,7 @@ use super::outcome::{BandOfDuty, DutyOfSet, InputOfBand};
 use crate::analyses::duties::{Duties, MeanLoss};
 use crate::analyses::inputs::Input;
 use crate::analyses::trial::{Left, Trial};
-use crate::analyses::{Built, Context, Stopped};
+use crate::analyses::{Built, Engine, Stopped};
 use crate::points::{correlation, quantile};
 
 /// Probabilities of the ends and the middle of a band.
@@ -23,14 +23,13 @@ struct Samples {
 }
 
 /// Simulates all duties with samples of a gearbox.
-pub fn bands(
-    cx: &Context<'_>,
+pub fn bands<'i>(
+    engine: &Engine<'_>,
     entry: &CycleAnalysisEntry,
-    built: &Built<'_>,
+    (built, inputs): (&Built<'_>, &'i [Input]),
     (duties, names): (&Duties<'_>, &[String]),
-) -> Result<Bands, Stopped> {
-    let inputs = Input::all(cx, &cx.path(), &entry.inputs, built)?;
-    let samples = sample(cx, entry, built, &inputs, (duties, names))?;
+) -> Result<Bands<'i>, Stopped> {
+    let samples = sample(engine, entry, (built, inputs), (duties, names))?;
     Ok(Bands {
         inputs,
         samples,
@@ -39,13 +38,13 @@ pub fn bands(
 }
 
 /// Samples of the duties of one model set.
-pub struct Bands {
-    inputs: Vec<Input>,
+pub struct Bands<'i> {
+    inputs: &'i [Input],
     samples: Samples,
     shares: usize,
 }
 
-impl Bands {
+impl Bands<'_> {
     /// Adds the bands to the results of the duties.
     pub fn add_to(&self, results: &mut [DutyOfSet]) {
         for (k, result) in results.iter_mut().enumerate() {
@@ -64,15 +63,14 @@ impl Bands {
 }
 
 fn sample(
-    cx: &Context<'_>,
+    engine: &Engine<'_>,
     entry: &CycleAnalysisEntry,
-    built: &Built<'_>,
-    inputs: &[Input],
+    (built, inputs): (&Built<'_>, &[Input]),
     (duties, names): (&Duties<'_>, &[String]),
 ) -> Result<Samples, Stopped> {
-    let path = cx.path();
-    let sobol = Sobol::new(inputs.len()).map_err(|reason| cx.wrong(&path, reason, "use fewer inputs"))?;
-    let trial = Trial::new(cx, built);
+    let path = engine.path();
+    let sobol = Sobol::new(inputs.len()).map_err(|reason| engine.wrong(&path, reason, "use fewer inputs"))?;
+    let trial = Trial::new(engine, built);
     let sample = |i: usize| -> Result<(Vec<f64>, Vec<MeanLoss>, Left), String> {
         let shares = sobol.point(i as u32);
         let values: Vec<f64> = inputs
@@ -82,11 +80,13 @@ fn sample(
             .collect::<Result<_, _>>()?;
         let changes = inputs.iter().zip(&values);
         let t = trial.build(changes.flat_map(|(input, value)| input.range.varied.overrides(*value)))?;
-        let driven = duties.mean_losses(cx, &t, entry.by, names);
+        let driven = duties.mean_losses(engine, &t, entry.by, names);
         let (losses, left) = driven.map_err(|unfinished| unfinished.message)?;
         Ok((values, losses, left))
     };
-    let all = cx.each(&format!("{} samples", built.name), entry.samples as usize, sample)?;
+    let all = engine.jobs(&format!("{} samples", built.name), entry.samples as usize, |i| {
+        Ok(sample(i))
+    })?;
     let mut samples = Samples {
         driven: Vec::new(),
         failed: Vec::new(),
@@ -104,7 +104,7 @@ fn sample(
     if samples.driven.len() < 2 {
         let first = samples.failed.first().map_or("", String::as_str);
         let message = format!("hardly any sample could be simulated: {first}");
-        return Err(cx.wrong(&path, message, "narrow the ranges of the inputs"));
+        return Err(engine.wrong(&path, message, "narrow the ranges of the inputs"));
     }
     Ok(samples)
 }

@@ -22,7 +22,7 @@ use self::losses::{Failed, Tabulated};
 use self::ranges::{Ranges, SINGLE, spaced, temperature_axis};
 use self::replay::{deviation_of, experiment, rows};
 use super::super::units::speed_ratio;
-use super::super::{Built, Context, Stopped};
+use super::super::{Built, Engine, Planner, Stopped};
 use crate::analyses::duties::{Duties, Read};
 use crate::distinct::distinct;
 use crate::duty::Duty;
@@ -49,16 +49,16 @@ pub struct NetworkTables {
 
 /// The network of a gearbox whose cycles were simulated.
 pub fn tabulate(
-    cx: &Context<'_>,
+    engine: &Engine<'_>,
     b: &Built<'_>,
     duties: &Duties<'_>,
     driven: &[Driven],
 ) -> Result<NetworkTables, Stopped> {
     let t = &b.transmission;
-    let network = network(cx, b, duties)?;
+    let network = network(engine, b, duties)?;
     let failed = |message: String| {
-        cx.wrong(
-            &format!("{}.export", cx.path()),
+        engine.wrong(
+            &format!("{}.export", engine.path()),
             message,
             "examine the point with `explain`",
         )
@@ -76,9 +76,9 @@ pub fn tabulate(
             network,
             ranges: &ranges,
             case: case(t, gear).map_err(|list| b.gearbox.findings(list))?,
-            flow: cx.study.entry.conditions.power_flow,
+            flow: engine.study.entry.conditions.power_flow,
         };
-        let (losses, missing) = work.losses(cx, gear).map_err(|why| match why {
+        let (losses, missing) = work.losses(engine, gear).map_err(|why| match why {
             Failed::Undefined(message) => failed(format!("gear {gear}: {message}")),
             Failed::Stopped(stopped) => stopped,
         })?;
@@ -153,7 +153,7 @@ pub fn tabulate(
 }
 
 /// The thermal network of a gearbox, if its cycles simulate it in time.
-pub fn network<'a>(cx: &Context<'_>, b: &'a Built<'_>, duties: &Duties<'_>) -> Result<&'a Network, Stopped> {
+pub fn network<'a>(cx: &Planner<'_>, b: &'a Built<'_>, duties: &Duties<'_>) -> Result<&'a Network, Stopped> {
     let oil = OilTemperature::from_conditions(&b.transmission, cx.study.entry.conditions.oil_temperature);
     let in_time = duties.list.iter().all(|read| matches!(read.duty, Duty::Trace(_)));
     let network = b

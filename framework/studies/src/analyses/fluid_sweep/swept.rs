@@ -9,7 +9,7 @@ use gearloss_framework::resolve::lookup;
 use serde_json::{Value, json};
 
 use super::FluidSweepEntry;
-use crate::analyses::{Built, Context, Stopped};
+use crate::analyses::{Built, Planner, Stopped};
 use crate::varied::{Tie, Varied};
 
 /// Kinematic viscosity at 100 degC below which the viscosity index is not defined. \[mm2/s\]
@@ -30,7 +30,7 @@ pub enum Swept {
 }
 
 impl Swept {
-    pub fn new(cx: &Context<'_>, path: &str, entry: &FluidSweepEntry, b: &Built<'_>) -> Result<Self, Stopped> {
+    pub fn new(cx: &Planner<'_>, path: &str, entry: &FluidSweepEntry, b: &Built<'_>) -> Result<Self, Stopped> {
         let own = lookup(&b.resolved.value, "housing.oil.lubricant").and_then(Value::as_str);
         let names: Vec<&str> = b.resolved.value["lubricants"]
             .as_object()
@@ -82,7 +82,7 @@ impl Swept {
     }
 
     /// Listed values, ascending.
-    pub fn values(&self, cx: &Context<'_>, path: &str, entry: &FluidSweepEntry) -> Result<Vec<f64>, Stopped> {
+    pub fn values(&self, cx: &Planner<'_>, path: &str, entry: &FluidSweepEntry) -> Result<Vec<f64>, Stopped> {
         let mut values = match self {
             Self::Viscosity { .. } => entry.kv100.iter().map(|nu| nu * 1e6).collect(),
             Self::Property(varied) => entry

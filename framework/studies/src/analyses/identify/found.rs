@@ -8,7 +8,7 @@ use super::hold_out::{HoldOutOfSet, predict};
 use super::lines::{Sheet, sheets};
 use super::next::{self, Candidates, Next};
 use super::posterior::{self, PosteriorOfSet};
-use crate::analyses::{Context, Stopped};
+use crate::analyses::{JobsWithin, Stopped};
 use crate::codes;
 use crate::distinct::distinct;
 use crate::identify::{
@@ -86,13 +86,14 @@ pub(super) struct Prepared<'h> {
 impl Found {
     /// All results of a fit. `gear` is the gear of rows without one.
     pub(super) fn new(
-        cx: &Context<'_>,
+        jobs: &JobsWithin<'_>,
         entry: &IdentifyEntry,
         settings: &Settings<'_>,
         gear: &str,
         (identification, fitted): (Identification<'_>, Fitted),
         prepared: Prepared<'_>,
     ) -> Result<(Self, Beside), Stopped> {
+        let cx = jobs.engine;
         let path = cx.path();
         let failed = |reason: String| {
             cx.wrong_as(
@@ -123,9 +124,7 @@ impl Found {
             let validation = identification.validate(&fitted, &groups, settings)?;
             Ok((groups, validation))
         });
-        if !cx.should_continue() {
-            return Err(cx.why_ended());
-        }
+        jobs.result(())?;
         let all: Vec<usize> = (0..identification.measured().rows.len()).collect();
         let shares = identification.share_bands(&fitted, &all, &profiles);
         let next = entry.next.as_ref().zip(prepared.candidates);

@@ -8,7 +8,7 @@ use super::entry::{NextEntry, RuleEntry};
 use super::found::Found;
 use crate::analyses::axes::grid_axes;
 use crate::analyses::numbers::{RPM, tidy};
-use crate::analyses::{Built, Context, Stopped};
+use crate::analyses::{Built, Planner, Stopped};
 use crate::identify::{Candidate, Fitted, Identification, NextPlan};
 
 /// All points that the rig can run.
@@ -124,7 +124,7 @@ impl Next {
 }
 
 /// The candidates of an entry, before the fit.
-pub(super) fn candidates(cx: &Context<'_>, entry: &NextEntry, built: &Built<'_>) -> Result<Candidates, Stopped> {
+pub(super) fn candidates(cx: &Planner<'_>, entry: &NextEntry, built: &Built<'_>) -> Result<Candidates, Stopped> {
     let path = format!("{}.next", cx.path());
     let grid = cx.study.grid(&path, &entry.grid)?;
     if !grid.bind.is_empty() || grid.envelope.is_some() {

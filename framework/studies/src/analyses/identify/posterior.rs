@@ -5,7 +5,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::entry::{IdentifyEntry, PosteriorEntry, RobustLoss};
-use crate::analyses::{Context, Stopped};
+use crate::analyses::{Planner, Stopped};
 use crate::identify::{Fitted, Identification, Profiled};
 
 /// Maximum number of stored draws: with ten parameters about 200 MB.
@@ -13,7 +13,7 @@ const MOST_DRAWS: usize = 2_000_000;
 
 /// Rejects entries without a posterior.
 pub(super) fn check(
-    cx: &Context<'_>,
+    cx: &Planner<'_>,
     entry: &IdentifyEntry,
     identification: &Identification<'_>,
 ) -> Result<(), Stopped> {

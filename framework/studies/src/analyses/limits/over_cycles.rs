@@ -14,7 +14,7 @@ use crate::analyses::cycle::RatedOverTime;
 use crate::analyses::cycle::ratings::over_cycle;
 use crate::analyses::duties::{Duties, nodes};
 use crate::analyses::trial::Trial;
-use crate::analyses::{Built, Context, Stopped};
+use crate::analyses::{Built, Engine, Planner, Stopped};
 use crate::points::Driven;
 use crate::study::{LimitEntry, LimitedQuantity};
 
@@ -23,7 +23,7 @@ use crate::study::{LimitEntry, LimitedQuantity};
 /// # Errors
 /// Everything that is wrong in the first wrong entry.
 pub fn limits_of(
-    cx: &Context<'_>,
+    cx: &Planner<'_>,
     path: &str,
     entries: &Ordered<LimitEntry>,
     duties: &Duties<'_>,
@@ -38,7 +38,7 @@ pub fn limits_of(
 }
 
 /// The index of a cycle of an analysis.
-pub fn cycle(cx: &Context<'_>, path: &str, name: &str, duties: &Duties<'_>) -> Result<usize, Stopped> {
+pub fn cycle(cx: &Planner<'_>, path: &str, name: &str, duties: &Duties<'_>) -> Result<usize, Stopped> {
     let names: Vec<&str> = duties.list.iter().map(|read| read.name.as_str()).collect();
     let place = names.iter().position(|own| *own == name);
     place.ok_or_else(|| cx.found(vec![dangling(path, "cycle of this analysis", name, &names)]))
@@ -146,7 +146,7 @@ pub fn reached(
 }
 
 /// Notes the limited values of the design or oil that an analysis proposes.
-pub fn note_proposed(cx: &Context<'_>, set: &str, limits: &[Limit], values: &[f64], what: &str) {
+pub fn note_proposed(engine: &Engine<'_>, set: &str, limits: &[Limit], values: &[f64], what: &str) {
     let note = |(limit, value): (&Limit, &f64)| {
         let mut reached = Reached::default();
         let place = || Place {
@@ -156,7 +156,7 @@ pub fn note_proposed(cx: &Context<'_>, set: &str, limits: &[Limit], values: &[f6
         reached.note(limit, *value, place);
         reached
     };
-    cx.note_limits(set, limits, limits.iter().zip(values).map(note).collect());
+    engine.note_limits(set, limits, limits.iter().zip(values).map(note).collect());
 }
 
 /// A gearbox with overrides, and its ratings if limits need them.

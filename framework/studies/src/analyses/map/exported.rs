@@ -1,7 +1,7 @@
 //! Solves the further points of a map that tables for other programs need.
 
 use super::super::units::speed_ratio;
-use super::super::{Context, Stopped};
+use super::super::{Engine, Planner, Stopped};
 use super::Map;
 use super::export::{ExportData, ExportName, Refusal};
 use super::plan::Planned;
@@ -9,38 +9,38 @@ use super::shown::{LossAt, LossGrid};
 use crate::points::{Given, Statistics, take_points};
 
 impl ExportData {
-    pub(super) fn solve(cx: &Context<'_>, formats: &[ExportName], map: &Map<'_>) -> Result<Self, Stopped> {
+    pub(super) fn solve(engine: &Engine<'_>, formats: &[ExportName], map: &Map<'_>) -> Result<Self, Stopped> {
         let Some(grid) = map.shown.whole.as_ref().filter(|_| !formats.is_empty()) else {
             return Ok(Self::default());
         };
-        let rated = map.built.transmission.rating.map(|rating| rating.torque);
+        let rated = map.run.built.transmission.rating.map(|rating| rating.torque);
         let further = formats.iter().map(|name| name.format().further_points(grid, rated));
         let no_load = if grid.axes.torques.contains(&0.0) {
             Vec::new()
         } else {
             losses(
-                cx,
+                engine,
                 map,
                 grid.axes.speeds.iter().map(|speed| Given::new(0.0, *speed)).collect(),
             )?
         };
         Ok(Self {
-            between: between(cx, map, &[grid.with_no_load(&no_load)], None)?,
+            between: between(engine, map, &[grid.with_no_load(&no_load)], None)?,
             rated,
             further: further
-                .map(|list| loss_torques(cx, map, list))
+                .map(|list| loss_torques(engine, map, list))
                 .collect::<Result<_, _>>()?,
             no_load,
-            ratio: speed_ratio(&map.built.transmission, &map.gear),
+            ratio: speed_ratio(&map.run.built.transmission, &map.run.points.gear),
             between_oils: None,
         })
     }
 
     /// Deviations between the oil temperatures of the maps of one set and gear.
-    pub(super) fn solve_between_oils(cx: &Context<'_>, maps: &mut [Map<'_>]) -> Result<(), Stopped> {
+    pub(super) fn solve_between_oils(engine: &Engine<'_>, maps: &mut [Map<'_>]) -> Result<(), Stopped> {
         for i in 0..maps.len() {
             let Some(own) = maps[i].oil.given() else { continue };
-            let same = |map: &&Map<'_>| map.built.name == maps[i].built.name && map.gear == maps[i].gear;
+            let same = |map: &&Map<'_>| map.run.label() == maps[i].run.label();
             let warmer = maps.iter().filter(same).filter_map(|map| Some((map.oil.given()?, map)));
             let next = warmer.filter(|(oil, _)| *oil > own).min_by(|a, b| a.0.total_cmp(&b.0));
             let Some((oil, next)) = next else { continue };
@@ -53,7 +53,7 @@ impl ExportData {
             };
             if cold.axes.torques == warm.axes.torques && cold.axes.speeds == warm.axes.speeds {
                 let middle = Some(0.5 * (own + oil));
-                maps[i].export.between_oils = between(cx, &maps[i], &[cold, warm], middle)?;
+                maps[i].export.between_oils = between(engine, &maps[i], &[cold, warm], middle)?;
             }
         }
         Ok(())
@@ -61,12 +61,12 @@ impl ExportData {
 }
 
 /// Rejects unsuitable grids before computation.
-pub(super) fn check(cx: &Context<'_>, formats: &[ExportName], planned: &[Planned<'_>]) -> Result<(), Stopped> {
+pub(super) fn check(cx: &Planner<'_>, formats: &[ExportName], planned: &[Planned<'_>]) -> Result<(), Stopped> {
     let path = format!("{}.export", cx.path());
     let conditions = &cx.study.entry.conditions;
     for name in formats {
         for plan in planned {
-            let t = &plan.built.transmission;
+            let t = &plan.run.built.transmission;
             let reference = &t.ports()[t.reference_port()].name;
             if [&conditions.torque_at, &conditions.speed_at] != [reference, reference] {
                 let message = format!("a table for another program needs torque and speed at `{reference}`");
@@ -89,13 +89,12 @@ pub(super) fn check(cx: &Context<'_>, formats: &[ExportName], planned: &[Planned
 }
 
 /// Losses at points of a map's gear, in order.
-fn losses(cx: &Context<'_>, map: &Map<'_>, list: Vec<Given>) -> Result<Vec<LossAt>, Stopped> {
+fn losses(engine: &Engine<'_>, map: &Map<'_>, list: Vec<Given>) -> Result<Vec<LossAt>, Stopped> {
     let mut losses = Vec::new();
     if list.is_empty() {
         return Ok(losses);
     }
-    let points = cx.listed(&map.built.transmission, &map.gear, list);
-    cx.solve_pieces(&map.built, &points, &take_points, &mut |piece| {
+    engine.solve_pieces(&map.run.at(list), &take_points, &mut |piece| {
         losses.extend(piece.points().map(LossAt::from));
         Ok(())
     })?;
@@ -103,8 +102,8 @@ fn losses(cx: &Context<'_>, map: &Map<'_>, list: Vec<Given>) -> Result<Vec<LossA
 }
 
 /// Loss torques at points of a map's gear, in order; absent if there is none. \[Nm\]
-fn loss_torques(cx: &Context<'_>, map: &Map<'_>, list: Vec<Given>) -> Result<Vec<Option<f64>>, Stopped> {
-    Ok(losses(cx, map, list)?
+fn loss_torques(engine: &Engine<'_>, map: &Map<'_>, list: Vec<Given>) -> Result<Vec<Option<f64>>, Stopped> {
+    Ok(losses(engine, map, list)?
         .into_iter()
         .map(|loss| loss.loss_torque)
         .collect())
@@ -113,7 +112,7 @@ fn loss_torques(cx: &Context<'_>, map: &Map<'_>, list: Vec<Given>) -> Result<Vec
 /// Deviation of linear interpolation from the loss torque midway between the points of grids with equal axes, and near zero torque, at an
 /// oil temperature.
 fn between(
-    cx: &Context<'_>,
+    engine: &Engine<'_>,
     map: &Map<'_>,
     grids: &[LossGrid],
     oil: Option<f64>,
@@ -149,7 +148,7 @@ fn between(
             }
         }
     }
-    let losses = loss_torques(cx, map, list)?;
+    let losses = loss_torques(engine, map, list)?;
     let gaps = means
         .into_iter()
         .zip(losses)

@@ -6,28 +6,27 @@ use gearloss_framework::gearbox::Gearbox;
 use serde_json::Value;
 
 use super::super::axes::grid_axes;
-use super::super::{Built, Context, Stopped};
+use super::super::{Planner, Run, Stopped};
 use super::axes::Axes;
 use super::entry::MapEntry;
-use crate::points::{Field, Given, Points};
+use crate::points::{Field, Given};
 use crate::study::{Envelope, Grid};
 
 /// The points of one map over a grid.
 pub struct Planned<'a> {
     /// Maps that differ only in their points share a transmission.
-    pub built: Arc<Built<'a>>,
     pub bound: Vec<(String, Value)>,
     pub axes: Axes,
-    pub points: Points,
+    pub run: Run<'a>,
 }
 
 /// One map for each gear, each set and each combination of bound values.
-pub fn on_grid<'s>(
-    cx: &'s Context<'_>,
-    entry: &'s MapEntry,
+pub fn on_grid<'a>(
+    cx: &Planner<'a>,
+    entry: &MapEntry,
     grid_name: &str,
-    gearbox: &'s Gearbox,
-) -> Result<Vec<Planned<'s>>, Stopped> {
+    gearbox: &'a Gearbox,
+) -> Result<Vec<Planned<'a>>, Stopped> {
     let grid = cx.study.grid(&cx.path(), grid_name)?;
     let path = format!("grids.{grid_name}");
     let combinations = grid.combinations().map_err(|bound| {
@@ -43,7 +42,6 @@ pub fn on_grid<'s>(
         let change = |(own, value): &(String, Value)| (own.clone(), value.clone(), format!("{path}.bind"));
         let changes: Vec<_> = bound.iter().map(change).collect();
         for built in cx.built_with(gearbox, &entry.model_sets, &changes)? {
-            let built = Arc::new(built);
             let t = &built.transmission;
             let (torques, speeds) = grid_axes(cx, grid_name, grid, t)?;
             let axes = Axes {
@@ -65,10 +63,9 @@ pub fn on_grid<'s>(
             }
             for gear in grid.gear.selected(t) {
                 maps.push(Planned {
-                    built: Arc::clone(&built),
                     bound: bound.clone(),
                     axes: axes.clone(),
-                    points: cx.field(t, &gear, field.clone()),
+                    run: Run::new(cx, &built, cx.field(t, &gear, field.clone()))?,
                 });
             }
         }

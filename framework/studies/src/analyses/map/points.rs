@@ -10,11 +10,11 @@ use serde::ser::SerializeSeq as _;
 use serde::{Serialize, Serializer};
 use serde_json::Value;
 
-use super::super::Built;
+use super::super::Run;
 use super::super::limits::at_points::LimitColumn;
 use super::super::numbers::{RPM, tidy, word};
 use super::shown::{Picked, Selection};
-use crate::points::{Field, Numbered, PointResult, SUMS, TotalLoss};
+use crate::points::{Numbered, PointResult, SUMS, TotalLoss};
 use crate::table::{Column, Table, Values};
 
 /// Columns of a point from its torque to the first sum.
@@ -44,18 +44,12 @@ impl RowsOf {
         }
     }
 
-    pub fn new(
-        built: &Built<'_>,
-        gear: &str,
-        bound: &[(String, Value)],
-        parts: &[String],
-        limits: &[LimitColumn],
-    ) -> Self {
-        let own = built.transmission.parts();
+    pub fn new(run: &Run<'_>, bound: &[(String, Value)], parts: &[String], limits: &[LimitColumn]) -> Self {
+        let own = run.built.transmission.parts();
         let place = |part: &String| own.iter().position(|o| o.path == *part);
         Self {
-            model_set: built.name.clone(),
-            gear: gear.to_owned(),
+            model_set: run.built.name.clone(),
+            gear: run.points.gear.clone(),
             bound: bound.iter().map(|(path, value)| (path.clone(), word(value))).collect(),
             parts: parts.iter().map(|part| (part.clone(), place(part))).collect(),
             limits: limits.to_vec(),
@@ -120,8 +114,7 @@ fn loss_of(point: &PointResult, part: usize) -> Option<f64> {
 
 /// Extraction of data from solved points, on all threads.
 pub struct Taker<'a> {
-    pub built: &'a Built<'a>,
-    pub field: &'a Field,
+    pub run: &'a Run<'a>,
     pub rows: RowsOf,
     pub selection: &'a Selection,
     /// Whether rows are requested.
@@ -140,7 +133,7 @@ pub struct Taken {
 
 impl Taker<'_> {
     pub fn take(&self, points: &mut Numbered<'_>) -> Taken {
-        let parts = self.built.transmission.parts();
+        let parts = self.run.built.transmission.parts();
         let rows = points.iter().filter(|_| self.wanted).map(|(_, point)| &**point);
         let undefined = |(number, point): &(usize, &mut PointResult)| {
             let (part, reason) = point.undefined?;
@@ -152,7 +145,7 @@ impl Taker<'_> {
         };
         Taken {
             rows: self.rows.table("", rows),
-            picked: self.selection.pick(self.field, points),
+            picked: self.selection.pick(&self.run.points.field, points),
             passes: points.iter().map(|(_, point)| point.passes).sum(),
             lost: TotalLoss::of(points.iter().map(|(_, point)| &**point)),
             undefined: points.iter().filter_map(undefined).collect(),

@@ -30,9 +30,9 @@ pub fn of_gain(
     changed: &[usize],
     objectives: &[usize],
 ) -> Result<Vec<Band>, Stopped> {
-    let cx = drives.cx;
-    let path = cx.path();
-    let sobol = Sobol::new(inputs.len()).map_err(|reason| cx.wrong(&path, reason, "use fewer inputs"))?;
+    let engine = drives.engine;
+    let path = engine.path();
+    let sobol = Sobol::new(inputs.len()).map_err(|reason| engine.wrong(&path, reason, "use fewer inputs"))?;
     // Gains by set of changes and objective.
     let sample = |i: usize| -> Result<Vec<Vec<f64>>, String> {
         let shares = sobol.point(i as u32);
@@ -53,11 +53,11 @@ pub fn of_gain(
         }
         Ok(gains)
     };
-    let all = cx.each("samples of the gain", samples as usize, sample)?;
+    let all = engine.jobs("samples of the gain", samples as usize, |i| Ok(sample(i)))?;
     let driven: Vec<Vec<Vec<f64>>> = all.into_iter().flatten().collect();
     if driven.len() < 2 {
         let message = "hardly any sample of the uncertain inputs could be driven";
-        return Err(cx.wrong(&format!("{path}.inputs"), message, "narrow the ranges of the inputs"));
+        return Err(engine.wrong(&format!("{path}.inputs"), message, "narrow the ranges of the inputs"));
     }
     let band = |set: usize, objective: usize| {
         let mut gains: Vec<f64> = driven.iter().map(|sample| sample[set][objective]).collect();

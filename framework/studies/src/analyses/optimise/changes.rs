@@ -40,8 +40,8 @@ pub fn of_design(
         let place = changed.iter().position(|own| *own == variable);
         place.is_some_and(|place| set & (1 << place) != 0)
     };
-    let driven = drives.cx.each("combinations of changes", sets.len(), |i| {
-        drives.drive(drives.overrides(genes, |variable| holds(sets[i], variable)))
+    let driven = drives.engine.jobs("combinations of changes", sets.len(), |i| {
+        Ok(drives.drive(drives.overrides(genes, |variable| holds(sets[i], variable))))
     })?;
     let gain = |drive: &Drive| -> Vec<f64> {
         objectives

@@ -9,11 +9,11 @@ use crate::analyses::duties::{Duties, Unfinished};
 use crate::analyses::limits::Limit;
 use crate::analyses::limits::over_cycles::{built, mean_loss, values, violation};
 use crate::analyses::trial::{Left, Trial, left};
-use crate::analyses::{Context, Stopped};
+use crate::analyses::{Engine, Planner, Stopped};
 
 /// What is driven, and how designs are built.
 pub struct Drives<'a> {
-    pub cx: &'a Context<'a>,
+    pub engine: &'a Engine<'a>,
     pub duties: &'a Duties<'a>,
     pub trial: Trial<'a>,
     pub variables: &'a [Variable],
@@ -37,27 +37,15 @@ impl Drives<'_> {
         self.variables.iter().map(Variable::gene).collect()
     }
 
-    /// Builds the gearbox with every choice on its own, so that wrong values are found before the search.
-    pub fn check(&self) -> Result<(), Stopped> {
-        for variable in self.variables {
-            let Gene::Choice(count) = variable.gene() else { continue };
-            for choice in 0..count {
-                if let Err(reason) = self.trial.build(variable.overrides(choice as f64)) {
-                    let path = format!("{}.variables.{}.values.{choice}", self.cx.path(), variable.name);
-                    return Err(self.cx.wrong(&path, reason, "correct the value, or delete it"));
-                }
-            }
-        }
-        Ok(())
-    }
-
     /// The design as described.
     pub fn present(&self) -> Result<Drive, Stopped> {
-        let mut driven = self.cx.each("design as described", 1, |_| self.drive(Vec::new()))?;
+        let mut driven = self
+            .engine
+            .jobs("design as described", 1, |_| Ok(self.drive(Vec::new())))?;
         driven.remove(0).map_err(|reason| {
             let help = "examine it with an analysis `cycle`";
-            self.cx
-                .wrong(&self.cx.path(), format!("the gearbox as described: {reason}"), help)
+            self.engine
+                .wrong(&self.engine.path(), format!("the gearbox as described: {reason}"), help)
         })
     }
 
@@ -79,7 +67,7 @@ impl Drives<'_> {
     /// Why the gearbox cannot be built or driven.
     pub fn drive(&self, overrides: Vec<(String, Value)>) -> Result<Drive, String> {
         let (t, ratings) = built(&self.trial, self.limits, overrides)?;
-        let driven = self.duties.drive_all(self.cx, &t).map_err(Unfinished::text)?;
+        let driven = self.duties.drive_all(self.engine, &t).map_err(Unfinished::text)?;
         Ok(Drive {
             losses: driven
                 .iter()
@@ -93,11 +81,25 @@ impl Drives<'_> {
     /// Drives designs with their genes, each as a task.
     pub fn drive_all(&self, label: &str, designs: &[Vec<f64>]) -> Result<Vec<Result<Drive, String>>, Stopped> {
         let drive = |i: usize| self.drive(self.overrides(&designs[i], |_| true));
-        self.cx.each(label, designs.len(), drive)
+        self.engine.jobs(label, designs.len(), |i| Ok(drive(i)))
     }
 
     /// Sum of the violations of the limits.
     pub fn violation(&self, drive: &Drive) -> f64 {
         violation(self.limits, &drive.limited)
     }
+}
+
+/// Rejects a chosen value with which the gearbox cannot be built.
+pub fn check(cx: &Planner<'_>, trial: &Trial<'_>, variables: &[Variable]) -> Result<(), Stopped> {
+    for variable in variables {
+        let Gene::Choice(count) = variable.gene() else { continue };
+        for choice in 0..count {
+            if let Err(reason) = trial.build(variable.overrides(choice as f64)) {
+                let path = format!("{}.variables.{}.values.{choice}", cx.path(), variable.name);
+                return Err(cx.wrong(&path, reason, "correct the value, or delete it"));
+            }
+        }
+    }
+    Ok(())
 }

@@ -1,5 +1,7 @@
 //! Results of a search.
 
+use std::sync::Arc;
+
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
@@ -12,7 +14,7 @@ use super::search::Search;
 use crate::analyses::limits::over_cycles::note_proposed;
 use crate::analyses::limits::{Limit, LimitRecord};
 use crate::analyses::trial::Left;
-use crate::analyses::{Built, Context, Head, Outcome, TextFile};
+use crate::analyses::{Built, Head, Outcome, TextFile};
 use crate::points::Note;
 use crate::table::Table;
 
@@ -165,9 +167,8 @@ pub struct DesignOfSearch {
     reason = "called once, with what the parts of an analysis give"
 )]
 pub fn put_together(
-    cx: &Context<'_>,
     entry: &OptimiseEntry,
-    b: &Built<'_>,
+    b: &Arc<Built<'_>>,
     drives: &Drives<'_>,
     search: &Search<'_>,
     present: &Drive,
@@ -196,16 +197,19 @@ pub fn put_together(
     let mut failures = search.driven.iter().filter_map(|own| own.as_ref().err());
     let first_failure = failures.next().cloned();
     let genes = chosen.as_ref().map(|own| own.genes.as_slice());
-    let gearbox = cx
-        .study
-        .gearboxes
-        .iter()
-        .position(|(_, own)| std::ptr::eq(own, b.gearbox));
-    let gearbox = gearbox.and_then(|i| cx.study.entry.gearboxes.iter().nth(i));
+    let study = drives.engine.study;
+    let gearbox = study.gearboxes.iter().position(|(_, own)| std::ptr::eq(own, b.gearbox));
+    let gearbox = gearbox.and_then(|i| study.entry.gearboxes.iter().nth(i));
     let proposed = best.unwrap_or(present);
-    note_proposed(cx, &b.name, drives.limits, &proposed.limited, "the best design");
+    note_proposed(
+        drives.engine,
+        &b.name,
+        drives.limits,
+        &proposed.limited,
+        "the best design",
+    );
     OptimiseOutcome {
-        head: cx.head(&[b]),
+        head: drives.engine.head(&[Arc::clone(b)]),
         model_set: b.name.clone(),
         designs: search.designs.len(),
         feasible: search.designs.iter().filter(|own| own.score.is_feasible()).count(),

@@ -99,8 +99,8 @@ impl<'a> Search<'a> {
         let first = evolution.first(vec![start]);
         let first = first.map_err(|reason| {
             self.drives
-                .cx
-                .wrong(&self.drives.cx.path(), reason, "use fewer variables")
+                .engine
+                .wrong(&self.drives.engine.path(), reason, "use fewer variables")
         })?;
         let evaluated = self.evaluate("designs", first)?;
         evolution.select(evaluated);

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use crate::analyses::ranges::Range;
-use crate::analyses::{Built, Context, Stopped};
+use crate::analyses::{Built, Planner, Stopped};
 use crate::study::RangeEntry;
 use crate::varied::{Tie, Varied};
 
@@ -65,7 +65,7 @@ enum Kind {
 impl Variable {
     /// The variables of an analysis at a path.
     pub fn all(
-        cx: &Context<'_>,
+        cx: &Planner<'_>,
         path: &str,
         entries: &Ordered<VariableEntry>,
         b: &Built<'_>,
@@ -76,7 +76,7 @@ impl Variable {
             .collect()
     }
 
-    fn new(cx: &Context<'_>, at: &str, name: &str, entry: &VariableEntry, b: &Built<'_>) -> Result<Self, Stopped> {
+    fn new(cx: &Planner<'_>, at: &str, name: &str, entry: &VariableEntry, b: &Built<'_>) -> Result<Self, Stopped> {
         let path = &entry.range.path;
         let RangeEntry {
             plus_minus,
@@ -213,7 +213,7 @@ impl Variable {
 }
 
 /// Designations of the catalogue of a path whose columns have given values.
-fn designations(cx: &Context<'_>, at: &str, entry: &VariableEntry, b: &Built<'_>) -> Result<Vec<Value>, Stopped> {
+fn designations(cx: &Planner<'_>, at: &str, entry: &VariableEntry, b: &Built<'_>) -> Result<Vec<Value>, Stopped> {
     let at = &format!("{at}.catalogue");
     let path = &entry.range.path;
     let owner = path.strip_suffix(".designation");

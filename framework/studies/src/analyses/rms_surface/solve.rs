@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::{Axis, RmsSurfaceEntry};
 use crate::analyses::rows::SolvedRow;
 use crate::analyses::trial::{Left, Trial};
-use crate::analyses::{Built, Context, Stopped};
+use crate::analyses::{Built, Engine, Planner, Stopped};
 use crate::measured::{Measured, Seen, counted};
 use crate::points::{Rows, Statistics};
 
@@ -58,7 +58,7 @@ pub struct Counted {
 
 /// Solves all pairs of one set; independent of the number of threads.
 pub fn pairs(
-    cx: &Context<'_>,
+    engine: &Engine<'_>,
     entry: &RmsSurfaceEntry,
     built: &Built<'_>,
     axes: &[Axis; 2],
@@ -67,18 +67,18 @@ pub fn pairs(
 ) -> Result<Vec<Pair>, Stopped> {
     let [x, y] = axes;
     let count = x.values.len() * y.values.len();
-    cx.holds("analyses", rows.measured.rows.len(), count)?;
-    let trial = Trial::new(cx, built);
-    let speeds = trial.speeds(rows);
-    let speeds = &speeds.map_err(|reason| cx.wrong("analyses", reason, "delete it from `rig`"))?[..];
+    engine.holds("analyses", rows.measured.rows.len(), count)?;
+    let trial = Trial::new(engine, built);
+    let speeds = trial.speeds(engine, rows);
+    let speeds = &speeds.map_err(|reason| engine.wrong("analyses", reason, "delete it from `rig`"))?[..];
     let solve = |i: usize| {
         let at = [x.values[i % x.values.len()], y.values[i / x.values.len()]];
         let overrides: Vec<_> = x.varied.overrides(at[0]).chain(y.varied.overrides(at[1])).collect();
         let mut seen = Left::new();
-        let solved = trial.rows(rows, speeds, &overrides, &mut seen);
-        (pair(entry, rows.measured, at, solved), seen)
+        let solved = trial.rows(engine, rows, speeds, &overrides, &mut seen);
+        Ok((pair(entry, rows.measured, at, solved), seen))
     };
-    let all: Vec<(Pair, Left)> = cx.each(&built.name, count, solve)?;
+    let all: Vec<(Pair, Left)> = engine.jobs(&built.name, count, solve)?;
     let mut pairs = Vec::with_capacity(count);
     for (pair, left) in all {
         seen.extend(left);
@@ -131,16 +131,15 @@ fn pair(entry: &RmsSurfaceEntry, measured: &Measured, at: [f64; 2], solved: Resu
 }
 
 /// The rows with a value at every pair of every set, except pairs without any value.
-pub fn counted_points(
-    cx: &Context<'_>,
+pub fn counted_points<'p, 'b: 'p, 's>(
+    cx: &Planner<'_>,
     entry: &RmsSurfaceEntry,
     measured: &Measured,
-    sets: &[(Built<'_>, [Axis; 2])],
-    solved: &[Vec<Pair>],
+    solved: impl Iterator<Item = ((&'p Built<'b>, &'p [Axis; 2]), &'s Vec<Pair>)> + Clone,
 ) -> Result<Counted, Stopped> {
     let path = cx.path();
     let mut faults: BTreeMap<usize, String> = BTreeMap::new();
-    for ((built, axes), pairs) in sets.iter().zip(solved) {
+    for ((built, axes), pairs) in solved.clone() {
         for pair in pairs {
             for (i, difference) in pair.differences.iter().flatten().enumerate() {
                 if let Err(why) = difference {
@@ -172,7 +171,8 @@ pub fn counted_points(
         return Err(cx.wrong(&path, message, "delete values of `x` and `y`"));
     }
     // Speeds depend only on the gear, so one pair provides the accuracies for all.
-    let first = solved.iter().flatten().find(|pair| pair.differences.is_ok());
+    let mut all = solved.flat_map(|(_, pairs)| pairs);
+    let first = all.find(|pair| pair.differences.is_ok());
     let own = places
         .iter()
         .filter_map(|i| first?.accuracies.get(*i).copied().flatten());

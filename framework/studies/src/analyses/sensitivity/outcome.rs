@@ -60,6 +60,13 @@ pub struct RunsOfMethods {
     pub sobol: Option<usize>,
 }
 
+impl RunsOfMethods {
+    /// Of all methods.
+    pub(super) fn count(&self) -> usize {
+        [self.local, self.morris, self.sobol].into_iter().flatten().sum()
+    }
+}
+
 /// A varied quantity and its range.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct VariedParameter {

@@ -2,14 +2,12 @@
 
 use std::time::Instant;
 
-use gearloss_framework::document::Diagnostic;
-use gearloss_framework::registry::{Entry, Registry};
 use gearloss_framework::transmission::Transmission;
-use serde_json::{Value, json};
+use serde_json::Value;
 
 use super::super::numbers::RPM;
-use super::super::{Built, Context, Stopped};
-use super::CandidatesEntry;
+use super::super::{Built, Engine, Stopped};
+use super::entrants::{Entrants, first};
 use super::marks::{Mark, marks};
 use super::slot::{Candidate, Slot};
 use crate::points::{Field, GridResult, PointResult, Points, notes, run_grid};
@@ -19,7 +17,7 @@ const ALIKE: f64 = 1e-9;
 
 /// Data for the evaluation of models, and the results so far.
 pub struct Gathering<'a> {
-    cx: &'a Context<'a>,
+    engine: &'a Engine<'a>,
     base: &'a Built<'a>,
     points: &'a Points,
     solved: &'a GridResult,
@@ -49,83 +47,51 @@ struct Evaluated {
 }
 
 impl<'a> Gathering<'a> {
-    /// All candidates of the mechanisms at the solved points of the base. If an analysis is only checked, models are only built.
+    /// All candidates of the mechanisms at the solved points of the base.
     pub fn new(
-        cx: &'a Context<'a>,
-        entries: &[CandidatesEntry],
+        engine: &'a Engine<'a>,
+        entrants: &[Entrants],
         base: &'a Built<'a>,
         points: &'a Points,
         solved: &'a GridResult,
     ) -> Result<Self, Stopped> {
-        let time = if cx.only_checks {
-            0.0
-        } else {
-            timed(cx, &base.transmission, points).ok_or(Stopped::Interrupted)?
-        };
         let mut gathering = Self {
-            cx,
+            time: timed(engine, &base.transmission, points).ok_or(Stopped::Interrupted)?,
+            engine,
             base,
             points,
             solved,
-            time,
             slots: Vec::new(),
             left_out: Vec::new(),
             unlisted: 0,
         };
-        for (i, entry) in entries.iter().enumerate() {
-            gathering.add(&format!("{}.mechanisms.{i}", cx.path()), entry)?;
+        for own in entrants {
+            let slot = gathering.slot(own)?;
+            gathering.slots.push(slot);
         }
         Ok(gathering)
     }
 
-    /// Adds a mechanism with its candidates.
-    fn add(&mut self, path: &str, entry: &CandidatesEntry) -> Result<(), Stopped> {
-        let mut slot = Slot::new(self.cx, path, entry)?;
-        if self.slots.iter().any(|s| s.name == slot.name) {
-            let message = format!("`{}` is listed twice", slot.name);
-            return Err(self.cx.wrong(path, message, "list it once"));
-        }
-        self.fill(path, entry, &mut slot)?;
-        // If all models are candidates, so is the model of the set.
-        if entry.models.is_empty() {
-            self.add_own(&mut slot);
-            self.merge_alike(&mut slot);
-        }
-        self.slots.push(slot);
-        Ok(())
-    }
-
-    /// Evaluates the listed models, or all models of the mechanism.
-    fn fill(&mut self, path: &str, entry: &CandidatesEntry, slot: &mut Slot) -> Result<(), Stopped> {
-        let named = !entry.models.is_empty();
-        if slot.is_drag() && !named {
-            let message = format!(
-                "`{}` includes laws for churning, injection and windage",
-                entry.mechanism
-            );
-            let help = "list the candidates: `models: { a: { type: diab } }`";
-            return Err(self.cx.wrong(path, message, help));
-        }
-        let models: Vec<(String, Value)> = if named {
-            let models = entry.models.iter();
-            models.map(|(name, model)| (name.to_owned(), model.clone())).collect()
-        } else {
-            let registry = self.cx.language.registry();
-            let all = takes_part(registry, &entry.mechanism);
-            all.flat_map(|model| with_nested(registry, model, &slot.name, &mut self.left_out))
-                .collect()
-        };
-        for (name, model) in models {
-            match self.evaluated(slot, &model) {
+    /// Evaluates the entrants of a mechanism.
+    fn slot(&mut self, own: &Entrants) -> Result<Slot, Stopped> {
+        let mut slot = own.slot.clone();
+        self.left_out.extend(own.left_out.iter().cloned());
+        for entrant in &own.list {
+            let built = entrant
+                .built
+                .as_ref()
+                .map_err(|reason| Refused::Because(reason.clone()));
+            match built.and_then(|transmission| self.evaluated(&slot, transmission)) {
                 Err(Refused::Interrupted) => return Err(Stopped::Interrupted),
-                Err(Refused::Because(reason)) if named => {
-                    let help = "`gearloss models --needs GEARBOX` lists the inputs of a model";
-                    return Err(self.cx.wrong(&format!("{path}.models.{name}"), reason, help));
+                Err(Refused::Because(reason)) if own.named => {
+                    return Err(own.refused(self.engine, &entrant.name, &reason));
                 }
-                Err(Refused::Because(reason)) => self.left_out.push(format!("{} {name}: {reason}", slot.name)),
+                Err(Refused::Because(reason)) => {
+                    self.left_out.push(format!("{} {}: {reason}", slot.name, entrant.name));
+                }
                 Ok(found) => slot.candidates.push(Candidate {
-                    name,
-                    model,
+                    name: entrant.name.clone(),
+                    model: entrant.model.clone(),
                     loss: found.loss,
                     time: if self.time > 0.0 {
                         found.seconds / self.time
@@ -137,16 +103,19 @@ impl<'a> Gathering<'a> {
             }
         }
         if slot.candidates.is_empty() {
-            let message = format!("no model of `{}` can be evaluated", slot.name);
-            let help = "`gearloss models --needs GEARBOX` lists the inputs of models";
-            return Err(self.cx.wrong(path, message, help));
+            return Err(own.none(self.engine));
         }
-        Ok(())
+        // If all models are candidates, so is the model of the set.
+        if !own.named {
+            self.add_own(&mut slot);
+            self.merge_alike(&mut slot);
+        }
+        Ok(slot)
     }
 
     /// Adds the models of the set as the first candidate, instead of an equal candidate.
     fn add_own(&self, slot: &mut Slot) {
-        let (language, base) = (self.cx.language, self.base);
+        let (language, base) = (self.engine.language, self.base);
         let own = slot.covered(base.transmission.parts());
         let loss_of_own = |p: &PointResult| own.iter().map(|i| p.parts[*i]).sum();
         let loss: Vec<f64> = self.solved.points.iter().map(loss_of_own).collect();
@@ -190,30 +159,13 @@ impl<'a> Gathering<'a> {
         slot.candidates = kept;
     }
 
-    /// Losses of the slot's components with one model, the time of all points, and quantities outside their stated ranges.
-    fn evaluated(&mut self, slot: &Slot, model: &Value) -> Result<Evaluated, Refused> {
-        let because = |list: &[Diagnostic]| {
-            let first = list.first();
-            Refused::Because(first.map_or_else(String::new, |d| format!("{}: {}", d.path, d.message)))
-        };
-        let (cx, base) = (self.cx, self.base);
-        let changed = slot
-            .with(cx.language, &base.resolved, model)
-            .map_err(Refused::Because)?;
-        let transmission = base
-            .gearbox
-            .build(cx.language, &changed)
-            .map_err(|findings| because(&findings.list))?;
-        if cx.only_checks {
-            return Ok(Evaluated {
-                loss: Vec::new(),
-                seconds: 0.0,
-                marks: Vec::new(),
-            });
-        }
-        let solved = run_grid(&transmission, self.points, &|_| cx.should_continue()).map_err(|list| because(&list))?;
+    /// Evaluates the gearbox with a model at all points.
+    fn evaluated(&mut self, slot: &Slot, transmission: &Transmission) -> Result<Evaluated, Refused> {
+        let (engine, base) = (self.engine, self.base);
+        let solved = run_grid(transmission, self.points, &|_| engine.should_continue());
+        let solved = solved.map_err(|list| Refused::Because(first(&list)))?;
         let solved = solved.ok_or(Refused::Interrupted)?;
-        self.unlisted += left(&transmission, &solved);
+        self.unlisted += left(transmission, &solved);
         if let Some(p) = solved.points.iter().find(|p| p.loss.is_none()) {
             let why = p.undefined.map_or_else(
                 || p.status.name().to_owned(),
@@ -227,13 +179,11 @@ impl<'a> Gathering<'a> {
         }
         let covered = slot.covered(transmission.parts());
         let loss = solved.points.iter().map(|p| covered.iter().map(|i| p.parts[*i]).sum());
-        let loss = loss.collect();
-        let seconds = timed(cx, &transmission, self.points).ok_or(Refused::Interrupted)?;
-        let replaced = slot.replaced(cx.language, &base.resolved);
+        let replaced = slot.replaced(engine.language, &base.resolved);
         Ok(Evaluated {
-            loss,
-            seconds,
-            marks: marks(&transmission, &solved.seen, &replaced),
+            loss: loss.collect(),
+            seconds: timed(engine, transmission, self.points).ok_or(Refused::Interrupted)?,
+            marks: marks(transmission, &solved.seen, &replaced),
         })
     }
 }
@@ -244,57 +194,8 @@ pub fn left(transmission: &Transmission, solved: &GridResult) -> usize {
     notes.iter().filter(|note| note.outside > 0).count()
 }
 
-/// The default candidates of a mechanism.
-fn takes_part<'a>(registry: &'a Registry, mechanism: &'a str) -> impl Iterator<Item = &'a Entry> {
-    let models = registry.models(mechanism);
-    models.filter(|model| !model.is_user_defined() && model.name != "none")
-}
-
-/// A model with its defaults; if it needs a nested model, such as a law of friction for an integral over the path of contact, once with
-/// each of them. Only one level: models with a nested model of the same mechanism are omitted, and laws with a further nested model must be
-/// listed by the user.
-fn with_nested(registry: &Registry, model: &Entry, slot: &str, left_out: &mut Vec<String>) -> Vec<(String, Value)> {
-    let mut all = vec![(Vec::<String>::new(), json!({ "type": model.name }))];
-    for (key, mechanism) in model.required_slots() {
-        if mechanism == model.mechanism {
-            left_out.push(format!(
-                "{slot} {}: it needs another {mechanism}; list it under `models`",
-                model.name
-            ));
-            return Vec::new();
-        }
-        let (deep, plain): (Vec<&Entry>, Vec<&Entry>) =
-            takes_part(registry, &mechanism).partition(|nested| !nested.required_slots().is_empty());
-        for nested in deep {
-            left_out.push(format!(
-                "{slot} {}/{}: its {mechanism} needs a further model; list it under `models`",
-                model.name, nested.name
-            ));
-        }
-        let with = |(names, value): &(Vec<String>, Value)| {
-            let one = |nested: &&Entry| {
-                let (mut names, mut value) = (names.clone(), value.clone());
-                names.push(nested.name.to_owned());
-                value[key.as_str()] = json!({ "type": nested.name });
-                (names, value)
-            };
-            plain.iter().map(one).collect::<Vec<_>>()
-        };
-        all = all.iter().flat_map(with).collect();
-    }
-    let named = |(nested, value): (Vec<String>, Value)| {
-        let name = if nested.is_empty() {
-            model.name.to_owned()
-        } else {
-            format!("{}/{}", model.name, nested.join("+"))
-        };
-        (name, value)
-    };
-    all.into_iter().map(named).collect()
-}
-
 /// Time of one thread for the points, the minimum of a few tries; absent if interrupted. Only ratios of times are used. \[s\]
-fn timed(cx: &Context<'_>, transmission: &Transmission, points: &Points) -> Option<f64> {
+fn timed(engine: &Engine<'_>, transmission: &Transmission, points: &Points) -> Option<f64> {
     let few = Points {
         field: Field::List(
             (0..points.field.len().min(32))
@@ -306,7 +207,7 @@ fn timed(cx: &Context<'_>, transmission: &Transmission, points: &Points) -> Opti
     let mut least = f64::INFINITY;
     for _ in 0..5 {
         let begun = Instant::now();
-        if !matches!(run_grid(transmission, &few, &|_| cx.should_continue()), Ok(Some(_))) {
+        if !matches!(run_grid(transmission, &few, &|_| engine.should_continue()), Ok(Some(_))) {
             return None;
         }
         least = least.min(begun.elapsed().as_secs_f64());

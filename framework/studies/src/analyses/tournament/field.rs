@@ -4,8 +4,9 @@ use gearloss_framework::description::ThermalMode;
 use gearloss_numerics::selection::{Combination, Losses};
 
 use super::super::numbers::RPM;
-use super::super::{Built, Context, Stopped};
+use super::super::{Built, Engine, Run, Stopped};
 use super::candidates::{Gathering, left};
+use super::entrants::Entrants;
 use super::outcome::{CandidateOfTournament, MechanismOfTournament};
 use super::slot::{Candidate, Slot};
 use super::{MOST, TournamentEntry};
@@ -32,24 +33,28 @@ pub struct Field<'a> {
 impl<'a> Field<'a> {
     /// Solves the points with the set, and evaluates every candidate at the temperatures found.
     pub fn new(
-        cx: &'a Context<'a>,
+        engine: &'a Engine<'a>,
         entry: &TournamentEntry,
-        base: &'a Built<'a>,
-        points: &Points,
+        run: &'a Run<'a>,
+        entrants: &[Entrants],
     ) -> Result<Self, Stopped> {
-        let mut points = points.clone();
+        let base: &'a Built<'a> = &run.built;
+        let mut run = run.clone();
         // A measured temperature is used unless the model computes one.
         if base.transmission.thermal_mode != ThermalMode::Fixed
-            && let Given::List(list) = &mut points.field
+            && let Given::List(list) = &mut run.points.field
         {
             for given in list {
                 given.oil = None;
             }
         }
-        let solved = cx.solve(base, &points)?;
+        let solved = engine.solve(&run)?;
         // All models are evaluated at the temperatures of the set, because losses are added.
-        points.field = Given::List(given(&solved.points));
-        let gathering = Gathering::new(cx, &entry.mechanisms, base, &points, &solved)?;
+        let points = Points {
+            field: Given::List(given(&solved.points)),
+            ..run.points
+        };
+        let gathering = Gathering::new(engine, entrants, base, &points, &solved)?;
         let (slots, left_out) = (gathering.slots, gathering.left_out);
         let unlisted = gathering.unlisted + left(&base.transmission, &solved);
         if let Some(p) = solved.points.iter().find(|p| p.loss.is_none()) {
@@ -58,7 +63,7 @@ impl<'a> Field<'a> {
                 p.torque,
                 p.speed * RPM
             );
-            return Err(cx.wrong(&cx.path(), message, "choose a set with a loss at every point"));
+            return Err(engine.wrong(&engine.path(), message, "choose a set with a loss at every point"));
         }
         let parts = base.transmission.parts();
         let rest = |p: &PointResult| {
@@ -88,7 +93,7 @@ impl<'a> Field<'a> {
             let message = format!("{} combinations are more than {MOST}", field.count());
             let help = "list the candidates: `mechanisms: [{ mechanism: bearing, models: { skf: { type: skf } } }]`; without a list every \
                         model is combined with every nested model that it accepts";
-            return Err(cx.wrong(&cx.path(), message, help));
+            return Err(engine.wrong(&engine.path(), message, help));
         }
         Ok(field)
     }

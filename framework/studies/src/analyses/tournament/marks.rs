@@ -7,6 +7,7 @@ use super::super::numbers::{beyond, significant};
 use crate::points::{Note, STATIC_SAFETY, notes};
 
 /// A quantity of a model outside its stated range.
+#[derive(Clone)]
 pub struct Mark {
     /// Symbol of the quantity.
     pub name: &'static str,

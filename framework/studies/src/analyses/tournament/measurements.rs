@@ -4,7 +4,7 @@ use gearloss_numerics::inference::{PointSet, folds};
 use gearloss_numerics::selection::{LossErrors, MeasuredLosses};
 
 use super::super::numbers::significant;
-use super::super::{Context, Stopped};
+use super::super::{Planner, Stopped};
 use super::TournamentEntry;
 use super::field::Field;
 use crate::measured::{Measured, Row, Seen};
@@ -21,7 +21,7 @@ pub struct OwnRows<'r> {
 
 impl<'r> OwnRows<'r> {
     /// The rows in the gear of the analysis.
-    pub fn new(cx: &Context<'_>, measured: &'r Measured, gear: &str) -> Result<Self, Stopped> {
+    pub fn new(cx: &Planner<'_>, measured: &'r Measured, gear: &str) -> Result<Self, Stopped> {
         let own = |row: &&Row| row.gear.as_deref().is_none_or(|g| g == gear);
         let rows: Vec<&Row> = measured.rows.iter().filter(own).collect();
         if rows.len() < 3 {
@@ -56,7 +56,7 @@ pub struct Measurements {
 impl Measurements {
     /// Measured losses at the solved points with their accuracy.
     pub fn new(
-        cx: &Context<'_>,
+        cx: &Planner<'_>,
         entry: &TournamentEntry,
         (measured, rows): (&Measured, &[&Row]),
         field: &Field<'_>,

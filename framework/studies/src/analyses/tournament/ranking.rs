@@ -4,13 +4,14 @@
 use gearloss_numerics::selection::{Combination, MeasuredLosses, Shortlist, Winner, rank, shortlist, winner};
 
 use super::super::numbers::{RPM, tidy};
-use super::super::{Built, Context, Stopped, gear_of};
-use super::candidates::{Gathering, left};
+use super::super::{Engine, Run, Stopped};
+use super::candidates::left;
+use super::entrants::Entrants;
 use super::field::{Field, given};
 use super::measurements::{Measurements, OwnRows};
 use super::{Comparison, RankedCombination, RankedPoint, Ranking, TournamentEntry};
-use crate::points::{GridResult, Statistics, run_grid};
-use crate::study::Data;
+use crate::measured::Measured;
+use crate::points::{Statistics, run_grid};
 
 /// A ranking with its conclusions.
 struct Ranked {
@@ -29,36 +30,34 @@ impl Ranked {
 
 impl TournamentEntry {
     /// Ranks every combination by measured points.
-    pub(super) fn ranking(&self, cx: &Context<'_>, data: &Data, base: &Built<'_>) -> Result<Ranking, Stopped> {
-        let path = cx.path();
-        let t = &base.transmission;
-        let measured = cx.read_at_ports(&format!("{path}.data"), data, &[])?;
-        let file = cx.data(&path, data)?.file.to_string();
-        let gear = gear_of(self.gear.as_deref(), t).to_owned();
-        let own = OwnRows::new(cx, &measured, &gear)?;
-        let none = cx.listed(t, &gear, Vec::new());
-        if cx.checked(base, &none)? {
-            Gathering::new(cx, &self.mechanisms, base, &none, &GridResult::default())?;
-            return Err(Stopped::Checked);
-        }
+    pub(super) fn ranking(
+        &self,
+        engine: &Engine<'_>,
+        (measured, file): (&Measured, &str),
+        run: &Run<'_>,
+        entrants: &[Entrants],
+    ) -> Result<Ranking, Stopped> {
+        let (base, gear) = (&run.built, &run.points.gear);
+        let own = OwnRows::new(engine, measured, gear)?;
         let (mut list, mut unlisted) = (own.given, 0);
         if !measured.rig.is_silent() {
             // The contribution of the rig depends on the speeds; it is subtracted from the torque.
-            let solved = cx.solve(base, &cx.listed(t, &gear, list.clone()))?;
-            unlisted += left(t, &solved);
+            let solved = engine.solve(&run.at(list.clone()))?;
+            unlisted += left(&base.transmission, &solved);
             for (given, p) in list.iter_mut().zip(solved.points) {
                 let added = measured.rig.added([p.reference_speed, p.output_speed.unwrap_or(0.0)]);
                 given.torque -= added[usize::from(!p.at_reference)];
             }
         }
-        let field = Field::new(cx, self, base, &cx.listed(t, &gear, list))?;
-        let rows = Measurements::new(cx, self, (&measured, &own.rows), &field)?;
-        let found = self.ranked(cx, &field, &rows.losses)?;
-        let gap = gap_of_sum(cx, &field, &found.combinations[found.winner.place])?;
+        let run = run.at(list);
+        let field = Field::new(engine, self, &run, entrants)?;
+        let rows = Measurements::new(engine, self, (measured, &own.rows), &field)?;
+        let found = self.ranked(engine, &field, &rows.losses)?;
+        let gap = gap_of_sum(engine, &field, &found.combinations[found.winner.place])?;
         let accuracies = (0..rows.losses.len()).filter_map(|i| Some((rows.accuracy(i)?, rows.losses.weights[i])));
         Ok(Ranking {
             model_set: base.name.clone(),
-            gear,
+            gear: gear.clone(),
             unit: self.unit(),
             combinations: found.combinations.len(),
             accuracy: Statistics::weighted(accuracies).map(|s| s.rms),
@@ -86,8 +85,8 @@ impl TournamentEntry {
         })
     }
 
-    fn ranked(&self, cx: &Context<'_>, field: &Field<'_>, measured: &MeasuredLosses) -> Result<Ranked, Stopped> {
-        let data = format!("{}.data", cx.path());
+    fn ranked(&self, engine: &Engine<'_>, field: &Field<'_>, measured: &MeasuredLosses) -> Result<Ranked, Stopped> {
+        let data = format!("{}.data", engine.path());
         let outside = measured.folds.iter().map(|fold| measured.len() - fold.len());
         let fewest = outside.min().unwrap_or(0);
         if self.factors.is_some() && fewest < field.slots.len() {
@@ -95,21 +94,21 @@ impl TournamentEntry {
                 "{fewest} points outside a group cannot fit {} factors",
                 field.slots.len()
             );
-            return Err(cx.wrong(&data, message, "give more points, or fewer mechanisms"));
+            return Err(engine.wrong(&data, message, "give more points, or fewer mechanisms"));
         }
         let losses = field.losses();
         let bounds = self.factors.map(|f| [f.least, f.greatest]);
-        let running = cx.running(field.count(), cx.name);
+        let running = engine.running(field.count(), engine.name);
         let ranked = rank(&losses, measured, bounds, &|| running.advance(1));
         drop(running);
-        if !cx.should_continue() {
-            return Err(cx.why_ended());
+        if !engine.should_continue() {
+            return Err(Stopped::Interrupted);
         }
         let is_marked = |c: &Combination| !field.marks(c).is_empty();
         let Some(winner) = winner(&ranked, &is_marked, &losses, measured, self.correlation) else {
             let message = "no combination can be ranked with these points";
             let help = "give points with a positive weight, or wider bounds of the factors";
-            return Err(cx.wrong(&data, message, help));
+            return Err(engine.wrong(&data, message, help));
         };
         let shortlist = shortlist(&ranked, &winner, &losses, measured);
         Ok(Ranked {
@@ -164,17 +163,17 @@ fn combinations(field: &Field<'_>, found: &Ranked) -> Vec<RankedCombination> {
 }
 
 /// Maximum difference between added losses and the combination solved together. \[% of the loss\]
-fn gap_of_sum(cx: &Context<'_>, field: &Field<'_>, c: &Combination) -> Result<f64, Stopped> {
+fn gap_of_sum(engine: &Engine<'_>, field: &Field<'_>, c: &Combination) -> Result<f64, Stopped> {
     let base = field.base;
     let mut resolved = base.resolved.clone();
     for (slot, place) in field.slots.iter().zip(&c.places) {
         resolved = slot
-            .with(cx.language, &resolved, &slot.candidates[*place].model)
-            .map_err(|reason| cx.wrong(&cx.path(), reason, "report this"))?;
+            .with(engine.language, &resolved, &slot.candidates[*place].model)
+            .map_err(|reason| engine.wrong(&engine.path(), reason, "report this"))?;
     }
-    let transmission = base.gearbox.build(cx.language, &resolved)?;
-    let points = cx.listed(&transmission, &field.gear, given(&field.points));
-    let solved = run_grid(&transmission, &points, &|_| cx.should_continue());
+    let transmission = base.gearbox.build(engine.language, &resolved)?;
+    let points = engine.listed(&transmission, &field.gear, given(&field.points));
+    let solved = run_grid(&transmission, &points, &|_| engine.should_continue());
     let solved = solved.map_err(|list| Stopped::from(base.gearbox.findings(list)))?;
     let solved = solved.ok_or(Stopped::Interrupted)?;
     let added = field.losses().of_combination(&c.places, &vec![1.0; c.places.len()]);

@@ -6,11 +6,12 @@ use gearloss_framework::resolve::{Resolved, ValueSource};
 use gearloss_framework::transmission::PartInfo;
 use serde_json::{Map, Value};
 
-use super::super::{Context, Stopped};
+use super::super::{Planner, Stopped};
 use super::CandidatesEntry;
 use super::marks::Mark;
 
 /// A mechanism with varied models.
+#[derive(Clone)]
 pub struct Slot {
     /// Mechanism, with the slot of a drag.
     pub name: String,
@@ -22,6 +23,7 @@ pub struct Slot {
 }
 
 /// A model and its loss at every point.
+#[derive(Clone)]
 pub struct Candidate {
     /// Name in the tournament.
     pub name: String,
@@ -37,7 +39,7 @@ pub struct Candidate {
 
 impl Slot {
     /// From an entry at a path, without candidates.
-    pub fn new(cx: &Context<'_>, path: &str, entry: &CandidatesEntry) -> Result<Self, Stopped> {
+    pub fn new(cx: &Planner<'_>, path: &str, entry: &CandidatesEntry) -> Result<Self, Stopped> {
         let drag = entry.mechanism == DRAGS;
         if !drag && section(cx.language, &entry.mechanism).is_none() {
             let keys = cx.language.registry().mechanisms();

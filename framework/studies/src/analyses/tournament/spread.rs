@@ -1,17 +1,23 @@
 //! The spread of all combinations without measurements: model-form uncertainty.
 
+use std::sync::Arc;
+
 use super::super::axes::grid_axes;
 use super::super::numbers::{RPM, tidy};
-use super::super::{Built, Context, Stopped};
-use super::candidates::Gathering;
+use super::super::{Built, Engine, Planner, Run, Stopped};
+use super::entrants::Entrants;
 use super::field::Field;
 use super::slot::Slot;
 use super::{ShareOfSpread, Spread, SpreadPoint, TournamentEntry};
-use crate::points::GridResult;
 
 impl TournamentEntry {
-    /// The spread of every combination over a grid.
-    pub(super) fn spread(&self, cx: &Context<'_>, grid_name: &str, base: &Built<'_>) -> Result<Spread, Stopped> {
+    /// The points of the grid.
+    pub(super) fn grid_points<'a>(
+        &self,
+        cx: &Planner<'a>,
+        grid_name: &str,
+        base: &Arc<Built<'a>>,
+    ) -> Result<Run<'a>, Stopped> {
         let path = cx.path();
         let t = &base.transmission;
         let of_data = [
@@ -31,15 +37,17 @@ impl TournamentEntry {
             return Err(cx.wrong(&path, message, "give it its own grid"));
         }
         let (torques, speeds) = grid_axes(cx, grid_name, grid, t)?;
-        let points = cx.points(t, &gear, torques.clone(), speeds.clone());
-        if cx.checked(base, &points)? {
-            Gathering::new(cx, &self.mechanisms, base, &points, &GridResult::default())?;
-            return Err(Stopped::Checked);
-        }
-        let field = Field::new(cx, self, base, &points)?;
+        Run::new(cx, base, cx.points(t, &gear, torques, speeds))
+    }
+
+    /// The spread over the grid.
+    pub(super) fn spread(&self, engine: &Engine<'_>, run: &Run<'_>, entrants: &[Entrants]) -> Result<Spread, Stopped> {
+        let path = engine.path();
+        let field = Field::new(engine, self, run, entrants)?;
+        let [torques, speeds] = run.points.field.axes().unwrap_or_default();
         if field.scale.iter().any(Option::is_none) {
             let message = "an efficiency, or a loss torque, needs speed and torque at every point";
-            return Err(cx.wrong(&path, message, "omit zero, or write `quantity: loss`"));
+            return Err(engine.wrong(&path, message, "omit zero, or write `quantity: loss`"));
         }
         let scales: Vec<f64> = field.scale.iter().map(|s| s.unwrap_or(0.0)).collect();
         let variances: Vec<f64> = field.slots.iter().map(|slot| variance(slot, &scales)).collect();
@@ -49,8 +57,8 @@ impl TournamentEntry {
             share: (whole > 0.0).then(|| variance / whole),
         };
         Ok(Spread {
-            model_set: base.name.clone(),
-            gear,
+            model_set: run.built.name.clone(),
+            gear: run.points.gear.clone(),
             unit: self.unit(),
             combinations: field.count(),
             mechanisms: field.mechanisms(),
@@ -58,8 +66,8 @@ impl TournamentEntry {
             points: (0..scales.len()).map(|i| point(&field, i, scales[i])).collect(),
             unit_in_words: self.unit_in_words(),
             deviation_rms: f64::sqrt(whole / scales.len() as f64),
-            torques,
-            speeds,
+            torques: torques.to_vec(),
+            speeds: speeds.to_vec(),
             unlisted: field.unlisted,
             left_out: field.left_out,
         })

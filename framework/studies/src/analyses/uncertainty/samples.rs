@@ -7,8 +7,8 @@ use super::{PointOfBand, QuantityBand, UncertainInput};
 use crate::analyses::inputs::Input;
 use crate::analyses::numbers::{RPM, tidy};
 use crate::analyses::trial::{Left, Trial, left};
-use crate::analyses::{Built, Context, Stopped};
-use crate::points::{PointResult, Points, correlation, quantile};
+use crate::analyses::{Engine, Run, Stopped};
+use crate::points::{PointResult, correlation, quantile};
 
 /// Probabilities of the ends and the middle of a band.
 pub const SHARES: [f64; 3] = [0.025, 0.5, 0.975];
@@ -62,15 +62,14 @@ pub struct Samples {
 
 /// Solves all samples, independent of the number of threads. Adds quantities outside their stated ranges.
 pub fn solve(
-    cx: &Context<'_>,
+    engine: &Engine<'_>,
     count: u32,
-    built: &Built<'_>,
+    run: &Run<'_>,
     inputs: &[Input],
-    points: &Points,
     all_left: &mut Left,
 ) -> Result<Samples, Stopped> {
-    let sobol = Sobol::new(inputs.len()).map_err(|reason| cx.wrong("analyses", reason, "use fewer inputs"))?;
-    let trial = Trial::new(cx, built);
+    let sobol = Sobol::new(inputs.len()).map_err(|reason| engine.wrong("analyses", reason, "use fewer inputs"))?;
+    let trial = Trial::new(engine, &run.built);
     let sample = |i: usize| -> Result<Sample, String> {
         let place = sobol.point(i as u32);
         let values: Vec<f64> = inputs
@@ -81,11 +80,11 @@ pub fn solve(
         let changes = inputs.iter().zip(&values);
         let changes = changes.flat_map(|(input, value)| input.range.varied.overrides(*value));
         let transmission = trial.build(changes)?;
-        let solved = trial.solve(&transmission, points)?;
+        let solved = trial.solve(engine, &transmission, &run.points)?;
         let left = left(&transmission, &solved.seen).collect();
         Ok((values, solved.points.iter().map(PointOfSample::from).collect(), left))
     };
-    let all = cx.each(&built.name, count as usize, sample)?;
+    let all = engine.jobs(&run.built.name, count as usize, |i| Ok(sample(i)))?;
     let (mut solved, mut failed) = (Vec::new(), Vec::new());
     for result in all {
         match result {
@@ -101,7 +100,7 @@ pub fn solve(
             "hardly any sample could be built: {}",
             failed.first().map_or("", String::as_str)
         );
-        return Err(cx.wrong("analyses", message, "narrow the ranges of the inputs"));
+        return Err(engine.wrong("analyses", message, "narrow the ranges of the inputs"));
     }
     Ok(Samples { solved, failed })
 }

@@ -9,7 +9,7 @@ use gearloss_framework::transmission::{Case, Transmission};
 use super::ranges::{Ranges, short, temperature_axis};
 use super::sweep::{Group, Sweep, TEMPERATURES};
 use crate::analyses::numbers::RPM;
-use crate::analyses::{Context, Stopped};
+use crate::analyses::{Engine, Stopped};
 
 /// A loss depends on the temperature of a node if that changes it by more than this share over [`PROBE`].
 const MATTERS: f64 = 2e-3;
@@ -122,7 +122,7 @@ impl Tabulated<'_> {
     }
 
     /// Losses as heat into nodes over the speed of the reference port, and the number of loads without losses.
-    pub fn losses(&self, cx: &Context<'_>, gear: &str) -> Result<(Vec<fmu::Source>, usize), Failed> {
+    pub fn losses(&self, engine: &Engine<'_>, gear: &str) -> Result<(Vec<fmu::Source>, usize), Failed> {
         let mut scratch = self.t.batch_scratch(&self.case);
         let Ranges { torques, speeds, .. } = self.ranges;
         let groups = self.groups(&mut scratch)?;
@@ -131,9 +131,8 @@ impl Tabulated<'_> {
         for sweep in Sweep::all(&groups, self.network.names().len(), self.ranges.temperatures) {
             let combinations = sweep.len();
             let label = format!("tables, gear {gear}");
-            let solved = cx.each(&label, combinations, |combination| {
-                self.solve(&groups, &sweep, combination)
-            })?;
+            let solve = |combination| Ok(self.solve(&groups, &sweep, combination));
+            let solved = engine.jobs(&label, combinations, solve)?;
             for place in &sweep.groups {
                 let group = &groups[*place];
                 let mut axes = self.load_axes();

@@ -1,0 +1,143 @@
+//! What an analysis computes, known before it computes anything.
+
+use std::fmt;
+use std::sync::Arc;
+
+use gearloss_framework::document::Diagnostic;
+use gearloss_framework::gearbox::Findings;
+
+use super::limits::at_points::Watch;
+use super::{Built, Planner, Stopped};
+use crate::points::{Field, Given, Points};
+
+/// The plan of an analysis: everything that its entry asks for, read, built and found right. `check` plans; `run` plans and reduces.
+pub trait Plan {
+    /// What is computed, in the order in which it is done.
+    fn work(&self) -> Vec<Work>;
+
+    /// What is wrong without stopping the rest: `check` refuses it, `run` computes the rest and then fails.
+    fn into_failures(self) -> Vec<Findings>
+    where
+        Self: Sized,
+    {
+        Vec::new()
+    }
+}
+
+/// A part of the work of an analysis.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Work {
+    /// What it belongs to: usually a model set.
+    pub of: String,
+    /// What is counted: points, samples, cycles.
+    pub what: &'static str,
+    /// How many.
+    pub count: usize,
+    /// True if the count is a maximum, because a search may end before.
+    pub at_most: bool,
+}
+
+impl Work {
+    /// So many of something.
+    pub fn new(of: impl Into<String>, what: &'static str, count: usize) -> Self {
+        Self {
+            of: of.into(),
+            what,
+            count,
+            at_most: false,
+        }
+    }
+
+    /// Of a search that may end before.
+    pub fn at_most(self) -> Self {
+        Self { at_most: true, ..self }
+    }
+
+    /// The points of runs.
+    pub fn of_runs<'r, 'a: 'r>(runs: impl IntoIterator<Item = &'r Run<'a>>) -> Vec<Self> {
+        let work = |run: &Run<'_>| Self::new(run.label(), "points", run.points.field.len());
+        runs.into_iter().map(work).collect()
+    }
+}
+
+impl fmt::Display for Work {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let most = if self.at_most { "at most " } else { "" };
+        write!(f, "{}: {most}{} {}", self.of, self.count, self.what)
+    }
+}
+
+/// Points of a gearbox with one model set. Gear, ports and limits of the study fit the gearbox: this is checked when it is made.
+#[derive(Clone)]
+pub struct Run<'a> {
+    /// The gearbox with the set.
+    pub built: Arc<Built<'a>>,
+    /// The points.
+    pub points: Points,
+    /// What is limited at the points.
+    pub(super) watch: Option<Arc<Watch>>,
+}
+
+impl<'a> Run<'a> {
+    /// Points that fit a gearbox.
+    ///
+    /// # Errors
+    /// Points that do not fit, and wrong limits of the study.
+    pub fn new(cx: &Planner<'_>, built: &Arc<Built<'a>>, points: Points) -> Result<Self, Stopped> {
+        cx.case(built.gearbox, &built.transmission, &points)?;
+        Ok(Self {
+            built: Arc::clone(built),
+            watch: cx.watch(built)?.map(Arc::new),
+            points,
+        })
+    }
+
+    /// The same with a list of points.
+    pub fn at(&self, list: Vec<Given>) -> Self {
+        Self {
+            built: Arc::clone(&self.built),
+            watch: self.watch.clone(),
+            points: Points {
+                field: Field::List(list),
+                ..self.points.clone()
+            },
+        }
+    }
+
+    /// Model set and gear.
+    pub fn label(&self) -> String {
+        format!("{}, {}", self.built.name, self.points.gear)
+    }
+
+    /// Errors of the gearbox.
+    pub(super) fn findings(&self, list: Vec<Diagnostic>) -> Findings {
+        self.built.gearbox.findings(list)
+    }
+}
+
+/// Runs that do not wait for each other: the plan of an analysis that is nothing but points.
+pub struct Runs<'a>(pub Vec<Run<'a>>);
+
+impl<'a> Runs<'a> {
+    /// One run for each gearbox.
+    ///
+    /// # Errors
+    /// Those of `run`.
+    pub fn of(
+        built: &[Arc<Built<'a>>],
+        run: impl FnMut(&Arc<Built<'a>>) -> Result<Run<'a>, Stopped>,
+    ) -> Result<Self, Stopped> {
+        Ok(Self(built.iter().map(run).collect::<Result<_, _>>()?))
+    }
+
+    /// The gearbox of each run.
+    pub fn built(&self) -> Vec<Arc<Built<'a>>> {
+        self.0.iter().map(|run| Arc::clone(&run.built)).collect()
+    }
+}
+
+impl Plan for Runs<'_> {
+    fn work(&self) -> Vec<Work> {
+        Work::of_runs(&self.0)
+    }
+}
