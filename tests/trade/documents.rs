@@ -259,9 +259,9 @@ fn every_page_that_a_source_mentions_exists() {
         let text = std::fs::read_to_string(&source).unwrap_or_default();
         for rest in text.split("docs/").skip(1) {
             let length = rest.find(|c: char| !(c.is_ascii_alphanumeric() || "-_./".contains(c)));
-            let page = rest[..length.unwrap_or(rest.len())].trim_end_matches('.');
-            if page.ends_with(".md") && !file("docs").join(page).exists() {
-                wrong.push(format!("{}: docs/{page}", source.display()));
+            let page = file("docs").join(rest[..length.unwrap_or(rest.len())].trim_end_matches('.'));
+            if page.extension().is_some_and(|end| end == "md") && !page.exists() {
+                wrong.push(format!("{}: {}", source.display(), page.display()));
             }
         }
     }
