@@ -1,5 +1,5 @@
 //! What a comparison of models decides, against a truth that is known: synthetic measurements of two gearboxes at four noise levels,
-//! with and without errors of the rig that all points share. The rates that it finds are in docs/identify.md.
+//! with and without errors of the rig that all points share. The rates that it finds are in docs/inference.md.
 #![allow(clippy::print_stdout, reason = "the documentation quotes the rates")]
 
 use crate::common::{RPM, file, language};

@@ -44,7 +44,7 @@ await page.setViewport({ width: 1100, height: 900 });
 await mkdir(new URL("docs/gallery/", root), { recursive: true });
 let text = `# Gallery
 
-A picture of every kind of analysis, with the lines of the study that make it. The report shows more of each, with tooltips and tables.
+See what each kind of analysis shows: a picture and the lines of the study that make it. The report shows more of each, with tooltips and tables.
 Made from the examples by \`web/gallery.mjs\`.
 `;
 let open = "";

@@ -1,4 +1,4 @@
-"""The recipes of docs/scale.md for Snakemake and Dask, as they stand there, with two workers."""
+"""The recipes of docs/performance.md for Snakemake and Dask, as the page shows them, with two workers."""
 
 import os
 import re
@@ -15,7 +15,7 @@ PRODUCTS = ROOT / "examples" / "two-products"
 
 def recipe(title):
     """The first block of Python below a title."""
-    text = (ROOT / "docs" / "scale.md").read_text()
+    text = (ROOT / "docs" / "performance.md").read_text()
     return re.search(rf"^### {title}\n.*?^```python\n(.*?)^```", text, re.M | re.S).group(1)
 
 

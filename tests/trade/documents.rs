@@ -1,4 +1,4 @@
-//! Every YAML block of README and docs is what the program accepts.
+//! Pages: their links resolve, the book of `docs` has all of its pages, and the program accepts every YAML block.
 //!
 //! A block is a document if it states `gearloss:`. Otherwise it is put into one: a block of `docs/gallery.md` under `analyses`, one of
 //! `docs/models/` is an input of `eval` for the mechanism of its page, any other is part of a study if all its keys are those of a study,
@@ -21,23 +21,76 @@ struct Block {
     text: String,
 }
 
-fn pages() -> Vec<PathBuf> {
-    let mut pages = Vec::new();
-    for folder in ["", "docs", "docs/models", "examples"] {
-        for entry in std::fs::read_dir(file(folder)).unwrap() {
+/// The files of the repository with these endings.
+fn files(ends: &[&str]) -> Vec<PathBuf> {
+    let mut files = Vec::new();
+    let mut folders = vec![file("")];
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(folder).unwrap() {
             let path = entry.unwrap().path();
-            let page = if path.is_dir() && folder == "examples" {
-                path.join("README.md")
-            } else {
-                path
-            };
-            if page.extension().is_some_and(|end| end == "md") && page.is_file() {
-                pages.push(page);
+            let name = path.file_name().unwrap().to_str().unwrap();
+            if path.is_dir() {
+                // Folders that builds, runs and tools write.
+                if !name.starts_with('.') && !["node_modules", "out", "results", "target"].contains(&name) {
+                    folders.push(path);
+                }
+            } else if path.extension().is_some_and(|end| ends.iter().any(|own| end == *own)) {
+                files.push(path);
             }
         }
     }
-    pages.sort();
-    pages
+    files.sort();
+    files
+}
+
+/// The lines of a page outside of fenced blocks, with their numbers.
+fn lines_outside_blocks(text: &str) -> impl Iterator<Item = (usize, &str)> {
+    let mut inside = false;
+    text.lines().zip(1..).filter_map(move |(line, number)| {
+        let is_fence = line.trim_start().starts_with("```");
+        inside ^= is_fence;
+        (!inside && !is_fence).then_some((number, line))
+    })
+}
+
+/// The targets of the links of a page to files, with their lines.
+fn links(text: &str) -> Vec<(usize, String)> {
+    let mut links = Vec::new();
+    for (number, line) in lines_outside_blocks(text) {
+        let prose: String = line.split('`').step_by(2).collect();
+        let targets = prose
+            .split("](")
+            .skip(1)
+            .filter_map(|rest| Some(rest.split_once(')')?.0));
+        links.extend(
+            targets
+                .filter(|target| !target.starts_with("http"))
+                .map(|target| (number, target.to_owned())),
+        );
+    }
+    links
+}
+
+/// The anchors of the headings of a page, as GitHub and mdBook name them.
+fn anchors(text: &str) -> Vec<String> {
+    let mut anchors: Vec<String> = Vec::new();
+    for (_, line) in lines_outside_blocks(text).filter(|(_, line)| line.starts_with('#')) {
+        let title = line.trim_start_matches('#').trim();
+        // Of a link its text counts.
+        let shown = title.split("](").enumerate().map(|(part, rest)| match part {
+            0 => rest,
+            _ => rest.split_once(')').map_or("", |(_, after)| after),
+        });
+        let name: String = shown
+            .flat_map(str::chars)
+            .filter(|c| c.is_alphanumeric() || " -_".contains(*c))
+            .flat_map(char::to_lowercase)
+            .map(|c| if c == ' ' { '-' } else { c })
+            .collect();
+        let repeated = anchors.contains(&name);
+        anchors.push(if repeated { format!("{name}-1") } else { name });
+    }
+    anchors
 }
 
 /// The blocks of a page, without those that are marked with a reason.
@@ -151,12 +204,65 @@ fn findings(language: &Language, study_keys: &[String], block: &Block) -> Vec<Di
 fn every_yaml_block_of_the_docs_is_accepted() {
     let language = Language::linked().unwrap();
     let study_keys = study_keys(&language);
-    let blocks: Vec<Block> = pages().iter().flat_map(|page| blocks(page)).collect();
+    let blocks: Vec<Block> = files(&["md"]).iter().flat_map(|page| blocks(page)).collect();
     assert!(blocks.len() > 150, "{} blocks", blocks.len());
     let mut wrong = Vec::new();
     for block in &blocks {
         for finding in findings(&language, &study_keys, block) {
             wrong.push(format!("{}:{}: {finding}", block.page.display(), block.line));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn every_link_of_a_page_resolves() {
+    let mut wrong = Vec::new();
+    for page in files(&["md"]) {
+        let text = std::fs::read_to_string(&page).unwrap();
+        for (line, link) in links(&text) {
+            let (path, anchor) = link.split_once('#').unwrap_or((&link, ""));
+            let target = if path.is_empty() {
+                page.clone()
+            } else {
+                page.with_file_name(path)
+            };
+            let has_anchor = || {
+                anchors(&std::fs::read_to_string(&target).unwrap())
+                    .iter()
+                    .any(|own| own == anchor)
+            };
+            if !target.exists() || !(anchor.is_empty() || has_anchor()) {
+                wrong.push(format!("{}:{line}: {link}", page.display()));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn the_book_has_every_page_once() {
+    let (docs, summary) = (file("docs"), file("docs/SUMMARY.md"));
+    let contents = links(&std::fs::read_to_string(&summary).unwrap());
+    let mut listed: Vec<PathBuf> = contents.iter().map(|(_, page)| docs.join(page)).collect();
+    listed.sort();
+    let mut pages = files(&["md"]);
+    pages.retain(|page| page.starts_with(&docs) && *page != summary);
+    assert_eq!(listed, pages, "docs/SUMMARY.md lists every page of docs once");
+}
+
+/// Comments, messages and schemas refer to pages by their paths from the top of the repository.
+#[test]
+fn every_page_that_a_source_mentions_exists() {
+    let mut wrong = Vec::new();
+    for source in files(&["json", "mjs", "py", "rs", "toml", "yaml"]) {
+        let text = std::fs::read_to_string(&source).unwrap_or_default();
+        for rest in text.split("docs/").skip(1) {
+            let length = rest.find(|c: char| !(c.is_ascii_alphanumeric() || "-_./".contains(c)));
+            let page = file("docs").join(rest[..length.unwrap_or(rest.len())].trim_end_matches('.'));
+            if page.extension().is_some_and(|end| end == "md") && !page.exists() {
+                wrong.push(format!("{}: {}", source.display(), page.display()));
+            }
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
