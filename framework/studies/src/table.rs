@@ -9,6 +9,9 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use rayon::prelude::*;
+use schemars::{JsonSchema, SchemaGenerator};
+use serde::Serialize;
+use serde_json::{Value, json};
 
 use crate::analyses::Stopped;
 
@@ -278,6 +281,53 @@ impl<R> TableOf<R> {
         self.column(name.into(), unit.into(), meaning.into(), values)
     }
 
+    /// Adds columns of fields of a record, in the order of their names: each has the name, unit and meaning of its field, and the values
+    /// of the JSON.
+    ///
+    /// # Panics
+    /// If the record has no such field of numbers or texts: a bug of the caller.
+    pub fn fields<F: Serialize + JsonSchema>(self, names: &str, record: impl for<'r> Fn(&'r R) -> &'r F) -> Self {
+        self.fields_of(None, names, record)
+    }
+
+    /// The same of fields whose unit depends on the rows.
+    ///
+    /// # Panics
+    /// As [`TableOf::fields`].
+    pub fn fields_in<F: Serialize + JsonSchema>(
+        self,
+        unit: &'static str,
+        names: &str,
+        record: impl for<'r> Fn(&'r R) -> &'r F,
+    ) -> Self {
+        self.fields_of(Some(unit), names, record)
+    }
+
+    fn fields_of<F: Serialize + JsonSchema>(
+        mut self,
+        unit: Option<&'static str>,
+        names: &str,
+        record: impl for<'r> Fn(&'r R) -> &'r F,
+    ) -> Self {
+        let known = fields_of::<F>();
+        let records: Vec<Value> = self.rows.iter().map(|row| json!(record(row))).collect();
+        for name in names.split_whitespace() {
+            let field = known.iter().find(|field| field.name == name);
+            let field = field.unwrap_or_else(|| panic!("`{}` has no field `{name}` for a column", F::schema_name()));
+            let cells = records.iter().map(|record| &record[name]);
+            let values = if field.is_number {
+                Values::Numbers(Arc::new(cells.map(|cell| cell.as_f64().unwrap_or(f64::NAN)).collect()))
+            } else {
+                let mut texts = Texts::default();
+                cells.for_each(|cell| texts.push(&text_of(cell)));
+                Values::Texts(Arc::new(texts))
+            };
+            let unit = unit.map_or_else(|| field.unit.clone().into(), Cow::Borrowed);
+            self = self.column(name.to_owned(), unit, field.meaning.clone().into(), values);
+        }
+        self
+    }
+
     /// Adds two columns of numbers: the lower and the upper end of an interval, such as `the 95 % band of the loss`.
     pub fn ends<N: Into<Option<[f64; 2]>>>(
         self,
@@ -309,6 +359,51 @@ impl<R> TableOf<R> {
     /// The table of all columns.
     pub fn finish(self) -> Table {
         self.table
+    }
+}
+
+/// A field of a record that can be a column.
+struct Field {
+    name: String,
+    is_number: bool,
+    /// Unit at the end of its description.
+    unit: String,
+    /// The description before a semicolon.
+    meaning: String,
+}
+
+/// The fields of a record that can be columns, from its schema.
+fn fields_of<F: JsonSchema>() -> Vec<Field> {
+    let schema = SchemaGenerator::default().into_root_schema_for::<F>();
+    let properties = schema.get("properties").and_then(Value::as_object);
+    let field = |(name, schema): (&String, &Value)| {
+        let kinds = json!([schema["type"]]).to_string();
+        if ["array", "object"].iter().any(|kind| kinds.contains(kind)) {
+            return None;
+        }
+        let is_number = ["number", "integer"].iter().any(|kind| kinds.contains(kind));
+        let description = schema["description"].as_str().unwrap_or_default();
+        let (text, unit) = match description.strip_suffix(']').and_then(|text| text.rsplit_once('[')) {
+            Some((text, unit)) => (text, unit),
+            None => (description, if is_number { "-" } else { "" }),
+        };
+        let meaning = text.split(';').next().unwrap_or(text).trim().trim_end_matches('.');
+        Some(Field {
+            name: name.clone(),
+            is_number,
+            unit: unit.to_owned(),
+            meaning: meaning.to_owned(),
+        })
+    };
+    properties.into_iter().flatten().filter_map(field).collect()
+}
+
+/// A cell of a text.
+fn text_of(cell: &Value) -> Cow<'_, str> {
+    match cell {
+        Value::Null => Cow::Borrowed(""),
+        Value::String(text) => Cow::Borrowed(text),
+        other => Cow::Owned(other.to_string()),
     }
 }
 

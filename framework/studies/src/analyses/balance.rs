@@ -319,14 +319,7 @@ impl Outcome for BalanceOutcome {
         .text("of", "Part of the search: scan or solution", |(of_set, (i, _))| {
             if *i < of_set.balance.scan { "scan" } else { "solution" }
         })
-        .number("oil_temperature_degc", "degC", "Oil temperature", |(_, (_, step))| {
-            step.oil_temperature_degc
-        })
-        .number("loss_w", "W", "Losses and other heat sources", |(_, (_, step))| {
-            step.loss_w
-        })
-        .number("heat_w", "W", "Transferred heat", |(_, (_, step))| step.heat_w)
-        .number("residual_w", "W", "Losses minus heat", |(_, (_, step))| step.residual_w);
+        .fields("oil_temperature_degc loss_w heat_w residual_w", |(_, (_, step))| step);
         vec![table.finish()]
     }
 

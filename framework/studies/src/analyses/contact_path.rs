@@ -339,32 +339,7 @@ impl Outcome for ContactPathOutcome {
         let table = Table::of_each(&self.head.analysis, &self.paths, |path| &path.places)
             .text("model_set", "Model set", |(path, _)| &path.model_set)
             .text("mesh", "Mesh", |(path, _)| &path.mesh)
-            .number(
-                "from_pitch_point_mm",
-                "mm",
-                "Distance from the pitch point",
-                |(_, at)| at.from_pitch_point_mm,
-            )
-            .number("load_share", "-", "Share of the normal force on one pair", |(_, at)| {
-                at.load_share
-            })
-            .number("sliding_speed_m_s", "m/s", "Sliding velocity", |(_, at)| {
-                at.sliding_speed_m_s
-            })
-            .number("sum_speed_m_s", "m/s", "Sum of the surface velocities", |(_, at)| {
-                at.sum_speed_m_s
-            })
-            .number("radius_mm", "mm", "Radius of relative curvature", |(_, at)| {
-                at.radius_mm
-            })
-            .number("hertz_pressure_gpa", "GPa", "Hertzian pressure", |(_, at)| {
-                at.hertz_pressure_gpa
-            })
-            .number("film_um", "um", "Minimum film thickness", |(_, at)| at.film_um)
-            .number("mu", "-", "Coefficient of friction", |(_, at)| at.mu)
-            .number("sliding_loss_w", "W", "Sliding power loss of one pair", |(_, at)| {
-                at.sliding_loss_w
-            });
+            .fields("from_pitch_point_mm load_share sliding_speed_m_s sum_speed_m_s radius_mm hertz_pressure_gpa film_um mu sliding_loss_w", |(_, at)| at);
         vec![table.finish()]
     }
 

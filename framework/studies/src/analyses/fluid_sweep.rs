@@ -437,22 +437,8 @@ impl Outcome for FluidSweepOutcome {
         let table = Table::of(&self.head.analysis, rows)
             .text("model_set", "Model set", |(set, ..)| &set.model_set)
             .text("cycle", "Duty cycle", |(_, duty, _)| &duty.cycle)
-            .number("value", unit, "Value of the property of the oil", |(.., fluid)| {
-                fluid.value
-            })
-            .text(
-                "beyond_definition",
-                "true if the property is not defined",
-                |(.., fluid)| fluid.beyond_definition.to_string(),
-            )
-            .text(
-                "refined",
-                "true if the value was added by the search for the minimum loss",
-                |(.., fluid)| fluid.refined.to_string(),
-            )
-            .number("mean_loss_w", "W", "Mean loss of the transmission", |(.., fluid)| {
-                fluid.mean_loss_w
-            })
+            .fields_in(unit, "value", |(.., fluid)| fluid)
+            .fields("beyond_definition refined mean_loss_w", |(.., fluid)| fluid)
             .each(shares.iter().enumerate(), |table, (i, share)| {
                 let meaning = format!("Mean loss of the share {share}");
                 table.number(format!("{share}_w"), "W", meaning, |(.., fluid)| fluid.mean_losses_w[i])

@@ -251,32 +251,16 @@ impl Outcome for OperatingPointsOutcome {
         let shares = self.operating_points.first().map_or(&[][..], |of_set| &of_set.shares);
         let table = Table::of_each(&self.head.analysis, &self.operating_points, |of_set| &of_set.points)
             .text("model_set", "Model set", |(of_set, _)| &of_set.model_set)
-            .text("gear", "Gear", |(_, point)| &point.gear)
-            .text("name", "Name of the point", |(_, point)| &point.name)
+            .fields("gear name", |(_, point)| point)
             .each(self.bound.iter().enumerate(), |table, (i, column)| {
                 table.text(column, "Value that changes the gearbox", |(_, point)| {
                     point.bound.iter().nth(i).map_or("", |(_, value)| value.as_str())
                 })
             })
-            .number("torque_nm", "Nm", "Torque", |(_, point)| point.torque_nm)
-            .number("speed_rpm", "rpm", "Speed", |(_, point)| point.speed_rpm)
-            .number("oil_temperature_degc", "degC", "Oil temperature", |(_, point)| {
-                point.oil_temperature_degc
-            })
-            .number(
-                "surface_temperature_degc",
-                "degC",
-                "Surface temperature",
-                |(_, point)| point.surface_temperature_degc,
+            .fields(
+                "torque_nm speed_rpm oil_temperature_degc surface_temperature_degc balance status efficiency loss_w",
+                |(_, point)| point,
             )
-            .text("balance", "Status of the heat balance", |(_, point)| {
-                point.balance.map_or("", thermal::Outcome::name)
-            })
-            .text("status", "State of the transmission", |(_, point)| point.status.name())
-            .number("efficiency", "-", "Output power over input power", |(_, point)| {
-                point.efficiency
-            })
-            .number("loss_w", "W", "Sum of all losses", |(_, point)| point.loss_w)
             .number("measured_loss_w", "W", "Measured loss", |(_, point)| {
                 point.measured.loss_w
             })

@@ -311,23 +311,9 @@ impl Outcome for ThermalLimitOutcome {
         let table = Table::of_each(&self.head.analysis, &self.thermal_limits, |of_set| &of_set.limits)
             .text("model_set", "Model set", |(of_set, _)| &of_set.model_set)
             .text("gear", "Gear", |(of_set, _)| &of_set.gear)
-            .number("limit_degc", "degC", "Limit of the oil temperature", |(_, limit)| {
-                limit.limit_degc
-            })
-            .number("torque_nm", "Nm", "Torque", |(_, limit)| limit.torque_nm)
-            .number("speed_rpm", "rpm", "Speed", |(_, limit)| limit.speed_rpm)
-            .text("outcome", "Result of the search", |(_, limit)| limit.outcome)
-            .number("loss_w", "W", "Loss", |(_, limit)| limit.loss_w)
-            .number("input_w", "W", "Input power", |(_, limit)| limit.input_w)
-            .number("output_w", "W", "Output power", |(_, limit)| limit.output_w)
-            .number("efficiency", "-", "Output power over input power", |(_, limit)| {
-                limit.efficiency
-            })
-            .number(
-                "lowest_balance_degc",
-                "degC",
-                "Lowest stable oil temperature",
-                |(_, limit)| limit.lowest_balance_degc,
+            .fields(
+                "limit_degc torque_nm speed_rpm outcome loss_w input_w output_w efficiency lowest_balance_degc",
+                |(_, limit)| limit,
             );
         vec![table.finish()]
     }

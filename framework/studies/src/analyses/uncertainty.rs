@@ -275,8 +275,7 @@ impl Outcome for UncertaintyOutcome {
         let table = Table::of_each(&self.head.analysis, &self.bands, |set| &set.points)
             .text("model_set", "Model set", |(set, _)| &set.model_set)
             .text("gear", "Gear", |(set, _)| &set.gear)
-            .number("torque_nm", "Nm", "Given torque", |(_, point)| point.torque_nm)
-            .number("speed_rpm", "rpm", "Given speed", |(_, point)| point.speed_rpm)
+            .fields("torque_nm speed_rpm", |(_, point)| point)
             .each(QUANTITIES, |table, (name, unit, meaning, quantity)| {
                 let ends = [
                     ("low", "lower end of the 95 % band"),

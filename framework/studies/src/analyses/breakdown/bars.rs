@@ -366,11 +366,7 @@ impl Outcome for BreakdownOutcome {
         let table = Table::of(&self.head.analysis, rows)
             .text("model_set", "Model set", |(of_set, ..)| &of_set.model_set)
             .text("gear", "Gear", |(of_set, ..)| &of_set.gear)
-            .number("torque_nm", "Nm", "Torque", |(_, point, ..)| point.torque_nm)
-            .number("speed_rpm", "rpm", "Speed", |(_, point, ..)| point.speed_rpm)
-            .number("oil_temperature_degc", "degC", "Oil temperature", |(_, point, ..)| {
-                point.oil_temperature_degc
-            })
+            .fields("torque_nm speed_rpm oil_temperature_degc", |(_, point, ..)| point)
             .text(
                 "share",
                 "Share of the loss; `measured` is the measured loss",

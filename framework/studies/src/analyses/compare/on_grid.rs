@@ -283,8 +283,7 @@ pub(super) fn table(name: &str, (quantity, difference): (Quantity, Difference), 
         .text("model_set", "Model set", |(of_set, _)| &of_set.model_set)
         .text("base", "Base of the comparison", |(of_set, _)| &of_set.base)
         .text("gear", "Gear", |(of_set, _)| &of_set.gear)
-        .number("torque_nm", "Nm", "Torque", |(_, point)| point.torque_nm)
-        .number("speed_rpm", "rpm", "Speed", |(_, point)| point.speed_rpm)
+        .fields("torque_nm speed_rpm", |(_, point)| point)
         .number(what, unit(quantity), "Quantity with the set", |(_, point)| point.model)
         .number(
             format!("base_{what}"),

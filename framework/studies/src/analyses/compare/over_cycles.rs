@@ -222,14 +222,7 @@ pub(super) fn table(name: &str, all: &[CycleComparison]) -> Table {
         .text("model_set", "Model set or variant", |(c, _)| &c.model_set)
         .text("base", "Base", |(c, _)| &c.base)
         .text("cycle", "Duty cycle", |(c, _)| &c.cycle)
-        .text("share", "Share of the loss", |(_, share)| &share.share)
-        .number("base_mean_loss_w", "W", "Mean loss of the base", |(_, share)| {
-            share.base_mean_loss_w
-        })
-        .number("mean_loss_w", "W", "Mean loss", |(_, share)| share.mean_loss_w)
-        .number("difference_w", "W", "Difference of the mean losses", |(_, share)| {
-            share.difference_w
-        })
+        .fields("share base_mean_loss_w mean_loss_w difference_w", |(_, share)| share)
         .finish()
 }
 
@@ -239,15 +232,9 @@ pub(super) fn phase_table(name: &str, all: &[CycleComparison]) -> Table {
         .text("model_set", "Model set or variant", |(c, _)| &c.model_set)
         .text("base", "Base", |(c, _)| &c.base)
         .text("cycle", "Duty cycle", |(c, _)| &c.cycle)
-        .text("phase", "Phase of the cycle", |(_, phase)| &phase.phase)
-        .number("from_s", "s", "Start of the phase", |(_, phase)| phase.from_s)
-        .number("to_s", "s", "End of the phase", |(_, phase)| phase.to_s)
-        .number("base_mean_loss_w", "W", "Mean loss of the base", |(_, phase)| {
-            phase.base_mean_loss_w
-        })
-        .number("mean_loss_w", "W", "Mean loss", |(_, phase)| phase.mean_loss_w)
-        .number("difference_w", "W", "Difference of the mean losses", |(_, phase)| {
-            phase.difference_w
-        })
+        .fields(
+            "phase from_s to_s base_mean_loss_w mean_loss_w difference_w",
+            |(_, phase)| phase,
+        )
         .finish()
 }

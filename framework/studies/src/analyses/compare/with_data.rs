@@ -283,15 +283,7 @@ pub(super) fn table(name: &str, (quantity, difference): (Quantity, Difference), 
         table.number("line", "-", "Line in the file", |(_, point)| point.line as f64)
     };
     table
-        .text("name", "Name of the point", |(_, point)| {
-            point.name.as_deref().unwrap_or_default()
-        })
-        .text("gear", "Gear", |(_, point)| &point.gear)
-        .number("torque_nm", "Nm", "Torque", |(_, point)| point.torque_nm)
-        .number("speed_rpm", "rpm", "Speed", |(_, point)| point.speed_rpm)
-        .number("oil_temperature_degc", "degC", "Oil temperature", |(_, point)| {
-            point.oil_temperature_degc
-        })
+        .fields("name gear torque_nm speed_rpm oil_temperature_degc", |(_, point)| point)
         .number(
             format!("measured_{what}"),
             unit(quantity),

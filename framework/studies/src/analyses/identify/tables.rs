@@ -50,41 +50,14 @@ pub(super) fn points(name: &str, all: &[IdentificationOfSet]) -> Table {
     }
     let table = Table::of(name, rows).text("model_set", "Model set", |(o, ..)| &o.model_set);
     line_column(table, all, |(o, observation, ..)| (o, observation.row))
-        .text("name", "Name of the row", |(.., point)| {
-            point.name.as_deref().unwrap_or_default()
-        })
-        .text("gear", "Gear", |(.., point)| &point.gear)
-        .number("torque_nm", "Nm", "Torque", |(.., point)| point.torque_nm)
-        .number("speed_rpm", "rpm", "Speed", |(.., point)| point.speed_rpm)
-        .number("oil_temperature_degc", "degC", "Oil temperature", |(.., point)| {
-            point.oil_temperature_degc
-        })
-        .text(
-            "quantity",
-            "Quantity of this row with its unit; efficiencies as fractions",
-            |(.., point)| point.quantity,
+        .fields(
+            "name gear torque_nm speed_rpm oil_temperature_degc quantity",
+            |(.., point)| point,
         )
-        .number(
-            "measured_before",
+        .fields_in(
             UNIT,
-            "Measured, without the contribution of the rig at the start",
-            |(.., point)| point.measured_before,
-        )
-        .number("model_before", UNIT, "Calculated at the start", |(.., point)| {
-            point.model_before
-        })
-        .number(
-            "measured",
-            UNIT,
-            "Measured, without the contribution of the identified rig",
-            |(.., point)| point.measured,
-        )
-        .number("model", UNIT, "Calculated", |(.., point)| point.model)
-        .number(
-            "accuracy",
-            UNIT,
-            "Standard deviation of the measurement, including its weight",
-            |(.., point)| point.accuracy,
+            "measured_before model_before measured model accuracy",
+            |(.., point)| point,
         )
         .number(
             "residual_before",
@@ -92,19 +65,7 @@ pub(super) fn points(name: &str, all: &[IdentificationOfSet]) -> Table {
             "Calculated minus measured, relative to the accuracy, at the start",
             |(_, observation, before, _)| (before.model - before.measured) / observation.deviation,
         )
-        .number(
-            "residual",
-            "-",
-            "Calculated minus measured, relative to the accuracy",
-            |(.., point)| point.residual,
-        )
-        .number(
-            "standardised_residual",
-            "-",
-            "Residual over its own standard deviation",
-            |(.., point)| point.standardised_residual,
-        )
-        .number("leverage", "-", "Leverage of the point", |(.., point)| point.leverage)
+        .fields("residual standardised_residual leverage", |(.., point)| point)
         .finish()
 }
 
@@ -182,23 +143,8 @@ pub(super) fn parameters(name: &str, all: &[IdentificationOfSet]) -> Table {
     Table::of(format!("{name}-parameters"), rows)
         .text("model_set", "Model set", |(o, ..)| &o.model_set)
         .text("parameter", "Name of the parameter", |(.., own)| &own.name)
-        .text("path", "Its path as written", |(.., own)| &own.path)
-        .text("unit", "Unit of the values of this row", |(.., own)| own.unit)
-        .number(
-            "stated",
-            UNIT,
-            "Value of the gearbox or the rig before the fit",
-            |(.., own)| own.stated,
-        )
-        .number(
-            "published",
-            UNIT,
-            "Published value, if it changes coefficients of formulas",
-            |(.., own)| own.published,
-        )
-        .number("start", UNIT, "Start value", |(.., own)| own.start)
-        .number("least", UNIT, "Lower bound", |(.., own)| own.least)
-        .number("greatest", UNIT, "Upper bound", |(.., own)| own.greatest)
+        .fields("path unit", |(.., own)| own)
+        .fields_in(UNIT, "stated published start least greatest", |(.., own)| own)
         .number("fitted", UNIT, "Identified value", |(.., own)| own.value)
         .ends(
             ["low", "high"],

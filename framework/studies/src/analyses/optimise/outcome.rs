@@ -362,21 +362,9 @@ impl Outcome for OptimiseOutcome {
                     own.limited.get(i).copied()
                 })
             })
-            .number(
-                "violation",
-                "-",
-                "Sum of the relative violations of the limits; none if it could not be driven",
-                |own| own.violation,
-            )
-            .text(
-                "on_front",
-                "true if no other design that keeps the limits is better",
-                |own| own.on_front.to_string(),
-            );
+            .fields("violation on_front", |own| own);
         let changes = Table::of(format!("{name}-changes"), &self.changes)
-            .text("variable", "Changed variable", |own| &own.variable)
-            .text("from", "Value as described", |own| &own.from)
-            .text("to", "Value in the best design", |own| &own.to)
+            .fields("variable from to", |own| own)
             .each(minimised.iter().enumerate(), |table, (i, cycle)| {
                 let of = &cycle.cycle;
                 table

@@ -170,19 +170,10 @@ impl Outcome for SweepOutcome {
                         .unwrap_or_default()
                 })
             })
-            .number("torque_nm", "Nm", "Torque", |(_, point)| point.torque_nm)
-            .number("speed_rpm", "rpm", "Speed", |(_, point)| point.speed_rpm)
-            .number("oil_temperature_degc", "degC", "Oil temperature", |(_, point)| {
-                point.oil_temperature_degc
-            })
-            .text("balance", "Status of the heat balance", |(_, point)| {
-                point.balance.map_or("", thermal::Outcome::name)
-            })
-            .text("status", "State of the transmission", |(_, point)| point.status.name())
-            .number("efficiency", "-", "Output power over input power", |(_, point)| {
-                point.efficiency
-            })
-            .number("loss_w", "W", "Loss", |(_, point)| point.loss_w)
+            .fields(
+                "torque_nm speed_rpm oil_temperature_degc balance status efficiency loss_w",
+                |(_, point)| point,
+            )
             .each(shares.iter().enumerate(), |table, (i, share)| {
                 table.number(format!("{share}_w"), "W", format!("Loss of {share}"), |(_, point)| {
                     point.losses_w.as_ref().map(|losses| losses[i])

@@ -39,31 +39,8 @@ fn combinations(name: &str, ranking: &Ranking) -> Table {
         .each(mechanisms(), |table, (k, mechanism)| {
             table.text(mechanism, format!("Model of {mechanism}"), |(_, c)| &c.models[k])
         })
-        .number(
-            "predicted_over_accuracy",
-            "-",
-            "Root mean square of the predicted errors relative to the accuracy of the points",
-            |(_, c)| c.predicted_over_accuracy,
-        )
-        .number(
-            "predicted_rms",
-            unit,
-            "Root mean square of the predicted errors",
-            |(_, c)| c.predicted_rms,
-        )
-        .number(
-            "worst_group_rms",
-            unit,
-            "Root mean square of the predicted errors of the worst group",
-            |(_, c)| c.worst_group_rms,
-        )
-        .number(
-            "fitted_rms",
-            unit,
-            "Root mean square of the errors with fitted factors",
-            |(_, c)| c.fitted_rms,
-        )
-        .number("mean", unit, "Mean of the errors with fitted factors", |(_, c)| c.mean)
+        .fields("predicted_over_accuracy", |(_, c)| c)
+        .fields_in(unit, "predicted_rms worst_group_rms fitted_rms mean", |(_, c)| c)
         .each(mechanisms(), |table, (k, mechanism)| {
             let meaning = format!("Factor on the loss of {mechanism}");
             table.number(format!("factor_{mechanism}"), "-", meaning, |(_, c)| c.factors[k])
@@ -97,15 +74,7 @@ fn combinations(name: &str, ranking: &Ranking) -> Table {
             "Number of groups in which the winner predicts better",
             |(_, c)| c.against.folds.map(|groups| groups.won as f64),
         )
-        .number(
-            "separation",
-            "-",
-            "Separation of its predictions from those of the winner in standard deviations of the set of points",
-            |(_, c)| c.against.separation,
-        )
-        .number("evidence", "-", "Its misfit minus that of the winner", |(_, c)| {
-            c.against.evidence
-        })
+        .fields("separation evidence", |(_, c)| &c.against)
         .number("weight", "-", "Weight on the shortlist", |(_, c)| c.weight)
         .text(
             "marks",
@@ -120,37 +89,14 @@ fn shortlist(name: &str, ranking: &Ranking) -> Table {
     let winner = ranking.losses(&ranking.ranking[ranking.winner]);
     Table::of(format!("{name}-shortlist"), ranking.points.iter().zip(winner))
         .text("gear", "Gear", |_| &ranking.gear)
-        .number("torque_nm", "Nm", "Torque", |(point, _)| point.torque_nm)
-        .number("speed_rpm", "rpm", "Speed", |(point, _)| point.speed_rpm)
-        .number("measured_loss_w", "W", "Measured loss", |(point, _)| {
-            point.measured_loss_w
+        .fields("torque_nm speed_rpm measured_loss_w loss_accuracy_w", |(point, _)| {
+            point
         })
-        .number(
-            "loss_accuracy_w",
-            "W",
-            "Standard deviation of the measured loss",
-            |(point, _)| point.loss_accuracy_w,
-        )
         .number("winner_loss_w", "W", "Loss predicted by the winner", |(_, winner)| {
             *winner
         })
-        .number(
-            "mean_loss_w",
-            "W",
-            "Weighted mean of the losses predicted by the shortlist",
-            |(point, _)| point.mean_loss_w,
-        )
-        .number(
-            "deviation_w",
-            "W",
-            "Weighted standard deviation of these losses",
-            |(point, _)| point.deviation_w,
-        )
-        .number("least_loss_w", "W", "The smallest of these losses", |(point, _)| {
-            point.least_loss_w
-        })
-        .number("greatest_loss_w", "W", "The largest of these losses", |(point, _)| {
-            point.greatest_loss_w
+        .fields("mean_loss_w deviation_w least_loss_w greatest_loss_w", |(point, _)| {
+            point
         })
         .finish()
 }
@@ -159,25 +105,9 @@ fn shortlist(name: &str, ranking: &Ranking) -> Table {
 fn points(name: &str, spread: &Spread) -> Table {
     Table::of(name, &spread.points)
         .text("gear", "Gear", |_| &spread.gear)
-        .number("torque_nm", "Nm", "Torque", |point| point.torque_nm)
-        .number("speed_rpm", "rpm", "Speed", |point| point.speed_rpm)
-        .number("least_loss_w", "W", "The smallest loss of all combinations", |point| {
-            point.least_loss_w
-        })
-        .number("mean_loss_w", "W", "Mean loss of all combinations", |point| {
-            point.mean_loss_w
-        })
-        .number(
-            "greatest_loss_w",
-            "W",
-            "The largest loss of all combinations",
-            |point| point.greatest_loss_w,
-        )
-        .number(
-            "deviation_w",
-            "W",
-            "Standard deviation over the combinations",
-            |point| point.deviation_w,
+        .fields(
+            "torque_nm speed_rpm least_loss_w mean_loss_w greatest_loss_w deviation_w",
+            |point| point,
         )
         .finish()
 }

@@ -10,28 +10,11 @@ pub(in crate::analyses::identify) fn table(name: &str, all: &[IdentificationOfSe
         o.hold_out.iter().flat_map(|held| &held.points)
     })
     .text("model_set", "Model set", |(o, _)| &o.model_set)
-    .number("line", "-", "Line in the file", |(_, point)| point.line as f64)
-    .text("name", "Name of the row", |(_, point)| {
-        point.name.as_deref().unwrap_or_default()
-    })
-    .text("gear", "Gear", |(_, point)| &point.gear)
-    .number("torque_nm", "Nm", "Torque", |(_, point)| point.torque_nm)
-    .number("speed_rpm", "rpm", "Speed", |(_, point)| point.speed_rpm)
-    .number("oil_temperature_degc", "degC", "Oil temperature", |(_, point)| {
-        point.oil_temperature_degc
-    })
-    .text(
-        "quantity",
-        "Quantity of this row with its unit; efficiencies as fractions",
-        |(_, point)| point.quantity,
+    .fields(
+        "line name gear torque_nm speed_rpm oil_temperature_degc quantity",
+        |(_, point)| point,
     )
-    .number(
-        "measured",
-        UNIT,
-        "Measured, without the contribution of the identified rig",
-        |(_, point)| point.measured,
-    )
-    .number("predicted", UNIT, "Predicted", |(_, point)| point.predicted)
+    .fields_in(UNIT, "measured predicted", |(_, point)| point)
     .ends(
         ["band_low", "band_high"],
         UNIT,

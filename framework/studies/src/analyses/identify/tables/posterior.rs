@@ -34,17 +34,6 @@ pub(in crate::analyses::identify) fn table(name: &str, all: &[IdentificationOfSe
         "the 95 % profile interval",
         |(_, own)| own.profile,
     )
-    .number(
-        "autocorrelation_steps",
-        "-",
-        "Integrated autocorrelation time in steps",
-        |(_, own)| own.autocorrelation_steps,
-    )
-    .number(
-        "independent_draws",
-        "-",
-        "Effective number of independent draws",
-        |(_, own)| own.independent_draws,
-    )
+    .fields("autocorrelation_steps independent_draws", |(_, own)| own)
     .finish()
 }
