@@ -237,6 +237,29 @@ fn model(out: &mut String, language: &Language, mechanism: &MechanismEntry, entr
         }
     )
     .unwrap();
+    checks(out, entry);
+}
+
+/// The check values of a model or a rating; `gearloss models --checks` prints them with the computed ones.
+fn checks(out: &mut String, entry: &Entry) {
+    if entry.checks.is_empty() {
+        return;
+    }
+    out.push_str("Check values:\n\n");
+    header(out, &["input of `eval`", "expected", "within", "source"]);
+    for check in entry.checks {
+        let values: Vec<String> = check
+            .values
+            .iter()
+            .map(|(name, value)| format!("`{name}` = {value}"))
+            .collect();
+        let within = format!("{:e}: {}", check.tolerance, check.because);
+        row(
+            out,
+            &[&format!("`{}`", check.input), &values.join(", "), &within, check.source],
+        );
+    }
+    out.push('\n');
 }
 
 fn mechanism_page(language: &Language, mechanism: &MechanismEntry) -> String {
@@ -349,6 +372,7 @@ fn rating(out: &mut String, language: &Language, plugin: &RatingPlugin) {
         entry.name
     )
     .unwrap();
+    checks(out, entry);
 }
 
 /// The page of all ratings.
@@ -366,7 +390,8 @@ fn ratings_page(language: &Language) -> String {
 fn index(language: &Language) -> String {
     let mut out = String::from(
         "# Models\n\nGenerated from the program: `UPDATE=1 cargo test --test all reference::`. Evidence grades are explained in \
-         [CONTRIBUTING.md](../../CONTRIBUTING.md).\n\n",
+         [CONTRIBUTING.md](../../CONTRIBUTING.md). `gearloss models MECHANISM MODEL --checks` evaluates the check values; `part` and \
+         quantities that an input omits are those of `gearloss eval` without an input.\n\n",
     );
     let mut count = 0;
     for mechanism in language.registry().mechanisms() {
