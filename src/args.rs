@@ -504,6 +504,9 @@ pub struct ModelsArgs {
     /// Lists the inputs that each model needs, and whether this gearbox has them.
     #[arg(long, value_name = "GEARBOX", conflicts_with = "format")]
     pub needs: Option<PathBuf>,
+    /// Evaluates the check values of these models and prints them with their sources; exit code 1 if one is outside its tolerance.
+    #[arg(long, conflicts_with_all = ["format", "needs"])]
+    pub checks: bool,
     /// Output format: tables, or JSON with all data of the listed models.
     #[arg(long, value_enum, default_value = "table")]
     pub format: Format,

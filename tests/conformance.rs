@@ -5,12 +5,43 @@ use gearloss_framework::conformance::check_all;
 use gearloss_framework::language::Language;
 use gearloss_framework::mechanism::Mechanism;
 use gearloss_framework::mechanism::seal::Seal;
-use gearloss_framework::registry::{Catalogue, Entry, MechanismEntry, Package, Registry, ShippedSet, inventory};
+use gearloss_framework::registry::{Catalogue, Check, Entry, MechanismEntry, Package, Registry, ShippedSet, inventory};
+use gearloss_report::models::ChecksText;
 
 #[test]
 fn all_models_conform() {
     let faults = check_all(&common::language());
     assert!(faults.is_empty(), "{faults:#?}");
+}
+
+/// Tests of each value are in `plugins/tests/checks.rs`.
+#[test]
+fn a_wrong_check_value_is_printed_as_such() {
+    let language = common::language();
+    let entry = language.registry().model(Seal::KEY, "linke").unwrap();
+    for (values, word, counts) in [
+        (
+            &[("total", "36.9120 W"), ("moment", "0.1 Nm")],
+            "outside",
+            "2, faults: 1",
+        ),
+        (
+            &[("total", "36.9120 W"), ("totla", "36.9 W")],
+            "fault: `totla`",
+            "0, faults: 1",
+        ),
+    ] {
+        let checks = vec![Check {
+            values,
+            ..entry.checks[0]
+        }]
+        .leak();
+        let mut text = ChecksText::default();
+        text.model(&language, &Entry { checks, ..*entry });
+        let (text, hold) = text.finish();
+        assert!(!hold && text.contains(word), "{text}");
+        assert!(text.ends_with(&format!("check values: {counts}\n")), "{text}");
+    }
 }
 
 fn linked() -> (Vec<MechanismEntry>, Vec<Entry>) {

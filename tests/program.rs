@@ -292,6 +292,18 @@ fn models_lists_explains_and_finds_needs() {
     assert!(all.contains("gear_mesh") && all.contains("path_integral") && all.contains("set joint"));
     assert!(out(&["models", "bearing"]).contains("oil_height"));
     assert!(out(&["models", "bearing", "skf"]).contains("mu_bl"));
+    let checks = out(&["models", "seal", "linke", "--checks"]);
+    assert!(
+        checks.contains("36.9120 W") && checks.contains("independent implementation"),
+        "{checks}"
+    );
+    assert!(
+        checks.ends_with("check values: 1, all within their tolerance\n"),
+        "{checks}"
+    );
+    let checks = out(&["models", "rating", "iso_76", "--checks"]);
+    assert!(checks.contains("max(Fr, 0.6 Fr + 0.5 Fa)"), "{checks}");
+    assert_eq!(out(&["models", "seal", "constant", "--checks"]), "no check values\n");
     let needs = out(&["models", "--needs", GEARBOX]);
     assert!(
         needs.contains("housing.oil.volume") && needs.contains("assumed") && needs.contains("derived (catalogue 6303"),

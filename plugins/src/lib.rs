@@ -6,6 +6,7 @@ pub mod auxiliary;
 pub mod bearing;
 pub mod boundary;
 pub mod catalogues;
+mod checks;
 pub mod clutch;
 pub mod convection;
 pub mod cycles;

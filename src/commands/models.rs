@@ -4,7 +4,9 @@ use std::path::Path;
 
 use gearloss_framework::gearbox::{Findings, Gearbox};
 use gearloss_framework::language::Language;
-use gearloss_report::models::{mechanism_text, model_text, models_json, models_text, rating_text, ratings_list};
+use gearloss_report::models::{
+    ChecksText, mechanism_text, model_text, models_json, models_text, rating_text, ratings_list,
+};
 use gearloss_studies::needs::needs;
 
 use crate::args::{Format, ModelsArgs};
@@ -17,6 +19,9 @@ pub fn run(args: &ModelsArgs, out: &mut Out) -> Result<End, Failure> {
     let language = super::language()?;
     if let Some(file) = &args.needs {
         return print_needs(language, file, args.mechanism.as_deref(), out);
+    }
+    if args.checks {
+        return print_checks(language, args, out);
     }
     let registry = language.registry();
     if args.mechanism.as_deref() == Some(RATING) && args.format == Format::Table {
@@ -43,6 +48,41 @@ pub fn run(args: &ModelsArgs, out: &mut Out) -> Result<End, Failure> {
         (Format::Table, Some(_), Some(model)) => out.text(&model_text(language, model))?,
     }
     Ok(End::Fine)
+}
+
+/// `models --checks`: the check values of a model, of a mechanism or of all, with what this program computes.
+fn print_checks(language: &Language, args: &ModelsArgs, out: &mut Out) -> Result<End, Failure> {
+    let registry = language.registry();
+    let mut text = ChecksText::default();
+    let (mechanism, model) = (args.mechanism.as_deref(), args.model.as_deref());
+    if mechanism != Some(RATING) {
+        let mechanisms = match mechanism {
+            Some(name) => std::slice::from_ref(registry.mechanism_named(name).map_err(Findings::from)?),
+            None => registry.mechanisms(),
+        };
+        for mechanism in mechanisms {
+            match model {
+                Some(name) => text.model(
+                    language,
+                    registry.model_named(mechanism.key, name).map_err(Findings::from)?,
+                ),
+                None => registry
+                    .models(mechanism.key)
+                    .for_each(|entry| text.model(language, entry)),
+            }
+        }
+    }
+    if let (Some(RATING), Some(name)) = (mechanism, model) {
+        text.rating(language, registry.rating_named(name).map_err(Findings::from)?);
+    } else if matches!(mechanism, None | Some(RATING)) {
+        registry
+            .ratings()
+            .iter()
+            .for_each(|rating| text.rating(language, rating));
+    }
+    let (text, hold) = text.finish();
+    out.text(&text)?;
+    Ok(if hold { End::Fine } else { End::Finding })
 }
 
 /// `models --needs`: the inputs of each model, and their origin in a gearbox.

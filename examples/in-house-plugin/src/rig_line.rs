@@ -54,23 +54,14 @@ register!(Bearing, "rig_line", RigLine,
     source: "rig report 21, 2024",
     example: "{ type: rig_line, loaded: 3e-4 }",
     evidence: [formula(Evidence::OneSource, "40 points on four bearings"), default_of("viscous", Evidence::OneSource, "their mean")],
+    checks: [
+        Check {
+            input: "{ model: { type: rig_line, viscous: 2, loaded: 3e-4 }, part: { kind: deep_groove_ball, bore: 40 mm, outside: 80 mm }, \
+                    at: { nu: 32 mm2/s, speed: 1500 rpm, radial: 1 kN } }",
+            values: &[("M_0", "57.057 N mm"), ("M_1", "18 N mm"), ("moment", "0.075057 Nm")],
+            tolerance: 1e-5,
+            because: "five digits",
+            source: "by hand for a 6208: 2e-7 (32 1500)^(2/3) 60^3 and 3e-4 1000 60",
+        },
+    ],
     limits: [SPEED], terms: [VISCOUS, LOADED]);
-
-#[cfg(test)]
-mod tests {
-    use gearloss_framework::testing::{assert_close, eval};
-
-    /// d = 40 mm, D = 80 mm: d_m = 60 mm; 32 mm2/s, 1500 rpm, 1 kN; calculated by hand.
-    #[test]
-    fn the_moment_of_a_6208() {
-        let input = "
-            model: { type: rig_line, viscous: 2, loaded: 3e-4 }
-            part: { kind: deep_groove_ball, bore: 40 mm, outside: 80 mm }
-            at: { nu: 32 mm2/s, speed: 1500 rpm, radial: 1 kN }
-        ";
-        let answer = eval("bearing/rig_line", input);
-        // (32 * 1500)^(2/3) = 1320.77, times 2e-7 and 60^3; 3e-4 of 1000 N at 60 mm.
-        assert_close(answer.step("M_0").unwrap(), 57.057, 1e-5);
-        assert_close(answer.moment.unwrap(), 0.057057 + 0.018, 1e-5);
-    }
-}

@@ -1,4 +1,5 @@
-//! The conformance suite: checks the requirements of the framework on every model, on a grid of its mechanism's context.
+//! The conformance suite: checks the requirements of the framework on every model, on a grid of its mechanism's context, and its check
+//! values.
 //!
 //! It serves built-in models and those of other crates: a crate calls [`check_all`] in one test, which covers every linked model.
 
@@ -12,6 +13,7 @@ use std::sync::Arc;
 
 use serde_json::Value;
 
+use crate::checks;
 use crate::language::Language;
 use crate::loss::{Kept, NoteBase, Notebook, Notes, Seen, Undefined};
 use crate::mechanism::{Answer, Inputs as _, Mechanism, Quantity};
@@ -31,6 +33,8 @@ pub fn check_all(language: &Language) -> Vec<String> {
             }
         }
         for entry in language.registry().models(mechanism.key) {
+            let checks = checks::faults(language, entry).into_iter();
+            faults.extend(checks.map(|fault| format!("{}/{}: {fault}", entry.mechanism, entry.name)));
             match language.example_of(entry) {
                 Ok((model, part)) => {
                     let files = Files::default();

@@ -21,8 +21,8 @@ use crate::registry::{Build, Entry, Files, MechanismEntry, RatedAlone, RatingPlu
 /// If there is no such model; the error lists the available ones, or a close match.
 pub fn named<'a>(language: &'a Language, name: &str) -> Result<(&'a MechanismEntry, &'a Entry), Diagnostic> {
     let Some((mechanism, model)) = name.split_once('/') else {
-        return Err(Diagnostic::error("", format!("`{name}` is not a model"))
-            .help("write MECHANISM/MODEL, such as bearing/skf"));
+        let error = Diagnostic::error("", format!("`{name}` is not a model")).code(codes::EVAL);
+        return Err(error.help("write MECHANISM/MODEL, such as bearing/skf"));
     };
     let mechanism = language.registry().mechanism_named(mechanism)?;
     Ok((mechanism, language.registry().model_named(mechanism.key, model)?))
@@ -40,6 +40,25 @@ pub fn evaluate_input(
     input: &str,
     folder: &Path,
 ) -> Result<Evaluated, Findings> {
+    let (_, entry) = named(language, name)?;
+    evaluate(language, entry, (source, input), Some(folder))
+}
+
+/// Evaluates a model at the input of one of its checks, with the files of its example only.
+///
+/// # Errors
+/// As [`evaluate_input`].
+pub(crate) fn evaluate_check(language: &Language, entry: &Entry, input: &str) -> Result<Evaluated, Findings> {
+    evaluate(language, entry, ("check", input), None)
+}
+
+/// Evaluates a model at a named input; without a folder it has only the files of its example.
+fn evaluate(
+    language: &Language,
+    entry: &Entry,
+    (source, input): (&str, &str),
+    folder: Option<&Path>,
+) -> Result<Evaluated, Findings> {
     let mut sources = Sources::default();
     let source = sources.add(source.to_owned(), input);
     let found = |mut list: Vec<Diagnostic>| {
@@ -49,7 +68,10 @@ pub fn evaluate_input(
             sources: sources.clone(),
         }
     };
-    let (mechanism, entry) = named(language, name).map_err(|d| found(vec![d]))?;
+    let mechanism = language
+        .registry()
+        .mechanism_named(entry.mechanism)
+        .map_err(|d| found(vec![d]))?;
     let (example, mut part) = language.example_of(entry).map_err(found)?;
     let mut model = None;
     let mut at = Map::new();
@@ -95,10 +117,10 @@ pub fn evaluate_input(
         }
         places = Some(place);
     }
-    let files = Files::beside(folder.to_path_buf());
+    let files = folder.map_or_else(Files::default, Files::beside);
     // The example has its own files; for a written record they are used if the folder has no file of that name.
     for (name, text) in entry.files {
-        if model.is_none() || !folder.join(name).is_file() {
+        if model.is_none() || !folder.is_some_and(|folder| folder.join(name).is_file()) {
             files.put(name, text);
         }
     }

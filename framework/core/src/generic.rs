@@ -31,6 +31,7 @@ pub(crate) fn entries<M: Mechanism>() -> Vec<Entry> {
         limits: if name == "table" { const { &[PLACE] } } else { &[] },
         terms: if name == "none" { &[] } else { const { &[M::TOTAL] } },
         observed: &[],
+        checks: &[],
         evidence: const { &[formula(Evidence::User, "the user states it")] as &[Graded] },
         scope: Scope::Gear,
         geometry: false,

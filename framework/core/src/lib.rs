@@ -28,12 +28,19 @@
 //!     source: "rig report 31, 2026",
 //!     example: "{ type: proportional, force: 0.5 }",
 //!     evidence: [formula(Evidence::OneSource, "one seal, one oil")],
+//!     checks: [
+//!         Check {
+//!             input: "{ part: { diameter: 40 mm }, at: { speed: 1000 rpm } }",
+//!             values: &[("moment", "0.02 Nm")],
+//!             tolerance: 1e-12,
+//!             because: "the product is exact",
+//!             source: "by hand: 0.5 N at 40 mm",
+//!         },
+//!     ],
 //!     terms: [DRAG]);
 //!
-//! // A check value, as a test of the model has it: 0.5 N at 40 mm, in W at 1000 1/min.
-//! use gearloss_framework::testing::{assert_close, eval};
-//! let loss = eval("seal/proportional", "{ part: { diameter: 40 mm }, at: { speed: 1000 rpm } }");
-//! assert_close(loss.total, 0.5 * 0.04 * 1000.0 * std::f64::consts::PI / 30.0, 1e-12);
+//! // In a test of the crate: evaluates the check values, and requirements of the framework on a grid of inputs.
+//! gearloss_framework::testing::conformance();
 //! ```
 //!
 //! The guide to your own models (`docs/plugin-guide.md`) continues with ranges, files, nested models and mechanisms.
@@ -52,6 +59,7 @@ pub mod prelude;
 pub mod testing;
 
 // Contents of a document: sections, schemas, models, choices.
+pub mod checks;
 pub mod codes;
 pub mod coefficients;
 pub mod description;

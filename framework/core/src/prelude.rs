@@ -31,7 +31,9 @@ pub use crate::mechanism::{
 };
 pub use crate::rating::{Bound, Figure, Over, Rated, Rating};
 pub use crate::real::{Mask, Points, Real};
-pub use crate::registry::{Build, Catalogue, Evidence, ShippedCycle, ShippedSet, default_of, formula, inventory};
+pub use crate::registry::{
+    Build, Catalogue, Check, Evidence, ShippedCycle, ShippedSet, default_of, formula, inventory,
+};
 pub use crate::table::{Interpolation, Outside, Reading};
 pub use crate::{
     answered_by, coefficients, context, limits, observed, origin, register, register_component, register_mechanism,

@@ -4,6 +4,7 @@
 //! build function, which is downcast once per resolve.
 
 mod build;
+mod check;
 mod evaluated;
 mod memory;
 mod placed;
@@ -17,6 +18,7 @@ use serde::de::DeserializeOwned;
 use serde_json::{Map, Value};
 
 pub use build::{Build, Files, Instance};
+pub use check::Check;
 pub use evaluated::Evaluated;
 pub(crate) use memory::Memory;
 pub(crate) use placed::BuiltRating;
@@ -209,6 +211,8 @@ pub struct Entry {
     pub observed: &'static [Observed],
     /// Evidence grades of formula and defaults.
     pub evidence: &'static [Graded],
+    /// Cases with known results.
+    pub checks: &'static [Check],
     /// Whether a drag model is evaluated once for each gear or once for each mesh; unused for other mechanisms.
     pub scope: Scope,
     /// False for a mesh model that applies to any pair of gears and does not use the tooth geometry; unused for other mechanisms.
@@ -636,13 +640,14 @@ macro_rules! register_component {
 macro_rules! register {
     ($M:ty, $name:literal, $Params:ty,
         source: $source:expr, example: $example:expr, $(part: $part:expr,)? $(files: [$($file:expr),* $(,)?],)?
-        evidence: [$($graded:expr),* $(,)?]
+        evidence: [$($graded:expr),* $(,)?] $(, checks: [$($check:expr),* $(,)?])?
         $(, limits: [$($limit:expr),* $(,)?])? $(, terms: [$($term:expr),* $(,)?])? $(, observed: [$($observed:expr),* $(,)?])?
         $(, scope: $scope:expr)? $(, geometry: $geometry:expr)? $(, prepare: $prepare:expr)? $(,)?) => {
         $crate::registry::submit! {
             $crate::registry::Entry {
                 mechanism: <$M as $crate::mechanism::Mechanism>::KEY, name: $name, source: $source, example: $example, part: $crate::register!(@part $($part)?), files: &[$($($file),*)?], evidence: &[$($graded),*],
                 limits: &[$($($limit),*)?], terms: &[$($($term),*)?], observed: &[$($($observed),*)?],
+                checks: &[$($($check),*)?],
                 scope: $crate::register!(@scope $($scope)?),
                 geometry: $crate::register!(@geometry $($geometry)?),
                 origin: $crate::origin!(),

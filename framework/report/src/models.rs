@@ -1,5 +1,6 @@
 //! Mechanisms and models of a program: tables and records.
 
+mod checks;
 mod json;
 mod ratings;
 
@@ -9,6 +10,7 @@ use gearloss_framework::language::{Kind, Language};
 use gearloss_framework::registry::{Entry, MechanismEntry};
 use serde_json::Value;
 
+pub use checks::ChecksText;
 pub use json::models_json;
 pub use ratings::{rating_text, ratings_list};
 
@@ -180,7 +182,7 @@ pub fn model_text(language: &Language, entry: &Entry) -> String {
     out.into_text()
 }
 
-/// Stated ranges and evidence of a model or a rating.
+/// Stated ranges, evidence and number of check values of a model or a rating.
 fn ranges_and_evidence(out: &mut Lines, entry: &Entry) {
     for limit in entry.limits {
         out.line(format!(
@@ -204,5 +206,9 @@ fn ranges_and_evidence(out: &mut Lines, entry: &Entry) {
             graded.grade.name(),
             graded.because
         ));
+    }
+    if !entry.checks.is_empty() {
+        let values: usize = entry.checks.iter().map(|check| check.values.len()).sum();
+        out.line(format!("check values: {values}, listed by `--checks`"));
     }
 }

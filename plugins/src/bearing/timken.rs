@@ -11,10 +11,12 @@ use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::bearing::{Bearing, BearingAt, BearingKind, BearingLaw};
 use gearloss_framework::real::Real;
-use gearloss_framework::registry::{Build, Evidence, default_of, formula};
+use gearloss_framework::registry::{Build, Check, Evidence, default_of, formula};
 use gearloss_framework::{coefficients, observed, register, terms};
 use schemars::JsonSchema;
 use serde::Deserialize;
+
+use crate::checks::SIX_DIGITS;
 
 terms! { LOAD = load("load"); }
 observed! { FORCE = ("F_eff", "N", "equivalent load of the torque"); }
@@ -124,6 +126,14 @@ register!(Bearing, "timken", Params,
         default_of("k", Evidence::Recalled, "relation to Y quoted from memory, not checked"),
         default_of("least_speed", Evidence::Assumed, "the user takes it from the catalogue"),
     ],
+    checks: [
+        Check {
+            input: "{ model: { type: timken, g1: 20, k: 1.6 }, at: { speed: 2000 rpm, nu: 25 mm2/s, rho: 800 kg/m3, radial: 1000 N, \
+                    axial: 2500 N } }",
+            values: &[("F_eff", "2500 N"), ("moment", "0.381882 Nm")],
+            ..SIX_DIGITS
+        },
+    ],
     terms: [LOAD], observed: [FORCE], prepare: prepare);
 
 #[cfg(test)]
@@ -136,14 +146,6 @@ mod tests {
         k: 1.6,
         least_speed: 0.0,
     };
-
-    #[test]
-    fn a8_under_thrust() {
-        let force = MODEL.force(1000.0, 2500.0);
-        assert_eq!(force, 2500.0);
-        let moment = MODEL.moment(2000.0, 20.0, force);
-        assert!((moment / 0.381882 - 1.0).abs() < 1e-5, "{moment}");
-    }
 
     #[test]
     fn the_load_is_steady_over_all_ratios() {

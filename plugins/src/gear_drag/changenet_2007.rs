@@ -8,13 +8,14 @@
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::gear_drag::{Covers, GearDrag, GearDragAt, GearDragModel};
-use gearloss_framework::registry::{Build, Evidence, default_of, formula};
+use gearloss_framework::registry::{Build, Check, Evidence, default_of, formula};
 use gearloss_framework::{coefficients, observed, register, terms};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::dipping::Dipping;
 use super::{CHURNING, GRAVITY};
+use crate::checks::SIX_DIGITS;
 
 terms! { TERM = no_load("churning"); }
 observed! {
@@ -149,17 +150,27 @@ register!(GearDrag, "changenet_2007", Params,
         formula(Evidence::OneSource, "one public transcription, which uses other limits of Re"),
         default_of("swell", Evidence::Assumed, "no public formula"),
     ],
+    checks: [
+        Check {
+            input: "{ part: { gear: { z: 50, normal_module: 4 mm, pressure_angle: 20 deg, facewidth: 40 mm, reference_diameter: 200 mm, \
+                    working_diameter: 200 mm, tip_diameter: 208 mm, root_diameter: 190 mm, contact_height: 1 mm }, oil_volume: 4 l }, \
+                    at: { speed: 76.70717046 rad/s, dip: 50 mm, nu: 61.36573637 mm2/s } }",
+            values: &[("Re", "5000"), ("Fr", "60"), ("C_m", "0.00978918")],
+            ..SIX_DIGITS
+        },
+        Check {
+            input: "{ part: { gear: { z: 50, normal_module: 4 mm, pressure_angle: 20 deg, facewidth: 40 mm, reference_diameter: 200 mm, \
+                    working_diameter: 200 mm, tip_diameter: 208 mm, root_diameter: 190 mm, contact_height: 1 mm }, oil_volume: 4 l }, \
+                    at: { speed: 76.70717046 rad/s, dip: 50 mm, nu: 40.91049091 mm2/s } }",
+            values: &[("Re", "7500"), ("Fr", "60"), ("C_m", "0.0185169")],
+            ..SIX_DIGITS
+        },
+        Check {
+            input: "{ part: { gear: { z: 50, normal_module: 4 mm, pressure_angle: 20 deg, facewidth: 40 mm, reference_diameter: 200 mm, \
+                    working_diameter: 200 mm, tip_diameter: 208 mm, root_diameter: 190 mm, contact_height: 1 mm }, oil_volume: 4 l }, \
+                    at: { speed: 76.70717046 rad/s, dip: 50 mm, nu: 25.56905682 mm2/s } }",
+            values: &[("Re", "12000"), ("Fr", "60"), ("C_m", "0.0280437")],
+            ..SIX_DIGITS
+        },
+    ],
     terms: [TERM], observed: [C_M, REYNOLDS], prepare: prepare);
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn c8_dimensionless_torque() {
-        for (re, printed) in [(5000.0, 0.00978918), (7500.0, 0.0185169), (12000.0, 0.0280437)] {
-            let value = c_m(&Constants::PUBLISHED, re, 60.0, 0.25, 0.5, 0.2);
-            assert!((value / printed - 1.0).abs() < 1e-5, "{value} {printed}");
-        }
-    }
-}

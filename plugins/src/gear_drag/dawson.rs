@@ -7,12 +7,13 @@
 use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::gear_drag::{Covers, GearDrag, GearDragAt, GearDragModel};
-use gearloss_framework::registry::{Evidence, default_of, formula};
+use gearloss_framework::registry::{Check, Evidence, default_of, formula};
 use gearloss_framework::{coefficients, register, terms};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::WINDAGE;
+use crate::checks::SIX_DIGITS;
 
 terms! { TERM = no_load("windage"); }
 
@@ -90,28 +91,20 @@ register!(GearDrag, "dawson", Dawson,
         default_of("phi", Evidence::Recalled, "air"),
         default_of("lambda", Evidence::Recalled, "a free gear"),
     ],
+    checks: [
+        Check {
+            input: "{ model: { type: dawson, lambda: 1 }, part: { gear: { z: 102, normal_module: 10 mm, pressure_angle: 20 deg, \
+                    facewidth: 200 mm, reference_diameter: 1020 mm, working_diameter: 1020 mm, tip_diameter: 1040 mm, \
+                    root_diameter: 1000 mm, contact_height: 1 mm } }, at: { speed: 3000 rpm } }",
+            values: &[("total", "55370.6 W")],
+            ..SIX_DIGITS
+        },
+        Check {
+            input: "{ model: { type: dawson, lambda: 0.6 }, part: { gear: { z: 62, normal_module: 3 mm, pressure_angle: 20 deg, \
+                    facewidth: 30 mm, reference_diameter: 186 mm, working_diameter: 186 mm, tip_diameter: 192 mm, \
+                    root_diameter: 180 mm, contact_height: 1 mm } }, at: { speed: 12000 rpm } }",
+            values: &[("total", "1042.68 W")],
+            ..SIX_DIGITS
+        },
+    ],
     terms: [TERM]);
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn c12_large_and_small() {
-        let power = |lambda, n, d, b, m| {
-            Dawson {
-                coefficients: Constants::PUBLISHED,
-                phi: 1.0,
-                lambda,
-            }
-            .power(n, d, b, m)
-        };
-        for (value, printed) in [
-            (power(1.0, 3000.0, 1000.0, 200.0, 10.0), 55370.6),
-            (power(0.6, 12000.0, 180.0, 30.0, 3.0), 1042.68),
-        ] {
-            assert!((value / printed - 1.0).abs() < 1e-5, "{value} {printed}");
-        }
-        assert_eq!(power(1.0, 0.0, 180.0, 30.0, 3.0), 0.0);
-    }
-}

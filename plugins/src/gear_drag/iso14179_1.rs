@@ -12,12 +12,13 @@
 use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::gear_drag::{Covers, GearDrag, GearDragAt, GearDragModel};
-use gearloss_framework::registry::{Evidence, default_of, formula};
+use gearloss_framework::registry::{Check, Evidence, default_of, formula};
 use gearloss_framework::{coefficients, register, terms};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::CHURNING;
+use crate::checks::SIX_DIGITS;
 use crate::powers::power;
 
 terms! {
@@ -106,23 +107,13 @@ register!(GearDrag, "iso14179_1", Iso14179,
         formula(Evidence::Recalled, "constants quoted from memory"),
         default_of("a_g", Evidence::Recalled, "quoted from memory, not checked"),
     ],
+    checks: [
+        Check {
+            input: "{ model: { type: iso14179_1, a_g: 0.2 }, part: { gear: { z: 48, normal_module: 4 mm, pressure_angle: 20 deg, \
+                    facewidth: 50 mm, reference_diameter: 192 mm, working_diameter: 192 mm, tip_diameter: 200 mm, \
+                    root_diameter: 182 mm, contact_height: 1 mm } }, at: { speed: 1500 rpm, tip_dip: 100 mm, nu: 100 mm2/s } }",
+            values: &[("sides", "162.399 W"), ("teeth", "3271.85 W")],
+            ..SIX_DIGITS
+        },
+    ],
     terms: [SIDES, TEETH]);
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn c5_published_gear() {
-        let law = Iso14179 {
-            coefficients: Constants::PUBLISHED,
-            a_g: 0.2,
-        };
-        for (value, printed) in [
-            (law.teeth(0.5, 100.0, 1500.0, 200.0, 50.0, 4.0, 0.0), 3271.85),
-            (law.sides(0.5, 100.0, 1500.0, 200.0), 162.399),
-        ] {
-            assert!((value / printed - 1.0).abs() < 1e-5, "{value} {printed}");
-        }
-    }
-}

@@ -11,11 +11,12 @@ use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::gear_drag::{Covers, GearDrag, GearDragAt, GearDragModel, Scope};
-use gearloss_framework::registry::{Build, Evidence, formula};
+use gearloss_framework::registry::{Build, Check, Evidence, formula};
 use gearloss_framework::{coefficients, limits, observed, register, terms};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::checks::SIX_DIGITS;
 use crate::powers::power;
 
 terms! { SPLASH = no_load("splash"); }
@@ -150,6 +151,30 @@ register!(GearDrag, "iso14179_2", Iso14179,
     source: "ISO/TR 14179-2:2001",
     example: "{ type: iso14179_2, speed_of: wheel }",
     evidence: [formula(Evidence::Disputed, "form published, constants quoted from memory; sources differ on the shaft")],
+    checks: [
+        Check {
+            input: "{ model: { type: iso14179_2, speed_of: pinion }, part: { gear: { z: 31, normal_module: 1.6 mm, \
+                    pressure_angle: 17.5 deg, helix_angle: 27 deg, facewidth: 30 mm, reference_diameter: 55.7 mm, \
+                    working_diameter: 56 mm, tip_diameter: 59.8 mm, root_diameter: 52.6 mm, contact_height: 30 mm }, mate: { z: 96, \
+                    normal_module: 1.6 mm, pressure_angle: 17.5 deg, helix_angle: 27 deg, facewidth: 30 mm, \
+                    reference_diameter: 172.4 mm, working_diameter: 174 mm, tip_diameter: 176.3 mm, root_diameter: 169 mm, \
+                    contact_height: 90 mm }, section_area: 100 cm2, section_perimeter: 20 cm }, at: { speed: 285.7142857 rad/s, \
+                    tip_dip: 30 mm, tip_dip_2: 40 mm } }",
+            values: &[("T_H", "0.990015 Nm")],
+            ..SIX_DIGITS
+        },
+        Check {
+            input: "{ model: { type: iso14179_2, speed_of: pinion }, part: { gear: { z: 31, normal_module: 1.6 mm, \
+                    pressure_angle: 17.5 deg, helix_angle: 27 deg, facewidth: 17 mm, reference_diameter: 55.7 mm, \
+                    working_diameter: 56 mm, tip_diameter: 59.8 mm, root_diameter: 52.6 mm, contact_height: 30 mm }, mate: { z: 96, \
+                    normal_module: 1.6 mm, pressure_angle: 17.5 deg, helix_angle: 27 deg, facewidth: 17 mm, \
+                    reference_diameter: 172.4 mm, working_diameter: 174 mm, tip_diameter: 176.3 mm, root_diameter: 169 mm, \
+                    contact_height: 90 mm }, section_area: 100 cm2, section_perimeter: 20 cm }, at: { speed: 714.2857143 rad/s, \
+                    tip_dip: 0 mm, tip_dip_2: 45 mm } }",
+            values: &[("C_Sp", "0.489898"), ("T_H", "0.283297 Nm")],
+            ..SIX_DIGITS
+        },
+    ],
     limits: [PITCH_SPEED, WIDTH], terms: [SPLASH], observed: [TORQUE], scope: Scope::Mesh, prepare: prepare);
 
 #[cfg(test)]
@@ -195,16 +220,6 @@ mod tests {
             to.tip_dip = dips[0];
             to.tip_dip_2 = dips[1];
         })
-    }
-
-    #[test]
-    fn c2_splash_torque() {
-        let both = torque(&Constants::PUBLISHED, 70.0, 30.0, 8.0, 1.0);
-        assert!((both / 0.990015 - 1.0).abs() < 1e-5, "{both}");
-        let c_sp = splash_factor(&Constants::PUBLISHED, 45.0, 90.0, 200.0);
-        assert!((c_sp / 0.489898 - 1.0).abs() < 1e-5, "{c_sp}");
-        let one = torque(&Constants::PUBLISHED, 45.0, 17.0, 20.0, c_sp);
-        assert!((one / 0.283297 - 1.0).abs() < 1e-5, "{one}");
     }
 
     #[test]

@@ -6,12 +6,13 @@
 
 use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::gear_drag::{Covers, GearDrag, GearDragAt, GearDragModel};
-use gearloss_framework::registry::{Evidence, default_of, formula};
+use gearloss_framework::registry::{Check, Evidence, default_of, formula};
 use gearloss_framework::{coefficients, register, terms};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::SQUEEZING;
+use crate::checks::SIX_DIGITS;
 use crate::powers::power;
 use gearloss_framework::mechanism::gear_drag::Scope;
 
@@ -113,29 +114,22 @@ register!(GearDrag, "mauz_injection", MauzInjection,
         default_of("viscosity_ratio", Evidence::Assumed, "the reference is not public"),
         default_of("tooth_height_ratio", Evidence::Assumed, "the reference is not public"),
     ],
+    checks: [
+        Check {
+            input: "{ model: { type: mauz_injection, flow: 2 l/min }, part: { gear: { z: 16, normal_module: 4.5 mm, \
+                    pressure_angle: 20 deg, facewidth: 20 mm, reference_diameter: 72 mm, working_diameter: 73.2 mm, \
+                    tip_diameter: 82.6 mm, root_diameter: 61 mm, contact_height: 1 mm } }, at: { speed: 273.2240437 rad/s, \
+                    rho: 850 kg/m3 } }",
+            values: &[("moment", "0.0973906 Nm")],
+            ..SIX_DIGITS
+        },
+        Check {
+            input: "{ model: { type: mauz_injection, flow: 5 l/min, viscosity_ratio: 4, tooth_height_ratio: 0.6 }, \
+                    part: { gear: { z: 64, normal_module: 2.5 mm, pressure_angle: 20 deg, facewidth: 30 mm, reference_diameter: 160 mm, \
+                    working_diameter: 160 mm, tip_diameter: 165 mm, root_diameter: 154 mm, contact_height: 1 mm } }, \
+                    at: { speed: 312.5 rad/s, rho: 830 kg/m3 } }",
+            values: &[("moment", "1.35975 Nm")],
+            ..SIX_DIGITS
+        },
+    ],
     terms: [TERM], scope: Scope::Mesh);
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn c4_published_values() {
-        let law = |flow: f64, viscosity_ratio, tooth_height_ratio| MauzInjection {
-            coefficients: Constants::PUBLISHED,
-            flow: flow * 1e-3 / 60.0,
-            side: Side::Ingoing,
-            viscosity_ratio,
-            tooth_height_ratio,
-        };
-        for (value, printed) in [
-            (
-                law(2.0, 1.0, 1.0).torque(850.0, 36.6e-3, 10.0, 20e-3, 4.5e-3),
-                0.0973906,
-            ),
-            (law(5.0, 4.0, 0.6).torque(830.0, 80e-3, 25.0, 30e-3, 2.5e-3), 1.35975),
-        ] {
-            assert!((value / printed - 1.0).abs() < 1e-5, "{value} {printed}");
-        }
-    }
-}

@@ -11,12 +11,13 @@ use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::gear_drag::{Covers, GearDrag, GearDragAt, GearDragModel};
-use gearloss_framework::registry::{Build, Evidence, default_of, formula};
+use gearloss_framework::registry::{Build, Check, Evidence, default_of, formula};
 use gearloss_framework::{coefficients, limits, observed, register, terms};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::CHURNING;
+use crate::checks::SIX_DIGITS;
 
 terms! { TERM = no_load("churning"); }
 limits! { SPEED = ("v", "pitch line velocity", "m/s", 0.0, 90.0, "pitch line velocities of the rig"); }
@@ -141,52 +142,60 @@ register!(GearDrag, "shore", Params,
         formula(Evidence::OneSource, "one article; dimensionally exact"),
         default_of("swell", Evidence::Assumed, "no public formula"),
     ],
+    checks: [
+        Check {
+            input: "{ model: { type: shore, fill: 0.35 }, part: { gear: { z: 35, normal_module: 4 mm, pressure_angle: 20 deg, \
+                    facewidth: 20 mm, reference_diameter: 140 mm, working_diameter: 140 mm, tip_diameter: 148 mm, \
+                    root_diameter: 130 mm, contact_height: 1 mm }, radial_clearance: 6 mm, axial_clearance: 30 mm }, \
+                    at: { speed: 1000 rpm, dip: 35 mm, nu: 50 mm2/s, rho: 840 kg/m3 } }",
+            values: &[("h_eff", "26.1933 mm"), ("moment", "0.0805387 Nm")],
+            ..SIX_DIGITS
+        },
+        Check {
+            input: "{ model: { type: shore, fill: 0.35 }, part: { gear: { z: 35, normal_module: 4 mm, pressure_angle: 20 deg, \
+                    facewidth: 20 mm, reference_diameter: 140 mm, working_diameter: 140 mm, tip_diameter: 148 mm, \
+                    root_diameter: 130 mm, contact_height: 1 mm }, radial_clearance: 6 mm, axial_clearance: 30 mm }, \
+                    at: { speed: 3000 rpm, dip: 35 mm, nu: 10 mm2/s, rho: 840 kg/m3 } }",
+            values: &[("h_eff", "20.2747 mm"), ("moment", "0.136511 Nm")],
+            ..SIX_DIGITS
+        },
+        Check {
+            input: "{ model: { type: shore, fill: 0.35 }, part: { gear: { z: 35, normal_module: 4 mm, pressure_angle: 20 deg, \
+                    facewidth: 20 mm, reference_diameter: 140 mm, working_diameter: 140 mm, tip_diameter: 148 mm, \
+                    root_diameter: 130 mm, contact_height: 1 mm }, radial_clearance: 6 mm, axial_clearance: 30 mm }, \
+                    at: { speed: 9000 rpm, dip: 35 mm, nu: 10 mm2/s, rho: 840 kg/m3 } }",
+            values: &[("h_eff", "17.372 mm"), ("moment", "0.280426 Nm")],
+            ..SIX_DIGITS
+        },
+        Check {
+            input: "{ model: { type: shore, fill: 0.3 }, part: { gear: { z: 35, normal_module: 4 mm, pressure_angle: 20 deg, \
+                    facewidth: 20 mm, reference_diameter: 140 mm, working_diameter: 140 mm, tip_diameter: 148 mm, \
+                    root_diameter: 130 mm, contact_height: 1 mm }, radial_clearance: 6 mm, axial_clearance: 30 mm }, \
+                    at: { speed: 1000 rpm, dip: 35 mm, nu: 27.3 mm2/s, rho: 826 kg/m3 } }",
+            values: &[("h_eff", "27.48452 mm"), ("moment", "0.08101279 Nm")],
+            tolerance: 1e-6,
+            because: "the values have seven digits",
+            ..SIX_DIGITS
+        },
+        Check {
+            input: "{ model: { type: shore, fill: 0.3 }, part: { gear: { z: 35, normal_module: 4 mm, pressure_angle: 20 deg, \
+                    facewidth: 20 mm, reference_diameter: 140 mm, working_diameter: 140 mm, tip_diameter: 148 mm, \
+                    root_diameter: 130 mm, contact_height: 1 mm }, radial_clearance: 6 mm, axial_clearance: 30 mm }, \
+                    at: { speed: 4000 rpm, dip: 35 mm, nu: 27.3 mm2/s, rho: 826 kg/m3 } }",
+            values: &[("h_eff", "16.98586 mm"), ("moment", "0.1466633 Nm")],
+            tolerance: 1e-6,
+            because: "the values have seven digits",
+            ..SIX_DIGITS
+        },
+        Check {
+            input: "{ model: { type: shore, fill: 0.3 }, part: { gear: { z: 35, normal_module: 4 mm, pressure_angle: 20 deg, \
+                    facewidth: 20 mm, reference_diameter: 140 mm, working_diameter: 140 mm, tip_diameter: 148 mm, \
+                    root_diameter: 130 mm, contact_height: 1 mm }, radial_clearance: 6 mm, axial_clearance: 30 mm }, \
+                    at: { speed: 12000 rpm, dip: 35 mm, nu: 27.3 mm2/s, rho: 826 kg/m3 } }",
+            values: &[("h_eff", "15.62399 mm"), ("moment", "0.3257352 Nm")],
+            tolerance: 1e-6,
+            because: "the values have seven digits",
+            ..SIX_DIGITS
+        },
+    ],
     limits: [SPEED], terms: [TERM], observed: [H_EFF], prepare: prepare);
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn c10_published_gear() {
-        let model = Shore {
-            coefficients: Constants::PUBLISHED,
-            fill: 0.35,
-            swell: 0.0,
-            radial: 6e-3,
-            axial: 30e-3,
-        };
-        for (nu, n, h_eff, torque) in [
-            (50.0, 1000.0, 26.1933, 0.0805387),
-            (10.0, 3000.0, 20.2747, 0.136511),
-            (10.0, 9000.0, 17.372, 0.280426),
-        ] {
-            let omega = n * std::f64::consts::PI / 30.0;
-            let own = model.torque(74e-3, 70e-3, 20e-3, 35e-3, nu * 1e-6, 840.0, omega);
-            assert!((own.0 * 1e3 / h_eff - 1.0).abs() < 1e-5, "{own:?}");
-            assert!((own.1 / torque - 1.0).abs() < 1e-5, "{own:?}");
-        }
-    }
-
-    /// Oil of 27.3 mm2/s and 826 kg/m3 at 40 degC.
-    #[test]
-    fn u9a_u9b_u9c_three_speeds() {
-        let model = Shore {
-            coefficients: Constants::PUBLISHED,
-            fill: 0.30,
-            swell: 0.0,
-            radial: 6e-3,
-            axial: 30e-3,
-        };
-        for (n, h_eff, torque) in [
-            (1000.0, 0.02748452, 0.08101279),
-            (4000.0, 0.01698586, 0.1466633),
-            (12000.0, 0.01562399, 0.3257352),
-        ] {
-            let omega = n * std::f64::consts::PI / 30.0;
-            let own = model.torque(74e-3, 70e-3, 20e-3, 35e-3, 27.3e-6, 826.0, omega);
-            assert!((own.0 / h_eff - 1.0).abs() < 1e-6, "{own:?}");
-            assert!((own.1 / torque - 1.0).abs() < 1e-6, "{own:?}");
-        }
-    }
-}

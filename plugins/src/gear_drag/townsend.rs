@@ -6,12 +6,13 @@
 use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::gear_drag::{Covers, GearDrag, GearDragAt, GearDragModel};
-use gearloss_framework::registry::{Evidence, formula};
+use gearloss_framework::registry::{Check, Evidence, formula};
 use gearloss_framework::{coefficients, register, terms};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::WINDAGE;
+use crate::checks::SIX_DIGITS;
 use crate::powers::power;
 
 terms! { TERM = no_load("windage"); }
@@ -67,19 +68,20 @@ register!(GearDrag, "townsend", Townsend,
     source: "Townsend (ed.), Dudley's Gear Handbook, 1991",
     example: "{ type: townsend }",
     evidence: [formula(Evidence::Recalled, "below the laws for gears, as expected of a smooth rotor")],
+    checks: [
+        Check {
+            input: "{ part: { gear: { z: 61, normal_module: 4 mm, pressure_angle: 20 deg, facewidth: 50.8 mm, \
+                    reference_diameter: 244 mm, working_diameter: 244 mm, tip_diameter: 254 mm, root_diameter: 234 mm, \
+                    contact_height: 1 mm } }, at: { speed: 10000 rpm } }",
+            values: &[("total", "1211.39 W")],
+            ..SIX_DIGITS
+        },
+        Check {
+            input: "{ part: { gear: { z: 74, normal_module: 4 mm, pressure_angle: 20 deg, facewidth: 76.2 mm, \
+                    reference_diameter: 296 mm, working_diameter: 296 mm, tip_diameter: 304.8 mm, root_diameter: 286 mm, \
+                    contact_height: 1 mm } }, at: { speed: 6000 rpm } }",
+            values: &[("total", "864.787 W")],
+            ..SIX_DIGITS
+        },
+    ],
     terms: [TERM]);
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn c13_published_rotors() {
-        for (value, printed) in [
-            (windage(&Constants::PUBLISHED, 10000.0, 10.0, 2.0), 1211.39),
-            (windage(&Constants::PUBLISHED, 6000.0, 12.0, 3.0), 864.787),
-        ] {
-            assert!((value / printed - 1.0).abs() < 1e-5, "{value} {printed}");
-        }
-    }
-}

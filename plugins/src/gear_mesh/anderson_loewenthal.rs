@@ -17,10 +17,12 @@ use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt, GearMeshLaw};
 use gearloss_framework::real::{Mask as _, Real};
-use gearloss_framework::registry::{Build, Evidence, default_of, formula};
+use gearloss_framework::registry::{Build, Check, Evidence, default_of, formula};
 use gearloss_framework::{coefficients, limits, observed, register, terms};
 use schemars::JsonSchema;
 use serde::Deserialize;
+
+use crate::checks::SIX_DIGITS;
 
 terms! {
     SLIDING = load("sliding");
@@ -178,6 +180,19 @@ register!(GearMesh, "anderson_loewenthal", Params,
         formula(Evidence::Recalled, "speed constants derived, the others quoted from memory, not checked"),
         default_of("f_limits", Evidence::Disputed, "the original seems to limit f to 0.01 to 0.02"),
     ],
+    checks: [
+        Check {
+            input: "{ at: { torque: 200 Nm, speed: 1500 rpm, eta: 13.28 mPa s } }",
+            values: &[("f", "0.0588951"), ("h", "0.185452 um"), ("sliding", "442.773 W"), ("rolling", "1.41296 W")],
+            ..SIX_DIGITS
+        },
+        Check {
+            input: "{ model: { type: anderson_loewenthal, f_limits: [0.01, 0.02] }, at: { torque: 200 Nm, speed: 1500 rpm, \
+                    eta: 13.28 mPa s } }",
+            values: &[("f", "0.02"), ("sliding", "150.36 W")],
+            ..SIX_DIGITS
+        },
+    ],
     limits: [HELIX], terms: [SLIDING, ROLLING], observed: [F, FILM], prepare: prepare);
 
 #[cfg(test)]
@@ -201,19 +216,6 @@ mod tests {
 
     fn close(value: f64, printed: f64) {
         assert!((value / printed - 1.0).abs() < 1e-5, "{value} against {printed}");
-    }
-
-    #[test]
-    fn b15_fzg_gears() {
-        let speed = 1500.0 * std::f64::consts::PI / 30.0;
-        let free = point(None).answer(200.0, speed, 13.28e-3);
-        close(free.f, 0.0588951);
-        close(free.film * 1e6, 0.185452);
-        close(free.sliding, 442.773);
-        close(free.rolling, 1.41296);
-        let held = point(Some([0.01, 0.02])).answer(200.0, speed, 13.28e-3);
-        close(held.f, 0.02);
-        close(held.sliding, 150.36);
     }
 
     #[test]

@@ -10,11 +10,12 @@ use gearloss_framework::mechanism::Answers;
 use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt, GearMeshLaw};
 use gearloss_framework::mechanism::mean_friction::MeanFriction;
 use gearloss_framework::register;
-use gearloss_framework::registry::{Build, Evidence, ModelRef, formula};
+use gearloss_framework::registry::{Build, Check, Evidence, ModelRef, formula};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::factor::{Factor, LOSS_FACTOR, MU, SLIDING};
+use crate::checks::{SIX_DIGITS, helical, internal};
 
 /// Mesh loss from a mean friction law and the tooth loss factor of an evenly shared load.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -45,21 +46,22 @@ register!(GearMesh, "even_share", Params,
     source: "derived; equal to the geometry factor of ISO/TR 14179-1 for spur gears",
     example: "{ type: even_share, mean_friction: { type: schlenk } }",
     evidence: [formula(Evidence::Derived, "follows from even load sharing; equals 1/M of ISO/TR 14179-1 for spur gears")],
+    checks: [
+        Check {
+            input: "{ model: { type: even_share, mean_friction: { type: constant, value: 0.05 } }, at: { torque: 100 Nm, \
+                    speed: 100 rad/s } }",
+            values: &[("H_v", "0.239309"), ("total", "119.6545 W")],
+            ..SIX_DIGITS
+        },
+        Check {
+            input: concat!("{ model: { type: even_share, mean_friction: { type: constant, value: 0.05 } }, part: ", helical!(), ", at: { torque: 100 Nm, speed: 100 rad/s } }"),
+            values: &[("H_v", "0.116033"), ("total", "58.0165 W")],
+            ..SIX_DIGITS
+        },
+        Check {
+            input: concat!("{ model: { type: even_share, mean_friction: { type: constant, value: 0.05 } }, part: ", internal!(), ", at: { torque: 100 Nm, speed: 100 rad/s } }"),
+            values: &[("H_v", "0.0732882"), ("total", "36.6441 W")],
+            ..SIX_DIGITS
+        },
+    ],
     terms: [SLIDING], observed: [MU, LOSS_FACTOR], prepare: prepare);
-
-#[cfg(test)]
-mod tests {
-    use crate::gear_mesh::path_integral::tests::{Kind, loss_factor};
-
-    #[test]
-    fn b1b_uniform_share() {
-        for (kind, printed) in [
-            (Kind::Spur, 0.239309),
-            (Kind::Helical, 0.116033),
-            (Kind::Internal, 0.0732882),
-        ] {
-            let factor = loss_factor(&serde_json::json!({ "type": "even_share" }), kind);
-            assert!((factor / printed - 1.0).abs() < 1e-5, "{factor} {printed}");
-        }
-    }
-}

@@ -13,12 +13,13 @@ use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt, GearMeshLaw};
 use gearloss_framework::real::{Mask as _, Real};
-use gearloss_framework::registry::{Build, Evidence, default_of, formula};
+use gearloss_framework::registry::{Build, Check, Evidence, default_of, formula};
 use gearloss_framework::{limits, observed, register, terms};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::boundary::greatest;
+use crate::checks::SIX_DIGITS;
 use crate::mean_friction::schlenk::{
     Constants, LINE_LOAD, MU, Mesh, OilType, PITCH_SPEED, Schlenk, SpeedClamp, VISCOSITY,
 };
@@ -155,6 +156,13 @@ register!(GearMesh, "iso14179_2", Iso14179,
         default_of("clamp_speed", Evidence::Disputed, "two interpretations of the clamp"),
         default_of("greatest", Evidence::Assumed, "above the boundary friction of lubricated steel"),
     ],
+    checks: [
+        Check {
+            input: "{ model: { type: iso14179_2, x_l: 1, greatest: 0.2 }, at: { torque: 200 Nm, speed: 1500 rpm, eta: 13.28 mPa s } }",
+            values: &[("F_bt/b", "422.293 N/mm"), ("v_SC", "4.38883 m/s"), ("mu_m", "0.0546486"), ("total", "341.024 W")],
+            ..SIX_DIGITS
+        },
+    ],
     limits: [LINE_LOAD, PITCH_SPEED, VISCOSITY, CONTACT_RATIO, ADDENDUM], terms: [SLIDING], observed: [MU, LOSS_FACTOR], prepare: prepare);
 
 #[cfg(test)]
@@ -173,23 +181,6 @@ mod tests {
         loss_factor: LossFactor::Ohlendorf,
         greatest: 0.2,
     };
-
-    #[test]
-    fn b2_fzg_c14_at_200_nm() {
-        let part = fzg_c14(0.4e-6, 0.5e-6);
-        let speed = 1500.0 * std::f64::consts::PI / 30.0;
-        let at = GearMeshAt::usual(&part, Notes::MUTED).with(|to| {
-            to.torque = 200.0;
-            to.speed = speed;
-            to.eta = 13.28e-3;
-        });
-        let watts = Mean::new(&PLAIN, &part.pair).loss(&at).unwrap().total_watts(speed);
-        assert!((watts / 341.024 - 1.0).abs() < 1e-5, "{watts}");
-        let line_load = 200.0 / part.pair.base_radius[0] / part.pair.facewidth * 1e-3;
-        assert!((line_load / 422.293 - 1.0).abs() < 1e-5);
-        let sum = 2.0 * speed * part.pair.working_radius[0] * part.pair.working_angle.sin();
-        assert!((sum / 4.38883 - 1.0).abs() < 1e-5);
-    }
 
     #[test]
     fn loss_vanishes_with_torque_and_speed_and_rises_with_torque() {

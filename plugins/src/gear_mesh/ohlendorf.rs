@@ -10,12 +10,13 @@ use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::Answers;
 use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt, GearMeshLaw};
 use gearloss_framework::mechanism::mean_friction::MeanFriction;
-use gearloss_framework::registry::{Build, Evidence, ModelRef, formula};
+use gearloss_framework::registry::{Build, Check, Evidence, ModelRef, formula};
 use gearloss_framework::{limits, register};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::factor::{Factor, LOSS_FACTOR, MU, SLIDING};
+use crate::checks::{SIX_DIGITS, helical, internal};
 
 limits! {
     CONTACT_RATIO = ("eps_alpha", "transverse contact ratio", "-", 1.0, 2.0, "one to two pairs in contact");
@@ -55,21 +56,22 @@ register!(GearMesh, "ohlendorf", Params,
     source: "Ohlendorf 1958; Niemann/Winter, Maschinenelemente 2",
     example: "{ type: ohlendorf, mean_friction: { type: schlenk } }",
     evidence: [formula(Evidence::SeveralSources, "four sources and the derivation agree")],
+    checks: [
+        Check {
+            input: "{ model: { type: ohlendorf, mean_friction: { type: constant, value: 0.05 } }, at: { torque: 100 Nm, \
+                    speed: 100 rad/s } }",
+            values: &[("H_v", "0.198635"), ("total", "99.3175 W")],
+            ..SIX_DIGITS
+        },
+        Check {
+            input: concat!("{ model: { type: ohlendorf, mean_friction: { type: constant, value: 0.05 } }, part: ", helical!(), ", at: { torque: 100 Nm, speed: 100 rad/s } }"),
+            values: &[("H_v", "0.0995648"), ("total", "49.7824 W")],
+            ..SIX_DIGITS
+        },
+        Check {
+            input: concat!("{ model: { type: ohlendorf, mean_friction: { type: constant, value: 0.05 } }, part: ", internal!(), ", at: { torque: 100 Nm, speed: 100 rad/s } }"),
+            values: &[("H_v", "0.0638342"), ("total", "31.9171 W")],
+            ..SIX_DIGITS
+        },
+    ],
     limits: [CONTACT_RATIO, ADDENDUM], terms: [SLIDING], observed: [MU, LOSS_FACTOR], prepare: prepare);
-
-#[cfg(test)]
-mod tests {
-    use crate::gear_mesh::path_integral::tests::{Kind, loss_factor};
-
-    #[test]
-    fn b1_ohlendorf() {
-        for (kind, printed) in [
-            (Kind::Spur, 0.198635),
-            (Kind::Helical, 0.0995648),
-            (Kind::Internal, 0.0638342),
-        ] {
-            let factor = loss_factor(&serde_json::json!({ "type": "ohlendorf" }), kind);
-            assert!((factor / printed - 1.0).abs() < 1e-5, "{factor} {printed}");
-        }
-    }
-}

@@ -27,13 +27,15 @@ use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt, GearMeshLaw
 use gearloss_framework::mechanism::mean_friction::MeanFrictionAt;
 use gearloss_framework::mechanism::tooth_friction::{PathAt, PathNode, ToothFriction};
 use gearloss_framework::real::{Mask as _, Real};
-use gearloss_framework::registry::{Build, Evidence, ModelRef, Slot, default_of, formula};
+use gearloss_framework::registry::{Build, Check, Evidence, ModelRef, Slot, default_of, formula};
 use gearloss_framework::{observed, register, terms};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use gearloss_framework::contact::path::FrictionPath;
 use gearloss_framework::contact::{dowson_higginson, heating, thinned};
+
+use crate::checks::SIX_DIGITS;
 
 terms! {
     SLIDING = load("sliding");
@@ -275,6 +277,38 @@ register!(GearMesh, "path_integral", PathIntegral,
         default_of("rolling_thermal", Evidence::OneSource, "factor from one public source and from memory; the original law includes one"),
         default_of("rolling_speed", Evidence::Recalled, "Crook's coefficient as used by Anderson and Loewenthal, quoted from memory"),
     ],
+    checks: [
+        Check {
+            input: "{ model: { type: path_integral, load_sharing: rigid, average: base_pitch, tooth_friction: { type: constant, \
+                    value: 0.05 }, rolling_friction: none }, at: { torque: 200 Nm, speed: 1500 rpm, eta: 13.28 mPa s } }",
+            values: &[("total", "312.015 W")],
+            ..SIX_DIGITS
+        },
+        Check {
+            input: "{ model: { type: path_integral, load_sharing: rigid, average: tooth_travel, tooth_friction: { type: constant, \
+                    value: 0.05 }, rolling_friction: none }, at: { torque: 200 Nm, speed: 1500 rpm, eta: 13.28 mPa s } }",
+            values: &[("total", "375.906 W")],
+            ..SIX_DIGITS
+        },
+        Check {
+            input: "{ model: { type: path_integral, load_sharing: rigid, average: base_pitch, tooth_friction: { type: xu, \
+                    roughness: composite_rms }, rolling_friction: none }, part: { z: [16, 24], normal_module: 4.5 mm, \
+                    pressure_angle: 20 deg, centre_distance: 91.5 mm, facewidth: 14 mm, tip_diameter: [82.636 mm, 118.544 mm], \
+                    ra: [0.4 um, 0.4 um], rq: [0.353553391 um, 0.353553391 um] }, at: { torque: 200 Nm, speed: 1500 rpm, \
+                    eta: 13.28 mPa s } }",
+            values: &[("total", "183.716 W")],
+            ..SIX_DIGITS
+        },
+        Check {
+            input: "{ model: { type: path_integral, load_sharing: rigid, average: tooth_travel, tooth_friction: { type: xu, \
+                    roughness: composite_rms }, rolling_friction: none }, part: { z: [16, 24], normal_module: 4.5 mm, \
+                    pressure_angle: 20 deg, centre_distance: 91.5 mm, facewidth: 14 mm, tip_diameter: [82.636 mm, 118.544 mm], \
+                    ra: [0.4 um, 0.4 um], rq: [0.353553391 um, 0.353553391 um] }, at: { torque: 200 Nm, speed: 1500 rpm, \
+                    eta: 13.28 mPa s } }",
+            values: &[("total", "221.384 W")],
+            ..SIX_DIGITS
+        },
+    ],
     terms: [SLIDING, ROLLING], observed: [MU_MEAN, LOSS_FACTOR], prepare: prepare);
 
 #[cfg(test)]
@@ -381,26 +415,6 @@ pub(crate) mod tests {
 
     fn model(friction: Value, average: &str) -> Value {
         json!({ "type": "path_integral", "load_sharing": "rigid", "average": average, "tooth_friction": friction, "rolling_friction": "none", "rolling_thermal": true, "rolling_speed": "sum" })
-    }
-
-    #[test]
-    fn b5_constant_friction_on_fzg_c14() {
-        let friction = json!({ "type": "constant", "value": 0.05 });
-        let cycle = watts(&model(friction.clone(), "base_pitch"));
-        let travel = watts(&model(friction, "tooth_travel"));
-        assert!((cycle / 312.015 - 1.0).abs() < 1e-5, "{cycle}");
-        assert!((travel / 375.906 - 1.0).abs() < 1e-5, "{travel}");
-        assert!((travel / cycle / 1.20477 - 1.0).abs() < 1e-5);
-    }
-
-    #[test]
-    fn b5_local_friction_on_fzg_c14() {
-        let friction = json!({ "type": "xu", "roughness": "composite_rms" });
-        // The check value was integrated to convergence and has six digits.
-        let cycle = watts(&model(friction.clone(), "base_pitch"));
-        assert!((cycle / 183.716 - 1.0).abs() < 1e-5, "{cycle}");
-        let travel = watts(&model(friction, "tooth_travel"));
-        assert!((travel / 221.384 - 1.0).abs() < 1e-5, "{travel}");
     }
 
     #[test]

@@ -11,11 +11,12 @@ use gearloss_framework::mechanism::Answers;
 use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt, GearMeshLaw};
 use gearloss_framework::mechanism::mean_friction::MeanFriction;
 use gearloss_framework::register;
-use gearloss_framework::registry::{Build, Evidence, ModelRef, default_of, formula};
+use gearloss_framework::registry::{Build, Check, Evidence, ModelRef, default_of, formula};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::factor::{Factor, LOSS_FACTOR, MU, SLIDING};
+use crate::checks::{SIX_DIGITS, helical, internal};
 
 /// Mesh loss from the local tooth loss factor and a mean friction law.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -52,26 +53,45 @@ register!(GearMesh, "wimmer", Params,
         formula(Evidence::SeveralSources, "two sources and the derivation agree"),
         default_of("load_sharing", Evidence::Assumed, "rigid teeth"),
     ],
+    checks: [
+        Check {
+            input: "{ model: { type: wimmer, load_sharing: rigid, mean_friction: { type: constant, value: 0.05 } }, \
+                    at: { torque: 100 Nm, speed: 100 rad/s } }",
+            values: &[("H_v", "0.198635"), ("total", "99.3175 W")],
+            ..SIX_DIGITS
+        },
+        Check {
+            input: concat!("{ model: { type: wimmer, load_sharing: rigid, mean_friction: { type: constant, value: 0.05 } }, part: ", helical!(), ", at: { torque: 100 Nm, speed: 100 rad/s } }"),
+            values: &[("H_v", "0.0995648"), ("total", "49.7824 W")],
+            ..SIX_DIGITS
+        },
+        Check {
+            input: concat!("{ model: { type: wimmer, load_sharing: rigid, mean_friction: { type: constant, value: 0.05 } }, part: ", internal!(), ", at: { torque: 100 Nm, speed: 100 rad/s } }"),
+            values: &[("H_v", "0.0638342"), ("total", "31.9171 W")],
+            ..SIX_DIGITS
+        },
+        Check {
+            input: "{ model: { type: wimmer, load_sharing: uniform, mean_friction: { type: constant, value: 0.05 } }, \
+                    at: { torque: 100 Nm, speed: 100 rad/s } }",
+            values: &[("H_v", "0.239309"), ("total", "119.6545 W")],
+            ..SIX_DIGITS
+        },
+        Check {
+            input: concat!("{ model: { type: wimmer, load_sharing: uniform, mean_friction: { type: constant, value: 0.05 } }, part: ", helical!(), ", at: { torque: 100 Nm, speed: 100 rad/s } }"),
+            values: &[("H_v", "0.116033"), ("total", "58.0165 W")],
+            ..SIX_DIGITS
+        },
+        Check {
+            input: concat!("{ model: { type: wimmer, load_sharing: uniform, mean_friction: { type: constant, value: 0.05 } }, part: ", internal!(), ", at: { torque: 100 Nm, speed: 100 rad/s } }"),
+            values: &[("H_v", "0.0732882"), ("total", "36.6441 W")],
+            ..SIX_DIGITS
+        },
+    ],
     terms: [SLIDING], observed: [MU, LOSS_FACTOR], prepare: prepare);
 
 #[cfg(test)]
 mod tests {
     use crate::gear_mesh::path_integral::tests::{Kind, loss_factor};
-
-    #[test]
-    fn b4_local_loss_factor() {
-        for (sharing, kind, printed) in [
-            ("rigid", Kind::Spur, 0.198635),
-            ("rigid", Kind::Helical, 0.0995648),
-            ("rigid", Kind::Internal, 0.0638342),
-            ("uniform", Kind::Spur, 0.239309),
-            ("uniform", Kind::Helical, 0.116033),
-            ("uniform", Kind::Internal, 0.0732882),
-        ] {
-            let factor = loss_factor(&serde_json::json!({ "type": "wimmer", "load_sharing": sharing }), kind);
-            assert!((factor / printed - 1.0).abs() < 1e-5, "{sharing} {factor} {printed}");
-        }
-    }
 
     #[test]
     fn contact_lines_lie_between_rigid_and_even_share() {

@@ -10,12 +10,13 @@ use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::Undefined;
 use gearloss_framework::mechanism::mean_friction::{MeanFriction, MeanFrictionAt, MeanFrictionLaw};
 use gearloss_framework::real::{Mask as _, Real};
-use gearloss_framework::registry::{Build, Evidence, default_of, formula};
+use gearloss_framework::registry::{Build, Check, Evidence, default_of, formula};
 use gearloss_framework::{coefficients, limits, observed, register};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::boundary::greatest;
+use crate::checks::SIX_DIGITS;
 
 limits! { PITCH_SPEED = ("v_t", "pitch line velocity", "m/s", 0.5, 20.0, "FZG tests behind X_L, quoted from memory"); }
 observed! { MU = ("mu_m", "-", "mean coefficient of friction"); }
@@ -116,45 +117,18 @@ register!(MeanFriction, "fernandes", Params,
         default_of("contact_length", Evidence::Assumed, "one pair; for spur gears the minimum length"),
         default_of("greatest", Evidence::Assumed, "above the boundary friction of lubricated steel"),
     ],
+    checks: [
+        Check {
+            input: "{ model: { type: fernandes, x_l: 0.846, contact_length: 14 mm }, at: { sum_speed: 4.7 m/s, eta: 13.28 mPa s, \
+                    alpha: 20.47 1/GPa, normal_force: 5912 N, ra: 0.4 um, radius: 8.4 mm } }",
+            values: &[("total", "0.0499995")],
+            ..SIX_DIGITS
+        },
+        Check {
+            input: "{ model: { type: fernandes, x_l: 0.65, contact_length: 20 mm }, at: { sum_speed: 10 m/s, eta: 30 mPa s, \
+                    alpha: 15 1/GPa, normal_force: 3000 N, ra: 0.5 um, radius: 10 mm } }",
+            values: &[("total", "0.024519")],
+            ..SIX_DIGITS
+        },
+    ],
     limits: [PITCH_SPEED], observed: [MU], prepare: prepare);
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn b9_published_values() {
-        for (value, printed) in [
-            (
-                mu(
-                    &Constants::PUBLISHED,
-                    4.7,
-                    13.28e-3,
-                    20.47e-9,
-                    5912.0,
-                    0.4e-6,
-                    14e-3,
-                    8.4e-3,
-                    0.846,
-                ),
-                0.0499995,
-            ),
-            (
-                mu(
-                    &Constants::PUBLISHED,
-                    10.0,
-                    30e-3,
-                    15e-9,
-                    3000.0,
-                    0.5e-6,
-                    20e-3,
-                    10e-3,
-                    0.65,
-                ),
-                0.024519,
-            ),
-        ] {
-            assert!((value / printed - 1.0).abs() < 1e-5, "{value} {printed}");
-        }
-    }
-}

@@ -8,12 +8,13 @@ use gearloss_framework::loss::Undefined;
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::mean_friction::{MeanFriction, MeanFrictionAt, MeanFrictionLaw};
 use gearloss_framework::real::{Mask as _, Real};
-use gearloss_framework::registry::{Evidence, default_of, formula};
+use gearloss_framework::registry::{Check, Evidence, default_of, formula};
 use gearloss_framework::{coefficients, limits, observed, register};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::boundary::greatest;
+use crate::checks::SIX_DIGITS;
 
 limits! {
     PITCH_SPEED = ("v_t", "pitch line velocity", "m/s", 0.5, 60.0,
@@ -117,21 +118,25 @@ register!(MeanFriction, "iso_13989", Iso13989,
         default_of("oil", Evidence::Disputed, "tables of X_L differ between standards"),
         default_of("greatest", Evidence::Assumed, "above the boundary friction of lubricated steel"),
     ],
+    checks: [
+        Check {
+            input: "{ model: { type: iso_13989, x_l: 1 }, at: { line_load: 300 N/mm, sum_speed: 8 m/s, radius: 8 mm, eta: 20 mPa s, \
+                    ra: 0.4 um } }",
+            values: &[("total", "0.0559504")],
+            ..SIX_DIGITS
+        },
+        Check {
+            input: "{ model: { type: iso_13989, x_l: 0.8 }, at: { line_load: 200 N/mm, sum_speed: 4 m/s, radius: 12 mm, eta: 60 mPa s, \
+                    ra: 0.8 um } }",
+            values: &[("total", "0.0492112")],
+            ..SIX_DIGITS
+        },
+    ],
     limits: [PITCH_SPEED], observed: [MU]);
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn b2b_iso_13989() {
-        for (value, printed) in [
-            (mu(&Constants::PUBLISHED, 300.0, 8.0, 8.0, 20.0, 0.4, 1.0), 0.0559504),
-            (mu(&Constants::PUBLISHED, 200.0, 4.0, 12.0, 60.0, 0.8, 0.8), 0.0492112),
-        ] {
-            assert!((value / printed - 1.0).abs() < 1e-5, "{value} {printed}");
-        }
-    }
 
     #[test]
     fn every_lubricant_factor_is_that_of_the_standard() {

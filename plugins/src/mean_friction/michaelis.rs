@@ -8,12 +8,13 @@ use gearloss_framework::loss::Undefined;
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::mean_friction::{MeanFriction, MeanFrictionAt, MeanFrictionLaw};
 use gearloss_framework::real::{Mask as _, Real};
-use gearloss_framework::registry::{Evidence, default_of, formula};
+use gearloss_framework::registry::{Check, Evidence, default_of, formula};
 use gearloss_framework::{coefficients, limits, observed, register};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::boundary::greatest;
+use crate::checks::SIX_DIGITS;
 
 limits! {
     LINE_LOAD = ("w_Bt", "line load", "N/mm", 150.0, 3000.0, "lower clamp of the method");
@@ -101,20 +102,18 @@ register!(MeanFriction, "michaelis", Michaelis,
         default_of("clamp_line_load", Evidence::Recalled, "quoted from memory, not checked against the standard"),
         default_of("greatest", Evidence::Assumed, "above the boundary friction of lubricated steel"),
     ],
+    checks: [
+        Check {
+            input: "{ model: { type: michaelis, x_l: 1 }, at: { line_load: 300 N/mm, sum_speed: 8 m/s, radius: 8 mm, eta: 20 mPa s, \
+                    ra: 0.4 um } }",
+            values: &[("total", "0.0548927")],
+            ..SIX_DIGITS
+        },
+        Check {
+            input: "{ model: { type: michaelis, x_l: 0.8 }, at: { line_load: 200 N/mm, sum_speed: 4 m/s, radius: 12 mm, eta: 60 mPa s, \
+                    ra: 0.8 um } }",
+            values: &[("total", "0.0436267")],
+            ..SIX_DIGITS
+        },
+    ],
     limits: [LINE_LOAD, PITCH_SPEED], observed: [MU]);
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn b2b_din_3990_4() {
-        let c = Constants::PUBLISHED;
-        for (value, printed) in [
-            (mu(&c, 300.0, 8.0, 8.0, 20.0, 0.4, 1.0), 0.0548927),
-            (mu(&c, 200.0, 4.0, 12.0, 60.0, 0.8, 0.8), 0.0436267),
-        ] {
-            assert!((value / printed - 1.0).abs() < 1e-5, "{value} {printed}");
-        }
-    }
-}

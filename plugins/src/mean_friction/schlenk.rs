@@ -11,12 +11,13 @@ use gearloss_framework::loss::{Notes, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::mean_friction::{MeanFriction, MeanFrictionAt, MeanFrictionLaw};
 use gearloss_framework::real::{Mask as _, Real};
-use gearloss_framework::registry::{Evidence, default_of, formula};
+use gearloss_framework::registry::{Check, Evidence, default_of, formula};
 use gearloss_framework::{coefficients, limits, observed, register};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::boundary::greatest;
+use crate::checks::SIX_DIGITS;
 use crate::powers::power;
 
 limits! {
@@ -230,6 +231,43 @@ register!(MeanFriction, "schlenk", Schlenk,
         default_of("clamp_speed", Evidence::Disputed, "two interpretations of the clamp"),
         default_of("greatest", Evidence::Assumed, "above the boundary friction of lubricated steel"),
     ],
+    checks: [
+        Check {
+            input: "{ model: { type: schlenk, x_l: 1 }, at: { line_load: 422.293 N/mm, sum_speed: 4.38883 m/s, radius: 8.38205 mm, \
+                    eta: 13.28 mPa s, ra: 0.4 um } }",
+            values: &[("total", "0.0546486")],
+            ..SIX_DIGITS
+        },
+        Check {
+            input: "{ model: { type: schlenk, x_l: 0.8, clamp_line_load: false, clamp_speed: none }, at: { line_load: 80 N/mm, \
+                    sum_speed: 62 m/s, radius: 9 mm, eta: 20 mPa s, ra: 0.5 um } }",
+            values: &[("total", "0.0188501")],
+            ..SIX_DIGITS
+        },
+        Check {
+            input: "{ model: { type: schlenk, x_l: 0.8, clamp_line_load: true, clamp_speed: sum_speed }, at: { line_load: 80 N/mm, \
+                    sum_speed: 62 m/s, radius: 9 mm, eta: 20 mPa s, ra: 0.5 um } }",
+            values: &[("total", "0.0223151")],
+            ..SIX_DIGITS
+        },
+        Check {
+            input: "{ model: { type: schlenk, x_l: 1 }, at: { line_load: 300 N/mm, sum_speed: 8 m/s, radius: 8 mm, eta: 20 mPa s, \
+                    ra: 0.4 um } }",
+            values: &[("total", "0.0447603")],
+            ..SIX_DIGITS
+        },
+        Check {
+            input: "{ model: { type: schlenk, x_l: 0.8 }, at: { line_load: 200 N/mm, sum_speed: 4 m/s, radius: 12 mm, eta: 60 mPa s, \
+                    ra: 0.8 um } }",
+            values: &[("total", "0.039369")],
+            ..SIX_DIGITS
+        },
+        Check {
+            input: "{ model: { type: schlenk, oil: polyglycol }, at: { sum_speed: 12 m/s } }",
+            values: &[("X_L", "0.652913")],
+            ..SIX_DIGITS
+        },
+    ],
     limits: [LINE_LOAD, PITCH_SPEED, VISCOSITY], observed: [MU]);
 
 #[cfg(test)]
@@ -238,22 +276,8 @@ mod tests {
     use super::*;
     use crate::gear_mesh::path_integral::tests::fzg_c14;
 
-    fn close(value: f64, printed: f64) {
-        assert!((value / printed - 1.0).abs() < 1e-5, "{value} against {printed}");
-    }
-
     #[test]
-    fn b2_published_values() {
-        close(
-            mu(&Constants::PUBLISHED, 422.293, 4.38883, 8.38205, 13.28, 0.4, 1.0),
-            0.0546486,
-        );
-        close(mu(&Constants::PUBLISHED, 80.0, 62.0, 9.0, 20.0, 0.5, 0.8), 0.0188501);
-        close(OilType::Polyglycol.x_l(12.0), 0.652913);
-    }
-
-    #[test]
-    fn b2_both_clamps() {
+    fn both_speed_clamps_agree_where_both_speeds_do() {
         let part = fzg_c14(0.5e-6, 0.6e-6);
         let law = |clamp_line_load, clamp_speed| Schlenk {
             x_l: Some(0.8),
@@ -271,10 +295,10 @@ mod tests {
             to.eta = 20e-3;
             to.ra = 0.5e-6;
         });
-        close(law(true, SpeedClamp::SumSpeed).mu(&at).unwrap(), 0.0223151);
-        close(law(false, SpeedClamp::None).mu(&at).unwrap(), 0.0188501);
-        // If the sum velocity equals the pitch line velocity, both clamps agree.
-        close(law(true, SpeedClamp::PitchSpeed).mu(&at).unwrap(), 0.0223151);
+        for clamp in [SpeedClamp::SumSpeed, SpeedClamp::PitchSpeed] {
+            let mu = law(true, clamp).mu(&at).unwrap();
+            assert!((mu / 0.0223151 - 1.0).abs() < 1e-5, "{clamp:?}: {mu}");
+        }
         assert!(
             law(true, SpeedClamp::None)
                 .mu(&at.with(|to| to.sum_speed = 0.0))
@@ -309,12 +333,6 @@ mod tests {
             "{border:?}"
         );
         assert!(mu(0.1) < 0.2 && PITCH_SPEED.least > 0.1);
-    }
-
-    #[test]
-    fn b2b_level_of_the_family() {
-        close(mu(&Constants::PUBLISHED, 300.0, 8.0, 8.0, 20.0, 0.4, 1.0), 0.0447603);
-        close(mu(&Constants::PUBLISHED, 200.0, 4.0, 12.0, 60.0, 0.8, 0.8), 0.039369);
     }
 
     #[test]

@@ -10,7 +10,7 @@ use gearloss_framework::loss::Undefined;
 use gearloss_framework::mechanism::bearing::{Bearing, BearingAt, BearingKind, BearingPart};
 use gearloss_framework::rating::{Bound, Figure, Rated, Rating};
 use gearloss_framework::register_rating;
-use gearloss_framework::registry::{Evidence, default_of, formula};
+use gearloss_framework::registry::{Check, Evidence, default_of, formula};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -62,30 +62,54 @@ register_rating!(Bearing, "iso_76", Iso76,
         formula(Evidence::SeveralSources, "catalogues of several makers; the factors of four-point contact bearings are recalled"),
         default_of("least_safety", Evidence::SeveralSources, "ball bearings in smooth operation; other bearings need more"),
     ],
+    checks: [
+        Check {
+            input: "{ part: { kind: deep_groove_ball, bore: 40 mm, outside: 90 mm, c0: 24000 N }, at: { radial: 3000 N, \
+                    axial: 1000 N } }",
+            values: &[("P0", "3000 N")],
+            tolerance: 1e-12,
+            because: "the sum is exact",
+            source: "by hand: max(Fr, 0.6 Fr + 0.5 Fa)",
+        },
+        Check {
+            input: "{ part: { kind: deep_groove_ball, bore: 40 mm, outside: 90 mm, c0: 24000 N }, at: { radial: 1000 N, \
+                    axial: 3000 N } }",
+            values: &[("P0", "2100 N")],
+            tolerance: 1e-12,
+            because: "the sum is exact",
+            source: "by hand: max(Fr, 0.6 Fr + 0.5 Fa)",
+        },
+        Check {
+            input: "{ part: { kind: angular_contact_ball, bore: 40 mm, outside: 80 mm, c0: 26000 N, y0: 0.26 }, at: { radial: 2000 N, \
+                    axial: 10000 N } }",
+            values: &[("P0", "3600 N")],
+            tolerance: 1e-12,
+            because: "the sum is exact",
+            source: "by hand: max(Fr, 0.5 Fr + 0.26 Fa)",
+        },
+        Check {
+            input: "{ part: { kind: tapered_roller, bore: 30 mm, outside: 62 mm, c0: 44000 N, y0: 0.9 }, at: { radial: 3000 N, \
+                    axial: 5000 N } }",
+            values: &[("P0", "6000 N")],
+            tolerance: 1e-12,
+            because: "the sum is exact",
+            source: "by hand: max(Fr, 0.5 Fr + Y0 Fa)",
+        },
+        Check {
+            input: "{ part: { kind: deep_groove_ball, bore: 40 mm, outside: 90 mm, c0: 24000 N }, at: { radial: 3000 N, \
+                    axial: 1000 N } }",
+            values: &[("S0", "8")],
+            tolerance: 1e-12,
+            because: "the quotient is exact",
+            source: "by hand: 24000 N/3000 N",
+        },
+    ],
     figures: [P0, S0]);
 
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
     use gearloss_framework::testing::{assert_close, rate};
-
-    fn safety(part: &str, radial: f64, axial: f64) -> f64 {
-        let input = format!("{{ part: {part}, at: {{ radial: {radial} N, axial: {axial} N }} }}");
-        rate("iso_76", &input).rated.value("S0").unwrap()
-    }
-
-    /// ISO 76 by hand: P0 of a 6308 under 3 and 1 kN is 3 kN; of a 7208 BE at 40 deg
-    /// max(Fr, 0.5 Fr + 0.26 Fa); of a 30206 max(Fr, 0.5 Fr + Y0 Fa).
-    #[test]
-    fn equivalent_static_loads_of_three_kinds() {
-        let ball = "{ kind: deep_groove_ball, bore: 40 mm, outside: 90 mm, c0: 24000 N }";
-        assert_close(safety(ball, 3000.0, 1000.0), 8.0, 1e-12);
-        assert_close(safety(ball, 1000.0, 3000.0), 24_000.0 / 2100.0, 1e-12);
-        let angular = "{ kind: angular_contact_ball, bore: 40 mm, outside: 80 mm, c0: 26000 N, y0: 0.26 }";
-        assert_close(safety(angular, 2000.0, 10_000.0), 26_000.0 / 3600.0, 1e-12);
-        let tapered = "{ kind: tapered_roller, bore: 30 mm, outside: 62 mm, c0: 44000 N, y0: 0.9 }";
-        assert_close(safety(tapered, 3000.0, 5000.0), 44_000.0 / 6000.0, 1e-12);
-    }
 
     /// The overloaded bearing of a gearbox that passed unnoticed: a 6010 under 44 kN.
     #[test]

@@ -11,7 +11,7 @@ use gearloss_framework::mechanism::ShopUnits as _;
 use gearloss_framework::mechanism::bearing::{Bearing, BearingAt, BearingKind};
 use gearloss_framework::rating::{Bound, Figure, Rated, Rating};
 use gearloss_framework::register_rating;
-use gearloss_framework::registry::{Evidence, default_of, formula};
+use gearloss_framework::registry::{Check, Evidence, default_of, formula};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -86,39 +86,43 @@ register_rating!(Bearing, "minimum_load", MinimumLoad,
         formula(Evidence::Recalled, "shares of C and C0 of four kinds are on pages of the maker; the others and the formulas with k_r from memory"),
         default_of("least_ratio", Evidence::OneSource, "the maker's requirement"),
     ],
+    checks: [
+        Check {
+            input: "{ part: { kind: deep_groove_ball, bore: 40 mm, outside: 90 mm, minimum_load_factor: 0.03 }, at: { speed: 3000 rpm, \
+                    nu: 15 mm2/s } }",
+            values: &[("F_m", "160.36 N")],
+            tolerance: 1e-3,
+            because: "the powers were calculated by hand",
+            source: "by hand: 0.03 (15 3000/1000)^(2/3) (65/100)^2 kN",
+        },
+        Check {
+            input: "{ part: { kind: needle_cage, bore: 40 mm, outside: 90 mm, c: 50000 N, c0: 60000 N } }",
+            values: &[("F_m", "1000 N")],
+            tolerance: 1e-12,
+            because: "the product is exact",
+            source: "SKF catalogue, page of the kind of bearing: 0.02 C",
+        },
+        Check {
+            input: "{ part: { kind: toroidal_roller, bore: 40 mm, outside: 90 mm, c: 50000 N, c0: 60000 N } }",
+            values: &[("F_m", "420 N")],
+            tolerance: 1e-12,
+            because: "the product is exact",
+            source: "SKF catalogue, page of the kind of bearing: 0.007 C0",
+        },
+        Check {
+            input: "{ part: { kind: spherical_roller, bore: 40 mm, outside: 90 mm, c: 50000 N, c0: 60000 N } }",
+            values: &[("F_m", "600 N")],
+            tolerance: 1e-12,
+            because: "the product is exact",
+            source: "SKF catalogue, page of the kind of bearing: 0.01 C0",
+        },
+    ],
     figures: [MINIMUM, RATIO]);
 
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
     use gearloss_framework::testing::{assert_close, rate};
-
-    fn minimum(part: &str, at: &str) -> f64 {
-        rate("minimum_load", &format!("{{ part: {part}, at: {at} }}"))
-            .rated
-            .value("F_m")
-            .unwrap()
-    }
-
-    /// By hand: 0.03 (15 3000/1000)^(2/3) (65/100)^2 kN = 160.36 N.
-    #[test]
-    fn deep_groove_by_hand() {
-        let part = "{ kind: deep_groove_ball, bore: 40 mm, outside: 90 mm, minimum_load_factor: 0.03 }";
-        assert_close(minimum(part, "{ speed: 3000 rpm, nu: 15 mm2/s }"), 160.36, 1e-3);
-    }
-
-    /// Pages of the SKF catalogue: 0.02 C, 0.007 C0 and 0.01 C0.
-    #[test]
-    fn shares_of_the_load_ratings() {
-        let roller = |kind: &str| format!("{{ kind: {kind}, bore: 40 mm, outside: 90 mm, c: 50000 N, c0: 60000 N }}");
-        for (kind, expected) in [
-            ("needle_cage", 1000.0),
-            ("toroidal_roller", 420.0),
-            ("spherical_roller", 600.0),
-        ] {
-            assert_close(minimum(&roller(kind), "{}"), expected, 1e-12);
-        }
-    }
 
     #[test]
     fn a_load_below_the_minimum_is_reported() {

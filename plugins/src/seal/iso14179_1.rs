@@ -5,10 +5,12 @@
 use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::seal::{Seal, SealAt, SealKind, SealModel};
-use gearloss_framework::registry::{Evidence, formula};
+use gearloss_framework::registry::{Check, Evidence, formula};
 use gearloss_framework::{coefficients, register, terms};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+
+use crate::checks::SIX_DIGITS;
 
 terms! { LIP = no_load("lip"); }
 
@@ -65,22 +67,16 @@ register!(Seal, "iso14179_1", Iso14179,
     source: "ISO/TR 14179-1:2001",
     example: "{ type: iso14179_1, material: fkm }",
     evidence: [formula(Evidence::Recalled, "quoted from memory, not checked; the law of Linke is between both materials at 40 mm")],
+    checks: [
+        Check {
+            input: "{ model: { type: iso14179_1, material: fkm }, part: { diameter: 40 mm }, at: { speed: 3000 rpm } }",
+            values: &[("moment", "0.149480 Nm"), ("total", "46.9605 W")],
+            ..SIX_DIGITS
+        },
+        Check {
+            input: "{ model: { type: iso14179_1, material: nbr }, part: { diameter: 40 mm }, at: { speed: 3000 rpm } }",
+            values: &[("moment", "0.0971600 Nm"), ("total", "30.5237 W")],
+            ..SIX_DIGITS
+        },
+    ],
     terms: [LIP]);
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn b3_both_materials() {
-        for (material, moment, watts) in [(Material::Fkm, 0.149480, 46.9605), (Material::Nbr, 0.0971600, 30.5237)] {
-            let own = Iso14179 {
-                coefficients: Constants::PUBLISHED,
-                material,
-            }
-            .moment(40.0);
-            assert!((own / moment - 1.0).abs() < 1e-5, "{own}");
-            assert!((own * 3000.0 * std::f64::consts::PI / 30.0 / watts - 1.0_f64).abs() < 1e-5);
-        }
-    }
-}

@@ -7,10 +7,12 @@
 use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::seal::{Seal, SealAt, SealKind, SealModel};
-use gearloss_framework::registry::{Evidence, formula};
+use gearloss_framework::registry::{Check, Evidence, formula};
 use gearloss_framework::{coefficients, limits, register, terms};
 use schemars::JsonSchema;
 use serde::Deserialize;
+
+use crate::checks::SIX_DIGITS;
 
 terms! { LIP = no_load("lip"); }
 
@@ -64,6 +66,23 @@ register!(Seal, "iso14179_2", Iso14179,
     source: "ISO/TR 14179-2:2001",
     example: "{ type: iso14179_2 }",
     evidence: [formula(Evidence::OneSource, "one published source; magnitude checked against Linke's diagram")],
+    checks: [
+        Check {
+            input: "{ part: { diameter: 40 mm }, at: { speed: 3000 rpm, temperature: 70 degC, nu40: 30 mm2/s } }",
+            values: &[("total", "44.8643 W")],
+            ..SIX_DIGITS
+        },
+        Check {
+            input: "{ part: { diameter: 40 mm }, at: { speed: 3000 rpm, temperature: 60 degC, nu40: 100 mm2/s } }",
+            values: &[("total", "74.2192 W")],
+            ..SIX_DIGITS
+        },
+        Check {
+            input: "{ part: { diameter: 40 mm }, at: { speed: 3000 rpm, temperature: 150 degC, nu40: 30 mm2/s } }",
+            values: &[("total", "0 W")],
+            ..SIX_DIGITS
+        },
+    ],
     limits: [BRACKET], terms: [LIP]);
 
 #[cfg(test)]
@@ -71,32 +90,6 @@ mod tests {
     use super::*;
     use gearloss_framework::loss::Notes;
     use gearloss_framework::mechanism::seal::SealPart;
-
-    fn watts(temperature: f64, nu40: f64) -> f64 {
-        let part = SealPart {
-            diameter: 0.040,
-            kind: SealKind::RadialLip,
-            material: None,
-        };
-        let speed = 3000.0 * std::f64::consts::PI / 30.0;
-        let at = SealAt::usual(&part, Notes::MUTED).with(|to| {
-            to.speed = speed;
-            to.temperature = temperature;
-            to.nu40 = nu40 * 1e-6;
-        });
-        Iso14179 {
-            coefficients: Constants::PUBLISHED,
-        }
-        .loss(&at)
-        .map_or(f64::NAN, |loss| loss.total_watts(speed))
-    }
-
-    #[test]
-    fn b1_published_checks() {
-        assert!((watts(70.0, 30.0) / 44.8643 - 1.0).abs() < 1e-5);
-        assert!((watts(60.0, 100.0) / 74.2192 - 1.0).abs() < 1e-5);
-        assert_eq!(watts(150.0, 30.0), 0.0);
-    }
 
     #[test]
     fn the_moment_does_not_depend_on_speed_and_a_seal_without_contact_has_none() {

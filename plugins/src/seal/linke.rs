@@ -6,10 +6,12 @@
 use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::seal::{Seal, SealAt, SealKind, SealModel};
-use gearloss_framework::registry::{Evidence, formula};
+use gearloss_framework::registry::{Check, Evidence, formula};
 use gearloss_framework::{coefficients, register, terms};
 use schemars::JsonSchema;
 use serde::Deserialize;
+
+use crate::checks::SIX_DIGITS;
 
 terms! { LIP = no_load("lip"); }
 
@@ -50,15 +52,11 @@ register!(Seal, "linke", Linke,
     source: "Linke, Stirnradverzahnung",
     example: "{ type: linke }",
     evidence: [formula(Evidence::SeveralSources, "a public program, a list of methods and memory agree")],
+    checks: [
+        Check {
+            input: "{ part: { diameter: 40 mm }, at: { speed: 3000 rpm } }",
+            values: &[("total", "36.9120 W")],
+            ..SIX_DIGITS
+        },
+    ],
     terms: [LIP]);
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn b2_linke() {
-        let watts = moment(Constants::PUBLISHED.factor, 40.0) * 3000.0 * std::f64::consts::PI / 30.0;
-        assert!((watts / 36.9120 - 1.0).abs() < 1e-5, "{watts}");
-    }
-}

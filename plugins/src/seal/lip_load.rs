@@ -6,10 +6,12 @@
 use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::seal::{Seal, SealAt, SealKind, SealModel};
-use gearloss_framework::registry::{Evidence, formula};
+use gearloss_framework::registry::{Check, Evidence, formula};
 use gearloss_framework::{register, terms};
 use schemars::JsonSchema;
 use serde::Deserialize;
+
+use crate::checks::SIX_DIGITS;
 
 terms! { LIP = no_load("lip"); }
 
@@ -46,19 +48,11 @@ register!(Seal, "lip_load", LipLoad,
     source: "derived: Coulomb friction of a loaded ring",
     example: "{ type: lip_load, line_load: 100 N/m, mu: 0.3 }",
     evidence: [formula(Evidence::Derived, "the user states load and friction")],
+    checks: [
+        Check {
+            input: "{ model: { type: lip_load, line_load: 100 N/m, mu: 0.3 }, part: { diameter: 40 mm }, at: { speed: 3000 rpm } }",
+            values: &[("total", "23.6871 W")],
+            ..SIX_DIGITS
+        },
+    ],
     terms: [LIP]);
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn b6_lip_of_40_mm() {
-        let law = LipLoad {
-            line_load: 100.0,
-            mu: 0.3,
-        };
-        let watts = law.moment(0.040) * 3000.0 * std::f64::consts::PI / 30.0;
-        assert!((watts / 23.6871 - 1.0).abs() < 1e-5, "{watts}");
-    }
-}

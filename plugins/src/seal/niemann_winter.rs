@@ -9,11 +9,13 @@ use gearloss_framework::generic::{Lookup, PLACE};
 use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::seal::{Seal, SealAt, SealKind, SealModel};
-use gearloss_framework::registry::{Build, Evidence, formula};
+use gearloss_framework::registry::{Build, Check, Evidence, formula};
 use gearloss_framework::table::{Outside, Reading};
 use gearloss_framework::{register, terms};
 use schemars::JsonSchema;
 use serde::Deserialize;
+
+use crate::checks::SIX_DIGITS;
 
 terms! { LIP = no_load("lip"); }
 
@@ -86,15 +88,11 @@ register!(Seal, "niemann_winter", Params,
     source: "Niemann/Winter, Maschinenelemente 2, as quoted by Concli 2015",
     example: "{ type: niemann_winter, lambda_l: 7.69e-3 }",
     evidence: [formula(Evidence::OneSource, "one article; the user states the coefficient")],
+    checks: [
+        Check {
+            input: "{ model: { type: niemann_winter, lambda_l: 7.69e-3 }, part: { diameter: 40 mm }, at: { speed: 3000 rpm } }",
+            values: &[("total", "36.9120 W")],
+            ..SIX_DIGITS
+        },
+    ],
     limits: [PLACE], terms: [LIP], prepare: prepare);
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn b4_with_the_coefficient_of_linke() {
-        let watts = moment(7.69e-3, 40.0) * 3000.0 * std::f64::consts::PI / 30.0;
-        assert!((watts / 36.9120 - 1.0).abs() < 1e-5, "{watts}");
-    }
-}

@@ -8,11 +8,12 @@
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::mechanism::synchronizer::Synchronizer;
 use gearloss_framework::register;
-use gearloss_framework::registry::{Build, Evidence, formula};
+use gearloss_framework::registry::{Build, Check, Evidence, formula};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{Film, REYNOLDS, SHEAR, TAYLOR};
+use crate::checks::SIX_DIGITS;
 
 /// Oil shear in a cylindrical gap.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -44,22 +45,29 @@ register!(Synchronizer, "ring_gap", RingGap,
     source: "Petroff 1883; derived: laminar Couette flow between cylinders",
     example: "{ type: ring_gap }",
     evidence: [formula(Evidence::Derived, "shear flow; the user states the filling of the gap")],
+    checks: [
+        Check {
+            input: "{ part: { kind: ring, cone_diameter: 60 mm, cone_width: 40 mm, gap: 0.5 mm }, at: { speed: 3000 rpm, \
+                    eta: 10 mPa s } }",
+            values: &[("moment", "0.0426367 Nm")],
+            ..SIX_DIGITS
+        },
+        Check {
+            input: "{ part: { cone_diameter: 62 mm, cone_width: 17.5537747 mm, cone_angle: 6.5 deg, gap: 0.15 mm, cones: 2, \
+                    oil_fill: 0.5 }, at: { speed: 2000 rpm, eta: 12 mPa s } }",
+            values: &[("moment", "0.0554096 Nm")],
+            ..SIX_DIGITS
+        },
+    ],
     limits: [REYNOLDS, TAYLOR], terms: [SHEAR], prepare: prepare);
 
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
-    use super::*;
     use gearloss_framework::loss::Notes;
     use gearloss_framework::mechanism::synchronizer::SynchronizerAt;
 
     use crate::synchronizer::cases::{build, part};
-
-    #[test]
-    fn c1_ring_gap() {
-        let moment = ring(0.030, 0.040, 0.5e-3) * 0.010 * 3000.0 * std::f64::consts::PI / 30.0;
-        assert!((moment / 0.0426367 - 1.0).abs() < 1e-5, "{moment}");
-    }
 
     #[test]
     fn drag_is_linear_in_speed_and_filling() {
@@ -72,24 +80,6 @@ mod tests {
         };
         assert_eq!((loss(1.0, 0.0), loss(0.0, 100.0)), (0.0, 0.0));
         assert!((loss(0.5, 200.0) / loss(1.0, 100.0) - 1.0).abs() < 1e-12);
-    }
-
-    #[test]
-    fn c1_cone_as_a_ring_of_its_slant_length() {
-        let angle = 6.5_f64.to_radians();
-        let width = 0.002 / angle.tan();
-        let json = format!(
-            r#"{{"cones":2,"cone_diameter":0.062,"cone_width":{width},"cone_angle":{angle},"gap":1.5e-4,"oil_fill":0.5}}"#
-        );
-        let part = part(&json);
-        let speed = 2000.0 * std::f64::consts::PI / 30.0;
-        let at = SynchronizerAt::usual(&part, Notes::MUTED).with(|to| {
-            to.speed = speed;
-            to.eta = 0.012;
-        });
-        // Two half-filled cones equal one flooded cone.
-        let moment = build("ring_gap", &part).unwrap().loss(&at).unwrap().sum();
-        assert!((moment / 0.0554096 - 1.0).abs() < 1e-5, "{moment}");
     }
 
     #[test]

@@ -13,7 +13,7 @@ use gearloss_framework::mechanism::tooth_friction::{
     Along, ContactAt, FrictionLimits, PathAt, ToothFriction, ToothFrictionLaw,
 };
 use gearloss_framework::real::{Mask as _, Real};
-use gearloss_framework::registry::{Evidence, default_of, formula};
+use gearloss_framework::registry::{Check, Evidence, default_of, formula};
 use gearloss_framework::{coefficients, limits, observed, register};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -21,6 +21,7 @@ use serde::Deserialize;
 use super::observe_along;
 use super::product::Product;
 use crate::boundary::greatest;
+use crate::checks::SIX_DIGITS;
 
 limits! { SUM_SPEED = ("v_S", "sum of the surface velocities", "m/s", 0.4, 100.0, "assumed, not stated by a source: gears with lubricant films"); }
 observed! { MU = ("mu", "-", "coefficient of friction"); }
@@ -134,6 +135,20 @@ register!(ToothFriction, "benedict_kelley", BenedictKelley,
         default_of("roughness", Evidence::Recalled, "roughness factor quoted from memory, not checked"),
         default_of("greatest", Evidence::Assumed, "the formula diverges at the pitch point"),
     ],
+    checks: [
+        Check {
+            input: "{ model: { type: benedict_kelley, roughness: false }, at: { sliding: 2 m/s, sum_speed: 10 m/s, line_load: 300 N/mm, \
+                    eta: 20 mPa s, rq: 0.4 um } }",
+            values: &[("total", "0.0425102")],
+            ..SIX_DIGITS
+        },
+        Check {
+            input: "{ model: { type: benedict_kelley, roughness: true }, at: { sliding: 2 m/s, sum_speed: 10 m/s, line_load: 300 N/mm, \
+                    eta: 20 mPa s, rq: 0.4 um } }",
+            values: &[("total", "0.0658035")],
+            ..SIX_DIGITS
+        },
+    ],
     limits: [SUM_SPEED], observed: [MU]);
 
 #[cfg(test)]
@@ -156,12 +171,6 @@ mod tests {
             greatest: 0.2,
         };
         law.cut_off(law.mu(&at).unwrap())
-    }
-
-    #[test]
-    fn b8_smooth_and_rough() {
-        assert!((mu(false, 2.0, 3e5) / 0.0425102 - 1.0).abs() < 1e-5);
-        assert!((mu(true, 2.0, 3e5) / 0.0658035 - 1.0).abs() < 1e-5);
     }
 
     #[test]

@@ -5,16 +5,19 @@ use std::sync::Arc;
 use serde_json::Value;
 
 use super::head;
+use crate::checks;
 use crate::language::Language;
 use crate::loss::{Notes, Undefined};
 use crate::mechanism::Mechanism;
 use crate::registry::{Build, Files, RatingPlugin, Registry, from_resolved};
 
-/// Checks every linked rating on its example part. Returns one line for each fault.
+/// Checks every linked rating on its example part, and its check values. Returns one line for each fault.
 pub(super) fn check_all(language: &Language) -> Vec<String> {
     let mut faults = Vec::new();
     for plugin in language.registry().ratings() {
         let name = plugin.entry.name;
+        let checks = checks::faults_of_rating(language, plugin).into_iter();
+        faults.extend(checks.map(|fault| format!("rating {name}: {fault}")));
         match language.example_of_rating(plugin) {
             Ok((rating, part)) => {
                 let found = (plugin.conform)(language.registry(), &Files::default(), plugin, &rating, &part);

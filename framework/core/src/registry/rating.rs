@@ -111,14 +111,14 @@ impl Registry {
 macro_rules! register_rating {
     ($M:ty, $name:literal, $Params:ty,
         source: $source:expr, $(part: $part:expr,)?
-        evidence: [$($graded:expr),* $(,)?], figures: [$($figure:expr),+ $(,)?]
+        evidence: [$($graded:expr),* $(,)?], $(checks: [$($check:expr),* $(,)?],)? figures: [$($figure:expr),+ $(,)?]
         $(, limits: [$($limit:expr),* $(,)?])? $(, prepare: $prepare:expr)? $(,)?) => {
         $crate::registry::submit! {
             $crate::registry::RatingPlugin {
                 entry: $crate::registry::Entry {
                     mechanism: <$M as $crate::mechanism::Mechanism>::KEY, name: $name, source: $source, example: "{}",
                     part: $crate::register!(@part $($part)?), files: &[], evidence: &[$($graded),*],
-                    limits: &[$($($limit),*)?], terms: &[], observed: &[],
+                    limits: &[$($($limit),*)?], terms: &[], observed: &[], checks: &[$($($check),*)?],
                     scope: $crate::mechanism::gear_drag::Scope::Gear, geometry: true,
                     origin: $crate::origin!(),
                     schema: |generator| <$Params as $crate::schemars::JsonSchema>::json_schema(generator),

@@ -4,7 +4,7 @@ use gearloss_framework::document::Unit;
 use gearloss_framework::language::{Kind, Language};
 use gearloss_framework::loss::Limit;
 use gearloss_framework::mechanism::QuantityDoc;
-use gearloss_framework::registry::{Entry, Graded, MechanismEntry, RatingPlugin};
+use gearloss_framework::registry::{Check, Entry, Graded, MechanismEntry, RatingPlugin};
 use serde_json::{Value, json};
 
 use super::ratings::rating_json;
@@ -97,6 +97,7 @@ fn of_model(language: &Language, entry: &Entry, schema: &Value) -> Value {
         "observed": entry.observed.iter().map(|o| json!({ "name": o.name, "meaning": o.meaning, "unit": o.unit })).collect::<Vec<_>>(),
         "limits": entry.limits.iter().map(limit).collect::<Vec<_>>(),
         "evidence": evidence(entry),
+        "checks": checks(entry),
     })
 }
 
@@ -111,6 +112,21 @@ pub(super) fn parameter(name: &str, field: &Value) -> Value {
         "least": field["minimum"],
         "greatest": field["maximum"],
     })
+}
+
+/// The check values of a model or rating.
+pub(super) fn checks(entry: &Entry) -> Vec<Value> {
+    let check = |check: &Check| {
+        let values = check.values.iter();
+        json!({
+            "input": check.input,
+            "values": values.map(|(quantity, value)| json!({ "quantity": quantity, "value": value })).collect::<Vec<_>>(),
+            "tolerance": check.tolerance,
+            "because": check.because,
+            "source": check.source,
+        })
+    };
+    entry.checks.iter().map(check).collect()
 }
 
 /// A stated range.

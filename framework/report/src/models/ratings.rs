@@ -94,5 +94,6 @@ pub(super) fn rating_json(rating: &RatingPlugin, schema: &Value) -> Value {
         })).collect::<Vec<_>>(),
         "limits": entry.limits.iter().map(super::json::limit).collect::<Vec<_>>(),
         "evidence": super::json::evidence(entry),
+        "checks": super::json::checks(entry),
     })
 }
