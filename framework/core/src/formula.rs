@@ -140,7 +140,7 @@ impl Formula {
     }
 
     /// True if the value has neither kinks nor jumps where it is defined.
-    pub fn is_smooth(&self) -> bool {
+    pub(crate) fn is_smooth(&self) -> bool {
         self.program.iter().all(|op| match op {
             Op::Less | Op::Greater | Op::LessEqual | Op::GreaterEqual | Op::Least | Op::Greatest | Op::If => false,
             Op::Call1(_, smooth) => *smooth,

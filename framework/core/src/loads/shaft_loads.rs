@@ -185,7 +185,7 @@ impl ShaftLoads {
 
     /// The force of each support on its inner member, y and z, at the speeds of all members (rad/s). On a planet, y points away from the
     /// axis of the carrier. \[N\]
-    pub fn on_inner(&self, tangential: &[f64], speeds: &[f64]) -> Vec<[f64; 2]> {
+    pub(crate) fn on_inner(&self, tangential: &[f64], speeds: &[f64]) -> Vec<[f64; 2]> {
         let supports = self.cases.iter().zip(&self.turned);
         supports
             .map(|(cases, turned)| {
