@@ -394,7 +394,11 @@ macro_rules! shared_functions {
             };
             $enter_event_mode() => |_| OK;
             $enter_continuous_time_mode() => |_| OK;
-            $completed_integrator_step(_no_earlier: Boolean, enter_event_mode: *mut Boolean, terminate: *mut Boolean) => |_| {
+            $completed_integrator_step(
+                _no_earlier: Boolean,
+                enter_event_mode: *mut Boolean,
+                terminate: *mut Boolean
+            ) => |_| {
                 put(enter_event_mode, 0);
                 put(terminate, 0);
                 OK
