@@ -13,7 +13,7 @@ use std::cell::Cell;
 use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
 
-pub use clearance::{Clearance, ClearancePlace, ClearanceSeat, ClearanceSite};
+pub use clearance::{Clearance, ClearancePlace, ClearanceSite};
 pub use common::Common;
 pub use member::{MemberPlace, MemberSite, OnMember};
 pub use support::{Axial, Factor, FactorOver, Support, SupportPlace, SupportSeat, SupportSite};
@@ -280,7 +280,7 @@ impl<'a> Names<'a> {
     }
 
     /// Starts the next component.
-    pub fn turn_to(&mut self, section: &str, id: &str) {
+    pub(crate) fn turn_to(&mut self, section: &str, id: &str) {
         self.path = format!("{section}.{id}");
         id.clone_into(&mut self.id);
         self.site = (None, 0.0);

@@ -63,7 +63,7 @@ pub fn thermal_factor<R: Real>(pressure: R, slide_roll: R, l: R) -> R {
 
 /// The terms of pressure and of sliding in the reduction factor; each grows with its own power of L.
 #[inline(always)]
-pub fn thermal_terms<R: Real>(pressure: R, slide_roll: R, l: R) -> [R; 2] {
+pub(crate) fn thermal_terms<R: Real>(pressure: R, slide_roll: R, l: R) -> [R; 2] {
     let slides = slide_roll.power(0.83) * 2.23 + 1.0;
     let [pressed, slid] = heating(l);
     [pressure * 13.2 * pressed, slides * 0.213 * slid]

@@ -30,7 +30,7 @@ pub struct Balance<R = f64> {
 
 impl<R: Points> Balance<R> {
     /// Power in and out over ports at one point; powers below 1e-12 of the input count as zero.
-    pub fn from_powers(powers: impl Iterator<Item = R> + Clone) -> Self {
+    pub(crate) fn from_powers(powers: impl Iterator<Item = R> + Clone) -> Self {
         let most = powers.clone().fold(0.0_f64, |most, power| most.max(power.at_point(0)));
         let (mut input, mut output) = (R::ZERO, R::ZERO);
         for power in powers {
@@ -80,7 +80,7 @@ pub enum Status {
 
 impl Status {
     /// The regime of a rotating transmission from the powers of its ports; `reference` is the number of the reference port.
-    pub fn from_powers(powers: impl Iterator<Item = f64> + Clone, reference: usize) -> Self {
+    pub(crate) fn from_powers(powers: impl Iterator<Item = f64> + Clone, reference: usize) -> Self {
         let Balance { input, output } = Balance::from_powers(powers.clone());
         let mut pushing = powers
             .enumerate()

@@ -3,7 +3,8 @@
 //! Powers bind tighter than a sign and are right-associative: `-2^2` is -4, `2^3^2` is 512. A comparison is 1 or 0; `if(c, a, b)`
 //! is a if c is not 0.
 
-use crate::document::{did_you_mean, number_length};
+use crate::document::did_you_mean;
+use crate::document::expression::{ExpressionFault, Grammar, Grouping, Level, Scanner};
 use crate::loss::Undefined;
 use crate::real::{Mask as _, Points};
 
@@ -11,17 +12,6 @@ use crate::real::{Mask as _, Points};
 const DEEPEST: usize = 32;
 /// That of most formulas.
 const SHALLOW: usize = 4;
-
-/// A fault of a formula.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct FormulaFault {
-    /// Column, counted from one in characters.
-    pub column: usize,
-    /// The problem.
-    pub message: String,
-    /// How to fix it.
-    pub help: Option<String>,
-}
 
 #[derive(Debug, Clone, Copy)]
 enum Op {
@@ -128,36 +118,29 @@ impl Formula {
     ///
     /// # Errors
     /// The column, the problem and its fix.
-    pub fn compile(text: &str, names: &[&str]) -> Result<Self, FormulaFault> {
-        let mut parser = Parser {
-            text,
-            at: 0,
+    pub fn compile(text: &str, names: &[&str]) -> Result<Self, ExpressionFault> {
+        let mut scanner = Scanner::new(text);
+        let mut compiler = Compiler {
             names,
             program: Vec::new(),
-            nested: 0,
         };
-        parser.comparison()?;
-        parser.space();
-        if parser.at < text.len() {
-            return Err(parser.fault(format!("unexpected `{}` after the formula", parser.rest_word()), None));
+        scanner.expression(&mut compiler)?;
+        if !scanner.rest().is_empty() {
+            return Err(scanner.fault(format!("unexpected `{}` after the formula", beginning(&scanner))));
         }
         let mut formula = Self {
-            program: parser.program,
+            program: compiler.program,
             depth: 0,
         };
         formula.depth = formula.deepest();
         if formula.depth > DEEPEST {
-            return Err(FormulaFault {
-                column: 1,
-                message: "nested too deeply".to_owned(),
-                help: Some("split the formula".to_owned()),
-            });
+            return Err(Compiler::too_deep(1));
         }
         Ok(formula)
     }
 
     /// True if the value has neither kinks nor jumps where it is defined.
-    pub fn is_smooth(&self) -> bool {
+    pub(crate) fn is_smooth(&self) -> bool {
         self.program.iter().all(|op| match op {
             Op::Less | Op::Greater | Op::LessEqual | Op::GreaterEqual | Op::Least | Op::Greatest | Op::If => false,
             Op::Call1(_, smooth) => *smooth,
@@ -270,197 +253,104 @@ impl Formula {
     }
 }
 
-struct Parser<'a> {
-    text: &'a str,
-    at: usize,
+/// The grammar of formulas, which writes the program in the order of its evaluation.
+struct Compiler<'a> {
     names: &'a [&'a str],
     program: Vec<Op>,
-    nested: usize,
 }
 
-impl Parser<'_> {
-    fn fault(&self, message: impl Into<String>, help: Option<String>) -> FormulaFault {
-        FormulaFault {
-            column: self.text[..self.at].chars().count() + 1,
-            message: message.into(),
-            help,
+impl Grammar for Compiler<'_> {
+    type Operator = Op;
+    type Value = ();
+
+    const LEVELS: &'static [Level<Op>] = &[
+        (
+            Grouping::Single,
+            &[
+                ("<=", Op::LessEqual),
+                (">=", Op::GreaterEqual),
+                ("<", Op::Less),
+                (">", Op::Greater),
+            ],
+        ),
+        (Grouping::Left, &[("+", Op::Add), ("-", Op::Subtract)]),
+        (Grouping::Left, &[("*", Op::Multiply), ("/", Op::Divide)]),
+        (Grouping::Right, &[("^", Op::Power)]),
+    ];
+    const PREFIXES: &'static [(&'static str, bool)] = &[("-", true), ("+", false)];
+    const ABOVE_PREFIXES: usize = 3;
+    const DEEPEST: usize = DEEPEST;
+
+    fn too_deep(column: usize) -> ExpressionFault {
+        ExpressionFault::new(column, "nested too deeply").help("split the formula")
+    }
+
+    fn unclosed(column: usize) -> ExpressionFault {
+        ExpressionFault::new(column, "a `)` is missing")
+    }
+
+    fn operand(&mut self, scanner: &mut Scanner<'_>) -> Result<(), ExpressionFault> {
+        let column = scanner.column();
+        if let Some(number) = scanner.take_number() {
+            self.program.push(Op::Number(number.parse().unwrap_or(f64::NAN)));
+            return Ok(());
         }
-    }
-
-    fn rest(&self) -> &str {
-        &self.text[self.at..]
-    }
-
-    fn rest_word(&self) -> String {
-        self.rest().chars().take(12).collect()
-    }
-
-    fn space(&mut self) {
-        self.at += self.rest().len() - self.rest().trim_start().len();
-    }
-
-    fn take(&mut self, symbol: &str) -> bool {
-        self.space();
-        let taken = self.rest().starts_with(symbol);
-        if taken {
-            self.at += symbol.len();
-        }
-        taken
-    }
-
-    fn comparison(&mut self) -> Result<(), FormulaFault> {
-        self.nested += 1;
-        if self.nested > DEEPEST {
-            return Err(self.fault("nested too deeply", Some("split the formula".to_owned())));
-        }
-        self.sum()?;
-        for (symbol, op) in [
-            ("<=", Op::LessEqual),
-            (">=", Op::GreaterEqual),
-            ("<", Op::Less),
-            (">", Op::Greater),
-        ] {
-            if self.take(symbol) {
-                self.sum()?;
-                self.program.push(op);
-                break;
-            }
-        }
-        self.nested -= 1;
-        Ok(())
-    }
-
-    fn sum(&mut self) -> Result<(), FormulaFault> {
-        self.product()?;
-        loop {
-            let op = if self.take("+") {
-                Op::Add
-            } else if self.take("-") {
-                Op::Subtract
+        let name = scanner.advance_to(|c| !(c.is_ascii_alphanumeric() || c == '_'));
+        if name.is_empty() {
+            return Err(if scanner.rest().is_empty() {
+                scanner.fault("the formula ends too early")
+            } else if scanner.before().ends_with('*') && scanner.rest().starts_with('*') {
+                ExpressionFault::new(column - 1, "`**` is not a power").help("write `^`")
             } else {
-                return Ok(());
-            };
-            self.product()?;
-            self.program.push(op);
+                scanner.fault(format!("`{}` is not a value", beginning(scanner)))
+            });
         }
-    }
-
-    fn product(&mut self) -> Result<(), FormulaFault> {
-        self.signed()?;
-        loop {
-            self.space();
-            let op = if !self.rest().starts_with("**") && self.take("*") {
-                Op::Multiply
-            } else if self.take("/") {
-                Op::Divide
-            } else {
-                return Ok(());
-            };
-            self.signed()?;
-            self.program.push(op);
+        if scanner.take("(") {
+            return self.call(scanner, name, column);
         }
-    }
-
-    fn signed(&mut self) -> Result<(), FormulaFault> {
-        let mut negative = false;
-        loop {
-            if self.take("-") {
-                negative = !negative;
-            } else if !self.take("+") {
-                break;
-            }
-        }
-        self.power()?;
-        if negative {
-            match self.program.last_mut() {
-                // An operand whose program ends in a number is that number.
-                Some(Op::Number(number)) => *number = -*number,
-                _ => self.program.push(Op::Negate),
-            }
-        }
+        let op = if let Some(i) = self.names.iter().position(|n| *n == name) {
+            Op::Input(i as u8)
+        } else if name == "pi" {
+            Op::Number(std::f64::consts::PI)
+        } else {
+            return Err(ExpressionFault {
+                help: did_you_mean(name, self.names.iter().copied()).map(|close| format!("write `{close}`")),
+                ..ExpressionFault::new(column, format!("unknown quantity `{name}`"))
+            });
+        };
+        self.program.push(op);
         Ok(())
     }
 
-    fn power(&mut self) -> Result<(), FormulaFault> {
-        self.atom()?;
-        if self.take("^") {
-            self.nested += 1;
-            if self.nested > DEEPEST {
-                return Err(self.fault("nested too deeply", None));
-            }
-            self.signed()?;
-            self.nested -= 1;
-            self.push_power();
-        } else if self.rest().starts_with("**") {
-            return Err(self.fault("`**` is not a power", Some("write `^`".to_owned())));
+    fn negate(&mut self, (): ()) {
+        match self.program.last_mut() {
+            // An operand whose program ends in a number is that number.
+            Some(Op::Number(number)) => *number = -*number,
+            _ => self.program.push(Op::Negate),
         }
-        Ok(())
     }
 
-    /// A power of the last two values; constant exponents are known before the formula is evaluated.
-    fn push_power(&mut self) {
-        match self.program[..] {
-            [.., Op::Number(x), Op::Number(exponent)] => {
+    /// Powers with constant exponents are known before the formula is evaluated.
+    fn join(&mut self, op: Op, (): (), (): ()) {
+        match (op, &self.program[..]) {
+            (Op::Power, [.., Op::Number(x), Op::Number(exponent)]) => {
+                let power = x.powf(*exponent);
                 self.program.truncate(self.program.len() - 2);
-                self.program.push(Op::Number(x.powf(exponent)));
+                self.program.push(Op::Number(power));
             }
-            [.., Op::Number(exponent)] => {
+            (Op::Power, [.., Op::Number(exponent)]) => {
+                let exponent = *exponent;
                 self.program.pop();
                 self.program.push(Op::PowerOf(exponent));
             }
-            _ => self.program.push(Op::Power),
+            _ => self.program.push(op),
         }
     }
+}
 
-    fn atom(&mut self) -> Result<(), FormulaFault> {
-        self.space();
-        if self.take("(") {
-            self.comparison()?;
-            return if self.take(")") {
-                Ok(())
-            } else {
-                Err(self.fault("a `)` is missing", None))
-            };
-        }
-        let digits = number_length(self.rest());
-        if digits > 0 {
-            let number = self.rest()[..digits].parse().unwrap_or(f64::NAN);
-            self.at += digits;
-            self.program.push(Op::Number(number));
-            return Ok(());
-        }
-        let length = self
-            .rest()
-            .find(|c: char| !(c.is_ascii_alphanumeric() || c == '_'))
-            .unwrap_or(self.rest().len());
-        if length == 0 {
-            let what = if self.rest().is_empty() {
-                "the formula ends too early".to_owned()
-            } else {
-                format!("`{}` is not a value", self.rest_word())
-            };
-            return Err(self.fault(what, None));
-        }
-        let start = self.at;
-        let name = self.rest()[..length].to_owned();
-        self.at += length;
-        if self.take("(") {
-            return self.call(&name, start);
-        }
-        if let Some(i) = self.names.iter().position(|n| *n == name) {
-            self.program.push(Op::Input(i as u8));
-            return Ok(());
-        }
-        if name == "pi" {
-            self.program.push(Op::Number(std::f64::consts::PI));
-            return Ok(());
-        }
-        self.at = start;
-        let help = did_you_mean(&name, self.names.iter().copied()).map(|close| format!("write `{close}`"));
-        Err(self.fault(format!("unknown quantity `{name}`"), help))
-    }
-
-    fn call(&mut self, name: &str, start: usize) -> Result<(), FormulaFault> {
+impl Compiler<'_> {
+    /// Reads the arguments of a function, whose name is at a column.
+    fn call(&mut self, scanner: &mut Scanner<'_>, name: &str, column: usize) -> Result<(), ExpressionFault> {
         let (count, op) = if let Some((_, function, smooth)) = ONE.iter().find(|(n, ..)| *n == name) {
             (1, Op::Call1(*function, *smooth))
         } else if let Some((_, op)) = TWO.iter().find(|(n, _)| *n == name) {
@@ -468,34 +358,33 @@ impl Parser<'_> {
         } else if name == "if" {
             (3, Op::If)
         } else {
-            self.at = start;
             let known = ONE
                 .iter()
                 .map(|(n, ..)| *n)
                 .chain(TWO.iter().map(|(n, _)| *n))
                 .chain(["if"]);
-            let help = did_you_mean(name, known.clone());
-            let list: Vec<&str> = known.collect();
-            let help = help.map_or_else(
-                || format!("functions: {}", list.join(", ")),
-                |close| format!("write `{close}(`"),
-            );
-            return Err(self.fault(format!("unknown function `{name}`"), Some(help)));
+            let help = match did_you_mean(name, known.clone()) {
+                Some(close) => format!("write `{close}(`"),
+                None => format!("functions: {}", known.collect::<Vec<_>>().join(", ")),
+            };
+            return Err(ExpressionFault::new(column, format!("unknown function `{name}`")).help(help));
         };
         for i in 0..count {
-            self.comparison()?;
+            scanner.expression(self)?;
             let more = i + 1 < count;
-            if !self.take(if more { "," } else { ")" }) {
+            if !scanner.take(if more { "," } else { ")" }) {
                 let plural = if count == 1 { "" } else { "s" };
-                return Err(self.fault(format!("`{name}` takes {count} argument{plural}"), None));
+                return Err(scanner.fault(format!("`{name}` takes {count} argument{plural}")));
             }
         }
-        match op {
-            Op::Power => self.push_power(),
-            op => self.program.push(op),
-        }
+        self.join(op, (), ());
         Ok(())
     }
+}
+
+/// The next characters, for messages.
+fn beginning(scanner: &Scanner<'_>) -> String {
+    scanner.rest().chars().take(12).collect()
 }
 
 #[cfg(test)]

@@ -166,7 +166,7 @@ fn build_formula<M: Mechanism>(value: &Value, cx: &mut Build<'_>) -> Result<Buil
     let params: FormulaParams = cx.params(value)?;
     let names: Vec<&str> = M::QUANTITIES.iter().map(|q| q.name).collect();
     let formula = Formula::compile(&params.formula, &names).map_err(|fault| {
-        let error = cx.error(format!("formula, column {}: {}", fault.column, fault.message));
+        let error = cx.error(format!("formula, {fault}"));
         match fault.help {
             Some(help) => error.help(help),
             None => error.note(format!("quantities: {}", names.join(", "))),

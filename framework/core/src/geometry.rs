@@ -8,6 +8,6 @@ mod pair;
 mod path;
 mod ramp;
 
-pub use involute::{inverse_involute, involute};
+pub use involute::involute;
 pub use pair::{Pair, PairFault, PairSpec};
 pub use path::{LoadSharing, PathPoint};

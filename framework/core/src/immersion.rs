@@ -28,7 +28,7 @@ impl<R: Real> Height<R> {
 
     /// Oil height over the lowest point of a circle, zero if it is above the oil, averaged over the orbit. \[m\]
     #[inline]
-    pub fn over_bottom(self, radius: f64) -> R {
+    pub(crate) fn over_bottom(self, radius: f64) -> R {
         self.level.lift(|level| {
             if self.orbit > 0.0 {
                 mean_height(level + radius, self.orbit)

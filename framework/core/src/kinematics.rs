@@ -69,7 +69,7 @@ pub struct Train {
 
 /// Speeds as a linear map of the prescribed ones. Built once per state and set of prescribed ports.
 #[derive(Debug, Clone)]
-pub struct Motion {
+pub(crate) struct Motion {
     columns: usize,
     /// Column by column of the map, `columns` numbers for each prescribed port.
     map: Vec<f64>,

@@ -26,7 +26,7 @@ use crate::registry::{DocumentKind, Entry, Files, RatingPlugin, Registry, invent
 use crate::resolve::{CatalogueTable, RATINGS};
 
 /// Key of the mechanism of mesh models.
-pub const MESHES: &str = GearMesh::KEY;
+pub(crate) const MESHES: &str = GearMesh::KEY;
 /// Key of the mechanism of planetary set models.
 pub const SETS: &str = PlanetaryDrag::KEY;
 /// Mechanisms whose models are in sections of the framework itself: section and key.
@@ -35,7 +35,7 @@ pub const HELD: [(&str, &str); 2] = [("meshes", MESHES), ("planetary_sets", SETS
 pub const DRAGS: &str = GearDrag::KEY;
 
 /// Key of the mechanism of the named models in the thermal section.
-pub const HEAT: &str = HeatDissipation::KEY;
+pub(crate) const HEAT: &str = HeatDissipation::KEY;
 /// Mechanisms with several models chosen by name.
 pub const NAMED: [&str; 2] = [DRAGS, HEAT];
 

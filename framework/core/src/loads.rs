@@ -11,12 +11,10 @@ mod static_rating;
 mod statics;
 mod thrust;
 
-pub use beam::{Beam, BeamFault, BeamLoad, BeamSupport};
 pub use carries::{Carries, Thrust};
 pub use layout::{Layout, LoadFault, MemberLayout, MeshLayout, PlanetBody, Section, SupportLayout};
 pub use shaft_loads::ShaftLoads;
 pub use static_rating::{LEAST_STATIC_SAFETY, StaticFactors, StaticRating};
-pub use thrust::Taking;
 
 use crate::real::Points;
 

@@ -5,8 +5,8 @@ pub mod index;
 pub mod pressure;
 pub mod roelands;
 pub mod thermal;
-pub mod vogel;
-pub mod walther;
+pub(crate) mod vogel;
+pub(crate) mod walther;
 
 use crate::attach::Oil;
 use crate::description::LubricantEntry;

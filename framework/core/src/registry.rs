@@ -557,7 +557,7 @@ impl Registry {
     ///
     /// # Errors
     /// If no crate ships one, or two do.
-    pub fn network_recipe(&self) -> Result<&NetworkRecipe, Diagnostic> {
+    pub(crate) fn network_recipe(&self) -> Result<&NetworkRecipe, Diagnostic> {
         recipe::only(&self.recipes)
     }
 

@@ -108,7 +108,7 @@ impl Table {
     ///
     /// # Errors
     /// If an axis does not increase, the number of values does not match, or a scale is invalid.
-    pub fn from_grid(axes: Vec<Axis>, values: Vec<f64>, reading: &Reading) -> Result<Self, String> {
+    pub(crate) fn from_grid(axes: Vec<Axis>, values: Vec<f64>, reading: &Reading) -> Result<Self, String> {
         if axes.is_empty() || axes.len() > 4 {
             return Err(format!("{} axes; a table has one to four", axes.len()));
         }

@@ -18,10 +18,11 @@ mod statics;
 use std::sync::Arc;
 
 pub use case::Case;
-pub use drags::DragSeat;
+pub(crate) use drags::DragSeat;
 pub use nodes::{AMBIENT, HeatPath};
 pub use oils::{Oils, Surface};
-pub use seats::{GearSeat, MeshSeat};
+pub use seats::GearSeat;
+pub(crate) use seats::MeshSeat;
 pub use stage::Stage;
 pub use states::GearState;
 

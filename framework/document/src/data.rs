@@ -18,6 +18,7 @@ use crate::{Dimension, Unit};
 
 pub use file::{StatedTable, TableFile};
 pub use form::{DateOrder, Decimal, Encoding, MissingMark, Separator, TableForm, Thousands};
+pub use header::without_brackets;
 
 /// The key that a fault refers to.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -6,6 +6,7 @@ mod code;
 pub mod codes;
 pub mod data;
 mod diagnostic;
+pub mod expression;
 pub mod files;
 mod misplaced;
 mod node;

@@ -12,7 +12,7 @@ mod plausible;
 use std::collections::BTreeMap;
 
 use gearloss_document::data::cells::{self, Table};
-use gearloss_document::data::{Decimal, TableForm};
+use gearloss_document::data::{Decimal, TableForm, without_brackets};
 use gearloss_document::{Diagnostic, Unit, did_you_mean};
 use gearloss_framework::resolve::CatalogueTable;
 
@@ -30,12 +30,8 @@ pub struct Options {
     pub columns: Vec<String>,
     /// Kind of all bearings, if no column has it.
     pub kind: Option<String>,
-    /// The decimal sign; otherwise detected.
-    pub decimal: Option<Decimal>,
-    /// Sheet of a workbook.
-    pub sheet: Option<String>,
-    /// Line of the headings; otherwise the one that has most of the known headings.
-    pub header_line: Option<u64>,
+    /// How the table is written.
+    pub form: TableForm,
 }
 
 /// A catalogue with the report of its import.
@@ -85,9 +81,7 @@ pub fn import(
     let form = TableForm {
         // The sign is found below, together with that of thousands; in a workbook it is a point.
         decimal: Some(Decimal::Point),
-        sheet: options.sheet.clone(),
-        header_line: options.header_line,
-        ..TableForm::default()
+        ..options.form.clone()
     };
     let mut notes = Vec::new();
     let stated = |header: &str| options.columns.iter().any(|text| text.contains(header));
@@ -226,7 +220,7 @@ fn columns(table: &Table, name: &str, options: &Options) -> Result<(Vec<Used>, V
         }
         let own = table.units[place].as_deref();
         if let (Some(option), Some(own)) = (&unit, own)
-            && let (Some(a), Some(b)) = (Unit::read(option), Unit::read(headings::bare(own)))
+            && let (Some(a), Some(b)) = (Unit::read(option), Unit::read(without_brackets(own)))
             && a != b
         {
             let message =
@@ -327,7 +321,7 @@ fn factor(key: &Key, unit: Option<&str>, header: &str) -> Result<f64, (String, S
         ));
     };
     let due = Unit::of_symbol(key.unit).unwrap_or(Unit::ONE);
-    match Unit::read_as(headings::bare(symbol), due.dimension) {
+    match Unit::read_as(without_brackets(symbol), due.dimension) {
         Ok(unit) => Ok(unit.factor / due.factor),
         Err(wrong) => Err((
             format!("column `{header}` ({}): {}", key.name, wrong.message),
@@ -347,7 +341,7 @@ fn style(table: &Table, used: &[Used], name: &str, options: &Options) -> Result<
             .iter()
             .filter_map(move |column| Some((*line, cells.get(column.place)?.as_str())))
     });
-    Style::of_cells(cells, options.decimal).map_err(|message| {
+    Style::of_cells(cells, options.form.decimal).map_err(|message| {
         vec![error(
             format!("{name}: {message}"),
             "state the decimal sign: `--decimal comma` or `--decimal point`",

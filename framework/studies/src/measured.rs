@@ -24,7 +24,7 @@ pub use accuracies::{
     TemperatureAccuracyEntry,
 };
 pub use columns::{ChangedColumnEntry, ColumnEntry};
-pub use condition::{Condition, ConditionFault};
+pub use condition::Condition;
 pub use files::{FileEntry, MeasuredFile, MeasuredFiles, OwnFileEntry};
 pub use gearloss_document::data::{FaultPlace, MeasuredFault, TableForm};
 pub(crate) use gearloss_document::data::{cells as text, fault};

@@ -40,7 +40,7 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Dimensional, Diagnostic
     // Without an oil volume the formula must not use it.
     let names = &NAMES[..if volume.is_some() { 5 } else { 4 }];
     let c_m = Formula::compile(&params.c_m, names).map_err(|fault| {
-        let error = cx.error(format!("c_m, column {}: {}", fault.column, fault.message));
+        let error = cx.error(format!("c_m, {fault}"));
         match fault.help {
             Some(help) => error.help(help),
             None => error.note(format!(

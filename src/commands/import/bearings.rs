@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use gearloss_exchange::bearing_table::{self, Options};
 use gearloss_framework::document::Sources;
-use gearloss_framework::document::data::Decimal;
+use gearloss_framework::document::data::{Decimal, TableForm};
 use gearloss_framework::gearbox::Findings;
 use gearloss_studies::needs::{BearingNeeds, bearing_needs};
 
@@ -19,12 +19,15 @@ pub fn run(args: &BearingsArgs, out: &mut Out) -> Result<End, Failure> {
     let options = Options {
         columns: args.columns.clone(),
         kind: args.kind.clone(),
-        decimal: args.decimal.map(|decimal| match decimal {
-            DecimalArg::Point => Decimal::Point,
-            DecimalArg::Comma => Decimal::Comma,
-        }),
-        sheet: args.sheet.clone(),
-        header_line: args.header_line,
+        form: TableForm {
+            decimal: args.decimal.map(|decimal| match decimal {
+                DecimalArg::Point => Decimal::Point,
+                DecimalArg::Comma => Decimal::Comma,
+            }),
+            sheet: args.sheet.clone(),
+            header_line: args.header_line,
+            ..TableForm::default()
+        },
     };
     let shipped = language.catalogue("bearings");
     let name = file.file_name().unwrap_or(file.as_os_str()).to_string_lossy();

@@ -24,7 +24,7 @@ pub struct ClearancePlace {
 }
 
 /// Indices of the two members; `None` for the housing.
-pub type ClearanceSeat = [Option<u16>; 2];
+pub(crate) type ClearanceSeat = [Option<u16>; 2];
 
 /// The state at a clearance.
 #[derive(Debug, Clone, Copy)]

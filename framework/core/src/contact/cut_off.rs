@@ -19,7 +19,7 @@ struct FinePoint {
 }
 
 /// A path prepared for a law with limits.
-pub struct CutOff {
+pub(crate) struct CutOff {
     limits: FrictionLimits,
     /// Number of points on each section.
     order: usize,

@@ -129,7 +129,7 @@ pub struct Scratch<R: Points = f64> {
 
 impl<R: Points> Scratch<R> {
     /// Loss model evaluations for all points so far.
-    pub fn all_calls(&self) -> usize {
+    pub(crate) fn all_calls(&self) -> usize {
         self.called + self.models.conditions.calls.get()
     }
 

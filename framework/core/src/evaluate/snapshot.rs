@@ -44,7 +44,7 @@ pub(crate) struct Asked<'a> {
 
 impl Snapshot {
     /// Speeds of the members (rad/s), and the note cells of heat models.
-    pub fn speeds_and_cells(&mut self) -> (&[f64], &[Cell<Seen>]) {
+    pub(crate) fn speeds_and_cells(&mut self) -> (&[f64], &[Cell<Seen>]) {
         let cells = Cell::from_mut(self.cells.as_mut_slice()).as_slice_of_cells();
         (&self.speeds, cells)
     }

@@ -168,7 +168,7 @@ impl Elimination {
 
     /// Multiplications of one elimination and one solution.
     #[cfg(test)]
-    pub fn multiplications(&self) -> usize {
+    pub(crate) fn multiplications(&self) -> usize {
         let step = |step: &Step| step.changed.len() + 2 * step.below.len() + step.right.len() + 1;
         self.steps.iter().map(step).sum()
     }

@@ -263,7 +263,7 @@ impl Solver {
     }
 
     /// Length of the factors for so many meshes.
-    pub fn factor_count(&self, meshes: usize) -> usize {
+    pub(crate) fn factor_count(&self, meshes: usize) -> usize {
         match self {
             Self::Inverse { .. } => meshes * meshes,
             Self::Elimination { elimination, .. } => elimination.len(),

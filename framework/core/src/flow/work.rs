@@ -122,12 +122,12 @@ impl<R: Points> Losses<R> {
     pub fn drags(&self) -> &[R] {
         &self.values[2 * self.meshes..]
     }
-    pub fn drags_mut(&mut self) -> &mut [R] {
+    pub(crate) fn drags_mut(&mut self) -> &mut [R] {
         &mut self.values[2 * self.meshes..]
     }
     /// Writes the loss of a mesh as a share of its rolling power, or as a constant if the share is not small.
     #[inline(always)]
-    pub fn set_mesh(&mut self, mesh: usize, loss: R, rolling: R) {
+    pub(crate) fn set_mesh(&mut self, mesh: usize, loss: R, rolling: R) {
         let proportional = loss.is_above(R::ZERO) & loss.is_below(rolling * 0.5);
         self.values[mesh] = R::select(proportional, loss / rolling, R::ZERO);
         self.values[self.meshes + mesh] = R::select(proportional, R::ZERO, loss.at_least(0.0));

@@ -28,7 +28,7 @@ pub fn rule(n: usize) -> Vec<(f64, f64)> {
 /// A rule whose nodes are denser towards both ends: that of `n` nodes in u under x = (5 u - u^3)/4. It is exact for polynomials up
 /// to degree (2 n - 3)/3. At the ends, where friction may start like a fractional power of sliding or load, it is as accurate as a
 /// plain rule with several times the nodes.
-pub fn graded_rule(n: usize) -> Vec<(f64, f64)> {
+pub(crate) fn graded_rule(n: usize) -> Vec<(f64, f64)> {
     rule(n).into_iter().map(graded).collect()
 }
 

@@ -6,7 +6,7 @@ pub fn involute(angle: f64) -> f64 {
 }
 
 /// The angle in rad with this involute; zero unless the value is positive.
-pub fn inverse_involute(value: f64) -> f64 {
+pub(crate) fn inverse_involute(value: f64) -> f64 {
     if value.is_nan() || value <= 0.0 {
         return 0.0;
     }

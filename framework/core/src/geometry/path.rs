@@ -89,7 +89,7 @@ impl Pair {
     }
 
     /// Number of pairs in contact when one is at a distance from T1.
-    pub fn pairs_at(&self, x: f64) -> usize {
+    pub(crate) fn pairs_at(&self, x: f64) -> usize {
         let [start, .., end] = self.points;
         let before = ((x - start) / self.base_pitch).floor().max(0.0) as usize;
         let behind = ((end - x) / self.base_pitch).floor().max(0.0) as usize;
@@ -127,7 +127,7 @@ impl Pair {
     }
 
     /// As [`Self::graded_path`], with both ends of every section in addition. They have no weight, and the share of their section.
-    pub fn graded_path_with_ends(&self, sharing: LoadSharing, order: usize) -> Vec<PathPoint> {
+    pub(crate) fn graded_path_with_ends(&self, sharing: LoadSharing, order: usize) -> Vec<PathPoint> {
         let end = 1.0 - 2.0 * INSIDE;
         let mut rule = gauss::graded_rule(order);
         rule.insert(0, (-end, 0.0));

@@ -219,7 +219,7 @@ impl Reduced {
     }
 
     /// The motion in which one free column has speed one and the other free ones are stationary.
-    pub fn null_vector(&self, free: usize) -> Vec<f64> {
+    pub(crate) fn null_vector(&self, free: usize) -> Vec<f64> {
         let mut vector = vec![0.0; self.columns];
         vector[free] = 1.0;
         for row in &self.holders[free] {

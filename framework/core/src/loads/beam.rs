@@ -9,7 +9,7 @@ const STEEL: (f64, f64, f64) = (206e9, 79e9, 0.3);
 
 /// A support of a beam.
 #[derive(Debug, Clone, Copy)]
-pub struct BeamSupport {
+pub(crate) struct BeamSupport {
     /// Position. \[m\]
     pub at: f64,
     /// Lateral stiffness; `None`: rigid. \[N/m\]
@@ -20,7 +20,7 @@ pub struct BeamSupport {
 
 /// A load in one plane, or a reaction.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct BeamLoad {
+pub(crate) struct BeamLoad {
     /// Position. \[m\]
     pub at: f64,
     /// Lateral force. \[N\]
@@ -31,7 +31,7 @@ pub struct BeamLoad {
 
 /// Why a beam cannot be solved.
 #[derive(Debug, Clone, PartialEq)]
-pub enum BeamFault {
+pub(crate) enum BeamFault {
     /// It can move.
     Mechanism,
     /// Diameters are missing in a range.
@@ -42,7 +42,7 @@ pub enum BeamFault {
 
 /// A beam with its factored stiffness matrix.
 #[derive(Debug, Clone)]
-pub struct Beam {
+pub(crate) struct Beam {
     nodes: Vec<f64>,
     /// Degrees of freedom of each node: deflection, slope left of it, slope right of it.
     freedom: Vec<[usize; 3]>,
@@ -171,7 +171,8 @@ impl Beam {
     }
 
     /// Deflection at a position where a load may act. \[m\]
-    pub fn deflection(&self, loads: &[BeamLoad], at: f64) -> f64 {
+    #[cfg(test)]
+    pub(crate) fn deflection(&self, loads: &[BeamLoad], at: f64) -> f64 {
         self.deflections(loads).0[self.freedom[self.node(at)][0]]
     }
 

@@ -131,7 +131,7 @@ pub struct Layout {
 
 impl Layout {
     /// Meshes with a gear on each member.
-    pub fn meshes_by_member(&self) -> Vec<Vec<usize>> {
+    pub(crate) fn meshes_by_member(&self) -> Vec<Vec<usize>> {
         let mut lists = vec![Vec::new(); self.members.len()];
         for (i, mesh) in self.meshes.iter().enumerate() {
             let [first, second] = mesh.members;
@@ -144,7 +144,7 @@ impl Layout {
     }
 
     /// Supports of each member, inside or outside.
-    pub fn supports_by_member(&self) -> Vec<Vec<usize>> {
+    pub(crate) fn supports_by_member(&self) -> Vec<Vec<usize>> {
         let mut lists = vec![Vec::new(); self.members.len()];
         for (i, support) in self.supports.iter().enumerate() {
             lists[support.inner].push(i);

@@ -110,108 +110,20 @@ impl ShaftLoads {
     ///
     /// # Errors
     /// All faults of the arrangement.
-    #[allow(clippy::too_many_lines)]
     pub fn new(layout: &Layout) -> Result<Self, Vec<LoadFault>> {
-        let n = layout.members.len();
-        let mut own: Vec<Vec<(usize, SupportLayout)>> = vec![Vec::new(); n];
-        let mut radial = own.clone();
-        let mut carrier_of: Vec<Vec<usize>> = vec![Vec::new(); n];
-        let mut turned = Vec::new();
-        for (i, support) in layout.supports.iter().enumerate() {
-            turned.push(carried(layout, support).0 != support.inner);
-            let support = from_the_carried(layout, support);
-            carrier_of[support.inner].extend(support.outer);
-            own[support.inner].push((i, support));
-            if support.takes_radial {
-                radial[support.inner].push((i, support));
-            }
-        }
-        let order = sort(&carrier_of).map_err(|members| vec![LoadFault::Cycle { members }])?;
-        let mut places = vec![0; n];
-        for (place, m) in order.iter().enumerate() {
-            places[*m] = place;
-        }
-        let meshes_of = layout.meshes_by_member();
-        let loaded = loaded_places(layout, &radial, &meshes_of);
-        let mut faults = Vec::new();
-        let mut statics = vec![Statics::None; n];
-        let mut takings = Vec::new();
-        for &m in &order {
-            if radial[m].is_empty() && !own[m].is_empty() {
-                faults.push(LoadFault::Mechanism {
-                    member: m,
-                    supports: own[m].iter().map(|(support, _)| *support).collect(),
-                });
-            }
-            match Statics::new(m, &layout.members[m], &radial[m], &loaded[m]) {
-                Ok(found) => statics[m] = found,
-                Err(fault) => faults.push(fault),
-            }
-            match Taking::new(&own[m]) {
-                Ok(taking) => takings.push(taking),
-                Err(open) => faults.extend(open.into_iter().map(|(supports, right)| LoadFault::AxialIndeterminate {
-                    member: m,
-                    supports,
-                    right,
-                })),
-            }
-        }
-        if !faults.is_empty() {
-            return Err(faults);
-        }
-        let system = System {
-            layout,
-            order: &order,
-            places: &places,
-            own: &radial,
-            statics: &statics,
-        };
-        let mut permanent = vec![Reaction::default(); layout.supports.len()];
-        for (support, reaction) in system.reactions(layout.members.iter().map(always).enumerate()) {
-            permanent[support] = reaction;
-        }
-        let mut units = vec![BTreeMap::new(); layout.supports.len()];
-        for (i, mesh) in layout.meshes.iter().enumerate() {
-            for unit in 0..2 {
-                let gears = (0..2).filter(|gear| !mesh.central[*gear]);
-                let actions = gears.map(|gear| {
-                    let action = Action {
-                        at: mesh.at,
-                        arm: mesh.arm(gear),
-                        force: mesh.forces(gear)[unit],
-                        moment: [0.0; 2],
-                    };
-                    (mesh.members[gear], vec![action])
-                });
-                for (support, reaction) in system.reactions(actions) {
-                    units[support].entry(i).or_insert([Reaction::default(); 2])[unit] = reaction;
-                }
-            }
-        }
-        let mut planets = vec![Vec::new(); layout.supports.len()];
-        for (m, member) in layout.members.iter().enumerate() {
-            let Some(planet) = member.planet else { continue };
-            let action = Action {
-                at: middle(&radial[m]),
-                force: [0.0, planet.mass * planet.orbit, 0.0],
-                ..Action::default()
-            };
-            for (support, reaction) in system.reactions([(m, vec![action])]) {
-                planets[support].push((planet.carrier, reaction));
-            }
-        }
-        let axial = order
-            .iter()
-            .zip(takings)
-            .map(|(&m, taking)| axially(layout, m, &own[m], taking, &meshes_of[m], &places))
-            .collect();
-        let cases = permanent.into_iter().zip(&units).zip(planets);
+        let system = System::new(layout)?;
+        let units = system.units();
+        let cases = system.permanent().into_iter().zip(&units).zip(system.planets());
         Ok(Self {
             cases: cases
                 .map(|((always, units), planets)| Cases::new(always, units, planets))
                 .collect(),
-            turned,
-            order: passed_on(axial),
+            turned: layout
+                .supports
+                .iter()
+                .map(|support| carried(layout, support).0 != support.inner)
+                .collect(),
+            order: passed_on(system.axial()),
         })
     }
 
@@ -273,7 +185,7 @@ impl ShaftLoads {
 
     /// The force of each support on its inner member, y and z, at the speeds of all members (rad/s). On a planet, y points away from the
     /// axis of the carrier. \[N\]
-    pub fn on_inner(&self, tangential: &[f64], speeds: &[f64]) -> Vec<[f64; 2]> {
+    pub(crate) fn on_inner(&self, tangential: &[f64], speeds: &[f64]) -> Vec<[f64; 2]> {
         let supports = self.cases.iter().zip(&self.turned);
         supports
             .map(|(cases, turned)| {
@@ -399,17 +311,135 @@ fn always(member: &MemberLayout) -> Vec<Action> {
     forces.chain(moments).collect()
 }
 
-/// The static systems of all members, from the supported to the supporting.
+/// The static systems of all members.
 struct System<'a> {
     layout: &'a Layout,
-    order: &'a [usize],
+    /// Supports by number of each member that they carry, as it sees them.
+    own: Vec<Vec<(usize, SupportLayout)>>,
+    /// Those of them that take radial forces.
+    radial: Vec<Vec<(usize, SupportLayout)>>,
+    /// Meshes of each member.
+    meshes: Vec<Vec<usize>>,
+    /// Members from the supported to the supporting.
+    order: Vec<usize>,
     /// Place of each member in the order.
-    places: &'a [usize],
-    own: &'a [Vec<(usize, SupportLayout)>],
-    statics: &'a [Statics],
+    places: Vec<usize>,
+    statics: Vec<Statics>,
+    /// How each member's supports take thrust, in the order.
+    takings: Vec<Taking>,
 }
 
-impl System<'_> {
+impl<'a> System<'a> {
+    fn new(layout: &'a Layout) -> Result<Self, Vec<LoadFault>> {
+        let n = layout.members.len();
+        let mut own: Vec<Vec<(usize, SupportLayout)>> = vec![Vec::new(); n];
+        let mut radial = own.clone();
+        let mut carrier_of: Vec<Vec<usize>> = vec![Vec::new(); n];
+        for (i, support) in layout.supports.iter().enumerate() {
+            let support = from_the_carried(layout, support);
+            carrier_of[support.inner].extend(support.outer);
+            own[support.inner].push((i, support));
+            if support.takes_radial {
+                radial[support.inner].push((i, support));
+            }
+        }
+        let order = sort(&carrier_of).map_err(|members| vec![LoadFault::Cycle { members }])?;
+        let mut places = vec![0; n];
+        for (place, m) in order.iter().enumerate() {
+            places[*m] = place;
+        }
+        let meshes = layout.meshes_by_member();
+        let loaded = loaded_places(layout, &radial, &meshes);
+        let mut system = Self {
+            layout,
+            own,
+            radial,
+            meshes,
+            order,
+            places,
+            statics: vec![Statics::None; n],
+            takings: Vec::with_capacity(n),
+        };
+        let faults = system.support(&loaded);
+        if faults.is_empty() { Ok(system) } else { Err(faults) }
+    }
+
+    /// Finds how the supports of each member take its loads.
+    fn support(&mut self, loaded: &[Vec<f64>]) -> Vec<LoadFault> {
+        let mut faults = Vec::new();
+        for &m in &self.order {
+            let (own, radial) = (&self.own[m], &self.radial[m]);
+            if radial.is_empty() && !own.is_empty() {
+                faults.push(LoadFault::Mechanism {
+                    member: m,
+                    supports: own.iter().map(|(support, _)| *support).collect(),
+                });
+            }
+            match Statics::new(m, &self.layout.members[m], radial, &loaded[m]) {
+                Ok(found) => self.statics[m] = found,
+                Err(fault) => faults.push(fault),
+            }
+            match Taking::new(own) {
+                Ok(taking) => self.takings.push(taking),
+                Err(open) => faults.extend(open.into_iter().map(|(supports, right)| LoadFault::AxialIndeterminate {
+                    member: m,
+                    supports,
+                    right,
+                })),
+            }
+        }
+        faults
+    }
+
+    /// Reactions of each support to the permanent loads.
+    fn permanent(&self) -> Vec<Reaction> {
+        let mut permanent = vec![Reaction::default(); self.layout.supports.len()];
+        for (support, reaction) in self.reactions(self.layout.members.iter().map(always).enumerate()) {
+            permanent[support] = reaction;
+        }
+        permanent
+    }
+
+    /// Reactions of each support to the units of each mesh that loads it.
+    fn units(&self) -> Vec<BTreeMap<usize, [Reaction; 2]>> {
+        let mut units = vec![BTreeMap::new(); self.layout.supports.len()];
+        for (i, mesh) in self.layout.meshes.iter().enumerate() {
+            for unit in 0..2 {
+                let gears = (0..2).filter(|gear| !mesh.central[*gear]);
+                let actions = gears.map(|gear| {
+                    let action = Action {
+                        at: mesh.at,
+                        arm: mesh.arm(gear),
+                        force: mesh.forces(gear)[unit],
+                        moment: [0.0; 2],
+                    };
+                    (mesh.members[gear], vec![action])
+                });
+                for (support, reaction) in self.reactions(actions) {
+                    units[support].entry(i).or_insert([Reaction::default(); 2])[unit] = reaction;
+                }
+            }
+        }
+        units
+    }
+
+    /// Reactions of each support to the centrifugal forces of planets, with their carriers.
+    fn planets(&self) -> Vec<Vec<(usize, Reaction)>> {
+        let mut planets = vec![Vec::new(); self.layout.supports.len()];
+        for (m, member) in self.layout.members.iter().enumerate() {
+            let Some(planet) = member.planet else { continue };
+            let action = Action {
+                at: middle(&self.radial[m]),
+                force: [0.0, planet.mass * planet.orbit, 0.0],
+                ..Action::default()
+            };
+            for (support, reaction) in self.reactions([(m, vec![action])]) {
+                planets[support].push((planet.carrier, reaction));
+            }
+        }
+        planets
+    }
+
     /// Reactions of supports to actions on some members: of these members and of those that carry them. All others are zero.
     fn reactions(&self, actions: impl IntoIterator<Item = (usize, Vec<Action>)>) -> Vec<(usize, Reaction)> {
         let mut open: BTreeMap<usize, Vec<Action>> = BTreeMap::new();
@@ -420,7 +450,7 @@ impl System<'_> {
         while let Some((place, actions)) = open.pop_first() {
             let m = self.order[place];
             let found = self.statics[m].reactions(&actions);
-            for ((support, seat), reaction) in self.own[m].iter().zip(found) {
+            for ((support, seat), reaction) in self.radial[m].iter().zip(found) {
                 reactions.push((*support, reaction));
                 // Planets of one set balance each other on their carrier.
                 if let (Some(carrier), None) = (seat.outer, self.layout.members[m].planet) {
@@ -435,41 +465,41 @@ impl System<'_> {
         }
         reactions
     }
-}
+    /// Axial forces on each member, in the order.
+    fn axial(mut self) -> Vec<(Axially, bool)> {
+        let takings = std::mem::take(&mut self.takings);
+        let members = self.order.iter().zip(takings);
+        members.map(|(m, taking)| self.axially(*m, taking)).collect()
+    }
 
-/// Permanent axial forces on one member; true if no support takes thrust, so that it passes through to the supporting member.
-fn axially(
-    layout: &Layout,
-    m: usize,
-    own: &[(usize, SupportLayout)],
-    taking: Taking,
-    meshes_of: &[usize],
-    places: &[usize],
-) -> (Axially, bool) {
-    let mut meshes = Vec::new();
-    for &i in meshes_of {
-        let mesh = &layout.meshes[i];
-        for gear in 0..2 {
-            if mesh.members[gear] == m && mesh.hand_tan_beta != 0.0 {
-                let copies = if mesh.central[gear] { mesh.count } else { 1.0 };
-                meshes.push((i, mesh.forces(gear)[0][0] * copies));
+    /// Axial forces on one member; true if no support takes thrust, so that it passes through to the supporting member.
+    fn axially(&self, m: usize, taking: Taking) -> (Axially, bool) {
+        let (member, own) = (&self.layout.members[m], &self.own[m]);
+        let mut meshes = Vec::new();
+        for &i in &self.meshes[m] {
+            let mesh = &self.layout.meshes[i];
+            for gear in 0..2 {
+                if mesh.members[gear] == m && mesh.hand_tan_beta != 0.0 {
+                    let copies = if mesh.central[gear] { mesh.count } else { 1.0 };
+                    meshes.push((i, mesh.forces(gear)[0][0] * copies));
+                }
             }
         }
+        let carrier = own.iter().find_map(|(_, s)| s.outer);
+        let copies = member.planet.map_or(1.0, |p| p.count);
+        let passes = carrier.is_some()
+            && own
+                .iter()
+                .all(|(_, s)| s.axial == crate::attach::Axial::None && s.spring == 0.0);
+        let axially = Axially {
+            always: member.forces.iter().map(|f| f.1[0]).sum(),
+            size: member.forces.iter().map(|f| f.1[0].abs()).sum(),
+            meshes,
+            taking,
+            carrier: carrier.map(|carrier| (self.places[carrier], copies)),
+        };
+        (axially, passes)
     }
-    let carrier = own.iter().find_map(|(_, s)| s.outer);
-    let copies = layout.members[m].planet.map_or(1.0, |p| p.count);
-    let passes = carrier.is_some()
-        && own
-            .iter()
-            .all(|(_, s)| s.axial == crate::attach::Axial::None && s.spring == 0.0);
-    let axially = Axially {
-        always: layout.members[m].forces.iter().map(|f| f.1[0]).sum(),
-        size: layout.members[m].forces.iter().map(|f| f.1[0].abs()).sum(),
-        meshes,
-        taking,
-        carrier: carrier.map(|carrier| (places[carrier], copies)),
-    };
-    (axially, passes)
 }
 
 /// Passes thrust on to the supporting members, and removes the members through which it passes.

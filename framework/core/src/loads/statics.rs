@@ -5,7 +5,7 @@ use super::layout::{LoadFault, MemberLayout, SupportLayout};
 
 /// A force at a position, with its arm from the axis, and a couple.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct Action {
+pub(crate) struct Action {
     /// Position along the shaft. \[m\]
     pub at: f64,
     /// Arm from the axis in y and z. \[m\]
@@ -28,7 +28,7 @@ impl Action {
 
 /// Reaction of one support on a member: force in y and z, couple about y and z.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct Reaction {
+pub(crate) struct Reaction {
     /// Force on the member. \[N\]
     pub force: [f64; 2],
     /// Couple on the member. \[Nm\]
@@ -37,7 +37,7 @@ pub struct Reaction {
 
 /// Static system of a member.
 #[derive(Debug, Clone)]
-pub enum Statics {
+pub(crate) enum Statics {
     /// No support.
     None,
     /// One support takes force and couple.

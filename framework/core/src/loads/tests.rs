@@ -1,4 +1,5 @@
 #![allow(clippy::unwrap_used)]
+use super::beam::{Beam, BeamFault, BeamLoad, BeamSupport};
 use super::layout::Section;
 use super::*;
 use crate::attach::Axial;

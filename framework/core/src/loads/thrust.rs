@@ -7,7 +7,7 @@ use crate::real::Real;
 
 /// The thrust arrangement of one member, over its own supports.
 #[derive(Debug, Clone)]
-pub struct Taking {
+pub(crate) struct Taking {
     supports: Vec<usize>,
     /// The two supports with a contact angle that load each other, which take thrust towards +x and -x, with their induced thrust
     /// per radial load.

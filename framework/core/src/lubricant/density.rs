@@ -40,7 +40,7 @@ impl Density {
     }
 
     /// The short form of DIN 51757: 0.7 kg/m3 less per degree.
-    pub fn din_51757(value: f64, at: f64) -> Self {
+    pub(crate) fn din_51757(value: f64, at: f64) -> Self {
         Self::linear(value, at, DIN_51757 / value)
     }
 
@@ -51,14 +51,14 @@ impl Density {
     }
 
     /// Density at 15 degC. \[kg/m3\]
-    pub fn rho15(&self) -> f64 {
+    pub(crate) fn rho15(&self) -> f64 {
         match self {
             Self::Linear { rho15, .. } | Self::Api { rho15 } => *rho15,
         }
     }
 
     /// Density at a temperature in degC. \[kg/m3\]
-    pub fn rho_at(&self, temperature: f64) -> f64 {
+    pub(crate) fn rho_at(&self, temperature: f64) -> f64 {
         let warmer = temperature - STANDARD;
         match self {
             Self::Linear { rho15, expansion } => rho15 * (1.0 - expansion * warmer),

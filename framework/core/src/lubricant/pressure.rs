@@ -4,7 +4,7 @@ use crate::real::Real;
 
 /// How the pressure-viscosity coefficient is computed from the oil.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum PressureViscosity {
+pub(crate) enum PressureViscosity {
     /// Gold et al., Ind. Lubr. Tribol. 2001: alpha = s nu^t 1e-9 1/Pa, nu in mm2/s.
     Gold {
         /// Factor s.

@@ -2,7 +2,7 @@
 
 /// A fitted law of the dynamic viscosity.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Vogel {
+pub(crate) struct Vogel {
     /// Logarithm of A, mPa s.
     pub ln_a: f64,
     /// B. \[K\]
@@ -24,7 +24,7 @@ impl Vogel {
     }
 
     /// The law through three points; `None` if no C fits them with a pole below the coldest.
-    pub fn through_three(mut points: [(f64, f64); 3]) -> Option<Self> {
+    pub(crate) fn through_three(mut points: [(f64, f64); 3]) -> Option<Self> {
         points.sort_by(|p, q| p.0.total_cmp(&q.0));
         let [(t1, e1), (t2, e2), (t3, e3)] = points;
         // (ln e1/e2) / (ln e2/e3) = (t2 - t1)(t3 + C) / ((t3 - t2)(t1 + C)) is linear in C.

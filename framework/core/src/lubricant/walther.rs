@@ -41,7 +41,7 @@ impl Form {
 
 /// A fitted law. Valid to 2e7 mm2/s.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Walther {
+pub(crate) struct Walther {
     /// Intercept.
     pub a: f64,
     /// Slope.
@@ -79,7 +79,7 @@ impl Walther {
     }
 
     /// Kinematic viscosity in mm2/s, and its relative decrease with temperature, -(dnu/dT)/nu, in 1/K.
-    pub fn nu_and_slope(&self, temperature: f64) -> (f64, f64) {
+    pub(crate) fn nu_and_slope(&self, temperature: f64) -> (f64, f64) {
         let (ln_z, z) = self.z(temperature);
         let (nu, slope) = self.form.nu(z);
         let nu = nu.max(THINNEST);

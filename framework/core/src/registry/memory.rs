@@ -35,13 +35,13 @@ impl Memory {
     }
 
     /// True if an entry is as it was, except perhaps for the parameters of its model.
-    pub fn is_same_but_model(&self, entry: &str) -> bool {
+    pub(crate) fn is_same_but_model(&self, entry: &str) -> bool {
         let keys = self.changed.get(entry);
         keys.is_none_or(|keys| keys.iter().all(|key| is_within(key, "model")))
     }
 
     /// True if the value at a path in an entry is as it was.
-    pub fn is_same_value(&self, path: &str) -> bool {
+    pub(crate) fn is_same_value(&self, path: &str) -> bool {
         let (entry, own) = split(path);
         let keys = self.changed.get(entry);
         keys.is_none_or(|keys| keys.iter().all(|key| !is_within(key, own) && !is_within(own, key)))

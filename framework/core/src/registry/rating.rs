@@ -46,7 +46,10 @@ impl Registry {
     ///
     /// # Errors
     /// If two ratings have the same name, or one is of an unknown mechanism; each error names modules and lines.
-    pub fn with_ratings(mut self, ratings: impl IntoIterator<Item = RatingPlugin>) -> Result<Self, Vec<Diagnostic>> {
+    pub(crate) fn with_ratings(
+        mut self,
+        ratings: impl IntoIterator<Item = RatingPlugin>,
+    ) -> Result<Self, Vec<Diagnostic>> {
         self.ratings.extend(ratings);
         let place = |r: &RatingPlugin| {
             (

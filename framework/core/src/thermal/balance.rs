@@ -181,7 +181,7 @@ fn search_one<E>(range: [f64; 2], scan: [usize; 2], mut law: impl FnMut(f64) -> 
 
 /// As [`balance`], of several members side by side, with a scan of some accuracy. The law is asked for many at once: numbers of members
 /// and temperatures.
-pub fn balance_all<E>(
+pub(crate) fn balance_all<E>(
     range: [f64; 2],
     members: usize,
     scan: Accuracy,

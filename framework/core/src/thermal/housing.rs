@@ -131,7 +131,7 @@ impl Housing {
     }
 
     /// Temperature below which no heat is dissipated: that of the coldest heat sink. \[degC\]
-    pub fn coldest(&self) -> f64 {
+    pub(crate) fn coldest(&self) -> f64 {
         self.ways.iter().map(|w| w.sink).fold(f64::INFINITY, f64::min)
     }
 

@@ -11,7 +11,6 @@ mod stepping;
 mod tabulated;
 
 pub(crate) use build::Around;
-pub use circuit::Circuit;
 pub use march::{Heats, March, Moment, Passed, Stage};
 pub use parts::{Network, Rate, Surroundings};
 pub use steady::Steady;

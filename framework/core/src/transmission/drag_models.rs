@@ -14,7 +14,7 @@ use crate::mechanism::{Mechanism, NamedSlots};
 use crate::registry::{Build, Registry};
 
 /// Drag models of gears and meshes while they are built one after the other.
-pub struct Drags<'a, 'oils, 'build> {
+pub(crate) struct Drags<'a, 'oils, 'build> {
     pub registry: &'a Registry,
     pub entry: &'a GearboxEntry,
     pub gears: &'a [GearSeat],

@@ -7,7 +7,7 @@ use crate::mechanism::gear_drag::{Covers, DragPart, GearBody};
 
 /// Seat of a drag model.
 #[derive(Debug, Clone)]
-pub struct DragSeat {
+pub(crate) struct DragSeat {
     /// Path with the slot, such as `gears.G4.drag.churning`; that of the gear or mesh until its slots are known.
     pub path: String,
     /// Members of the gear or of both gears.
@@ -26,7 +26,7 @@ pub struct DragSeat {
 }
 
 /// Numbers of the gears of which a model covers a cause of loss, its path, and these causes.
-pub type Covered = (Vec<usize>, String, Covers);
+pub(crate) type Covered = (Vec<usize>, String, Covers);
 
 /// Directions to a gear's mates, as y components of the unit vectors.
 pub fn mates(gear: usize, meshes: &[MeshSeat]) -> Vec<f64> {

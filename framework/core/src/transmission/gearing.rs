@@ -22,7 +22,7 @@ use crate::registry::{Memory, Registry};
 const USUAL_RA: f64 = 0.4e-6;
 
 /// Computes the geometry of all pairs.
-pub fn gearing(
+pub(crate) fn gearing(
     registry: &Registry,
     entry: &GearboxEntry,
     members: &Members,

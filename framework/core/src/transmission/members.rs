@@ -9,7 +9,7 @@ const MOST_MEMBERS: usize = u16::MAX as usize;
 
 /// A planet body on its carrier.
 #[derive(Debug, Clone, Copy)]
-pub struct OnCarrier {
+pub(crate) struct OnCarrier {
     pub carrier: usize,
     pub count: f64,
 }

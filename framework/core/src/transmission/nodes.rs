@@ -15,7 +15,7 @@ pub enum HeatPath {
 
 /// Assignment of nodes to parts, by patterns; `ambient` is the first node.
 #[derive(Debug, Clone, Default)]
-pub struct NodeNames {
+pub(crate) struct NodeNames {
     names: Vec<String>,
     /// Pattern and node: parts whose heat enters the node.
     heated: Vec<(String, usize)>,
@@ -149,7 +149,7 @@ impl NodeNames {
 }
 
 /// Patterns under `parts` and `oil_of` that match no part, with the path of their list.
-pub fn unmet(network: &NetworkEntry, parts: &[&str], found: &mut Vec<Diagnostic>) {
+pub(crate) fn unmet(network: &NetworkEntry, parts: &[&str], found: &mut Vec<Diagnostic>) {
     for (id, node) in network.nodes.iter() {
         for (key, patterns) in [("parts", &node.parts), ("oil_of", &node.oil_of)] {
             for pattern in patterns.iter().filter(|p| !parts.iter().any(|part| meets(p, part))) {

@@ -60,7 +60,7 @@ impl Oils {
     }
 
     /// Writes the state of all oils at the temperatures of the nodes, or at one for all nodes. \[degC\]
-    pub fn write_states<R: Real>(&self, temperatures: &[R], oils: &mut [Oil<R>]) {
+    pub(crate) fn write_states<R: Real>(&self, temperatures: &[R], oils: &mut [Oil<R>]) {
         /// Least step of the derivatives: 1e-4 of the absolute temperature, because zero in degC has no meaning. \[K\]
         const STEP: f64 = 0.03;
         for ((lubricant, node, offset), oil) in self.spots.iter().zip(oils) {
@@ -98,7 +98,7 @@ impl Oils {
 }
 
 /// Numbers oils while components are placed.
-pub struct OilNumbers<'a> {
+pub(crate) struct OilNumbers<'a> {
     names: Vec<&'a str>,
     lubricants: Vec<Arc<Lubricant>>,
     spots: Vec<(usize, usize, f64)>,

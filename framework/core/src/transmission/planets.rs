@@ -20,7 +20,7 @@ use crate::registry::{Build, Placed, Sealed};
 
 /// Unequal load sharing among the planets of a set.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Sharing {
+pub(crate) struct Sharing {
     /// Load of the most loaded planet over the mean.
     pub most: f64,
     /// Load of each other planet over the mean.

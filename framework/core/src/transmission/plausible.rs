@@ -30,7 +30,7 @@ pub fn face_overlap(path: &str, [a, b]: [&GearSeat; 2], overlap: f64, least: f64
 }
 
 /// Reports teeth that form no involute pair, if no model uses them. An unstated tip diameter of a ring gear is then no fault.
-pub fn no_involute(path: &str, faults: &[PairFault]) -> Option<Diagnostic> {
+pub(crate) fn no_involute(path: &str, faults: &[PairFault]) -> Option<Diagnostic> {
     let fault = faults.iter().find(|fault| **fault != PairFault::RingTip)?;
     Some(
         Diagnostic::warning(path, fault.to_string())
@@ -172,7 +172,7 @@ pub fn viscosities(id: &str, oil: &Lubricant, ranges: &PlausibilityEntry) -> Vec
 }
 
 /// Reports an oil level below the lowest tip circle.
-pub fn oil_level(
+pub(crate) fn oil_level(
     entry: &GearboxEntry,
     gears: &[GearSeat],
     levels: &[Level],

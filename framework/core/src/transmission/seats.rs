@@ -24,7 +24,7 @@ pub struct GearSeat {
 
 /// A mesh with its members; SI.
 #[derive(Debug, Clone)]
-pub struct MeshSeat {
+pub(crate) struct MeshSeat {
     /// Path, such as `meshes.M1`.
     pub path: String,
     /// Numbers of both gears.

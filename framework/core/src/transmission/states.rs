@@ -15,7 +15,7 @@ use crate::registry::Memory;
 
 /// Origin of a row, for messages.
 #[derive(Debug, Clone, PartialEq)]
-pub enum RowName {
+pub(crate) enum RowName {
     /// A mesh or a differential, by path.
     Path(String),
     /// The rule that both sides of a differential have equal speed.

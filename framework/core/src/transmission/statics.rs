@@ -22,7 +22,7 @@ const GRAVITY: f64 = 9.80665;
 
 /// A factor as a constant or over the torque of a port.
 #[derive(Debug, Clone)]
-pub enum LoadFactor {
+pub(crate) enum LoadFactor {
     Constant(f64),
     Over {
         port: usize,
@@ -33,7 +33,7 @@ pub enum LoadFactor {
 
 /// Radial and axial factor of one support.
 #[derive(Debug, Clone)]
-pub struct LoadFactors {
+pub(crate) struct LoadFactors {
     pub radial: LoadFactor,
     pub axial: LoadFactor,
 }
@@ -444,7 +444,7 @@ fn explain(
 }
 
 /// Load factors of all supports; empty if all are one.
-pub fn load_factors(
+pub(crate) fn load_factors(
     supports: &[SeatedSupport],
     ports: &[super::Port],
     found: &mut Vec<Diagnostic>,

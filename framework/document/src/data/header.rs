@@ -95,8 +95,9 @@ pub(super) fn stated_separator(line: &str) -> Option<Separator> {
     }
 }
 
-/// A cell without the brackets around all of it.
-fn bare(cell: &str) -> &str {
+/// A cell without white space and the brackets around all of it.
+pub fn without_brackets(cell: &str) -> &str {
+    let cell = cell.trim();
     let inside = |open, close| cell.strip_prefix(open)?.strip_suffix(close);
     inside('[', ']').or_else(|| inside('(', ')')).unwrap_or(cell).trim()
 }
@@ -111,7 +112,12 @@ pub(super) fn take_units(
     let is_number = |cell: &str| cell.replace(',', ".").parse::<f64>().is_ok();
     let is_unit = |cell: &str| cell == "-" || Unit::read(cell).is_some() || times::is_pattern(cell);
     let is_row = rows.first().is_some_and(|(_, cells)| {
-        let cells = || cells.iter().map(|cell| bare(cell)).filter(|cell| !cell.is_empty());
+        let cells = || {
+            cells
+                .iter()
+                .map(|cell| without_brackets(cell))
+                .filter(|cell| !cell.is_empty())
+        };
         cells().all(|cell| cell == "1" || !is_number(cell)) && cells().any(|cell| cell != "1" && is_unit(cell))
     });
     if !is_row {
@@ -120,9 +126,9 @@ pub(super) fn take_units(
     let (line, cells) = rows.remove(0);
     notes.push(format!("units in line {line}"));
     for ((unit, unit_line), cell) in units.iter_mut().zip(unit_lines).zip(&cells) {
-        let bare = bare(cell);
-        if !bare.is_empty() {
-            *unit = Some(bare.to_owned());
+        let symbol = without_brackets(cell);
+        if !symbol.is_empty() {
+            *unit = Some(symbol.to_owned());
             *unit_line = line;
         }
     }

@@ -3,6 +3,7 @@
 //! The headings are the words of the usual symbols of ISO 281 and ISO 76, of product tables of SKF and Schaeffler, and common
 //! variants. A heading that is not here is assigned by the user.
 
+use gearloss_document::data::without_brackets;
 use gearloss_document::{Conversion, Unit};
 
 /// A key of the catalogue.
@@ -228,16 +229,7 @@ pub(super) fn key(heading: &str) -> Option<&'static Key> {
 
 /// A unit, also in brackets.
 pub(super) fn unit(symbol: &str) -> Option<Conversion> {
-    Unit::read(bare(symbol))
-}
-
-/// A unit without its brackets.
-pub(super) fn bare(symbol: &str) -> &str {
-    let symbol = symbol.trim();
-    let inner = [('[', ']'), ('(', ')')]
-        .into_iter()
-        .find_map(|(open, close)| symbol.strip_prefix(open)?.strip_suffix(close));
-    inner.unwrap_or(symbol).trim()
+    Unit::read(without_brackets(symbol))
 }
 
 /// No symbol and no word belongs to two keys.

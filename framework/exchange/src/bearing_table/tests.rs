@@ -156,7 +156,10 @@ fn unclear_numbers_are_refused() {
         "{told}"
     );
     let stated = Options {
-        decimal: Some(Decimal::Comma),
+        form: TableForm {
+            decimal: Some(Decimal::Comma),
+            ..TableForm::default()
+        },
         ..Options::default()
     };
     assert!(lines(&read(&format!("{head}6208;40;80;32.500\n"), &stated).unwrap().text)[1].contains(",32500,"));

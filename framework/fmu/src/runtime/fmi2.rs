@@ -8,7 +8,10 @@
 
 use core::ffi::{CStr, c_char, c_void};
 
-use super::instance::{ERROR, Instance, Log, OK, Status, free_state, keep_state, list, list_mut, put, state, text};
+use super::instance::{
+    ERROR, Instance, Log, OK, Status, free_state, functions, keep_state, list, list_mut, none, put, shared_functions,
+    state, text,
+};
 use super::uri::path_of;
 use super::variables::{Causality, Kind};
 
@@ -65,12 +68,6 @@ impl Log for Receiver {
 
 type Own = Instance<Receiver>;
 
-/// Runs a call on an instance.
-unsafe fn with(c: Handle, call: impl FnOnce(&mut Own) -> Status) -> Status {
-    // SAFETY: the standard.
-    unsafe { Own::with(c, call) }
-}
-
 #[unsafe(no_mangle)]
 pub extern "C" fn fmi2GetTypesPlatform() -> Name {
     c"default".as_ptr()
@@ -79,22 +76,6 @@ pub extern "C" fn fmi2GetTypesPlatform() -> Name {
 #[unsafe(no_mangle)]
 pub extern "C" fn fmi2GetVersion() -> Name {
     c"2.0".as_ptr()
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetDebugLogging(
-    c: Handle,
-    on: Boolean,
-    _count: usize,
-    _categories: *const Name,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe {
-        with(c, |own| {
-            own.logging = on != 0;
-            OK
-        })
-    }
 }
 
 #[unsafe(no_mangle)]
@@ -123,346 +104,120 @@ pub unsafe extern "C" fn fmi2Instantiate(
     }
 }
 
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2FreeInstance(c: Handle) {
-    // SAFETY: the standard.
-    unsafe { Own::free(c) }
+shared_functions! {
+    set_debug_logging: fmi2SetDebugLogging,
+    free_instance: fmi2FreeInstance,
+    exit_initialization_mode: fmi2ExitInitializationMode,
+    terminate: fmi2Terminate,
+    reset: fmi2Reset,
+    get_state: fmi2GetFMUstate,
+    set_state: fmi2SetFMUstate,
+    free_state: fmi2FreeFMUstate,
+    state_size: fmi2SerializedFMUstateSize,
+    serialize_state: fmi2SerializeFMUstate,
+    deserialize_state: fmi2DeSerializeFMUstate,
+    enter_event_mode: fmi2EnterEventMode,
+    enter_continuous_time_mode: fmi2EnterContinuousTimeMode,
+    completed_integrator_step: fmi2CompletedIntegratorStep,
+    set_time: fmi2SetTime,
+    set_states: fmi2SetContinuousStates,
+    get_states: fmi2GetContinuousStates,
+    get_derivatives: fmi2GetDerivatives,
+    get_nominals: fmi2GetNominalsOfContinuousStates,
+    get_event_indicators: fmi2GetEventIndicators,
 }
 
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetupExperiment(
-    c: Handle,
-    _tolerance_defined: Boolean,
-    _tolerance: f64,
-    start: f64,
-    _stop_defined: Boolean,
-    _stop: f64,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe {
-        with(c, |own| {
-            own.model.set_time(start);
-            OK
-        })
-    }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2EnterInitializationMode(c: Handle) -> Status {
-    // SAFETY: the standard.
-    unsafe { with(c, |_| OK) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2ExitInitializationMode(c: Handle) -> Status {
-    // SAFETY: the standard.
-    unsafe {
-        with(c, |own| {
-            own.model.start();
-            OK
-        })
-    }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2Terminate(c: Handle) -> Status {
-    // SAFETY: the standard.
-    unsafe { with(c, |_| OK) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2Reset(c: Handle) -> Status {
-    // SAFETY: the standard.
-    unsafe { with(c, Own::reset) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetReal(c: Handle, references: *const u32, count: usize, values: *mut f64) -> Status {
-    // SAFETY: the standard.
-    unsafe {
-        with(c, |own| {
-            own.get(list(references, count), Kind::Real, list_mut(values, count), |x| x)
-        })
-    }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetInteger(c: Handle, references: *const u32, count: usize, values: *mut i32) -> Status {
-    // SAFETY: the standard.
-    unsafe {
-        with(c, |own| {
-            own.get(list(references, count), Kind::Integer, list_mut(values, count), |x| {
-                x as i32
-            })
-        })
-    }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetBoolean(
-    c: Handle,
-    references: *const u32,
-    count: usize,
-    values: *mut Boolean,
-) -> Status {
-    let convert = |x: f64| Boolean::from(x != 0.0);
-    // SAFETY: the standard.
-    unsafe {
-        with(c, |own| {
-            own.get(list(references, count), Kind::Boolean, list_mut(values, count), convert)
-        })
-    }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetString(c: Handle, _references: *const u32, count: usize, _values: *mut Name) -> Status {
-    // SAFETY: the standard.
-    unsafe { with(c, |_| if count == 0 { OK } else { ERROR }) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetReal(c: Handle, references: *const u32, count: usize, values: *const f64) -> Status {
-    // SAFETY: the standard.
-    unsafe {
-        with(c, |own| {
-            own.set(list(references, count), Kind::Real, list(values, count), |x| x)
-        })
-    }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetInteger(c: Handle, references: *const u32, count: usize, values: *const i32) -> Status {
-    // SAFETY: the standard.
-    unsafe {
-        with(c, |own| {
-            own.set(list(references, count), Kind::Integer, list(values, count), f64::from)
-        })
-    }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetBoolean(
-    c: Handle,
-    references: *const u32,
-    count: usize,
-    values: *const Boolean,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe {
-        with(c, |own| {
-            own.set(list(references, count), Kind::Boolean, list(values, count), f64::from)
-        })
-    }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetString(
-    c: Handle,
-    _references: *const u32,
-    count: usize,
-    _values: *const Name,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe { with(c, |_| if count == 0 { OK } else { ERROR }) }
-}
-
-super::instance::state_functions!(
-    fmi2GetFMUstate,
-    fmi2SetFMUstate,
-    fmi2FreeFMUstate,
-    fmi2SerializedFMUstateSize,
-    fmi2SerializeFMUstate,
-    fmi2DeSerializeFMUstate
-);
-
-/// Not provided, as the model description says.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
-    _c: Handle,
-    _unknowns: *const u32,
-    _unknown_count: usize,
-    _knowns: *const u32,
-    _known_count: usize,
-    _changes: *const f64,
-    _to: *mut f64,
-) -> Status {
-    ERROR
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2EnterEventMode(c: Handle) -> Status {
-    // SAFETY: the standard.
-    unsafe { with(c, |_| OK) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2NewDiscreteStates(c: Handle, info: *mut EventInfo) -> Status {
-    let none = EventInfo {
-        new_discrete_states_needed: 0,
-        terminate: 0,
-        nominals_changed: 0,
-        values_changed: 0,
-        next_event_time_defined: 0,
-        next_event_time: 0.0,
+functions! {
+    fmi2SetupExperiment(
+        _tolerance_defined: Boolean,
+        _tolerance: f64,
+        start: f64,
+        _stop_defined: Boolean,
+        _stop: f64
+    ) => |own| {
+        own.model.set_time(start);
+        OK
     };
-    // SAFETY: the standard.
-    unsafe {
-        with(c, |_| {
-            put(info, none);
-            OK
-        })
-    }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2EnterContinuousTimeMode(c: Handle) -> Status {
-    // SAFETY: the standard.
-    unsafe { with(c, |_| OK) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2CompletedIntegratorStep(
-    c: Handle,
-    _no_earlier: Boolean,
-    enter_event_mode: *mut Boolean,
-    terminate: *mut Boolean,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe {
-        with(c, |_| {
-            put(enter_event_mode, 0);
-            put(terminate, 0);
-            OK
-        })
-    }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetTime(c: Handle, time: f64) -> Status {
-    // SAFETY: the standard.
-    unsafe {
-        with(c, |own| {
-            own.model.set_time(time);
-            OK
-        })
-    }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetContinuousStates(c: Handle, values: *const f64, count: usize) -> Status {
-    // SAFETY: the standard.
-    unsafe { with(c, |own| own.set_continuous(list(values, count))) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetDerivatives(c: Handle, values: *mut f64, count: usize) -> Status {
-    // SAFETY: the standard.
-    unsafe {
-        with(c, |own| {
-            own.get_continuous(Causality::Derivative, list_mut(values, count))
-        })
-    }
-}
-
-/// There are no event indicators.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetEventIndicators(c: Handle, _values: *mut f64, count: usize) -> Status {
-    // SAFETY: the standard.
-    unsafe { with(c, |_| if count == 0 { OK } else { ERROR }) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetContinuousStates(c: Handle, values: *mut f64, count: usize) -> Status {
-    // SAFETY: the standard.
-    unsafe { with(c, |own| own.get_continuous(Causality::State, list_mut(values, count))) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetNominalsOfContinuousStates(c: Handle, values: *mut f64, count: usize) -> Status {
-    // SAFETY: the standard.
-    unsafe { with(c, |own| own.get_nominals(list_mut(values, count))) }
-}
-
-/// Inputs are constant over a step, as the model description says.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetRealInputDerivatives(
-    _c: Handle,
-    _references: *const u32,
-    _count: usize,
-    _orders: *const i32,
-    _values: *const f64,
-) -> Status {
-    ERROR
-}
-
-/// Not provided, as the model description says.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetRealOutputDerivatives(
-    _c: Handle,
-    _references: *const u32,
-    _count: usize,
-    _orders: *const i32,
-    _values: *mut f64,
-) -> Status {
-    ERROR
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2DoStep(c: Handle, time: f64, length: f64, _no_earlier: Boolean) -> Status {
-    // SAFETY: the standard.
-    unsafe { with(c, |own| own.step(time, length)) }
-}
-
-/// A step is over when its call returns.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2CancelStep(_c: Handle) -> Status {
-    ERROR
-}
-
-/// A step is over when its call returns.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetStatus(_c: Handle, _kind: i32, _to: *mut Status) -> Status {
-    ERROR
-}
-
-/// The time of the last successful step, kind 2, and nothing else.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetRealStatus(c: Handle, kind: i32, to: *mut f64) -> Status {
-    // SAFETY: the standard.
-    unsafe {
-        with(c, |own| {
-            if kind != 2 {
-                return ERROR;
-            }
-            put(to, own.model.time());
-            OK
-        })
-    }
-}
-
-/// A step is over when its call returns.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetIntegerStatus(_c: Handle, _kind: i32, _to: *mut i32) -> Status {
-    ERROR
-}
-
-/// Whether the simulation must end, kind 3: never.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetBooleanStatus(c: Handle, kind: i32, to: *mut Boolean) -> Status {
-    // SAFETY: the standard.
-    unsafe {
-        with(c, |_| {
-            if kind != 3 {
-                return ERROR;
-            }
-            put(to, 0);
-            OK
-        })
-    }
-}
-
-/// A step is over when its call returns.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetStringStatus(_c: Handle, _kind: i32, _to: *mut Name) -> Status {
-    ERROR
+    fmi2EnterInitializationMode() => |_| OK;
+    fmi2GetReal(references: *const u32, count: usize, values: *mut f64) => |own| {
+        own.get(list(references, count), Kind::Real, list_mut(values, count), |x| x)
+    };
+    fmi2GetInteger(references: *const u32, count: usize, values: *mut i32) => |own| {
+        own.get(list(references, count), Kind::Integer, list_mut(values, count), |x| x as i32)
+    };
+    fmi2GetBoolean(references: *const u32, count: usize, values: *mut Boolean) => |own| {
+        let convert = |x: f64| Boolean::from(x != 0.0);
+        own.get(list(references, count), Kind::Boolean, list_mut(values, count), convert)
+    };
+    fmi2GetString(_references: *const u32, count: usize, _values: *mut Name) => |_| none(count);
+    fmi2SetReal(references: *const u32, count: usize, values: *const f64) => |own| {
+        own.set(list(references, count), Kind::Real, list(values, count), |x| x)
+    };
+    fmi2SetInteger(references: *const u32, count: usize, values: *const i32) => |own| {
+        own.set(list(references, count), Kind::Integer, list(values, count), f64::from)
+    };
+    fmi2SetBoolean(references: *const u32, count: usize, values: *const Boolean) => |own| {
+        own.set(list(references, count), Kind::Boolean, list(values, count), f64::from)
+    };
+    fmi2SetString(_references: *const u32, count: usize, _values: *const Name) => |_| none(count);
+    /// Not provided, as the model description says.
+    fmi2GetDirectionalDerivative(
+        _unknowns: *const u32,
+        _unknown_count: usize,
+        _knowns: *const u32,
+        _known_count: usize,
+        _changes: *const f64,
+        _to: *mut f64
+    ) => |_| ERROR;
+    fmi2NewDiscreteStates(info: *mut EventInfo) => |_| {
+        let none = EventInfo {
+            new_discrete_states_needed: 0,
+            terminate: 0,
+            nominals_changed: 0,
+            values_changed: 0,
+            next_event_time_defined: 0,
+            next_event_time: 0.0,
+        };
+        put(info, none);
+        OK
+    };
+    /// Inputs are constant over a step, as the model description says.
+    fmi2SetRealInputDerivatives(
+        _references: *const u32,
+        _count: usize,
+        _orders: *const i32,
+        _values: *const f64
+    ) => |_| ERROR;
+    /// Not provided, as the model description says.
+    fmi2GetRealOutputDerivatives(
+        _references: *const u32,
+        _count: usize,
+        _orders: *const i32,
+        _values: *mut f64
+    ) => |_| ERROR;
+    fmi2DoStep(time: f64, length: f64, _no_earlier: Boolean) => |own| own.step(time, length);
+    /// A step is over when its call returns.
+    fmi2CancelStep() => |_| ERROR;
+    /// A step is over when its call returns.
+    fmi2GetStatus(_kind: i32, _to: *mut Status) => |_| ERROR;
+    /// The time of the last successful step, kind 2, and nothing else.
+    fmi2GetRealStatus(kind: i32, to: *mut f64) => |own| {
+        if kind != 2 {
+            return ERROR;
+        }
+        put(to, own.model.time());
+        OK
+    };
+    /// A step is over when its call returns.
+    fmi2GetIntegerStatus(_kind: i32, _to: *mut i32) => |_| ERROR;
+    /// Whether the simulation must end, kind 3: never.
+    fmi2GetBooleanStatus(kind: i32, to: *mut Boolean) => |_| {
+        if kind != 3 {
+            return ERROR;
+        }
+        put(to, 0);
+        OK
+    };
+    /// A step is over when its call returns.
+    fmi2GetStringStatus(_kind: i32, _to: *mut Name) => |_| ERROR;
 }

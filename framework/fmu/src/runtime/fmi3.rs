@@ -8,7 +8,10 @@
 
 use core::ffi::{CStr, c_char, c_void};
 
-use super::instance::{ERROR, Instance, Log, OK, Status, free_state, keep_state, list, list_mut, put, state, text};
+use super::instance::{
+    ERROR, Instance, Log, OK, Status, free_state, functions, keep_state, list, list_mut, none, put, shared_functions,
+    state, text,
+};
 use super::variables::{Causality, Kind};
 
 /// `bool` of C. It may come with any bits, which a `bool` of Rust must not have.
@@ -34,12 +37,6 @@ impl Log for Receiver {
 
 type Own = Instance<Receiver>;
 
-/// Runs a call on an instance.
-unsafe fn with(c: Handle, call: impl FnOnce(&mut Own) -> Status) -> Status {
-    // SAFETY: the standard.
-    unsafe { Own::with(c, call) }
-}
-
 /// A new instance.
 unsafe fn instance(
     token: Name,
@@ -53,31 +50,9 @@ unsafe fn instance(
     unsafe { Own::into_pointer(Own::new(text(resources).map(<[u8]>::to_vec), token, log, logging != 0)) }
 }
 
-/// Fine without variables of a type that no variable has.
-unsafe fn none(c: Handle, count: usize) -> Status {
-    // SAFETY: the standard.
-    unsafe { with(c, |_| if count == 0 { OK } else { ERROR }) }
-}
-
 #[unsafe(no_mangle)]
 pub extern "C" fn fmi3GetVersion() -> Name {
     c"3.0".as_ptr()
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3SetDebugLogging(
-    c: Handle,
-    on: Boolean,
-    _count: usize,
-    _categories: *const Name,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe {
-        with(c, |own| {
-            own.logging = on != 0;
-            OK
-        })
-    }
 }
 
 #[unsafe(no_mangle)]
@@ -130,222 +105,76 @@ pub unsafe extern "C" fn fmi3InstantiateScheduledExecution(
     core::ptr::null_mut()
 }
 
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3FreeInstance(c: Handle) {
-    // SAFETY: the standard.
-    unsafe { Own::free(c) }
+shared_functions! {
+    set_debug_logging: fmi3SetDebugLogging,
+    free_instance: fmi3FreeInstance,
+    exit_initialization_mode: fmi3ExitInitializationMode,
+    terminate: fmi3Terminate,
+    reset: fmi3Reset,
+    get_state: fmi3GetFMUState,
+    set_state: fmi3SetFMUState,
+    free_state: fmi3FreeFMUState,
+    state_size: fmi3SerializedFMUStateSize,
+    serialize_state: fmi3SerializeFMUState,
+    deserialize_state: fmi3DeserializeFMUState,
+    enter_event_mode: fmi3EnterEventMode,
+    enter_continuous_time_mode: fmi3EnterContinuousTimeMode,
+    completed_integrator_step: fmi3CompletedIntegratorStep,
+    set_time: fmi3SetTime,
+    set_states: fmi3SetContinuousStates,
+    get_states: fmi3GetContinuousStates,
+    get_derivatives: fmi3GetContinuousStateDerivatives,
+    get_nominals: fmi3GetNominalsOfContinuousStates,
+    get_event_indicators: fmi3GetEventIndicators,
 }
 
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3EnterInitializationMode(
-    c: Handle,
-    _tolerance_defined: Boolean,
-    _tolerance: f64,
-    start: f64,
-    _stop_defined: Boolean,
-    _stop: f64,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe {
-        with(c, |own| {
-            own.model.set_time(start);
-            OK
-        })
-    }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3ExitInitializationMode(c: Handle) -> Status {
-    // SAFETY: the standard.
-    unsafe {
-        with(c, |own| {
-            own.model.start();
-            OK
-        })
-    }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3Reset(c: Handle) -> Status {
-    // SAFETY: the standard.
-    unsafe { with(c, Own::reset) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3EnterEventMode(c: Handle) -> Status {
-    // SAFETY: the standard.
-    unsafe { with(c, |_| OK) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3Terminate(c: Handle) -> Status {
-    // SAFETY: the standard.
-    unsafe { with(c, |_| OK) }
-}
-
-/// There are no structural parameters.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3EnterConfigurationMode(_c: Handle) -> Status {
-    ERROR
-}
-
-/// There are no structural parameters.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3ExitConfigurationMode(_c: Handle) -> Status {
-    ERROR
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3EvaluateDiscreteStates(c: Handle) -> Status {
-    // SAFETY: the standard.
-    unsafe { with(c, |_| OK) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3EnterContinuousTimeMode(c: Handle) -> Status {
-    // SAFETY: the standard.
-    unsafe { with(c, |_| OK) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3EnterStepMode(c: Handle) -> Status {
-    // SAFETY: the standard.
-    unsafe { with(c, |_| OK) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetFloat64(
-    c: Handle,
-    references: *const u32,
-    count: usize,
-    values: *mut f64,
-    value_count: usize,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe {
-        with(c, |own| {
-            own.get(
-                list(references, count),
-                Kind::Real,
-                list_mut(values, value_count),
-                |x| x,
-            )
-        })
-    }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3SetFloat64(
-    c: Handle,
-    references: *const u32,
-    count: usize,
-    values: *const f64,
-    value_count: usize,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe {
-        with(c, |own| {
-            own.set(list(references, count), Kind::Real, list(values, value_count), |x| x)
-        })
-    }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetInt32(
-    c: Handle,
-    references: *const u32,
-    count: usize,
-    values: *mut i32,
-    value_count: usize,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe {
-        with(c, |own| {
-            own.get(
-                list(references, count),
-                Kind::Integer,
-                list_mut(values, value_count),
-                |x| x as i32,
-            )
-        })
-    }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3SetInt32(
-    c: Handle,
-    references: *const u32,
-    count: usize,
-    values: *const i32,
-    value_count: usize,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe {
-        with(c, |own| {
-            own.set(
-                list(references, count),
-                Kind::Integer,
-                list(values, value_count),
-                f64::from,
-            )
-        })
-    }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetBoolean(
-    c: Handle,
-    references: *const u32,
-    count: usize,
-    values: *mut Boolean,
-    value_count: usize,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe {
-        with(c, |own| {
-            own.get(
-                list(references, count),
-                Kind::Boolean,
-                list_mut(values, value_count),
-                |x| Boolean::from(x != 0.0),
-            )
-        })
-    }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3SetBoolean(
-    c: Handle,
-    references: *const u32,
-    count: usize,
-    values: *const Boolean,
-    value_count: usize,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe {
-        with(c, |own| {
-            own.set(list(references, count), Kind::Boolean, list(values, value_count), |x| {
-                f64::from(u8::from(x != 0))
-            })
-        })
-    }
+functions! {
+    fmi3EnterInitializationMode(
+        _tolerance_defined: Boolean,
+        _tolerance: f64,
+        start: f64,
+        _stop_defined: Boolean,
+        _stop: f64
+    ) => |own| {
+        own.model.set_time(start);
+        OK
+    };
+    /// There are no structural parameters.
+    fmi3EnterConfigurationMode() => |_| ERROR;
+    /// There are no structural parameters.
+    fmi3ExitConfigurationMode() => |_| ERROR;
+    fmi3EvaluateDiscreteStates() => |_| OK;
+    fmi3EnterStepMode() => |_| OK;
+    fmi3GetFloat64(references: *const u32, count: usize, values: *mut f64, value_count: usize) => |own| {
+        own.get(list(references, count), Kind::Real, list_mut(values, value_count), |x| x)
+    };
+    fmi3SetFloat64(references: *const u32, count: usize, values: *const f64, value_count: usize) => |own| {
+        own.set(list(references, count), Kind::Real, list(values, value_count), |x| x)
+    };
+    fmi3GetInt32(references: *const u32, count: usize, values: *mut i32, value_count: usize) => |own| {
+        own.get(list(references, count), Kind::Integer, list_mut(values, value_count), |x| x as i32)
+    };
+    fmi3SetInt32(references: *const u32, count: usize, values: *const i32, value_count: usize) => |own| {
+        own.set(list(references, count), Kind::Integer, list(values, value_count), f64::from)
+    };
+    fmi3GetBoolean(references: *const u32, count: usize, values: *mut Boolean, value_count: usize) => |own| {
+        let convert = |x: f64| Boolean::from(x != 0.0);
+        own.get(list(references, count), Kind::Boolean, list_mut(values, value_count), convert)
+    };
+    fmi3SetBoolean(references: *const u32, count: usize, values: *const Boolean, value_count: usize) => |own| {
+        let convert = |x: Boolean| f64::from(u8::from(x != 0));
+        own.set(list(references, count), Kind::Boolean, list(values, value_count), convert)
+    };
 }
 
 /// Functions of a type that no variable has.
 macro_rules! without_variables {
-    ($($get:ident, $set:ident: $of:ty;)*) => {$(
-        #[unsafe(no_mangle)]
-        pub unsafe extern "C" fn $get(c: Handle, _: *const u32, count: usize, _: *mut $of, _: usize) -> Status {
-            // SAFETY: the standard.
-            unsafe { none(c, count) }
-        }
-
-        #[unsafe(no_mangle)]
-        pub unsafe extern "C" fn $set(c: Handle, _: *const u32, count: usize, _: *const $of, _: usize) -> Status {
-            // SAFETY: the standard.
-            unsafe { none(c, count) }
-        }
-    )*};
+    ($($get:ident, $set:ident: $of:ty;)*) => {
+        functions! {$(
+            $get(_references: *const u32, count: usize, _values: *mut $of, _value_count: usize) => |_| none(count);
+            $set(_references: *const u32, count: usize, _values: *const $of, _value_count: usize) => |_| none(count);
+        )*}
+    };
 }
 
 without_variables! {
@@ -360,371 +189,146 @@ without_variables! {
     fmi3GetString, fmi3SetString: Name;
 }
 
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetBinary(
-    c: Handle,
-    _references: *const u32,
-    count: usize,
-    _sizes: *mut usize,
-    _values: *mut *const u8,
-    _value_count: usize,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe { none(c, count) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3SetBinary(
-    c: Handle,
-    _references: *const u32,
-    count: usize,
-    _sizes: *const usize,
-    _values: *const *const u8,
-    _value_count: usize,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe { none(c, count) }
-}
-
-/// There are no clocks.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetClock(
-    c: Handle,
-    _references: *const u32,
-    count: usize,
-    _values: *mut Boolean,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe { none(c, count) }
-}
-
-/// There are no clocks.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3SetClock(
-    c: Handle,
-    _references: *const u32,
-    count: usize,
-    _values: *const Boolean,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe { none(c, count) }
-}
-
-/// There are no clocks.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetIntervalDecimal(
-    c: Handle,
-    _references: *const u32,
-    count: usize,
-    _intervals: *mut f64,
-    _qualifiers: *mut i32,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe { none(c, count) }
-}
-
-/// There are no clocks.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetIntervalFraction(
-    c: Handle,
-    _references: *const u32,
-    count: usize,
-    _counters: *mut u64,
-    _resolutions: *mut u64,
-    _qualifiers: *mut i32,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe { none(c, count) }
-}
-
-/// There are no clocks.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetShiftDecimal(
-    c: Handle,
-    _references: *const u32,
-    count: usize,
-    _shifts: *mut f64,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe { none(c, count) }
-}
-
-/// There are no clocks.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetShiftFraction(
-    c: Handle,
-    _references: *const u32,
-    count: usize,
-    _counters: *mut u64,
-    _resolutions: *mut u64,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe { none(c, count) }
-}
-
-/// There are no clocks.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3SetIntervalDecimal(
-    c: Handle,
-    _references: *const u32,
-    count: usize,
-    _intervals: *const f64,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe { none(c, count) }
-}
-
-/// There are no clocks.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3SetIntervalFraction(
-    c: Handle,
-    _references: *const u32,
-    count: usize,
-    _counters: *const u64,
-    _resolutions: *const u64,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe { none(c, count) }
-}
-
-/// There are no clocks.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3SetShiftDecimal(
-    c: Handle,
-    _references: *const u32,
-    count: usize,
-    _shifts: *const f64,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe { none(c, count) }
-}
-
-/// There are no clocks.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3SetShiftFraction(
-    c: Handle,
-    _references: *const u32,
-    count: usize,
-    _counters: *const u64,
-    _resolutions: *const u64,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe { none(c, count) }
-}
-
-/// Not provided, as the model description says.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetNumberOfVariableDependencies(_c: Handle, _reference: u32, _to: *mut usize) -> Status {
-    ERROR
-}
-
-/// Not provided, as the model description says.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetVariableDependencies(
-    _c: Handle,
-    _dependent: u32,
-    _elements: *mut usize,
-    _independents: *mut u32,
-    _elements_of_independents: *mut usize,
-    _kinds: *mut i32,
-    _count: usize,
-) -> Status {
-    ERROR
-}
-
-super::instance::state_functions!(
-    fmi3GetFMUState,
-    fmi3SetFMUState,
-    fmi3FreeFMUState,
-    fmi3SerializedFMUStateSize,
-    fmi3SerializeFMUState,
-    fmi3DeserializeFMUState
-);
-
-/// Not provided, as the model description says.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetDirectionalDerivative(
-    _c: Handle,
-    _unknowns: *const u32,
-    _unknown_count: usize,
-    _knowns: *const u32,
-    _known_count: usize,
-    _seed: *const f64,
-    _seed_count: usize,
-    _to: *mut f64,
-    _to_count: usize,
-) -> Status {
-    ERROR
-}
-
-/// Not provided, as the model description says.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetAdjointDerivative(
-    _c: Handle,
-    _unknowns: *const u32,
-    _unknown_count: usize,
-    _knowns: *const u32,
-    _known_count: usize,
-    _seed: *const f64,
-    _seed_count: usize,
-    _to: *mut f64,
-    _to_count: usize,
-) -> Status {
-    ERROR
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3UpdateDiscreteStates(
-    c: Handle,
-    again: *mut Boolean,
-    terminate: *mut Boolean,
-    nominals_changed: *mut Boolean,
-    values_changed: *mut Boolean,
-    next_event_time_defined: *mut Boolean,
-    next_event_time: *mut f64,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe {
-        with(c, |_| {
-            for to in [
-                again,
-                terminate,
-                nominals_changed,
-                values_changed,
-                next_event_time_defined,
-            ] {
-                put(to, 0);
-            }
-            put(next_event_time, 0.0);
-            OK
-        })
-    }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3CompletedIntegratorStep(
-    c: Handle,
-    _no_earlier: Boolean,
-    enter_event_mode: *mut Boolean,
-    terminate: *mut Boolean,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe {
-        with(c, |_| {
-            put(enter_event_mode, 0);
-            put(terminate, 0);
-            OK
-        })
-    }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3SetTime(c: Handle, time: f64) -> Status {
-    // SAFETY: the standard.
-    unsafe {
-        with(c, |own| {
-            own.model.set_time(time);
-            OK
-        })
-    }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3SetContinuousStates(c: Handle, values: *const f64, count: usize) -> Status {
-    // SAFETY: the standard.
-    unsafe { with(c, |own| own.set_continuous(list(values, count))) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetContinuousStateDerivatives(c: Handle, values: *mut f64, count: usize) -> Status {
-    // SAFETY: the standard.
-    unsafe {
-        with(c, |own| {
-            own.get_continuous(Causality::Derivative, list_mut(values, count))
-        })
-    }
-}
-
-/// There are no event indicators.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetEventIndicators(c: Handle, _values: *mut f64, count: usize) -> Status {
-    // SAFETY: the standard.
-    unsafe { none(c, count) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetContinuousStates(c: Handle, values: *mut f64, count: usize) -> Status {
-    // SAFETY: the standard.
-    unsafe { with(c, |own| own.get_continuous(Causality::State, list_mut(values, count))) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetNominalsOfContinuousStates(c: Handle, values: *mut f64, count: usize) -> Status {
-    // SAFETY: the standard.
-    unsafe { with(c, |own| own.get_nominals(list_mut(values, count))) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetNumberOfEventIndicators(c: Handle, to: *mut usize) -> Status {
-    // SAFETY: the standard.
-    unsafe {
-        with(c, |_| {
+functions! {
+    fmi3GetBinary(
+        _references: *const u32,
+        count: usize,
+        _sizes: *mut usize,
+        _values: *mut *const u8,
+        _value_count: usize
+    ) => |_| none(count);
+    fmi3SetBinary(
+        _references: *const u32,
+        count: usize,
+        _sizes: *const usize,
+        _values: *const *const u8,
+        _value_count: usize
+    ) => |_| none(count);
+    /// There are no clocks.
+    fmi3GetClock(_references: *const u32, count: usize, _values: *mut Boolean) => |_| none(count);
+    /// There are no clocks.
+    fmi3SetClock(_references: *const u32, count: usize, _values: *const Boolean) => |_| none(count);
+    /// There are no clocks.
+    fmi3GetIntervalDecimal(
+        _references: *const u32,
+        count: usize,
+        _intervals: *mut f64,
+        _qualifiers: *mut i32
+    ) => |_| none(count);
+    /// There are no clocks.
+    fmi3GetIntervalFraction(
+        _references: *const u32,
+        count: usize,
+        _counters: *mut u64,
+        _resolutions: *mut u64,
+        _qualifiers: *mut i32
+    ) => |_| none(count);
+    /// There are no clocks.
+    fmi3GetShiftDecimal(_references: *const u32, count: usize, _shifts: *mut f64) => |_| none(count);
+    /// There are no clocks.
+    fmi3GetShiftFraction(
+        _references: *const u32,
+        count: usize,
+        _counters: *mut u64,
+        _resolutions: *mut u64
+    ) => |_| none(count);
+    /// There are no clocks.
+    fmi3SetIntervalDecimal(_references: *const u32, count: usize, _intervals: *const f64) => |_| none(count);
+    /// There are no clocks.
+    fmi3SetIntervalFraction(
+        _references: *const u32,
+        count: usize,
+        _counters: *const u64,
+        _resolutions: *const u64
+    ) => |_| none(count);
+    /// There are no clocks.
+    fmi3SetShiftDecimal(_references: *const u32, count: usize, _shifts: *const f64) => |_| none(count);
+    /// There are no clocks.
+    fmi3SetShiftFraction(
+        _references: *const u32,
+        count: usize,
+        _counters: *const u64,
+        _resolutions: *const u64
+    ) => |_| none(count);
+    /// Not provided, as the model description says.
+    fmi3GetNumberOfVariableDependencies(_reference: u32, _to: *mut usize) => |_| ERROR;
+    /// Not provided, as the model description says.
+    fmi3GetVariableDependencies(
+        _dependent: u32,
+        _elements: *mut usize,
+        _independents: *mut u32,
+        _elements_of_independents: *mut usize,
+        _kinds: *mut i32,
+        _count: usize
+    ) => |_| ERROR;
+    /// Not provided, as the model description says.
+    fmi3GetDirectionalDerivative(
+        _unknowns: *const u32,
+        _unknown_count: usize,
+        _knowns: *const u32,
+        _known_count: usize,
+        _seed: *const f64,
+        _seed_count: usize,
+        _to: *mut f64,
+        _to_count: usize
+    ) => |_| ERROR;
+    /// Not provided, as the model description says.
+    fmi3GetAdjointDerivative(
+        _unknowns: *const u32,
+        _unknown_count: usize,
+        _knowns: *const u32,
+        _known_count: usize,
+        _seed: *const f64,
+        _seed_count: usize,
+        _to: *mut f64,
+        _to_count: usize
+    ) => |_| ERROR;
+    fmi3UpdateDiscreteStates(
+        again: *mut Boolean,
+        terminate: *mut Boolean,
+        nominals_changed: *mut Boolean,
+        values_changed: *mut Boolean,
+        next_event_time_defined: *mut Boolean,
+        next_event_time: *mut f64
+    ) => |_| {
+        for to in [again, terminate, nominals_changed, values_changed, next_event_time_defined] {
             put(to, 0);
-            OK
-        })
-    }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetNumberOfContinuousStates(c: Handle, to: *mut usize) -> Status {
-    // SAFETY: the standard.
-    unsafe {
-        with(c, |own| {
-            put(to, own.model.state_count());
-            OK
-        })
-    }
-}
-
-/// Not provided, as the model description says.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetOutputDerivatives(
-    _c: Handle,
-    _references: *const u32,
-    _count: usize,
-    _orders: *const i32,
-    _values: *mut f64,
-    _value_count: usize,
-) -> Status {
-    ERROR
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3DoStep(
-    c: Handle,
-    time: f64,
-    length: f64,
-    _no_earlier: Boolean,
-    event: *mut Boolean,
-    terminate: *mut Boolean,
-    early: *mut Boolean,
-    last: *mut f64,
-) -> Status {
-    // SAFETY: the standard.
-    unsafe {
-        with(c, |own| {
-            let status = own.step(time, length);
-            for to in [event, terminate, early] {
-                put(to, 0);
-            }
-            put(last, own.model.time());
-            status
-        })
-    }
-}
-
-/// Not provided, as the model description says.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3ActivateModelPartition(_c: Handle, _clock: u32, _time: f64) -> Status {
-    ERROR
+        }
+        put(next_event_time, 0.0);
+        OK
+    };
+    fmi3GetNumberOfEventIndicators(to: *mut usize) => |_| {
+        put(to, 0);
+        OK
+    };
+    fmi3GetNumberOfContinuousStates(to: *mut usize) => |own| {
+        put(to, own.model.state_count());
+        OK
+    };
+    /// Not provided, as the model description says.
+    fmi3GetOutputDerivatives(
+        _references: *const u32,
+        _count: usize,
+        _orders: *const i32,
+        _values: *mut f64,
+        _value_count: usize
+    ) => |_| ERROR;
+    fmi3DoStep(
+        time: f64,
+        length: f64,
+        _no_earlier: Boolean,
+        event: *mut Boolean,
+        terminate: *mut Boolean,
+        early: *mut Boolean,
+        last: *mut f64
+    ) => |own| {
+        let status = own.step(time, length);
+        for to in [event, terminate, early] {
+            put(to, 0);
+        }
+        put(last, own.model.time());
+        status
+    };
+    /// Not provided, as the model description says.
+    fmi3ActivateModelPartition(_clock: u32, _time: f64) => |_| ERROR;
 }

@@ -298,78 +298,126 @@ pub unsafe fn text<'a>(pointer: *const c_char) -> Option<&'a [u8]> {
     (!pointer.is_null()).then(|| unsafe { CStr::from_ptr(pointer) }.to_bytes())
 }
 
-/// The functions of the state of an instance, which are the same in both versions but for their names.
-macro_rules! state_functions {
-    ($get:ident, $set:ident, $free:ident, $size:ident, $serialize:ident, $deserialize:ident) => {
+/// Fine without variables of a type that no variable has, and without clocks and event indicators.
+pub fn none(count: usize) -> Status {
+    if count == 0 { OK } else { ERROR }
+}
+
+/// Functions of C that run a call on the instance of their first argument.
+macro_rules! functions {
+    ($($(#[$doc:meta])* $name:ident($($argument:ident: $of:ty),*) => $call:expr;)*) => {$(
+        $(#[$doc])*
         #[unsafe(no_mangle)]
-        pub unsafe extern "C" fn $get(c: Handle, to: *mut *mut c_void) -> Status {
+        #[allow(clippy::macro_metavars_in_unsafe)]
+        pub unsafe extern "C" fn $name(c: Handle, $($argument: $of),*) -> Status {
             // SAFETY: the standard.
-            unsafe { with(c, |own| keep_state(&own.model, to)) }
+            unsafe { Own::with(c, $call) }
+        }
+    )*};
+}
+pub(super) use functions;
+
+/// The functions that are the same in both versions but for their names.
+macro_rules! shared_functions {
+    (
+        set_debug_logging: $set_debug_logging:ident,
+        free_instance: $free_instance:ident,
+        exit_initialization_mode: $exit_initialization_mode:ident,
+        terminate: $terminate:ident,
+        reset: $reset:ident,
+        get_state: $get_state:ident,
+        set_state: $set_state:ident,
+        free_state: $free_state:ident,
+        state_size: $state_size:ident,
+        serialize_state: $serialize_state:ident,
+        deserialize_state: $deserialize_state:ident,
+        enter_event_mode: $enter_event_mode:ident,
+        enter_continuous_time_mode: $enter_continuous_time_mode:ident,
+        completed_integrator_step: $completed_integrator_step:ident,
+        set_time: $set_time:ident,
+        set_states: $set_states:ident,
+        get_states: $get_states:ident,
+        get_derivatives: $get_derivatives:ident,
+        get_nominals: $get_nominals:ident,
+        get_event_indicators: $get_event_indicators:ident $(,)?
+    ) => {
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $free_instance(c: Handle) {
+            // SAFETY: the standard.
+            unsafe { Own::free(c) }
         }
 
-        #[unsafe(no_mangle)]
-        pub unsafe extern "C" fn $set(c: Handle, from: *mut c_void) -> Status {
-            // SAFETY: the standard.
-            unsafe {
-                with(c, |own| match state(from) {
-                    Some(bytes) => {
-                        let result = own.model.restore(bytes);
-                        own.result(result)
-                    }
-                    None => ERROR,
-                })
-            }
-        }
-
-        #[unsafe(no_mangle)]
-        pub unsafe extern "C" fn $free(c: Handle, to: *mut *mut c_void) -> Status {
-            // SAFETY: the standard.
-            unsafe { with(c, |_| free_state(to)) }
-        }
-
-        #[unsafe(no_mangle)]
-        pub unsafe extern "C" fn $size(c: Handle, from: *mut c_void, size: *mut usize) -> Status {
-            // SAFETY: the standard.
-            unsafe {
-                with(c, |_| match state(from) {
-                    Some(bytes) => {
-                        put(size, bytes.len());
-                        OK
-                    }
-                    None => ERROR,
-                })
-            }
-        }
-
-        #[unsafe(no_mangle)]
-        pub unsafe extern "C" fn $serialize(c: Handle, from: *mut c_void, to: *mut u8, size: usize) -> Status {
-            // SAFETY: the standard.
-            unsafe {
-                with(c, |_| match state(from).zip(Some(list_mut(to, size))) {
+        functions! {
+            $set_debug_logging(on: Boolean, _count: usize, _categories: *const Name) => |own| {
+                own.logging = on != 0;
+                OK
+            };
+            $exit_initialization_mode() => |own| {
+                own.model.start();
+                OK
+            };
+            $terminate() => |_| OK;
+            $reset() => Own::reset;
+            $get_state(to: *mut *mut c_void) => |own| keep_state(&own.model, to);
+            $set_state(from: *mut c_void) => |own| match state(from) {
+                Some(bytes) => {
+                    let result = own.model.restore(bytes);
+                    own.result(result)
+                }
+                None => ERROR,
+            };
+            $free_state(to: *mut *mut c_void) => |_| free_state(to);
+            $state_size(from: *mut c_void, size: *mut usize) => |_| match state(from) {
+                Some(bytes) => {
+                    put(size, bytes.len());
+                    OK
+                }
+                None => ERROR,
+            };
+            $serialize_state(from: *mut c_void, to: *mut u8, size: usize) => |_| {
+                match state(from).zip(Some(list_mut(to, size))) {
                     Some((bytes, to)) if to.len() == bytes.len() => {
                         to.copy_from_slice(bytes);
                         OK
                     }
                     _ => ERROR,
-                })
-            }
-        }
-
-        #[unsafe(no_mangle)]
-        pub unsafe extern "C" fn $deserialize(c: Handle, from: *const u8, size: usize, to: *mut *mut c_void) -> Status {
-            // SAFETY: the standard.
-            unsafe {
-                with(c, |own| {
-                    // The copy checks the bytes without touching the instance.
-                    let mut copy = own.model.clone();
-                    let result = copy.restore(list(from, size));
-                    match own.result(result) {
-                        OK => keep_state(&copy, to),
-                        status => status,
-                    }
-                })
-            }
+                }
+            };
+            $deserialize_state(from: *const u8, size: usize, to: *mut *mut c_void) => |own| {
+                // The copy checks the bytes without touching the instance.
+                let mut copy = own.model.clone();
+                let result = copy.restore(list(from, size));
+                match own.result(result) {
+                    OK => keep_state(&copy, to),
+                    status => status,
+                }
+            };
+            $enter_event_mode() => |_| OK;
+            $enter_continuous_time_mode() => |_| OK;
+            $completed_integrator_step(
+                _no_earlier: Boolean,
+                enter_event_mode: *mut Boolean,
+                terminate: *mut Boolean
+            ) => |_| {
+                put(enter_event_mode, 0);
+                put(terminate, 0);
+                OK
+            };
+            $set_time(time: f64) => |own| {
+                own.model.set_time(time);
+                OK
+            };
+            $set_states(values: *const f64, count: usize) => |own| own.set_continuous(list(values, count));
+            $get_states(values: *mut f64, count: usize) => |own| {
+                own.get_continuous(Causality::State, list_mut(values, count))
+            };
+            $get_derivatives(values: *mut f64, count: usize) => |own| {
+                own.get_continuous(Causality::Derivative, list_mut(values, count))
+            };
+            $get_nominals(values: *mut f64, count: usize) => |own| own.get_nominals(list_mut(values, count));
+            /// There are no event indicators.
+            $get_event_indicators(_values: *mut f64, count: usize) => |_| none(count);
         }
     };
 }
-pub(super) use state_functions;
+pub(super) use shared_functions;

@@ -3,6 +3,7 @@
 use crate::codes;
 use crate::measured::{Condition, Measured, Row};
 use crate::study::{FoldsBy, FoldsEntry, HoldOutEntry, HoldOutRows};
+use gearloss_framework::document::expression::ExpressionFault;
 use gearloss_framework::document::{Diagnostic, did_you_mean};
 use gearloss_numerics::inference::{Fold, folds, labelled_folds, random_folds};
 use gearloss_numerics::sampling::Generator;
@@ -138,8 +139,8 @@ fn choice(
         return Ok((held, format!("column `{column}`")));
     }
     if let Some(text) = &rows.condition {
-        let wrong = |found: crate::measured::ConditionFault| {
-            hold_out_error(place("where"), format!("`{text}`, {}", found.message)).help(found.help)
+        let wrong = |found: ExpressionFault| {
+            hold_out_error(place("where"), format!("`{text}`, {found}")).help(found.help.unwrap_or_default())
         };
         let condition = Condition::parse(text).map_err(wrong)?;
         condition.check(measured).map_err(wrong)?;

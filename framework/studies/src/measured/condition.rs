@@ -4,6 +4,7 @@
 //! parentheses. `not` has the highest precedence, `or` the lowest.
 
 use super::{KNOWN, Measured, Row};
+use gearloss_framework::document::expression::{ExpressionFault, Grammar, Grouping, Level, Scanner};
 use gearloss_framework::document::{Dimension, Unit, did_you_mean, number_length};
 
 /// Maximum number of characters of a condition.
@@ -20,17 +21,6 @@ const EQUAL: f64 = 1e-9;
 pub struct Condition {
     text: String,
     rule: Rule,
-}
-
-/// An error in a condition.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct ConditionFault {
-    /// Message with the column.
-    pub message: String,
-    /// How to fix it.
-    pub help: String,
-    /// Column of the error in the text, starting at one.
-    pub column: usize,
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -99,7 +89,7 @@ struct Literal {
 
 impl Literal {
     /// The value for a quantity with a unit, `%` for fractions; SI.
-    fn value_for(&self, subject: &str, unit: &str, column: usize) -> Result<f64, ConditionFault> {
+    fn value_for(&self, subject: &str, unit: &str, column: usize) -> Result<f64, ExpressionFault> {
         let text = &self.text;
         let wrong = |message: String, help: String| fault(column, message, help);
         let Some((number, symbol)) = &self.number else {
@@ -141,12 +131,8 @@ fn spaced(unit: &str) -> String {
     }
 }
 
-fn fault(column: usize, message: impl Into<String>, help: impl Into<String>) -> ConditionFault {
-    ConditionFault {
-        message: format!("column {column}: {}", message.into()),
-        help: help.into(),
-        column,
-    }
+fn fault(column: usize, message: impl Into<String>, help: impl Into<String>) -> ExpressionFault {
+    ExpressionFault::new(column, message).help(help)
 }
 
 /// Documented unit of a quantity, `%` for efficiencies; empty for texts.
@@ -161,7 +147,7 @@ impl Condition {
     ///
     /// # Errors
     /// The first error with its column: for example a missing operator, or a missing or wrong unit.
-    pub fn parse(text: &str) -> Result<Self, ConditionFault> {
+    pub fn parse(text: &str) -> Result<Self, ExpressionFault> {
         if text.chars().count() > LONGEST {
             return Err(fault(
                 LONGEST,
@@ -169,17 +155,15 @@ impl Condition {
                 "add a column to the file, and use its name",
             ));
         }
-        let mut reader = Reader { text, at: 0 };
-        let rule = reader.disjunction(0)?;
-        reader.skip_spaces();
-        if reader.at < text.len() {
-            let rest = reader.rest().chars().next().unwrap_or_default();
-            let help = if rest == ')' {
+        let mut scanner = Scanner::new(text);
+        let rule = scanner.expression(&mut Conditions)?;
+        if !scanner.rest().is_empty() {
+            let help = if scanner.rest().starts_with(')') {
                 "delete the parenthesis, or add the opening one"
             } else {
                 "join comparisons by `and` or `or`"
             };
-            return Err(reader.fault(format!("unexpected `{}`", reader.word_here()), help));
+            return Err(scanner.fault(format!("unexpected `{}`", word(&scanner))).help(help));
         }
         Ok(Self {
             text: text.trim().to_owned(),
@@ -196,7 +180,7 @@ impl Condition {
     ///
     /// # Errors
     /// The first such name or value, with the column of the text.
-    pub fn check(&self, measured: &Measured) -> Result<(), ConditionFault> {
+    pub fn check(&self, measured: &Measured) -> Result<(), ExpressionFault> {
         self.rule.check(measured)
     }
 
@@ -207,7 +191,7 @@ impl Condition {
 }
 
 impl Rule {
-    fn check(&self, measured: &Measured) -> Result<(), ConditionFault> {
+    fn check(&self, measured: &Measured) -> Result<(), ExpressionFault> {
         match self {
             Self::All(rules) | Self::Any(rules) => rules.iter().try_for_each(|rule| rule.check(measured)),
             Self::Not(rule) => rule.check(measured),
@@ -239,7 +223,7 @@ impl Rule {
 
 impl Comparison {
     /// Checks without a file.
-    fn check_known(&self) -> Result<(), ConditionFault> {
+    fn check_known(&self) -> Result<(), ExpressionFault> {
         match known_unit(&self.subject) {
             Some("") if self.operator.compares_sizes() => Err(fault(
                 self.columns[0],
@@ -251,7 +235,7 @@ impl Comparison {
         }
     }
 
-    fn check(&self, measured: &Measured) -> Result<(), ConditionFault> {
+    fn check(&self, measured: &Measured) -> Result<(), ExpressionFault> {
         let [subject, value] = self.columns;
         if let Some(unit) = known_unit(&self.subject) {
             let there = if unit.is_empty() {
@@ -346,234 +330,185 @@ fn text_of<'r>(row: &'r Row, subject: &str) -> Option<&'r str> {
     }
 }
 
-/// Parser of a text.
-struct Reader<'t> {
-    text: &'t str,
-    /// Bytes read.
-    at: usize,
+/// The grammar of conditions.
+struct Conditions;
+
+#[derive(Clone, Copy)]
+enum Join {
+    And,
+    Or,
 }
 
-impl Reader<'_> {
-    fn rest(&self) -> &str {
-        &self.text[self.at..]
+impl Grammar for Conditions {
+    type Operator = Join;
+    type Value = Rule;
+
+    const LEVELS: &'static [Level<Join>] = &[
+        (Grouping::Left, &[("or", Join::Or)]),
+        (Grouping::Left, &[("and", Join::And)]),
+    ];
+    const PREFIXES: &'static [(&'static str, bool)] = &[("not", true)];
+    const ABOVE_PREFIXES: usize = 2;
+    const DEEPEST: usize = DEEPEST;
+
+    fn too_deep(column: usize) -> ExpressionFault {
+        let message = format!("more than {DEEPEST} nested parentheses");
+        fault(column, message, "add a column to the file, and use its name")
     }
 
-    fn column(&self) -> usize {
-        self.text[..self.at].chars().count() + 1
+    fn unclosed(column: usize) -> ExpressionFault {
+        fault(column, "a parenthesis is not closed", "write `)`")
     }
 
-    fn fault(&self, message: impl Into<String>, help: impl Into<String>) -> ConditionFault {
-        fault(self.column(), message, help)
+    fn operand(&mut self, scanner: &mut Scanner<'_>) -> Result<Rule, ExpressionFault> {
+        comparison(scanner).map(Rule::Compare)
     }
 
-    fn skip_spaces(&mut self) {
-        let rest = self.rest();
-        self.at += rest.len() - rest.trim_start().len();
+    fn negate(&mut self, rule: Rule) -> Rule {
+        Rule::Not(Box::new(rule))
     }
 
-    /// The next word, for messages.
-    fn word_here(&self) -> String {
-        self.rest()
-            .split_whitespace()
-            .next()
-            .unwrap_or_default()
-            .chars()
-            .take(20)
-            .collect()
-    }
-
-    /// Consumes a separate word such as `and`.
-    fn take_word(&mut self, word: &str) -> bool {
-        self.skip_spaces();
-        let Some(behind) = self.rest().strip_prefix(word) else {
-            return false;
-        };
-        let ends = behind
-            .chars()
-            .next()
-            .is_none_or(|c| c.is_whitespace() || c == '(' || c == ')');
-        self.at += if ends { word.len() } else { 0 };
-        ends
-    }
-
-    fn take_sign(&mut self, sign: &str) -> bool {
-        self.skip_spaces();
-        let found = self.rest().starts_with(sign);
-        self.at += if found { sign.len() } else { 0 };
-        found
-    }
-
-    fn disjunction(&mut self, depth: usize) -> Result<Rule, ConditionFault> {
-        let mut rules = vec![self.conjunction(depth)?];
-        while self.take_word("or") {
-            rules.push(self.conjunction(depth)?);
+    fn join(&mut self, join: Join, left: Rule, right: Rule) -> Rule {
+        match (join, left) {
+            (Join::And, Rule::All(rules)) => Rule::All(with(rules, right)),
+            (Join::Or, Rule::Any(rules)) => Rule::Any(with(rules, right)),
+            (Join::And, left) => Rule::All(vec![left, right]),
+            (Join::Or, left) => Rule::Any(vec![left, right]),
         }
-        Ok(if rules.len() == 1 {
-            rules.remove(0)
+    }
+}
+
+fn with(mut rules: Vec<Rule>, rule: Rule) -> Vec<Rule> {
+    rules.push(rule);
+    rules
+}
+
+/// The next word, for messages.
+fn word(scanner: &Scanner<'_>) -> String {
+    let word = scanner.rest().split_whitespace().next().unwrap_or_default();
+    word.chars().take(20).collect()
+}
+
+fn comparison(scanner: &mut Scanner<'_>) -> Result<Comparison, ExpressionFault> {
+    let begin = scanner.column();
+    if number_length(scanner.rest()) > 0 {
+        return Err(scanner
+            .fault("a comparison cannot start with a number")
+            .help("start with the quantity: `speed > 500 rpm and speed < 3000 rpm`"));
+    }
+    let subject = quoted(scanner)?.unwrap_or_else(|| name(scanner)).to_owned();
+    if subject.is_empty() {
+        let message = if scanner.rest().is_empty() {
+            "the condition ends before a comparison".to_owned()
         } else {
-            Rule::Any(rules)
-        })
+            format!("expected a quantity, found `{}`", word(scanner))
+        };
+        return Err(scanner
+            .fault(message)
+            .help("write a comparison such as `torque > 1000 Nm` or `gear == first`"));
     }
-
-    fn conjunction(&mut self, depth: usize) -> Result<Rule, ConditionFault> {
-        let mut rules = vec![self.single(depth)?];
-        while self.take_word("and") {
-            rules.push(self.single(depth)?);
-        }
-        Ok(if rules.len() == 1 {
-            rules.remove(0)
+    let operator = Operator::ALL.iter().find(|(sign, _)| scanner.take(sign));
+    let Some((_, operator)) = operator else {
+        let help = if scanner.rest().starts_with('=') {
+            "write `==`"
         } else {
-            Rule::All(rules)
-        })
-    }
-
-    fn single(&mut self, depth: usize) -> Result<Rule, ConditionFault> {
-        if depth > DEEPEST {
-            return Err(self.fault(
-                format!("more than {DEEPEST} nested parentheses"),
-                "add a column to the file, and use its name",
-            ));
-        }
-        if self.take_word("not") {
-            return Ok(Rule::Not(Box::new(self.single(depth + 1)?)));
-        }
-        if self.take_sign("(") {
-            let rule = self.disjunction(depth + 1)?;
-            return if self.take_sign(")") {
-                Ok(rule)
-            } else {
-                Err(self.fault("a parenthesis is not closed", "write `)`"))
-            };
-        }
-        self.comparison().map(Rule::Compare)
-    }
-
-    fn comparison(&mut self) -> Result<Comparison, ConditionFault> {
-        self.skip_spaces();
-        let begin = self.column();
-        if number_length(self.rest()) > 0 {
-            return Err(self.fault(
-                "a comparison cannot start with a number",
-                "start with the quantity: `speed > 500 rpm and speed < 3000 rpm`",
-            ));
-        }
-        let subject = self.quoted()?.unwrap_or_else(|| self.name());
-        if subject.is_empty() {
-            let message = if self.rest().is_empty() {
-                "the condition ends before a comparison".to_owned()
-            } else {
-                format!("expected a quantity, found `{}`", self.word_here())
-            };
-            return Err(self.fault(
-                message,
-                "write a comparison such as `torque > 1000 Nm` or `gear == first`",
-            ));
-        }
-        self.skip_spaces();
-        let operator = Operator::ALL.iter().find(|(sign, _)| self.rest().starts_with(sign));
-        let Some((sign, operator)) = operator else {
-            let message = format!("`{subject}` is not followed by a comparison");
-            let help = if self.rest().starts_with('=') {
-                "write `==`"
-            } else {
-                "write one of ==, !=, <, <=, >, >= and a value"
-            };
-            return Err(self.fault(message, help));
+            "write one of ==, !=, <, <=, >, >= and a value"
         };
-        self.at += sign.len();
-        self.skip_spaces();
-        let value_at = self.column();
-        let value = self.literal(&subject)?;
-        let comparison = Comparison {
-            subject,
-            operator: *operator,
-            value,
-            columns: [begin, value_at],
-        };
-        comparison.check_known()?;
-        Ok(comparison)
-    }
+        return Err(scanner
+            .fault(format!("`{subject}` is not followed by a comparison"))
+            .help(help));
+    };
+    scanner.skip_spaces();
+    let value_at = scanner.column();
+    let value = literal(scanner, &subject)?;
+    let comparison = Comparison {
+        subject,
+        operator: *operator,
+        value,
+        columns: [begin, value_at],
+    };
+    comparison.check_known()?;
+    Ok(comparison)
+}
 
-    /// A name in quotes, if next.
-    fn quoted(&mut self) -> Result<Option<String>, ConditionFault> {
-        let Some(quote) = self.rest().chars().next().filter(|c| matches!(c, '"' | '\'')) else {
-            return Ok(None);
-        };
-        let inner = &self.rest()[1..];
-        let Some(end) = inner.find(quote) else {
-            return Err(self.fault("quotes are not closed", format!("write `{quote}` after the name")));
-        };
-        let name = inner[..end].to_owned();
-        self.at += end + 2;
-        Ok(Some(name))
-    }
+/// A name in quotes, if next.
+fn quoted<'t>(scanner: &mut Scanner<'t>) -> Result<Option<&'t str>, ExpressionFault> {
+    let Some(quote) = scanner.rest().chars().next().filter(|c| matches!(c, '"' | '\'')) else {
+        return Ok(None);
+    };
+    let Some(end) = scanner.rest()[1..].find(quote) else {
+        return Err(scanner
+            .fault("quotes are not closed")
+            .help(format!("write `{quote}` after the name")));
+    };
+    Ok(Some(&scanner.advance(end + 2)[1..=end]))
+}
 
-    /// A name up to a space, a parenthesis or a comparison.
-    fn name(&mut self) -> String {
-        let ends = |c: char| c.is_whitespace() || matches!(c, '(' | ')' | '<' | '>' | '=' | '!');
-        let rest = self.rest();
-        let name = rest[..rest.find(ends).unwrap_or(rest.len())].to_owned();
-        self.at += name.len();
-        name
-    }
+/// A name up to a space, a parenthesis or a comparison.
+fn name<'t>(scanner: &mut Scanner<'t>) -> &'t str {
+    scanner.advance_to(|c| c.is_whitespace() || matches!(c, '(' | ')' | '<' | '>' | '=' | '!'))
+}
 
-    fn literal(&mut self, subject: &str) -> Result<Literal, ConditionFault> {
-        let word = |text: String| Literal { text, number: None };
-        if let Some(text) = self.quoted()? {
-            return Ok(word(text));
-        }
-        let length = number_length(self.rest());
-        let behind = self.rest()[length..].chars().next();
-        // `2nd` is a word, `60degC` a quantity.
-        let is_text = known_unit(subject) == Some("");
-        if length == 0 || (is_text && behind.is_some_and(char::is_alphanumeric)) {
-            let text = self.name();
-            return if text.is_empty() {
-                Err(self.fault("a value is missing", "write a value, such as `1000 Nm` or `first`"))
-            } else {
-                Ok(word(text))
-            };
-        }
-        if behind == Some(',') {
-            return Err(self.fault("a comma in a number", "use a decimal point and no thousands separators"));
-        }
-        let text = self.rest()[..length].to_owned();
-        let number = text.parse::<f64>().ok().filter(|x| x.is_finite());
-        let Some(number) = number else {
-            return Err(self.fault(format!("`{text}` is too large"), "write another number"));
+fn literal(scanner: &mut Scanner<'_>, subject: &str) -> Result<Literal, ExpressionFault> {
+    let word = |text: &str| Literal {
+        text: text.to_owned(),
+        number: None,
+    };
+    if let Some(text) = quoted(scanner)? {
+        return Ok(word(text));
+    }
+    let length = number_length(scanner.rest());
+    let behind = scanner.rest()[length..].chars().next();
+    // `2nd` is a word, `60degC` a quantity.
+    let is_text = known_unit(subject) == Some("");
+    if length == 0 || (is_text && behind.is_some_and(char::is_alphanumeric)) {
+        let text = name(scanner);
+        return if text.is_empty() {
+            Err(scanner
+                .fault("a value is missing")
+                .help("write a value, such as `1000 Nm` or `first`"))
+        } else {
+            Ok(word(text))
         };
-        self.at += length;
-        let unit = self.unit()?;
-        Ok(Literal {
-            text,
-            number: Some((number, unit)),
-        })
     }
+    if behind == Some(',') {
+        return Err(scanner
+            .fault("a comma in a number")
+            .help("use a decimal point and no thousands separators"));
+    }
+    let text = &scanner.rest()[..length];
+    let number = text.parse::<f64>().ok().filter(|x| x.is_finite());
+    let Some(number) = number else {
+        return Err(scanner
+            .fault(format!("`{text}` is too large"))
+            .help("write another number"));
+    };
+    scanner.advance(length);
+    Ok(Literal {
+        text: text.to_owned(),
+        number: Some((number, unit(scanner)?)),
+    })
+}
 
-    /// The longest matching unit; absent if the number has none.
-    fn unit(&mut self) -> Result<Option<String>, ConditionFault> {
-        self.skip_spaces();
-        let rest = self.rest();
-        let ends = rest.char_indices().map(|(at, c)| (at, c.is_whitespace() || c == ')'));
-        let mut ends: Vec<usize> = ends.filter_map(|(at, is_end)| is_end.then_some(at)).collect();
-        ends.push(rest.len());
-        ends.retain(|end| *end <= LONGEST_UNIT);
-        let is_unit =
-            |end: &&usize| !rest[..**end].ends_with(char::is_whitespace) && Unit::read(&rest[..**end]).is_some();
-        if let Some(end) = ends.iter().rev().find(is_unit) {
-            let symbol = rest[..*end].to_owned();
-            self.at += end;
-            return Ok(Some(symbol));
-        }
-        let word = rest.split([' ', ')']).next().unwrap_or_default();
-        if matches!(word, "" | "and" | "or") {
-            return Ok(None);
-        }
-        Err(self.fault(
-            format!("`{word}` is not a unit"),
-            "write a unit such as Nm, rpm, W, degC or %, or join comparisons by `and` or `or`",
-        ))
+/// The longest matching unit; absent if the number has none.
+fn unit(scanner: &mut Scanner<'_>) -> Result<Option<String>, ExpressionFault> {
+    scanner.skip_spaces();
+    let rest = scanner.rest();
+    let ends = rest.char_indices().map(|(at, c)| (at, c.is_whitespace() || c == ')'));
+    let mut ends: Vec<usize> = ends.filter_map(|(at, is_end)| is_end.then_some(at)).collect();
+    ends.push(rest.len());
+    ends.retain(|end| *end <= LONGEST_UNIT);
+    let is_unit = |end: &&usize| !rest[..**end].ends_with(char::is_whitespace) && Unit::read(&rest[..**end]).is_some();
+    if let Some(end) = ends.iter().rev().find(is_unit) {
+        return Ok(Some(scanner.advance(*end).to_owned()));
     }
+    let word = rest.split([' ', ')']).next().unwrap_or_default();
+    if matches!(word, "" | "and" | "or") {
+        return Ok(None);
+    }
+    Err(scanner
+        .fault(format!("`{word}` is not a unit"))
+        .help("write a unit such as Nm, rpm, W, degC or %, or join comparisons by `and` or `or`"))
 }
 
 #[cfg(test)]
@@ -688,7 +623,7 @@ mod tests {
         ] {
             let found = Condition::parse(text).unwrap_err();
             assert!(
-                found.message.contains(message) && found.help.contains(help),
+                found.message.contains(message) && found.help.as_ref().unwrap().contains(help),
                 "{text}: {found:?}"
             );
             assert_eq!(found.column, column, "{text}: {found:?}");
@@ -726,7 +661,7 @@ mod tests {
         ] {
             let found = Condition::parse(text).unwrap().check(&measured()).unwrap_err();
             assert!(
-                found.message.contains(message) && found.help.contains(help),
+                found.message.contains(message) && found.help.as_ref().unwrap().contains(help),
                 "{text}: {found:?}"
             );
             assert_eq!(found.column, column, "{text}: {found:?}");

@@ -4,12 +4,13 @@ use super::columns::{Column, Columns, Finder, KNOWN};
 use super::files::MeasuredFile;
 use super::text::{self, Table};
 use super::{
-    Accuracies, Condition, ConditionFault, FaultPlace, FaultyRows, FileColumn, Instruments, Measured, MeasuredEntry,
-    MeasuredFault, Rig, Row, TableForm, fault, steady,
+    Accuracies, Condition, FaultPlace, FaultyRows, FileColumn, Instruments, Measured, MeasuredEntry, MeasuredFault,
+    Rig, Row, TableForm, fault, steady,
 };
 use gearloss_document::data::cells::FoundColumn;
 use gearloss_document::data::greatest;
 use gearloss_document::data::sheet::is_name_of;
+use gearloss_framework::document::expression::ExpressionFault;
 use gearloss_framework::document::{Dimension, Unit, did_you_mean};
 
 /// Maximum number of listed faulty cells of a file.
@@ -407,8 +408,8 @@ impl ReadFile {
     }
 }
 
-fn wrong_rows(wrong: ConditionFault) -> MeasuredFault {
-    MeasuredFault::new("rows", wrong.message, wrong.help)
+fn wrong_rows(wrong: ExpressionFault) -> MeasuredFault {
+    MeasuredFault::new("rows", wrong.to_string(), wrong.help.unwrap_or_default())
 }
 
 /// A file without the quantities of the first one.

@@ -27,7 +27,7 @@ pub struct Exchange {
 
 impl Exchange {
     /// Outlet temperature for oil of an inlet temperature; equal to it without flow. \[degC\]
-    pub fn outlet(&self, inlet: f64) -> f64 {
+    pub(crate) fn outlet(&self, inlet: f64) -> f64 {
         if self.oil > 0.0 {
             inlet - self.transfer * (inlet - self.coolant) / self.oil
         } else {
@@ -38,7 +38,7 @@ impl Exchange {
 
 /// A thermal network in numerical form.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Circuit {
+pub(crate) struct Circuit {
     /// Heat capacities. \[J/K\]
     pub capacities: Vec<f64>,
     /// Prescribed node temperatures. \[degC\]
@@ -73,11 +73,6 @@ impl Circuit {
     /// Number of nodes.
     pub fn len(&self) -> usize {
         self.capacities.len()
-    }
-
-    /// True without nodes.
-    pub fn is_empty(&self) -> bool {
-        self.capacities.is_empty()
     }
 
     /// K of all nodes, and the heat input of heat exchangers from their coolants. \[W/K and W\]
@@ -248,7 +243,7 @@ pub(super) mod tests {
     }
 
     /// The drive unit of seventeen nodes, numbered from one as in its publication; node 0 is unused.
-    pub fn drive_unit() -> (Circuit, Vec<f64>) {
+    pub(crate) fn drive_unit() -> (Circuit, Vec<f64>) {
         let mut links = vec![
             (1, 2, 10.0),
             (1, 3, 5.0),

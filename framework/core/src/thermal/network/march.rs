@@ -153,12 +153,12 @@ impl Search {
         least: 1e-3,
     };
     /// Without another one before.
-    pub const ONLY: Self = Self {
+    pub(crate) const ONLY: Self = Self {
         start: Start::Lossless,
         least: 0.0,
     };
     /// After another one for the same point.
-    pub const NEXT: Self = Self {
+    pub(crate) const NEXT: Self = Self {
         start: Start::Last,
         least: 0.0,
     };
