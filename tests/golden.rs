@@ -3,9 +3,12 @@
 use crate::common;
 use std::path::Path;
 
+use gearloss_framework::files::Disk;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::Language;
 use gearloss_framework::resolve::Choice;
+use gearloss_studies::analyses::progress::Silent;
+use gearloss_studies::checked_study::CheckedStudy;
 
 /// Cases of more than one mistake.
 const SEVERAL: [&str; 11] = [
@@ -77,4 +80,22 @@ fn every_class_of_input_error_states_problem_place_and_fix() {
         "these differ (UPDATE=1 writes them):\n{}",
         wrong.join("\n")
     );
+}
+
+/// The plans of a study with every analysis. `UPDATE=1 cargo test` writes the text anew.
+#[test]
+fn every_analysis_says_what_it_computes() {
+    let language = common::language();
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/results");
+    let checked = CheckedStudy::read(&language, &Disk::shared(), &folder.join("study.yaml"), &Silent);
+    let refused: Vec<String> = checked.refused.iter().map(ToString::to_string).collect();
+    assert_eq!(refused, Vec::<String>::new());
+    let plans = checked.plans.iter();
+    let lines = plans.flat_map(|(name, work)| work.iter().map(move |part| format!("{name}: {part}\n")));
+    let text: String = lines.collect();
+    let expected = folder.join("plan.txt");
+    if std::env::var_os("UPDATE").is_some() {
+        std::fs::write(&expected, &text).unwrap();
+    }
+    assert_eq!(text, std::fs::read_to_string(&expected).unwrap_or_default());
 }

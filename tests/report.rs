@@ -46,6 +46,30 @@ fn the_report_holds_everything_and_needs_no_network() {
 }
 
 #[test]
+fn a_report_is_made_again_from_its_content() {
+    let page = report("examples/two-products/study.yaml");
+    let again = std::env::temp_dir().join(format!("gearloss-report-{}.html", std::process::id()));
+    let run = |results: &std::path::Path| {
+        let arguments = [Path::new("report"), results, Path::new("-o"), &again];
+        Command::new(env!("CARGO_BIN_EXE_gearloss"))
+            .args(arguments)
+            .output()
+            .unwrap()
+    };
+    let output = run(page.parent().unwrap());
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(std::fs::read(&again).unwrap() == std::fs::read(&page).unwrap());
+    let refused = run(Path::new("examples/two-products"));
+    let message = String::from_utf8_lossy(&refused.stderr).into_owned();
+    assert_eq!(refused.status.code(), Some(2), "{message}");
+    assert!(
+        message.contains("no folder of results") && message.contains("gearloss run"),
+        "{message}"
+    );
+    std::fs::remove_file(again).unwrap();
+}
+
+#[test]
 fn two_products_stand_side_by_side() {
     let page = report("examples/two-products/study.yaml");
     let text = std::fs::read_to_string(&page).unwrap();

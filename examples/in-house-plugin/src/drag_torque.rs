@@ -58,7 +58,7 @@ pub struct DragTorqueOfSet {
 pub struct DragTorque {
     /// Temperature of the oil. [degC]
     pub oil_temperature_degc: Option<f64>,
-    /// Torque; absent if a loss has no value. [Nm]
+    /// Torque that turns the unloaded gearbox; absent if a loss has no value. [Nm]
     pub torque_nm: Option<f64>,
 }
 
@@ -136,15 +136,7 @@ impl Outcome for DragTorqueOutcome {
     fn tables(&self) -> Vec<Table> {
         let table = Table::of_each(&self.head.analysis, &self.sets, |set| &set.torques)
             .text("model_set", "Model set", |(set, _)| &set.model_set)
-            .number("oil_temperature_degc", "degC", "Temperature of the oil", |(_, at)| {
-                at.oil_temperature_degc
-            })
-            .number(
-                "torque_nm",
-                "Nm",
-                "Torque that turns the unloaded gearbox",
-                |(_, at)| at.torque_nm,
-            );
+            .fields("oil_temperature_degc torque_nm", |(_, at)| at);
         vec![table.finish()]
     }
 

@@ -6,11 +6,12 @@ mod point;
 mod template;
 
 use gearloss_framework::description::AssumedEntry;
-use gearloss_framework::document::{Diagnostic, visible_json};
+use gearloss_framework::document::{Diagnostic, visible, visible_json};
 use gearloss_framework::evaluate::PowerFlow;
 use gearloss_framework::language::Language;
 use gearloss_studies::analyses::head::{hash, inputs};
 use gearloss_studies::study::Study;
+use minijinja::value::Serde;
 use minijinja::{AutoEscape, Environment, Value as Filled};
 use rayon::prelude::*;
 use serde::Serialize;
@@ -337,22 +338,39 @@ impl Report {
     }
 }
 
-/// An environment without named templates, so that a template cannot include any, not even itself.
 /// The page of a report with this content: that of [`Report::content`], also as it was stored.
 ///
 /// # Errors
 /// Content that is not that of a report.
 pub fn page(content: Value) -> Result<String, Diagnostic> {
-    let mut page = Vec::new();
-    fill_template("report", TEMPLATE, content, &mut page)?;
-    Ok(String::from_utf8_lossy(&page).into_owned())
+    let page = environment()
+        .template_from_named_str("report", TEMPLATE)
+        .and_then(|page| page.render(filled(content)));
+    let page = page.map_err(|fault| template::fault("report", &fault))?;
+    Ok(visible(&page).into_owned())
 }
 
+/// An environment without named templates, so that a template cannot include any, not even itself.
 fn environment<'a>() -> Environment<'a> {
     let mut environment = Environment::new();
     environment.set_auto_escape_callback(|_| AutoEscape::Html);
-    environment.set_fuel(Some(MOST_STEPS));
     environment
+}
+
+/// What a template can use, of serialised [`Content`].
+fn filled(mut content: Value) -> Filled {
+    let pictures = content.get_mut("pictures").map(Value::take);
+    let pictures = pictures.as_ref().and_then(Value::as_str).unwrap_or_default().to_owned();
+    let value = |key: &str| Filled::from(Serde(&content[key]));
+    minijinja::context! {
+        frame => value("frame"),
+        sections => value("sections"),
+        gearboxes => value("gearboxes"),
+        answers => value("answers"),
+        outside => value("outside"),
+        worst => value("worst"),
+        ..fixed(pictures),
+    }
 }
 
 /// What needs no escaping.
@@ -453,7 +471,7 @@ mod tests {
             let mut frame = frame();
             frame.study = format!("title: \"{hidden}\" # µ °C\n");
             let page = page_of(&report, &frame, template).unwrap();
-            assert_eq!(gearloss_framework::document::visible(&page), page);
+            assert_eq!(visible(&page), page);
             assert!(page.contains(r"\u{202e}fdp\u{1b}[2J\u{200b}"), "{template:?}");
             assert!(page.contains(r"\u202efdp\u001b[2J\u200b"), "{template:?}");
             assert!(page.contains("# µ °C"));

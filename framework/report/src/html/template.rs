@@ -6,11 +6,10 @@
 use std::io::{self, Write};
 
 use gearloss_framework::document::{Diagnostic, visible};
-use minijinja::value::Serde;
-use minijinja::{Error, ErrorKind, Value as Filled};
+use minijinja::{Error, ErrorKind};
 use serde_json::Value;
 
-use super::{MOST_STEPS, environment, fixed};
+use super::{MOST_STEPS, environment, filled};
 use crate::codes;
 
 /// Maximum length of a template. \[byte\]
@@ -24,24 +23,12 @@ pub const LONGEST_PAGE: u64 = 256 << 20;
 /// # Errors
 /// What is wrong with the template and where.
 pub fn fill_template(name: &str, template: &str, content: Value, to: &mut impl Write) -> Result<(), Diagnostic> {
-    let mut content = content;
-    let pictures = content.get_mut("pictures").map(Value::take);
-    let pictures = pictures.as_ref().and_then(Value::as_str).unwrap_or_default().to_owned();
-    let value = |key: &str| Filled::from(Serde(&content[key]));
-    let values = minijinja::context! {
-        frame => value("frame"),
-        sections => value("sections"),
-        gearboxes => value("gearboxes"),
-        answers => value("answers"),
-        outside => value("outside"),
-        worst => value("worst"),
-        ..fixed(pictures),
-    };
     let mut page = Page { to, left: LONGEST_PAGE };
-    let environment = environment();
-    let filled = environment.template_from_named_str(name, template);
-    let filled = filled.and_then(|template| template.render_captured_to(values, &mut page).map(drop));
-    match filled {
+    let mut environment = environment();
+    environment.set_fuel(Some(MOST_STEPS));
+    let template = environment.template_from_named_str(name, template);
+    let done = template.and_then(|template| template.render_captured_to(filled(content), &mut page).map(drop));
+    match done {
         Ok(()) => Ok(()),
         Err(_) if page.left == 0 => {
             let most = LONGEST_PAGE >> 20;

@@ -239,11 +239,8 @@ impl Analysis for BalanceEntry {
         let run = |b: &Arc<Built<'a>>| {
             needs_balance(cx, b)?;
             let t = &b.transmission;
-            Run::new(
-                cx,
-                b,
-                cx.points(t, gear_of(self.gear.as_deref(), t), Vec::new(), Vec::new()),
-            )
+            let point = vec![Given::new(self.torque, self.speed)];
+            Run::new(cx, b, cx.listed(t, gear_of(self.gear.as_deref(), t), point))
         };
         Runs::of(&built, run)
     }

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::axes::{axis, speeds, torques};
 use super::numbers::{RPM, tidy};
-use super::{Analysis, Built, Engine, Plan, Planner, Stopped, Work, gear_of};
+use super::{Analysis, Built, Engine, Planner, Stopped, gear_of};
 use crate::measured::{Measured, Seen};
 use crate::points::{Given, PointResult};
 use crate::register_analysis;
@@ -69,7 +69,7 @@ register_analysis!(BreakdownEntry);
 
 impl Analysis for BreakdownEntry {
     const TYPE: &'static str = "breakdown";
-    type Plan<'a> = BreakdownPlan<'a>;
+    type Plan<'a> = (BarsPlan<'a>, Measured);
     type Outcome = BreakdownOutcome;
 
     fn uses(&self) -> Uses<'_> {
@@ -78,7 +78,7 @@ impl Analysis for BreakdownEntry {
             .with("measured", self.measured.as_ref())
     }
 
-    fn plan<'a>(&'a self, cx: &Planner<'a>) -> Result<BreakdownPlan<'a>, Stopped> {
+    fn plan<'a>(&'a self, cx: &Planner<'a>) -> Result<(BarsPlan<'a>, Measured), Stopped> {
         let path = cx.path();
         let built = cx.built(cx.gearbox(self.gearbox.as_ref())?, &self.model_sets)?;
         let measured = match &self.measured {
@@ -99,33 +99,22 @@ impl Analysis for BreakdownEntry {
             });
             bars.add(cx, b, gear, rows)?;
         }
-        Ok(BreakdownPlan { bars, measured })
+        Ok((bars, measured))
     }
 
-    fn reduce<'a>(&'a self, plan: BreakdownPlan<'a>, engine: &Engine<'a>) -> Result<BreakdownOutcome, Stopped> {
-        let measured = plan.measured;
+    fn reduce<'a>(
+        &'a self,
+        (bars, measured): (BarsPlan<'a>, Measured),
+        engine: &Engine<'a>,
+    ) -> Result<BreakdownOutcome, Stopped> {
         Ok(BreakdownOutcome {
             measured_notes: measured.notes.clone(),
-            ..plan
-                .bars
-                .outcome(engine, &|point, gear| beside(&measured, point, gear))?
+            ..bars.outcome(engine, &|point, gear| beside(&measured, point, gear))?
         })
     }
 
     fn formats(&self) -> &[Write] {
         &self.write
-    }
-}
-
-/// Rows of bars, and measured points beside them.
-pub struct BreakdownPlan<'a> {
-    bars: BarsPlan<'a>,
-    measured: Measured,
-}
-
-impl Plan for BreakdownPlan<'_> {
-    fn work(&self) -> Vec<Work> {
-        self.bars.work()
     }
 }
 

@@ -185,7 +185,7 @@ impl Plan for ComponentPlan<'_> {
         let count = self.torques.len() * self.speeds.len() + self.measured.len();
         self.models
             .iter()
-            .map(|run| Work::new(run.label(), "points", count))
+            .map(|run| Work::new(run.label(), "point", count))
             .collect()
     }
 

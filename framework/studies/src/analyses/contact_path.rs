@@ -22,8 +22,8 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::numbers::{RPM, tidy};
-use super::{Analysis, Built, Engine, Head, Outcome, Plan, Planner, Run, Stopped, Work, gear_of};
-use crate::points::Note;
+use super::{Analysis, Built, Engine, Head, Outcome, Planner, Run, Runs, Stopped, gear_of};
+use crate::points::{Given, Note};
 use crate::register_analysis;
 use crate::study::{Uses, Write};
 use crate::table::Table;
@@ -165,17 +165,8 @@ impl Friction {
     }
 }
 
-/// The gearbox with each set, and the index of the mesh.
-pub struct ContactPathPlan<'a>(Vec<(Run<'a>, usize)>);
-
-impl Plan for ContactPathPlan<'_> {
-    fn work(&self) -> Vec<Work> {
-        self.0
-            .iter()
-            .map(|(run, _)| Work::new(run.label(), "points", 1))
-            .collect()
-    }
-}
+/// The point with each set, and the index of its mesh.
+type ContactPathPlan<'a> = (Runs<'a>, Vec<usize>);
 
 impl Analysis for ContactPathEntry {
     const TYPE: &'static str = "contact_path";
@@ -188,22 +179,30 @@ impl Analysis for ContactPathEntry {
 
     fn plan<'a>(&'a self, cx: &Planner<'a>) -> Result<ContactPathPlan<'a>, Stopped> {
         let built = cx.built(cx.gearbox(self.gearbox.as_ref())?, &self.model_sets)?;
-        let of_mesh = |b: &Arc<Built<'a>>| {
+        let meshes = built.iter().map(|b| self.mesh(cx, &b.transmission));
+        let meshes = meshes.collect::<Result<_, _>>()?;
+        let runs = Runs::of(&built, |b| {
             let t = &b.transmission;
-            let mesh = self.mesh(cx, t)?;
-            let points = cx.points(t, gear_of(self.gear.as_deref(), t), Vec::new(), Vec::new());
-            Ok((Run::new(cx, b, points)?, mesh))
-        };
-        let meshes = built.iter().map(of_mesh).collect::<Result<_, Stopped>>()?;
-        Ok(ContactPathPlan(meshes))
+            let point = vec![Given::new(self.torque, self.speed)];
+            Run::new(cx, b, cx.listed(t, gear_of(self.gear.as_deref(), t), point))
+        })?;
+        Ok((runs, meshes))
     }
 
-    fn reduce<'a>(&'a self, plan: ContactPathPlan<'a>, engine: &Engine<'a>) -> Result<ContactPathOutcome, Stopped> {
-        let paths = plan.0.iter().map(|(run, mesh)| self.path(engine, run, *mesh));
-        let paths = paths.collect::<Result<_, _>>()?;
-        let built: Vec<_> = plan.0.into_iter().map(|(run, _)| run.built).collect();
-        let head = engine.head(&built);
-        Ok(ContactPathOutcome { head, paths })
+    fn reduce<'a>(
+        &'a self,
+        (runs, meshes): ContactPathPlan<'a>,
+        engine: &Engine<'a>,
+    ) -> Result<ContactPathOutcome, Stopped> {
+        let paths = runs
+            .0
+            .iter()
+            .zip(meshes)
+            .map(|(run, mesh)| self.path(engine, run, mesh));
+        Ok(ContactPathOutcome {
+            paths: paths.collect::<Result<_, _>>()?,
+            head: engine.head(&runs.built()),
+        })
     }
 
     fn formats(&self) -> &[Write] {

@@ -135,7 +135,7 @@ impl Plan for CyclePlan<'_> {
         let mut work = self.drive.work();
         if self.samples > 0 {
             let count = self.samples * self.drive.duties.list.len();
-            let of_set = |b: &Arc<Built<'_>>| Work::new(&b.name, "cycles of samples", count);
+            let of_set = |b: &Arc<Built<'_>>| Work::new(&b.name, "cycle of samples", count);
             work.extend(self.drive.built.iter().map(of_set));
         }
         work

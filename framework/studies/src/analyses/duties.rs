@@ -88,7 +88,7 @@ impl<'a> DrivePlan<'a> {
 
 impl Plan for DrivePlan<'_> {
     fn work(&self) -> Vec<Work> {
-        let work = |b: &Arc<Built<'_>>| Work::new(&b.name, "cycles", self.duties.list.len());
+        let work = |b: &Arc<Built<'_>>| Work::new(&b.name, "cycle", self.duties.list.len());
         self.built.iter().map(work).collect()
     }
 }

@@ -198,7 +198,7 @@ impl Plan for FluidSweepPlan<'_> {
     fn work(&self) -> Vec<Work> {
         let DrivePlan { built, duties } = &self.drive;
         let work = |(b, oils): (&Arc<Built<'_>>, &Oils)| {
-            Work::new(&b.name, "cycles of oils", (oils.values.len() + 1) * duties.list.len())
+            Work::new(&b.name, "cycle of oils", (oils.values.len() + 1) * duties.list.len())
         };
         built.iter().zip(&self.oils).map(work).collect()
     }

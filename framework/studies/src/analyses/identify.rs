@@ -50,7 +50,7 @@ pub struct IdentifyPlan<'a> {
 
 impl Plan for IdentifyPlan<'_> {
     fn work(&self) -> Vec<Work> {
-        let work = |b: &Arc<Built<'_>>| Work::new(&b.name, "searches", self.starts);
+        let work = |b: &Arc<Built<'_>>| Work::new(&b.name, "search", self.starts);
         self.built.iter().map(work).collect()
     }
 }

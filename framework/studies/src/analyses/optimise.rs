@@ -102,7 +102,7 @@ pub struct OptimisePlan<'a> {
 impl Plan for OptimisePlan<'_> {
     fn work(&self) -> Vec<Work> {
         let cycles = self.designs * self.drive.duties.list.len();
-        vec![Work::new(&self.drive.built[0].name, "cycles of designs", cycles).at_most()]
+        vec![Work::new(&self.drive.built[0].name, "cycle of designs", cycles).at_most()]
     }
 }
 

@@ -29,7 +29,7 @@ pub trait Plan {
 pub struct Work {
     /// What it belongs to: usually a model set.
     pub of: String,
-    /// What is counted: points, samples, cycles.
+    /// One of what is counted, such as `point` or `cycle of samples`.
     pub what: &'static str,
     /// How many.
     pub count: usize,
@@ -55,7 +55,7 @@ impl Work {
 
     /// The points of runs.
     pub fn of_runs<'r, 'a: 'r>(runs: impl IntoIterator<Item = &'r Run<'a>>) -> Vec<Self> {
-        let work = |run: &Run<'_>| Self::new(run.label(), "points", run.points.field.len());
+        let work = |run: &Run<'_>| Self::new(run.label(), "point", run.points.field.len());
         runs.into_iter().map(work).collect()
     }
 }
@@ -63,7 +63,13 @@ impl Work {
 impl fmt::Display for Work {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let most = if self.at_most { "at most " } else { "" };
-        write!(f, "{}: {most}{} {}", self.of, self.count, self.what)
+        let (what, rest) = self.what.split_at(self.what.find(' ').unwrap_or(self.what.len()));
+        let plural = match self.count {
+            1 => "",
+            _ if what.ends_with("ch") => "es",
+            _ => "s",
+        };
+        write!(f, "{}: {most}{} {what}{plural}{rest}", self.of, self.count)
     }
 }
 
@@ -112,6 +118,13 @@ impl<'a> Run<'a> {
     /// Errors of the gearbox.
     pub(super) fn findings(&self, list: Vec<Diagnostic>) -> Findings {
         self.built.gearbox.findings(list)
+    }
+}
+
+/// A plan with data beside it, such as measured points.
+impl<P: Plan, T> Plan for (P, T) {
+    fn work(&self) -> Vec<Work> {
+        self.0.work()
     }
 }
 

@@ -95,7 +95,7 @@ impl Plan for RmsSurfacePlan<'_> {
     fn work(&self) -> Vec<Work> {
         let work = |(b, [x, y]): (&Arc<Built<'_>>, &[Axis; 2])| {
             let count = x.values.len() * y.values.len() * self.measured.rows.len();
-            Work::new(&b.name, "rows", count)
+            Work::new(&b.name, "row", count)
         };
         self.built.iter().zip(&self.axes).map(work).collect()
     }

@@ -119,7 +119,7 @@ struct RowsOfSet<'a> {
 
 impl Plan for RowsPlan<'_> {
     fn work(&self) -> Vec<Work> {
-        let work = |set: &RowsOfSet<'_>| Work::new(&set.name, "rows", self.measured.rows.len());
+        let work = |set: &RowsOfSet<'_>| Work::new(&set.name, "row", self.measured.rows.len());
         self.sets.iter().map(work).collect()
     }
 }

@@ -115,7 +115,7 @@ impl Plan for SensitivityPlan<'_> {
     fn work(&self) -> Vec<Work> {
         let work = |set: &SensitivityOfOne<'_>| {
             let count = (set.runs.count() + 1) * set.run.points.field.len();
-            Work::new(set.run.label(), "points", count)
+            Work::new(set.run.label(), "point", count)
         };
         self.0.iter().map(work).collect()
     }

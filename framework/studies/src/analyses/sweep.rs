@@ -12,7 +12,7 @@ use super::limits::at_points::LimitColumn;
 use super::numbers::{RPM, tidy};
 use super::ranges::published;
 use super::shares::{Shares, together};
-use super::{Analysis, Engine, Plan, Planner, Run, Runs, Stopped, Work, gear_of};
+use super::{Analysis, Engine, Planner, Run, Runs, Stopped, gear_of};
 use crate::points::{GridResult, Points, TotalLoss, notes_with_shares};
 use crate::register_analysis;
 use crate::study::{By, SpeedAxis, TorqueAxis, Uses, Write};
@@ -106,20 +106,17 @@ impl Analysis for SweepEntry {
                 }
             }
         }
-        Ok(SweepPlan {
-            runs: Runs(runs),
-            places,
-        })
+        Ok((Runs(runs), places))
     }
 
-    fn reduce<'a>(&'a self, plan: SweepPlan<'a>, engine: &Engine<'a>) -> Result<SweepOutcome, Stopped> {
-        let solved = engine.solve_all(&plan.runs)?;
-        let built = plan.runs.built();
+    fn reduce<'a>(&'a self, (runs, places): SweepPlan<'a>, engine: &Engine<'a>) -> Result<SweepOutcome, Stopped> {
+        let solved = engine.solve_all(&runs)?;
+        let built = runs.built();
         let shares = together(built.iter().map(|b| &b.transmission), self.by);
         let quantity = |path: &String| Varied::new(engine.language, &built[0].resolved, path, Tie::Value).ok();
         let varied: Vec<Varied> = self.paths().filter_map(quantity).collect();
         let limits = LimitColumn::all(engine.language, engine.study);
-        let values = plan.runs.0.iter().zip(&plan.places).zip(&solved);
+        let values = runs.0.iter().zip(&places).zip(&solved);
         let sweep: Vec<SweepOfValue> = values
             .map(|((run, places), solved)| self.record(run, *places, solved, &shares, &limits))
             .collect();
@@ -137,18 +134,8 @@ impl Analysis for SweepEntry {
     }
 }
 
-/// Every set at every value.
-pub struct SweepPlan<'a> {
-    runs: Runs<'a>,
-    /// Index of the value, and of the second one, of each run.
-    places: Vec<[usize; 2]>,
-}
-
-impl Plan for SweepPlan<'_> {
-    fn work(&self) -> Vec<Work> {
-        self.runs.work()
-    }
-}
+/// Every set at every value, with the indices of the value and of the second one.
+type SweepPlan<'a> = (Runs<'a>, Vec<[usize; 2]>);
 
 impl SweepEntry {
     /// The varied paths.

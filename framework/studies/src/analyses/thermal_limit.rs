@@ -210,7 +210,7 @@ impl Plan for ThermalLimitPlan<'_> {
     fn work(&self) -> Vec<Work> {
         let work = |search: &Search<'_>| {
             let count = search.temperatures.len() * search.fixed.len();
-            Work::new(search.run.label(), "searches", count)
+            Work::new(search.run.label(), "search", count)
         };
         self.0.iter().map(work).collect()
     }

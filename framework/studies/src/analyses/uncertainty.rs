@@ -164,7 +164,7 @@ pub struct UncertaintyPlan<'a> {
 
 impl Plan for UncertaintyPlan<'_> {
     fn work(&self) -> Vec<Work> {
-        let work = |run: &Run<'_>| Work::new(run.label(), "points", (self.samples + 1) * run.points.field.len());
+        let work = |run: &Run<'_>| Work::new(run.label(), "point", (self.samples + 1) * run.points.field.len());
         self.runs.iter().map(work).collect()
     }
 }

@@ -6,7 +6,7 @@ use gearloss_framework::transmission::Transmission;
 use serde_json::{Value, json};
 
 use super::super::{Built, Planner, Stopped};
-use super::CandidatesEntry;
+use super::entry::CandidatesEntry;
 use super::slot::Slot;
 
 /// The entrants of one mechanism.

@@ -7,9 +7,9 @@ use super::super::numbers::RPM;
 use super::super::{Built, Engine, Run, Stopped};
 use super::candidates::{Gathering, left};
 use super::entrants::Entrants;
+use super::entry::{MOST, TournamentEntry};
 use super::outcome::{CandidateOfTournament, MechanismOfTournament};
 use super::slot::{Candidate, Slot};
-use super::{MOST, TournamentEntry};
 use crate::points::{Field as Given, Given as GivenPoint, PointResult, Points};
 use crate::study::Quantity;
 

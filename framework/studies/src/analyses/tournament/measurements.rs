@@ -5,7 +5,7 @@ use gearloss_numerics::selection::{LossErrors, MeasuredLosses};
 
 use super::super::numbers::significant;
 use super::super::{Planner, Stopped};
-use super::TournamentEntry;
+use super::entry::TournamentEntry;
 use super::field::Field;
 use crate::measured::{Measured, Row, Seen};
 use crate::points::Given;

@@ -7,9 +7,10 @@ use super::super::numbers::{RPM, tidy};
 use super::super::{Engine, Run, Stopped};
 use super::candidates::left;
 use super::entrants::Entrants;
+use super::entry::TournamentEntry;
 use super::field::{Field, given};
 use super::measurements::{Measurements, OwnRows};
-use super::{Comparison, RankedCombination, RankedPoint, Ranking, TournamentEntry};
+use super::outcome::{Comparison, RankedCombination, RankedPoint, Ranking};
 use crate::measured::Measured;
 use crate::points::{Statistics, run_grid};
 

@@ -7,7 +7,7 @@ use gearloss_framework::transmission::PartInfo;
 use serde_json::{Map, Value};
 
 use super::super::{Planner, Stopped};
-use super::CandidatesEntry;
+use super::entry::CandidatesEntry;
 use super::marks::Mark;
 
 /// A mechanism with varied models.

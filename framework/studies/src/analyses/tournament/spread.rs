@@ -6,9 +6,10 @@ use super::super::axes::grid_axes;
 use super::super::numbers::{RPM, tidy};
 use super::super::{Built, Engine, Planner, Run, Stopped};
 use super::entrants::Entrants;
+use super::entry::TournamentEntry;
 use super::field::Field;
+use super::outcome::{ShareOfSpread, Spread, SpreadPoint};
 use super::slot::Slot;
-use super::{ShareOfSpread, Spread, SpreadPoint, TournamentEntry};
 
 impl TournamentEntry {
     /// The points of the grid.
