@@ -126,7 +126,6 @@ impl Study {
 
     /// Runs an analysis. Those whose model sets it uses must have run before.
     fn analysis(&self, py: Python<'_>, name: &str) -> PyResult<Outcome> {
-        let language = language(py)?;
         let outcome = work::run(py, |stop| self.run.analysis_with(name, &Interruptible(stop)))?;
         Ok(Outcome(outcome.map_err(|why| stopped(py, why))?.into()))
     }

@@ -310,21 +310,33 @@ impl<R> TableOf<R> {
         record: impl for<'r> Fn(&'r R) -> &'r F,
     ) -> Self {
         let known = fields_of::<F>();
-        let records: Vec<Value> = self.rows.iter().map(|row| json!(record(row))).collect();
-        for name in names.split_whitespace() {
+        let column = |name: &str| {
             let field = known.iter().find(|field| field.name == name);
             let field = field.unwrap_or_else(|| panic!("`{}` has no field `{name}` for a column", F::schema_name()));
-            let cells = records.iter().map(|record| &record[name]);
-            let values = if field.is_number {
-                Values::Numbers(Arc::new(cells.map(|cell| cell.as_f64().unwrap_or(f64::NAN)).collect()))
-            } else {
-                let mut texts = Texts::default();
-                cells.for_each(|cell| texts.push(&text_of(cell)));
-                Values::Texts(Arc::new(texts))
-            };
-            let unit = unit.map_or_else(|| field.unit.clone().into(), Cow::Borrowed);
-            self = self.column(name.to_owned(), unit, field.meaning.clone().into(), values);
+            Column {
+                name: name.to_owned(),
+                unit: unit.map_or_else(|| field.unit.clone().into(), Cow::Borrowed),
+                meaning: field.meaning.clone().into(),
+                values: if field.is_number {
+                    Values::Numbers(Arc::default())
+                } else {
+                    Values::Texts(Arc::default())
+                },
+            }
+        };
+        let mut columns: Vec<Column> = names.split_whitespace().map(column).collect();
+        for row in &self.rows {
+            let record = json!(record(row));
+            for column in &mut columns {
+                match (&mut column.values, &record[column.name.as_str()]) {
+                    (Values::Numbers(numbers), cell) => {
+                        Arc::make_mut(numbers).push(cell.as_f64().unwrap_or(f64::NAN));
+                    }
+                    (Values::Texts(texts), cell) => Arc::make_mut(texts).push(&text_of(cell)),
+                }
+            }
         }
+        self.table.columns.extend(columns);
         self
     }
 
@@ -377,11 +389,13 @@ fn fields_of<F: JsonSchema>() -> Vec<Field> {
     let schema = SchemaGenerator::default().into_root_schema_for::<F>();
     let properties = schema.get("properties").and_then(Value::as_object);
     let field = |(name, schema): (&String, &Value)| {
-        let kinds = json!([schema["type"]]).to_string();
-        if ["array", "object"].iter().any(|kind| kinds.contains(kind)) {
+        // The kind, or a list with null; none of an enumeration, which refers to its own schema.
+        let kind = &schema["type"];
+        let is = |name: &str| kind == name || kind.as_array().is_some_and(|list| list.iter().any(|kind| kind == name));
+        if is("array") || is("object") {
             return None;
         }
-        let is_number = ["number", "integer"].iter().any(|kind| kinds.contains(kind));
+        let is_number = is("number") || is("integer");
         let description = schema["description"].as_str().unwrap_or_default();
         let (text, unit) = match description.strip_suffix(']').and_then(|text| text.rsplit_once('[')) {
             Some((text, unit)) => (text, unit),
@@ -403,6 +417,7 @@ fn text_of(cell: &Value) -> Cow<'_, str> {
     match cell {
         Value::Null => Cow::Borrowed(""),
         Value::String(text) => Cow::Borrowed(text),
+        Value::Array(_) | Value::Object(_) => panic!("neither a number nor a text: {cell}"),
         other => Cow::Owned(other.to_string()),
     }
 }

@@ -257,18 +257,22 @@ impl Analysis for BalanceEntry {
                 flow: run.points.flow,
                 tolerance: Tolerance::default(),
             };
-            let found = t.equilibrium(&case, &point, &mut t.scratch(&case));
-            // Notes belong to the temperature found.
-            let at = |oil| Given {
-                oil: Some(oil),
-                ..Given::new(self.torque, self.speed)
-            };
-            let solved = engine.solve_here(&run.at(found.oil().map(at).into_iter().collect()))?;
+            let mut scratch = t.scratch(&case);
+            let found = t.equilibrium(&case, &point, &mut scratch);
+            if let Some(oil) = found.oil() {
+                // Notes belong to the temperature found.
+                t.evaluate(&case, &point, &[oil], &mut scratch);
+                let given = Given {
+                    oil: Some(oil),
+                    ..Given::new(self.torque, self.speed)
+                };
+                engine.read_limits(run, vec![given])?;
+            }
             balances.push(BalanceOfSet {
                 model_set: run.built.name.clone(),
                 gear: run.points.gear.clone(),
                 balance: BalanceOfPoint::new(t, &found),
-                notes: notes(t, &solved.seen),
+                notes: notes(t, &scratch.totals),
             });
         }
         Ok(BalanceOutcome {

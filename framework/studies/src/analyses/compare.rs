@@ -115,9 +115,9 @@ pub enum ComparePlan<'a> {
     /// Sets with a base over a grid.
     OnGrid(&'a str, GridPlan<'a>),
     /// Sets with a base over cycles.
-    OverCycles(DrivePlan<'a>),
+    OverCycles(Box<DrivePlan<'a>>),
     /// Sets with measured points.
-    WithData(&'a Data, RowsPlan<'a>),
+    WithData(&'a Data, Box<RowsPlan<'a>>),
 }
 
 impl Plan for ComparePlan<'_> {
@@ -174,7 +174,7 @@ impl Analysis for CompareEntry {
                     "write them as model sets or gearboxes",
                 ))
             }
-            (None, None, None, Some(data)) => Ok(ComparePlan::WithData(data, with_data::plan(cx, self, data)?)),
+            (None, None, None, Some(data)) => Ok(ComparePlan::WithData(data, Box::new(with_data::plan(cx, self, data)?))),
             (.., None) if !self.bind.is_empty() => {
                 Err(cx.wrong(&path, "`bind` belongs to `data`", "state it in the grid"))
             }
@@ -182,7 +182,7 @@ impl Analysis for CompareEntry {
                 Err(cx.wrong(&path, "`gear` belongs to `data` or `drive`", "state it in the grid"))
             }
             (Some(grid), None, Some(base), None) => Ok(ComparePlan::OnGrid(base, GridPlan::new(cx, self, grid, base)?)),
-            (None, Some(ride), Some(base), None) => Ok(ComparePlan::OverCycles(over_cycles::plan(cx, self, ride, base)?)),
+            (None, Some(ride), Some(base), None) => Ok(ComparePlan::OverCycles(Box::new(over_cycles::plan(cx, self, ride, base)?))),
             _ => {
                 Err(cx.wrong(
                     &path,

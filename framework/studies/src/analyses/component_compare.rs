@@ -319,7 +319,7 @@ impl ComponentCompareEntry {
             resolved,
             transmission,
         });
-        Run::new(cx, &built, points)
+        Run::without_limits(cx, &built, points)
     }
 
     /// One model at the points of the grid and at the measured ones.

@@ -184,7 +184,7 @@ impl Analysis for ContactPathEntry {
         let runs = Runs::of(&built, |b| {
             let t = &b.transmission;
             let point = vec![Given::new(self.torque, self.speed)];
-            Run::new(cx, b, cx.listed(t, gear_of(self.gear.as_deref(), t), point))
+            Run::without_limits(cx, b, cx.listed(t, gear_of(self.gear.as_deref(), t), point))
         })?;
         Ok((runs, meshes))
     }

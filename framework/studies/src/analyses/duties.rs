@@ -46,7 +46,7 @@ pub struct Duties<'a> {
     conditions: &'a Conditions,
 }
 
-/// Gearboxes that drive the cycles of an analysis, which fit them.
+/// The gearbox with each set, and cycles that fit it.
 pub struct DrivePlan<'a> {
     /// The gearbox with each set.
     pub built: Vec<Arc<Built<'a>>>,
@@ -64,7 +64,7 @@ impl<'a> DrivePlan<'a> {
         Ok(Self { built, duties })
     }
 
-    /// Drives every cycle with every set, in jobs: set by set.
+    /// Simulates every cycle with every set, in jobs: set by set.
     ///
     /// # Errors
     /// An interruption, or cycles that do not fit.
@@ -171,11 +171,6 @@ impl<'a> Duties<'a> {
     pub fn consumption(&self, t: &Transmission, driven: &Driven) -> Option<Consumption> {
         let oil = t.network().map_or(0, Network::oil);
         self.battery.as_ref()?.consumption(driven, oil)
-    }
-
-    /// Number of all intervals.
-    pub fn intervals(&self) -> usize {
-        self.list.iter().map(|read| read.intervals.len()).sum()
     }
 
     /// Reasons why the cycles cannot be simulated with a gearbox.

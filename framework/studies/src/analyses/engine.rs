@@ -18,7 +18,7 @@ use super::plan::{Run, Runs};
 use super::progress::{Progress, Running};
 use super::stopped::Stopped;
 use super::{Built, Planner};
-use crate::points::{GridResult, Make, Numbered, Piece, solve_pieces, take_points};
+use crate::points::{Given, GridResult, Make, Numbered, Piece, solve_pieces, take_points};
 use crate::table::RowSink;
 use crate::tasks::{StorageError, Task, TaskResults};
 
@@ -137,6 +137,17 @@ impl<'a> Engine<'a> {
             Ok(())
         })?;
         Ok(all)
+    }
+
+    /// Reads the limits of the study at points that an analysis has found in its own way, each with its oil temperature.
+    ///
+    /// # Errors
+    /// As [`Engine::solve_here`].
+    pub fn read_limits(&self, run: &Run<'_>, list: Vec<Given>) -> Result<(), Stopped> {
+        if run.watch.is_some() {
+            self.solve_here(&run.at(list))?;
+        }
+        Ok(())
     }
 
     /// Solves the points of a run as [`Engine::solve`] does, and passes the results of `make` to `take`, piece by piece, so that few are
@@ -269,23 +280,22 @@ impl<'a> Engine<'a> {
         mut compute: impl FnMut(P) -> Result<T, Stopped>,
     ) -> Result<Vec<T>, Stopped> {
         let stage = self.stage.swap(0, Ordering::Relaxed);
-        let (mut results, mut is_elsewhere) = (Vec::new(), false);
+        let (mut results, mut stopped) = (Vec::new(), None);
         for (number, part) in all.into_iter().enumerate() {
             self.part.store(number + 1, Ordering::Relaxed);
             self.stage.store(0, Ordering::Relaxed);
             match compute(part) {
                 Ok(result) => results.push(result),
-                Err(Stopped::Elsewhere) => is_elsewhere = true,
-                Err(stopped) => return Err(stopped),
+                Err(Stopped::Elsewhere) => stopped = Some(Stopped::Elsewhere),
+                Err(why) => {
+                    stopped = Some(why);
+                    break;
+                }
             }
         }
         self.part.store(0, Ordering::Relaxed);
         self.stage.store(stage, Ordering::Relaxed);
-        if is_elsewhere {
-            Err(Stopped::Elsewhere)
-        } else {
-            Ok(results)
-        }
+        stopped.map_or(Ok(results), Err)
     }
 
     /// Computes what is not divided into tasks: only in the run that completes what others have begun.

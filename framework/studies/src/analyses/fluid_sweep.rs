@@ -196,11 +196,8 @@ struct Oils {
 
 impl Plan for FluidSweepPlan<'_> {
     fn work(&self) -> Vec<Work> {
-        let DrivePlan { built, duties } = &self.drive;
-        let work = |(b, oils): (&Arc<Built<'_>>, &Oils)| {
-            Work::new(&b.name, "cycle of oils", (oils.values.len() + 1) * duties.list.len())
-        };
-        built.iter().zip(&self.oils).map(work).collect()
+        let work = |(b, oils): (&Arc<Built<'_>>, &Oils)| Work::new(&b.name, "oil", oils.values.len() + 1);
+        self.drive.built.iter().zip(&self.oils).map(work).collect()
     }
 }
 
@@ -223,12 +220,12 @@ impl Analysis for FluidSweepEntry {
         let oils = |b: &Arc<Built<'a>>| {
             let swept = Swept::new(cx, &path, self, b)?;
             let values = swept.values(cx, &path, self)?;
+            let limits = limits_of(cx, &path, &self.limits, &drive.duties, b)?;
             let trial = Trial::new(cx, b);
             for value in &values {
                 let oil = swept.overrides(*value).and_then(|changes| trial.build(changes));
                 oil.map_err(|reason| failed(cx, &value.to_string(), &reason))?;
             }
-            let limits = limits_of(cx, &path, &self.limits, &drive.duties, b)?;
             Ok(Oils { swept, values, limits })
         };
         let oils = drive.built.iter().map(oils).collect::<Result<_, Stopped>>()?;
@@ -412,7 +409,7 @@ impl Search<'_> {
     }
 }
 
-/// An oil with which a cycle cannot be driven.
+/// An oil with which a cycle cannot be simulated.
 fn failed(cx: &Planner<'_>, oil: &str, reason: &str) -> Stopped {
     let help = "delete the value, or narrow the range";
     cx.wrong(&cx.path(), format!("{oil}: {reason}"), help)

@@ -56,7 +56,7 @@ enum PointsOfMap<'a> {
     /// One map for each set, gear and combination of bound values of a grid.
     Grid(Vec<Planned<'a>>),
     /// Rows of a file.
-    List(ListedPoints<'a>),
+    List(Box<ListedPoints<'a>>),
 }
 
 /// Rows of a file with the notes on it.
@@ -102,7 +102,7 @@ impl Analysis for MapEntry {
                 exported::check(cx, &self.export, &planned)?;
                 PointsOfMap::Grid(planned)
             }
-            (None, Some(points)) => PointsOfMap::List(self.listed(cx, gearbox, points)?),
+            (None, Some(points)) => PointsOfMap::List(Box::new(self.listed(cx, gearbox, points)?)),
             _ => {
                 let help = "write `grid: NAME`, or `points: { file: ... }`";
                 return Err(cx.wrong(&path, "a map needs either `grid` or `points`", help));

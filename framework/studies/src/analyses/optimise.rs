@@ -101,8 +101,7 @@ pub struct OptimisePlan<'a> {
 
 impl Plan for OptimisePlan<'_> {
     fn work(&self) -> Vec<Work> {
-        let cycles = self.designs * self.drive.duties.list.len();
-        vec![Work::new(&self.drive.built[0].name, "cycle of designs", cycles).at_most()]
+        vec![Work::new(&self.drive.built[0].name, "design", self.designs).at_most()]
     }
 }
 
@@ -134,11 +133,14 @@ impl Analysis for OptimiseEntry {
         let drive = DrivePlan::new(cx, &path, duties, cx.built(gearbox, &self.drive.model_sets)?)?;
         let b = &drive.built[0];
         let variables = Variable::all(cx, &path, &self.variables, b)?;
+        let objectives = self.objectives(cx, &drive.duties)?;
+        let limits = limits_of(cx, &path, &self.limits, &drive.duties, b)?;
+        let inputs = Input::all(cx, &path, &self.inputs, b)?;
         drives::check(cx, &Trial::new(cx, b), &variables)?;
         Ok(OptimisePlan {
-            objectives: self.objectives(cx, &drive.duties)?,
-            limits: limits_of(cx, &path, &self.limits, &drive.duties, b)?,
-            inputs: Input::all(cx, &path, &self.inputs, b)?,
+            objectives,
+            limits,
+            inputs,
             designs: self.designs as usize,
             variables,
             drive,

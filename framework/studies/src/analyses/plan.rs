@@ -90,10 +90,22 @@ impl<'a> Run<'a> {
     /// # Errors
     /// Points that do not fit, and wrong limits of the study.
     pub fn new(cx: &Planner<'_>, built: &Arc<Built<'a>>, points: Points) -> Result<Self, Stopped> {
+        let run = Self::without_limits(cx, built, points)?;
+        Ok(Self {
+            watch: cx.watch(built)?.map(Arc::new),
+            ..run
+        })
+    }
+
+    /// The same for an analysis at whose points the limits of the study are not read.
+    ///
+    /// # Errors
+    /// Points that do not fit.
+    pub fn without_limits(cx: &Planner<'_>, built: &Arc<Built<'a>>, points: Points) -> Result<Self, Stopped> {
         cx.case(built.gearbox, &built.transmission, &points)?;
         Ok(Self {
             built: Arc::clone(built),
-            watch: cx.watch(built)?.map(Arc::new),
+            watch: None,
             points,
         })
     }

@@ -159,11 +159,12 @@ impl<'a> RowsPlan<'a> {
             let transmissions: Vec<&Transmission> = built.iter().map(|b| &b.transmission).collect();
             let runs = rows.kinds(&transmissions).into_iter();
             let runs = runs.map(|(place, points)| Ok((place, Run::new(cx, &built[place], points)?)));
+            let runs = runs.collect::<Result<_, Stopped>>()?;
             Ok(RowsOfSet {
-                runs: runs.collect::<Result<_, Stopped>>()?,
                 name,
                 gearbox,
                 built,
+                runs,
             })
         };
         let sets = if sets.is_empty() {
@@ -172,11 +173,11 @@ impl<'a> RowsPlan<'a> {
             sets.iter().map(|set| of_set(Some(set))).collect::<Result<_, _>>()?
         };
         Ok(Self {
-            sets,
             measured,
             bind,
             gear,
             terms,
+            sets,
         })
     }
 

@@ -113,7 +113,7 @@ impl Analysis for SweepEntry {
         let solved = engine.solve_all(&runs)?;
         let built = runs.built();
         let shares = together(built.iter().map(|b| &b.transmission), self.by);
-        let quantity = |path: &String| Varied::new(engine.language, &built[0].resolved, path, Tie::Value).ok();
+        let quantity = |path: &String| Varied::new(engine.language, &built.first()?.resolved, path, Tie::Value).ok();
         let varied: Vec<Varied> = self.paths().filter_map(quantity).collect();
         let limits = LimitColumn::all(engine.language, engine.study);
         let values = runs.0.iter().zip(&places).zip(&solved);

@@ -156,7 +156,6 @@ impl Analysis for ThermalLimitEntry {
         let thermal_limits: Vec<ThermalLimitsOfSet> =
             engine.undivided(|| Ok(plan.0.iter().map(Search::all).collect()))?;
         for (search, found) in plan.0.iter().zip(&thermal_limits) {
-            // The limits of the study are read at the points that are reached.
             let given = |limit: &ThermalLimit| {
                 Some(Given {
                     torque: limit.torque_nm?,
@@ -165,7 +164,7 @@ impl Analysis for ThermalLimitEntry {
                 })
             };
             let reached = found.limits.iter().filter(|limit| limit.loss_w.is_some());
-            engine.solve_here(&search.run.at(reached.filter_map(given).collect()))?;
+            engine.read_limits(&search.run, reached.filter_map(given).collect())?;
         }
         let built: Vec<_> = plan.0.into_iter().map(|search| search.run.built).collect();
         Ok(ThermalLimitOutcome {

@@ -1,5 +1,6 @@
 //! Jobs inside a numerical method.
 
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use serde::Serialize;
@@ -12,6 +13,8 @@ pub struct JobsWithin<'e> {
     /// The engine.
     pub engine: &'e Engine<'e>,
     ended: Mutex<Option<Stopped>>,
+    /// Asked often, from all threads.
+    has_ended: AtomicBool,
 }
 
 impl<'e> JobsWithin<'e> {
@@ -20,6 +23,7 @@ impl<'e> JobsWithin<'e> {
         Self {
             engine,
             ended: Mutex::default(),
+            has_ended: AtomicBool::new(false),
         }
     }
 
@@ -31,12 +35,17 @@ impl<'e> JobsWithin<'e> {
         compute: impl Fn(usize) -> R + Sync,
     ) -> Option<Vec<R>> {
         let results = self.engine.jobs(label, count, |i| Ok(compute(i)));
-        results.map_err(|stopped| *self.ended() = Some(stopped)).ok()
+        results
+            .map_err(|stopped| {
+                *self.ended() = Some(stopped);
+                self.has_ended.store(true, Ordering::Relaxed);
+            })
+            .ok()
     }
 
     /// Whether the method should go on.
     pub fn should_continue(&self) -> bool {
-        self.engine.should_continue() && self.ended().is_none()
+        self.engine.should_continue() && !self.has_ended.load(Ordering::Relaxed)
     }
 
     /// The result of the method, unless its jobs ended or the caller interrupted.

@@ -126,7 +126,6 @@ pub(super) fn compare(
     Ok(comparisons)
 }
 
-/// All cycles with one case; each must reach its end.
 /// Rejects a cycle that broke off.
 fn whole(engine: &Engine<'_>, plan: &DrivePlan<'_>, driven: &[Vec<Driven>]) -> Result<(), Stopped> {
     for (b, own) in plan.built.iter().zip(driven) {
@@ -145,6 +144,7 @@ fn whole(engine: &Engine<'_>, plan: &DrivePlan<'_>, driven: &[Vec<Driven>]) -> R
     Ok(())
 }
 
+/// Base and case over one cycle.
 fn comparison(read: &Read, pair: [(&Built<'_>, &Driven); 2], shares: &[Shares; 2]) -> CycleComparison {
     let [(base, of_base), (b, driven)] = pair;
     // A cycle without time has no energy.

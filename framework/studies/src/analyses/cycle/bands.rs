@@ -48,7 +48,7 @@ impl Bands<'_> {
     /// Adds the bands to the results of the duties.
     pub fn add_to(&self, results: &mut [DutyOfSet]) {
         for (k, result) in results.iter_mut().enumerate() {
-            let mut band = self.samples.band(k, &self.inputs, self.shares);
+            let mut band = self.samples.band(k, self.inputs, self.shares);
             let [low, _, high] = band.mean_loss_w;
             let reference = result.reference.as_ref();
             band.reference_inside = reference.map(|reference| (low..=high).contains(&reference.mean_loss_w));

@@ -40,7 +40,9 @@ impl ExportData {
     pub(super) fn solve_between_oils(engine: &Engine<'_>, maps: &mut [Map<'_>]) -> Result<(), Stopped> {
         for i in 0..maps.len() {
             let Some(own) = maps[i].oil.given() else { continue };
-            let same = |map: &&Map<'_>| map.run.label() == maps[i].run.label();
+            let same = |map: &&Map<'_>| {
+                (&map.run.built.name, &map.run.points.gear) == (&maps[i].run.built.name, &maps[i].run.points.gear)
+            };
             let warmer = maps.iter().filter(same).filter_map(|map| Some((map.oil.given()?, map)));
             let next = warmer.filter(|(oil, _)| *oil > own).min_by(|a, b| a.0.total_cmp(&b.0));
             let Some((oil, next)) = next else { continue };

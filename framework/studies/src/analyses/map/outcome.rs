@@ -24,7 +24,7 @@ pub struct MapOutcome {
     pub head: Head,
     /// One for each gear, each model set and each combination of bound values.
     pub maps: Vec<MapOfSet>,
-    /// The points of all maps; without rows if these were passed to [`Planner::sink`].
+    /// The points of all maps; without rows if these were passed to [`Engine::sink`].
     #[serde(skip)]
     pub table: Table,
     /// Notes on the file of points.

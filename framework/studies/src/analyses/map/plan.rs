@@ -14,9 +14,9 @@ use crate::study::{Envelope, Grid};
 
 /// The points of one map over a grid.
 pub struct Planned<'a> {
-    /// Maps that differ only in their points share a transmission.
     pub bound: Vec<(String, Value)>,
     pub axes: Axes,
+    /// Maps that differ only in their points share a transmission.
     pub run: Run<'a>,
 }
 

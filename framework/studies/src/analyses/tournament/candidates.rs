@@ -84,7 +84,7 @@ impl<'a> Gathering<'a> {
             match built.and_then(|transmission| self.evaluated(&slot, transmission)) {
                 Err(Refused::Interrupted) => return Err(Stopped::Interrupted),
                 Err(Refused::Because(reason)) if own.named => {
-                    return Err(own.refused(self.engine, &entrant.name, &reason));
+                    return Err(own.unusable_model(self.engine, &entrant.name, &reason));
                 }
                 Err(Refused::Because(reason)) => {
                     self.left_out.push(format!("{} {}: {reason}", slot.name, entrant.name));
@@ -103,7 +103,7 @@ impl<'a> Gathering<'a> {
             }
         }
         if slot.candidates.is_empty() {
-            return Err(own.none(self.engine));
+            return Err(own.no_usable_model(self.engine));
         }
         // If all models are candidates, so is the model of the set.
         if !own.named {

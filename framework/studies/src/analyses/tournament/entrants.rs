@@ -93,23 +93,23 @@ impl Entrants {
         };
         for entrant in &entrants.list {
             if let (true, Err(reason)) = (named, &entrant.built) {
-                return Err(entrants.refused(cx, &entrant.name, reason));
+                return Err(entrants.unusable_model(cx, &entrant.name, reason));
             }
         }
         if entrants.list.iter().all(|entrant| entrant.built.is_err()) {
-            return Err(entrants.none(cx));
+            return Err(entrants.no_usable_model(cx));
         }
         Ok(entrants)
     }
 
-    /// A listed model has no loss.
-    pub fn refused(&self, cx: &Planner<'_>, name: &str, reason: &str) -> Stopped {
+    /// A listed model cannot be built, or has no loss.
+    pub fn unusable_model(&self, cx: &Planner<'_>, name: &str, reason: &str) -> Stopped {
         let help = "`gearloss models --needs GEARBOX` lists the inputs of a model";
         cx.wrong(&format!("{}.models.{name}", self.path), reason, help)
     }
 
-    /// No model has a loss.
-    pub fn none(&self, cx: &Planner<'_>) -> Stopped {
+    /// No model can be built and has a loss.
+    pub fn no_usable_model(&self, cx: &Planner<'_>) -> Stopped {
         let message = format!("no model of `{}` can be evaluated", self.slot.name);
         let help = "`gearloss models --needs GEARBOX` lists the inputs of models";
         cx.wrong(&self.path, message, help)
