@@ -192,8 +192,8 @@ fn one_run_at_a_time_writes_into_a_folder() {
             "field.csv",
             "field.json",
             "field.parquet",
-            "report.html",
-            "report.html.json"
+            "report.content",
+            "report.html"
         ]
     );
     let again = gearloss(&folder, &["run", "study.yaml"]);
@@ -236,8 +236,8 @@ fn a_run_that_was_killed_is_gone_on_with() {
             "field.csv",
             "field.json",
             "field.parquet",
-            "report.html",
-            "report.html.json"
+            "report.content",
+            "report.html"
         ]
     );
     // Files of somebody else are not taken for those of a run.

@@ -224,6 +224,7 @@ fn claim(folder: &Path, analyses: &[&str], force: bool, shown: Shown, out: &mut 
         "json",
         "svg",
         "html",
+        "content",
         "parquet",
         "xlsx",
         "vtlm",

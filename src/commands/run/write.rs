@@ -34,7 +34,7 @@ pub fn workbook(run: &Run<'_>, name: &str, tables: &[Table]) -> Result<(), Failu
 pub const REPORT: &str = "report.html";
 
 /// Name of its content, of which `gearloss report` makes it again.
-pub const CONTENT: &str = "report.html.json";
+pub const CONTENT: &str = "report.content";
 
 /// Writes the page and its content into the folder of the results.
 pub fn report(run: &Run<'_>, template: Option<&Template>) -> Result<(), Failure> {
