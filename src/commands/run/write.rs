@@ -3,6 +3,7 @@
 use std::fs;
 use std::io::{self, Write as _};
 
+use gearloss_framework::document::visible_json;
 use gearloss_report::Figure;
 use gearloss_report::html::{self, Frame};
 use gearloss_report::xlsx;
@@ -42,9 +43,10 @@ pub fn report(run: &Run<'_>, template: Option<&Template>) -> Result<(), Failure>
     let mut report = run.report.borrow_mut();
     report.complete(&Planner::new(run.language, &study, "report"))?;
     let frame = Frame::new(run.study, run.language, env!("CARGO_PKG_VERSION"));
-    let content = serde_json::to_vec(&report.content(&frame));
+    let content = serde_json::to_string(&report.content(&frame));
     let content =
         content.map_err(|fault| Failure::input(format!("the report cannot be encoded: {fault}"), "report this"))?;
+    let content = visible_json(&content).into_owned().into_bytes();
     let page = page(&content, template)?;
     keep(run, CONTENT, Ok(content))?;
     keep(run, REPORT, Ok(page))
