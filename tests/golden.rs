@@ -2,6 +2,7 @@
 
 use crate::common;
 use std::path::Path;
+use std::process::Command;
 
 use gearloss_framework::files::Disk;
 use gearloss_framework::gearbox::Gearbox;
@@ -98,4 +99,26 @@ fn every_analysis_says_what_it_computes() {
         std::fs::write(&expected, &text).unwrap();
     }
     assert_eq!(text, std::fs::read_to_string(&expected).unwrap_or_default());
+}
+
+#[test]
+fn a_plan_is_printed_for_a_study_and_refused_for_a_gearbox() {
+    let check = |file: &str| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_gearloss"));
+        command.args(["check", "--plan", file]).output().unwrap()
+    };
+    let study = check("examples/two-speed-ev/study.yaml");
+    let text = String::from_utf8_lossy(&study.stdout).into_owned();
+    // As docs/check.md shows it.
+    assert!(
+        study.status.success() && text.contains("\n  band: complete, first: 39578 points\n"),
+        "{text}"
+    );
+    let gearbox = check("examples/two-speed-ev/gearbox.yaml");
+    let text = String::from_utf8_lossy(&gearbox.stderr).into_owned();
+    assert_eq!(gearbox.status.code(), Some(2), "{text}");
+    assert!(
+        text.contains("--plan does not apply") && text.contains("check a study"),
+        "{text}"
+    );
 }

@@ -19,8 +19,14 @@ pub fn run(args: &ReportArgs, out: &mut Out) -> Result<End, Failure> {
             "give the folder that `gearloss run` has written",
         )
     })?;
+    let content = serde_json::from_slice(&content).map_err(|fault| {
+        Failure::input(
+            format!("{} is not the content of a report: {fault}", file.display()),
+            "run the study again",
+        )
+    })?;
     let to = args.output.clone().unwrap_or_else(|| args.results.join(REPORT));
-    std::fs::write(&to, page(&content, template.as_ref())?).map_err(|error| {
+    std::fs::write(&to, page(content, template.as_ref())?).map_err(|error| {
         Failure::input(
             format!("cannot write {}: {error}", to.display()),
             "choose another file with -o",

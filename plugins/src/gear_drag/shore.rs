@@ -135,6 +135,21 @@ impl GearDragModel for Shore {
     }
 }
 
+/// A check of the same wheel in its housing.
+macro_rules! wheel {
+    ($model:literal, $at:literal) => {
+        concat!(
+            "{ model: ",
+            $model,
+            ", part: { gear: { z: 35, normal_module: 4 mm, pressure_angle: 20 deg, facewidth: 20 mm, reference_diameter: 140 mm, ",
+            "working_diameter: 140 mm, tip_diameter: 148 mm, root_diameter: 130 mm, contact_height: 1 mm }, ",
+            "radial_clearance: 6 mm, axial_clearance: 30 mm }, at: ",
+            $at,
+            " }"
+        )
+    };
+}
+
 register!(GearDrag, "shore", Params,
     source: "Shore, Kadiric et al., Tribol. Trans., equations 7 and 8",
     example: "{ type: shore, fill: 0.35 }",
@@ -144,54 +159,36 @@ register!(GearDrag, "shore", Params,
     ],
     checks: [
         Check {
-            input: "{ model: { type: shore, fill: 0.35 }, part: { gear: { z: 35, normal_module: 4 mm, pressure_angle: 20 deg, \
-                    facewidth: 20 mm, reference_diameter: 140 mm, working_diameter: 140 mm, tip_diameter: 148 mm, \
-                    root_diameter: 130 mm, contact_height: 1 mm }, radial_clearance: 6 mm, axial_clearance: 30 mm }, \
-                    at: { speed: 1000 rpm, dip: 35 mm, nu: 50 mm2/s, rho: 840 kg/m3 } }",
+            input: wheel!("{ type: shore, fill: 0.35 }", "{ speed: 1000 rpm, dip: 35 mm, nu: 50 mm2/s, rho: 840 kg/m3 }"),
             values: &[("h_eff", "26.1933 mm"), ("moment", "0.0805387 Nm")],
             ..SIX_DIGITS
         },
         Check {
-            input: "{ model: { type: shore, fill: 0.35 }, part: { gear: { z: 35, normal_module: 4 mm, pressure_angle: 20 deg, \
-                    facewidth: 20 mm, reference_diameter: 140 mm, working_diameter: 140 mm, tip_diameter: 148 mm, \
-                    root_diameter: 130 mm, contact_height: 1 mm }, radial_clearance: 6 mm, axial_clearance: 30 mm }, \
-                    at: { speed: 3000 rpm, dip: 35 mm, nu: 10 mm2/s, rho: 840 kg/m3 } }",
+            input: wheel!("{ type: shore, fill: 0.35 }", "{ speed: 3000 rpm, dip: 35 mm, nu: 10 mm2/s, rho: 840 kg/m3 }"),
             values: &[("h_eff", "20.2747 mm"), ("moment", "0.136511 Nm")],
             ..SIX_DIGITS
         },
         Check {
-            input: "{ model: { type: shore, fill: 0.35 }, part: { gear: { z: 35, normal_module: 4 mm, pressure_angle: 20 deg, \
-                    facewidth: 20 mm, reference_diameter: 140 mm, working_diameter: 140 mm, tip_diameter: 148 mm, \
-                    root_diameter: 130 mm, contact_height: 1 mm }, radial_clearance: 6 mm, axial_clearance: 30 mm }, \
-                    at: { speed: 9000 rpm, dip: 35 mm, nu: 10 mm2/s, rho: 840 kg/m3 } }",
+            input: wheel!("{ type: shore, fill: 0.35 }", "{ speed: 9000 rpm, dip: 35 mm, nu: 10 mm2/s, rho: 840 kg/m3 }"),
             values: &[("h_eff", "17.372 mm"), ("moment", "0.280426 Nm")],
             ..SIX_DIGITS
         },
         Check {
-            input: "{ model: { type: shore, fill: 0.3 }, part: { gear: { z: 35, normal_module: 4 mm, pressure_angle: 20 deg, \
-                    facewidth: 20 mm, reference_diameter: 140 mm, working_diameter: 140 mm, tip_diameter: 148 mm, \
-                    root_diameter: 130 mm, contact_height: 1 mm }, radial_clearance: 6 mm, axial_clearance: 30 mm }, \
-                    at: { speed: 1000 rpm, dip: 35 mm, nu: 27.3 mm2/s, rho: 826 kg/m3 } }",
+            input: wheel!("{ type: shore, fill: 0.3 }", "{ speed: 1000 rpm, dip: 35 mm, nu: 27.3 mm2/s, rho: 826 kg/m3 }"),
             values: &[("h_eff", "27.48452 mm"), ("moment", "0.08101279 Nm")],
             tolerance: 1e-6,
             because: "the values have seven digits",
             ..SIX_DIGITS
         },
         Check {
-            input: "{ model: { type: shore, fill: 0.3 }, part: { gear: { z: 35, normal_module: 4 mm, pressure_angle: 20 deg, \
-                    facewidth: 20 mm, reference_diameter: 140 mm, working_diameter: 140 mm, tip_diameter: 148 mm, \
-                    root_diameter: 130 mm, contact_height: 1 mm }, radial_clearance: 6 mm, axial_clearance: 30 mm }, \
-                    at: { speed: 4000 rpm, dip: 35 mm, nu: 27.3 mm2/s, rho: 826 kg/m3 } }",
+            input: wheel!("{ type: shore, fill: 0.3 }", "{ speed: 4000 rpm, dip: 35 mm, nu: 27.3 mm2/s, rho: 826 kg/m3 }"),
             values: &[("h_eff", "16.98586 mm"), ("moment", "0.1466633 Nm")],
             tolerance: 1e-6,
             because: "the values have seven digits",
             ..SIX_DIGITS
         },
         Check {
-            input: "{ model: { type: shore, fill: 0.3 }, part: { gear: { z: 35, normal_module: 4 mm, pressure_angle: 20 deg, \
-                    facewidth: 20 mm, reference_diameter: 140 mm, working_diameter: 140 mm, tip_diameter: 148 mm, \
-                    root_diameter: 130 mm, contact_height: 1 mm }, radial_clearance: 6 mm, axial_clearance: 30 mm }, \
-                    at: { speed: 12000 rpm, dip: 35 mm, nu: 27.3 mm2/s, rho: 826 kg/m3 } }",
+            input: wheel!("{ type: shore, fill: 0.3 }", "{ speed: 12000 rpm, dip: 35 mm, nu: 27.3 mm2/s, rho: 826 kg/m3 }"),
             values: &[("h_eff", "15.62399 mm"), ("moment", "0.3257352 Nm")],
             tolerance: 1e-6,
             because: "the values have seven digits",

@@ -9,6 +9,7 @@ use gearloss_report::html::{self, Frame};
 use gearloss_report::xlsx;
 use gearloss_studies::analyses::{Outcome, Planner};
 use gearloss_studies::table::Table;
+use serde_json::Value;
 
 use super::result_files::Place;
 use super::runner::{Run, Runner};
@@ -43,24 +44,19 @@ pub fn report(run: &Run<'_>, template: Option<&Template>) -> Result<(), Failure>
     let mut report = run.report.borrow_mut();
     report.complete(&Planner::new(run.language, &study, "report"))?;
     let frame = Frame::new(run.study, run.language, env!("CARGO_PKG_VERSION"));
-    let content = serde_json::to_string(&report.content(&frame));
+    let content = serde_json::to_value(report.content(&frame));
     let content =
         content.map_err(|fault| Failure::input(format!("the report cannot be encoded: {fault}"), "report this"))?;
-    let content = visible_json(&content).into_owned().into_bytes();
-    let page = page(&content, template)?;
-    keep(run, CONTENT, Ok(content))?;
-    keep(run, REPORT, Ok(page))
+    keep(
+        run,
+        CONTENT,
+        Ok(visible_json(&content.to_string()).into_owned().into_bytes()),
+    )?;
+    keep(run, REPORT, Ok(page(content, template)?))
 }
 
 /// The page of this content.
-pub fn page(content: &[u8], template: Option<&Template>) -> Result<Vec<u8>, Failure> {
-    let content = serde_json::from_slice(content);
-    let content = content.map_err(|fault| {
-        Failure::input(
-            format!("{CONTENT} is not the content of a report: {fault}"),
-            "run the study again",
-        )
-    })?;
+pub fn page(content: Value, template: Option<&Template>) -> Result<Vec<u8>, Failure> {
     match template {
         Some(template) => template.fill(&content),
         None => Ok(html::page(content)?.into_bytes()),

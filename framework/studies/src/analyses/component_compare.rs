@@ -242,7 +242,13 @@ impl Analysis for ComponentCompareEntry {
 
     fn reduce<'a>(&'a self, plan: ComponentPlan<'a>, engine: &Engine<'a>) -> Result<ComponentCompareOutcome, Stopped> {
         let grid = plan.grid();
-        let compared = |run: &Run<'_>| self.compared(run, &grid, &plan.measured);
+        let compared = |run: &Run<'_>| {
+            if engine.should_continue() {
+                self.compared(run, &grid, &plan.measured)
+            } else {
+                Err(Stopped::Interrupted)
+            }
+        };
         let models: Vec<ModelOfComponent> = engine.undivided(|| plan.models.iter().map(compared).collect())?;
         let Some(first) = plan.models.first() else {
             return Err(Stopped::Several(plan.failures));

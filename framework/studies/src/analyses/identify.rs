@@ -202,7 +202,7 @@ fn identify(
     let jobs = JobsWithin::new(engine);
     let pressed = || !jobs.should_continue();
     let searches = |count: usize, search: &OneSearch<'_>| {
-        let fits = jobs.jobs(&format!("{} starts", b.name), count, search);
+        let fits = jobs.compute(&format!("{} starts", b.name), count, search);
         fits.unwrap_or_else(|| vec![Err(Fault::single("the search", "it was aborted", "run it again"))])
     };
     let settings = Settings {

@@ -220,7 +220,7 @@ impl Evaluate for At<'_> {
                 evaluations.solved(&point)
             }
         };
-        let Some(all) = evaluations.jobs.jobs(evaluations.label, count, evaluate) else {
+        let Some(all) = evaluations.jobs.compute(evaluations.label, count, evaluate) else {
             return vec![Err("interrupted".to_owned())];
         };
         let mut seen = evaluations.left.lock().unwrap_or_else(PoisonError::into_inner);

@@ -154,7 +154,7 @@ impl Analysis for ThermalLimitEntry {
 
     fn reduce<'a>(&'a self, plan: ThermalLimitPlan<'a>, engine: &Engine<'a>) -> Result<ThermalLimitOutcome, Stopped> {
         let thermal_limits: Vec<ThermalLimitsOfSet> =
-            engine.undivided(|| Ok(plan.0.iter().map(Search::all).collect()))?;
+            engine.undivided(|| plan.0.iter().map(|search| search.all(engine)).collect())?;
         for (search, found) in plan.0.iter().zip(&thermal_limits) {
             let given = |limit: &ThermalLimit| {
                 Some(Given {
@@ -228,22 +228,25 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    fn all(&self) -> ThermalLimitsOfSet {
+    fn all(&self, engine: &Engine<'_>) -> Result<ThermalLimitsOfSet, Stopped> {
         let transmission = &self.run.built.transmission;
         let mut scratch = transmission.scratch(&self.case);
         let mut limits = Vec::new();
         for temperature in self.temperatures {
             for value in &self.fixed {
+                if !engine.should_continue() {
+                    return Err(Stopped::Interrupted);
+                }
                 limits.push(self.limit(*temperature, self.range, *value, &mut scratch));
             }
         }
-        ThermalLimitsOfSet {
+        Ok(ThermalLimitsOfSet {
             model_set: self.run.built.name.clone(),
             gear: self.run.points.gear.clone(),
             find: self.find,
             limits,
             notes: notes(transmission, &scratch.totals),
-        }
+        })
     }
 
     /// Speed and torque if the unknown is `x`.

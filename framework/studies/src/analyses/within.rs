@@ -28,13 +28,13 @@ impl<'e> JobsWithin<'e> {
     }
 
     /// As [`Engine::jobs`]; none if they ended.
-    pub fn jobs<R: Serialize + DeserializeOwned + Send>(
+    pub fn compute<R: Serialize + DeserializeOwned + Send>(
         &self,
         label: &str,
         count: usize,
-        compute: impl Fn(usize) -> R + Sync,
+        job: impl Fn(usize) -> R + Sync,
     ) -> Option<Vec<R>> {
-        let results = self.engine.jobs(label, count, |i| Ok(compute(i)));
+        let results = self.engine.jobs(label, count, |i| Ok(job(i)));
         results
             .map_err(|stopped| {
                 *self.ended() = Some(stopped);

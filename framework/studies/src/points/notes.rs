@@ -98,10 +98,6 @@ pub fn notes(transmission: &Transmission, seen: &[Extent]) -> Vec<Note> {
 
 /// The notes with the share of the loss of each cell of a limit.
 fn notes_of(transmission: &Transmission, seen: &[Extent], share: &dyn Fn(usize) -> Option<f64>) -> Vec<Note> {
-    if seen.is_empty() {
-        // No points.
-        return Vec::new();
-    }
     let is_of_part = |cell: usize| transmission.limited().iter().any(|(limited, _)| *limited == cell);
     let share = |cell: usize| share(cell).filter(|_| is_of_part(cell));
     let mut notes = Vec::new();
