@@ -63,7 +63,7 @@ fn a_report_is_made_again_from_its_content() {
     let message = String::from_utf8_lossy(&refused.stderr).into_owned();
     assert_eq!(refused.status.code(), Some(2), "{message}");
     assert!(
-        message.contains("no folder of results") && message.contains("gearloss run"),
+        message.contains("not a folder of results") && message.contains("gearloss run"),
         "{message}"
     );
     std::fs::remove_file(again).unwrap();

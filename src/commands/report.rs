@@ -12,7 +12,7 @@ pub fn run(args: &ReportArgs, out: &mut Out) -> Result<End, Failure> {
     let content = read_bytes(&file, LONGEST_DATA).map_err(|error| {
         Failure::input(
             format!(
-                "{} is no folder of results: cannot read {}: {error}",
+                "{} is not a folder of results: cannot read {}: {error}",
                 args.results.display(),
                 file.display()
             ),

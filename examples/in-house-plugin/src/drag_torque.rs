@@ -75,7 +75,7 @@ impl Analysis for DragTorqueEntry {
         let built = cx.built(cx.gearbox(self.gearbox.as_ref())?, &self.model_sets)?;
         let path = format!("{}.oil_temperature", cx.path());
         let temperatures = axis(cx, &path, self.oil_temperature.values())?;
-        Runs::of(&built, |b| {
+        Runs::of_sets(&built, |b| {
             Run::new(cx, b, self.points(cx, &b.transmission, &temperatures))
         })
     }

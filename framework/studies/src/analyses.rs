@@ -87,7 +87,7 @@ pub trait Analysis: DeserializeOwned + JsonSchema + Send + Sync + 'static {
         None
     }
 
-    /// Reads, builds and checks everything that it asks for, and solves nothing: the whole of `check`.
+    /// Reads, builds and checks everything that it asks for, without its results: the whole of `check`.
     ///
     /// # Errors
     /// All errors of the input.

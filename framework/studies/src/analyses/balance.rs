@@ -242,7 +242,7 @@ impl Analysis for BalanceEntry {
             let point = vec![Given::new(self.torque, self.speed)];
             Run::new(cx, b, cx.listed(t, gear_of(self.gear.as_deref(), t), point))
         };
-        Runs::of(&built, run)
+        Runs::of_sets(&built, run)
     }
 
     fn reduce<'a>(&'a self, plan: Runs<'a>, engine: &Engine<'a>) -> Result<BalanceOutcome, Stopped> {

@@ -181,7 +181,7 @@ impl Analysis for ContactPathEntry {
         let built = cx.built(cx.gearbox(self.gearbox.as_ref())?, &self.model_sets)?;
         let meshes = built.iter().map(|b| self.mesh(cx, &b.transmission));
         let meshes = meshes.collect::<Result<_, _>>()?;
-        let runs = Runs::of(&built, |b| {
+        let runs = Runs::of_sets(&built, |b| {
             let t = &b.transmission;
             let point = vec![Given::new(self.torque, self.speed)];
             Run::without_limits(cx, b, cx.listed(t, gear_of(self.gear.as_deref(), t), point))

@@ -145,7 +145,7 @@ impl<'a> Engine<'a> {
     /// As [`Engine::solve_here`].
     pub fn read_limits(&self, run: &Run<'_>, list: Vec<Given>) -> Result<(), Stopped> {
         if run.watch.is_some() {
-            self.solve_here(&run.at(list))?;
+            self.solve_here(&run.with_list(list))?;
         }
         Ok(())
     }

@@ -93,6 +93,7 @@ impl Analysis for IdentifyEntry {
         };
         let built = cx.built(cx.gearbox(self.gearbox.as_ref())?, &self.model_sets)?;
         for b in &built {
+            // It solves the rows once, for the speeds of the rig.
             prepare(cx, self, b, &points)?;
         }
         Ok(IdentifyPlan {

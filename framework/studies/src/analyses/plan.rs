@@ -111,13 +111,28 @@ impl<'a> Run<'a> {
     }
 
     /// The same with a list of points.
-    pub fn at(&self, list: Vec<Given>) -> Self {
+    pub fn with_list(&self, list: Vec<Given>) -> Self {
+        let Points {
+            gear,
+            torque_at,
+            speed_at,
+            oil,
+            flow,
+            terms,
+            field: _,
+        } = &self.points;
         Self {
             built: Arc::clone(&self.built),
             watch: self.watch.clone(),
+            // Not a copy of the whole field, which may be a large grid.
             points: Points {
+                gear: gear.clone(),
+                torque_at: torque_at.clone(),
+                speed_at: speed_at.clone(),
                 field: Field::List(list),
-                ..self.points.clone()
+                oil: *oil,
+                flow: *flow,
+                terms: *terms,
             },
         }
     }
@@ -148,7 +163,7 @@ impl<'a> Runs<'a> {
     ///
     /// # Errors
     /// Those of `run`.
-    pub fn of(
+    pub fn of_sets(
         built: &[Arc<Built<'a>>],
         run: impl FnMut(&Arc<Built<'a>>) -> Result<Run<'a>, Stopped>,
     ) -> Result<Self, Stopped> {

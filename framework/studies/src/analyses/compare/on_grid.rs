@@ -128,7 +128,7 @@ impl<'a> GridPlan<'a> {
         };
         let (torques, speeds) = grid_axes(cx, grid_name, grid, &built[0].transmission)?;
         Ok(Self {
-            runs: Runs::of(&built, run)?,
+            runs: Runs::of_sets(&built, run)?,
             axes: [torques, speeds],
         })
     }

@@ -96,7 +96,7 @@ fn losses(engine: &Engine<'_>, map: &Map<'_>, list: Vec<Given>) -> Result<Vec<Lo
     if list.is_empty() {
         return Ok(losses);
     }
-    engine.solve_pieces(&map.run.at(list), &take_points, &mut |piece| {
+    engine.solve_pieces(&map.run.with_list(list), &take_points, &mut |piece| {
         losses.extend(piece.points().map(LossAt::from));
         Ok(())
     })?;

@@ -7,7 +7,7 @@ use serde_json::Value;
 
 use super::super::numbers::RPM;
 use super::super::{Built, Engine, Stopped};
-use super::entrants::{Entrants, first};
+use super::entrants::{Entrants, first_message};
 use super::marks::{Mark, marks};
 use super::slot::{Candidate, Slot};
 use crate::points::{Field, GridResult, PointResult, Points, notes, run_grid};
@@ -163,7 +163,7 @@ impl<'a> Gathering<'a> {
     fn evaluated(&mut self, slot: &Slot, transmission: &Transmission) -> Result<Evaluated, Refused> {
         let (engine, base) = (self.engine, self.base);
         let solved = run_grid(transmission, self.points, &|_| engine.should_continue());
-        let solved = solved.map_err(|list| Refused::Because(first(&list)))?;
+        let solved = solved.map_err(|list| Refused::Because(first_message(&list)))?;
         let solved = solved.ok_or(Refused::Interrupted)?;
         self.unlisted += left(transmission, &solved);
         if let Some(p) = solved.points.iter().find(|p| p.loss.is_none()) {

@@ -120,11 +120,11 @@ impl Entrants {
 fn built(cx: &Planner<'_>, slot: &Slot, base: &Built<'_>, model: &Value) -> Result<Transmission, String> {
     let changed = slot.with(cx.language, &base.resolved, model)?;
     let built = base.gearbox.build(cx.language, &changed);
-    built.map_err(|findings| first(&findings.list))
+    built.map_err(|findings| first_message(&findings.list))
 }
 
 /// The first error of a list.
-pub fn first(list: &[Diagnostic]) -> String {
+pub fn first_message(list: &[Diagnostic]) -> String {
     let first = list.first();
     first.map_or_else(String::new, |d| format!("{}: {}", d.path, d.message))
 }

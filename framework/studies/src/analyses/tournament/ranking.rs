@@ -43,14 +43,14 @@ impl TournamentEntry {
         let (mut list, mut unlisted) = (own.given, 0);
         if !measured.rig.is_silent() {
             // The contribution of the rig depends on the speeds; it is subtracted from the torque.
-            let solved = engine.solve(&run.at(list.clone()))?;
+            let solved = engine.solve(&run.with_list(list.clone()))?;
             unlisted += left(&base.transmission, &solved);
             for (given, p) in list.iter_mut().zip(solved.points) {
                 let added = measured.rig.added([p.reference_speed, p.output_speed.unwrap_or(0.0)]);
                 given.torque -= added[usize::from(!p.at_reference)];
             }
         }
-        let run = run.at(list);
+        let run = run.with_list(list);
         let field = Field::new(engine, self, &run, entrants)?;
         let rows = Measurements::new(engine, self, (measured, &own.rows), &field)?;
         let found = self.ranked(engine, &field, &rows.losses)?;
