@@ -15,8 +15,8 @@ fn schema(kind: &str) -> Output {
         .unwrap()
 }
 
-/// Every kind that the program accepts has a file and every file a kind; outputs of the program are compared with the schemas that
-/// are written by hand (`point`, `check`, `models`) in `results.rs` and `json.rs`.
+/// Every kind that the program accepts has a file and every file a kind; outputs of the program are validated in `results.rs` and
+/// `json.rs`.
 #[test]
 fn committed_schemas_are_those_of_the_program() {
     let refused = String::from_utf8(schema("nothing").stderr).unwrap();

@@ -1,14 +1,12 @@
 //! One operating point.
 
 use gearloss::api::{OilTemperature, PowerFlow};
-use gearloss::framework::coefficients::changed_from_source;
 use gearloss::framework::thermal::Outcome;
-use gearloss::report::point::{Explained, point_json, point_text, ratings_text};
-use gearloss::studies::points::{PreparedPoint, evidence};
+use gearloss::report::point::{Explained, PointRecord, point_text, ratings_text};
+use gearloss::studies::points::PreparedPoint;
 use gearloss::studies::ratings::rated;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use serde_json::json;
 
 use crate::errors::{language, raised, wrong};
 use crate::gearbox::Transmission;
@@ -192,16 +190,14 @@ impl Solution {
         let t = self.transmission.get();
         let mut scratch = t.built.scratch(&self.prepared.case);
         let solved = self.prepared.solve(&t.built, &mut scratch);
-        let packages = language(py)?.registry().packages();
-        let mut value = point_json(&t.built, &self.prepared, &solved, packages);
-        let is_written = |path: &str| t.gearbox.places.is_written(path);
-        let ratings = t.gearbox.ratings(language(py)?, &t.resolved, &t.built);
-        let ratings = ratings.map_err(|findings| raised(py, &findings))?;
-        value["ratings"] = json!(rated(&ratings, &t.built, &solved.solution));
-        value["evidence"] = json!(evidence(&t.built, &t.resolved, &is_written));
-        value["unreached"] = json!(t.resolved.unreached);
-        value["changed_from_source"] = json!(changed_from_source(&t.built, &t.resolved));
-        json::to_python(py, &value)
+        let record = PointRecord::new(
+            language(py)?,
+            (&t.gearbox, &t.resolved, &t.built),
+            &self.prepared,
+            &solved,
+        );
+        let record = record.map_err(|findings| raised(py, &findings))?;
+        json::to_python(py, &record)
     }
 
     /// The tables of `gearloss solve`.

@@ -1,6 +1,10 @@
 //! Models and schemas.
 
 use gearloss::framework::language::Kind;
+use gearloss::report::check::CheckRecord;
+use gearloss::report::models::ModelsRecord;
+use gearloss::report::point::PointRecord;
+use gearloss::studies::results::schema_of;
 use pyo3::prelude::*;
 
 use crate::errors::{language, wrong};
@@ -9,7 +13,7 @@ use crate::json;
 /// The linked models with parameters, ranges and evidence, as `gearloss models --format json` lists them.
 #[pyfunction]
 pub fn models(py: Python<'_>) -> PyResult<Py<PyAny>> {
-    json::to_python(py, &gearloss::report::models::models_json(language(py)?, None, None))
+    json::to_python(py, &ModelsRecord::new(language(py)?, None, None))
 }
 
 /// The JSON Schema of a kind of document: `gearbox`, `study`, `eval`, `result`, `point`, `check` or `models`.
@@ -21,9 +25,9 @@ pub fn schema(py: Python<'_>, kind: &str) -> PyResult<Py<PyAny>> {
         "study" => json::to_python(py, &language.published(Kind::Study)),
         "eval" => json::to_python(py, &language.published(Kind::Eval)),
         "result" => json::to_python(py, &gearloss::studies::results::schema()),
-        "point" => json::read(py, include_str!("../../schemas/point.schema.json")),
-        "check" => json::read(py, include_str!("../../schemas/check.schema.json")),
-        "models" => json::read(py, include_str!("../../schemas/models.schema.json")),
+        "point" => json::to_python(py, &schema_of::<PointRecord>()),
+        "check" => json::to_python(py, &schema_of::<CheckRecord>()),
+        "models" => json::to_python(py, &schema_of::<ModelsRecord>()),
         other => Err(wrong(
             py,
             gearloss::framework::codes::UNKNOWN_NAME,

@@ -8,8 +8,7 @@ use gearloss_framework::files::{Disk, LONGEST_TEXT, read_text};
 use gearloss_framework::gearbox::{Findings, Gearbox};
 use gearloss_framework::language::Language;
 use gearloss_framework::registry::Evidence;
-use gearloss_report::check::document::{FileRecord, document};
-use gearloss_report::check::{checked_text, resolved_text};
+use gearloss_report::check::{CheckRecord, FileRecord, checked_text, resolved_text};
 use gearloss_studies::analyses::Stopped;
 use gearloss_studies::analyses::progress::{Progress, Silent, Steps};
 use gearloss_studies::checked::CheckedGearbox;
@@ -86,6 +85,7 @@ fn print_json(language: &Language, args: &CheckArgs, deny: Option<Evidence>, out
     let mut wrong = false;
     let mut files = Vec::new();
     for file in &args.files {
+        let name = file.display().to_string();
         let record = if is_study(file) {
             belongs_to_gearboxes(args, file)?;
             let study = CheckedStudy::read(language, &Disk::shared(), file, &UntilInterrupted);
@@ -96,18 +96,18 @@ fn print_json(language: &Language, args: &CheckArgs, deny: Option<Evidence>, out
             {
                 return Err(Failure::Interrupted);
             }
-            FileRecord::of_study(&study)
+            FileRecord::of_study(name, study)
         } else {
             belongs_to_study(args, file)?;
-            FileRecord::of_gearbox(&checked(language, file, &args.choice), args.resolved)
+            FileRecord::of_gearbox(name, checked(language, file, &args.choice), args.resolved, deny)
         };
-        if record.is_denied(deny) {
+        if record.is_denied() {
             end = End::Finding;
         }
-        wrong |= record.wrong;
-        files.push(record.json(&file.display().to_string(), deny));
+        wrong |= !record.fine;
+        files.push(record);
     }
-    out.json(&document(language, files))?;
+    out.json(&CheckRecord::new(language, files))?;
     if wrong {
         Err(Failure::Input(String::new()))
     } else {

@@ -5,7 +5,7 @@ use std::path::Path;
 use gearloss_framework::gearbox::{Findings, Gearbox};
 use gearloss_framework::language::Language;
 use gearloss_report::models::{
-    ChecksText, mechanism_text, model_text, models_json, models_text, rating_text, ratings_list,
+    ChecksText, ModelsRecord, mechanism_text, model_text, models_text, rating_text, ratings_list,
 };
 use gearloss_studies::needs::needs;
 
@@ -39,10 +39,7 @@ pub fn run(args: &ModelsArgs, out: &mut Out) -> Result<End, Failure> {
         .map(|(mechanism, name)| registry.model_named(mechanism.key, name));
     let model = model.transpose().map_err(Findings::from)?;
     match (args.format, mechanism, model) {
-        (Format::Json, ..) => {
-            let value = models_json(language, mechanism, model);
-            out.json(&value)?;
-        }
+        (Format::Json, ..) => out.json(&ModelsRecord::new(language, mechanism, model))?,
         (Format::Table, None, _) => out.text(&models_text(language))?,
         (Format::Table, Some(mechanism), None) => out.text(&mechanism_text(language, mechanism))?,
         (Format::Table, Some(_), Some(model)) => out.text(&model_text(language, model))?,

@@ -1,12 +1,9 @@
 //! `solve`: one operating point with the loss of each component, sums and efficiency, and their derivatives.
 
-use gearloss_framework::coefficients::changed_from_source;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::registry::Evidence;
-use gearloss_report::point::{derivatives_text, point_json, point_text, ratings_text, remarks};
-use gearloss_studies::points::{Derived, Variable, evidence};
-use gearloss_studies::ratings::rated;
-use serde_json::json;
+use gearloss_report::point::{PointRecord, derivatives_text, point_text, ratings_text, remarks};
+use gearloss_studies::points::{Derived, Variable};
 
 use super::point::prepare;
 use super::{set, warn};
@@ -22,10 +19,7 @@ pub fn run(args: &SolveArgs, out: &mut Out) -> Result<End, Failure> {
     let prepared = prepare(&args.point, &gearbox, &transmission)?;
     let mut scratch = transmission.scratch(&prepared.case);
     let solved = prepared.solve(&transmission, &mut scratch);
-    let ratings = gearbox.ratings(language, &resolved, &transmission)?;
-    let ratings = rated(&ratings, &transmission, &solved.solution);
-    let known = evidence(&transmission, &resolved, &|path| gearbox.places.is_written(path));
-    let changed = changed_from_source(&transmission, &resolved);
+    let mut record = PointRecord::new(language, (&gearbox, &resolved, &transmission), &prepared, &solved)?;
     let choice = set::choice(&args.choice)?;
     let derived = Derived {
         language,
@@ -35,35 +29,24 @@ pub fn run(args: &SolveArgs, out: &mut Out) -> Result<End, Failure> {
         transmission: &transmission,
         prepared: &prepared,
     };
-    let mut derivatives = Vec::new();
     for text in &args.derivative {
         let variable = Variable::from(text.as_str());
         let found = derived.over(&variable);
-        derivatives.push(found.map_err(|findings| set::at_option("--derivative", text, findings))?);
+        let found = found.map_err(|findings| set::at_option("--derivative", text, findings))?;
+        record.derivatives.push(found);
     }
     match args.format {
-        Format::Json => {
-            let packages = language.registry().packages();
-            let mut value = point_json(&transmission, &prepared, &solved, packages);
-            value["ratings"] = json!(ratings);
-            value["evidence"] = json!(known);
-            value["unreached"] = json!(resolved.unreached);
-            value["changed_from_source"] = json!(changed);
-            if !derivatives.is_empty() {
-                value["derivatives"] = json!(derivatives);
-            }
-            out.json(&value)?;
-        }
+        Format::Json => out.json(&record)?,
         Format::Table => {
             out.text(&point_text(&transmission, &prepared, &solved))?;
-            let text = ratings_text(&ratings);
+            let text = ratings_text(&record.ratings);
             if !text.is_empty() {
                 out.text(&format!("{text}\n"))?;
             }
-            for derivatives in &derivatives {
+            for derivatives in &record.derivatives {
                 out.text(&derivatives_text(derivatives))?;
             }
-            for line in remarks(&resolved, &changed, &known) {
+            for line in remarks(&resolved, &record.changed_from_source, &record.evidence) {
                 out.line(line)?;
             }
         }
@@ -78,7 +61,7 @@ pub fn run(args: &SolveArgs, out: &mut Out) -> Result<End, Failure> {
             solved.notes.iter().any(|n| n.outside > 0)
         } else {
             let grade = Evidence::of_name(what)?;
-            known.first().is_some_and(|w| w.grade >= grade)
+            record.evidence.first().is_some_and(|w| w.grade >= grade)
         };
         if denied {
             let reason = if what == "extrapolation" {

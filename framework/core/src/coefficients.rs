@@ -231,9 +231,9 @@ macro_rules! coefficients {
 }
 
 /// A coefficient of a registered model.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Coefficient {
-    /// Key below `coefficients`.
+    /// Key below `coefficients` in the record of the model.
     pub name: String,
     /// Description.
     pub meaning: String,
@@ -276,7 +276,7 @@ pub struct Changed {
     pub mechanism: &'static str,
     /// Name of the model.
     pub model: &'static str,
-    /// Name of the coefficient.
+    /// Key below `coefficients`.
     pub coefficient: String,
     /// Value in use.
     pub value: f64,

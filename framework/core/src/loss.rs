@@ -21,9 +21,10 @@ pub const MOST_TERMS: usize = 5;
 pub const MOST_KEPT: usize = 6;
 
 /// One named part of a loss, such as rolling, sliding or drag.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, schemars::JsonSchema)]
 pub struct Term {
     /// Index of the term among the terms of its model.
+    #[serde(skip)]
     pub index: usize,
     /// Name as in the source.
     pub name: &'static str,
@@ -397,9 +398,10 @@ fn lasting(text: String) -> &'static str {
 }
 
 /// The range in which a source states its formula to be valid. Outside it the model still returns a result, and this is noted.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Limit {
     /// Index among the limits of its model.
+    #[serde(skip)]
     pub index: usize,
     /// Symbol of the quantity.
     pub name: &'static str,
@@ -407,9 +409,11 @@ pub struct Limit {
     pub meaning: &'static str,
     /// Unit of the range.
     pub unit: &'static str,
-    /// Minimum of the stated range.
+    /// Minimum of the stated range; null if there is none.
+    #[schemars(with = "Option<f64>")]
     pub least: f64,
-    /// Maximum of the stated range.
+    /// Maximum of the stated range; null if there is none.
+    #[schemars(with = "Option<f64>")]
     pub greatest: f64,
     /// Source of the range.
     pub origin: &'static str,
@@ -444,16 +448,17 @@ impl Limit {
 }
 
 /// A quantity that a model reports, such as a coefficient of friction or a film ratio.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, schemars::JsonSchema)]
 pub struct Observed {
     /// Index among the observed quantities of its model.
+    #[serde(skip)]
     pub index: usize,
     /// Symbol.
     pub name: &'static str,
-    /// Unit.
-    pub unit: &'static str,
     /// Name of the quantity, as it stands in a sentence.
     pub meaning: &'static str,
+    /// Unit.
+    pub unit: &'static str,
 }
 
 impl Observed {

@@ -19,28 +19,33 @@ pub trait Rating<M: Mechanism>: Send + Sync {
 }
 
 /// How values of a quantity over a time are combined into one.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum Over {
     /// The minimum is decisive, such as for a safety.
+    #[serde(rename = "minimum")]
     Least,
     /// The maximum is decisive, such as for a temperature.
+    #[serde(rename = "maximum")]
     Greatest,
     /// A life: shares of damage add up, after Palmgren and Miner.
     Damage,
 }
 
 /// One quantity of a rating.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
 pub struct Figure {
     /// Symbol as in the source.
     pub symbol: &'static str,
-    /// Unit of the value; `-` if there is none.
-    pub unit: &'static str,
     /// Name of the quantity, as it stands in a sentence.
     pub meaning: &'static str,
-    /// Combination of its values over a time.
+    /// Unit of the value; `-` if there is none.
+    pub unit: &'static str,
+    /// How values over a time are combined: minimum, maximum, or shares of damage.
+    #[serde(rename = "over_time")]
     pub over: Over,
     /// True for an intermediate that tables of several components omit.
+    #[serde(skip)]
     pub detail: bool,
 }
 

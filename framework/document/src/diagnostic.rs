@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 use annotate_snippets::{AnnotationKind, Level, Origin, Renderer, Snippet};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::code::Code;
@@ -12,7 +13,7 @@ use super::node::Span;
 use super::visible::visible;
 
 /// Severity of a finding.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Severity {
     /// The document cannot be used.
@@ -133,32 +134,36 @@ pub fn classify(findings: &mut [Diagnostic], code: Code) {
 }
 
 /// A finding with its places in files, which it keeps without the texts. Serialised it is a finding of `check --format json`.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[schemars(rename = "Finding")]
 pub struct PlacedDiagnostic {
-    /// How bad it is.
+    /// An error makes the file unusable; a warning should be checked.
     pub severity: Severity,
-    /// Its kind.
+    /// Code of the finding. docs/errors.md lists the codes with cause and help; new ones may be added.
+    #[schemars(with = "String", regex(pattern = "^[EW][0-9]{4}$"))]
     pub code: Code,
-    /// Path in the document; empty where there is none.
+    /// Path in the document; empty if there is none.
     pub path: String,
-    /// What is wrong.
+    /// The problem.
     pub message: String,
-    /// How to fix it.
+    /// How to correct it; null if there is no advice.
     pub help: Option<String>,
-    /// More about it.
+    /// Additional information.
     pub notes: Vec<String>,
-    /// File.
+    /// File; null if the finding has no position.
     pub file: Option<String>,
     /// Line, from one.
+    #[schemars(range(min = 1))]
     pub line: Option<usize>,
     /// Column in characters, from one.
+    #[schemars(range(min = 1))]
     pub column: Option<usize>,
-    /// Other places that explain it.
+    /// Other positions that explain it.
     pub related: Vec<RelatedPlace>,
 }
 
 /// A place that explains a finding.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct RelatedPlace {
     /// The place.
     #[serde(flatten)]
@@ -168,13 +173,15 @@ pub struct RelatedPlace {
 }
 
 /// A place in a file.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct FilePlace {
     /// File.
     pub file: String,
     /// Line, from one.
+    #[schemars(range(min = 1))]
     pub line: usize,
     /// Column in characters, from one.
+    #[schemars(range(min = 1))]
     pub column: usize,
 }
 

@@ -1,13 +1,12 @@
 //! Checked files: text and records.
 
-pub mod document;
+mod record;
 
-use gearloss_framework::document::{Diagnostic, PlacedDiagnostic, Sources, visible_json};
+use gearloss_framework::document::{Diagnostic, visible_json};
 use gearloss_framework::language::Language;
-use gearloss_framework::transmission::{GearState, Transmission};
-use gearloss_studies::bearings::bearing_cards;
 use gearloss_studies::checked::{CheckedGearbox, out_of_bounds, overloaded};
-use serde_json::{Map, Value, json};
+
+pub use record::{CheckRecord, FileRecord};
 
 use crate::card::{card, stage_lines};
 use crate::page::outside;
@@ -76,63 +75,4 @@ pub fn checked_text(file: &str, checked: &CheckedGearbox) -> String {
         text.push_str(&format!("  {line}\n"));
     }
     text
-}
-
-/// The same as a record, with the resolved description if `with_resolved`.
-fn checked_json(checked: &CheckedGearbox, with_resolved: bool) -> Map<String, Value> {
-    let CheckedGearbox {
-        resolved, transmission, ..
-    } = checked;
-    let states: Vec<&str> = transmission.states().iter().map(|s| s.name.as_str()).collect();
-    let notes: Vec<&String> = resolved
-        .unreached
-        .iter()
-        .chain(&resolved.without)
-        .chain(&resolved.designations)
-        .collect();
-    let mut built = Map::new();
-    built.insert("parts".to_owned(), transmission.parts().len().into());
-    built.insert("gear_states".to_owned(), json!(states));
-    built.insert("stages".to_owned(), json!(transmission.stages().collect::<Vec<_>>()));
-    built.insert("bearings".to_owned(), json!(bearing_cards(checked)));
-    let fill = transmission.oil_fill().map(|(volume, mass)| {
-        json!({ "volume_l": 1e3 * volume, "mass_kg": mass, "temperature_degc": transmission.oil_temperature })
-    });
-    built.insert("oil".to_owned(), json!(fill));
-    built.insert("ratios".to_owned(), ratios(transmission));
-    built.insert("notes".to_owned(), json!(notes));
-    built.insert("changed_from_source".to_owned(), json!(checked.changed));
-    built.insert(
-        "weakest_evidence".to_owned(),
-        checked.evidence.first().map_or(
-            Value::Null,
-            |weak| json!({ "grade": weak.grade.name(), "what": weak.what, "because": weak.because }),
-        ),
-    );
-    if with_resolved {
-        built.insert("resolved".to_owned(), resolved.value.clone());
-    }
-    built
-}
-
-/// Warnings of a valid gearbox with file, line and column.
-fn warnings(checked: &CheckedGearbox) -> Vec<PlacedDiagnostic> {
-    placed(&checked.warnings(), &checked.gearbox.sources)
-}
-
-/// The ratio from the reference port to each other port for each gear.
-fn ratios(t: &Transmission) -> Value {
-    let from = &t.ports()[t.reference_port()].name;
-    let of_gear = |(i, gear): (usize, &GearState)| {
-        let ratios = t.ratios(i).into_iter();
-        ratios
-            .map(|(to, ratio)| json!({ "gear": gear.name, "from": from, "to": t.ports()[to].name, "ratio": ratio }))
-            .collect::<Vec<_>>()
-    };
-    t.states().iter().enumerate().flat_map(of_gear).collect()
-}
-
-/// Findings with file, line and column instead of spans.
-fn placed(list: &[Diagnostic], sources: &Sources) -> Vec<PlacedDiagnostic> {
-    list.iter().map(|finding| sources.placed(finding)).collect()
 }

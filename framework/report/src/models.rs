@@ -1,8 +1,8 @@
 //! Mechanisms and models of a program: tables and records.
 
 mod checks;
-mod json;
 mod ratings;
+mod record;
 
 use gearloss_framework::coefficients::COEFFICIENTS;
 use gearloss_framework::document::records_by_type;
@@ -11,8 +11,8 @@ use gearloss_framework::registry::{Entry, MechanismEntry};
 use serde_json::Value;
 
 pub use checks::ChecksText;
-pub use json::models_json;
 pub use ratings::{rating_text, ratings_list};
+pub use record::ModelsRecord;
 
 use crate::text::{Lines, TextTable, significant};
 

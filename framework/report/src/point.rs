@@ -5,6 +5,7 @@ mod explain;
 mod explained;
 mod network;
 mod ratings;
+mod record;
 
 use std::fmt::Display;
 
@@ -13,17 +14,16 @@ use gearloss_framework::loads::SupportLoad;
 use gearloss_framework::resolve::Resolved;
 use gearloss_framework::transmission::Transmission;
 use gearloss_studies::analyses::balance::BalanceOfPoint;
-use gearloss_studies::analyses::numbers::{RPM, tidy};
+use gearloss_studies::analyses::numbers::RPM;
 use gearloss_studies::points::{Found, PreparedPoint, STATIC_SAFETY, SUMS, SelfLocking, SolvedPoint, WeakPoint, sums};
-use serde::Serialize;
-use serde_json::{Value, json};
 
 pub use derivatives::derivatives_text;
 use explain::{explain_heat_path, explain_part};
 pub use explained::Explained;
-use network::{network_json, network_text};
+use network::network_text;
 use ratings::explain_ratings;
 pub use ratings::{rating_lines, ratings_text};
+pub use record::PointRecord;
 
 use crate::page::outside;
 use crate::text::{TextTable, fixed, number, significant};
@@ -220,111 +220,4 @@ pub fn temperature_text(transmission: &Transmission, warm: &Found) -> String {
 fn multiplied(solution: &Solution<'_>) -> Option<f64> {
     let input = solution.input_power().filter(|input| *input > 0.0)?;
     Some(solution.largest_power() / input)
-}
-
-/// The usual sums by their names.
-fn by_name(sums: [f64; 6]) -> Value {
-    let named = SUMS.iter().zip(sums);
-    named
-        .map(|((name, _), watts)| ((*name).to_owned(), json!(watts)))
-        .collect()
-}
-
-/// A solved point as a record of the format `gearloss-point/1`; `packages` are the crates with models.
-pub fn point_json(
-    transmission: &Transmission,
-    prepared: &PreparedPoint,
-    solved: &SolvedPoint<'_>,
-    packages: impl Serialize,
-) -> Value {
-    let (solution, found) = (&solved.solution, &solved.found);
-    // Without a power flow loads and losses are null.
-    let flow = solution.has_flow();
-    let known = |value: f64| flow.then_some(value);
-    let ports: Vec<Value> = transmission
-        .ports()
-        .iter()
-        .enumerate()
-        .map(|(i, port)| {
-            let (speed, torque) = (solution.speed(port.member), solution.known_torque(i));
-            let power = torque.map(|torque| speed * torque);
-            json!({ "port": port.name, "speed_rpm": tidy(speed * RPM), "torque_nm": torque, "power_w": power })
-        })
-        .collect();
-    let members: Vec<Value> = transmission
-        .members()
-        .iter()
-        .enumerate()
-        .map(|(i, name)| json!({ "member": name, "speed_rpm": tidy(solution.speed(i) * RPM) }))
-        .collect();
-    let loads: Vec<Value> = transmission
-        .supports()
-        .iter()
-        .enumerate()
-        .map(|(i, path)| {
-            let load = solution.load(i);
-            let most = solution
-                .most_loaded(i)
-                .filter(|_| flow)
-                .map(|load| json!({ "radial_n": load.radial, "axial_n": load.axial, "tilting_nm": load.tilting }));
-            json!({
-                "support": path, "radial_n": known(load.radial), "axial_n": known(load.axial), "tilting_nm": known(load.tilting),
-                "most_loaded_planet": most, "static_safety": solution.static_safety(i),
-            })
-        })
-        .collect();
-    let parts: Vec<Value> = solution
-        .parts()
-        .map(|(part, loss)| {
-            let entry = &transmission.instances()[part.notes.instance()].entry;
-            let terms: Vec<Value> = entry
-                .terms
-                .iter()
-                .map(|t| json!({ "term": t.name, "load_dependent": t.load_dependent, "loss_w": known(loss.term_watts(t.index)) }))
-                .collect();
-            json!({
-                "part": part.path,
-                "mechanism": part.mechanism,
-                "model": entry.name,
-                "count": part.count,
-                "relative_speed_rpm": tidy(loss.speed * RPM),
-                "moment_of_one_nm": loss.moment().filter(|_| flow),
-                "loss_w": loss.result.is_ok().then(|| loss.watts()).filter(|_| flow),
-                "undefined": loss.result.err().filter(|_| flow).map(|e| e.to_string()),
-                "terms": terms,
-            })
-        })
-        .collect();
-    json!({
-        "format": "gearloss-point/1",
-        "gearloss": env!("CARGO_PKG_VERSION"),
-        "gear": prepared.gear,
-        "power_flow": prepared.flow,
-        "status": solution.status(),
-        "efficiency": solution.efficiency(),
-        "loss_w": solution.loss(),
-        "loss_torque_nm": solution.loss_torque(),
-        "power": {
-            "input_w": solution.input_power(),
-            "output_w": solution.output_power(),
-            "loss_w": solution.loss(),
-            "residual_w": solution.residual(),
-            "largest_internal_power_w": known(solution.largest_power()),
-            "largest_internal_over_input": multiplied(solution),
-        },
-        "sums_w": sums(transmission, solution).map(by_name),
-        "ports": ports,
-        "members": members,
-        "stages": transmission.stages().collect::<Vec<_>>(),
-        "supports": loads,
-        "parts": parts,
-        "packages": packages,
-        "self_locking": solved.locking,
-        // Without a heat balance there is no oil temperature; the losses are at another one.
-        "oil_temperature_degc": found.is_sound().then_some(found.oil),
-        "evaluated_at_degc": found.oil,
-        "balance": found.balance.as_ref().map(|b| BalanceOfPoint::new(transmission, b)),
-        "network": found.network.as_ref().map(|n| network_json(transmission, n)),
-        "notes": solved.notes,
-    })
 }

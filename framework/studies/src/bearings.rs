@@ -18,7 +18,8 @@ pub struct BearingCard {
     pub at_mm: f64,
     /// Designation; null if the data are stated.
     pub designation: Option<String>,
-    /// Directions in which it takes thrust of the shaft: `none`, `left`, `right` or `both`.
+    /// Directions in which it takes thrust of the shaft.
+    #[schemars(extend("enum" = ["none", "left", "right", "both"]))]
     pub axial: String,
     /// Dynamic load rating. [N]
     pub c_n: Option<f64>,

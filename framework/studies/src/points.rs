@@ -23,5 +23,5 @@ pub use notes::{
 pub use pieces::{MOST_IN_FLIGHT, Make, Numbered, Piece, solve_pieces, take_points};
 pub use prepared::{PreparedPoint, SolvedPoint};
 pub use rows::{OnRig, Rows, SolvedRows};
-pub use sums::{SUMS, sum_of, sums};
+pub use sums::{SUMS, Sums, sum_of, sums};
 pub use temperature::{Found, OilTemperature};

@@ -20,7 +20,7 @@ pub struct RatedComponent {
     pub rating: &'static str,
     /// Lowest evidence grade of the rating.
     pub evidence: Evidence,
-    /// Why there are no quantities; absent if the rating is defined.
+    /// Why there are no quantities; null if the rating is defined.
     pub undefined: Option<String>,
     /// Its quantities.
     pub quantities: Vec<RatedQuantity>,

@@ -1,8 +1,8 @@
-//! The schema of results: the head, and one record of results for each linked analysis.
+//! Schemas of outputs: of results, with a head and one record for each linked analysis, and of documents with one type.
 
-use schemars::Schema;
 use schemars::generate::SchemaSettings;
 use schemars::transform::{RecursiveTransform, Transform as _};
+use schemars::{JsonSchema, Schema};
 use serde_json::{Value, json};
 
 use crate::analyses::AnalysisKind;
@@ -31,6 +31,14 @@ pub fn schema() -> Value {
         "anyOf": outcomes,
         "definitions": definitions.into_iter().collect::<serde_json::Map<String, Value>>(),
     })
+}
+
+/// The JSON Schema (draft-07) of another output of the program, such as a solved point.
+pub fn schema_of<T: JsonSchema>() -> Value {
+    let generator = SchemaSettings::draft07().for_serialize().into_generator();
+    let mut schema = generator.into_root_schema_for::<T>();
+    RecursiveTransform(close).transform(&mut schema);
+    schema.to_value()
 }
 
 /// Records have no additional keys. A record with several forms has the keys of all forms.

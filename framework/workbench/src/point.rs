@@ -1,16 +1,13 @@
 //! A solved point: the record and text of `gearloss solve`, losses of the components, and how the temperature was found.
 
-use gearloss_framework::coefficients::changed_from_source;
 use gearloss_framework::files::SharedSource;
 use gearloss_framework::language::Language;
 use gearloss_report::html::{losses_of_parts, waterfall};
 use gearloss_report::picture::Picture;
-use gearloss_report::point::{Explained, outside_ranges, point_json, point_text, ratings_text, remarks};
+use gearloss_report::point::{Explained, PointRecord, outside_ranges, point_text, ratings_text, remarks};
 use gearloss_studies::analyses::progress::Progress;
-use gearloss_studies::points::{SolvedPoint, evidence};
-use gearloss_studies::ratings::rated;
+use gearloss_studies::points::SolvedPoint;
 use serde::Serialize;
-use serde_json::{Value, json};
 
 use crate::answer::Fault;
 use crate::chosen::Chosen;
@@ -21,7 +18,7 @@ use crate::request::PointOf;
 #[derive(Debug, Serialize)]
 pub struct PointAnswer {
     /// The record of `gearloss solve --format json`.
-    pub point: Value,
+    pub point: PointRecord,
     /// The text of `gearloss solve`.
     pub text: String,
     /// Status of the power flow.
@@ -76,19 +73,10 @@ pub fn point(
     let mut scratch = transmission.scratch(&prepared.case);
     let solved = prepared.solve(transmission, &mut scratch);
     let (solution, found) = (&solved.solution, &solved.found);
-    let ratings = gearbox.ratings(language, resolved, transmission)?;
-    let ratings = rated(&ratings, transmission, solution);
-    let known = evidence(transmission, resolved, &|path| gearbox.places.is_written(path));
-    let changed = changed_from_source(transmission, resolved);
-    let mut record = point_json(transmission, &prepared, &solved, language.registry().packages());
-    record["ratings"] = json!(ratings);
-    record["evidence"] = json!(known);
-    record["unreached"] = json!(resolved.unreached);
-    record["changed_from_source"] = json!(changed);
+    let record = PointRecord::new(language, (gearbox, resolved, transmission), &prepared, &solved)?;
     let flow = solution.has_flow();
     Ok(PointAnswer {
-        point: record,
-        text: point_text(transmission, &prepared, &solved) + &ratings_text(&ratings),
+        text: point_text(transmission, &prepared, &solved) + &ratings_text(&record.ratings),
         status: solution.status().name(),
         loss: solution.loss(),
         efficiency: solution.efficiency(),
@@ -104,8 +92,9 @@ pub fn point(
         remarks: outside_ranges(&solved)
             .lines()
             .map(str::to_owned)
-            .chain(remarks(resolved, &changed, &known))
+            .chain(remarks(resolved, &record.changed_from_source, &record.evidence))
             .collect(),
+        point: record,
     })
 }
 

@@ -1,11 +1,12 @@
 //! Stage data: the derived geometry of every mesh in common units, and the ratio of every gear state.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::{Case, Transmission};
 
 /// Derived geometry of one mesh; values of two gears in the order of `gears`.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Stage {
     /// Path of the mesh.
     pub mesh: String,
@@ -29,11 +30,11 @@ pub struct Stage {
     pub working_pressure_angle_deg: f64,
     /// Base helix angle beta_b. [deg]
     pub base_helix_angle_deg: f64,
-    /// Transverse contact ratio eps_alpha; `None` if the pair is treated as pitch circles. [-]
+    /// Transverse contact ratio eps_alpha; null if the pair is treated as pitch circles. [-]
     pub transverse_contact_ratio: Option<f64>,
     /// Overlap contact ratio eps_beta. [-]
     pub overlap_contact_ratio: f64,
-    /// Common face width of both gears. [mm]
+    /// Face width that both gears share. [mm]
     pub face_overlap_mm: f64,
     /// Face widths. [mm]
     pub facewidth_mm: [f64; 2],
@@ -43,17 +44,17 @@ pub struct Stage {
     pub base_diameter_mm: [f64; 2],
     /// Working pitch diameters d_w. [mm]
     pub pitch_diameter_mm: [f64; 2],
-    /// Tip diameters d_a, written or of the standard basic rack. [mm]
+    /// Tip diameters d_a, stated or from the standard basic rack. [mm]
     pub tip_diameter_mm: [f64; 2],
-    /// Root diameters d_f, written or of the standard basic rack. [mm]
+    /// Root diameters d_f, stated or from the standard basic rack. [mm]
     pub root_diameter_mm: [f64; 2],
-    /// Clearances between the tip of each gear and the root of its mate; `None` if the pair is treated as pitch circles. [mm]
+    /// Clearances between the tip of each gear and the root of its mate; null if the pair is treated as pitch circles. [mm]
     pub tip_clearance_mm: Option<[f64; 2]>,
-    /// Normal tooth widths at the tips; `None` for a ring gear and for pitch circles. [mm]
+    /// Normal tooth widths at the tips; null for a ring gear and for pitch circles. [mm]
     pub tip_width_mm: [Option<f64>; 2],
-    /// Profile shift coefficients below which a standard rack undercuts the teeth; `None` for a ring gear. [-]
+    /// Profile shift coefficients below which a standard rack undercuts the teeth; null for a ring gear. [-]
     pub undercut_limit: [Option<f64>; 2],
-    /// Specific sliding of each gear at the lowest point of its contacting flank; `None` for pitch circles. [-]
+    /// Specific sliding of each gear at the lowest point of its contacting flank; null for pitch circles. [-]
     pub specific_sliding: Option<[f64; 2]>,
 }
 
@@ -98,7 +99,7 @@ impl Transmission {
         })
     }
 
-    /// The case of a gear state in which the reference port has the single given speed and the first given torque; `None` if its
+    /// The case of a gear state in which the reference port has the single given speed and the first given torque; null if its
     /// speed does not determine all others.
     pub fn case_at_reference(&self, state: usize) -> Option<Case> {
         let reference = &self.ports[self.reference_port()].name;
@@ -112,7 +113,7 @@ impl Transmission {
             .flatten()
     }
 
-    /// Speed of the reference port over that of each other port in a gear state, by port; `None` if that port is stationary, and
+    /// Speed of the reference port over that of each other port in a gear state, by port; null if that port is stationary, and
     /// empty if the speed of the reference port does not determine all others.
     pub fn ratios(&self, state: usize) -> Vec<(usize, Option<f64>)> {
         let reference = self.reference_port();

@@ -1,17 +1,15 @@
 //! Ratings of a program: tables and records.
 
 use gearloss_framework::language::{Kind, Language};
-use gearloss_framework::rating::Over;
 use gearloss_framework::registry::RatingPlugin;
 use gearloss_framework::resolve::RATINGS;
-use serde_json::{Value, json};
+use serde_json::Value;
 
-use super::json::parameter;
 use super::ranges_and_evidence;
 use crate::text::{Lines, TextTable, significant};
 
 /// Names and schemas of the parameters of a rating, from the schema of gearboxes.
-fn parameters(rating: &RatingPlugin, schema: &Value) -> Vec<(String, Value)> {
+pub(super) fn parameters(rating: &RatingPlugin, schema: &Value) -> Vec<(String, Value)> {
     let choice = &schema["properties"][RATINGS]["properties"][rating.entry.name];
     let records = choice["anyOf"].as_array().into_iter().flatten();
     let fields = records.filter_map(|record| record["properties"].as_object()).flatten();
@@ -67,33 +65,4 @@ pub fn rating_text(language: &Language, rating: &RatingPlugin) -> String {
     }
     ranges_and_evidence(&mut out, entry);
     out.into_text()
-}
-
-/// Name of a combination over a time.
-fn over(over: Over) -> &'static str {
-    match over {
-        Over::Least => "minimum",
-        Over::Greatest => "maximum",
-        Over::Damage => "damage",
-    }
-}
-
-/// A rating as a record of the format `gearloss-models/1`.
-pub(super) fn rating_json(rating: &RatingPlugin, schema: &Value) -> Value {
-    let entry = &rating.entry;
-    let parameters = parameters(rating, schema);
-    json!({
-        "rating": entry.name,
-        "mechanism": entry.mechanism,
-        "meaning": entry.meaning(),
-        "source": entry.source,
-        "package": entry.origin.package.name,
-        "parameters": parameters.iter().map(|(name, field)| parameter(name, field)).collect::<Vec<_>>(),
-        "quantities": rating.figures.iter().map(|f| json!({
-            "symbol": f.symbol, "meaning": f.meaning, "unit": f.unit, "over_time": over(f.over),
-        })).collect::<Vec<_>>(),
-        "limits": entry.limits.iter().map(super::json::limit).collect::<Vec<_>>(),
-        "evidence": super::json::evidence(entry),
-        "checks": super::json::checks(entry),
-    })
 }

@@ -1,10 +1,11 @@
-//! The steady state of a thermal network as text and as JSON.
+//! The steady state of a thermal network as text and as a record.
 
 use gearloss_framework::thermal::Outcome;
 use gearloss_framework::thermal::network::Steady;
 use gearloss_framework::transmission::Transmission;
 use gearloss_studies::analyses::balance::reason;
-use serde_json::{Value, json};
+use schemars::JsonSchema;
+use serde::Serialize;
 
 use crate::text::{TextTable, significant};
 
@@ -48,38 +49,75 @@ pub(super) fn network_text(transmission: &Transmission, steady: &Steady) -> Stri
     text
 }
 
-/// The nodes and the heat paths.
-pub(super) fn network_json(transmission: &Transmission, steady: &Steady) -> Value {
-    let Some(network) = transmission.network() else {
-        return Value::Null;
-    };
-    let found = steady.outcome == Outcome::Converged;
-    let nodes: Vec<Value> = network
-        .names()
-        .iter()
-        .enumerate()
-        .map(|(i, name)| {
-            let held = network.is_held(i);
-            json!({
-                "node": name,
-                "temperature_degc": found.then_some(steady.temperatures[i]),
-                "heat_in_w": steady.heat.get(i),
-                "heat_out_w": steady.leaving.held.get(i).filter(|_| held),
-            })
+/// Steady state of a thermal network.
+#[derive(Debug, Serialize, JsonSchema)]
+#[schemars(rename = "Network")]
+pub struct NetworkRecord {
+    /// Status of the search for its temperatures.
+    #[schemars(extend("enum" = ["converged", "none_below_maximum", "undefined", "no_convergence"]))]
+    outcome: Outcome,
+    /// Evaluations of the losses.
+    evaluations: usize,
+    /// Nodes, the surroundings first.
+    nodes: Vec<NodeRecord>,
+    /// Heat exchangers.
+    exchangers: Vec<ExchangerRecord>,
+    /// Heat removed by oil flows. [W]
+    carried_away_w: f64,
+    /// Heat flow in minus heat flow out. [W]
+    residual_w: f64,
+    /// Why there are no temperatures; null if there are.
+    undefined: Option<String>,
+}
+
+/// One node.
+#[derive(Debug, Serialize, JsonSchema)]
+#[schemars(rename = "Node")]
+struct NodeRecord {
+    /// Name.
+    node: String,
+    /// Temperature; null if none was found. [degC]
+    temperature_degc: Option<f64>,
+    /// Heat of losses, motors and sources into the node; null if there is no balance. [W]
+    heat_in_w: Option<f64>,
+    /// Heat flow of the links into a node of prescribed temperature; null for other nodes. [W]
+    heat_out_w: Option<f64>,
+}
+
+/// One heat exchanger.
+#[derive(Debug, Serialize, JsonSchema)]
+#[schemars(rename = "Exchanger")]
+struct ExchangerRecord {
+    /// Path.
+    exchanger: String,
+    /// Heat through it. [W]
+    heat_w: f64,
+}
+
+impl NetworkRecord {
+    /// The nodes and the heat paths; nothing without a network.
+    pub(super) fn new(transmission: &Transmission, steady: &Steady) -> Option<Self> {
+        let network = transmission.network()?;
+        let found = steady.outcome == Outcome::Converged;
+        let node = |(i, name): (usize, &String)| NodeRecord {
+            node: name.clone(),
+            temperature_degc: found.then(|| steady.temperatures[i]),
+            heat_in_w: steady.heat.get(i).copied(),
+            heat_out_w: steady.leaving.held.get(i).copied().filter(|_| network.is_held(i)),
+        };
+        let exchanger = |(path, heat): (&str, &f64)| ExchangerRecord {
+            exchanger: path.to_owned(),
+            heat_w: *heat,
+        };
+        let exchangers = network.exchangers().zip(&steady.leaving.exchangers);
+        Some(Self {
+            outcome: steady.outcome,
+            evaluations: steady.evaluations,
+            nodes: network.names().iter().enumerate().map(node).collect(),
+            exchangers: exchangers.map(exchanger).collect(),
+            carried_away_w: steady.leaving.flows,
+            residual_w: steady.residual,
+            undefined: steady.undefined.as_ref().map(|why| reason(transmission, why)),
         })
-        .collect();
-    let exchangers: Vec<Value> = network
-        .exchangers()
-        .zip(&steady.leaving.exchangers)
-        .map(|(path, watts)| json!({ "exchanger": path, "heat_w": watts }))
-        .collect();
-    json!({
-        "outcome": steady.outcome,
-        "evaluations": steady.evaluations,
-        "nodes": nodes,
-        "exchangers": exchangers,
-        "carried_away_w": steady.leaving.flows,
-        "residual_w": steady.residual,
-        "undefined": steady.undefined.as_ref().map(|why| reason(transmission, why)),
-    })
+    }
 }

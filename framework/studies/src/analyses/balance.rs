@@ -75,26 +75,28 @@ pub struct BalanceOfSet {
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct BalanceOfPoint {
     /// Result.
+    // Only a network does not converge.
+    #[schemars(extend("enum" = ["converged", "at_discontinuity", "several", "none_below_maximum", "undefined"]))]
     pub outcome: thermal::Outcome,
-    /// Oil temperature used. [degC]
+    /// Oil temperature that is used; null if none was found. [degC]
     pub oil_temperature_degc: Option<f64>,
-    /// Surface temperature there. [degC]
+    /// Temperature of the surface; null if none was found. [degC]
     pub surface_temperature_degc: Option<f64>,
     /// Ambient temperature. [degC]
     pub ambient_degc: f64,
-    /// Stable temperatures, the lowest first.
+    /// All stable temperatures, the lowest first.
     pub stable: Vec<StableTemperature>,
-    /// Heat of each heat path there.
+    /// Heat flow of each heat path; empty if no temperature was found.
     pub ways: Vec<HeatOfPath>,
     /// Heat input in addition to the losses.
     pub sources_w: HeatSources,
-    /// Point at which losses or heat had no value.
+    /// The first temperature at which a law had no value; null if all had one.
     pub undefined: Option<UndefinedBalance>,
     /// Number of steps of the scan, which are first in the history.
     pub scan: usize,
     /// Step of the scan: two balances closer than this may both be missed. [K]
     pub scan_spacing_k: f64,
-    /// All steps.
+    /// All steps in the order of evaluation: the scan, then those of each bracket.
     pub history: Vec<BalanceStep>,
     /// Number of temperatures at which losses and heat were computed.
     #[serde(skip)]
@@ -109,18 +111,18 @@ pub struct BalanceOfPoint {
 pub struct StableTemperature {
     /// Oil temperature. [degC]
     pub oil_temperature_degc: f64,
-    /// Residual there. [W]
+    /// Loss minus heat there. [W]
     pub residual_w: f64,
-    /// Residual just above, if a law is discontinuous there. [W]
+    /// Loss minus heat above a discontinuity of a law; null without a discontinuity. [W]
     pub residual_beyond_jump_w: Option<f64>,
 }
 
 /// Heat of one heat path.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct HeatOfPath {
-    /// Path of its model.
+    /// Path of the heat path in the gearbox.
     pub path: String,
-    /// Heat. [W]
+    /// Heat flow of the path. [W]
     pub heat_w: f64,
 }
 
@@ -138,7 +140,7 @@ pub struct HeatSources {
 pub struct UndefinedBalance {
     /// Oil temperature. [degC]
     pub oil_temperature_degc: f64,
-    /// Why.
+    /// Path and reason.
     pub reason: String,
 }
 
@@ -147,11 +149,11 @@ pub struct UndefinedBalance {
 pub struct BalanceStep {
     /// Oil temperature. [degC]
     pub oil_temperature_degc: f64,
-    /// Losses and other heat sources. [W]
+    /// Sum of all losses. [W]
     pub loss_w: f64,
-    /// Transferred heat. [W]
+    /// Dissipated heat minus the heat input of sources. [W]
     pub heat_w: f64,
-    /// Their difference. [W]
+    /// Loss minus heat. [W]
     pub residual_w: f64,
 }
 

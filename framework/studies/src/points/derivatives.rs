@@ -91,24 +91,25 @@ pub struct Derivative {
     pub of: String,
     /// Unit of the derivative.
     pub unit: String,
-    /// The derivative; absent at a kink.
+    /// The derivative; null at a kink.
     pub value: Option<f64>,
-    /// Its estimated error.
+    /// Its estimated error; null at a kink.
     pub error: Option<f64>,
-    /// At a kink: the derivatives below and above; at a jump they depend on the step.
+    /// At a kink: the derivatives below and above, which depend on the step at a jump; null elsewhere.
     pub kink: Option<[f64; 2]>,
 }
 
 /// The derivatives of a point over one variable.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, schemars::JsonSchema)]
 pub struct Derivatives {
-    /// The variable as written: `torque:PORT`, `speed:PORT`, `oil_temperature` or a path.
+    /// The variable: `torque:PORT`, `speed:PORT`, `oil_temperature` or a path.
     pub variable: String,
-    /// How they were found.
+    /// Exact: by the rules of calculus, from the laws of the models; differences: of some models, or of whole points.
     pub method: Method,
     /// Paths of the models that were differentiated by differences; empty if whole points were, or none.
     pub models: Vec<String>,
-    /// The derivatives of the sum of all losses, of efficiency and balanced oil temperature if there are any, and of each part.
+    /// The derivatives of the sum of all losses, of efficiency and balanced oil temperature if there are any, and of the loss of
+    /// each part.
     pub derivatives: Vec<Derivative>,
 }
 

@@ -3,6 +3,7 @@
 use gearloss_framework::evaluate::{Point, PowerFlow, Solution};
 use gearloss_framework::flow::Status;
 use gearloss_framework::transmission::Transmission;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::PreparedPoint;
@@ -11,13 +12,13 @@ use super::PreparedPoint;
 const HARDER: f64 = 1.5;
 
 /// The direction in which a transmission locks.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct SelfLocking {
-    /// Ports where power would enter without losses.
+    /// Ports that would supply power without losses.
     pub from: Vec<String>,
-    /// Ports where power would leave without losses.
+    /// Ports at which the power would leave.
     pub to: Vec<String>,
-    /// Meshes that lock; empty if a torque at another port maintains the equilibrium.
+    /// Paths of the meshes that lock; empty if a torque at another port maintains the equilibrium.
     pub meshes: Vec<String>,
     /// Efficiency in the other direction; absent if there is none.
     #[serde(skip)]

@@ -25,22 +25,22 @@ pub struct Note {
     pub name: &'static str,
     /// Name of the quantity, as it stands in a sentence.
     pub meaning: &'static str,
-    /// Unit.
+    /// Unit of all values; `-` if there is none.
     pub unit: &'static str,
-    /// Minimum; null if it is not finite.
+    /// Minimum noted value, in `unit`; null if it is not finite.
     #[schemars(with = "Option<f64>")]
     pub least: f64,
-    /// Maximum; null if it is not finite.
+    /// Maximum noted value, in `unit`; null if it is not finite.
     #[schemars(with = "Option<f64>")]
     pub greatest: f64,
-    /// Number of points with the quantity.
+    /// Number of points at which it was noted.
     pub points: u32,
     /// Number of points outside the stated range; zero for an observed quantity.
     pub outside: u32,
-    /// The stated range; absent for an observed quantity.
+    /// The stated range; null for an observed quantity.
     pub range: Option<Stated>,
     /// Loss of its component at the points outside the range as a share of the loss of all components at all points; of a cycle the same
-    /// with energies. Absent if it is not known. [-]
+    /// with energies. Null if it is not known. [-]
     pub loss_share: Option<f64>,
 }
 
@@ -87,7 +87,7 @@ pub struct Stated {
     /// Upper end; null if it is not finite.
     #[schemars(with = "Option<f64>")]
     pub greatest: f64,
-    /// Provenance.
+    /// Origin of the range.
     pub origin: &'static str,
 }
 
@@ -180,9 +180,9 @@ fn note(
 pub struct WeakPoint {
     /// Model, and the parameter if the grade is that of a default.
     pub what: String,
-    /// The grade.
+    /// Evidence grade.
     pub grade: Evidence,
-    /// Reason of the grade.
+    /// Reason or source of the grade.
     pub because: String,
     /// Paths that use it.
     pub paths: Vec<String>,

@@ -3,6 +3,8 @@
 use gearloss_framework::evaluate::{PartLoss, Solution};
 use gearloss_framework::registry::Instance;
 use gearloss_framework::transmission::{PartInfo, Transmission};
+use schemars::JsonSchema;
+use serde::Serialize;
 
 /// Names and meanings of the sums, in order.
 pub const SUMS: [(&str, &str); 6] = [
@@ -13,6 +15,43 @@ pub const SUMS: [(&str, &str); 6] = [
     ("P_VD", "seals"),
     ("P_VX", "others"),
 ];
+
+/// The usual sums of losses.
+#[derive(Debug, Clone, Copy, Serialize, JsonSchema)]
+pub struct Sums {
+    /// Gears, load-dependent. [W]
+    #[serde(rename = "P_VZP")]
+    gears_loaded: f64,
+    /// Gears, load-independent. [W]
+    #[serde(rename = "P_VZ0")]
+    gears_unloaded: f64,
+    /// Bearings, load-dependent. [W]
+    #[serde(rename = "P_VLP")]
+    bearings_loaded: f64,
+    /// Bearings, load-independent. [W]
+    #[serde(rename = "P_VL0")]
+    bearings_unloaded: f64,
+    /// Seals. [W]
+    #[serde(rename = "P_VD")]
+    seals: f64,
+    /// Others. [W]
+    #[serde(rename = "P_VX")]
+    others: f64,
+}
+
+impl From<[f64; 6]> for Sums {
+    /// From the sums in the order of [`SUMS`].
+    fn from(sums: [f64; 6]) -> Self {
+        Self {
+            gears_loaded: sums[0],
+            gears_unloaded: sums[1],
+            bearings_loaded: sums[2],
+            bearings_unloaded: sums[3],
+            seals: sums[4],
+            others: sums[5],
+        }
+    }
+}
 
 /// Index of the sum of a term of a mechanism.
 pub fn sum_of(mechanism: &str, load_dependent: bool) -> usize {

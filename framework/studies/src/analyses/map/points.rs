@@ -14,7 +14,7 @@ use super::super::Run;
 use super::super::limits::at_points::LimitColumn;
 use super::super::numbers::{RPM, tidy, word};
 use super::shown::{Picked, Selection};
-use crate::points::{Numbered, PointResult, SUMS, TotalLoss};
+use crate::points::{Numbered, PointResult, SUMS, Sums, TotalLoss};
 use crate::table::{Column, Table, Values};
 
 /// Columns of a point from its torque to the first sum.
@@ -213,29 +213,6 @@ pub struct MapPoint<'a> {
     undefined: Option<Missing<'a>>,
 }
 
-/// The usual sums of losses.
-#[derive(Debug, Serialize, JsonSchema)]
-struct Sums {
-    /// Gears, load-dependent. [W]
-    #[serde(rename = "P_VZP")]
-    gears_loaded: f64,
-    /// Gears, load-independent. [W]
-    #[serde(rename = "P_VZ0")]
-    gears_unloaded: f64,
-    /// Bearings, load-dependent. [W]
-    #[serde(rename = "P_VLP")]
-    bearings_loaded: f64,
-    /// Bearings, load-independent. [W]
-    #[serde(rename = "P_VL0")]
-    bearings_unloaded: f64,
-    /// Seals. [W]
-    #[serde(rename = "P_VD")]
-    seals: f64,
-    /// Others. [W]
-    #[serde(rename = "P_VX")]
-    others: f64,
-}
-
 /// A loss without a value.
 #[derive(Debug, Serialize, JsonSchema)]
 struct Missing<'a> {
@@ -285,14 +262,7 @@ impl MapPoints {
 
     fn sums(&self, row: usize) -> Option<Sums> {
         let sum = |i: usize| self.number(FIXED + i, row);
-        Some(Sums {
-            gears_loaded: sum(0)?,
-            gears_unloaded: sum(1)?,
-            bearings_loaded: sum(2)?,
-            bearings_unloaded: sum(3)?,
-            seals: sum(4)?,
-            others: sum(5)?,
-        })
+        Some([sum(0)?, sum(1)?, sum(2)?, sum(3)?, sum(4)?, sum(5)?].into())
     }
 
     /// A point by its row of the table; its index in the map is used for undefined losses.
