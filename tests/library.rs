@@ -157,10 +157,9 @@ fn a_study_has_the_digits_of_the_program() {
 }
 
 #[test]
-fn the_readme_shows_lines_of_the_examples() {
-    let readme = std::fs::read_to_string(file("README.md")).unwrap();
-    let (_, below) = readme.split_once("## As a library").unwrap();
-    let (_, code) = below.split_once("```rust\n").unwrap();
+fn the_book_shows_lines_of_the_examples() {
+    let page = std::fs::read_to_string(file("docs/library.md")).unwrap();
+    let (_, code) = page.split_once("```rust\n").unwrap();
     let (code, _) = code.split_once("```").unwrap();
     let example = std::fs::read_to_string(file("examples/one_point.rs")).unwrap();
     let bare = |text: &str| text.lines().map(str::trim).collect::<Vec<&str>>().join("\n");

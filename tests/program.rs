@@ -419,6 +419,42 @@ fn run_writes_csv_and_json_and_prints_tables() {
 }
 
 #[test]
+fn run_answers_first_and_says_that_data_are_synthetic() {
+    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("answered");
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).unwrap();
+    std::fs::copy(common::file(GEARBOX), folder.join("gearbox.yaml")).unwrap();
+    std::fs::copy(common::file("examples/two-speed-ev/rig.csv"), folder.join("rig.csv")).unwrap();
+    let study = "gearloss: study/1\ngearboxes: { ours: gearbox.yaml }\nanswered_by: [last, second]\n\
+        measurements: { rig: { file: rig.csv, about: synthetic, columns: { torque: T_in, speed: n_in, efficiency: eta, oil_temperature: T_oil } } }\n\
+        grids: { few: { gear: first, torque: [5 Nm, 10 Nm], speed: [2000 rpm, 8000 rpm] } }\n\
+        analyses:\n  first: { type: map, grid: few }\n  second: { type: map, grid: few }\n  last: { type: map, grid: few }\n";
+    std::fs::write(folder.join("study.yaml"), study).unwrap();
+    let text = out(&["run", folder.join("study.yaml").to_str().unwrap()]);
+    let begins = |line: &&str| {
+        ["> ", "  first", "measurement"]
+            .iter()
+            .any(|start| line.starts_with(start))
+    };
+    let lines: Vec<&str> = text.lines().filter(begins).collect();
+    assert!(
+        lines[0] == "measurement `rig`: synthetic"
+            && lines[1].starts_with("> last ")
+            && lines[2].starts_with("> second ")
+            && lines[3].starts_with("  first "),
+        "{text}"
+    );
+    let report = std::fs::read_to_string(folder.join("results/report.html")).unwrap();
+    let place = |name: &str| {
+        report
+            .find(&format!("id=\"{name}\""))
+            .unwrap_or_else(|| panic!("no section {name}"))
+    };
+    assert!(place("first") < place("second") && place("second") < place("last"));
+    std::fs::remove_dir_all(&folder).unwrap();
+}
+
+#[test]
 fn a_model_that_a_set_does_not_reach_is_said() {
     let text = out(&["check", GEARBOX, "--models", "joint"]);
     assert!(

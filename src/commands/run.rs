@@ -24,6 +24,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use gearloss_framework::language::Language;
+use gearloss_report::text::with_printed_units;
 use gearloss_studies::checked_study::Reported;
 use gearloss_studies::distinct::distinct;
 use gearloss_studies::study::{Cautions, Study};
@@ -81,12 +82,18 @@ pub(crate) fn all(
     }
     interrupt::listen();
     let (mut failed, mut done_so_far, mut finished) = (0, 0, None);
-    for (name, analysis) in study.entry.analyses.iter() {
+    let answered_by = &study.entry.answered_by;
+    let place = |name: &str| answered_by.iter().position(|own| own == name);
+    let answers = |name: &str| place(name).is_some();
+    // What was asked is answered first.
+    let mut analyses: Vec<_> = study.entry.analyses.iter().collect();
+    analyses.sort_by_key(|(name, _)| place(name).unwrap_or(usize::MAX));
+    for (name, analysis) in analyses {
         let start = Instant::now();
         match runner.attempt(name, analysis, out) {
             Ok(()) => {
                 let result = runner.in_section(|section| section.result());
-                shown.headline(width, name, &result.unwrap_or_default(), start, out)?;
+                shown.headline((width, name), &result.unwrap_or_default(), answers(name), start, out)?;
             }
             Err(failure) => {
                 let Some(text) = failure.text() else {
@@ -97,7 +104,7 @@ pub(crate) fn all(
                 // Finished analyses are kept.
                 failed += 1;
                 write::remove(&runner, name);
-                shown.headline(width, name, "failed", start, out)?;
+                shown.headline((width, name), "failed", answers(name), start, out)?;
                 runner.report.borrow_mut().fail(text);
                 if let Some(text) = unreported(&reported, failure) {
                     Out::error().text(&text)?;
@@ -106,6 +113,7 @@ pub(crate) fn all(
         }
         done_so_far += 1;
     }
+    runner.report.borrow_mut().arrange(&names);
     shown.limits(width, &runner.broken.borrow(), out)?;
     if failed == 0 && finished.is_none() {
         for name in runner.limits_never_known(|_| true) {
@@ -163,7 +171,12 @@ fn head(language: &Language, study: &Study, shown: Shown, out: &mut Out) -> Resu
     if shown.has_headlines() {
         let texts = [&study.entry.title, &study.entry.question];
         for text in texts.into_iter().flatten() {
-            out.line(text)?;
+            out.line(with_printed_units(text))?;
+        }
+        for (name, measured) in study.entry.measurements.iter() {
+            if let Some(about) = &measured.about {
+                out.line(format!("measurement `{name}`: {about}"))?;
+            }
         }
         overridden(study, out)?;
     }
@@ -199,11 +212,11 @@ fn overridden(study: &Study, out: &mut Out) -> Result<(), Failure> {
         let own = thermal["oil"].as_f64().filter(|own| (own - oil).abs() > 1e-9);
         let words = match (own, thermal["mode"].as_str()) {
             (_, Some("balance")) => "the heat balance of".to_owned(),
-            (Some(own), _) if gearbox.places.is_written("thermal.oil") => format!("{own} degC of"),
+            (Some(own), _) if gearbox.places.is_written("thermal.oil") => format!("{own} °C of"),
             _ => continue,
         };
         out.line(format!(
-            "note: `conditions.oil_temperature`, {oil} degC, replaces {words} gearbox `{name}`"
+            "note: `conditions.oil_temperature`, {oil} °C, replaces {words} gearbox `{name}`"
         ))?;
     }
     Ok(())

@@ -26,7 +26,7 @@ pub use ratings::{rating_lines, ratings_text};
 pub use record::PointRecord;
 
 use crate::page::outside;
-use crate::text::{TextTable, fixed, number, significant};
+use crate::text::{TextTable, figures, fixed, number, significant};
 pub use crate::views::balance::{balance_text, over_temperature};
 
 /// Lines on what has no model, on changed coefficients, and on the lowest evidence grade.
@@ -45,21 +45,22 @@ pub fn remarks(resolved: &Resolved, changed: &[impl Display], evidence: &[WeakPo
     lines
 }
 
-/// The point as text and the state of the transmission.
-pub fn heading(transmission: &Transmission, solution: &Solution<'_>, prepared: &PreparedPoint, at: &str) -> String {
-    let mut text = String::new();
-    if !transmission.title().is_empty() {
-        text.push_str(&format!("{}\n", transmission.title()));
-    }
-    text.push_str(&format!(
-        "gear {}, {at}, {} flow\n\n",
-        prepared.gear,
-        if matches!(prepared.flow, PowerFlow::Real) {
-            "real"
-        } else {
-            "ideal"
-        }
-    ));
+/// What is solved: transmission, gear, temperature, kind of flow.
+pub fn heading(transmission: &Transmission, prepared: &PreparedPoint, at: &str) -> String {
+    let title = match transmission.title() {
+        "" => String::new(),
+        title => format!("{title}\n"),
+    };
+    let flow = if matches!(prepared.flow, PowerFlow::Real) {
+        "real"
+    } else {
+        "ideal"
+    };
+    format!("{title}gear {}, {at}, {flow} flow\n", prepared.gear)
+}
+
+/// Speeds, torques and powers at the ports.
+pub fn ports_text(transmission: &Transmission, solution: &Solution<'_>) -> String {
     let mut ports = TextTable::new(&["port", "speed rpm", "torque Nm", "power W"]);
     for (i, port) in transmission.ports().iter().enumerate() {
         let (speed, torque) = (solution.speed(port.member), solution.known_torque(i));
@@ -70,20 +71,21 @@ pub fn heading(transmission: &Transmission, solution: &Solution<'_>, prepared: &
             number(torque.map(|torque| speed * torque), 2),
         ]);
     }
-    text.push_str(&ports.render());
-    text.push('\n');
-    text
+    ports.render() + "\n"
 }
 
 /// A solved point as text: ports, loads, losses, sums, temperatures, and what was outside its stated range.
 pub fn point_text(transmission: &Transmission, prepared: &PreparedPoint, solved: &SolvedPoint<'_>) -> String {
     let (solution, found) = (&solved.solution, &solved.found);
     let at = if found.is_sound() {
-        format!("oil {} degC", significant(found.oil))
+        format!("oil {} °C", figures(found.oil, 4))
     } else {
-        format!("no heat balance, losses at {} degC", significant(found.oil))
+        format!("no heat balance, losses at {} °C", figures(found.oil, 4))
     };
-    let mut text = heading(transmission, solution, prepared, &at);
+    let mut text = heading(transmission, prepared, &at);
+    text.push_str(&answer(solution));
+    text.push('\n');
+    text.push_str(&ports_text(transmission, solution));
     // Without a power flow there are no loads and losses.
     let flow = solution.has_flow();
     if flow && !transmission.supports().is_empty() {
@@ -143,14 +145,6 @@ pub fn point_text(transmission: &Transmission, prepared: &PreparedPoint, solved:
             .collect();
         text.push_str(&format!("sums W: {}\n", words.join(", ")));
     }
-    text.push_str(&format!(
-        "status {}, loss {} W, efficiency {} %, loss torque {} Nm, {} iterations\n",
-        solution.status().name(),
-        number(solution.loss(), 4),
-        number(solution.efficiency().map(|e| 100.0 * e), 4),
-        number(solution.loss_torque(), 6),
-        solution.passes(),
-    ));
     // The internal power exceeds the input only with circulating power.
     if let Some(times) = multiplied(solution).filter(|times| *times > 1.001) {
         text.push_str(&format!(
@@ -165,6 +159,21 @@ pub fn point_text(transmission: &Transmission, prepared: &PreparedPoint, solved:
     text.push_str(&temperature_text(transmission, found));
     text.push_str(&outside_ranges(solved));
     text
+}
+
+/// Loss and efficiency in one line: what a point is solved for.
+fn answer(solution: &Solution<'_>) -> String {
+    let quantity = |name: &str, value: Option<f64>, unit: &str| {
+        let value = value.map_or_else(|| "-".to_owned(), |value| figures(value, 4));
+        format!("{name} {value} {unit}")
+    };
+    format!(
+        "{}, {}, {}; status {}\n",
+        quantity("loss", solution.loss(), "W"),
+        quantity("efficiency", solution.efficiency().map(|e| 100.0 * e), "%"),
+        quantity("loss torque", solution.loss_torque(), "Nm"),
+        solution.status().name(),
+    )
 }
 
 /// What is outside its stated range at a point, a line for each range.

@@ -62,16 +62,22 @@ impl Values {
         self.loss_shares.values().copied().reduce(f64::max)
     }
 
-    /// Which end is exceeded, or both.
+    /// Which bound is exceeded, with the stated range and its unit.
     fn exceeded(&self) -> String {
         let [low, high] = self.ends;
-        if self.greatest <= high {
-            format!("below {}", short(low))
+        let beyond = if self.greatest <= high {
+            "below"
         } else if self.least >= low {
-            format!("above {}", short(high))
+            "above"
         } else {
-            format!("outside {} to {}", short(low), short(high))
-        }
+            "outside"
+        };
+        let bound = match self.ends.map(f64::is_finite) {
+            [true, true] => format!("the stated range {} to {}", short(low), short(high)),
+            [true, false] => short(low),
+            _ => short(high),
+        };
+        format!("{beyond} {bound}{}", unit(self.unit))
     }
 
     fn share_of_points(&self) -> f64 {
@@ -285,14 +291,17 @@ impl Group {
         let Some(all) = &self.values else {
             return format!("{OUTSIDE}{paths}: {name} is outside its validity range in some samples{analyses}");
         };
-        let (range, origin) = &all.range;
+        let ends = match [all.least, all.greatest].map(significant) {
+            [low, high] if low == high => low,
+            [low, high] => format!("{low} to {high}"),
+        };
         format!(
-            "{OUTSIDE}{paths}: {name} {} to {}{} is {range} at {} of {} points ({origin}){analyses}",
-            significant(all.least),
-            significant(all.greatest),
+            "{OUTSIDE}{paths}: {name} {ends}{} is {} at {} of {} points ({}){analyses}",
             unit(all.unit),
+            all.exceeded(),
             all.outside,
-            all.points
+            all.points,
+            all.range.1
         )
     }
 
@@ -363,7 +372,7 @@ mod tests {
         assert_eq!(
             ranges.lines(),
             [
-                "outside: bearings.B1.model, bearings.B2.model: speed factor n_dm 1 to 9 is outside 0 to 5 at 12 of 30 points \
+                "outside: bearings.B1.model, bearings.B2.model: speed factor n_dm 1 to 9 is above the stated range 0 to 5 at 12 of 30 points \
               (catalogue); in map, city"
             ]
         );

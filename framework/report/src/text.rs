@@ -149,6 +149,22 @@ pub fn capitalised(text: &str) -> String {
         .map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
+/// A sentence with the units behind its numbers as they are printed: `100 degC` becomes `100 °C`, `0.2 um` becomes `0.2 µm`.
+pub fn with_printed_units(sentence: &str) -> String {
+    let mut behind_number = false;
+    let word = |word: &str| {
+        let bare = word.trim_end_matches(|letter: char| !letter.is_alphanumeric());
+        let printed = match bare {
+            "degC" if behind_number => word.replacen(bare, "°C", 1),
+            "um" if behind_number => word.replacen(bare, "µm", 1),
+            _ => word.to_owned(),
+        };
+        behind_number = bare.ends_with(|letter: char| letter.is_ascii_digit());
+        printed
+    };
+    sentence.split_inclusive(' ').map(word).collect()
+}
+
 /// A unit behind a further number of a sentence, in which percentage points need no repetition.
 pub fn again(unit: &str) -> String {
     if unit == "percentage points" {
@@ -217,7 +233,7 @@ pub fn spread(count: usize) -> Vec<usize> {
 
 #[cfg(test)]
 mod tests {
-    use super::{fixed, number, range, short, signed};
+    use super::{fixed, number, range, short, signed, with_printed_units};
 
     #[test]
     fn numbers_of_sentences_are_short() {
@@ -229,6 +245,12 @@ mod tests {
         assert_eq!(signed(0.5), "+0.5");
         assert_eq!(range(98.1234, 98.1299, 1), "98.12 to 98.13");
         assert_eq!(range(50.0, 50.0, 1), "50.0");
+    }
+
+    #[test]
+    fn units_behind_numbers_are_printed_as_engineers_write_them() {
+        let text = "At 100 degC, 0.2 um: roughness in um, um zu";
+        assert_eq!(with_printed_units(text), "At 100 °C, 0.2 µm: roughness in um, um zu");
     }
 
     #[test]

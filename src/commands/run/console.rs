@@ -7,6 +7,7 @@ use std::time::Instant;
 use gearloss_report::limits;
 use gearloss_report::page::{Block, Page};
 use gearloss_report::stated_ranges::StatedRanges;
+use gearloss_report::text::with_printed_units;
 use gearloss_studies::analyses::limits::reached::LimitReached;
 
 use crate::args::ShownArgs;
@@ -14,6 +15,8 @@ use crate::output::Out;
 
 /// Lines on quantities outside their ranges.
 const WORST: usize = 3;
+/// Length of a line that does not answer the question of the study; its rest is in the report.
+const LENGTH: usize = 160;
 
 /// How much is printed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -72,23 +75,37 @@ impl Shown {
         Ok(())
     }
 
-    /// The result of an analysis, with its time on a terminal.
-    pub fn headline(self, width: usize, name: &str, result: &str, since: Instant, out: &mut Out) -> io::Result<()> {
+    /// The result of an analysis, with its time on a terminal: a mark and the whole result if it answers the question of the study, else
+    /// what fits a line.
+    pub fn headline(
+        self,
+        (width, name): (usize, &str),
+        result: &str,
+        answers: bool,
+        since: Instant,
+        out: &mut Out,
+    ) -> io::Result<()> {
         if !self.has_headlines() {
             return Ok(());
         }
+        let mark = if answers { ">" } else { " " };
         let time = if out.is_terminal() {
             format!("{:>6.1} s  ", since.elapsed().as_secs_f64())
         } else {
             String::new()
         };
-        out.line(format!("  {name:width$}  {time}{result}"))
+        let (head, result) = (format!("{mark} {name:width$}  {time}"), with_printed_units(result));
+        if answers || self == Self::Everything {
+            return out.line(head + &result);
+        }
+        out.line(on_one_line(head, &result))
     }
 
     /// Limits of the study that are not kept, each with the name of its analysis.
     pub fn limits(self, width: usize, broken: &[(String, LimitReached)], out: &mut Out) -> io::Result<()> {
         for (analysis, limit) in broken.iter().filter(|_| self.has_headlines()) {
-            out.line(format!("  {:width$}  {analysis}: {}", "limit", limits::sentence(limit)))?;
+            let sentence = with_printed_units(&limits::sentence(limit));
+            out.line(format!("  {:width$}  {analysis}: {sentence}", "limit"))?;
         }
         Ok(())
     }
@@ -106,16 +123,46 @@ impl Shown {
         let all = ranges.worst();
         for (i, line) in all.iter().take(WORST).enumerate() {
             let name = if i == 0 { "careful" } else { "" };
-            out.line(format!("  {name:width$}  {line}"))?;
+            out.line(on_one_line(format!("  {name:width$}  "), line))?;
         }
-        if all.len() > WORST {
-            let more = all.len() - WORST;
-            let plural = if more == 1 { "quantity" } else { "quantities" };
-            out.line(format!(
-                "  {:width$}  {more} more {plural} outside their ranges: see the report",
-                ""
-            ))?;
-        }
-        Ok(())
+        let hint = match all.len().saturating_sub(WORST) {
+            0 => return Ok(()),
+            1 => "1 more quantity outside its range".to_owned(),
+            more => format!("{more} more quantities outside their ranges"),
+        };
+        out.line(format!("  {:width$}  {hint}: see the report", ""))
+    }
+}
+
+/// What fits a line, up to the end of a clause where possible.
+fn on_one_line(head: String, sentence: &str) -> String {
+    const REST: &str = " ...";
+    let room = LENGTH.saturating_sub(head.chars().count());
+    if sentence.chars().count() <= room {
+        return head + sentence;
+    }
+    let longest = room.saturating_sub(REST.len());
+    let end = sentence.char_indices().nth(longest).map_or(0, |(at, _)| at);
+    let start = &sentence[..end];
+    let clause = start.rfind("; ").filter(|at| 3 * at > room);
+    let end = clause.or_else(|| start.rfind(' ')).unwrap_or(end);
+    head + sentence[..end].trim_end_matches([',', ';', ':']) + REST
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{LENGTH, on_one_line};
+
+    #[test]
+    fn a_line_ends_with_a_clause_or_a_word() {
+        let head = || "  name  ".to_owned();
+        assert_eq!(on_one_line(head(), "short; whole"), "  name  short; whole");
+        let long = format!("{}; {}", "loss 5 W ".repeat(8).trim(), "and more ".repeat(20));
+        assert_eq!(
+            on_one_line(head(), &long),
+            format!("  name  {} ...", "loss 5 W ".repeat(8).trim())
+        );
+        let words = on_one_line(head(), &"µ ".repeat(200));
+        assert!(words.chars().count() <= LENGTH && words.ends_with("µ ..."), "{words}");
     }
 }

@@ -78,7 +78,7 @@ pub fn explain_part(
     for changed in changed.iter().filter_map(|changed| changed.below(base)) {
         out.line(format!("  note: {changed}"));
     }
-    out.line("  inputs (SI, temperatures in degC):");
+    out.line("  inputs (SI, temperatures in °C):");
     if let Some(entry) = lookup(&resolved.value, base) {
         inputs(base, entry, gearbox, resolved, out);
     }
@@ -122,7 +122,7 @@ pub fn explain_heat_path(
         out.text(&source(path, &instance.entry));
     }
     out.line(format!(
-        "oil {} degC, surface {} degC",
+        "oil {} °C, surface {} °C",
         significant(oil),
         significant(surface)
     ));
@@ -132,7 +132,7 @@ pub fn explain_heat_path(
         Ok(heat) => out.line(format!("  heat: {} W", significant(heat))),
         Err(undefined) => out.line(format!("  {undefined}")),
     }
-    out.line("  inputs (SI, temperatures in degC):");
+    out.line("  inputs (SI, temperatures in °C):");
     for place in [path.as_str(), "housing.outside"] {
         if let Some(entry) = lookup(&resolved.value, place) {
             inputs(place, entry, gearbox, resolved, out);

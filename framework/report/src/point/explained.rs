@@ -8,8 +8,8 @@ use gearloss_framework::resolve::Resolved;
 use gearloss_framework::transmission::Transmission;
 use gearloss_studies::points::{PreparedPoint, SolvedPoint};
 
-use super::{explain_heat_path, explain_part, explain_ratings, heading, locking_text, temperature_text};
-use crate::text::significant;
+use super::{explain_heat_path, explain_part, explain_ratings, heading, locking_text, ports_text, temperature_text};
+use crate::text::figures;
 
 /// What is explained: components and heat paths that a name matches, by path, by id, or by the start of a path.
 #[derive(Debug, Clone)]
@@ -54,8 +54,9 @@ impl Explained {
         solved: &SolvedPoint<'_>,
     ) -> String {
         let found = &solved.found;
-        let at = format!("oil {} degC", significant(found.oil));
-        let mut text = heading(transmission, &solved.solution, prepared, &at);
+        let at = format!("oil {} °C", figures(found.oil, 4));
+        let mut text = heading(transmission, prepared, &at) + "\n";
+        text += &ports_text(transmission, &solved.solution);
         if let Some(locking) = &solved.locking {
             text = text + &locking_text(locking) + "\n";
         }

@@ -29,15 +29,11 @@ pub fn balance_text(balance: &BalanceOfPoint, above: bool) -> String {
     let mut text = format!("balance: {}", balance.outcome.name());
     if let (Some(oil), Some(surface)) = (balance.oil_temperature_degc, balance.surface_temperature_degc) {
         text.push_str(&format!(
-            ", oil {oil:.2} degC, surface {surface:.2} degC, surroundings {} degC",
+            ", oil {oil:.2} °C, surface {surface:.2} °C, surroundings {} °C",
             significant(balance.ambient_degc)
         ));
     }
-    text.push_str(&format!(
-        ", {} evaluations, scanned in steps of {} K\n",
-        balance.evaluations,
-        significant(balance.scan_spacing_k)
-    ));
+    text.push('\n');
     for path in &balance.ways {
         text.push_str(&format!("  {} transfers {:.3} W\n", path.path, path.heat_w));
     }
@@ -51,7 +47,7 @@ pub fn balance_text(balance: &BalanceOfPoint, above: bool) -> String {
     for root in &balance.stable {
         if let Some(beyond) = root.residual_beyond_jump_w {
             text.push_str(&format!(
-                "  discontinuity at {:.4} degC: residual {:.4} W below and {:.4} W above\n",
+                "  discontinuity at {:.4} °C: residual {:.4} W below and {:.4} W above\n",
                 root.oil_temperature_degc, root.residual_w, beyond
             ));
         }
@@ -64,13 +60,13 @@ pub fn balance_text(balance: &BalanceOfPoint, above: bool) -> String {
                 .map(|r| format!("{:.2}", r.oil_temperature_degc))
                 .collect();
             text.push_str(&format!(
-                "  several stable temperatures: {} degC; the lowest is used\n",
+                "  several stable temperatures: {} °C; the lowest is used\n",
                 all.join(", ")
             ));
         }
         Outcome::NoneBelowMaximum => {
             text.push_str(&format!(
-                "  losses exceed the transferred heat up to {} degC",
+                "  losses exceed the transferred heat up to {} °C",
                 significant(balance.maximum_degc)
             ));
             text.push_str(if above {
@@ -81,7 +77,7 @@ pub fn balance_text(balance: &BalanceOfPoint, above: bool) -> String {
         }
         Outcome::Undefined if above => {
             text.push_str(&format!(
-                "  the losses above are at {} degC\n",
+                "  the losses above are at {} °C\n",
                 significant(balance.maximum_degc)
             ));
         }
@@ -89,13 +85,14 @@ pub fn balance_text(balance: &BalanceOfPoint, above: bool) -> String {
     }
     if let Some(undefined) = &balance.undefined {
         text.push_str(&format!(
-            "  no value at {:.2} degC: {}\n",
+            "  no value at {:.2} °C: {}\n",
             undefined.oil_temperature_degc, undefined.reason
         ));
     }
     text
 }
-/// Losses and heat over temperature; temperature and residual over the steps after the scan.
+
+/// Losses and heat over temperature; temperature and residual over the steps of the search.
 fn figures(name: &str, balance: &BalanceOfPoint, page: &mut Page) {
     let title = format!("{name}: losses and transferred heat");
     page.figure(name, over_temperature(&title, balance));
@@ -110,7 +107,7 @@ fn figures(name: &str, balance: &BalanceOfPoint, page: &mut Page) {
         stroke: Stroke::Marked,
     };
     let temperature = [line("oil temperature", &|s| Some(s.oil_temperature_degc))];
-    let title = format!("{name}: temperature over the steps after the scan");
+    let title = format!("{name}: temperature over the steps of the search");
     page.figure(
         format!("{name}-steps"),
         figure(title, "step", "degC", temperature.to_vec()),
@@ -120,7 +117,7 @@ fn figures(name: &str, balance: &BalanceOfPoint, page: &mut Page) {
         let share = (s.residual_w / s.loss_w).abs();
         (share > 0.0 && share.is_finite()).then(|| share.log10())
     })];
-    let title = format!("{name}: residual over the steps after the scan");
+    let title = format!("{name}: residual over the steps of the search");
     let figure = figure(title, "step", "log10 of residual / loss", residual.to_vec());
     page.figure(format!("{name}-residual"), figure);
 }
