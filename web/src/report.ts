@@ -102,13 +102,24 @@ function navigation(): void {
     const section = document.getElementById(id);
     if (section) watcher.observe(section);
   }
-  // A link to something in folded details opens them.
-  const open = () => {
-    const target = document.getElementById(decodeURIComponent(location.hash.slice(1)));
-    for (let e = target?.parentElement; e; e = e.parentElement) if (e instanceof HTMLDetailsElement) e.open = true;
-  };
-  addEventListener("hashchange", open);
-  if (location.hash) open();
+  document.addEventListener("click", (event) => {
+    const link = (event.target as Element).closest<HTMLAnchorElement>("a[href^='#']");
+    if (link) ready(link.hash);
+  });
+  addEventListener("hashchange", () => ready(location.hash));
+  if (location.hash) ready(location.hash)?.scrollIntoView();
+}
+
+/** Prepares a jump: opens the details around the target, and draws the pictures before it, so that its place does not change any more. */
+function ready(hash: string): Element | null {
+  const target = document.getElementById(decodeURIComponent(hash.slice(1)));
+  if (!target) return null;
+  for (let e = target.parentElement; e; e = e.parentElement) if (e instanceof HTMLDetailsElement) e.open = true;
+  for (const host of hosts) {
+    const before = host.compareDocumentPosition(target) & Node.DOCUMENT_POSITION_FOLLOWING;
+    if (before && !host.closest("details:not([open])")) show(host);
+  }
+  return target;
 }
 
 /** Width of one of two columns in pixels: paper shows pictures at 80 % of their size, and A4 has 703 pixels between its margins. */

@@ -30,7 +30,7 @@ async function open(width, height, scheme = "light") {
   page.on("console", (message) => faults.push(`console: ${message.text()}`));
   page.on("pageerror", (fault) => faults.push(`error: ${fault.message}`));
   page.on("request", (request) => {
-    const url = request.url();
+    const url = request.url().split("#")[0];
     if (!/^(data|blob):/.test(url) && url !== pathToFileURL(file).href) faults.push(`request: ${url}`);
   });
   await page.setViewport({ width, height });
@@ -161,6 +161,26 @@ const serious = async (page, what) => {
   check((await ground()) !== light, "the colours are not remembered");
   await page.click("#theme");
   await page.evaluate(() => localStorage.clear());
+  await page.close();
+}
+
+// Each link of the bar leads to its heading, although no picture was drawn before.
+{
+  const page = await open(1440, 900);
+  const count = await page.$$eval("nav a", (links) => links.length);
+  figures.link_px = 0;
+  for (let k = 0; k < count; k++) {
+    await page.reload({ waitUntil: "load" });
+    await page.evaluate((k) => document.querySelectorAll("nav a")[k].click(), k);
+    await pause(250);
+    const [name, top, bar] = await page.evaluate((k) => {
+      const link = document.querySelectorAll("nav a")[k];
+      const heading = document.getElementById(decodeURIComponent(link.hash.slice(1))).querySelector("h2");
+      return [link.textContent, heading.getBoundingClientRect().top, document.querySelector("nav").offsetHeight];
+    }, k);
+    figures.link_px = Math.max(figures.link_px, Math.round(top - bar));
+    check(top >= bar && top <= bar + 40, `the link "${name}" stops ${Math.round(top - bar)} px below the bar`);
+  }
   await page.close();
 }
 
