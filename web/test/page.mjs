@@ -189,6 +189,13 @@ const serious = async (page, what) => {
   const page = await open(1440, 900, "dark");
   await scrolled(page);
   await image(page, "dark");
+  // The drawing is dark, too: its ground, and letters that are light on it. On paper it is light.
+  const drawing = () => page.evaluate(() => ["rect.ground", "text"].map((e) => document.querySelector(`.drawing svg ${e}`)).map((e) => e && parseInt(/\d+/.exec(getComputedStyle(e).fill)[0])));
+  const [ground, letters] = await drawing();
+  check(ground === null || (ground < 60 && letters > 180), `in dark colours the drawing's ground is ${ground} and its letters ${letters} of 255`);
+  await page.emulateMediaType("print");
+  check(ground === null || (await drawing())[0] === 255, "on paper the drawing is not light");
+  await page.emulateMediaType("screen");
   await serious(page, "dark");
   await page.close();
 }
