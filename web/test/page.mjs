@@ -78,6 +78,8 @@ const serious = async (page, what) => {
     return { answer: seen(".answer"), facts: seen(".facts"), lead: seen(".lead") };
   });
   for (const [part, is] of Object.entries(first)) check(is, `first screen: ${part} ends below it`);
+  // Folded pictures are drawn when they are unfolded.
+  await page.evaluate(() => document.querySelectorAll("details.more").forEach((d) => (d.open = true)));
   await scrolled(page);
   const drawn = await page.evaluate(() => [...document.querySelectorAll("[data-picture]")].map((e) => ({ id: e.dataset.picture, ok: e.dataset.drawn === "" && e.querySelector("svg, .gl-note") !== null })));
   figures.pictures = drawn.length;
@@ -219,6 +221,7 @@ const serious = async (page, what) => {
   });
   const pdf = await page.pdf({ preferCSSPageSize: true, printBackground: true });
   if (capture) await writeFile(join(capture, "report.pdf"), pdf);
+  check(pdf.length > 0 && await page.evaluate(() => [...document.styleSheets].some((s) => [...s.cssRules].some((r) => r.cssText.includes("@top-left") && r.cssText.includes(document.title.slice(0, 20))))), "no running head on paper");
   figures.pages = (Buffer.from(pdf).toString("latin1").match(/\/Type\s*\/Page[^s]/g) ?? []).length;
   figures.pdf_bytes = pdf.length;
   check((await page.evaluate(() => window.missing)) === 0, "pictures are missing on paper");
