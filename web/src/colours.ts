@@ -14,55 +14,146 @@ export function stem(name: string): string {
   return name.replace(/[,:]?\s*\(?(measured|calculated)\)?$/i, "") || name;
 }
 
-/** Assigns a colour to every name; a name keeps its colour. */
-export class ColourBook {
-  private readonly known = new Map<string, number>();
+/** Colours of the mechanisms, which their losses have everywhere; also red-blind and green-blind eyes tell them apart. */
+export const MECHANISMS: Record<string, string> = {
+  gear_mesh: PALETTE[0],
+  bearing: PALETTE[1],
+  gear_drag: "#12b488",
+  seal: "#b83280",
+  planetary_drag: PALETTE[4],
+  clutch: PALETTE[5],
+  synchronizer: "#5d55c8",
+  auxiliary: PALETTE[7],
+  others: "#a9b0b8",
+};
 
-  /** Index of a name, given on its first use. */
-  index(name: string): number {
-    const key = stem(name);
-    let index = this.known.get(key);
-    if (index === undefined) {
-      index = this.known.size;
-      this.known.set(key, index);
+/** The mechanism of the components of a section of the gearbox. */
+const SECTIONS: Record<string, string> = {
+  meshes: "gear_mesh",
+  gears: "gear_drag",
+  bearings: "bearing",
+  seals: "seal",
+  planetary_sets: "planetary_drag",
+  clutches: "clutch",
+  couplings: "synchronizer",
+  auxiliaries: "auxiliary",
+};
+
+/** Shares of a loss that are the loss of a mechanism, or a part of it. */
+const SHARES: Record<string, [mechanism: string, part: boolean]> = {
+  "gears, load-dependent": ["gear_mesh", false],
+  "gears, load-independent": ["gear_drag", false],
+  "bearings, load-dependent": ["bearing", false],
+  "bearings, load-independent": ["bearing", true],
+  seals: ["seal", false],
+};
+
+/** The mechanism of a name, and whether it is one of several parts with this mechanism: `bearings.B2` is one of the bearings. */
+export function mechanismOf(name: string): [mechanism: string, part: boolean] | null {
+  if (Object.hasOwn(SHARES, name)) return SHARES[name];
+  if (Object.hasOwn(MECHANISMS, name)) return [name, false];
+  const [, section, drag] = /^([a-z_]+)\.[\w-]+(\.drag\b.*)?$/.exec(name) ?? [];
+  if (!section || !Object.hasOwn(SECTIONS, section)) return null;
+  return [section === "meshes" && drag ? "gear_drag" : SECTIONS[section], true];
+}
+
+/** Lightness of the shades of a mechanism in OKLab, neighbours far from each other; all are visible on light and dark grounds. */
+const SHADES = [0.62, 0.78, 0.46, 0.7, 0.54];
+
+/** A shade of a colour: its hue with another lightness. */
+function shade(colour: string, k: number): string {
+  const [, a, b] = toOklab(colour);
+  return css(fromOklab([SHADES[k % SHADES.length], a, b]));
+}
+
+/** A colour, and how often it was given to another name before: then a dash or a pattern tells them apart. */
+export interface Look {
+  colour: string;
+  round: number;
+}
+
+/** Colours of names without a mechanism: first those that no mechanism has. */
+const FREE = [...PALETTE.slice(8), ...PALETTE.slice(0, 8)];
+
+/** Assigns a colour to every name; a name keeps its colour. Mechanisms have theirs, and components the shades of their mechanism's. */
+export class ColourBook {
+  /** Names by mechanism, and those without one. */
+  private readonly known = new Map<string, string[]>();
+  /** Components by the id at their end: lines of temperatures are named by it. */
+  private readonly ids = new Map<string, string>();
+
+  private index(group: string, name: string): number {
+    const names = this.known.get(group) ?? [];
+    this.known.set(group, names);
+    return names.includes(name) ? names.indexOf(name) : names.push(name) - 1;
+  }
+
+  /** The colour of a name, which is given on its first use. */
+  look(name: string): Look {
+    const own = this.ids.get(stem(name)) ?? stem(name);
+    const mechanism = mechanismOf(own);
+    if (!mechanism) {
+      const k = this.index("", own);
+      return { colour: FREE[k % FREE.length], round: Math.floor(k / FREE.length) };
     }
-    return index;
+    const base = MECHANISMS[mechanism[0]];
+    if (!mechanism[1]) return { colour: base, round: 0 };
+    const k = this.index(mechanism[0], own);
+    const [, id, rest] = own.split(".");
+    if (id && rest === undefined && !this.ids.has(id)) this.ids.set(id, own);
+    return { colour: shade(base, k), round: Math.floor(k / SHADES.length) };
+  }
+
+  /** Place of a name without a mechanism in the order of first use. */
+  place(name: string): number {
+    return this.index("", stem(name));
   }
 
   has(name: string): boolean {
-    return this.known.has(stem(name));
+    return mechanismOf(stem(name)) !== null || this.ids.has(stem(name)) || (this.known.get("")?.includes(stem(name)) ?? false);
   }
 
   colour(name: string): string {
-    return PALETTE[this.index(name) % PALETTE.length];
+    return this.look(name).colour;
   }
 
-  /** True if the colour is used for the second time: then a pattern tells the names apart. */
+  /** True if another name has the colour, too: then a pattern tells them apart. */
   repeated(name: string): boolean {
-    return this.index(name) >= PALETTE.length;
+    return this.look(name).round > 0;
   }
 }
 
 /** Colours of lines: those that are legible as thin strokes. */
 const STROKES = PALETTE.filter((_, k) => ![7, 9, 13, 15].includes(k));
 
+/** Angle between the hues of two colours in degrees. */
+function hueBetween(one: string, two: string): number {
+  const [p, q] = [one, two].map((c) => toOklab(c)).map(([, a, b]) => (Math.atan2(b, a) * 180) / Math.PI);
+  return Math.abs(((p - q + 540) % 360) - 180);
+}
+
 /**
- * Colours of the lines of one picture: components keep theirs, names of the series have the same in all pictures, all others take what is
- * left.
+ * Looks of the lines of one picture: components keep theirs, names of the series have the same in all pictures, all others take what is
+ * left, without the hues of the mechanisms in the picture.
  */
-export function lineColours(names: string[], components: ColourBook, series: ColourBook): string[] {
-  const used = new Map<string, string>();
-  const taken = () => new Set(used.values());
-  const known = (name: string) => (components.has(name) ? components.colour(name) : STROKES[series.index(name) % STROKES.length]);
-  for (const name of names.filter((n) => components.has(n) || series.has(n))) if (!taken().has(known(name))) used.set(stem(name), used.get(stem(name)) ?? known(name));
+export function lineLooks(names: string[], components: ColourBook, series: ColourBook): Look[] {
+  const used = new Map<string, Look>();
+  const taken = ({ colour, round }: Look) => [...used.values()].some((u) => u.colour === colour && u.round === round);
+  for (const name of names.filter((n) => components.has(n))) used.set(stem(name), components.look(name));
+  const hues = [...used.values()].map((look) => look.colour);
+  const far = STROKES.filter((c) => hues.every((hue) => hueBetween(c, hue) > 20));
+  const strokes = far.length >= 3 ? far : STROKES;
+  const nth = (k: number): Look => ({ colour: strokes[k % strokes.length], round: Math.floor(k / strokes.length) });
+  for (const name of names.filter((n) => series.has(n) && !used.has(stem(n)))) {
+    const look = nth(series.place(name));
+    if (!taken(look)) used.set(stem(name), look);
+  }
   return names.map((name) => {
     const key = stem(name);
-    const before = used.get(key);
-    if (before !== undefined) return before;
-    const others = taken();
-    const colour = STROKES.find((c) => !others.has(c)) ?? PALETTE[others.size % PALETTE.length];
-    used.set(key, colour);
-    return colour;
+    let look = used.get(key);
+    for (let k = 0; !look; k++) if (!taken(nth(k))) look = nth(k);
+    used.set(key, look);
+    return look;
   });
 }
 
@@ -96,28 +187,44 @@ function fromOklab([l, a, b]: Rgb): Rgb {
   const p = (l + 0.3963377774 * a + 0.2158037573 * b) ** 3;
   const q = (l - 0.1055613458 * a - 0.0638541728 * b) ** 3;
   const r = (l - 0.0894841775 * a - 1.291485548 * b) ** 3;
-  const linear: Rgb = [
+  const light: Rgb = [
     4.0767416621 * p - 3.3077115913 * q + 0.2309699292 * r,
     -1.2684380046 * p + 2.6097574011 * q - 0.3413193965 * r,
     -0.0041960863 * p - 0.7034186147 * q + 1.707614701 * r,
   ];
-  return linear.map((c) => {
+  return light.map((c) => {
     const x = Math.min(1, Math.max(0, c));
     return 255 * (x <= 0.0031308 ? 12.92 * x : 1.055 * x ** (1 / 2.4) - 0.055);
   }) as Rgb;
+}
+
+function toOklab(colour: string): Rgb {
+  const [r, g, b] = [0, 1, 2].map((k) => linear(colour, k));
+  const [l, m, s] = [
+    Math.cbrt(0.4122214708 * r + 0.5363325363 * g + 0.0514459929 * b),
+    Math.cbrt(0.2119034982 * r + 0.6806995451 * g + 0.1073969566 * b),
+    Math.cbrt(0.0883024619 * r + 0.2817188376 * g + 0.6299787005 * b),
+  ];
+  return [
+    0.2104542553 * l + 0.793617785 * m - 0.0040720468 * s,
+    1.9779984951 * l - 2.428592205 * m + 0.4505937099 * s,
+    0.0259040371 * l + 0.7827717662 * m - 0.808675766 * s,
+  ];
 }
 
 function css(c: Rgb): string {
   return "#" + c.map((x) => Math.round(x).toString(16).padStart(2, "0")).join("");
 }
 
+/** Red, green or blue of a colour as an amount of light, from zero to one. */
+function linear(colour: string, k: number): number {
+  const x = parseInt(colour.slice(1 + 2 * k, 3 + 2 * k), 16) / 255;
+  return x <= 0.04045 ? x / 12.92 : ((x + 0.055) / 1.055) ** 2.4;
+}
+
 /** Relative luminance of a colour, from zero to one. */
 export function luminance(colour: string): number {
-  const part = (k: number) => {
-    const x = parseInt(colour.slice(1 + 2 * k, 3 + 2 * k), 16) / 255;
-    return x <= 0.04045 ? x / 12.92 : ((x + 0.055) / 1.055) ** 2.4;
-  };
-  return 0.2126 * part(0) + 0.7152 * part(1) + 0.0722 * part(2);
+  return 0.2126 * linear(colour, 0) + 0.7152 * linear(colour, 1) + 0.0722 * linear(colour, 2);
 }
 
 /** Colours of the bands between levels, or of all values between two ends. */

@@ -35,7 +35,7 @@ function componentsOf(picture: Picture): string[] {
     case "panels":
       return picture.breakdown?.names ?? [];
     case "waterfall":
-      return [...new Set(picture.losses.map((l) => l[1]))];
+      return [...new Set(picture.losses.flatMap((l) => [l[1], l[0]]))];
     default:
       return [];
   }
@@ -49,9 +49,9 @@ export function colourBooks(pictures: Picture[]): { components: ColourBook; seri
     for (const list of lists) for (const name of new Set(list)) found.set(name, (found.get(name) ?? 0) + 1);
     return [...found].sort((a, b) => b[1] - a[1]);
   };
-  for (const [name] of count(pictures.map(componentsOf))) books.components.index(name);
+  for (const [name] of count(pictures.map(componentsOf))) books.components.look(name);
   const lines = pictures.map((p) => (p.kind === "lines" ? p.lines : p.kind === "panes" ? p.panes.flatMap((q) => q.lines) : []).map((l) => stem(l.name)));
-  for (const [name, times] of count(lines)) if (times > 1 && !books.components.has(name)) books.series.index(name);
+  for (const [name, times] of count(lines)) if (times > 1 && !books.components.has(name)) books.series.place(name);
   return books;
 }
 

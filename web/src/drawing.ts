@@ -7,17 +7,10 @@ import { canvas, svg } from "./svg.ts";
 /** Path of a part and its loss in W. */
 type PartLoss = [path: string, watts: number];
 
-/** Ends of the colour scale: nearly no loss, and the largest loss. */
-const [PALE, STRONG] = [
-  [253, 241, 230],
-  [214, 90, 18],
-];
-
-/** A colour for a share of the largest loss; the root makes small losses visible. */
+/** A colour for a share of the largest loss; the root makes small losses visible. The style sheet states the ends of the scale. */
 export function heat(share: number): string {
-  const place = Math.sqrt(Math.min(1, Math.max(0, share)));
-  const mixed = PALE.map((low, i) => Math.round(low + place * (STRONG[i] - low)));
-  return `rgb(${mixed.join(", ")})`;
+  const place = 100 * Math.sqrt(Math.min(1, Math.max(0, share)));
+  return `color-mix(in srgb, var(--heat-most) ${place.toFixed(1)}%, var(--heat-none))`;
 }
 
 /** A bar of colours with losses in W, from none at the bottom to the largest. */
@@ -43,10 +36,10 @@ export function colourByLoss(drawing: Element, losses: PartLoss[]): PartLoss | n
   if (!most || most[1] <= 0) return null;
   for (const [path, watts] of losses) {
     for (const part of drawing.querySelectorAll(`[data-part="${CSS.escape(path)}"]`)) {
-      for (const shape of part.querySelectorAll("rect, polygon, circle, path")) {
+      for (const shape of part.querySelectorAll<SVGElement>("rect, polygon, circle, path")) {
         const fill = shape.getAttribute("fill");
         // Bores and lines keep their look.
-        if (fill && fill !== "none" && shape.getAttribute("stroke") !== "none") shape.setAttribute("fill", heat(watts / most[1]));
+        if (fill && fill !== "none" && shape.getAttribute("stroke") !== "none") shape.style.fill = heat(watts / most[1]);
       }
       const title = part.querySelector("title");
       if (title) title.textContent += `, loss ${significant(watts, 3)} W`;

@@ -1,12 +1,13 @@
 // Lines over one coordinate, several panes of them, and stacked areas.
 
-import { lineColours } from "./colours.ts";
+import { Look, lineLooks } from "./colours.ts";
 import { nameOf, significant, unitOf, withUnit } from "./format.ts";
 import { nice } from "./levels.ts";
 import { place } from "./map.ts";
 import { Entry, Frame, Scale, Stage, Tooltip, axes, canvas, clip, html, leftMargin, legend, onScreen, pointer, svg } from "./svg.ts";
 import type { Areas, Line, Lines, Panes } from "./types.ts";
 
+/** Dashes of lines that have the colour of another one. */
 const DASHES = ["", "7 4", "2 3", "8 3 2 3"];
 
 function span(lines: Line[], k: 0 | 1, within?: [number, number]): [number, number] | null {
@@ -62,9 +63,11 @@ function panes(stage: Stage, title: string, xName: string, given: Pane[], severa
   const names = [...new Set(all.map((l) => l.name))];
   // A line alone in its pane is named by the axis.
   const shownNames = several ? [...new Set(list.filter((p) => p.lines.length > 1).flatMap((p) => p.lines.map((l) => l.name)))] : names;
-  const assigned = lineColours(shownNames.length ? shownNames : names, stage.components, stage.series);
-  const colours = new Map(names.map((name): [string, string] => [name, "var(--gl-accent)"]));
-  (shownNames.length ? shownNames : names).forEach((name, k) => colours.set(name, assigned[k]));
+  const assigned = lineLooks(shownNames.length ? shownNames : names, stage.components, stage.series);
+  const looks = new Map(names.map((name): [string, Look] => [name, { colour: "var(--gl-accent)", round: 0 }]));
+  (shownNames.length ? shownNames : names).forEach((name, k) => looks.set(name, assigned[k]));
+  const colours = new Map([...looks].map(([name, look]) => [name, look.colour]));
+  const dash = (name: string) => DASHES[looks.get(name)!.round % DASHES.length];
   const whole = span(all, 0) ?? [0, 1];
   const zoom = state.zoom as [number, number] | undefined;
   const pad = whole[1] > whole[0] ? 0 : Math.abs(whole[0]) * 0.05 || 1;
@@ -83,7 +86,7 @@ function panes(stage: Stage, title: string, xName: string, given: Pane[], severa
     const last = k === list.length - 1;
     const { sx, sy } = axes(frame, { low: x[0], high: x[1], name: last ? xName : "", numbers: last }, { low: ends[k][0], high: ends[k][1], name: pane.name });
     const g = svg(element, "g", { "clip-path": clip(frame, 4) });
-    pane.lines.forEach((line, n) => strokes(g, line, colours.get(line.name)!, DASHES[Math.floor(n / 20) % 4], sx, sy));
+    for (const line of pane.lines) strokes(g, line, colours.get(line.name)!, dash(line.name), sx, sy);
     drawn.push({ frame, sx, sy, lines: pane.lines, name: pane.name });
   });
   // A single line that is named by its axis needs no legend.
@@ -93,7 +96,7 @@ function panes(stage: Stage, title: string, xName: string, given: Pane[], severa
       root,
       shownNames.map((name): Entry => {
         const line = all.find((l) => l.name === name)!;
-        return { name, colour: colours.get(name)!, mark: line.stroke === "dots" ? "dot" : "line" };
+        return { name, colour: colours.get(name)!, mark: line.stroke === "dots" ? "dot" : "line", dash: dash(name) };
       }),
       element,
     );

@@ -102,13 +102,24 @@ function navigation(): void {
     const section = document.getElementById(id);
     if (section) watcher.observe(section);
   }
-  // A link to something in folded details opens them.
-  const open = () => {
-    const target = document.getElementById(decodeURIComponent(location.hash.slice(1)));
-    for (let e = target?.parentElement; e; e = e.parentElement) if (e instanceof HTMLDetailsElement) e.open = true;
-  };
-  addEventListener("hashchange", open);
-  if (location.hash) open();
+  document.addEventListener("click", (event) => {
+    const link = (event.target as Element).closest<HTMLAnchorElement>("a[href^='#']");
+    if (link) ready(link.hash);
+  });
+  addEventListener("hashchange", () => ready(location.hash));
+  if (location.hash) ready(location.hash)?.scrollIntoView();
+}
+
+/** Prepares a jump: opens the details around the target, and draws the pictures before it, so that its place does not change any more. */
+function ready(hash: string): Element | null {
+  const target = document.getElementById(decodeURIComponent(hash.slice(1)));
+  if (!target) return null;
+  for (let e = target.parentElement; e; e = e.parentElement) if (e instanceof HTMLDetailsElement) e.open = true;
+  for (const host of hosts) {
+    const before = host.compareDocumentPosition(target) & Node.DOCUMENT_POSITION_FOLLOWING;
+    if (before && !host.closest("details:not([open])")) show(host);
+  }
+  return target;
 }
 
 /** Width of one of two columns in pixels: paper shows pictures at 80 % of their size, and A4 has 703 pixels between its margins. */
@@ -118,7 +129,7 @@ const LEAD = 525;
 
 /** Height of the plots on paper, so that four rows of pictures fit on a page, and a pane or a row of three panels is still legible; rows of
  * names have their usual height. */
-function paperHeight(picture: Picture): number | undefined {
+function paperHeight(picture: Picture, wide: boolean): number | undefined {
   switch (picture?.kind) {
     case "panels":
       return 205 * Math.ceil((picture.rows.length * picture.columns.length) / 3);
@@ -130,22 +141,25 @@ function paperHeight(picture: Picture): number | undefined {
     case "areas":
     case "bars":
     case "waterfall":
-      return 235;
+      return wide ? 330 : 235;
     default:
       return undefined;
   }
 }
 
 function printing(): void {
+  // The title is the head of each page but the first.
+  const title = document.title.replace(/["\\\n<]/g, (c) => `\\${c.charCodeAt(0).toString(16)} `);
+  html(document.head, "style", {}, `@page { @top-left { content: "${title}"; } } @page :first { @top-left { content: none; } }`);
   let closed: HTMLDetailsElement[] = [];
   const before = () => {
     if (onPaper) return;
     onPaper = true;
     for (const host of hosts) {
-      const wide = host.closest(".spread, .first") !== null;
+      const wide = host.closest(".wide, .first") !== null;
       const [lead, picture] = [host.dataset.height !== undefined, data[host.dataset.picture ?? ""]];
       const width = lead && document.querySelector(".lead:not(.one)") ? LEAD : wide ? 2 * COLUMN + 15 : COLUMN;
-      const height = lead ? 225 : paperHeight(picture);
+      const height = lead ? 225 : paperHeight(picture, wide);
       if (drawn.has(host)) drawn.get(host)!.redraw({ width, height });
       else show(host, width, height);
     }
@@ -207,8 +221,6 @@ function arrange(): void {
       else run.push(figure);
     }
     close();
-    const own = figures.filter((f) => !f.classList.contains("again"));
-    group.closest("section")?.classList.toggle("single", own.length === 1 && !own[0].classList.contains("spread"));
   }
 }
 

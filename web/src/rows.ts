@@ -13,7 +13,7 @@ function room(stage: Stage, names: string[]): number {
 
 /** Height of a row; the rows fill a given height. */
 function rowHeight(stage: Stage, count: number, usual: number): number {
-  return stage.height ? Math.max(20, Math.min(52, (stage.height - 64) / Math.max(1, count))) : usual;
+  return stage.height ? Math.max(20, Math.min(120, (stage.height - 64) / Math.max(1, count))) : usual;
 }
 
 export function drawIntervals(stage: Stage, given: Intervals): void {

@@ -205,6 +205,8 @@ export function leftMargin(low: number, high: number, height: number): number {
 export interface Entry {
   name: string;
   colour?: string;
+  /** Dashes of a line. */
+  dash?: string;
   mark: "box" | "line" | "dot" | "ring" | "cross" | "star" | "hatch" | "dashed" | "bar" | "outline" | "power";
   pattern?: boolean;
 }
@@ -224,7 +226,7 @@ export function legend(parent: Element, entries: Entry[], picture?: Element): vo
         if (entry.pattern) svg(icon, "path", { d: "M3 11L14 1M8 11.5L15 5", stroke: "#fff", "stroke-width": 1.5 });
         break;
       case "line":
-        svg(icon, "path", { d: "M1 6H17", stroke: colour, "stroke-width": 2.5 });
+        svg(icon, "path", { d: "M1 6H17", stroke: colour, "stroke-width": 2.5, "stroke-dasharray": entry.dash || undefined });
         break;
       case "dashed":
         svg(icon, "path", { d: "M1 6H17", stroke: colour, "stroke-width": 1.8, "stroke-dasharray": "4 2.5" });

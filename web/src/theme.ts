@@ -10,6 +10,7 @@ export function theme(button: HTMLElement): void {
     if (name) document.documentElement.dataset.theme = name;
     else delete document.documentElement.dataset.theme;
     const isDark = name ? name === "dark" : dark.matches;
+    document.documentElement.dataset.look = isDark ? "dark" : "light";
     button.dataset.next = isDark ? "light" : "dark";
     button.textContent = isDark ? "Light" : "Dark";
     button.setAttribute("aria-label", `${button.textContent} colours`);

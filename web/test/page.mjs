@@ -30,7 +30,7 @@ async function open(width, height, scheme = "light") {
   page.on("console", (message) => faults.push(`console: ${message.text()}`));
   page.on("pageerror", (fault) => faults.push(`error: ${fault.message}`));
   page.on("request", (request) => {
-    const url = request.url();
+    const url = request.url().split("#")[0];
     if (!/^(data|blob):/.test(url) && url !== pathToFileURL(file).href) faults.push(`request: ${url}`);
   });
   await page.setViewport({ width, height });
@@ -78,6 +78,8 @@ const serious = async (page, what) => {
     return { answer: seen(".answer"), facts: seen(".facts"), lead: seen(".lead") };
   });
   for (const [part, is] of Object.entries(first)) check(is, `first screen: ${part} ends below it`);
+  // Folded pictures are drawn when they are unfolded.
+  await page.evaluate(() => document.querySelectorAll("details.more").forEach((d) => (d.open = true)));
   await scrolled(page);
   const drawn = await page.evaluate(() => [...document.querySelectorAll("[data-picture]")].map((e) => ({ id: e.dataset.picture, ok: e.dataset.drawn === "" && e.querySelector("svg, .gl-note") !== null })));
   figures.pictures = drawn.length;
@@ -164,11 +166,38 @@ const serious = async (page, what) => {
   await page.close();
 }
 
+// Each link of the bar leads to its heading, although no picture was drawn before.
+{
+  const page = await open(1440, 900);
+  const count = await page.$$eval("nav a", (links) => links.length);
+  figures.link_px = 0;
+  for (let k = 0; k < count; k++) {
+    await page.reload({ waitUntil: "load" });
+    await page.evaluate((k) => document.querySelectorAll("nav a")[k].click(), k);
+    await pause(250);
+    const [name, top, bar] = await page.evaluate((k) => {
+      const link = document.querySelectorAll("nav a")[k];
+      const heading = document.getElementById(decodeURIComponent(link.hash.slice(1))).querySelector("h2");
+      return [link.textContent, heading.getBoundingClientRect().top, document.querySelector("nav").offsetHeight];
+    }, k);
+    figures.link_px = Math.max(figures.link_px, Math.round(top - bar));
+    check(top >= bar && top <= bar + 40, `the link "${name}" stops ${Math.round(top - bar)} px below the bar`);
+  }
+  await page.close();
+}
+
 // Dark by the system.
 {
   const page = await open(1440, 900, "dark");
   await scrolled(page);
   await image(page, "dark");
+  // The drawing is dark, too: its ground, and letters that are light on it. On paper it is light.
+  const drawing = () => page.evaluate(() => ["rect.ground", "text"].map((e) => document.querySelector(`.drawing svg ${e}`)).map((e) => e && parseInt(/\d+/.exec(getComputedStyle(e).fill)[0])));
+  const [ground, letters] = await drawing();
+  check(ground === null || (ground < 60 && letters > 180), `in dark colours the drawing's ground is ${ground} and its letters ${letters} of 255`);
+  await page.emulateMediaType("print");
+  check(ground === null || (await drawing())[0] === 255, "on paper the drawing is not light");
+  await page.emulateMediaType("screen");
   await serious(page, "dark");
   await page.close();
 }
@@ -192,6 +221,7 @@ const serious = async (page, what) => {
   });
   const pdf = await page.pdf({ preferCSSPageSize: true, printBackground: true });
   if (capture) await writeFile(join(capture, "report.pdf"), pdf);
+  check(pdf.length > 0 && await page.evaluate(() => [...document.styleSheets].some((s) => [...s.cssRules].some((r) => r.cssText.includes("@top-left") && r.cssText.includes(document.title.slice(0, 20))))), "no running head on paper");
   figures.pages = (Buffer.from(pdf).toString("latin1").match(/\/Type\s*\/Page[^s]/g) ?? []).length;
   figures.pdf_bytes = pdf.length;
   check((await page.evaluate(() => window.missing)) === 0, "pictures are missing on paper");

@@ -19,7 +19,7 @@ export class DrawingPane {
     host: HTMLElement,
     private readonly choose: (part: string, place: FileRange | null) => void,
   ) {
-    this.box = html(host, "div", { class: "drawing-box" });
+    this.box = html(host, "div", { class: "drawing drawing-box" });
     this.scale = html(host, "div", { class: "drawing-scale" });
     new ResizeObserver(() => this.shown && legible(this.shown)).observe(this.box);
   }

@@ -19,7 +19,7 @@ async function load(name) {
 
 const { ticks, levels, evenLevels, nice } = await load("levels");
 const { fixed, significant, axisNumbers, short, words, unitOf, nameOf } = await load("format");
-const { ColourBook, ColourScale, PALETTE, lineColours, diverging, luminance, sequential } = await load("colours");
+const { ColourBook, ColourScale, MECHANISMS, PALETTE, lineLooks, mechanismOf, diverging, luminance, sequential } = await load("colours");
 const { isolines, region, refine, labels, monotone, valueAt } = await load("contours");
 const { csv, tabbed, order, isNumeric, numberOf } = await load("table");
 const { numbersOf, resolved } = await load("map");
@@ -101,18 +101,61 @@ test("a name keeps its colour, and measured lines have that of the calculated", 
   assert.ok(book.repeated("part 25") && !book.repeated("part 3"));
   assert.equal(new Set(PALETTE).size, 20);
   const series = new ColourBook();
-  series.index("iso");
-  series.index("joint");
-  const one = lineColours(["joint", "x", "joint, measured"], new ColourBook(), series);
-  const two = lineColours(["y", "iso", "joint"], new ColourBook(), series);
+  series.place("iso");
+  series.place("joint");
+  const colours = (names) => lineLooks(names, new ColourBook(), series).map((look) => look.colour);
+  const one = colours(["joint", "x", "joint, measured"]);
+  const two = colours(["y", "iso", "joint"]);
   assert.equal(one[0], two[2]);
   assert.equal(one[0], one[2]);
   assert.equal(new Set([...two]).size, 3);
 });
 
-test("twenty-four lines of one picture have as many colours as there are", () => {
-  const colours = lineColours(range(20, (k) => `line ${k}`), new ColourBook(), new ColourBook());
-  assert.ok(new Set(colours).size >= 16);
+test("lines of one picture differ in colour or dash", () => {
+  const book = new ColourBook();
+  const bearings = range(14, (k) => `bearings.B${k}`);
+  for (const name of bearings) book.look(name);
+  // Temperatures are named by the id of their component.
+  const names = ["gear_mesh", "seal", "casing", "sump", ...range(14, (k) => `B${k}`), ...range(20, (k) => `line ${k}`)];
+  const looks = lineLooks(names, book, new ColourBook());
+  assert.equal(new Set(looks.map((look) => `${look.colour} ${look.round}`)).size, names.length);
+  assert.deepEqual(looks[4], book.look("bearings.B0"));
+});
+
+test("a mechanism has one colour, its components have shades of it, and all eyes tell mechanisms apart", () => {
+  assert.deepEqual(mechanismOf("bearings.B2"), ["bearing", true]);
+  assert.deepEqual(mechanismOf("meshes.M2.drag.churning"), ["gear_drag", true]);
+  assert.deepEqual(mechanismOf("gears, load-dependent"), ["gear_mesh", false]);
+  for (const other of ["gears.*.surface.rq", "constructor", "joint", "bearings"]) assert.equal(mechanismOf(other), null);
+  const [one, two] = [new ColourBook(), new ColourBook()];
+  for (const name of ["joint", "x", "bearings.B7"]) one.look(name);
+  for (const name of Object.keys(MECHANISMS)) assert.equal(one.colour(name), two.colour(name));
+  const light = (c) => [0, 1, 2].map((k) => parseInt(c.slice(1 + 2 * k, 3 + 2 * k), 16) / 255).map((x) => (x <= 0.04045 ? x / 12.92 : ((x + 0.055) / 1.055) ** 2.4));
+  // Machado et al. (2009): normal, red-blind, green-blind.
+  const eyes = [
+    [1, 0, 0, 0, 1, 0, 0, 0, 1],
+    [0.152286, 1.052583, -0.204868, 0.114503, 0.786281, 0.099216, -0.003882, -0.048116, 1.051998],
+    [0.367322, 0.860646, -0.227968, 0.280085, 0.672501, 0.047413, -0.01182, 0.04294, 0.968881],
+  ];
+  const seen = (c, eye) => {
+    const rgb = light(c);
+    const [r, g, b] = [0, 1, 2].map((row) => Math.max(0, rgb.reduce((sum, x, k) => sum + eye[3 * row + k] * x, 0)));
+    const lms = [[0.4122, 0.5363, 0.0514], [0.2119, 0.6807, 0.1074], [0.0883, 0.2817, 0.63]].map(([p, q, s]) => Math.cbrt(p * r + q * g + s * b));
+    return [[0.2105, 0.7936, -0.0041], [1.978, -2.4286, 0.4506], [0.0259, 0.7828, -0.8087]].map((row) => row.reduce((sum, x, k) => sum + x * lms[k], 0));
+  };
+  const all = Object.entries(MECHANISMS);
+  for (const eye of eyes)
+    for (const [k, [a, one]] of all.entries())
+      for (const [b, two] of all.slice(k + 1)) {
+        const [p, q] = [seen(one, eye), seen(two, eye)];
+        assert.ok(Math.hypot(...p.map((x, i) => x - q[i])) > 0.06, `${a} and ${b}`);
+      }
+  // Visible on white and on the dark ground.
+  for (const colour of range(5, (k) => one.colour(`bearings.${k}`)))
+    for (const ground of ["#ffffff", "#171b21"]) {
+      const [a, b] = [luminance(colour), luminance(ground)].sort((x, y) => y - x);
+      assert.ok((a + 0.05) / (b + 0.05) > 1.5, `${colour} on ${ground}`);
+    }
 });
 
 test("the scale of values gets evenly lighter, that of differences is symmetric in lightness", () => {

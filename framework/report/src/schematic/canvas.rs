@@ -208,7 +208,7 @@ impl Canvas {
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" viewBox=\"{x:.2} {y:.2} {w:.2} {h:.2}\" \
              font-family=\"sans-serif\" font-size=\"{LETTERS}\">\n<title>{title}</title>\n\
-             <rect x=\"{x:.2}\" y=\"{y:.2}\" width=\"{w:.2}\" height=\"{h:.2}\" fill=\"#fff\"/>\n{}</svg>\n",
+             <rect x=\"{x:.2}\" y=\"{y:.2}\" width=\"{w:.2}\" height=\"{h:.2}\" class=\"ground\" fill=\"#fff\"/>\n{}</svg>\n",
             self.body
         )
     }

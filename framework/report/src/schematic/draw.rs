@@ -8,16 +8,16 @@ use super::axes::{Axes, thickness};
 use super::canvas::{Canvas, Rect, Voice};
 use super::things::{Kind, Things};
 
-// Colours of Okabe and Ito, light inside and dark at the edge; every symbol also has its own shape.
-const FIXED: &str = "fill=\"#cfe6f5\" stroke=\"#0072b2\" stroke-width=\"1.3\"";
-const LOOSE: &str = "fill=\"#fbe6bd\" stroke=\"#a06a00\" stroke-width=\"1.3\"";
-const SHAFT: &str = "fill=\"#d5d5d5\" stroke=\"#444\" stroke-width=\"0.9\"";
-const GROUND: &str = "fill=\"none\" stroke=\"#555\" stroke-width=\"1\"";
-const BOX: &str = "fill=\"#f6f6f6\" stroke=\"#444\" stroke-width=\"1.2\"";
-const CENTRE: &str = "fill=\"none\" stroke=\"#999\" stroke-width=\"0.8\" stroke-dasharray=\"12 3 2 3\"";
+// Colours of Okabe and Ito, light inside and dark at the edge; every symbol also has its own shape. Pages give the classes dark colours.
+const FIXED: &str = "class=\"fixed\" fill=\"#cfe6f5\" stroke=\"#0072b2\" stroke-width=\"1.3\"";
+const LOOSE: &str = "class=\"loose\" fill=\"#fbe6bd\" stroke=\"#a06a00\" stroke-width=\"1.3\"";
+const SHAFT: &str = "class=\"shaft\" fill=\"#d5d5d5\" stroke=\"#444\" stroke-width=\"0.9\"";
+const GROUND: &str = "class=\"line\" fill=\"none\" stroke=\"#555\" stroke-width=\"1\"";
+const BOX: &str = "class=\"box\" fill=\"#f6f6f6\" stroke=\"#444\" stroke-width=\"1.2\"";
+const CENTRE: &str = "class=\"line\" fill=\"none\" stroke=\"#999\" stroke-width=\"0.8\" stroke-dasharray=\"12 3 2 3\"";
 const MESH: &str =
-    "fill=\"none\" stroke=\"#8a3f6b\" stroke-width=\"1.8\" stroke-dasharray=\"1.5 4\" stroke-linecap=\"round\"";
-const PORT: &str = "fill=\"#000\" stroke=\"#000\" stroke-width=\"1.6\"";
+    "class=\"mesh\" fill=\"none\" stroke=\"#8a3f6b\" stroke-width=\"1.8\" stroke-dasharray=\"1.5 4\" stroke-linecap=\"round\"";
+const PORT: &str = "class=\"port\" fill=\"#000\" stroke=\"#000\" stroke-width=\"1.6\"";
 const DASHED: &str = " stroke-dasharray=\"4 2.5\"";
 
 /// Half the thickness of a planet's pin. \[px\]
@@ -202,7 +202,7 @@ impl Draw<'_> {
         let length = bar * self.scale;
         self.canvas.line(
             &[[x, y - 4.0], [x, y], [x + length, y], [x + length, y - 4.0]],
-            "fill=\"none\" stroke=\"#000\" stroke-width=\"1.5\"",
+            "class=\"line\" fill=\"none\" stroke=\"#000\" stroke-width=\"1.5\"",
         );
         self.canvas
             .foot(x + length + 8.0, y + 1.0, &format!("{} mm", 1e3 * bar));

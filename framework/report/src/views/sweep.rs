@@ -1,4 +1,4 @@
-//! A sweep: tables of the loss; figures of loss and efficiency over the values as lines or maps.
+//! A sweep: tables of the loss; figures of loss and efficiency over the values as lines or maps, over names as bars.
 
 mod summary;
 
@@ -6,7 +6,7 @@ use gearloss_studies::analyses::numbers::word;
 use gearloss_studies::analyses::sweep::{PointOfSweep, SweepOfValue, SweepOutcome};
 
 use crate::figure::Best;
-use crate::limits::in_unit;
+use crate::limits::{after, bounds, in_unit};
 use crate::names::quantity;
 use crate::page::Page;
 use crate::plot::{Bar, Line, Stroke};
@@ -28,8 +28,12 @@ fn show(outcome: &SweepOutcome, page: &mut Page) {
         }
         page.line("");
     }
-    sweep.figures(page);
-    sweep.limits(page);
+    if sweep.is_of_names() {
+        sweep.bars(page);
+    } else {
+        sweep.figures(page);
+        sweep.limits(page);
+    }
     designs(outcome, page);
 }
 
@@ -165,6 +169,87 @@ impl<'a> Sweep<'a> {
         page.table(table);
     }
 
+    /// Whether the values of the only path are names, such as those of oils, which have no place on an axis.
+    fn is_of_names(&self) -> bool {
+        self.second_path.is_none() && numbers(&self.words).is_none()
+    }
+
+    /// Losses by their shares, oil temperature, and limited quantities as bars, one for each name, model set and point.
+    fn bars(&self, page: &mut Page) {
+        let several = self.outcome.sweep.first().map_or(0, |value| value.points.len()) * self.sets().count() > 1;
+        let bars = |read: &dyn Fn(&SweepOfValue, &PointOfSweep) -> Option<(Vec<f64>, String)>| -> Vec<Bar> {
+            let all = self
+                .outcome
+                .sweep
+                .iter()
+                .flat_map(|value| value.points.iter().map(move |point| (value, point)));
+            let bar = |(value, point): (&SweepOfValue, &PointOfSweep)| {
+                let (shares, above) = read(value, point)?;
+                let name = word(&value.value);
+                let label = if several {
+                    format!("{name}\n{}: {}", value.model_set, words_of_point(point))
+                } else {
+                    name
+                };
+                Some(Bar {
+                    label,
+                    shares,
+                    above,
+                    ..Bar::default()
+                })
+            };
+            all.filter_map(bar).collect()
+        };
+        let mut add = |file: &str, title: &str, height: String, names: Vec<String>, bars: Vec<Bar>| {
+            if bars.is_empty() {
+                return;
+            }
+            let title = format!("{}: {title}", self.name);
+            let over = quantity(self.path);
+            page.figure(
+                format!("{}-{file}", self.name),
+                Figure::Bars {
+                    title,
+                    over,
+                    height,
+                    names,
+                    bars,
+                },
+            );
+        };
+        let losses = bars(&|_, point| {
+            let loss = point.loss_w?;
+            let efficiency = point.efficiency.map(|share| format!(", {} %", short(100.0 * share)));
+            let above = format!("{} W{}", short(loss), efficiency.unwrap_or_default());
+            Some((point.losses_w.clone().unwrap_or_else(|| vec![loss]), above))
+        });
+        let names = self.outcome.sweep.first().map(|value| value.shares.clone());
+        let loss = "loss in W".to_owned();
+        add("loss", "loss and efficiency", loss, names.unwrap_or_default(), losses);
+        let single = |value: f64, unit: &str| (vec![value], format!("{}{}", short(value), after(unit)));
+        let temperatures = bars(&|_, point| Some(single(point.oil_temperature_degc?, "°C")));
+        let differs = |bars: &[Bar]| bars.windows(2).any(|pair| pair[0].shares != pair[1].shares);
+        if differs(&temperatures) {
+            let height = "oil temperature in °C".to_owned();
+            add("oil", "oil temperature", height, vec!["oil temperature".to_owned()], temperatures);
+        }
+        for column in &self.outcome.limits {
+            let reached = &self.outcome.head.study_limits;
+            let Some(limit) = reached.iter().find(|own| own.limit == column.name) else {
+                continue;
+            };
+            let values = bars(&|_, point| {
+                let value = point.limit_values.get(&column.name).copied().flatten()?;
+                let beyond = limit.least.is_some_and(|least| value < least) || limit.most.is_some_and(|most| value > most);
+                let (shares, above) = single(value, column.unit);
+                Some((shares, above + if beyond { ", beyond the limit" } else { "" }))
+            });
+            let title = format!("{}, limit: {}", column.words, bounds(limit));
+            let height = format!("{}{}", column.words, in_unit(column.unit));
+            add(&format!("limit-{}", column.name), &title, height, vec![column.words.clone()], values);
+        }
+    }
+
     /// Loss and efficiency over the values.
     fn figures(&self, page: &mut Page) {
         for quantity in QUANTITIES {
@@ -230,22 +315,20 @@ impl<'a> Sweep<'a> {
         }
     }
 
-    /// Positions of the values on the axis, and its title. Values that are not numbers are at their index.
+    /// Positions of the values on the axis, and its title.
     fn axis(&self) -> (Vec<f64>, String) {
         let (words, path) = (&self.words, self.path);
-        let parsed: Option<Vec<f64>> = words.iter().map(|w| w.split(' ').next()?.parse().ok()).collect();
+        let places = numbers(words).unwrap_or_default();
         let unit = words
             .first()
             .and_then(|w| w.split_once(' '))
             .map_or("", |(_, unit)| unit);
-        match parsed {
-            Some(places) if unit.is_empty() => (places, path.to_owned()),
-            Some(places) => (places, format!("{path} in {unit}")),
-            None => (
-                (1..=words.len()).map(|i| i as f64).collect(),
-                format!("{path}: {}", words.join(", ")),
-            ),
-        }
+        let title = if unit.is_empty() {
+            path.to_owned()
+        } else {
+            format!("{path} in {unit}")
+        };
+        (places, title)
     }
 
     /// A line for each set, torque and speed.
@@ -297,6 +380,11 @@ impl<'a> Sweep<'a> {
         }
         maps
     }
+}
+
+/// Values as numbers without their unit; nothing if one of them is a name.
+fn numbers(words: &[String]) -> Option<Vec<f64>> {
+    words.iter().map(|word| word.split(' ').next()?.parse().ok()).collect()
 }
 
 fn words_of_point(point: &PointOfSweep) -> String {

@@ -130,7 +130,7 @@ impl Canvas {
             let end = if y < oy { spot.room.y[1] } else { spot.room.y[0] };
             self.line(
                 &[[ox, edge], [x, end]],
-                "fill=\"none\" stroke=\"#777\" stroke-width=\"0.7\"",
+                "class=\"line\" fill=\"none\" stroke=\"#777\" stroke-width=\"0.7\"",
             );
         }
         let look = match word.voice {

@@ -5,7 +5,7 @@ use super::super::canvas::{Rect, Voice};
 use super::super::things::{Kind, Part, Symbol, Wheel};
 use super::{Draw, FIXED, LOOSE, MESH, PIN, SHAFT, SIDES, label, style};
 
-const BORE: &str = "fill=\"#fff\" stroke=\"none\"";
+const BORE: &str = "class=\"ground\" fill=\"#fff\" stroke=\"none\"";
 /// Minimum gap between gears in mesh that gets a dotted line. \[px\]
 const GAP: f64 = 7.0;
 

@@ -6,11 +6,11 @@ use super::super::canvas::{Rect, Voice};
 use super::super::things::{Kind, Part, Symbol};
 use super::{Draw, GROUND, LOOSE, SHAFT, SIDES, WALL, label, style};
 
-const BEARING: &str = "fill=\"#fff\" stroke=\"#111\" stroke-width=\"1.1\"";
-const CROSS: &str = "fill=\"none\" stroke=\"#111\" stroke-width=\"0.9\"";
-const SLEEVE: &str = "fill=\"#f3c6a5\" stroke=\"#b04a00\" stroke-width=\"1.2\"";
-const SEAL: &str = "fill=\"#8fd8c1\" stroke=\"#00553e\" stroke-width=\"1\"";
-const OTHER: &str = "fill=\"#eed9e6\" stroke=\"#8a3f6b\" stroke-width=\"1.2\"";
+const BEARING: &str = "class=\"bearing\" fill=\"#fff\" stroke=\"#111\" stroke-width=\"1.1\"";
+const CROSS: &str = "class=\"line\" fill=\"none\" stroke=\"#111\" stroke-width=\"0.9\"";
+const SLEEVE: &str = "class=\"coupling\" fill=\"#f3c6a5\" stroke=\"#b04a00\" stroke-width=\"1.2\"";
+const SEAL: &str = "class=\"seal\" fill=\"#8fd8c1\" stroke=\"#00553e\" stroke-width=\"1\"";
+const OTHER: &str = "class=\"other\" fill=\"#eed9e6\" stroke=\"#8a3f6b\" stroke-width=\"1.2\"";
 
 impl Draw<'_> {
     pub(super) fn part(&mut self, number: usize) {
@@ -180,7 +180,7 @@ impl Draw<'_> {
             for (plate, from) in [(-6.0, -5.0), (-2.0, 5.0), (2.0, -5.0), (6.0, 5.0)] {
                 let ends = [[x + plate, y + from], [x + plate, y - 0.6 * from]];
                 self.canvas
-                    .line(&ends, "fill=\"none\" stroke=\"#111\" stroke-width=\"1.6\"");
+                    .line(&ends, "class=\"line\" fill=\"none\" stroke=\"#111\" stroke-width=\"1.6\"");
             }
             room
         } else {

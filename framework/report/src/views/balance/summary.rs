@@ -15,6 +15,9 @@ pub fn add(outcome: &BalanceOutcome, page: &mut Page) {
             oil.is_some_and(|oil| (step.oil_temperature_degc - oil).abs() < 1e-6)
         });
         if let Some(oil) = balance.oil_temperature_degc {
+            if let Some(step) = loss {
+                page.key_figure("loss", short(step.loss_w), "W", set);
+            }
             let loss = loss.map_or_else(String::new, |step| format!(" with a loss of {} W", short(step.loss_w)));
             words.push(format!(
                 "{}the oil settles at {} °C{loss}",

@@ -67,12 +67,8 @@ pub fn add(outcome: &BreakdownOutcome, page: &mut Page) {
             }
             As::Percent => format!("{largest} with {} % at {at} ({of})", percent(*most)),
         });
-        page.key_figure(
-            &format!("largest share, {of}"),
-            short(*most),
-            unit,
-            format!("{largest} at {at}"),
-        );
+        let most = format!("{} {unit}", short(*most));
+        page.key_figure(&format!("loss, {of}"), short(total), "W", format!("{largest} {most}, at {at}"));
     }
     let largest = match outcome.unit {
         As::Watts => "",

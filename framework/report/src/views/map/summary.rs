@@ -5,7 +5,7 @@ use gearloss_studies::analyses::numbers::RPM;
 
 use crate::names::SetNames;
 use crate::page::Page;
-use crate::text::{capitalised, extremes, place, range, short};
+use crate::text::{capitalised, extremes, place, range};
 
 type Found<'a> = (&'a MapOfSet, &'a ShownPoint);
 
@@ -41,16 +41,30 @@ pub fn add(outcome: &MapOutcome, page: &mut Page) {
             range(low.0, high.0, 1),
             at(high.1)
         ));
-        page.key_figure("highest efficiency", short(high.0), "%", at(high.1));
-        page.key_figure("lowest efficiency", short(low.0), "%", at(low.1));
+        page.key_figure(
+            "efficiency",
+            range(low.0, high.0, 1),
+            "%",
+            format!("highest at {}", at(high.1)),
+        );
     }
     if let Some([low, high]) = of(|point| point.loss) {
         words.push(format!("the loss is {} W", range(low.0, high.0, 0)));
-        page.key_figure("largest loss", short(high.0), "W", at(high.1));
+        page.key_figure(
+            "loss",
+            range(low.0, high.0, 0),
+            "W",
+            format!("largest at {}", at(high.1)),
+        );
     }
     if let Some([low, high]) = of(|point| point.oil).filter(|ends| ends[1].0 - ends[0].0 > 0.05) {
         words.push(format!("the oil temperature is {} °C", range(low.0, high.0, 0)));
-        page.key_figure("highest oil temperature", short(high.0), "°C", at(high.1));
+        page.key_figure(
+            "oil temperature",
+            range(low.0, high.0, 0),
+            "°C",
+            format!("highest at {}", at(high.1)),
+        );
     }
     let missing = points().filter(|(_, point)| point.loss.is_none()).count();
     if missing > 0 {

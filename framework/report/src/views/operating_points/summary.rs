@@ -15,6 +15,13 @@ pub fn add(outcome: &OperatingPointsOutcome, page: &mut Page) {
         let ends = |value: fn(&OperatingPoint) -> Option<f64>| {
             extremes(points.iter().filter_map(move |point| Some((value(point)?, point))))
         };
+        let label = |name: &str| {
+            if outcome.operating_points.len() > 1 {
+                format!("{name}, {set}")
+            } else {
+                name.to_owned()
+            }
+        };
         let at = |point: &OperatingPoint| {
             let at = place(tidy(point.torque_nm), point.speed_rpm);
             format!("point {}: {at}", point.name)
@@ -29,11 +36,13 @@ pub fn add(outcome: &OperatingPointsOutcome, page: &mut Page) {
             let parts = parts.filter(|parts| !parts.is_empty());
             let parts = parts.map_or_else(String::new, |parts| format!(" (at the highest loss {parts})"));
             own.push(format!("loss {} W{parts}", range(low.0, high.0, 1)));
-            page.key_figure("largest loss", short(high.0), "W", at(high.1));
+            let detail = format!("largest at {}", at(high.1));
+            page.key_figure(&label("loss"), range(low.0, high.0, 1), "W", detail);
         }
         if let Some([low, high]) = ends(|point| point.oil_temperature_degc) {
             own.push(format!("oil {} °C", range(low.0, high.0, 1)));
-            page.key_figure("highest oil temperature", short(high.0), "°C", at(high.1));
+            let detail = format!("highest at {}", at(high.1));
+            page.key_figure(&label("oil temperature"), range(low.0, high.0, 1), "°C", detail);
         }
         let deviation = |point: &OperatingPoint| {
             let (loss, seen) = (point.loss_w?, point.measured.loss_w?);
@@ -50,10 +59,10 @@ pub fn add(outcome: &OperatingPointsOutcome, page: &mut Page) {
                 short(rms)
             ));
             page.key_figure(
-                "deviation from the measured loss",
+                &label("deviation from the measured loss"),
                 short(rms),
                 "%",
-                format!("rms; mean {} %, {set}", signed(mean)),
+                format!("rms; mean {} %", signed(mean)),
             );
         }
         if !own.is_empty() {

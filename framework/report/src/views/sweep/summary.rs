@@ -1,11 +1,14 @@
 //! The change of the loss over the values, in one sentence.
 
 use gearloss_studies::analyses::numbers::word;
-use gearloss_studies::analyses::sweep::{SweepOfValue, SweepOutcome};
+use gearloss_studies::analyses::sweep::{PointOfSweep, SweepOfValue, SweepOutcome};
 
 use crate::names::{listed, quantity};
 use crate::page::Page;
 use crate::text::{extremes, of_set, short, signed};
+
+/// Most values that the sentence names.
+const NAMED: usize = 6;
 
 pub fn add(outcome: &SweepOutcome, page: &mut Page) {
     let mut words = Vec::new();
@@ -18,7 +21,10 @@ pub fn add(outcome: &SweepOutcome, page: &mut Page) {
         let values = outcome
             .values_of_set(set)
             .filter_map(|value| Some((mean(value)?, value)));
-        let Some([low, high]) = extremes(values) else { continue };
+        let values: Vec<(f64, &SweepOfValue)> = values.collect();
+        let Some([low, high]) = extremes(values.iter().copied()) else {
+            continue;
+        };
         let at = |value: &SweepOfValue| {
             let second = value
                 .second
@@ -31,21 +37,68 @@ pub fn add(outcome: &SweepOutcome, page: &mut Page) {
         } else {
             0.0
         };
-        words.push(format!(
-            "{}the mean loss is {} W at {} and {} W at {} ({} %)",
-            of_set(set, outcome.notes.len()),
-            short(low.0),
-            at(low.1),
-            short(high.0),
-            at(high.1),
-            signed(change)
-        ));
-        page.key_figure(&format!("least mean loss, {set}"), short(low.0), "W", at(low.1));
-        page.key_figure(&format!("largest mean loss, {set}"), short(high.0), "W", at(high.1));
+        let of = of_set(set, outcome.notes.len());
+        words.push(if values.len() <= NAMED {
+            let each = values.iter().map(|(loss, value)| format!("{} W at {}", short(*loss), at(value)));
+            format!("{of}the mean loss is {}", listed(&each.collect::<Vec<_>>()))
+        } else {
+            format!(
+                "{of}the mean loss is {} W at {} and {} W at {} ({} %)",
+                short(low.0),
+                at(low.1),
+                short(high.0),
+                at(high.1),
+                signed(change)
+            )
+        });
+        cards(outcome, set, low, high, &at(low.1), &at(high.1), page);
     }
     let first = outcome.sweep.first();
     let second = first.and_then(|value| Some(quantity(&value.second.as_ref()?.path)));
     let paths = first.map(|value| quantity(&value.path)).into_iter().chain(second);
     let paths = listed(&paths.collect::<Vec<_>>());
     page.headline = (!words.is_empty()).then(|| format!("Over the {paths}: {}", words.join("; ")));
+}
+
+/// What the value with the lowest loss reaches: its loss, oil temperature and limited quantities.
+fn cards(
+    outcome: &SweepOutcome,
+    set: &str,
+    (low, best): (f64, &SweepOfValue),
+    (high, _): (f64, &SweepOfValue),
+    at: &str,
+    at_high: &str,
+    page: &mut Page,
+) {
+    let label = |name: &str| {
+        if outcome.notes.len() > 1 {
+            format!("{name}, {set}")
+        } else {
+            name.to_owned()
+        }
+    };
+    let detail = if low < high {
+        format!("{at}; {} W at {at_high}", short(high))
+    } else {
+        at.to_owned()
+    };
+    page.key_figure(&label("lowest mean loss"), short(low), "W", detail);
+    let largest = |read: &dyn Fn(&PointOfSweep) -> Option<f64>, sign: f64| {
+        let values = best.points.iter().filter_map(read);
+        values.max_by(|a, b| (sign * a).total_cmp(&(sign * b)))
+    };
+    if let Some(oil) = largest(&|point| point.oil_temperature_degc, 1.0) {
+        page.key_figure(&label("oil temperature"), short(oil), "°C", at);
+    }
+    for column in &outcome.limits {
+        let limits = &outcome.head.study_limits;
+        let least = limits.iter().any(|own| own.limit == column.name && own.least.is_some());
+        let sign = if least { -1.0 } else { 1.0 };
+        let is_oil = column.words == "temperature of the oil";
+        let value = largest(&|point| point.limit_values.get(&column.name).copied().flatten(), sign);
+        if let Some(value) = value.filter(|_| !is_oil) {
+            let unit = if column.unit == "-" { "" } else { column.unit };
+            page.key_figure(&label(&column.words), short(value), unit, at);
+        }
+    }
 }
