@@ -445,6 +445,7 @@ fn run_answers_first_and_says_that_data_are_synthetic() {
         "{text}"
     );
     let report = std::fs::read_to_string(folder.join("results/report.html")).unwrap();
+    assert!(report.contains("measurement `rig`: synthetic</p>"));
     let place = |name: &str| {
         report
             .find(&format!("id=\"{name}\""))

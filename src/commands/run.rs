@@ -24,6 +24,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use gearloss_framework::language::Language;
+use gearloss_report::html::measurements;
 use gearloss_report::text::with_printed_units;
 use gearloss_studies::checked_study::Reported;
 use gearloss_studies::distinct::distinct;
@@ -173,10 +174,8 @@ fn head(language: &Language, study: &Study, shown: Shown, out: &mut Out) -> Resu
         for text in texts.into_iter().flatten() {
             out.line(with_printed_units(text))?;
         }
-        for (name, measured) in study.entry.measurements.iter() {
-            if let Some(about) = &measured.about {
-                out.line(format!("measurement `{name}`: {about}"))?;
-            }
+        for line in measurements(study) {
+            out.line(line)?;
         }
         overridden(study, out)?;
     }

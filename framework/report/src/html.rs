@@ -216,6 +216,8 @@ pub struct Frame {
     pub title: String,
     /// The question that it answers.
     pub question: String,
+    /// What its measurements are, in their own words.
+    pub measurements: Vec<String>,
     /// The conditions of all analyses as a sentence.
     pub conditions: String,
     /// Version of the program.
@@ -235,6 +237,7 @@ impl Frame {
         Self {
             title: study.entry.title.clone().unwrap_or_else(|| "Study".to_owned()),
             question: study.entry.question.clone().unwrap_or_default(),
+            measurements: measurements(study),
             conditions: conditions(study),
             version: version.to_owned(),
             inputs: hash(
@@ -248,6 +251,15 @@ impl Frame {
             study: study.text.to_string(),
         }
     }
+}
+
+/// What the measurements of a study are, where it says so: a line for each.
+pub fn measurements(study: &Study) -> Vec<String> {
+    let entries = study.entry.measurements.iter();
+    let stated = entries.filter_map(|(name, entry)| Some((name, entry.about.as_ref()?)));
+    stated
+        .map(|(name, about)| format!("measurement `{name}`: {about}"))
+        .collect()
 }
 
 /// The conditions of all analyses as a sentence.
@@ -438,6 +450,7 @@ mod tests {
         Frame {
             title: "A & B".to_owned(),
             question: String::new(),
+            measurements: Vec::new(),
             conditions: String::new(),
             version: "0".to_owned(),
             inputs: String::new(),
