@@ -15,8 +15,7 @@ const SHAFT: &str = "class=\"shaft\" fill=\"#d5d5d5\" stroke=\"#444\" stroke-wid
 const GROUND: &str = "class=\"line\" fill=\"none\" stroke=\"#555\" stroke-width=\"1\"";
 const BOX: &str = "class=\"box\" fill=\"#f6f6f6\" stroke=\"#444\" stroke-width=\"1.2\"";
 const CENTRE: &str = "class=\"line\" fill=\"none\" stroke=\"#999\" stroke-width=\"0.8\" stroke-dasharray=\"12 3 2 3\"";
-const MESH: &str =
-    "class=\"mesh\" fill=\"none\" stroke=\"#8a3f6b\" stroke-width=\"1.8\" stroke-dasharray=\"1.5 4\" stroke-linecap=\"round\"";
+const MESH: &str = "class=\"mesh\" fill=\"none\" stroke=\"#8a3f6b\" stroke-width=\"1.8\" stroke-dasharray=\"1.5 4\" stroke-linecap=\"round\"";
 const PORT: &str = "class=\"port\" fill=\"#000\" stroke=\"#000\" stroke-width=\"1.6\"";
 const DASHED: &str = " stroke-dasharray=\"4 2.5\"";
 

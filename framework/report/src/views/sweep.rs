@@ -231,7 +231,13 @@ impl<'a> Sweep<'a> {
         let differs = |bars: &[Bar]| bars.windows(2).any(|pair| pair[0].shares != pair[1].shares);
         if differs(&temperatures) {
             let height = "oil temperature in °C".to_owned();
-            add("oil", "oil temperature", height, vec!["oil temperature".to_owned()], temperatures);
+            add(
+                "oil",
+                "oil temperature",
+                height,
+                vec!["oil temperature".to_owned()],
+                temperatures,
+            );
         }
         for column in &self.outcome.limits {
             let reached = &self.outcome.head.study_limits;
@@ -240,13 +246,20 @@ impl<'a> Sweep<'a> {
             };
             let values = bars(&|_, point| {
                 let value = point.limit_values.get(&column.name).copied().flatten()?;
-                let beyond = limit.least.is_some_and(|least| value < least) || limit.most.is_some_and(|most| value > most);
+                let beyond =
+                    limit.least.is_some_and(|least| value < least) || limit.most.is_some_and(|most| value > most);
                 let (shares, above) = single(value, column.unit);
                 Some((shares, above + if beyond { ", beyond the limit" } else { "" }))
             });
             let title = format!("{}, limit: {}", column.words, bounds(limit));
             let height = format!("{}{}", column.words, in_unit(column.unit));
-            add(&format!("limit-{}", column.name), &title, height, vec![column.words.clone()], values);
+            add(
+                &format!("limit-{}", column.name),
+                &title,
+                height,
+                vec![column.words.clone()],
+                values,
+            );
         }
     }
 

@@ -179,8 +179,10 @@ impl Draw<'_> {
             self.canvas.rect(&room, &style(SLEEVE, stated));
             for (plate, from) in [(-6.0, -5.0), (-2.0, 5.0), (2.0, -5.0), (6.0, 5.0)] {
                 let ends = [[x + plate, y + from], [x + plate, y - 0.6 * from]];
-                self.canvas
-                    .line(&ends, "class=\"line\" fill=\"none\" stroke=\"#111\" stroke-width=\"1.6\"");
+                self.canvas.line(
+                    &ends,
+                    "class=\"line\" fill=\"none\" stroke=\"#111\" stroke-width=\"1.6\"",
+                );
             }
             room
         } else {

@@ -68,7 +68,12 @@ pub fn add(outcome: &BreakdownOutcome, page: &mut Page) {
             As::Percent => format!("{largest} with {} % at {at} ({of})", percent(*most)),
         });
         let most = format!("{} {unit}", short(*most));
-        page.key_figure(&format!("loss, {of}"), short(total), "W", format!("{largest} {most}, at {at}"));
+        page.key_figure(
+            &format!("loss, {of}"),
+            short(total),
+            "W",
+            format!("{largest} {most}, at {at}"),
+        );
     }
     let largest = match outcome.unit {
         As::Watts => "",

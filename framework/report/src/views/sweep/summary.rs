@@ -39,7 +39,9 @@ pub fn add(outcome: &SweepOutcome, page: &mut Page) {
         };
         let of = of_set(set, outcome.notes.len());
         words.push(if values.len() <= NAMED {
-            let each = values.iter().map(|(loss, value)| format!("{} W at {}", short(*loss), at(value)));
+            let each = values
+                .iter()
+                .map(|(loss, value)| format!("{} W at {}", short(*loss), at(value)));
             format!("{of}the mean loss is {}", listed(&each.collect::<Vec<_>>()))
         } else {
             format!(
