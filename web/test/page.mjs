@@ -248,6 +248,7 @@ if (!given) {
   page.on("console", (message) => faults.push(`degenerate: ${message.text()}`));
   await page.setViewport({ width: 1000, height: 800 });
   await page.setContent(text.replace("<script>try", "<script>addEventListener('error', (e) => console.error(e.message)); try"));
+  await page.evaluate(() => document.querySelectorAll("details.more").forEach((d) => (d.open = true)));
   await scrolled(page);
   const bad = await page.evaluate(() => [...document.querySelectorAll("[data-picture]")].filter((e) => e.dataset.drawn === undefined || /NaN|Infinity|undefined/.test(e.innerHTML)).map((e) => `${e.dataset.picture}: ${/.{30}(NaN|Infinity|undefined)/.exec(e.innerHTML)?.[0] ?? "not drawn"}`));
   for (const line of bad) faults.push(`degenerate: ${line}`);
