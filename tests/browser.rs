@@ -59,9 +59,9 @@ fn reports_work_in_a_browser() {
     let Some(browser) = browser() else {
         return skipped("no report was opened: no browser; on Debian `apt-get install chromium` brings one");
     };
-    // Most pages on A4.
+    // Most pages on A4, on which figures have the width of the text.
     for (study, pages) in [
-        ("examples/planetary-reducer/study.yaml", 6),
+        ("examples/planetary-reducer/study.yaml", 7),
         ("examples/two-products/study.yaml", 6),
         ("examples/two-speed-ev/study.yaml", 26),
     ] {
@@ -76,6 +76,10 @@ fn reports_work_in_a_browser() {
         let number = |key: &str| figures[key].as_u64().unwrap_or(u64::MAX);
         assert!(number("bytes") < 2_000_000, "{study}: {figures}");
         assert!(number("pages") <= pages, "{study}: {figures}");
+        assert!(
+            figures["screens"].as_f64().is_some_and(|screens| screens <= 20.0),
+            "{study}: {figures}"
+        );
     }
 }
 

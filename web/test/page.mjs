@@ -190,6 +190,7 @@ const serious = async (page, what) => {
 {
   const page = await open(1440, 900, "dark");
   await scrolled(page);
+  figures.screens = await page.evaluate(() => Math.round(document.documentElement.scrollHeight / 90) / 10);
   await image(page, "dark");
   // The drawing is dark, too: its ground, and letters that are light on it. On paper it is light.
   const drawing = () => page.evaluate(() => ["rect.ground", "text"].map((e) => document.querySelector(`.drawing svg ${e}`)).map((e) => e && parseInt(/\d+/.exec(getComputedStyle(e).fill)[0])));
