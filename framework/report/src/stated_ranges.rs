@@ -380,8 +380,8 @@ mod tests {
             (ranges.rows_of("map"), ranges.rows_of("town")),
             ("1".to_owned(), String::new())
         );
-        let short =
-            "bearing B1 and 1 more: speed factor n_dm (1 to 9) is above 5 at 40 % of the points, with 50 % of the loss";
+        let short = "bearing B1 and 1 more: speed factor n_dm (1 to 9) is above the stated range 0 to 5 at 40 % of the points, \
+                     with 50 % of the loss";
         assert_eq!(ranges.worst(), [short]);
     }
 }
