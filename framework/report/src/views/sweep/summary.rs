@@ -1,5 +1,6 @@
 //! The change of the loss over the values, in one sentence.
 
+use gearloss_studies::analyses::limits::at_points::LimitColumn;
 use gearloss_studies::analyses::numbers::word;
 use gearloss_studies::analyses::sweep::{PointOfSweep, SweepOfValue, SweepOutcome};
 
@@ -62,6 +63,11 @@ pub fn add(outcome: &SweepOutcome, page: &mut Page) {
     page.headline = (!words.is_empty()).then(|| format!("Over the {paths}: {}", words.join("; ")));
 }
 
+/// Whether a limit is that of the oil temperature, which is shown in any case.
+pub fn is_of_oil(column: &LimitColumn) -> bool {
+    ["temperature of oil", "temperature of the oil"].contains(&column.words.as_str())
+}
+
 /// What the value with the lowest loss reaches: its loss, oil temperature and limited quantities.
 fn cards(
     outcome: &SweepOutcome,
@@ -96,9 +102,8 @@ fn cards(
         let limits = &outcome.head.study_limits;
         let least = limits.iter().any(|own| own.limit == column.name && own.least.is_some());
         let sign = if least { -1.0 } else { 1.0 };
-        let is_oil = column.words == "temperature of the oil";
         let value = largest(&|point| point.limit_values.get(&column.name).copied().flatten(), sign);
-        if let Some(value) = value.filter(|_| !is_oil) {
+        if let Some(value) = value.filter(|_| !is_of_oil(column)) {
             let unit = if column.unit == "-" { "" } else { column.unit };
             page.key_figure(&label(&column.words), short(value), unit, at);
         }
