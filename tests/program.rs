@@ -126,7 +126,7 @@ fn solve_prints_a_table_and_json_with_the_same_numbers() {
     let json: serde_json::Value = serde_json::from_str(&out(&[&args[..], &["--format", "json"]].concat())).unwrap();
     assert_eq!(json["format"], "gearloss-point/1");
     let loss = json["loss_w"].as_f64().unwrap();
-    assert!(table.contains(&format!("loss {loss:.4} W")), "{table}");
+    assert!(table.contains(&format!("loss {loss:.1} W")), "{table}");
     let residual = json["power"]["residual_w"].as_f64().unwrap();
     assert!(residual.abs() < 1e-11 * json["power"]["largest_internal_power_w"].as_f64().unwrap());
     let parts: f64 = json["parts"]
@@ -372,7 +372,7 @@ fn run_prints_the_result_of_each_analysis_in_one_line() {
     ] {
         let own = text
             .lines()
-            .filter(|line| line.trim_start().starts_with(&format!("{name} ")));
+            .filter(|line| line.trim_start_matches(['>', ' ']).starts_with(&format!("{name} ")));
         assert_eq!(own.count(), 1, "{name}: {text}");
     }
     assert!(
@@ -448,7 +448,7 @@ fn run_answers_first_and_says_that_data_are_synthetic() {
     assert!(report.contains("measurement `rig`: synthetic</p>"));
     let place = |name: &str| {
         report
-            .find(&format!("id=\"{name}\""))
+            .find(&format!("id=\"analysis-{name}\""))
             .unwrap_or_else(|| panic!("no section {name}"))
     };
     assert!(place("first") < place("second") && place("second") < place("last"));
@@ -864,9 +864,10 @@ fn huge_speeds_are_printed_in_engineering_notation() {
     let text = String::from_utf8(output.stdout).unwrap();
     let input = text.lines().find(|line| line.starts_with("input")).unwrap();
     assert!(input.contains("1.00000e300"), "{input}");
-    assert!(text.lines().all(|line| line.len() < 250), "{text}");
-    let (tables, _) = text.split_once("\nstatus ").unwrap();
-    assert!(!tables.contains("inf"), "{text}");
+    // Written in full, such a number has 301 digits.
+    assert!(text.lines().all(|line| line.len() < 300), "{text}");
+    // Answer, ports, loads, losses; the reason follows them.
+    assert!(text.split("\n\n").take(4).all(|block| !block.contains("inf")), "{text}");
 }
 
 /// The test runs itself as a process of its own, in which a thread panics under the hook of the program.

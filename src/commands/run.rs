@@ -83,12 +83,10 @@ pub(crate) fn all(
     }
     interrupt::listen();
     let (mut failed, mut done_so_far, mut finished) = (0, 0, None);
-    let answered_by = &study.entry.answered_by;
-    let place = |name: &str| answered_by.iter().position(|own| own == name);
-    let answers = |name: &str| place(name).is_some();
+    let answers = |name: &str| place_of_answer(study, name).is_some();
     // What was asked is answered first.
     let mut analyses: Vec<_> = study.entry.analyses.iter().collect();
-    analyses.sort_by_key(|(name, _)| place(name).unwrap_or(usize::MAX));
+    analyses.sort_by_key(|(name, _)| place_of_answer(study, name).unwrap_or(usize::MAX));
     for (name, analysis) in analyses {
         let start = Instant::now();
         match runner.attempt(name, analysis, out) {
@@ -165,6 +163,11 @@ pub(crate) fn all(
             study.entry.analyses.len()
         )))
     }
+}
+
+/// Place of an analysis among those that answer the question of the study.
+fn place_of_answer(study: &Study, name: &str) -> Option<usize> {
+    study.entry.answered_by.iter().position(|own| own == name)
 }
 
 /// Title and question of a study, and what its gearboxes and conditions give cause to say.
