@@ -419,7 +419,7 @@ fn run_writes_csv_and_json_and_prints_tables() {
 }
 
 #[test]
-fn run_answers_first_and_says_that_data_are_synthetic() {
+fn run_marks_answers_and_says_that_data_are_synthetic() {
     let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("answered");
     let _ = std::fs::remove_dir_all(&folder);
     std::fs::create_dir_all(&folder).unwrap();
@@ -439,9 +439,9 @@ fn run_answers_first_and_says_that_data_are_synthetic() {
     let lines: Vec<&str> = text.lines().filter(begins).collect();
     assert!(
         lines[0] == "measurement `rig`: synthetic"
-            && lines[1].starts_with("> last ")
+            && lines[1].starts_with("  first ")
             && lines[2].starts_with("> second ")
-            && lines[3].starts_with("  first "),
+            && lines[3].starts_with("> last "),
         "{text}"
     );
     let report = std::fs::read_to_string(folder.join("results/report.html")).unwrap();

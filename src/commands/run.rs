@@ -83,11 +83,8 @@ pub(crate) fn all(
     }
     interrupt::listen();
     let (mut failed, mut done_so_far, mut finished) = (0, 0, None);
-    let answers = |name: &str| place_of_answer(study, name).is_some();
-    // What was asked is answered first.
-    let mut analyses: Vec<_> = study.entry.analyses.iter().collect();
-    analyses.sort_by_key(|(name, _)| place_of_answer(study, name).unwrap_or(usize::MAX));
-    for (name, analysis) in analyses {
+    let answers = |name: &str| study.entry.answered_by.iter().any(|own| own == name);
+    for (name, analysis) in study.entry.analyses.iter() {
         let start = Instant::now();
         match runner.attempt(name, analysis, out) {
             Ok(()) => {
@@ -112,7 +109,6 @@ pub(crate) fn all(
         }
         done_so_far += 1;
     }
-    runner.report.borrow_mut().arrange(&names);
     shown.limits(width, &runner.broken.borrow(), out)?;
     if failed == 0 && finished.is_none() {
         for name in runner.limits_never_known(|_| true) {
@@ -163,11 +159,6 @@ pub(crate) fn all(
             study.entry.analyses.len()
         )))
     }
-}
-
-/// Place of an analysis among those that answer the question of the study.
-fn place_of_answer(study: &Study, name: &str) -> Option<usize> {
-    study.entry.answered_by.iter().position(|own| own == name)
 }
 
 /// Title and question of a study, and what its gearboxes and conditions give cause to say.

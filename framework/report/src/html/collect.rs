@@ -35,12 +35,6 @@ impl Report {
         }
     }
 
-    /// Puts the sections into the order of the study, in which the analyses need not have run.
-    pub fn arrange(&mut self, names: &[&str]) {
-        self.sections
-            .sort_by_key(|section| names.iter().position(|name| *name == section.name));
-    }
-
     /// Quantities outside their stated ranges over all analyses so far.
     pub fn stated_ranges(&self) -> &StatedRanges {
         &self.ranges
