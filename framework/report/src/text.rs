@@ -183,6 +183,15 @@ pub fn of_set(set: &str, sets: usize) -> String {
     }
 }
 
+/// A label with the name of its model set; alone if there is only one.
+pub fn label_of_set(label: &str, set: &str, sets: usize) -> String {
+    if sets > 1 {
+        format!("{label}, {set}")
+    } else {
+        label.to_owned()
+    }
+}
+
 /// A remark in brackets; nothing if it is empty.
 pub fn in_brackets(remark: &str) -> String {
     if remark.is_empty() {

@@ -99,7 +99,7 @@ impl Transmission {
         })
     }
 
-    /// The case of a gear state in which the reference port has the single given speed and the first given torque; null if its
+    /// The case of a gear state in which the reference port has the single given speed and the first given torque; `None` if its
     /// speed does not determine all others.
     pub fn case_at_reference(&self, state: usize) -> Option<Case> {
         let reference = &self.ports[self.reference_port()].name;
@@ -113,7 +113,7 @@ impl Transmission {
             .flatten()
     }
 
-    /// Speed of the reference port over that of each other port in a gear state, by port; null if that port is stationary, and
+    /// Speed of the reference port over that of each other port in a gear state, by port; `None` if that port is stationary, and
     /// empty if the speed of the reference port does not determine all others.
     pub fn ratios(&self, state: usize) -> Vec<(usize, Option<f64>)> {
         let reference = self.reference_port();

@@ -118,7 +118,7 @@ struct ModelRecord {
     /// Evidence grades of the formula and the defaults.
     evidence: Vec<GradeRecord>,
     /// Cases with known results.
-    checks: Vec<CheckRecord>,
+    checks: Vec<CheckValuesRecord>,
 }
 
 /// A rating.
@@ -144,7 +144,7 @@ struct RatingRecord {
     /// Evidence grades of the formula and the defaults.
     evidence: Vec<GradeRecord>,
     /// Cases with known results.
-    checks: Vec<CheckRecord>,
+    checks: Vec<CheckValuesRecord>,
 }
 
 /// A parameter.
@@ -182,11 +182,11 @@ struct GradeRecord {
 /// A case with known results, which the model must reproduce.
 #[derive(Debug, Serialize, JsonSchema)]
 #[schemars(rename = "Check")]
-struct CheckRecord {
+struct CheckValuesRecord {
     /// Input as for `gearloss eval --input`, in YAML.
     input: &'static str,
     /// Expected values.
-    values: Vec<ExpectedRecord>,
+    values: Vec<ExpectedValueRecord>,
     /// Greatest deviation, relative to the expected value.
     tolerance: f64,
     /// Reason for this tolerance.
@@ -198,7 +198,7 @@ struct CheckRecord {
 /// A quantity and its expected value.
 #[derive(Debug, Serialize, JsonSchema)]
 #[schemars(rename = "Expected")]
-struct ExpectedRecord {
+struct ExpectedValueRecord {
     /// Result, term, step or observed quantity, as `gearloss eval` names it.
     quantity: &'static str,
     /// Expected value with unit.
@@ -286,7 +286,7 @@ impl ModelRecord {
             observed: entry.observed,
             limits: entry.limits,
             evidence: entry.evidence.iter().map(GradeRecord::new).collect(),
-            checks: entry.checks.iter().map(CheckRecord::new).collect(),
+            checks: entry.checks.iter().map(CheckValuesRecord::new).collect(),
         }
     }
 }
@@ -305,7 +305,7 @@ impl RatingRecord {
             quantities: rating.figures,
             limits: entry.limits,
             evidence: entry.evidence.iter().map(GradeRecord::new).collect(),
-            checks: entry.checks.iter().map(CheckRecord::new).collect(),
+            checks: entry.checks.iter().map(CheckValuesRecord::new).collect(),
         }
     }
 }
@@ -335,13 +335,13 @@ impl GradeRecord {
     }
 }
 
-impl CheckRecord {
+impl CheckValuesRecord {
     fn new(check: &Check) -> Self {
         let values = check.values.iter();
         Self {
             input: check.input,
             values: values
-                .map(|&(quantity, value)| ExpectedRecord { quantity, value })
+                .map(|&(quantity, value)| ExpectedValueRecord { quantity, value })
                 .collect(),
             tolerance: check.tolerance,
             because: check.because,

@@ -229,7 +229,7 @@ impl<'a> Sweep<'a> {
         let single = |value: f64, unit: &str| (vec![value], format!("{}{}", short(value), after(unit)));
         let temperatures = bars(&|_, point| Some(single(point.oil_temperature_degc?, "°C")));
         let differs = |bars: &[Bar]| bars.windows(2).any(|pair| pair[0].shares != pair[1].shares);
-        let is_limited = self.outcome.limits.iter().any(summary::is_of_oil);
+        let is_limited = self.outcome.limits.iter().any(|limit| limit.is_of_oil);
         if differs(&temperatures) && !is_limited {
             let height = "oil temperature in °C".to_owned();
             add(

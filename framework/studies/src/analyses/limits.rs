@@ -145,8 +145,10 @@ impl Limit {
         let unit = Unit::of_symbol(symbol).unwrap_or(Unit::ONE);
         let of = &format!("{path}.of");
         let of = match (entry.quantity, entry.of.as_deref()) {
-            (LimitedQuantity::Temperature, None | Some("oil")) => Owner::Oil,
-            (LimitedQuantity::Temperature, Some(node)) => Owner::Node(known_node(scope, of, node)?),
+            (LimitedQuantity::Temperature, Some(node)) if !entry.is_of_oil() => {
+                Owner::Node(known_node(scope, of, node)?)
+            }
+            (LimitedQuantity::Temperature, _) => Owner::Oil,
             (LimitedQuantity::MeanLoss, None) => Owner::AllCycles,
             (LimitedQuantity::MeanLoss, Some(name)) => known_cycle(scope, of, name)?,
             (LimitedQuantity::Loss | LimitedQuantity::Efficiency, None) => Owner::Gearbox,

@@ -24,6 +24,13 @@ pub struct LimitEntry {
     pub severity: Severity,
 }
 
+impl LimitEntry {
+    /// Whether it limits the temperature of the oil, whatever it is calculated from.
+    pub fn is_of_oil(&self) -> bool {
+        self.quantity == LimitedQuantity::Temperature && matches!(self.of.as_deref(), None | Some("oil"))
+    }
+}
+
 /// What follows if a limit is not kept.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]

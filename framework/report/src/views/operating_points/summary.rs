@@ -6,7 +6,7 @@ use gearloss_studies::analyses::operating_points::{OperatingPoint, OperatingPoin
 
 use crate::names::share;
 use crate::page::Page;
-use crate::text::{capitalised, extremes, of_set, place, range, short, signed};
+use crate::text::{capitalised, extremes, label_of_set, of_set, place, range, short, signed};
 
 pub fn add(outcome: &OperatingPointsOutcome, page: &mut Page) {
     let mut words = Vec::new();
@@ -15,13 +15,7 @@ pub fn add(outcome: &OperatingPointsOutcome, page: &mut Page) {
         let ends = |value: fn(&OperatingPoint) -> Option<f64>| {
             extremes(points.iter().filter_map(move |point| Some((value(point)?, point))))
         };
-        let label = |name: &str| {
-            if outcome.operating_points.len() > 1 {
-                format!("{name}, {set}")
-            } else {
-                name.to_owned()
-            }
-        };
+        let label = |name: &str| label_of_set(name, set, outcome.operating_points.len());
         let at = |point: &OperatingPoint| {
             let at = place(tidy(point.torque_nm), point.speed_rpm);
             format!("point {}: {at}", point.name)

@@ -1,12 +1,11 @@
 //! The change of the loss over the values, in one sentence.
 
-use gearloss_studies::analyses::limits::at_points::LimitColumn;
 use gearloss_studies::analyses::numbers::word;
 use gearloss_studies::analyses::sweep::{PointOfSweep, SweepOfValue, SweepOutcome};
 
 use crate::names::{listed, quantity};
 use crate::page::Page;
-use crate::text::{extremes, of_set, short, signed};
+use crate::text::{extremes, label_of_set, of_set, short, signed};
 
 /// Most values that the sentence names.
 const NAMED: usize = 6;
@@ -63,11 +62,6 @@ pub fn add(outcome: &SweepOutcome, page: &mut Page) {
     page.headline = (!words.is_empty()).then(|| format!("Over the {paths}: {}", words.join("; ")));
 }
 
-/// Whether a limit is that of the oil temperature, which is shown in any case.
-pub fn is_of_oil(column: &LimitColumn) -> bool {
-    ["temperature of oil", "temperature of the oil"].contains(&column.words.as_str())
-}
-
 /// What the value with the lowest loss reaches: its loss, oil temperature and limited quantities.
 fn cards(
     outcome: &SweepOutcome,
@@ -78,13 +72,7 @@ fn cards(
     at_high: &str,
     page: &mut Page,
 ) {
-    let label = |name: &str| {
-        if outcome.notes.len() > 1 {
-            format!("{name}, {set}")
-        } else {
-            name.to_owned()
-        }
-    };
+    let label = |name: &str| label_of_set(name, set, outcome.notes.len());
     let detail = if low < high {
         format!("{at}; {} W at {at_high}", short(high))
     } else {
@@ -103,7 +91,7 @@ fn cards(
         let least = limits.iter().any(|own| own.limit == column.name && own.least.is_some());
         let sign = if least { -1.0 } else { 1.0 };
         let value = largest(&|point| point.limit_values.get(&column.name).copied().flatten(), sign);
-        if let Some(value) = value.filter(|_| !is_of_oil(column)) {
+        if let Some(value) = value.filter(|_| !column.is_of_oil) {
             let unit = if column.unit == "-" { "" } else { column.unit };
             page.key_figure(&label(&column.words), short(value), unit, at);
         }

@@ -113,6 +113,8 @@ pub struct LimitColumn {
     pub words: String,
     /// Unit of the values.
     pub unit: &'static str,
+    /// Whether it is the temperature of the oil.
+    pub is_of_oil: bool,
 }
 
 impl LimitColumn {
@@ -126,6 +128,7 @@ impl LimitColumn {
                 name: name.to_owned(),
                 words: words(entry, figure),
                 unit: figure.map_or(entry.quantity.unit(), |figure| figure.unit),
+                is_of_oil: entry.is_of_oil(),
             }
         };
         at_points.map(column).collect()
