@@ -59,9 +59,9 @@ fn reports_work_in_a_browser() {
     let Some(browser) = browser() else {
         return skipped("no report was opened: no browser; on Debian `apt-get install chromium` brings one");
     };
-    // Most pages on A4, on which figures have the width of the text.
+    // Most pages on A4.
     for (study, pages) in [
-        ("examples/planetary-reducer/study.yaml", 7),
+        ("examples/planetary-reducer/study.yaml", 6),
         ("examples/two-products/study.yaml", 6),
         ("examples/two-speed-ev/study.yaml", 26),
     ] {

@@ -141,7 +141,7 @@ function paperHeight(picture: Picture, wide: boolean): number | undefined {
     case "areas":
     case "bars":
     case "waterfall":
-      return wide ? 330 : 235;
+      return wide ? 290 : 235;
     default:
       return undefined;
   }

@@ -327,6 +327,7 @@ await step("The two-speed transmission", async () => {
     await until(page, "the error is gone", () => !document.querySelector(".cm-lintRange-error"));
   }
   figures.error_ms = Math.round(Math.max(...times));
+  check(Math.max(...times) < 300, `an error is underlined after ${times.map(Math.round)} ms`);
 });
 
 // Completion of a designation.

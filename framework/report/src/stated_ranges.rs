@@ -62,8 +62,8 @@ impl Values {
         self.loss_shares.values().copied().reduce(f64::max)
     }
 
-    /// Which bound is exceeded, with the stated range and its unit.
-    fn exceeded(&self) -> String {
+    /// Which bound is exceeded, with the range, called so, and its unit.
+    fn exceeded(&self, range: &str) -> String {
         let [low, high] = self.ends;
         let beyond = if self.greatest <= high {
             "below"
@@ -73,7 +73,7 @@ impl Values {
             "outside"
         };
         let bound = match self.ends.map(f64::is_finite) {
-            [true, true] => format!("the stated range {} to {}", short(low), short(high)),
+            [true, true] => format!("the {range} {} to {}", short(low), short(high)),
             [true, false] => short(low),
             _ => short(high),
         };
@@ -298,7 +298,7 @@ impl Group {
         format!(
             "{OUTSIDE}{paths}: {name} {ends}{} is {} at {} of {} points ({}){analyses}",
             unit(all.unit),
-            all.exceeded(),
+            all.exceeded("range"),
             all.outside,
             all.points,
             all.range.1
@@ -325,7 +325,7 @@ impl Group {
         format!(
             "{paths}: {name} ({ends}{}) is {} at {} % of the points{share}",
             unit(all.unit),
-            all.exceeded(),
+            all.exceeded("stated range"),
             short(100.0 * all.share_of_points())
         )
     }
@@ -372,7 +372,7 @@ mod tests {
         assert_eq!(
             ranges.lines(),
             [
-                "outside: bearings.B1.model, bearings.B2.model: speed factor n_dm 1 to 9 is above the stated range 0 to 5 at 12 of 30 points \
+                "outside: bearings.B1.model, bearings.B2.model: speed factor n_dm 1 to 9 is above the range 0 to 5 at 12 of 30 points \
               (catalogue); in map, city"
             ]
         );
