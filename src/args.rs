@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use crate::shard::Shard;
 use clap::builder::{PossibleValue, PossibleValuesParser};
 use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
+use clap_complete::Shell;
 use gearloss_workbench::form::LAYOUTS;
 
 /// Power losses, efficiency and operating temperature of transmissions.
@@ -51,9 +52,29 @@ pub enum Command {
     Lsp(LspArgs),
     /// Opens the workbench in the browser: a local page to edit, see and solve gearboxes and studies.
     Open(OpenArgs),
+    /// Prints completions for a shell.
+    Completions(CompletionsArgs),
+    /// Writes the manual pages, one for each command.
+    Man(ManArgs),
     /// Fills a template for `run --template`.
     #[command(hide = true)]
     FillTemplate,
+}
+
+/// Arguments of `completions`.
+#[derive(Debug, ClapArgs)]
+pub struct CompletionsArgs {
+    /// Shell to complete in.
+    #[arg(value_enum)]
+    pub shell: Shell,
+}
+
+/// Arguments of `man`.
+#[derive(Debug, ClapArgs)]
+pub struct ManArgs {
+    /// Folder to write; created if it is missing. Pages of another version are replaced.
+    #[arg(value_name = "DIR")]
+    pub folder: PathBuf,
 }
 
 /// Arguments of `open`.

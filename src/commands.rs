@@ -3,12 +3,14 @@
 mod browser;
 pub mod catalogue;
 pub mod check;
+pub mod completions;
 pub mod eval;
 pub mod explain;
 pub mod fill_template;
 pub mod fit;
 pub mod import;
 pub mod lsp;
+pub mod man;
 pub mod merge;
 pub mod models;
 pub mod new;

@@ -160,6 +160,8 @@ fn run(args: Args) -> Result<End, Failure> {
         Command::Models(args) => commands::models::run(&args, &mut out),
         Command::Eval(args) => commands::eval::run(&args, &mut out),
         Command::Schema(args) => commands::schema::run(&args, &mut out),
+        Command::Completions(args) => commands::completions::run(&args, &mut out),
+        Command::Man(args) => commands::man::run(&args),
         Command::FillTemplate => commands::fill_template::run(),
         Command::Fit(args) => commands::fit::run(&args, &mut out),
         Command::Import(args) => commands::import::run(&args, &mut out),

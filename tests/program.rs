@@ -899,3 +899,29 @@ fn a_panic_in_any_thread_ends_the_program_with_exit_code_3() {
         "{text}"
     );
 }
+
+/// Scripts for shells and manual pages follow the commands themselves.
+#[test]
+fn completions_and_manual_pages_know_the_commands() {
+    for shell in ["bash", "elvish", "fish", "powershell", "zsh"] {
+        let script = out(&["completions", shell]);
+        assert!(
+            script.contains("explain") && script.contains("oil-temperature"),
+            "{shell}"
+        );
+        assert!(!script.contains("fill-template"), "{shell}");
+    }
+    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("man");
+    out(&["man", folder.to_str().unwrap()]);
+    let page = std::fs::read_to_string(folder.join("gearloss-solve.1")).unwrap();
+    assert!(page.contains("oil\\-temperature"), "{page}");
+    let page = std::fs::read_to_string(folder.join("gearloss.1")).unwrap();
+    assert!(
+        page.contains("gearloss\\-import(1)") && !page.contains("fill\\-template"),
+        "{page}"
+    );
+    // Where a file stands no folder can be made.
+    let refused = gearloss(&["man", GEARBOX]);
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(String::from_utf8(refused.stderr).unwrap().contains("help:"));
+}

@@ -43,6 +43,7 @@ mod _core {
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
-        module.add("__version__", env!("CARGO_PKG_VERSION"))
+        // As Python writes it: 0.2.0rc1 is 0.2.0-rc.1 of Cargo.
+        module.add("__version__", env!("CARGO_PKG_VERSION").replace("-rc.", "rc"))
     }
 }
