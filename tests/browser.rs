@@ -52,19 +52,29 @@ fn browser() -> Option<String> {
 /// Every picture is drawn; tabs, slider, sorting, tooltips and dark colours work; nothing is requested, nothing complained about; axe finds
 /// nothing serious; the page fits 500 px. `web/test/page.mjs` says what fails.
 #[test]
-fn reports_work_in_a_browser() {
+fn a_report_works_in_a_browser() {
+    // Most pages on A4.
+    reports_work(&[("examples/planetary-reducer/study.yaml", 6)]);
+}
+
+/// Reports with maps of several sets, and of many sections.
+#[test]
+#[ignore = "takes minutes; a stage of `.ci/full`"]
+fn long_reports_work_in_a_browser() {
+    reports_work(&[
+        ("examples/two-products/study.yaml", 6),
+        ("examples/two-speed-ev/study.yaml", 26),
+    ]);
+}
+
+fn reports_work(most_pages: &[(&str, u64)]) {
     if let Err(reason) = tools() {
         return skipped(&format!("no report was opened: {reason}"));
     }
     let Some(browser) = browser() else {
         return skipped("no report was opened: no browser; on Debian `apt-get install chromium` brings one");
     };
-    // Most pages on A4.
-    for (study, pages) in [
-        ("examples/planetary-reducer/study.yaml", 6),
-        ("examples/two-products/study.yaml", 6),
-        ("examples/two-speed-ev/study.yaml", 26),
-    ] {
+    for &(study, pages) in most_pages {
         let report = common::study_run(study).folder.join("report.html");
         let output = node(&["test/page.mjs", report.to_str().unwrap()], Some(&browser));
         let (text, errors) = (

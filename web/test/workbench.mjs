@@ -293,7 +293,7 @@ await until(page, "numbers of the other gearbox", () => document.getElementById(
 await quiet(page);
 await until(page, "drawing of the other gearbox", () => document.querySelector('[data-part="bearings.B5"]'));
 await step("The two-speed transmission", async () => {
-  const times = [];
+  const [times, asked] = [[], []];
   for (const typed of ["frobs: 1\n", "# Öl ≤ 90 °C 🙂\nfrobs: 1\n", "wibble: { a: 1 }\n"]) {
     await cursor(page, 2, 0);
     await page.evaluate(() => {
@@ -306,8 +306,13 @@ await step("The two-speed transmission", async () => {
       window.watcher = new MutationObserver(seen);
       window.watcher.observe(document.querySelector(".pane-text"), { childList: true, subtree: true, attributes: true });
     });
+    const names = [];
+    const note = (request) => request.method() === "POST" && names.push(JSON.parse(request.postData()).request);
+    page.on("request", note);
     await page.keyboard.sendCharacter(typed);
     await until(page, "an error is underlined", () => window.marked !== null);
+    page.off("request", note);
+    asked.push(names);
     times.push(await page.evaluate(() => (window.watcher.disconnect(), window.marked)));
     const marked = await page.evaluate(() => document.querySelector(".cm-lintRange-error").textContent);
     check(/^(frobs|wibble)/.test(marked), `the mark is at "${marked}"`);
@@ -327,7 +332,9 @@ await step("The two-speed transmission", async () => {
     await until(page, "the error is gone", () => !document.querySelector(".cm-lintRange-error"));
   }
   figures.error_ms = Math.round(Math.max(...times));
-  check(Math.max(...times) < 300, `an error is underlined after ${times.map(Math.round)} ms`);
+  // Work is counted, because times depend on what else the computer does: one question for errors, and a point at most, never a map.
+  const light = (names) => names.filter((name) => name === "edit").length === 1 && new Set(names).size === names.length && !names.includes("map");
+  for (const names of asked) check(light(names), `before an error is underlined, the page asks ${names.join(", ")}`);
 });
 
 // Completion of a designation.
