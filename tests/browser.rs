@@ -67,7 +67,7 @@ fn long_reports_work_in_a_browser() {
     ]);
 }
 
-fn reports_work(most_pages: &[(&str, u64)]) {
+fn reports_work(most_pages: &[(&'static str, u64)]) {
     if let Err(reason) = tools() {
         return skipped(&format!("no report was opened: {reason}"));
     }
