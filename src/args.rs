@@ -377,6 +377,9 @@ pub struct PointArgs {
     /// Speed of a port: `"8000 rpm"` at `input`, or `"output=300 rpm"`.
     #[arg(long, value_name = "[PORT=]SPEED", allow_hyphen_values = true)]
     pub speed: Vec<String>,
+    /// Power that a port takes up, `"45 kW"` at `input` or `"output=-45 kW"`, in place of the torque or the speed of that port.
+    #[arg(long, value_name = "[PORT=]POWER", allow_hyphen_values = true)]
+    pub power: Vec<String>,
     /// Oil temperature, such as `"80 degC"` [default: from the gearbox].
     #[arg(long, value_name = "TEMPERATURE", allow_hyphen_values = true)]
     pub oil_temperature: Option<String>,

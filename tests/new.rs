@@ -10,13 +10,18 @@ use gearloss_framework::language::{Kind, Language};
 use gearloss_framework::resolve::Choice;
 
 /// Layout, arguments of the point that the program proposes, least and greatest efficiency in percent of a usual one.
-const LAYOUTS: [(&str, &[&str], [f64; 2]); 5] = [
+const LAYOUTS: [(&str, &[&str], [f64; 2]); 6] = [
     (
         "single-stage",
         &["--torque", "90 Nm", "--speed", "1500 rpm"],
         [98.2, 99.3],
     ),
     ("two-stage", &["--torque", "45 Nm", "--speed", "1500 rpm"], [97.0, 98.5]),
+    (
+        "three-stage",
+        &["--torque", "15 Nm", "--speed", "1500 rpm"],
+        [93.0, 96.5],
+    ),
     (
         "planetary",
         &["--gear", "reducing", "--torque", "60 Nm", "--speed", "3000 rpm"],

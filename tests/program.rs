@@ -169,6 +169,22 @@ fn solve_follows_overrides_sets_and_the_other_port() {
     assert!(input > 10.0 && input < 10.5, "{input}");
 }
 
+/// A power is the torque or the speed that is not given.
+#[test]
+fn solve_takes_a_power_beside_torque_or_speed() {
+    let solve = |given: &[&str]| {
+        let args = [&["solve", GEARBOX, "--gear", "first", "--format", "json"][..], given].concat();
+        let json: serde_json::Value = serde_json::from_str(&out(&args)).unwrap();
+        json["loss_w"].as_f64().unwrap()
+    };
+    let close = |a: f64, b: f64| (a - b).abs() < 1e-9 * b;
+    // 10 Nm at 8000 rpm.
+    let power = format!("{} kW", 10.0 * 8000.0 * std::f64::consts::PI / 30.0 / 1000.0);
+    let loss = solve(&["--torque", "10 Nm", "--speed", "8000 rpm"]);
+    assert!(close(solve(&["--power", &power, "--speed", "8000 rpm"]), loss));
+    assert!(close(solve(&["--power", &power, "--torque", "10 Nm"]), loss));
+}
+
 #[test]
 fn wrong_arguments_say_how_to_fix_them() {
     for (args, words) in [
@@ -188,6 +204,22 @@ fn wrong_arguments_say_how_to_fix_them() {
         (
             vec!["solve", GEARBOX, "--gear", "first", "--speed", "1 rpm"],
             "add --torque",
+        ),
+        (
+            vec!["solve", GEARBOX, "--gear", "first", "--power", "1 kW"],
+            "add --speed \"input=1000 rpm\" or --torque",
+        ),
+        (
+            vec![
+                "solve", GEARBOX, "--gear", "first", "--speed", "0 rpm", "--power", "1 kW",
+            ],
+            "no power is transmitted at `input`",
+        ),
+        (
+            vec![
+                "solve", GEARBOX, "--gear", "first", "--speed", "1 rpm", "--torque", "1 Nm", "--power", "1 W",
+            ],
+            "delete one of the three",
         ),
         (
             vec![

@@ -204,6 +204,72 @@ analyses:
     );
 }
 
+/// Points in the study itself are those of a file; loads of an analysis are a load spectrum with equal shares.
+#[test]
+fn points_of_the_study_are_those_of_a_file() {
+    let study = "cycles:
+  spectrum: { spectrum: [{ torque: 10 Nm, speed: 8000 rpm, share: 0.5 }, { torque: 20 Nm, speed: 2000 rpm, share: 0.5 }] }
+analyses:
+  here: { type: operating_points, gear: first, points: [{ torque: 10 Nm, speed: 8000 rpm, name: road }, { torque: 10 Nm, speed: 8000 rpm, gear: second }, { torque: 20 Nm, speed: 2000 rpm, oil_temperature: 60 degC }] }
+  file: { type: operating_points, gear: first, data: { file: points.csv } }
+  fluids: { type: fluid_sweep, gear: first, kv100: [5 mm2/s, 8 mm2/s], refine: false, points: [{ torque: 10 Nm, speed: 8000 rpm }, { torque: 20 Nm, speed: 2000 rpm }] }
+  same: { type: fluid_sweep, gear: first, kv100: [5 mm2/s, 8 mm2/s], refine: false, cycles: [spectrum] }
+  best: { type: optimise, gear: first, designs: 16, points: [{ torque: 10 Nm, speed: 8000 rpm }], variables: { viscosity: { path: lubricants.*.viscosity.factor, from: 0.5, to: 1.5 } } }
+";
+    let listed = "torque [Nm],speed [rpm],oil_temperature [degC],gear,name\n10,8000,100,first,road\n10,8000,100,second,2\n20,2000,60,first,3\n";
+    let (results, _) = run(study, &[("points.csv", listed)]);
+    let sets = ["here", "file"].map(|name| results.json(name)["operating_points"].clone());
+    assert_eq!(sets[0], sets[1]);
+    let of_set = &points(&sets[0][0])[0];
+    assert_eq!(
+        (&of_set["name"], &of_set["gear"]),
+        (&Value::from("road"), &Value::from("first"))
+    );
+    let [fluids, same] = ["fluids", "same"].map(|name| results.json(name)["fluid_sweep"][0]["cycles"][0].clone());
+    assert_eq!(
+        (&fluids["cycle"], &same["cycle"]),
+        (&Value::from("points"), &Value::from("spectrum"))
+    );
+    assert_eq!(fluids["fluids"], same["fluids"]);
+    assert!(results.json("best").is_object());
+}
+
+/// Neither, or both, of what only one can be.
+#[test]
+fn points_are_stated_once() {
+    for (analysis, words) in [
+        ("type: operating_points", "add `points: ["),
+        (
+            "type: operating_points, points: [{ torque: 1 Nm, speed: 1 rpm }], data: { file: points.csv }",
+            "delete one of them",
+        ),
+        (
+            "type: operating_points, points: [{ torque: 1 Nm, speed: 1 rpm }], bind: { volume: housing.oil.volume }",
+            "`bind` names columns",
+        ),
+        (
+            "type: fluid_sweep, kv100: [5 mm2/s]",
+            "neither a cycle nor a point is stated",
+        ),
+    ] {
+        let folder = written(
+            "once",
+            &format!("analyses: {{ own: {{ {analysis} }} }}\n"),
+            &[("points.csv", "torque [Nm],speed [rpm]\n1,1\n")],
+        );
+        let output = Command::new(env!("CARGO_BIN_EXE_gearloss"))
+            .args(["check", "study.yaml"])
+            .current_dir(&folder)
+            .output()
+            .unwrap();
+        let text = String::from_utf8(output.stderr).unwrap();
+        assert!(
+            output.status.code() == Some(2) && text.contains(words),
+            "{analysis}: {text}"
+        );
+    }
+}
+
 /// Rows of a file of comma-separated numbers.
 fn numbers(text: &str) -> Vec<Vec<f64>> {
     let row = |line: &str| {

@@ -15,6 +15,7 @@ from .analyses import cycle, identify
 from .gearbox import Gearbox, Transmission
 from .law import Law, law
 from .results import Map, Points, Table
+from .reference import catalogue
 from .study import Outcome, Study, run
 
 __all__ = [
@@ -30,6 +31,7 @@ __all__ = [
     "Table",
     "Transmission",
     "__version__",
+    "catalogue",
     "cycle",
     "identify",
     "law",

@@ -20,6 +20,7 @@ __all__ = [
     "Transmission",
     "add_function",
     "call",
+    "catalogue",
     "compute",
     "models",
     "quantity",
@@ -43,6 +44,8 @@ class Gearbox:
     def from_text(text: str, name: str, folder: str | os.PathLike[str]) -> Gearbox: ...
     @staticmethod
     def from_document(document: Mapping[str, Any], folder: str | os.PathLike[str]) -> Gearbox: ...
+    @property
+    def title(self) -> str | None: ...
     def transmission(self, models: str | None, overrides: list[tuple[str, Any]]) -> Transmission: ...
 
 @final
@@ -104,6 +107,10 @@ class Solution:
     def parts(self) -> dict[str, float]:
         """Loss of each component in W, by path; empty if the point has no value."""
 
+    @property
+    def ratings(self) -> list[dict[str, Any]]:
+        """Ratings of the components, as `ratings` of `to_dict`: lives, safeties, films, temperatures."""
+
     def to_dict(self) -> dict[str, Any]:
         """The record of `gearloss solve --format json`; `schema("point")` describes it."""
 
@@ -154,7 +161,7 @@ class Study:
     def finds_models(self, name: str) -> bool:
         """Whether other analyses may use a model set that the analysis finds."""
 
-    def analysis(self, name: str) -> Outcome: ...
+    def analysis(self, name: str, progress: Callable[[str, int, int], object] | None = None) -> Outcome: ...
 
 @final
 class Distribution:
@@ -194,6 +201,9 @@ def add_function(name: str, function: Callable[..., Any], quantities: list[str],
 
 def call(arguments: list[str]) -> int:
     """Runs a command of the program; returns its exit code."""
+
+def catalogue(of: str, text: str) -> list[dict[str, Any]]:
+    """Rows of the shipped catalogue of ``bearings`` or ``oils`` whose designations contain a text."""
 
 def compute(parcel: bytes, analysis: str, stage: tuple[int, int, list[int]], before: bytes) -> bytes:
     """The results of tasks on one thread."""

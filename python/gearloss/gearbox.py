@@ -53,6 +53,14 @@ class Gearbox:
         own._core = _core.Gearbox.read(file)
         return own
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        if self._text is None:
+            return Gearbox.read, (self._file,)
+        return Gearbox, (self._text, self._folder)
+
+    def __repr__(self) -> str:
+        return f"Gearbox({self._core.title or 'without title'!r}, {'text' if self._text else self._file})"
+
     def transmission(self, models: Union[str, None] = None, set: Union[Mapping[str, Any], None] = None) -> Transmission:
         """The gearbox with its models, or those of a model set, and with overrides of resolved paths, such as
         ``{"gears.*.surface.ra": "0.4 um", "lubricants.oil.viscosity.kv40": 30}``. Numbers are in the unit of the path. A model may be a `law`.
@@ -60,14 +68,27 @@ class Gearbox:
         Raises:
             Findings: an unknown set or path, a value out of range, files that cannot be read.
         """
-        return Transmission(self._core.transmission(models, list(plain(set or {}).items())))
+        return Transmission(self, models, dict(plain(set or {})))
 
 
 class Transmission:
     """A gearbox with its models, ready to be solved. It may be used by several threads at once."""
 
-    def __init__(self, core: _core.Transmission) -> None:
-        self._core = core
+    def __init__(self, gearbox: Gearbox, models: Union[str, None] = None, set: Union[Mapping[str, Any], None] = None) -> None:
+        """As `Gearbox.transmission`."""
+        self._made = (gearbox, models, dict(set or {}))
+        self._core = gearbox._core.transmission(models, list(self._made[2].items()))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Transmission, self._made
+
+    def __repr__(self) -> str:
+        gearbox, models, changes = self._made
+        changed = f", {len(changes)} overrides" if changes else ""
+        return (
+            f"Transmission({gearbox._core.title or 'without title'!r}, models={models or 'own'!r}, gears {', '.join(self.gears)}, "
+            f"ports {', '.join(self.ports)}, {len(self.parts)} components{changed})"
+        )
 
     @property
     def gears(self) -> list[str]:

@@ -132,7 +132,7 @@ class Map(Points):
         self.speed = speed
 
     def plot(self, quantity: str = "efficiency", ax: Any = None, levels: Any = 12) -> Any:
-        """Contours of a quantity over speed and torque: ``efficiency``, ``loss`` or a column; needs matplotlib. Returns the axes."""
+        """Labelled contours of a quantity over speed and torque: ``efficiency``, ``loss`` or a column; needs matplotlib. Returns the axes."""
         import matplotlib.pyplot
 
         if min(self.shape) < 2:
@@ -141,6 +141,8 @@ class Map(Points):
         quantity = "loss_w" if quantity == "loss" else quantity
         values = 100.0 * self.efficiency if quantity == "efficiency" else self.array(quantity)
         filled = axes.contourf(self.speed, self.torque, values, levels)
+        lines = axes.contour(self.speed, self.torque, values, filled.levels, colors="black", linewidths=0.4)
+        axes.clabel(lines, fontsize=8)
         unit = "%" if quantity == "efficiency" else self._columns[quantity].unit
         axes.figure.colorbar(filled, ax=axes, label=f"{quantity.replace('_', ' ')} in {unit}")
         axes.set(xlabel="speed in rpm", ylabel="torque in Nm")

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping
+import sys
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any, Union
 
 from . import _core
 from .results import Table, _escaped
+
+#: Is told what is being done, the steps that are done, and their number.
+Progress = Callable[[str, int, int], object]
 
 
 class Study:
@@ -47,18 +51,53 @@ class Study:
         """Names of the analyses, in their order."""
         return self._core.analyses
 
-    def analysis(self, name: str) -> Outcome:
-        """Runs one analysis; those whose model sets it uses (`then`) must have run before. Nothing is written.
+    def __repr__(self) -> str:
+        return f"Study({self.title or 'without title'!r}: {', '.join(self.analyses)})"
+
+    def analysis(self, name: str, progress: Union[bool, Progress] = False) -> Outcome:
+        """Runs one analysis; those whose model sets it uses (`then`) must have run before. Nothing is written. With `progress` a line on
+        stderr shows how far it is; a function is called with what is being done, the steps that are done, and their number.
 
         Raises:
             Findings: what is wrong with its input.
             KeyboardInterrupt: after Ctrl-C.
         """
-        return Outcome(self._core.analysis(name))
+        if not progress:
+            return Outcome(self._core.analysis(name))
+        if callable(progress):
+            return Outcome(self._core.analysis(name, progress))
+        bar = _Bar(name)
+        try:
+            return Outcome(self._core.analysis(name, bar))
+        finally:
+            bar.close()
 
-    def outcomes(self) -> Iterator[Outcome]:
-        """Runs the analyses in their order."""
-        return map(self.analysis, self.analyses)
+    def outcomes(self, progress: Union[bool, Progress] = False) -> Iterator[Outcome]:
+        """Runs the analyses in their order; `progress` as of `analysis`."""
+        return (self.analysis(name, progress) for name in self.analyses)
+
+
+class _Bar:
+    """A line on stderr that shows how far an analysis is."""
+
+    def __init__(self, name: str) -> None:
+        self._name = name
+        self._width = 0
+
+    def __call__(self, label: str, done: int, count: int) -> None:
+        filled = round(20 * done / count)
+        line = f"{self._name} [{'#' * filled}{' ' * (20 - filled)}] {round(100 * done / count):3} % {label}"
+        self._write(line)
+        self._width = len(line)
+
+    def close(self) -> None:
+        if self._width:
+            self._write("")
+            sys.stderr.write("\r")
+
+    def _write(self, line: str) -> None:
+        sys.stderr.write(f"\r{line.ljust(self._width)}")
+        sys.stderr.flush()
 
 
 class Outcome:
@@ -78,9 +117,10 @@ class Outcome:
         return self._core.headline
 
     @property
-    def key_figures(self) -> list[dict[str, str]]:
-        """Numbers that a reader remembers: label, value, unit, detail."""
-        return self._core.key_figures
+    def key_figures(self) -> list[dict[str, Any]]:
+        """Numbers that a reader remembers: label, value, unit, detail. The value has the digits of the report; it is a text if it is no
+        number."""
+        return [{**figure, "value": _number(figure["value"])} for figure in self._core.key_figures]
 
     @property
     def careful(self) -> list[str]:
@@ -137,12 +177,19 @@ class Outcome:
 
     def _repr_html_(self) -> str:
         figures = "".join(
-            f"<div><b>{_escaped(k['label'])}</b>: {_escaped(k['value'])} {_escaped(k['unit'])} {_escaped(k['detail'])}</div>"
+            f"<div><b>{_escaped(k['label'])}</b>: {_escaped(str(k['value']))} {_escaped(k['unit'])} {_escaped(k['detail'])}</div>"
             for k in self.key_figures
         )
         names = self.figures
         picture = self.svg(names[0]) if names else ""
         return f"<p><b>{_escaped(self.headline or self.name)}</b></p>{figures}{picture}"
+
+
+def _number(text: str) -> Union[float, str]:
+    try:
+        return float(text.replace("\u2212", "-"))
+    except ValueError:
+        return text
 
 
 def run(

@@ -44,6 +44,12 @@ impl Gearbox {
         Self::from_text(py, &text, "document", folder)
     }
 
+    /// Title; `None` without one.
+    #[getter]
+    fn title(&self) -> Option<&str> {
+        self.0.value["title"].as_str()
+    }
+
     /// Builds a transmission: name of a model set, and overrides of resolved paths.
     fn transmission(
         &self,

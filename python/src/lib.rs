@@ -33,7 +33,7 @@ mod _core {
     #[pymodule_export]
     use crate::quantity::quantity;
     #[pymodule_export]
-    use crate::reference::{models, schema};
+    use crate::reference::{catalogue, models, schema};
     #[pymodule_export]
     use crate::study::{Outcome, Study};
     #[pymodule_export]

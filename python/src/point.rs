@@ -3,8 +3,8 @@
 use gearloss::api::{OilTemperature, PowerFlow};
 use gearloss::framework::thermal::Outcome;
 use gearloss::report::point::{Explained, PointRecord, point_text, ratings_text};
-use gearloss::studies::points::PreparedPoint;
-use gearloss::studies::ratings::rated;
+use gearloss::studies::points::{PreparedPoint, SolvedPoint};
+use gearloss::studies::ratings::{RatedComponent, rated};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -185,6 +185,15 @@ impl Solution {
         Ok(parts)
     }
 
+    /// Ratings of the components: lives, safeties, films, temperatures.
+    #[getter]
+    fn ratings(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        let t = self.transmission.get();
+        let mut scratch = t.built.scratch(&self.prepared.case);
+        let solved = self.prepared.solve(&t.built, &mut scratch);
+        json::to_python(py, &rated_of(py, t, &solved)?)
+    }
+
     /// Everything that `gearloss solve --format json` states.
     fn to_dict(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
         let t = self.transmission.get();
@@ -205,10 +214,7 @@ impl Solution {
         let t = self.transmission.get();
         let mut scratch = t.built.scratch(&self.prepared.case);
         let solved = self.prepared.solve(&t.built, &mut scratch);
-        let ratings = t.gearbox.ratings(language(py)?, &t.resolved, &t.built);
-        let ratings = ratings.map_err(|findings| raised(py, &findings))?;
-        let rated = rated(&ratings, &t.built, &solved.solution);
-        Ok(point_text(&t.built, &self.prepared, &solved) + &ratings_text(&rated))
+        Ok(point_text(&t.built, &self.prepared, &solved) + &ratings_text(&rated_of(py, t, &solved)?))
     }
 
     fn __repr__(&self) -> String {
@@ -221,6 +227,12 @@ impl Solution {
             self.status
         )
     }
+}
+
+fn rated_of(py: Python<'_>, t: &Transmission, solved: &SolvedPoint<'_>) -> PyResult<Vec<RatedComponent>> {
+    let ratings = t.gearbox.ratings(language(py)?, &t.resolved, &t.built);
+    let ratings = ratings.map_err(|findings| raised(py, &findings))?;
+    Ok(rated(&ratings, &t.built, &solved.solution))
 }
 
 /// Every step of the loss of a component.

@@ -1,6 +1,6 @@
 //! Models and schemas.
 
-use gearloss::framework::language::Kind;
+use gearloss::framework::language::{Kind, LUBRICANTS};
 use gearloss::report::check::CheckRecord;
 use gearloss::report::models::ModelsRecord;
 use gearloss::report::point::PointRecord;
@@ -14,6 +14,38 @@ use crate::json;
 #[pyfunction]
 pub fn models(py: Python<'_>) -> PyResult<Py<PyAny>> {
     json::to_python(py, &ModelsRecord::new(language(py)?, None, None))
+}
+
+/// Rows of the shipped catalogue of `bearings` or `oils` whose designations contain a text.
+#[pyfunction]
+pub fn catalogue(py: Python<'_>, of: &str, text: &str) -> PyResult<Py<PyAny>> {
+    let section = match of {
+        "bearings" => "bearings",
+        "oils" => LUBRICANTS,
+        other => {
+            let message = format!("there is no catalogue of `{other}`");
+            return Err(wrong(
+                py,
+                gearloss::framework::codes::UNKNOWN_NAME,
+                message,
+                "give bearings or oils",
+            ));
+        }
+    };
+    let hits = language(py)?
+        .catalogue(section)
+        .map(|all| all.search(text, section != LUBRICANTS));
+    let rows = hits.into_iter().flat_map(|hits| hits.rows);
+    let rows = rows.map(|(designation, row)| {
+        let mut all = serde_json::Map::from_iter([("designation".to_owned(), designation.into())]);
+        all.extend(row.values);
+        all.extend([
+            ("confidence".to_owned(), row.confidence.into()),
+            ("basis".to_owned(), row.basis.into()),
+        ]);
+        all
+    });
+    json::to_python(py, &rows.collect::<Vec<_>>())
 }
 
 /// The JSON Schema of a kind of document: `gearbox`, `study`, `eval`, `result`, `point`, `check` or `models`.

@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
 
 use gearloss::api::{self, Progress, Silent, Steps, StudyRun};
 use gearloss::document::files::Recorder;
@@ -72,6 +73,53 @@ impl Progress for Interruptible<'_> {
     }
 }
 
+/// How far an analysis is, for a function of Python.
+#[derive(Default)]
+struct Stand {
+    label: Mutex<String>,
+    count: AtomicUsize,
+    done: AtomicUsize,
+}
+
+impl Stand {
+    /// Tells it, if it has changed.
+    fn tell(&self, py: Python<'_>, function: &Py<PyAny>, told: &AtomicUsize) -> PyResult<()> {
+        let (count, done) = (self.count.load(Ordering::Relaxed), self.done.load(Ordering::Relaxed));
+        if count == 0 || told.swap(done, Ordering::Relaxed) == done {
+            return Ok(());
+        }
+        let label = self.label.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        function.call1(py, (label, done.min(count), count)).map(drop)
+    }
+}
+
+/// Keeps how far an analysis is, and ends it when it is asked to.
+struct Watched<'a> {
+    stop: &'a AtomicBool,
+    stand: &'a Stand,
+}
+
+impl Progress for Watched<'_> {
+    fn begin(&self, label: &str, count: usize) -> Box<dyn Steps + '_> {
+        label.clone_into(&mut self.stand.label.lock().unwrap_or_else(PoisonError::into_inner));
+        self.stand.count.store(count, Ordering::Relaxed);
+        self.stand.done.store(0, Ordering::Relaxed);
+        Box::new(Stepping(self.stand))
+    }
+
+    fn should_continue(&self) -> bool {
+        !self.stop.load(Ordering::Relaxed)
+    }
+}
+
+struct Stepping<'a>(&'a Stand);
+
+impl Steps for Stepping<'_> {
+    fn advance(&self, count: usize) {
+        self.0.done.fetch_add(count, Ordering::Relaxed);
+    }
+}
+
 #[pymethods]
 impl Study {
     /// Reads a file and its gearboxes, and checks every name that its analyses use.
@@ -124,9 +172,18 @@ impl Study {
         analysis.is_some_and(|analysis| analysis.then().is_some())
     }
 
-    /// Runs an analysis. Those whose model sets it uses must have run before.
-    fn analysis(&self, py: Python<'_>, name: &str) -> PyResult<Outcome> {
-        let outcome = work::run(py, |stop| self.run.analysis_with(name, &Interruptible(stop)))?;
+    /// Runs an analysis. Those whose model sets it uses must have run before. `progress` is called with what is being done, how many steps
+    /// of it are done, and how many there are.
+    #[pyo3(signature = (name, progress=None))]
+    fn analysis(&self, py: Python<'_>, name: &str, progress: Option<Py<PyAny>>) -> PyResult<Outcome> {
+        let (stand, told) = (Stand::default(), AtomicUsize::new(usize::MAX));
+        let watch = |py: Python<'_>| {
+            progress
+                .as_ref()
+                .map_or(Ok(()), |function| stand.tell(py, function, &told))
+        };
+        let run = |stop: &AtomicBool| self.run.analysis_with(name, &Watched { stop, stand: &stand });
+        let outcome = work::run_watched(py, watch, || {}, run)?;
         Ok(Outcome(outcome.map_err(|why| stopped(py, why))?.into()))
     }
 }

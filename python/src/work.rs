@@ -16,11 +16,21 @@ const LOOK: Duration = Duration::from_millis(20);
 /// # Errors
 /// `KeyboardInterrupt`, or what a handler of signals raises.
 pub fn run<T: Send>(py: Python<'_>, work: impl FnOnce(&AtomicBool) -> T + Send) -> PyResult<T> {
-    run_until(py, || {}, work)
+    run_watched(py, |_| Ok(()), || {}, work)
 }
 
 /// As [`run`], for work that is asked to end by a function.
 pub fn run_until<T: Send>(py: Python<'_>, end: impl Fn(), work: impl FnOnce(&AtomicBool) -> T + Send) -> PyResult<T> {
+    run_watched(py, |_| Ok(()), end, work)
+}
+
+/// As [`run_until`]; meanwhile and at the end `watch` is called, and ends the work with an error.
+pub fn run_watched<T: Send>(
+    py: Python<'_>,
+    watch: impl Fn(Python<'_>) -> PyResult<()>,
+    end: impl Fn(),
+    work: impl FnOnce(&AtomicBool) -> T + Send,
+) -> PyResult<T> {
     same_process()?;
     let stop = AtomicBool::new(false);
     std::thread::scope(|scope| {
@@ -40,7 +50,10 @@ pub fn run_until<T: Send>(py: Python<'_>, end: impl Fn(), work: impl FnOnce(&Ato
                 Err(RecvTimeoutError::Timeout) => {}
                 Ok(()) | Err(RecvTimeoutError::Disconnected) => break,
             }
-            if let Err(error) = py.check_signals() {
+            if let Err(error) = py
+                .check_signals()
+                .and_then(|()| if pressed.is_none() { watch(py) } else { Ok(()) })
+            {
                 stop.store(true, Ordering::Relaxed);
                 pressed.get_or_insert(error);
             }
@@ -48,6 +61,9 @@ pub fn run_until<T: Send>(py: Python<'_>, end: impl Fn(), work: impl FnOnce(&Ato
             if pressed.is_some() {
                 end();
             }
+        }
+        if pressed.is_none() {
+            pressed = watch(py).err();
         }
         let result = py.detach(|| worker.join());
         match (pressed, result) {

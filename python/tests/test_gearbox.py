@@ -1,4 +1,5 @@
 import json
+import pickle
 
 import pytest
 
@@ -31,6 +32,35 @@ def test_gears_ports_and_parts_are_listed(transmission):
     assert transmission.gears == ["first", "second", "neutral"]
     assert transmission.ports[0] == "input"
     assert "bearings.B5" in transmission.parts
+
+
+def test_gearboxes_and_transmissions_say_what_they_are(gearbox):
+    changed = gearbox.transmission(models="joint", set={"housing.oil.level_offset": "-5 mm"})
+    assert "gearbox.yaml" in repr(gearbox)
+    for word in ("models='joint'", "first, second, neutral", "1 overrides"):
+        assert word in repr(changed), repr(changed)
+
+
+def test_a_pickled_transmission_gives_the_same_numbers(gearbox):
+    text = gl.Gearbox(TWO_SPEED.read_text(), folder=TWO_SPEED.parent)
+    point = {"gear": "first", "torque": 10, "speed": 8000}
+    for own in (gearbox, text):
+        made = own.transmission(models="joint", set={"housing.oil.level_offset": "-5 mm"})
+        assert pickle.loads(pickle.dumps(made)).solve(**point).parts == made.solve(**point).parts
+
+
+def test_ratings_are_those_of_the_record(transmission):
+    point = transmission.solve(gear="first", torque=10, speed=8000)
+    assert point.ratings == point.to_dict()["ratings"]
+    assert {"gear_mesh", "bearing"} <= {one["mechanism"] for one in point.ratings}
+
+
+def test_catalogues_are_searched():
+    (row,) = gl.catalogue("bearings", "NU206EC")
+    assert row["designation"] == "NU206EC" and row["confidence"]
+    assert any("220" in row["designation"] for row in gl.catalogue("oils", "VG 220"))
+    with pytest.raises(gl.Findings):
+        gl.catalogue("seals")
 
 
 def test_a_wrong_key_is_an_error_with_its_place(tmp_path):

@@ -42,10 +42,25 @@ def test_a_study_lists_its_analyses(products):
 def test_an_outcome_has_its_result_in_words_and_numbers(products):
     gain = products.analysis("gain")
     assert gain.name == "gain" and gain.headline.startswith("With `theirs` the loss is")
-    assert gain.key_figures[0]["unit"] == "W"
+    assert gain.key_figures[0]["unit"] == "W" and isinstance(gain.key_figures[0]["value"], float)
     assert any("is outside" in line for line in gain.careful)
     assert gain.failures == []
     assert "gain" in repr(gain)
+
+
+def test_an_analysis_says_how_far_it_is(products, capsys):
+    told = []
+    products.analysis("maps", progress=lambda *stand: told.append(stand))
+    assert told and all(0 <= done <= count and label for label, done, count in told)
+    silent = products.analysis("gain").to_dict()
+    assert capsys.readouterr().err == ""
+    assert products.analysis("gain", progress=True).to_dict() == silent
+    with pytest.raises(ZeroDivisionError):
+        products.analysis("maps", progress=lambda *_: 1 / 0)
+
+
+def test_a_study_says_what_it_is(products):
+    assert repr(products).startswith("Study('Two products for one application, first gear, 80 degC': maps, gain")
 
 
 def test_tables_are_columns(products):

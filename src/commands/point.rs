@@ -34,6 +34,49 @@ fn at_port<'a>(option: &str, text: &'a str, unit: &'static str) -> Result<(&'a s
     Ok((port, quantity(option, value, unit)?))
 }
 
+/// Completes torque or speed of each port whose power is given.
+fn divide_powers<'a>(
+    powers: &[(&'a str, f64)],
+    torques: &mut Vec<(&'a str, f64)>,
+    speeds: &mut Vec<(&'a str, f64)>,
+) -> Result<(), Failure> {
+    for (k, &(port, power)) in powers.iter().enumerate() {
+        let of_port = |list: &[(&str, f64)]| list.iter().find(|(name, _)| *name == port).map(|(_, value)| *value);
+        let (torque, speed) = (of_port(torques), of_port(speeds));
+        let (known, missing, name) = match (torque, speed) {
+            _ if of_port(&powers[..k]).is_some() => {
+                return Err(Failure::input(
+                    format!("--power of `{port}` is given twice"),
+                    "delete one of them",
+                ));
+            }
+            (Some(_), Some(_)) => {
+                return Err(Failure::input(
+                    format!("power, torque and speed of `{port}` are given"),
+                    "delete one of the three: two decide the third",
+                ));
+            }
+            (None, None) => {
+                return Err(Failure::input(
+                    format!("of `{port}` only the power is given"),
+                    format!("add --speed \"{port}=1000 rpm\" or --torque \"{port}=10 Nm\""),
+                ));
+            }
+            (Some(torque), None) => (torque, &mut *speeds, "torque"),
+            (None, Some(speed)) => (speed, &mut *torques, "speed"),
+        };
+        let other = power / known;
+        if !other.is_finite() {
+            return Err(Failure::input(
+                format!("no power is transmitted at `{port}`: its {name} is zero or too small"),
+                format!("write another {name}, or a torque and a speed in place of --power"),
+            ));
+        }
+        missing.push((port, other));
+    }
+    Ok(())
+}
+
 /// Prepares the point of the arguments.
 pub fn prepare(args: &PointArgs, gearbox: &Gearbox, transmission: &Transmission) -> Result<PreparedPoint, Failure> {
     let gear = match (&args.gear, transmission.states()) {
@@ -55,16 +98,21 @@ pub fn prepare(args: &PointArgs, gearbox: &Gearbox, transmission: &Transmission)
     for text in &args.torque {
         torques.push(at_port("--torque", text, "Nm")?);
     }
+    let mut powers = Vec::new();
+    for text in &args.power {
+        powers.push(at_port("--power", text, "W")?);
+    }
     let state = transmission
         .state(&gear)
         .map_err(|e| Failure::from(gearbox.findings(vec![e])))?;
     let ports: Vec<&str> = transmission.ports().iter().map(|p| p.name.as_str()).collect();
     // The assumed port must exist.
-    for (port, _) in speeds.iter_mut().chain(&mut torques) {
+    for (port, _) in speeds.iter_mut().chain(&mut torques).chain(&mut powers) {
         if *port == "input" && !ports.contains(port) {
             *port = ports[transmission.reference_port()];
         }
     }
+    divide_powers(&powers, &mut torques, &mut speeds)?;
     let needed = transmission.torques_needed(state);
     if speeds.is_empty() {
         let own: Vec<&str> = transmission.states()[state]

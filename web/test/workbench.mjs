@@ -33,9 +33,9 @@ const check = (is, text) => {
 };
 const pause = (ms) => new Promise((done) => setTimeout(done, ms));
 
-/** Starts the program; returns it with its address. */
-async function start() {
-  const child = spawn(program, ["open", folder, "--no-browser", "--keep"], { stdio: ["ignore", "pipe", "pipe"], env: { ...process.env, XDG_STATE_HOME: join(root, "state") } });
+/** Starts the program in a folder; returns it with its address. */
+async function start(place = folder) {
+  const child = spawn(program, ["open", place, "--no-browser", "--keep"], { stdio: ["ignore", "pipe", "pipe"], env: { ...process.env, XDG_STATE_HOME: join(root, "state") } });
   let text = "";
   const address = await new Promise((done, fail) => {
     const read = (data) => {
@@ -118,14 +118,14 @@ const small = (page) =>
   });
 
 const textOf = (page) => page.evaluate(() => document.querySelector(".cm-content").cmTile?.view?.state.doc.toString() ?? document.querySelector(".cm-content").cmView?.view?.state.doc.toString());
-/** The cursor at a line and column of the shown file, by keys. */
+/** The cursor at a line and column of the shown file. Lines are wrapped, so arrow keys do not count them. */
 async function cursor(page, line, column) {
   await page.focus(".cm-content");
-  await page.keyboard.down("Control");
-  await page.keyboard.press("Home");
-  await page.keyboard.up("Control");
-  for (let k = 0; k < line; k++) await page.keyboard.press("ArrowDown");
-  for (let k = 0; k < column; k++) await page.keyboard.press("ArrowRight");
+  await page.evaluate((line, column) => {
+    const content = document.querySelector(".cm-content");
+    const view = content.cmTile?.view ?? content.cmView?.view;
+    view.dispatch({ selection: { anchor: view.state.doc.line(line + 1).from + column }, scrollIntoView: true });
+  }, line, column);
 }
 const press = async (page, key, ...held) => {
   for (const own of held) await page.keyboard.down(own);
@@ -889,6 +889,52 @@ await step("A slow program", async () => {
   await until(other, "the page says that a file cannot be read", () => /cannot be read: it is not UTF-8/.test(document.getElementById("notices").textContent));
   await other.close();
   await page.bringToFront();
+});
+
+// From an empty folder to the map of a planetary and of a two-stage gearbox.
+await step("An empty folder", async () => {
+  for (const layout of ["planetary", "two-stage"]) {
+    const empty = join(root, `new ${layout}`);
+    await mkdir(empty);
+    const own = await start(empty);
+    const other = await browser.newPage();
+    await other.setViewport({ width: 1366, height: 768 });
+    other.on("pageerror", (fault) => faults.push(`error: ${fault.stack}`));
+    await other.goto(own.address);
+    await until(other, "layouts", () => document.querySelectorAll(".layouts button").length > 3);
+    await serious(other, "an empty folder");
+    await other.click(`[data-layout="${layout}"]`);
+    await until(other, "form", () => document.querySelector(".form-dialog[open] .field") && !document.getElementById("form-create").disabled);
+    // What follows from the teeth.
+    const [path, distance] = layout === "planetary" ? ["gears.planets.z", "45 mm"] : ["gears.G2.z", "97.57 mm"];
+    const mesh = layout === "planetary" ? "sun_planet" : "first";
+    const ratio = await other.$eval(".ratios", (e) => e.textContent);
+    await other.focus(`[data-path="${path}"] input`);
+    await press(other, "a", "Control");
+    await other.keyboard.type(layout === "planetary" ? "36" : "83");
+    await until(other, "the centre distance follows", (mesh, own) => document.querySelector(`[data-path="meshes.${mesh}.centre_distance"] input`).value === own, mesh, distance);
+    check((await other.$eval(".ratios", (e) => e.textContent)) !== ratio && /^Ratio/.test(ratio), `the ratio does not follow: ${ratio}`);
+    await until(other, "the form is right", () => !document.getElementById("form-create").disabled);
+    await image(other, `form-${layout}`);
+    await other.click("#form-create");
+    await until(other, "the map", () => document.querySelector(".map-body[data-drawn=map] svg path"));
+    await until(other, "the file is written", () => !document.querySelector(".file.current .unsaved"));
+    const text = await readFile(join(empty, "gearbox.yaml"), "utf8");
+    check(text === (await textOf(other)), "the written file has another text");
+    // The map is the largest pane, and its axes are on the screen.
+    const seen = await other.evaluate(() => {
+      const area = (e) => e.getBoundingClientRect().width * e.getBoundingClientRect().height;
+      const panes = [...document.querySelectorAll(".pane")].map((pane) => [pane.className, area(pane)]).sort((a, b) => b[1] - a[1]);
+      const sliders = [...document.querySelectorAll(".slider-row input[type=range]")].map((e) => e.getBoundingClientRect());
+      return { largest: panes[0][0], bottom: document.querySelector(".map-body svg").getBoundingClientRect().bottom, sliders: sliders.every((r) => document.elementFromPoint(r.x + r.width / 2, r.y + r.height / 2)?.type === "range") };
+    });
+    check(seen.largest.includes("pane-results") && seen.bottom <= 768 && seen.sliders, `the first map: ${JSON.stringify(seen)}`);
+    check(!(await other.evaluate(() => document.querySelector(".pane-convergence").checkVisibility())), "an empty convergence monitor is shown");
+    check(!/`/.test(await other.evaluate(() => ["findings", "remarks", "point-message"].map((id) => document.getElementById(id).textContent).join())), "a backtick is shown");
+    await image(other, `map-${layout}`);
+    await other.close();
+    own.child.kill();
+  }
 });
 
 // More pages than a browser has connections, and a page without a gearbox.

@@ -11,6 +11,7 @@ mod vehicle;
 
 pub use battery::{Battery, BatteryEntry, Consumption, distance};
 pub use cycle::{CycleEntry, Duty, FileCycleEntry, PhaseEntry, ShippedCycleEntry, SpectrumCycleEntry};
+pub(crate) use spectrum::points;
 pub use spectrum::{Spectrum, SpectrumFile, SpectrumPoint};
 pub use trace::{Sample, Trace};
 pub use vehicle::{

@@ -1,14 +1,17 @@
 //! New documents: forms of gearboxes, and studies. A form writes the template of a layout with the values that were typed: after that the text is what counts.
 
 mod fields;
+mod followed;
 mod layouts;
+mod ratios;
 mod study;
 mod written;
 
 pub use fields::{Field, FieldKind, Group};
 pub use layouts::{LAYOUTS, Layout};
+pub use ratios::{Ratio, ratios};
 pub use study::NewStudy;
-pub use written::written;
+pub use written::{Written, written};
 
 use serde::Serialize;
 

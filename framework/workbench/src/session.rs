@@ -15,7 +15,7 @@ use serde_json::{Value, json};
 use crate::answer::Fault;
 use crate::controls::controls;
 use crate::drawing::drawing;
-use crate::form::{Layout, NewStudy, forms, written};
+use crate::form::{Layout, NewStudy, forms, ratios, written};
 use crate::map::map;
 use crate::point::{explain, point};
 use crate::request::{CatalogueOf, Request, Texts};
@@ -99,7 +99,9 @@ impl<'l> Session<'l> {
                 let known = Layout::named(layout);
                 let layout = known
                     .ok_or_else(|| Fault::new(format!("there is no layout `{layout}`"), "choose one of the list"))?;
-                Ok(json!({ "text": written(layout, values)? }))
+                let written = written(layout, values)?;
+                let ratios = ratios(language, &written.text);
+                Ok(json!({ "text": written.text, "followed": written.followed, "ratios": ratios }))
             }
             Request::NewStudy { texts, gearbox } => {
                 let file = Path::new(gearbox);

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::resolve::Choice;
-use gearloss_workbench::form::{FieldKind, LAYOUTS, Layout, forms, written};
+use gearloss_workbench::form::{FieldKind, LAYOUTS, Layout, forms, ratios, written};
 use gearloss_workbench::store::Memory;
 use serde_json::json;
 
@@ -21,7 +21,7 @@ fn values(list: &[(&str, &str)]) -> BTreeMap<String, String> {
 fn a_form_without_changes_is_its_template() {
     for layout in LAYOUTS {
         assert_eq!(
-            written(&layout, &BTreeMap::new()).unwrap(),
+            written(&layout, &BTreeMap::new()).unwrap().text,
             layout.text,
             "{}",
             layout.name
@@ -31,7 +31,7 @@ fn a_form_without_changes_is_its_template() {
         assert!(fields.len() > 20, "{}: {} fields", layout.name, fields.len());
         let same: BTreeMap<String, String> = fields.iter().map(|f| (f.path.clone(), f.value.clone())).collect();
         assert_eq!(same.len(), fields.len(), "{}: a path occurs twice", layout.name);
-        let (text, assumed) = (written(&layout, &same).unwrap(), "\nassumed:");
+        let (text, assumed) = (written(&layout, &same).unwrap().text, "\nassumed:");
         let before = |text: &str| text.split(assumed).next().unwrap().to_owned();
         assert_eq!(before(&text), before(layout.text), "{}", layout.name);
         let left = text.split(assumed).nth(1).unwrap();
@@ -58,8 +58,9 @@ fn every_field_is_written() {
                 }
                 FieldKind::Bearing => "6213".to_owned(),
                 FieldKind::Oil => "ISO VG 68 PAO".to_owned(),
+                FieldKind::Choice => field.choices[1].to_owned(),
             };
-            let text = written(&layout, &values(&[(&field.path, &typed)])).unwrap();
+            let text = written(&layout, &values(&[(&field.path, &typed)])).unwrap().text;
             assert_ne!(text, layout.text, "{}: {}", layout.name, field.path);
             let gearbox = Gearbox::of_text(language(), &text, "gearbox.yaml", "").unwrap();
             if field.path == "title" {
@@ -81,7 +82,9 @@ fn typed_values_are_not_assumed() {
         ("bearings.B1.designation", "6207"),
         ("thermal.oil", "60 degC"),
     ];
-    let text = written(Layout::named("two-stage").unwrap(), &values(&typed)).unwrap();
+    let text = written(Layout::named("two-stage").unwrap(), &values(&typed))
+        .unwrap()
+        .text;
     let gearbox = Gearbox::of_text(language(), &text, "gearbox.yaml", "").unwrap();
     let paths: Vec<&str> = gearbox.value["assumed"]
         .as_array()
@@ -111,7 +114,9 @@ fn typed_values_are_not_assumed() {
         ("meshes.first.centre_distance", "91"),
         ("meshes.second.centre_distance", "118 mm"),
     ];
-    let text = written(Layout::named("two-stage").unwrap(), &values(&typed)).unwrap();
+    let text = written(Layout::named("two-stage").unwrap(), &values(&typed))
+        .unwrap()
+        .text;
     assert!(text.contains("paths: [gears, meshes]"), "{text}");
 }
 
@@ -119,7 +124,9 @@ fn typed_values_are_not_assumed() {
 #[test]
 fn texts_that_look_like_numbers_are_quoted() {
     let typed = [("title", "2024"), ("lubricants.sump.designation", "220")];
-    let text = written(Layout::named("two-stage").unwrap(), &values(&typed)).unwrap();
+    let text = written(Layout::named("two-stage").unwrap(), &values(&typed))
+        .unwrap()
+        .text;
     assert!(
         text.contains("title: \"2024\"") && text.contains("designation: \"220\""),
         "{text}"
@@ -130,7 +137,7 @@ fn texts_that_look_like_numbers_are_quoted() {
 #[test]
 fn centre_distances_become_axes() {
     let axis = |layout: &str, typed: &[(&str, &str)], shaft: &str| {
-        let text = written(Layout::named(layout).unwrap(), &values(typed)).unwrap();
+        let text = written(Layout::named(layout).unwrap(), &values(typed)).unwrap().text;
         let gearbox = Gearbox::of_text(language(), &text, "gearbox.yaml", "").unwrap();
         let axis = &gearbox.value["shafts"][shaft]["axis"];
         [0, 1].map(|i| (axis[i].as_f64().unwrap() * 1e9).round() / 1e6)
@@ -148,6 +155,57 @@ fn centre_distances_become_axes() {
     assert_eq!(axis("dual-countershaft", &typed, "right"), [110.1, 0.0]);
 }
 
+/// A ring follows from its sun and planets, a centre distance from the teeth, until they are typed.
+#[test]
+fn what_is_not_typed_follows() {
+    let form = |layout: &str, typed: &[(&str, &str)]| written(Layout::named(layout).unwrap(), &values(typed)).unwrap();
+    // 1.5 mm (24 + 36) / 2 = 45 mm; the ring has 24 + 2 * 36 teeth and grows by 12 modules.
+    let set = form("planetary", &[("gears.planets.z", "36")]);
+    let expected = values(&[
+        ("gears.ring.z", "96"),
+        ("gears.ring.tip_diameter", "142 mm"),
+        ("meshes.sun_planet.centre_distance", "45 mm"),
+    ]);
+    assert_eq!(set.followed, expected);
+    let gearbox = Gearbox::of_text(language(), &set.text, "gearbox.yaml", "").unwrap();
+    assert_eq!(gearbox.value["gears"]["ring"]["z"], 96);
+    let ratio = &ratios(language(), &set.text)[0];
+    assert!(ratio.gear == "reducing" && ratio.to == "output" && (ratio.ratio - 5.0).abs() < 1e-12);
+    let typed = form("planetary", &[("gears.planets.z", "36"), ("gears.ring.z", "90")]);
+    assert!(!typed.followed.contains_key("gears.ring.z"));
+    let module = form("planetary", &[("meshes.sun_planet.normal_module", "3 mm")]);
+    assert_eq!(module.followed["meshes.planet_ring.normal_module"], "3 mm");
+    assert_eq!(module.followed["meshes.sun_planet.centre_distance"], "81 mm");
+    assert_eq!(module.followed["gears.ring.tip_diameter"], "250 mm");
+    // Twice the teeth of both gears are twice the distance; what does not decide it changes nothing.
+    let stage = form(
+        "two-stage",
+        &[
+            ("gears.G1.z", "42"),
+            ("gears.G2.z", "152"),
+            ("gears.G1.facewidth", "30 mm"),
+        ],
+    );
+    assert_eq!(stage.followed, values(&[("meshes.first.centre_distance", "182 mm")]));
+    assert!(form("two-stage", &[("title", "new")]).followed.is_empty());
+    // What cannot be read is a finding of the text, not a distance.
+    assert!(form("two-stage", &[("gears.G1.z", "many")]).followed.is_empty());
+}
+
+/// With a heat balance every layout finds its oil temperature.
+#[test]
+fn a_form_with_a_heat_balance_is_solved() {
+    for layout in LAYOUTS {
+        let text = written(&layout, &values(&[("thermal.mode", "balance")])).unwrap().text;
+        let session = session(Memory::new("new", []));
+        let answer = value(
+            &session,
+            first_point(&session, &json!({ "new.yaml": text }), "new.yaml"),
+        );
+        assert!(answer["efficiency"].as_f64().is_some(), "{}: {answer}", layout.name);
+    }
+}
+
 /// The two countershafts have the same data.
 #[test]
 fn twins_are_written_together() {
@@ -156,7 +214,9 @@ fn twins_are_written_together() {
         ("bearings.L1.designation", "6309"),
         ("meshes.left_out.normal_module", "3.1 mm"),
     ];
-    let text = written(Layout::named("dual-countershaft").unwrap(), &values(&typed)).unwrap();
+    let text = written(Layout::named("dual-countershaft").unwrap(), &values(&typed))
+        .unwrap()
+        .text;
     let gearbox = Gearbox::of_text(language(), &text, "gearbox.yaml", "").unwrap();
     assert_eq!(gearbox.value["gears"]["right_wheel"]["z"], 46);
     assert_eq!(gearbox.value["bearings"]["R1"]["designation"], "6309");

@@ -49,6 +49,7 @@ export class Editor {
       doc: text,
       extensions: [
         lineNumbers(),
+        EditorView.lineWrapping,
         lintGutter(),
         foldGutter(),
         highlightActiveLine(),

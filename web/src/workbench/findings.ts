@@ -3,16 +3,16 @@
 import { html } from "../svg.ts";
 import type { Fault, FileRange, Finding } from "./protocol.ts";
 import { visible } from "../visible.ts";
+import { prose } from "./prose.ts";
 
 /** The code, message, notes and help of a finding. */
 export function describeFinding(parent: Element, finding: Finding): void {
-  const head = html(parent, "p");
-  head.append(visible(finding.message));
-  for (const note of finding.notes) html(parent, "p", { class: "note" }, note);
+  prose(html(parent, "p"), finding.message);
+  for (const note of finding.notes) prose(html(parent, "p", { class: "note" }), note);
   if (finding.help) {
     const help = html(parent, "p", { class: "help" });
     html(help, "b", {}, "help: ");
-    help.append(visible(finding.help));
+    prose(help, finding.help);
   }
   html(parent, "p", { class: "code" }, [finding.severity, finding.code, finding.path].filter(Boolean).join(" · "));
 }
@@ -69,18 +69,18 @@ export class FindingsList {
       const where = place ? `${place.file === file ? "" : `${place.file} `}line ${place.range.start.line + 1}` : finding.path;
       html(button, "span", { class: "where" }, where);
       const text = html(button, "span", { class: "what" });
-      text.append(visible(finding.message));
+      prose(text, finding.message);
       if (finding.help) {
         html(text, "br");
         html(text, "b", {}, "help: ");
-        text.append(visible(finding.help));
+        prose(text, finding.help);
       }
       if (place) button.addEventListener("click", () => this.goTo(place));
       else button.disabled = true;
       for (const related of finding.related) {
         const more = html(item, "button", { type: "button", class: "related" });
         html(more, "span", { class: "where" }, `${related.file}, line ${related.range.start.line + 1}`);
-        html(more, "span", { class: "what" }, related.message);
+        prose(html(more, "span", { class: "what" }), related.message);
         more.addEventListener("click", () => this.goTo(related));
       }
     }

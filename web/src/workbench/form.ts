@@ -7,6 +7,7 @@ import { askWhether } from "./dialogs.ts";
 import { describeFinding } from "./findings.ts";
 import { fileName, freeName, nameFault } from "./names.ts";
 import { Quiet } from "./pace.ts";
+import { prose } from "./prose.ts";
 import type { Fault, Field, Finding, Layout } from "./protocol.ts";
 import { Newest, Refused, type Transport } from "./transport.ts";
 import { visible } from "../visible.ts";
@@ -20,7 +21,7 @@ export function fieldOf(path: string, fields: string[]): string | null {
   return path && around.length === 1 ? around[0] : null;
 }
 
-export function newGearbox(layouts: Layout[], transport: Transport, taken: () => string[], create: (file: string, text: string) => void): void {
+export function newGearbox(layouts: Layout[], transport: Transport, taken: () => string[], create: (file: string, text: string) => void, layout?: string): void {
   const dialog = html(document.body, "dialog", { class: "form-dialog", "aria-labelledby": "form-title" });
   const head = html(dialog, "header");
   html(head, "h2", { id: "form-title" }, "New gearbox");
@@ -29,6 +30,7 @@ export function newGearbox(layouts: Layout[], transport: Transport, taken: () =>
   const select = html(choice, "select", { id: "layout" });
   for (const { name } of layouts) html(select, "option", { value: name }, name);
   const about = html(head, "p", { class: "quiet" });
+  const ratios = html(head, "p", { class: "ratios", role: "status" });
   const body = html(dialog, "div", { class: "form-body" });
   const fields = html(body, "form", { class: "fields", autocomplete: "off", novalidate: "" });
   const side = html(body, "div", { class: "form-side" });
@@ -45,7 +47,7 @@ export function newGearbox(layouts: Layout[], transport: Transport, taken: () =>
 
   const newest = new Newest(transport);
   const catalogue = new Newest(transport);
-  const inputs = new Map<string, { field: Field; input: HTMLInputElement; error: HTMLElement }>();
+  const inputs = new Map<string, { field: Field; input: HTMLInputElement | HTMLSelectElement; error: HTMLElement }>();
   /** What was typed, by the path of its field; another layout takes what it has fields for. */
   const typed = new Map<string, string>();
   let text: string | null = null;
@@ -66,21 +68,27 @@ export function newGearbox(layouts: Layout[], transport: Transport, taken: () =>
         continue;
       }
       at.input.setAttribute("aria-invalid", "true");
-      html(at.error, "span", {}, finding.message);
-      if (finding.help) html(at.error, "span", {}, `help: ${finding.help}`);
+      prose(html(at.error, "span"), finding.message);
+      if (finding.help) prose(html(at.error, "span"), `help: ${finding.help}`);
     }
     state.dataset.state = "bad";
-    html(state, "span", {}, fault.findings.length ? "The gearbox has errors." : fault.message);
-    if (fault.help) html(state, "span", {}, ` help: ${fault.help}`);
+    prose(html(state, "span"), fault.findings.length ? "The gearbox has errors." : fault.message);
+    if (fault.help) prose(html(state, "span"), ` help: ${fault.help}`);
     for (const finding of elsewhere) describeFinding(html(state, "div", { class: "finding-tip" }), finding);
   };
   const ask = async () => {
     const values: Record<string, string> = {};
-    for (const [path, { field, input }] of inputs) if (input.value !== field.value) values[path] = input.value;
+    for (const [path, value] of typed) if (inputs.has(path)) values[path] = value;
     try {
       const answer = await newest.ask({ request: "new", layout: select.value, values });
       if (!answer) return;
       preview.textContent = visible(answer.text);
+      for (const [path, { field, input }] of inputs) {
+        if (typed.has(path)) continue;
+        input.value = answer.followed[path] ?? field.value;
+        input.classList.toggle("followed", path in answer.followed);
+      }
+      ratios.textContent = answer.ratios.length ? `Ratio ${answer.ratios.map(({ gear, to, ratio }) => `${[gear, to].filter((name) => name !== "only" && name !== "output").join(" ")} ${Number(ratio.toPrecision(5))}`.trim()).join(", ").replace(/-/g, "\u2212")}` : "";
       delete preview.dataset.stale;
       // A value that cannot be a value of its field, or does not fit the others, is a finding of the text.
       const file = "new-gearbox.yaml";
@@ -123,17 +131,20 @@ export function newGearbox(layouts: Layout[], transport: Transport, taken: () =>
         const id = unique("field");
         const line = html(set, "div", { class: "field", "data-path": field.path });
         html(line, "label", { for: id }, words(field.label));
-        const input = html(line, "input", { id, type: "text", value: typed.get(field.path) ?? field.value, spellcheck: "false", "aria-describedby": `${id}-help ${id}-error`, inputmode: field.kind === "integer" ? "numeric" : undefined });
+        const input = field.choices ? html(line, "select", { id, "aria-describedby": `${id}-help ${id}-error` }) : html(line, "input", { id, type: "text", value: typed.get(field.path) ?? field.value, spellcheck: "false", "aria-describedby": `${id}-help ${id}-error`, inputmode: field.kind === "integer" ? "numeric" : undefined });
+        for (const value of field.choices ?? []) html(input, "option", { value }, value);
+        if (field.choices) input.value = typed.get(field.path) ?? field.value;
         html(line, "span", { class: "field-help", id: `${id}-help` }, words(field.help));
         const error = html(line, "span", { class: "field-error", id: `${id}-error`, "aria-live": "polite" });
         inputs.set(field.path, { field, input, error });
         const noted = () => {
-          if (input.value === field.value) typed.delete(field.path);
+          // A value of the template that is typed in place of one that follows is typed.
+          if (input.value === field.value && !input.classList.contains("followed")) typed.delete(field.path);
           else typed.set(field.path, input.value);
           changed();
         };
         input.addEventListener("input", noted);
-        if (field.kind === "bearing" || field.kind === "oil") searches(input, field.kind === "bearing" ? "bearings" : "oils", (of, part) => catalogue.ask({ request: "catalogue", of, text: part }), noted);
+        if ((field.kind === "bearing" || field.kind === "oil") && input instanceof HTMLInputElement) searches(input, field.kind === "bearing" ? "bearings" : "oils", (of, part) => catalogue.ask({ request: "catalogue", of, text: part }), noted);
       }
     }
     text = null;
@@ -180,6 +191,7 @@ export function newGearbox(layouts: Layout[], transport: Transport, taken: () =>
     catalogue.abort();
     dialog.remove();
   });
+  if (layout !== undefined) select.value = layout;
   build();
   dialog.showModal();
   select.focus();

@@ -176,10 +176,12 @@ export interface Section {
 export interface Field {
   path: string;
   label: string;
-  kind: "text" | "integer" | "number" | "quantity" | "bearing" | "oil";
+  kind: "text" | "integer" | "number" | "quantity" | "bearing" | "oil" | "choice";
   /** What is in the template, such as `25 mm`. */
   value: string;
   help: string;
+  /** Of a choice. */
+  choices?: string[];
 }
 
 export interface Layout {
@@ -259,7 +261,8 @@ export interface Answers {
   explain: { text: string };
   map: Section;
   analyses: { name: string; title: string; type: string; about: string }[];
-  new: { text: string };
+  /** Text; values that follow from what was typed, by path of the field; ratios without errors. */
+  new: { text: string; followed: Record<string, string>; ratios: { gear: string; to: string; ratio: number }[] };
   new_study: { text: string };
   catalogue: CatalogueRow[];
 }

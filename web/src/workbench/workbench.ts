@@ -15,6 +15,8 @@ import { Editor } from "./editor.ts";
 import { Files, kindOf, shortName } from "./files.ts";
 import { FindingsList, refusal } from "./findings.ts";
 import { newGearbox } from "./form.ts";
+import { prose } from "./prose.ts";
+import { startPage } from "./start.ts";
 import { drawLosses, nameOf } from "./losses.ts";
 import { MapPane } from "./map.ts";
 import { fileName, freeName, nameFault } from "./names.ts";
@@ -97,11 +99,11 @@ export class Workbench {
       ["results", "Results"],
     ]);
     const box = (selector: string) => document.querySelector<HTMLElement>(selector)!;
-    divide(box(".workbench"), { name: "split-text", label: "width of the text", vertical: true, ends: [18, 70], start: 37 });
+    divide(box(".workbench"), { name: "split-text", label: "width of the text", vertical: true, ends: [18, 70], start: 33 });
     divide(box(".pane-text"), { name: "split-findings", label: "height of the text above the findings", vertical: false, ends: [30, 90], start: 85 });
-    divide(box(".right"), { name: "split-top", label: "height of the operating point", vertical: false, ends: [20, 80], start: 57 });
-    divide(box(".top-row"), { name: "split-point", label: "width of the operating point", vertical: true, ends: [18, 45], start: 31 });
-    divide(box(".top-row"), { name: "split-losses", label: "width of the losses", vertical: true, ends: [46, 85], start: 65 });
+    divide(box(".right"), { name: "split-top", label: "height of the operating point", vertical: false, ends: [20, 80], start: 43 });
+    divide(box(".top-row"), { name: "split-point", label: "width of the operating point", vertical: true, ends: [18, 55], start: 41 });
+    divide(box(".top-row"), { name: "split-losses", label: "width of the losses", vertical: true, ends: [56, 85], start: 70 });
 
     this.editor = new Editor(at("editor"), {
       files: this.files,
@@ -149,8 +151,7 @@ export class Workbench {
     this.files.onChange((own) => this.changed(own.file));
     at("save").addEventListener("click", () => void this.save());
     at("save-as").addEventListener("click", () => void this.saveAs());
-    at("new").addEventListener("click", () => void this.refreshFolder());
-    at("new").addEventListener("click", () => newGearbox(this.folder.layouts, this.transport, () => this.names(), (file, text) => this.create(file, text)));
+    at("new").addEventListener("click", () => this.newGearbox());
     at("pin").addEventListener("click", () => this.setPin());
     at("unpin").addEventListener("click", () => this.setPin(null));
     const name = at("pin-name") as HTMLInputElement;
@@ -211,7 +212,10 @@ export class Workbench {
     }
     document.documentElement.dataset.ready = "";
     this.showTabs();
-    if (!first) this.notices.show("empty", { text: "The folder has no gearbox.", actions: [{ label: "New gearbox", act: () => at("new").click(), primary: true }] });
+    if (!first) {
+      document.documentElement.dataset.empty = "";
+      startPage(at("start"), this.folder.layouts, (layout) => this.newGearbox(layout));
+    }
   }
 
   private newestOf(kind: string): Newest {
@@ -270,15 +274,22 @@ export class Workbench {
     return true;
   }
 
-  private create(file: string, text: string): void {
-    this.notices.hide("empty");
+  private newGearbox(layout?: string): void {
+    void this.refreshFolder();
+    newGearbox(this.folder.layouts, this.transport, () => this.names(), (file, text) => void this.create(file, text), layout);
+  }
+
+  /** Opens a new gearbox and writes its file. */
+  private async create(file: string, text: string): Promise<void> {
+    delete document.documentElement.dataset.empty;
     // The editor may still have the text of a file that had this name.
     this.editor.close(file);
     this.files.add(file, text, null);
     this.show(file);
-    this.results.choose("drawing");
+    this.results.choose("map");
     this.showPane("text");
     this.editor.view.focus();
+    await this.save(file);
   }
 
   /** A study of the gearbox of the operating point, as a new file beside it. */
@@ -646,7 +657,8 @@ export class Workbench {
     if (!this.answer) this.clearNumbers();
     document.documentElement.dataset.stale = "";
     const place = at("point-message");
-    place.textContent = words(message);
+    place.replaceChildren();
+    prose(place, words(message));
     place.hidden = false;
   }
 
@@ -661,9 +673,14 @@ export class Workbench {
     this.numbers.show(answer, this.pin?.answer ?? null, speed?.port ?? null);
     at("status").textContent = words(answer.status);
     at("notes").hidden = answer.remarks.length === 0;
-    at("remarks").replaceChildren(...answer.remarks.map((remark) => html(null, "li", {}, words(remark.replace(/^note: /, "")))));
+    at("remarks").replaceChildren(...answer.remarks.map((remark) => {
+      const item = html(null, "li");
+      prose(item, words(remark.replace(/^note: /, "")));
+      return item;
+    }));
     this.point.suggestedOil = answer.oil === null ? null : Math.round(answer.oil);
     this.showLosses();
+    document.documentElement.dataset.temperature = answer.convergence.of;
     this.convergence.show(answer.convergence);
     this.drawing.colour(answer.drawing);
     this.markMap();

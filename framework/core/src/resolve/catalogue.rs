@@ -45,9 +45,11 @@ impl CatalogueTable {
     /// The rows whose designations contain a text. If there is none and suffixes are read, the row of the designation without its
     /// suffixes, without what they make invalid.
     pub fn search(&self, text: &str, with_suffixes: bool) -> CatalogueHits {
-        let wanted = text.to_lowercase();
+        // `VG220` finds `ISO VG 220 mineral`, `nu-206` finds `NU206EC`.
+        let folded = |text: &str| text.to_lowercase().replace([' ', '-'], "");
+        let wanted = folded(text);
         let rows = self.0.iter();
-        let rows = rows.filter(|(designation, _)| designation.to_lowercase().contains(&wanted));
+        let rows = rows.filter(|(designation, _)| folded(designation).contains(&wanted));
         let mut hits = CatalogueHits {
             rows: rows
                 .map(|(designation, row)| (designation.clone(), row.clone()))

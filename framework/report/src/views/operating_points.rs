@@ -18,7 +18,7 @@ fn show(outcome: &OperatingPointsOutcome, page: &mut Page) {
     summary::add(outcome, page);
     let name = &outcome.head.analysis;
     for note in &outcome.file_notes {
-        page.line(format!("{name}: {}: {note}", outcome.file));
+        page.line(format!("{name}: {note}"));
     }
     for of_set in &outcome.operating_points {
         let set = &of_set.model_set;

@@ -21,6 +21,8 @@ use super::{Built, Engine, Plan, Planner, Stopped, Work, gear_of};
 pub struct Read {
     /// Name in the study.
     pub name: String,
+    /// Its path in the study.
+    place: String,
     /// Its content.
     pub duty: Duty,
     /// Its intervals.
@@ -144,6 +146,7 @@ impl<'a> Duties<'a> {
             match duty.intervals(vehicle.as_ref()) {
                 Ok(intervals) => list.push(Read {
                     name: name.clone(),
+                    place: at.clone(),
                     duty,
                     intervals,
                     port: cycle.port().map(str::to_owned),
@@ -152,6 +155,28 @@ impl<'a> Duties<'a> {
                 }),
                 Err(fault) => found.push(Diagnostic::error(&at, fault.message).help(fault.help).code(codes::DUTY)),
             }
+        }
+        if !entry.points.is_empty() {
+            let place = format!("{path}.points");
+            match crate::duty::points(&entry.points) {
+                Ok(intervals) => list.push(Read {
+                    name: "points".to_owned(),
+                    place,
+                    duty: Duty::Spectrum(intervals.clone()),
+                    intervals,
+                    port: Some(study.conditions.torque_at.clone()),
+                    about: None,
+                    phases: Vec::new(),
+                }),
+                Err(faults) => found.extend(
+                    faults
+                        .into_iter()
+                        .map(|f| Diagnostic::error(&place, f.message).help(f.help)),
+                ),
+            }
+        } else if entry.cycles.is_empty() {
+            let help = "add `cycles: [NAME]`, or `points: [{ torque: 10 Nm, speed: 3000 rpm }]` for loads without an order in time";
+            return Err(cx.wrong_as(codes::DUTY, path, "neither a cycle nor a point is stated", help));
         }
         if !found.is_empty() {
             classify(&mut found, codes::DUTY);
@@ -223,7 +248,7 @@ impl<'a> Duties<'a> {
                 read.name
             );
             let help = "delete them, or state `conditions: { oil_temperature: ... }`; a column under `temperatures`, with its node, is used for comparison";
-            return Err(cx.wrong_as(codes::DUTY, &format!("cycles.{}", read.name), message, help));
+            return Err(cx.wrong_as(codes::DUTY, &read.place, message, help));
         }
         for read in &self.list {
             can_drive(&b.transmission, &self.ride(&b.transmission, read)).map_err(|list| unfit(cx, read, list))?;
@@ -252,7 +277,7 @@ impl<'a> Duties<'a> {
                 };
                 let message = format!("`{column}` of `{}` needs {what}", read.name);
                 let help = "delete the column, or describe the component that uses it";
-                return Err(cx.wrong_as(codes::DUTY, &format!("cycles.{}.columns", read.name), message, help));
+                return Err(cx.wrong_as(codes::DUTY, &format!("{}.columns", read.place), message, help));
             }
             let Duty::Trace(trace) = &read.duty else { continue };
             let nodes: Vec<&str> = match network {
@@ -260,7 +285,7 @@ impl<'a> Duties<'a> {
                 None => vec!["oil"],
             };
             if let Some(unknown) = trace.nodes.iter().find(|node| !nodes.contains(&node.as_str())) {
-                let at = format!("cycles.{}.temperatures", read.name);
+                let at = format!("{}.temperatures", read.place);
                 let error = gearloss_framework::attach::dangling(&at, "node", unknown, &nodes);
                 return Err(cx.study.findings(vec![error]).into());
             }
@@ -309,12 +334,12 @@ impl<'a> Duties<'a> {
 /// Moves an error to the cycle that causes it.
 fn unfit(cx: &Planner<'_>, read: &Read, list: Vec<Diagnostic>) -> Stopped {
     let at_duty = |mut error: Diagnostic| {
-        let key = if error.path == "ports" && read.port.is_some() {
+        let key = if error.path == "ports" && read.place.starts_with("cycles.") && read.port.is_some() {
             ".port"
         } else {
             ""
         };
-        error.path = format!("cycles.{}{key}", read.name);
+        error.path = format!("{}{key}", read.place);
         error
     };
     let mut list: Vec<Diagnostic> = list.into_iter().map(at_duty).collect();

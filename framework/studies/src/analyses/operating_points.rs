@@ -1,4 +1,4 @@
-//! Losses of a list of operating points from a file, compared with measured values.
+//! Losses of a list of operating points, written in the study or read from a file and compared with measured values.
 
 use std::sync::Arc;
 
@@ -13,13 +13,13 @@ use super::numbers::{RPM, tidy};
 use super::rows::{RowsPlan, Solved};
 use super::shares::{Shares, together};
 use super::{Analysis, Built, Engine, Head, Outcome, Planner, Stopped};
-use crate::measured::{Measured, Row};
+use crate::measured::{ListedPoint, Measured, Row};
 use crate::points::{Note, PointResult};
 use crate::register_analysis;
 use crate::study::{By, Data, Uses, Write};
 use crate::table::Table;
 
-/// Losses of a list of operating points from a file, as stacked bars with measured values.
+/// Losses of a list of operating points, written here or in a file, as stacked bars with measured values.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct OperatingPointsEntry {
     /// Gearbox; default: the first.
@@ -32,11 +32,14 @@ pub struct OperatingPointsEntry {
     #[serde(default)]
     #[schemars(extend("x-refers-to" = "model_sets"))]
     pub model_sets: Vec<String>,
-    /// The points, one row each: torque, speed and a name, the columns of `bind`, and measured loss, oil and surface temperature, each with
+    /// The points, instead of `data`.
+    #[serde(default)]
+    pub points: Vec<ListedPoint>,
+    /// File of the points, one row each: torque, speed and a name, the columns of `bind`, and measured loss, oil and surface temperature, each with
     /// its accuracy. With `faulty_rows: keep` cells of measured columns may be empty.
     #[schemars(extend("x-refers-to" = "measurements"))]
-    pub data: Data,
-    /// Columns that change a value of the gearbox: column to resolved path, such as `volume: housing.oil.volume`. The unit is in the
+    pub data: Option<Data>,
+    /// Columns of `data` that change a value of the gearbox: column to resolved path, such as `volume: housing.oil.volume`. The unit is in the
     /// header: `volume [ml]`.
     #[serde(default)]
     #[schemars(extend("x-refers-to" = "path"))]
@@ -59,10 +62,7 @@ pub struct OperatingPointsOutcome {
     pub head: Head,
     /// One for each model set.
     pub operating_points: Vec<PointsOfSet>,
-    /// Name of the file of points, or of several.
-    #[serde(skip)]
-    pub file: String,
-    /// How the file was read, and which rows were omitted.
+    /// How the file of the points was read, and which rows were omitted.
     #[serde(skip)]
     pub file_notes: Vec<String>,
     /// Limits of the study at points.
@@ -175,13 +175,12 @@ impl Analysis for OperatingPointsEntry {
         Uses::new(self.gearbox.as_ref(), &self.model_sets)
             .in_gears(&self.gear)
             .bind(&self.bind)
-            .with("data", Some(&self.data))
+            .with("data", self.data.as_ref())
     }
 
     fn plan<'a>(&'a self, cx: &Planner<'a>) -> Result<RowsPlan<'a>, Stopped> {
         let gearbox = cx.gearbox(self.gearbox.as_ref())?;
-        let bind: Vec<&str> = self.bind.ids().collect();
-        let listed = cx.read(&format!("{}.data", cx.path()), &self.data, &bind)?;
+        let listed = self.listed(cx)?;
         let (gear, terms) = (self.gear.as_deref(), self.by == By::Term);
         RowsPlan::new(cx, gearbox, &self.model_sets, (listed, &self.bind), gear, terms)
     }
@@ -196,7 +195,6 @@ impl Analysis for OperatingPointsEntry {
             head: engine.head(&built),
             operating_points: all.iter().map(|s| self.of_set(&listed, s, &shares, &limits)).collect(),
             limits,
-            file: engine.data(&engine.path(), &self.data)?.file.to_string(),
             file_notes: listed.notes,
             bound: self.bind.ids().map(str::to_owned).collect(),
         })
@@ -208,6 +206,38 @@ impl Analysis for OperatingPointsEntry {
 }
 
 impl OperatingPointsEntry {
+    fn listed(&self, cx: &Planner<'_>) -> Result<Measured, Stopped> {
+        let path = cx.path();
+        match &self.data {
+            Some(data) if self.points.is_empty() => {
+                let bind: Vec<&str> = self.bind.ids().collect();
+                let data_path = format!("{path}.data");
+                let mut listed = cx.read(&data_path, data, &bind)?;
+                let file = &cx.data(&data_path, data)?.file;
+                for note in &mut listed.notes {
+                    *note = format!("{file}: {note}");
+                }
+                Ok(listed)
+            }
+            Some(_) => Err(cx.wrong(
+                &format!("{path}.points"),
+                "the points are stated twice, by `points` and by `data`",
+                "delete one of them",
+            )),
+            None if self.points.is_empty() => Err(cx.wrong(
+                &path,
+                "no operating point is stated",
+                "add `points: [{ torque: 10 Nm, speed: 3000 rpm }]`, or `data: { file: points.csv }`",
+            )),
+            None if self.bind.iter().next().is_some() => Err(cx.wrong(
+                &format!("{path}.bind"),
+                "`bind` names columns, and `points` has none",
+                "write the points into a file and name it in `data`",
+            )),
+            None => Ok(Measured::listed(&self.points)),
+        }
+    }
+
     /// The points of a file solved with one set.
     fn of_set(&self, listed: &Measured, solved: &Solved<'_>, names: &[String], limits: &[LimitColumn]) -> PointsOfSet {
         let built = solved.built.iter();

@@ -138,7 +138,7 @@ pub(super) fn most_acceleration() -> f64 {
 pub(super) fn driver() -> f64 {
     1.0
 }
-fn hour() -> f64 {
+pub(super) fn hour() -> f64 {
     3600.0
 }
 

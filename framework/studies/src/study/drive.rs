@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use crate::duty::SpectrumPoint;
 use gearloss_framework::thermal::network::Scheme;
 
 /// Gearbox, model sets, cycles and settings of the simulation.
@@ -27,9 +28,13 @@ pub struct DriveEntry {
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct RideEntry {
     /// Names under `cycles` of the study.
-    #[schemars(length(min = 1))]
+    #[serde(default)]
     #[schemars(extend("x-refers-to" = "cycles"))]
     pub cycles: Vec<String>,
+    /// Loads at the port of `conditions.torque_at`, such as the rated one, instead of cycles or beside them; in results they are the cycle
+    /// `points`.
+    #[serde(default)]
+    pub points: Vec<SpectrumPoint>,
     /// Name under `vehicles` of the study, for cycles with a vehicle speed only; default: the first.
     #[schemars(extend("x-refers-to" = "vehicles"))]
     pub vehicle: Option<String>,

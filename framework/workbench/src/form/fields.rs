@@ -28,7 +28,13 @@ pub struct Field {
     pub value: String,
     /// What it means.
     pub help: String,
+    /// The values of a choice.
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    pub choices: &'static [&'static str],
 }
+
+/// How the oil temperature is found.
+pub(super) const MODE: &str = "thermal.mode";
 
 /// How a value is typed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -46,6 +52,8 @@ pub enum FieldKind {
     Bearing,
     /// Designation of an oil.
     Oil,
+    /// One of several words.
+    Choice,
 }
 
 /// The value at a path of a document.
@@ -69,6 +77,7 @@ pub(super) fn groups(layout: &Layout) -> Vec<Group> {
         ],
     )];
     groups.extend(form.meshes());
+    groups.push(group("Planets", form.planets()));
     groups.push(form.bearings());
     groups.push(group(
         "Oil",
@@ -81,7 +90,19 @@ pub(super) fn groups(layout: &Layout) -> Vec<Group> {
                 FieldKind::Quantity,
                 "above the axis that the text names; below it if negative",
             ),
-            form.field("thermal.oil", "Oil temperature", FieldKind::Quantity, ""),
+            form.field(
+                MODE,
+                "Oil temperature is",
+                FieldKind::Choice,
+                "fixed: as below; balance: found from the losses and the heat that the casing gives off",
+            ),
+            form.field("thermal.oil", "Oil temperature", FieldKind::Quantity, "if it is fixed"),
+            form.field(
+                "thermal.ambient",
+                "Ambient temperature",
+                FieldKind::Quantity,
+                "for the heat balance",
+            ),
             form.field("surface.ra", "Roughness Ra of the flanks", FieldKind::Quantity, ""),
         ],
     ));
@@ -113,6 +134,11 @@ impl Reader<'_> {
             kind,
             value: value.to_owned(),
             help: help.to_owned(),
+            choices: if kind == FieldKind::Choice {
+                &["fixed", "balance"]
+            } else {
+                &[]
+            },
         })
     }
 
@@ -176,7 +202,8 @@ impl Reader<'_> {
                 label: "Centre distance".to_owned(),
                 kind: FieldKind::Quantity,
                 value: format!("{} mm", known.value),
-                help: "determines the places of the axes".to_owned(),
+                help: "follows from the teeth unless it is typed; determines the places of the axes".to_owned(),
+                choices: &[],
             }));
             groups.push(group(&format!("Mesh {mesh}: {}", gears.join(" and ")), fields));
         }
@@ -195,6 +222,15 @@ impl Reader<'_> {
             self.field(&path, &format!("Diameter of seal {id}"), FieldKind::Quantity, "")
         });
         group("Bearings and seals", fields.chain(seals).collect())
+    }
+
+    fn planets(&self) -> Vec<Option<Field>> {
+        let sets = self.ids("planetary_sets").into_iter();
+        sets.map(|id| {
+            let path = format!("planetary_sets.{id}.count");
+            self.field(&path, "Number of planets", FieldKind::Integer, "")
+        })
+        .collect()
     }
 
     fn places(&self) -> Group {

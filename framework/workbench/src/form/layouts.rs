@@ -15,6 +15,10 @@ pub struct Layout {
     pub(super) twins: Option<[&'static str; 2]>,
     /// Centre distances.
     pub(super) distances: &'static [Distance],
+    /// Fields whose value another one takes over until its own is typed.
+    pub(super) follows: &'static [(&'static str, &'static str)],
+    /// Sun, planets and ring of a planetary set.
+    pub(super) planetary: Option<[&'static str; 3]>,
 }
 
 /// A centre distance, which determines the places of axes.
@@ -29,7 +33,7 @@ pub struct Distance {
 }
 
 /// All layouts.
-pub const LAYOUTS: [Layout; 5] = [
+pub const LAYOUTS: [Layout; 6] = [
     Layout {
         name: "single-stage",
         about: "Reducer with one helical stage",
@@ -41,6 +45,8 @@ pub const LAYOUTS: [Layout; 5] = [
             value: 98.0,
             cells: &[("shafts.pinion_shaft.axis", Some(0), 1.0)],
         }],
+        follows: &[],
+        planetary: None,
     },
     Layout {
         name: "two-stage",
@@ -63,6 +69,41 @@ pub const LAYOUTS: [Layout; 5] = [
                 ],
             },
         ],
+        follows: &[],
+        planetary: None,
+    },
+    Layout {
+        name: "three-stage",
+        about: "Reducer with three helical stages, slow shafts in pairs of tapered roller bearings",
+        text: include_str!("layouts/three-stage.yaml"),
+        point: "--torque \"15 Nm\" --speed \"1500 rpm\"",
+        twins: None,
+        distances: &[
+            Distance {
+                mesh: "first",
+                value: 76.0,
+                cells: &[("shafts.input.axis", Some(0), 1.0)],
+            },
+            Distance {
+                mesh: "second",
+                value: 101.0,
+                cells: &[
+                    ("shafts.input.axis", Some(0), 1.0),
+                    ("shafts.second.axis", Some(0), 1.0),
+                ],
+            },
+            Distance {
+                mesh: "third",
+                value: 141.0,
+                cells: &[
+                    ("shafts.input.axis", Some(0), 1.0),
+                    ("shafts.second.axis", Some(0), 1.0),
+                    ("shafts.third.axis", Some(0), 1.0),
+                ],
+            },
+        ],
+        follows: &[],
+        planetary: None,
     },
     Layout {
         name: "planetary",
@@ -78,6 +119,11 @@ pub const LAYOUTS: [Layout; 5] = [
                 ("meshes.planet_ring.centre_distance", None, 1.0),
             ],
         }],
+        follows: &[
+            ("meshes.sun_planet.normal_module", "meshes.planet_ring.normal_module"),
+            ("meshes.sun_planet.pressure_angle", "meshes.planet_ring.pressure_angle"),
+        ],
+        planetary: Some(["sun", "planets", "ring"]),
     },
     Layout {
         name: "two-speed",
@@ -91,6 +137,8 @@ pub const LAYOUTS: [Layout; 5] = [
             // The input is above the output, at an angle.
             cells: &[("shafts.input.axis", Some(0), 0.8), ("shafts.input.axis", Some(1), 0.6)],
         }],
+        follows: &[],
+        planetary: None,
     },
     Layout {
         name: "dual-countershaft",
@@ -103,6 +151,8 @@ pub const LAYOUTS: [Layout; 5] = [
             value: 112.5,
             cells: &[("shafts.left.axis", Some(0), -1.0), ("shafts.right.axis", Some(0), 1.0)],
         }],
+        follows: &[],
+        planetary: None,
     },
 ];
 

@@ -67,20 +67,23 @@ impl NewStudy {
     /// The text; `gearbox` is the file relative to the study.
     pub fn text(&self, gearbox: &Path) -> String {
         let (axes, half) = match self.rating {
-            Some([torque, speed]) => {
-                let shares = "{ of_rating: [0.1, 0.25, 0.5, 0.75, 1] }";
-                ([shares, shares], [0.5 * torque, 0.5 * speed])
-            }
+            Some([torque, speed]) => (
+                [parts_of(torque, "Nm"), parts_of(speed, "rpm")],
+                [0.5 * torque, 0.5 * speed],
+            ),
             None => (
-                ["[5 Nm, 10 Nm, 20 Nm, 50 Nm]", "[500 rpm, 1000 rpm, 2000 rpm]"],
+                [
+                    "[5 Nm, 10 Nm, 20 Nm, 50 Nm]".to_owned(),
+                    "[500 rpm, 1000 rpm, 2000 rpm]".to_owned(),
+                ],
                 [20.0, 1000.0],
             ),
         };
         let words = [
             ("HALF_TORQUE", Some(format!("{} Nm", significant(half[0])))),
             ("HALF_SPEED", Some(format!("{} rpm", significant(half[1])))),
-            ("TORQUES", Some(axes[0].to_owned())),
-            ("SPEEDS", Some(axes[1].to_owned())),
+            ("TORQUES", Some(axes[0].clone())),
+            ("SPEEDS", Some(axes[1].clone())),
             ("GEARBOX", Some(scalar(&gearbox.to_string_lossy().replace('\\', "/")))),
             ("SHIPPED", self.unfit.is_none().then(|| SHIPPED[0].to_owned())),
             ("MESH", self.mesh.as_deref().map(scalar)),
@@ -89,6 +92,12 @@ impl NewStudy {
         ];
         STUDY.lines().map(|line| filled(line, &words) + "\n").collect()
     }
+}
+
+/// A tenth, a quarter, half, three quarters and all of a rated value, as a list.
+fn parts_of(rated: f64, unit: &str) -> String {
+    let value = |part: f64| format!("{} {unit}", significant(part * rated));
+    format!("[{}]", [0.1, 0.25, 0.5, 0.75, 1.0].map(value).join(", "))
 }
 
 /// A line of the template with its placeholders replaced, once and from left to right, so that names of the gearbox are never treated as

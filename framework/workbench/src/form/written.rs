@@ -5,21 +5,35 @@ use std::ops::Range;
 
 use gearloss_editor::outline::{self, Content, Node};
 use gearloss_framework::document::{Diagnostic, Unit, parse_quantity};
+use serde::Serialize;
 
 use super::distance;
-use super::fields::{Field, FieldKind, at, groups};
+use super::fields::{Field, FieldKind, MODE, at, groups};
+use super::followed::followed;
 use super::layouts::Layout;
 use crate::answer::Fault;
 
-/// The template of a layout with typed values, by path of the field. What was not typed keeps the value of the template.
+/// A gearbox from a form.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Written {
+    /// Its text.
+    pub text: String,
+    /// Values that follow from what was typed, by path of the field.
+    pub followed: BTreeMap<String, String>,
+}
+
+/// The template of a layout with typed values, by path of the field. What was not typed follows from it or keeps the value of the template.
 ///
 /// # Errors
 /// An unknown path; a value that is no text of one line, or a centre distance that is no length.
-pub fn written(layout: &Layout, values: &BTreeMap<String, String>) -> Result<String, Fault> {
+pub fn written(layout: &Layout, values: &BTreeMap<String, String>) -> Result<Written, Fault> {
     let document = outline::read(layout.text, None);
+    let followed = followed(layout, &document, values);
+    let mut all = followed.clone();
+    all.extend(values.clone());
     let fields: Vec<_> = groups(layout).into_iter().flat_map(|group| group.fields).collect();
     let mut changes: Vec<(Range<usize>, String)> = Vec::new();
-    for (path, typed) in values {
+    for (path, typed) in &all {
         let typed = typed.trim();
         let wrong = |message: &str, help: &str| Err(Fault::from(Diagnostic::error(path.as_str(), message).help(help)));
         let Some(field) = fields.iter().find(|field| field.path == *path) else {
@@ -43,14 +57,26 @@ pub fn written(layout: &Layout, values: &BTreeMap<String, String>) -> Result<Str
             }
         }
     }
-    axes(layout, &document, values, &mut changes)?;
+    axes(layout, &document, &all, &mut changes)?;
+    if all.get(MODE).is_some_and(|mode| mode == "balance") {
+        changes.extend(heat_dissipation(layout.text));
+    }
     let typed = |path: &str| {
         values
             .keys()
             .any(|own| twins(layout, own).iter().any(|own| own == path))
     };
     changes.extend(assumed(layout, &document, &fields, &typed));
-    Ok(replaced(layout.text, changes))
+    Ok(Written {
+        text: replaced(layout.text, changes),
+        followed,
+    })
+}
+
+/// The heat dissipation of the template becomes part of the text: without it no heat balance is found.
+fn heat_dissipation(text: &str) -> Option<(Range<usize>, String)> {
+    let place = text.find("#heat_dissipation: ")?;
+    Some((place..place + 1, String::new()))
 }
 
 /// A path, and that of its twin.
@@ -230,7 +256,7 @@ fn scalar(typed: &str, kind: FieldKind) -> String {
     let is_text = !typed.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c));
     match kind {
         FieldKind::Integer | FieldKind::Quantity | FieldKind::Number if plain => typed.to_owned(),
-        FieldKind::Text | FieldKind::Oil if plain && is_text => typed.to_owned(),
+        FieldKind::Text | FieldKind::Oil | FieldKind::Choice if plain && is_text => typed.to_owned(),
         _ => quoted(typed),
     }
 }
