@@ -212,19 +212,29 @@ fn points_of_the_study_are_those_of_a_file() {
 analyses:
   here: { type: operating_points, gear: first, points: [{ torque: 10 Nm, speed: 8000 rpm, name: road }, { torque: 10 Nm, speed: 8000 rpm, gear: second }, { torque: 20 Nm, speed: 2000 rpm, oil_temperature: 60 degC }] }
   file: { type: operating_points, gear: first, data: { file: points.csv } }
-  fluids: { type: fluid_sweep, gear: first, kv100: [5 mm2/s, 8 mm2/s], refine: false, points: [{ torque: 10 Nm, speed: 8000 rpm }, { torque: 20 Nm, speed: 2000 rpm }] }
-  same: { type: fluid_sweep, gear: first, kv100: [5 mm2/s, 8 mm2/s], refine: false, cycles: [spectrum] }
+  fluids: { type: fluid_sweep, gear: first, kv100: [5 mm2/s, 6 mm2/s, 8 mm2/s], refine: false, points: [{ torque: 10 Nm, speed: 8000 rpm }, { torque: 20 Nm, speed: 2000 rpm }] }
+  same: { type: fluid_sweep, gear: first, kv100: [5 mm2/s, 6 mm2/s, 8 mm2/s], refine: false, cycles: [spectrum] }
   best: { type: optimise, gear: first, designs: 16, points: [{ torque: 10 Nm, speed: 8000 rpm }], variables: { viscosity: { path: lubricants.*.viscosity.factor, from: 0.5, to: 1.5 } } }
 ";
     let listed = "torque [Nm],speed [rpm],oil_temperature [degC],gear,name\n10,8000,100,first,road\n10,8000,100,second,2\n20,2000,60,first,3\n";
     let (results, _) = run(study, &[("points.csv", listed)]);
-    let sets = ["here", "file"].map(|name| results.json(name)["operating_points"].clone());
-    assert_eq!(sets[0], sets[1]);
-    let of_set = &points(&sets[0][0])[0];
-    assert_eq!(
-        (&of_set["name"], &of_set["gear"]),
-        (&Value::from("road"), &Value::from("first"))
-    );
+    let [here, file] = ["here", "file"].map(|name| results.json(name)["operating_points"][0].clone());
+    let calculated = |point: &Value| {
+        [
+            "name",
+            "gear",
+            "torque_nm",
+            "speed_rpm",
+            "oil_temperature_degc",
+            "loss_w",
+        ]
+        .map(|key| point[key].clone())
+    };
+    let [own, read] = [&here, &file].map(|of_set| points(of_set).iter().map(calculated).collect::<Vec<_>>());
+    assert_eq!(own, read);
+    assert_eq!(own[0][..2], ["road", "first"].map(Value::from));
+    let measured = |point: &Value| point["measured"]["oil_temperature_degc"].is_null();
+    assert!(points(&here).iter().all(measured));
     let [fluids, same] = ["fluids", "same"].map(|name| results.json(name)["fluid_sweep"][0]["cycles"][0].clone());
     assert_eq!(
         (&fluids["cycle"], &same["cycle"]),

@@ -77,6 +77,11 @@ const serious = async (page, what) => {
     };
     return { answer: seen(".answer"), facts: seen(".facts"), lead: seen(".lead") };
   });
+  // A card is an answer: no quantity has two of one set, such as its largest and its least value.
+  const cards = await page.$$eval(".facts .tiles dt", (list) => list.map((e) => e.textContent.replace(/\s+/g, " ").trim()));
+  const quantity = (card) => card.replace(/\b(largest|least|highest|lowest|greatest|smallest|most)\b/gi, "").replace(/\s+/g, " ").trim();
+  figures.cards = cards.length;
+  check(new Set(cards.map(quantity)).size === cards.length, `two cards of one quantity: ${cards.join("; ")}`);
   for (const [part, is] of Object.entries(first)) check(is, `first screen: ${part} ends below it`);
   // Folded pictures are drawn when they are unfolded.
   await page.evaluate(() => document.querySelectorAll("details.more").forEach((d) => (d.open = true)));
@@ -223,6 +228,7 @@ const serious = async (page, what) => {
   const pdf = await page.pdf({ preferCSSPageSize: true, printBackground: true });
   if (capture) await writeFile(join(capture, "report.pdf"), pdf);
   check(pdf.length > 0 && await page.evaluate(() => [...document.styleSheets].some((s) => [...s.cssRules].some((r) => r.cssText.includes("@top-left") && r.cssText.includes(document.title.slice(0, 20))))), "no running head on paper");
+  check(await page.evaluate(() => [...document.styleSheets].some((s) => [...s.cssRules].some((r) => /@bottom-right[^}]*counter\(page\)/.test(r.cssText)))), "no page numbers on paper");
   figures.pages = (Buffer.from(pdf).toString("latin1").match(/\/Type\s*\/Page[^s]/g) ?? []).length;
   figures.pdf_bytes = pdf.length;
   check((await page.evaluate(() => window.missing)) === 0, "pictures are missing on paper");

@@ -260,7 +260,10 @@ impl OperatingPointsEntry {
             losses_w: shares[*place].stack(point),
             limit_values: LimitColumn::by_name(limits, &point.limits),
             beyond: point.beyond,
-            measured: MeasuredAtPoint::new(listed, row, point),
+            measured: match self.data {
+                Some(_) => MeasuredAtPoint::new(listed, row, point),
+                None => MeasuredAtPoint::default(),
+            },
             speed: point.speed,
         });
         PointsOfSet {
