@@ -428,7 +428,7 @@ fn run_prints_the_result_of_each_analysis_in_one_line() {
     );
     let [all, _] = run(&["--verbose"]);
     assert!(
-        all.contains("oil degC  speed rpm  torque Nm") && all.lines().count() > 100,
+        all.contains("oil °C  speed rpm  torque Nm") && all.lines().count() > 100,
         "{all}"
     );
     assert!(

@@ -42,11 +42,16 @@ pub struct TextTable {
 }
 
 impl TextTable {
-    /// A table with its header.
+    /// A table with its header, whose names end with their units.
     pub fn new(head: &[&str]) -> Self {
+        let printed = |name: &&str| match name.rsplit_once(' ') {
+            Some((quantity, "degC")) => format!("{quantity} °C"),
+            Some((quantity, "um")) => format!("{quantity} µm"),
+            _ => (*name).to_owned(),
+        };
         Self {
             title: String::new(),
-            rows: vec![head.iter().map(|h| (*h).to_owned()).collect()],
+            rows: vec![head.iter().map(printed).collect()],
         }
     }
 
