@@ -28,7 +28,7 @@ pub struct SpectrumPoint {
     /// Speed of the port. [rpm]
     #[schemars(range(min = -1e6, max = 1e6))]
     pub speed: f64,
-    /// Share of the time; all load cases have shares with the sum one, or all have times. Default of all: equal shares. [-]
+    /// Share of the time; all load cases have shares with the sum one, or all have times. In `points` of an analysis they may be omitted: equal shares. [-]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub share: Option<f64>,
     /// Time. [s]
@@ -124,17 +124,21 @@ impl SpectrumFile {
     }
 }
 
-/// Loads of an analysis, over one hour if they have no times.
+/// Loads of an analysis, over one hour if they have no times. Without times and shares they have equal shares; in a spectrum, whose column of
+/// shares may have another name, that is an error.
 pub(crate) fn points(loads: &[SpectrumPoint]) -> Result<Vec<Interval>, Vec<MeasuredFault>> {
-    intervals(loads, super::cycle::hour())
+    let mut loads = loads.to_vec();
+    if loads.iter().all(|l| l.share.is_none() && l.time.is_none()) {
+        let share = 1.0 / loads.len() as f64;
+        loads.iter_mut().for_each(|load| load.share = Some(share));
+    }
+    intervals(&loads, super::cycle::hour())
 }
 
 /// The load cases in sequence, with their times or shares of a duration.
 pub(super) fn intervals(loads: &[SpectrumPoint], duration: f64) -> Result<Vec<Interval>, Vec<MeasuredFault>> {
     let help = "state `share` for all loads, or `time` for all loads";
-    let times: Vec<f64> = if loads.iter().all(|l| l.share.is_none() && l.time.is_none()) {
-        vec![duration / loads.len() as f64; loads.len()]
-    } else if loads.iter().all(|l| l.share.is_some() && l.time.is_none()) {
+    let times: Vec<f64> = if loads.iter().all(|l| l.share.is_some() && l.time.is_none()) {
         let shares: Vec<f64> = loads.iter().filter_map(|l| l.share).collect();
         let sum: f64 = shares.iter().sum();
         // The sum of rounded shares may differ slightly from one.
@@ -215,8 +219,10 @@ mod tests {
             (900.0, 900.0, 2700.0)
         );
         assert_eq!(shares[1].given.oil_temperature, Some(80.0));
-        let equal = intervals(&[load(10.0, None, None), load(20.0, None, None)], 3600.0).unwrap();
+        let bare = [load(10.0, None, None), load(20.0, None, None)];
+        let equal = points(&bare).unwrap();
         assert_eq!((equal[0].duration, equal[1].duration), (1800.0, 1800.0));
+        assert!(intervals(&bare, 3600.0).is_err());
         let times = intervals(&[load(10.0, None, Some(5.0)), load(20.0, None, Some(0.0))], 3600.0).unwrap();
         assert_eq!(times.len(), 1);
         let demand = Demand::Port {
