@@ -130,7 +130,9 @@ pub(crate) fn points(loads: &[SpectrumPoint]) -> Result<Vec<Interval>, Vec<Measu
     let mut loads = loads.to_vec();
     if loads.iter().all(|l| l.share.is_none() && l.time.is_none()) {
         let share = 1.0 / loads.len() as f64;
-        loads.iter_mut().for_each(|load| load.share = Some(share));
+        for load in &mut loads {
+            load.share = Some(share);
+        }
     }
     intervals(&loads, super::cycle::hour())
 }
