@@ -6,9 +6,9 @@ use gearloss_framework::real::Real;
 #[inline(always)]
 pub fn power<R: Real>(x: R, exponent: f64) -> R {
     if exponent == 0.5 {
-        x.root()
+        x.sqrt()
     } else if exponent == 1.0 / 3.0 {
-        x.cube_root()
+        x.cbrt()
     } else if exponent == 1.0 {
         x
     } else if exponent == 2.0 {
@@ -29,26 +29,22 @@ pub fn power<R: Real>(x: R, exponent: f64) -> R {
 pub fn ln_1p<R: Real>(x: R) -> R {
     // The rounding of 1 + x cancels.
     let whole = x + 1.0;
-    R::select(
-        whole.is_equal(R::constant(1.0)),
-        x,
-        whole.logarithm() * x / (whole - 1.0),
-    )
+    R::select(whole.is_equal(R::constant(1.0)), x, whole.ln() * x / (whole - 1.0))
 }
 
 /// exp(x) - 1 of a number that is not positive, to its digits also where it is small.
 #[inline(always)]
 pub fn exp_m1<R: Real>(x: R) -> R {
-    let whole = x.exponential();
+    let whole = x.exp();
     let less = whole - 1.0;
-    let small = R::select(whole.is_equal(R::constant(1.0)), x, less * x / whole.logarithm());
+    let small = R::select(whole.is_equal(R::constant(1.0)), x, less * x / whole.ln());
     R::select(x.is_below(R::constant(-1.0)), less, small)
 }
 
 /// Inverse hyperbolic sine of a number that is not negative.
 #[inline(always)]
 pub fn asinh<R: Real>(x: R) -> R {
-    let small = ln_1p(x + x * x / ((x * x + 1.0).root() + 1.0));
+    let small = ln_1p(x + x * x / ((x * x + 1.0).sqrt() + 1.0));
     // Where one no longer counts, its square is not needed; it might overflow.
-    R::select(x.is_above(R::constant(1e8)), (x * 2.0).logarithm(), small)
+    R::select(x.is_above(R::constant(1e8)), (x * 2.0).ln(), small)
 }

@@ -26,7 +26,7 @@ impl BearingLaw for RigPower {
     fn loss<R: Real>(&self, at: &BearingAt<'_, R>) -> Result<Loss<R>, Undefined> {
         let d_m = at.part.mean_diameter().mm();
         let combined = at.radial * 0.6 + at.axial * 0.5;
-        let p_0 = at.check(&LOAD, at.show("P_0", "N", at.radial.larger(combined)));
+        let p_0 = at.check(&LOAD, at.show("P_0", "N", at.radial.max(combined)));
         let m_1 = at.show("M_1", "N mm", p_0.power(self.exponent) * (self.factor * d_m));
         Ok(Loss::MOMENTS.with(&LOADED, m_1.nmm_in_nm()))
     }

@@ -188,8 +188,8 @@ impl<'a, R: Points> State<'a, R> {
     #[inline(always)]
     pub fn relative(&self, a: Option<u16>, b: Option<u16>) -> R {
         let (a, b) = (self.speed(a), self.speed(b));
-        let rounding = a.magnitude().larger(b.magnitude()) * 1e-12;
-        R::select((a - b).magnitude().is_above(rounding), a - b, R::ZERO)
+        let rounding = a.abs().max(b.abs()) * 1e-12;
+        R::select((a - b).abs().is_above(rounding), a - b, R::ZERO)
     }
 
     /// The oil of a spot.

@@ -503,7 +503,7 @@ impl Transmission {
         let flag = |holds: bool| R::constant(f64::from(u8::from(holds)));
         GearMeshAt {
             part: &mesh.part,
-            torque: (tangential * mesh.seat.pair.working_radius[0]).magnitude(),
+            torque: (tangential * mesh.seat.pair.working_radius[0]).abs(),
             speed: self.mesh_speed(index, state.speeds),
             first_drives: flag(drives != Drive::Second),
             temperature: oil.temperature,
@@ -526,8 +526,8 @@ impl Transmission {
     fn mesh_speed<R: Real>(&self, index: usize, speeds: &[R]) -> R {
         let seat = &self.meshes[index].seat;
         let (own, carrier) = (speeds[seat.members[0]], seat.carrier.map_or(R::ZERO, |c| speeds[c]));
-        let rounding = own.magnitude().larger(carrier.magnitude()) * 1e-12;
-        R::select((own - carrier).magnitude().is_above(rounding), own - carrier, R::ZERO)
+        let rounding = own.abs().max(carrier.abs()) * 1e-12;
+        R::select((own - carrier).abs().is_above(rounding), own - carrier, R::ZERO)
     }
 
     /// Applies the loss of a drag model to its gears.

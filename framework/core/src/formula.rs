@@ -77,7 +77,7 @@ fn sign(x: f64) -> f64 {
 #[inline(always)]
 fn power<R: Points>(x: R, exponent: R) -> R {
     let positive = x.is_above(R::ZERO);
-    let power = (x.logarithm() * exponent).exponential();
+    let power = (x.ln() * exponent).exp();
     if positive.all() {
         return power;
     }
@@ -98,7 +98,7 @@ fn power_of<R: Points>(x: R, exponent: f64) -> R {
     } else if exponent == 3.0 {
         x * x * x
     } else if exponent == 0.5 {
-        x.root()
+        x.sqrt()
     } else if exponent == -1.0 {
         R::constant(1.0) / x
     } else {
@@ -216,10 +216,10 @@ impl Formula {
                 Op::Call1(function, _) => {
                     let x = stack[top - 1];
                     stack[top - 1] = match function {
-                        Function1::Root => x.root(),
-                        Function1::Exponential => x.exponential(),
-                        Function1::Logarithm => x.logarithm(),
-                        Function1::Magnitude => x.magnitude(),
+                        Function1::Root => x.sqrt(),
+                        Function1::Exponential => x.exp(),
+                        Function1::Logarithm => x.ln(),
+                        Function1::Magnitude => x.abs(),
                         Function1::Each(f) => x.lift(f),
                     };
                 }
@@ -238,8 +238,8 @@ impl Formula {
                         Op::Divide => a / b,
                         Op::Power => power(a, b),
                         // The other one if one is not a number.
-                        Op::Least => R::select(a.is_equal(a), a.smaller(b), b),
-                        Op::Greatest => R::select(a.is_equal(a), a.larger(b), b),
+                        Op::Least => R::select(a.is_equal(a), a.min(b), b),
+                        Op::Greatest => R::select(a.is_equal(a), a.max(b), b),
                         Op::Less => one_where(a.is_below(b)),
                         Op::Greater => one_where(a.is_above(b)),
                         Op::LessEqual => one_where(a.is_below(b) | a.is_equal(b)),

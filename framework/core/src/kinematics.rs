@@ -116,9 +116,9 @@ impl Motion {
                 *speed += *prescribed * *factor;
             }
         }
-        let fastest = speeds.iter().fold(R::ZERO, |most, w| most.larger(w.magnitude()));
+        let fastest = speeds.iter().fold(R::ZERO, |most, w| most.max(w.abs()));
         for speed in speeds {
-            let moves = speed.magnitude().is_above(fastest * 1e-12);
+            let moves = speed.abs().is_above(fastest * 1e-12);
             *speed = R::select(moves, *speed, R::ZERO);
         }
     }

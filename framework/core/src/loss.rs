@@ -218,7 +218,7 @@ impl<R: Real> Loss<R> {
     #[inline(always)]
     pub fn watts(&self, index: usize, speed: R) -> R {
         match self.measure {
-            Measure::Moment => self.values[index] * speed.magnitude(),
+            Measure::Moment => self.values[index] * speed.abs(),
             Measure::Power => self.values[index],
         }
     }
@@ -238,7 +238,7 @@ impl<R: Real> Loss<R> {
     pub fn total_watts(&self, speed: R) -> R {
         match self.measure {
             Measure::Moment => {
-                let speed = speed.magnitude();
+                let speed = speed.abs();
                 let mut sum = R::ZERO;
                 for value in &self.values {
                     sum += *value * speed;
@@ -254,7 +254,7 @@ impl<R: Real> Loss<R> {
     pub fn total_moment(&self, speed: R) -> R {
         match self.measure {
             Measure::Moment => self.sum(),
-            Measure::Power => R::select(speed.is_zero(), R::ZERO, self.sum() / speed.magnitude()),
+            Measure::Power => R::select(speed.is_zero(), R::ZERO, self.sum() / speed.abs()),
         }
     }
 

@@ -15,7 +15,7 @@ use std::fmt::Debug;
 use std::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, Neg, Not, Sub, SubAssign};
 
 pub use dual::{DIRECTIONS, Dual};
-pub use elementary::{cube_root, exp, ln, sine};
+pub use elementary::{cbrt, exp, ln, sine};
 pub use lane::{LANES, Lane, LaneMask};
 pub use registers::{LIMIT, WIDTHS, registers};
 pub use stencil::Stencil;
@@ -36,6 +36,10 @@ mod sealed {
 ///
 /// Arithmetic with an `f64` is on the right: `x * 2.0`. Powers, exponentials and logarithms have the same bits for one point and for
 /// several; they differ from those of the standard library in the last digits.
+///
+/// Functions have the names of those of `f64`, which on a plain `f64` win over these: write [`exp(x)`](exp), [`ln(x)`](ln),
+/// [`cbrt(x)`](cbrt) or `Real::min(x, y)` where `x` is one, because `x.exp()` and the others there are those of the standard library,
+/// with other last digits and another rule for NaN.
 pub trait Real:
     sealed::Sealed
     + Copy
@@ -85,15 +89,15 @@ pub trait Real:
     /// One number where a condition holds, the other elsewhere.
     fn select(mask: Self::Mask, then: Self, other: Self) -> Self;
     /// The magnitude.
-    fn magnitude(self) -> Self;
+    fn abs(self) -> Self;
     /// The square root.
-    fn root(self) -> Self;
+    fn sqrt(self) -> Self;
     /// The cube root of a normal positive number or of zero.
-    fn cube_root(self) -> Self;
+    fn cbrt(self) -> Self;
     /// The exponential.
-    fn exponential(self) -> Self;
+    fn exp(self) -> Self;
     /// The natural logarithm; minus infinity at zero.
-    fn logarithm(self) -> Self;
+    fn ln(self) -> Self;
     /// The sine for angles of at most 45 degrees to either side.
     fn sine(self) -> Self;
     /// A function of each number that is not written over [`Real`], such as one read from a table. It may be called once for several
@@ -105,16 +109,16 @@ pub trait Real:
     /// A power of a number that is not negative; zero of zero for a positive exponent.
     #[inline(always)]
     fn power(self, exponent: f64) -> Self {
-        (self.logarithm() * exponent).exponential()
+        (self.ln() * exponent).exp()
     }
     /// The smaller of two numbers; the first if the other is NaN.
     #[inline(always)]
-    fn smaller(self, other: Self) -> Self {
+    fn min(self, other: Self) -> Self {
         Self::select(other.is_below(self), other, self)
     }
     /// The larger of two numbers; the first if the other is NaN.
     #[inline(always)]
-    fn larger(self, other: Self) -> Self {
+    fn max(self, other: Self) -> Self {
         Self::select(other.is_above(self), other, self)
     }
     /// Marks the end of each pass of a loop that computes one number per pass. Without it, the compiler may let one instruction compute
@@ -125,12 +129,12 @@ pub trait Real:
     /// The number, at least another one.
     #[inline(always)]
     fn at_least(self, least: f64) -> Self {
-        self.larger(Self::constant(least))
+        self.max(Self::constant(least))
     }
     /// The number, at most another one.
     #[inline(always)]
     fn at_most(self, greatest: f64) -> Self {
-        self.smaller(Self::constant(greatest))
+        self.min(Self::constant(greatest))
     }
 }
 
@@ -241,23 +245,23 @@ impl Real for f64 {
         if mask { then } else { other }
     }
     #[inline(always)]
-    fn magnitude(self) -> Self {
+    fn abs(self) -> Self {
         self.abs()
     }
     #[inline(always)]
-    fn root(self) -> Self {
+    fn sqrt(self) -> Self {
         self.sqrt()
     }
     #[inline(always)]
-    fn cube_root(self) -> Self {
-        cube_root(self)
+    fn cbrt(self) -> Self {
+        cbrt(self)
     }
     #[inline(always)]
-    fn exponential(self) -> Self {
+    fn exp(self) -> Self {
         exp(self)
     }
     #[inline(always)]
-    fn logarithm(self) -> Self {
+    fn ln(self) -> Self {
         ln(self)
     }
     #[inline(always)]

@@ -152,7 +152,7 @@ impl Palmgren {
                 dip * (most - least) + least
             }
         };
-        let product = at.show("nu n", "mm2/s 1/min", at.nu.mm2_s() * at.speed.magnitude().rpm());
+        let product = at.show("nu n", "mm2/s 1/min", at.nu.mm2_s() * at.speed.abs().rpm());
         let c = &self.coefficients;
         let published = c.viscous_from == Constants::PUBLISHED.viscous_from;
         let constant = product.is_below(R::constant(c.viscous_from));
@@ -163,7 +163,7 @@ impl Palmgren {
             (true, false) => "nu n below the changed limit: constant",
         });
         let power = if c.viscous_exponent == 2.0 / 3.0 {
-            let root = product.cube_root();
+            let root = product.cbrt();
             root * root
         } else {
             product.power(c.viscous_exponent)

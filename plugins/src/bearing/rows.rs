@@ -51,8 +51,8 @@ impl Rule {
     #[inline(always)]
     pub fn equivalent<R: Real>(self, fr: R, fa: R) -> (R, R) {
         let (p0, p1) = match self {
-            Self::DeepGroove { k } => (fr.larger(fr * 0.6 + fa * 0.5), fa * k - fr * 0.1),
-            Self::Angular { y0 } => (fr.larger(fr * 0.5 + fa * y0), fa - fr * 0.1),
+            Self::DeepGroove { k } => (fr.max(fr * 0.6 + fa * 0.5), fa * k - fr * 0.1),
+            Self::Angular { y0 } => (fr.max(fr * 0.5 + fa * y0), fa - fr * 0.1),
             Self::TwoRows { k, y0 } => (fr + fa * y0, fa * k - fr * 0.1),
             Self::FourPoint => (fr + fa * 0.58, fa * 1.5 + fr * 3.6),
             Self::Radial => (fr, fr),
@@ -65,11 +65,11 @@ impl Rule {
                 (fr, R::select(fr.is_below(axial), axial * 1.35, p1))
             }
             Self::Thrust => (fa, fa),
-            Self::Ball { k_cot, y0 } => (fr.larger(fr * 0.5 + fa * y0), fa * k_cot - fr * 0.1),
+            Self::Ball { k_cot, y0 } => (fr.max(fr * 0.5 + fa * y0), fa * k_cot - fr * 0.1),
             Self::BallTwoRows { k_cot, y0 } => (fr + fa * y0, fa * k_cot - fr * 0.1),
             Self::Roller { k_cot } => (fr, fa * k_cot),
         };
-        (p0, p1.larger(fr))
+        (p0, p1.max(fr))
     }
 }
 

@@ -310,7 +310,7 @@ impl Model {
     fn check_speeds<R: Real>(&self, at: &BearingAt<'_, R>, n: R) -> Result<(), Undefined> {
         at.check(&SPEED, n * self.d_m);
         if !at.outer_speed.is_zero().agreed()? {
-            at.check(&OUTER, at.outer_speed.magnitude().rpm());
+            at.check(&OUTER, at.outer_speed.abs().rpm());
         }
         Ok(())
     }
@@ -323,16 +323,16 @@ impl Model {
         let [phi_ish, phi_rs, phi_bl, viscous, drag] = at.once(
             #[inline(always)]
             || {
-                let (ln_n, ln_nu) = (n.logarithm(), nu.logarithm());
+                let (ln_n, ln_nu) = (n.ln(), nu.ln());
                 let drag = self.drag.as_ref();
                 let c = &self.coefficients;
                 let inlet = (ln_n + self.ln_d_m) * c.inlet_speed_exponent + ln_nu * c.inlet_viscosity_exponent;
-                let mixed = ((ln_n + ln_nu) * c.mixed_exponent).exponential();
+                let mixed = ((ln_n + ln_nu) * c.mixed_exponent).exp();
                 [
-                    one / (inlet.exponential() * c.inlet_factor + one),
-                    (nu * n * -self.starvation).exponential(),
-                    (mixed * (-c.mixed_factor * self.d_m)).exponential(),
-                    ((ln_n + ln_nu) * c.rolling_exponent).exponential(),
+                    one / (inlet.exp() * c.inlet_factor + one),
+                    (nu * n * -self.starvation).exp(),
+                    (mixed * (-c.mixed_factor * self.d_m)).exp(),
+                    ((ln_n + ln_nu) * c.rolling_exponent).exp(),
                     match drag {
                         Some(drag) => drag.moment(at.oil_height.mm(), n.at_most(self.fastest), nu),
                         None => R::ZERO,
@@ -406,7 +406,7 @@ impl BearingLaw for Model {
                 value: fa.extremes(1).0 * 10.0 / self.axial,
             });
         }
-        let n = at.speed.magnitude().rpm();
+        let n = at.speed.abs().rpm();
         let nu = at.show("nu", "mm2/s", at.nu.mm2_s());
         let (g_rr, g_sl) = self.variables.evaluate(fr, fa, n, nu, self.blend);
         at.show("G_rr", "-", g_rr);

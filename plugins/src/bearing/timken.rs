@@ -110,7 +110,7 @@ impl Timken {
 impl BearingLaw for Timken {
     #[inline(always)]
     fn loss<R: Real>(&self, at: &BearingAt<'_, R>) -> Result<Loss<R>, Undefined> {
-        let n = at.speed.magnitude().at_least(self.least_speed).rpm();
+        let n = at.speed.abs().at_least(self.least_speed).rpm();
         let mu = at.show("mu", "mPa s", (at.nu * at.rho).mpa_s());
         let force = at.observe(&FORCE, self.force(at.radial, at.axial));
         Ok(Loss::MOMENTS.with(&LOAD, at.show("M", "Nm", self.moment(n, mu, force))))

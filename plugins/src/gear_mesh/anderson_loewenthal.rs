@@ -116,7 +116,7 @@ impl OnePoint {
         let v_t = speed * 2.0 * (0.5 * self.diameter * sin - 0.125 * (m - 1.0) / m * l);
         let load = torque * 2.0 / (self.diameter * self.angle.cos() * self.cos_base_helix);
         let argument = load * (c.argument_factor / self.line_length) / (eta * v_s * v_t * v_t);
-        let f = (argument.logarithm() * (c.friction_factor * LOG10_E)).at_least(0.0);
+        let f = (argument.ln() * (c.friction_factor * LOG10_E)).at_least(0.0);
         let f = self.limits.map_or(f, |[least, most]| f.at_least(least).at_most(most));
         let rho_1 = 0.5 * self.diameter * sin + 0.25 * l;
         let rho_2 = 0.5 * m * self.diameter * sin - 0.25 * l;
@@ -164,7 +164,7 @@ impl GearMeshLaw for OnePoint {
         let pair = &at.part.pair;
         at.check(&HELIX, R::constant(pair.helix_angle.to_degrees()));
         let ratio = pair.working_radius[self.pinion] / pair.working_radius[0];
-        let answer = self.answer(at.torque * ratio, at.speed.magnitude() / ratio, at.eta);
+        let answer = self.answer(at.torque * ratio, at.speed.abs() / ratio, at.eta);
         at.observe(&F, answer.f);
         at.observe(&FILM, answer.film.um());
         let [sliding, rolling] = [("P_S", answer.sliding), ("P_R", answer.rolling)]

@@ -32,7 +32,7 @@ impl Factor {
         let mean = MeanFrictionAt::at_pitch_point(at, at.notes.nested(self.friction.notes));
         let mu = at.observe(&MU, R::answer::<MeanFriction>(&*self.friction, &mean)?);
         let factor = at.observe(&LOSS_FACTOR, R::constant(self.value));
-        let input = at.show("P_in", "W", at.torque * at.speed.magnitude());
+        let input = at.show("P_in", "W", at.torque * at.speed.abs());
         let watts = at.show("P", "W", input * mu * factor);
         Ok(Loss::POWERS.with(&SLIDING, R::select(idle, R::ZERO, watts)))
     }

@@ -101,13 +101,13 @@ impl GearMeshLaw for Iso14179 {
         let teeth = if pair.internal { z_2 - z_1 } else { z_1 + z_2 };
         let k = torque * 1000.0 * teeth / (2.0 * pair.facewidth.mm() * r_w * r_w * z_2);
         let k = at.check(&K_FACTOR, k);
-        let v = at.check(&SPEED, at.speed.magnitude() * pair.working_radius[0]);
+        let v = at.check(&SPEED, at.speed.abs() * pair.working_radius[0]);
         let f_m = at.observe(
             &F_M,
             friction(&self.coefficients, at.nu.mm2_s(), k, v).at_most(self.greatest),
         );
         let m = at.observe(&M, R::constant(advantage(pair)));
-        let input = at.show("P_in", "W", at.torque * at.speed.magnitude());
+        let input = at.show("P_in", "W", at.torque * at.speed.abs());
         let watts = f_m * input * pair.working_helix.cos().powi(2) / m;
         Ok(Loss::POWERS.with(&SLIDING, R::select(idle, R::ZERO, watts)))
     }

@@ -123,7 +123,7 @@ impl GearMeshLaw for Mean {
         let at = &at.with(|to| to.notes = to.notes.among(!idle));
         let mesh = Mesh {
             line_load: (at.torque / pair.base_radius[0] / pair.facewidth).n_mm(),
-            pitch_speed: at.speed.magnitude() * pair.working_radius[0],
+            pitch_speed: at.speed.abs() * pair.working_radius[0],
             sum_per_speed: R::constant(self.sum_per_speed),
             radius: R::constant(pair.pitch_radius.mm()),
             eta: at.eta.mpa_s(),
@@ -138,7 +138,7 @@ impl GearMeshLaw for Mean {
             }
         }
         let factor = at.observe(&LOSS_FACTOR, R::constant(self.loss_factor));
-        let input = at.show("P_in", "W", at.torque * at.speed.magnitude());
+        let input = at.show("P_in", "W", at.torque * at.speed.abs());
         let watts = at.show("P", "W", input * mu * factor);
         Ok(Loss::POWERS.with(&SLIDING, R::select(idle, R::ZERO, watts)))
     }

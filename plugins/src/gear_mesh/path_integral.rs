@@ -213,9 +213,7 @@ impl RollingPath {
     #[inline(always)]
     fn power<R: Real>(&self, at: &GearMeshAt<'_, R>, path: &PathAt<'_, R>) -> R {
         let [speed, load, alpha] = self.exponents;
-        let powers = (at.eta * path.speed).logarithm() * speed
-            + path.line_load.logarithm() * load
-            + at.alpha.logarithm() * alpha;
+        let powers = (at.eta * path.speed).ln() * speed + path.line_load.ln() * load + at.alpha.ln() * alpha;
         let sum = match &self.heating {
             None => R::constant(self.power),
             Some(nodes) => {
@@ -228,7 +226,7 @@ impl RollingPath {
                 sum
             }
         };
-        sum * powers.exponential() * path.speed
+        sum * powers.exp() * path.speed
     }
 }
 
@@ -241,7 +239,7 @@ impl GearMeshLaw for Integral {
             return Ok(Loss::POWERS);
         }
         let at = &at.with(|to| to.notes = at.notes.among(!idle));
-        let speed = at.speed.magnitude();
+        let speed = at.speed.abs();
         let mean = MeanFrictionAt::at_pitch_point(at, at.notes);
         let normal = at.show("F_bn", "N", mean.normal_force);
         let bodies = at.bodies()?;

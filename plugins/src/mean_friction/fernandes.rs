@@ -71,8 +71,8 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Fernandes, Diagnostic> 
 #[allow(clippy::too_many_arguments)]
 #[inline(always)]
 fn mu<R: Real>(c: &Constants, sum_speed: R, eta: R, alpha: R, force: R, ra: R, length: f64, radius: R, x_l: R) -> R {
-    let s_p = sum_speed * eta * alpha.root() / force.root();
-    let s_g = ra / (radius * length).root();
+    let s_p = sum_speed * eta * alpha.sqrt() / force.sqrt();
+    let s_g = ra / (radius * length).sqrt();
     let powers = if c.load_exponent == c.roughness_exponent {
         (s_g / s_p).power(c.load_exponent)
     } else {

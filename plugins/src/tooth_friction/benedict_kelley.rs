@@ -66,7 +66,7 @@ impl BenedictKelley {
     #[inline(always)]
     fn rest<R: Real>(&self, notes: Notes<'_, R>, rq: R, eta: R) -> Result<[R; 2], Undefined> {
         let c = &self.coefficients;
-        let rest = (R::constant(c.argument_factor) / eta).logarithm();
+        let rest = (R::constant(c.argument_factor) / eta).ln();
         let smooth = R::constant(c.factor * LOG10_E);
         if !self.roughness {
             return Ok([rest, smooth]);

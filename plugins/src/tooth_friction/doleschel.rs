@@ -65,10 +65,10 @@ impl ToothFrictionLaw for Doleschel {
             return Ok(at.observe(&MU, R::ZERO));
         }
         let sum_speed = entraining(at.sum_speed)?;
-        let powers = at.pressure.gpa().logarithm() * self.pressure
-            + (sum_speed / self.reference_speed).logarithm() * self.speed
-            + (at.eta.mpa_s() / 20.0).logarithm() * self.viscosity;
-        let mu = R::select(unloaded, R::ZERO, powers.exponential() * self.mu);
+        let powers = at.pressure.gpa().ln() * self.pressure
+            + (sum_speed / self.reference_speed).ln() * self.speed
+            + (at.eta.mpa_s() / 20.0).ln() * self.viscosity;
+        let mu = R::select(unloaded, R::ZERO, powers.exp() * self.mu);
         at.notes.among(!unloaded).check(&SUM_SPEED, sum_speed);
         at.observe(&MU, finite(self.cut_off(mu))?);
         Ok(mu)

@@ -71,7 +71,7 @@ impl ToothFrictionLaw for IsoTc60 {
     fn mu<R: Real>(&self, at: &ContactAt<'_, R>) -> Result<R, Undefined> {
         entraining(at.sum_speed)?;
         at.check(&ROLLING, at.sum_speed * 0.5);
-        let mu = self.factor(at.rq, at.eta) * self.product().logarithm(at).exponential();
+        let mu = self.factor(at.rq, at.eta) * self.product().logarithm(at).exp();
         at.observe(&MU, self.cut_off(mu));
         Ok(mu)
     }

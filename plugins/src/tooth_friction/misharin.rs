@@ -84,7 +84,7 @@ impl ToothFrictionLaw for Misharin {
     fn mu<R: Real>(&self, at: &ContactAt<'_, R>) -> Result<R, Undefined> {
         at.check(&PRESSURE, at.pressure.gpa());
         at.check(&SUM_SPEED, at.sum_speed);
-        let mu = self.factor(at.nu) * self.product().logarithm(at).exponential();
+        let mu = self.factor(at.nu) * self.product().logarithm(at).exp();
         at.observe(&MU, self.cut_off(mu));
         Ok(mu)
     }

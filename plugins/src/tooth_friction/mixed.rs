@@ -119,7 +119,7 @@ fn share<R: Real>(weight: Weight, lambda: R, exponent: f64) -> R {
             let rest = (one - lambda * 0.5).at_least(0.0);
             rest * rest
         }
-        Weight::Matsumoto => (lambda.logarithm() * (-0.5 * LOG10_E)).at_least(0.0).at_most(1.0),
+        Weight::Matsumoto => (lambda.ln() * (-0.5 * LOG10_E)).at_least(0.0).at_most(1.0),
         Weight::Diab => (one - erf(lambda * FRAC_1_SQRT_2)) * 0.25,
         Weight::OlverSpikes => (lambda + 1.0).power(-exponent),
     }
@@ -132,7 +132,7 @@ fn erf<R: Real>(x: R) -> R {
     let t = one / (x * 0.327_591_1 + 1.0);
     let poly =
         t * (t * (t * (t * (t * 1.061_405_429 - 1.453_152_027) + 1.421_413_741) - 0.284_496_736) + 0.254_829_592);
-    one - poly * (-x * x).exponential()
+    one - poly * (-x * x).exp()
 }
 
 impl Mixed {

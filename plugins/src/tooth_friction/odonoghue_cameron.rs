@@ -97,7 +97,7 @@ impl ToothFrictionLaw for ODonoghueCameron {
     fn mu<R: Real>(&self, at: &ContactAt<'_, R>) -> Result<R, Undefined> {
         let s = at.show("S", "uin", microinches(at.ra));
         at.check(&SUM_SPEED, entraining(at.sum_speed)?);
-        let mu = self.factor(s, at.eta) * self.product().logarithm(at).exponential();
+        let mu = self.factor(s, at.eta) * self.product().logarithm(at).exp();
         at.observe(&MU, self.cut_off(mu));
         Ok(mu)
     }

@@ -28,17 +28,16 @@ impl Product {
     /// The natural logarithm of the product at a contact.
     #[inline(always)]
     pub fn logarithm<R: Real>(&self, at: &ContactAt<'_, R>) -> R {
-        term(|| at.sliding.logarithm(), self.sliding)
-            + term(|| at.sum_speed.logarithm(), self.sum_speed)
-            + term(|| at.radius.logarithm(), self.radius)
-            + term(|| at.line_load.logarithm(), self.line_load)
+        term(|| at.sliding.ln(), self.sliding)
+            + term(|| at.sum_speed.ln(), self.sum_speed)
+            + term(|| at.radius.ln(), self.radius)
+            + term(|| at.line_load.ln(), self.line_load)
     }
 
     /// What the logarithms at all nodes of a path have in common.
     #[inline(always)]
     fn common<R: Real>(&self, path: &PathAt<'_, R>) -> R {
-        term(|| path.speed.logarithm(), self.sliding + self.sum_speed)
-            + term(|| path.line_load.logarithm(), self.line_load)
+        term(|| path.speed.ln(), self.sliding + self.sum_speed) + term(|| path.line_load.ln(), self.line_load)
     }
 
     /// What is left of the logarithm at a node.
@@ -62,14 +61,14 @@ impl Product {
     /// The products at all nodes of a path, times a factor.
     #[inline(always)]
     pub fn along<R: Real>(&self, path: &PathAt<'_, R>, factor: R, all: &mut [R]) {
-        let factor = factor * self.common(path).exponential();
+        let factor = factor * self.common(path).exp();
         // The nodes are the same at all points, so that a lane holds nodes here.
         for (nodes, all) in path.nodes.chunks(LANES).zip(all.chunks_mut(LANES)) {
             let powers = Lane::each(
                 #[inline(always)]
                 |i| nodes.get(i).map_or(0.0, |node| self.at_node(node)),
             );
-            for (own, power) in all.iter_mut().zip(*powers.exponential()) {
+            for (own, power) in all.iter_mut().zip(*powers.exp()) {
                 *own = factor * power;
             }
         }

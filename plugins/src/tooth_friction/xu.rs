@@ -120,12 +120,12 @@ impl ToothFrictionLaw for Xu {
             return Ok(at.observe(&MU, R::ZERO));
         }
         let c = &self.coefficients;
-        let x = at.show("|SR| P lg nu0", "-", sr * p * nu0.logarithm() * LOG10_E);
-        let f = x * c.b4 + (-x).exponential() * c.b5 + s.exponential() * c.b9 + c.b1;
+        let x = at.show("|SR| P lg nu0", "-", sr * p * nu0.ln() * LOG10_E);
+        let f = x * c.b4 + (-x).exp() * c.b5 + s.exp() * c.b9 + c.b1;
         let f = at.show("f", "-", f);
-        let powers = p.logarithm() * c.b2 + sr.logarithm() * c.b3 + v.logarithm() * c.b6;
-        let powers = powers + nu0.logarithm() * c.b7 + at.radius.logarithm() * c.b8;
-        Ok(at.observe(&MU, finite((f + powers).exponential())?))
+        let powers = p.ln() * c.b2 + sr.ln() * c.b3 + v.ln() * c.b6;
+        let powers = powers + nu0.ln() * c.b7 + at.radius.ln() * c.b8;
+        Ok(at.observe(&MU, finite((f + powers).exp())?))
     }
 
     /// The same law; what does not change along the path is computed once, and logarithms of the geometry are known.
@@ -137,14 +137,14 @@ impl ToothFrictionLaw for Xu {
         let [steady, lg_nu0] = path.notes.once(
             #[inline(always)]
             || {
-                let ln_nu0 = nu0.logarithm();
-                let steady = s.exponential() * c.b9 + path.speed.logarithm() * c.b6 + ln_nu0 * c.b7 + c.b1;
+                let ln_nu0 = nu0.ln();
+                let steady = s.exp() * c.b9 + path.speed.ln() * c.b6 + ln_nu0 * c.b7 + c.b1;
                 [steady, ln_nu0 * LOG10_E]
             },
         );
         // Without load the logarithm is minus infinity, and friction is zero.
         let unit = path.unit_pressure().gpa();
-        let common = steady + unit.logarithm() * c.b2;
+        let common = steady + unit.ln() * c.b2;
         let fall = -(unit * lg_nu0);
         // One function per loop: the steps of a number depend on each other, those of different nodes do not.
         for (node, mu) in path.nodes.iter().zip(&mut *mu) {
@@ -152,7 +152,7 @@ impl ToothFrictionLaw for Xu {
             R::end_pass();
         }
         for mu in &mut *mu {
-            *mu = mu.exponential();
+            *mu = mu.exp();
         }
         for (node, mu) in path.nodes.iter().zip(&mut *mu) {
             let x = fall * (node.slide_roll * node.root_load);
@@ -160,7 +160,7 @@ impl ToothFrictionLaw for Xu {
             R::end_pass();
         }
         for mu in &mut *mu {
-            *mu = mu.exponential();
+            *mu = mu.exp();
         }
         for end in 0..2 {
             path.notes.check(&PRESSURE, unit * path.extent.root_load[end]);
@@ -171,8 +171,8 @@ impl ToothFrictionLaw for Xu {
         }
         let (mut least, mut most) = (R::constant(f64::INFINITY), R::ZERO);
         for mu in &*mu {
-            least = least.smaller(*mu);
-            most = most.larger(*mu);
+            least = least.min(*mu);
+            most = most.max(*mu);
         }
         path.notes.observe(&MU, least);
         path.notes.observe(&MU, finite(most)?);

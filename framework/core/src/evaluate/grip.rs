@@ -15,9 +15,9 @@ impl Transmission {
     /// Share of full friction at a contact, from the relative speed of its bodies and their common speed.
     #[inline(always)]
     fn grip<R: Real>(&self, relative: R, together: R) -> R {
-        let full = together.magnitude() * self.locked_below;
-        let slides = !relative.magnitude().is_below(full);
-        R::select(slides, R::constant(1.0), relative.magnitude() / full)
+        let full = together.abs() * self.locked_below;
+        let slides = !relative.abs().is_below(full);
+        R::select(slides, R::constant(1.0), relative.abs() / full)
     }
 
     /// The share for a mesh: its gears rotate together with the carrier.
@@ -35,6 +35,6 @@ impl Transmission {
         let [a, b] = component
             .between
             .map(|member| member.map_or(R::ZERO, |m| speeds[m as usize]));
-        self.grip(a - b, a.magnitude().smaller(b.magnitude())) * component.count
+        self.grip(a - b, a.abs().min(b.abs())) * component.count
     }
 }

@@ -36,7 +36,7 @@ impl Flow {
             }
         }
         let size = work.unknown[..self.size].iter();
-        let size = size.fold(R::ZERO, |sum, x| sum + x.magnitude());
+        let size = size.fold(R::ZERO, |sum, x| sum + x.abs());
         let found = regular & size.is_below(R::constant(f64::INFINITY));
         if !found.any() {
             return found;
@@ -62,7 +62,7 @@ impl Flow {
         work.multipliers.fill(R::ZERO);
         work.applied.fill(R::ZERO);
         work.applied[..self.columns].copy_from_slice(&work.ports);
-        let fastest = work.speeds.iter().fold(R::ZERO, |most, w| most.larger(w.magnitude()));
+        let fastest = work.speeds.iter().fold(R::ZERO, |most, w| most.max(w.abs()));
         for (relative, mesh) in work.relative.iter_mut().zip(&self.meshes) {
             *relative = [mesh.second, mesh.first].map(|gear| relative_speed(gear, mesh, &work.speeds, fastest * STILL));
         }
@@ -159,14 +159,14 @@ impl Flow {
         for (k, mesh) in self.meshes.iter().enumerate() {
             let relative = work.relative[k];
             let rolling = -work.multipliers[mesh.row] * mesh.z1 * relative[1];
-            largest = largest.larger(rolling.magnitude());
+            largest = largest.max(rolling.abs());
             let still = relative[driven_side(work.drives[k])].is_zero();
             let constant = R::select(still, R::ZERO, work.used.constant(k));
-            work.mesh_loss[k] = work.used.share(k) * rolling.magnitude() + constant;
+            work.mesh_loss[k] = work.used.share(k) * rolling.abs() + constant;
             work.rolling[k] = rolling;
         }
         for (speed, torque) in work.speeds.iter().zip(&work.ports) {
-            largest = largest.larger((*speed * *torque).magnitude());
+            largest = largest.max((*speed * *torque).abs());
         }
         work.largest = largest;
     }
@@ -193,7 +193,7 @@ fn small_system<R: Points>(responses: &[[Response; 2]], work: &mut Work<R>) -> R
 fn relative_speed<R: Real>(gear: Option<usize>, mesh: &MeshRow, speeds: &[R], still: R) -> R {
     let speed = |column: Option<usize>| column.map_or(R::ZERO, |c| speeds[c]);
     let relative = speed(gear) - speed(mesh.carrier);
-    R::select(relative.magnitude().is_above(still), relative, R::ZERO)
+    R::select(relative.abs().is_above(still), relative, R::ZERO)
 }
 
 /// Which side of [`super::system::Friction`] and [`Response`] loses torque.

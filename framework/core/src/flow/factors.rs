@@ -131,7 +131,7 @@ impl Elimination {
     pub fn eliminate<R: Points>(&self, factors: &mut [R]) -> R::Mask {
         let mut regular = R::mask(|_| true);
         for step in &self.steps {
-            regular = regular & !factors[step.pivot].magnitude().is_below(R::constant(ZERO));
+            regular = regular & !factors[step.pivot].abs().is_below(R::constant(ZERO));
             // The inverse of the pivot is stored.
             let inverse = R::constant(1.0) / factors[step.pivot];
             factors[step.pivot] = inverse;

@@ -11,16 +11,14 @@ pub(super) fn eliminate<R: Points>(matrix: &mut [R], order: &mut [usize]) -> R::
     for k in 0..n {
         let mut most = R::ZERO;
         for row in k + 1..n {
-            most = most.larger(matrix[k * n + row].magnitude());
+            most = most.max(matrix[k * n + row].abs());
         }
         order[k] = k;
-        let smaller = matrix[k * n + k].magnitude().is_below(most);
+        let smaller = matrix[k * n + k].abs().is_below(most);
         if smaller.any() {
             if R::COUNT == 1 {
                 let rows = k + 1..n;
-                let own = rows
-                    .clone()
-                    .find(|row| matrix[k * n + row].magnitude().is_equal(most).any());
+                let own = rows.clone().find(|row| matrix[k * n + row].abs().is_equal(most).any());
                 order[k] = own.unwrap_or(k);
                 for column in 0..n {
                     matrix.swap(column * n + k, column * n + order[k]);
@@ -30,7 +28,7 @@ pub(super) fn eliminate<R: Points>(matrix: &mut [R], order: &mut [usize]) -> R::
             }
         }
         // Entries are of order one, because rows are scaled.
-        regular = regular & !matrix[k * n + k].magnitude().is_below(R::constant(1e-13));
+        regular = regular & !matrix[k * n + k].abs().is_below(R::constant(1e-13));
         // The inverse of the pivot is stored.
         let inverse = R::constant(1.0) / matrix[k * n + k];
         matrix[k * n + k] = inverse;

@@ -166,7 +166,7 @@ impl Flow {
         work.list_live_entries();
         let mut mismatch = R::ZERO;
         for &entry in &work.live_entries {
-            mismatch = mismatch.larger(work.difference(entry).magnitude());
+            mismatch = mismatch.max(work.difference(entry).abs());
         }
         work.mismatch = mismatch;
         let enough = work.largest * (tolerance.power * SAFETY);
@@ -195,11 +195,11 @@ impl Flow {
     pub(super) fn weigh<R: Points>(&self, work: &mut Work<R>) {
         let meshes = self.meshes.len();
         for (weight, rolling) in work.weights.iter_mut().zip(&work.rolling) {
-            *weight = rolling.magnitude();
+            *weight = rolling.abs();
         }
         work.weights[meshes..2 * meshes].fill(R::constant(1.0));
         for (weight, speed) in work.weights[2 * meshes..].iter_mut().zip(&work.speeds) {
-            *weight = speed.magnitude();
+            *weight = speed.abs();
         }
     }
 
@@ -361,11 +361,11 @@ pub(super) fn evaluate_losses<R: Points>(
         || {
             let mut sum = R::ZERO;
             for (k, loss) in work.model_losses.iter().enumerate() {
-                work.answer.set_mesh(k, *loss, work.rolling[k].magnitude());
-                sum += loss.magnitude();
+                work.answer.set_mesh(k, *loss, work.rolling[k].abs());
+                sum += loss.abs();
             }
             for drag in work.answer.drags() {
-                sum += drag.magnitude();
+                sum += drag.abs();
             }
             sum.is_below(R::constant(f64::INFINITY))
         },
@@ -422,20 +422,20 @@ fn remaining<R: Points>(work: &Work<R>) -> R {
     let (mut moved, mut followed) = (R::ZERO, R::ZERO);
     for &entry in &work.live_entries {
         let (own_moved, own_followed) = work.changes(entry);
-        moved = moved.larger(own_moved * work.weights[entry].magnitude());
-        followed = followed.larger(own_followed * work.weights[entry].magnitude());
+        moved = moved.max(own_moved * work.weights[entry].abs());
+        followed = followed.max(own_followed * work.weights[entry].abs());
     }
     let one = R::constant(1.0);
     let common = R::select(moved.is_above(R::ZERO), followed / moved, one);
     let mut most = R::ZERO;
     for &entry in &work.live_entries {
-        let mismatch = work.difference(entry).magnitude();
+        let mismatch = work.difference(entry).abs();
         let (moved, followed) = work.changes(entry);
         let own = R::select(followed.is_below(moved), followed / moved, one);
-        let falls = common.larger(own);
+        let falls = common.max(own);
         // The sum of all following steps, as a geometric series.
-        let left = mismatch * falls / R::constant(1e-3).larger(one - falls);
-        most = R::select(mismatch.is_zero(), most, most.larger(left));
+        let left = mismatch * falls / R::constant(1e-3).max(one - falls);
+        most = R::select(mismatch.is_zero(), most, most.max(left));
     }
     most
 }

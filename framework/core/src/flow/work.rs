@@ -255,7 +255,7 @@ impl<R: Points> Work<R> {
     pub(super) fn changes(&self, entry: usize) -> (R, R) {
         let used = self.used.values[entry] - self.used_before.values[entry];
         let answer = self.answer.values[entry] - self.answer_before.values[entry];
-        (used.magnitude(), answer.magnitude())
+        (used.abs(), answer.abs())
     }
 
     /// Lists the entries of the losses in which anything changes; the others change no sum.

@@ -161,7 +161,7 @@ impl ShaftLoads {
             for (mesh, factor) in &member.meshes {
                 let own = tangential[*mesh] * *factor;
                 thrust += own;
-                scale += own.magnitude();
+                scale += own.abs();
             }
             thrust += passed[place];
             scale += sizes[place];
@@ -243,14 +243,14 @@ fn middle(supports: &[(usize, SupportLayout)]) -> f64 {
 /// Length of a vector; forces are far from overflow, so `hypot` is not needed.
 #[inline(always)]
 fn length<R: Real>([y, z]: [R; 2]) -> R {
-    (y * y + z * z).root()
+    (y * y + z * z).sqrt()
 }
 
 /// The length of the force on a support that a single mesh loads.
 #[inline(always)]
 fn under<R: Real>([ahead, back]: &[f64; 2], force: R) -> R {
     let backwards = force.is_below(R::ZERO);
-    force.magnitude() * R::select(backwards, R::constant(*back), R::constant(*ahead))
+    force.abs() * R::select(backwards, R::constant(*back), R::constant(*ahead))
 }
 
 fn add(sum: &mut Reaction, case: &Reaction, factor: f64) {

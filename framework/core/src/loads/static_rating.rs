@@ -41,7 +41,7 @@ impl StaticFactors {
     /// Equivalent static load P0. \[N\]
     #[inline]
     pub fn load<R: Real>(&self, radial: R, axial: R) -> R {
-        (radial * self.radial + axial * self.axial).larger(radial * self.least)
+        (radial * self.radial + axial * self.axial).max(radial * self.least)
     }
 }
 
@@ -49,7 +49,7 @@ impl StaticRating {
     /// Static safety S0 = C0/P0; infinite without load.
     #[inline]
     pub fn safety<R: Real>(&self, radial: R, axial: R) -> R {
-        R::constant(self.c0) / self.factors.load(radial, axial.magnitude())
+        R::constant(self.c0) / self.factors.load(radial, axial.abs())
     }
 }
 

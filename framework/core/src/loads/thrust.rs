@@ -76,7 +76,7 @@ impl Taking {
             rest += R::constant(*spring);
         }
         // What is rounding error is no thrust.
-        let rest = R::select(rest.magnitude().is_above(scale * 1e-9), rest, R::ZERO);
+        let rest = R::select(rest.abs().is_above(scale * 1e-9), rest, R::ZERO);
         let mut untaken = R::ZERO;
         for (takers, own) in self.takers.iter().zip([-rest, rest]) {
             let own = own.at_least(0.0);

@@ -51,10 +51,10 @@ fn so_klaus(nu: f64, slope: f64, rho: f64) -> f64 {
 #[inline(always)]
 pub fn roelands<R: Real>(eta0: R, alpha: R, pressure: R) -> R {
     let one = R::constant(1.0);
-    let ln_ratio = eta0.logarithm() + 9.67;
+    let ln_ratio = eta0.ln() + 9.67;
     let z = alpha / (ln_ratio * 5.1e-9);
-    let compressed = ((pressure * 5.1e-9 + one).logarithm() * z).exponential();
-    eta0 * (ln_ratio * (compressed - one)).exponential()
+    let compressed = ((pressure * 5.1e-9 + one).ln() * z).exp();
+    eta0 * (ln_ratio * (compressed - one)).exp()
 }
 
 #[cfg(test)]

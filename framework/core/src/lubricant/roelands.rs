@@ -34,7 +34,7 @@ pub struct Roelands<R = f64> {
 
 #[inline(always)]
 fn ln_ratio<R: Real>(eta: R) -> R {
-    (eta / ETA_INF).logarithm().at_least(LEAST)
+    (eta / ETA_INF).ln().at_least(LEAST)
 }
 
 #[inline(always)]
@@ -98,21 +98,21 @@ impl<R: Real> Roelands<R> {
     #[inline(always)]
     pub fn ln_ratio(&self, temperature: R) -> R {
         let cooler = above_zero(self.reference) / above_zero(temperature);
-        let change = (self.s0 * cooler.logarithm()).at_least(-FARTHEST).at_most(FARTHEST);
-        self.ln_ratio * change.exponential()
+        let change = (self.s0 * cooler.ln()).at_least(-FARTHEST).at_most(FARTHEST);
+        self.ln_ratio * change.exp()
     }
 
     /// Factor of a pressure in Pa on [`ln_ratio`](Self::ln_ratio).
     #[inline(always)]
     pub fn pressed(&self, pressure: R) -> R {
-        (self.z * (pressure / P_R + 1.0).logarithm()).exponential()
+        (self.z * (pressure / P_R + 1.0).ln()).exp()
     }
 
     /// Viscosity at a temperature in degC under a pressure with this factor. \[Pa s\] At most 1e9 Pa s.
     #[inline(always)]
     pub fn eta_pressed(&self, pressed: R, temperature: R) -> R {
         let power = (self.ln_ratio(temperature) * pressed).at_most(700.0);
-        (power.exponential() * ETA_INF).at_most(THICKEST)
+        (power.exp() * ETA_INF).at_most(THICKEST)
     }
 
     /// Viscosity at a pressure in Pa and a temperature in degC. \[Pa s\] At most 1e9 Pa s.

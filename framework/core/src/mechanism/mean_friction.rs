@@ -126,7 +126,7 @@ impl<'a, R: Real> MeanFrictionAt<'a, R> {
         let pair = &part.pair;
         let tangential = at.torque / pair.base_radius[0];
         let normal_force = pair.normal_force(at.torque);
-        let speed = at.speed.magnitude();
+        let speed = at.speed.abs();
         let pitch_speed = speed * pair.working_radius[0];
         Self {
             part,
@@ -159,7 +159,7 @@ impl<'a, R: Real> MeanFrictionAt<'a, R> {
 /// Hertz pressure of a line contact from line load in N/m, reduced modulus in Pa and radius in m. \[Pa\]
 #[inline(always)]
 pub fn hertz<R: Real>(line_load: R, modulus: R, radius: R) -> R {
-    (line_load * modulus / (radius * (2.0 * std::f64::consts::PI))).root()
+    (line_load * modulus / (radius * (2.0 * std::f64::consts::PI))).sqrt()
 }
 
 /// Line load at which a line contact has a Hertz pressure. \[N/m\]

@@ -181,8 +181,8 @@ impl<R: Real> Range<R> {
     #[inline(always)]
     pub fn extend(&mut self, node: &PathNode, value: R) {
         if node.share > 0.0 {
-            self.least = self.least.smaller(value);
-            self.greatest = self.greatest.larger(value);
+            self.least = self.least.min(value);
+            self.greatest = self.greatest.max(value);
         }
     }
 
@@ -526,7 +526,7 @@ impl<'a, R: Real> PathAt<'a, R> {
     /// Hertz pressure of a node with `root_load` one. \[Pa m^0.5\]
     #[inline(always)]
     pub fn unit_pressure(&self) -> R {
-        (self.line_load * self.modulus / (2.0 * std::f64::consts::PI)).root()
+        (self.line_load * self.modulus / (2.0 * std::f64::consts::PI)).sqrt()
     }
 
     /// Moves a contact of the path to another point, where the unit pressure is known.

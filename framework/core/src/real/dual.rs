@@ -231,7 +231,7 @@ impl Real for Dual {
         if mask { then } else { other }
     }
     #[inline]
-    fn magnitude(self) -> Self {
+    fn abs(self) -> Self {
         let sign = if self.value > 0.0 {
             1.0
         } else if self.value < 0.0 {
@@ -243,29 +243,29 @@ impl Real for Dual {
     }
     // Not inlined: derivatives are computed seldom, and the code of these is long.
     #[inline(never)]
-    fn root(self) -> Self {
-        let root = self.value.root();
+    fn sqrt(self) -> Self {
+        let root = self.value.sqrt();
         self.follow(root, 0.5 / root)
     }
     #[inline(never)]
-    fn cube_root(self) -> Self {
-        let root = self.value.cube_root();
+    fn cbrt(self) -> Self {
+        let root = super::cbrt(self.value);
         self.follow(root, 1.0 / (3.0 * root * root))
     }
     #[inline(never)]
-    fn exponential(self) -> Self {
-        let value = self.value.exponential();
+    fn exp(self) -> Self {
+        let value = super::exp(self.value);
         self.follow(value, value)
     }
     #[inline(never)]
-    fn logarithm(self) -> Self {
-        self.follow(self.value.logarithm(), 1.0 / self.value)
+    fn ln(self) -> Self {
+        self.follow(super::ln(self.value), 1.0 / self.value)
     }
     #[inline(never)]
     fn sine(self) -> Self {
         let sine = self.value.sine();
         // The angle is at most 45 degrees, where the cosine is far from zero.
-        self.follow(sine, (1.0 - sine * sine).root())
+        self.follow(sine, (1.0 - sine * sine).sqrt())
     }
     #[inline(never)]
     fn power(self, exponent: f64) -> Self {
@@ -362,14 +362,14 @@ mod tests {
             x / y / 3.0,
             y / x - 2.0,
             -x + 1.0,
-            (x * 0.01).exponential(),
-            x.logarithm(),
+            (x * 0.01).exp(),
+            x.ln(),
             x.power(0.7),
             x.power(-1.3),
-            x.root() * x.cube_root(),
+            x.sqrt() * x.cbrt(),
             (x / (x + y) * 0.7).sine(),
-            (x - y).magnitude(),
-            x.larger(y).smaller(y * 2.0).at_least(0.3).at_most(40.0),
+            (x - y).abs(),
+            x.max(y).min(y * 2.0).at_least(0.3).at_most(40.0),
         ]
     }
 
@@ -400,13 +400,13 @@ mod tests {
     fn derivatives_at_zero_are_one_sided_and_never_undefined() {
         let zero = variable(0.0);
         let starts = [
-            zero.root(),
-            zero.cube_root(),
+            zero.sqrt(),
+            zero.cbrt(),
             zero.power(0.4),
             zero.power(2.5),
-            zero.magnitude(),
-            (zero.logarithm() * 0.4 + 1.0).exponential(),
-            (-(Dual::constant(1.0) / zero)).exponential(),
+            zero.abs(),
+            (zero.ln() * 0.4 + 1.0).exp(),
+            (-(Dual::constant(1.0) / zero)).exp(),
         ];
         for start in starts {
             assert_eq!((start.value, start.slopes), (0.0, [0.0; DIRECTIONS]));

@@ -88,7 +88,7 @@ pub fn ln(x: f64) -> f64 {
 /// Newton's method computes the inverse root y from a first guess in the bits, whose upper half is nearly a logarithm, and the root
 /// is improved once more. There is no division.
 #[inline(always)]
-pub fn cube_root(x: f64) -> f64 {
+pub fn cbrt(x: f64) -> f64 {
     /// 2^52: integers below it, when added, are in its lowest bits.
     const WHOLE: f64 = 4_503_599_627_370_496.0;
     /// Four thirds of the exponent of one, minus the value that minimises the maximum error, which is 3.4 %.
@@ -183,11 +183,11 @@ mod tests {
     fn the_cube_root_and_the_sine_agree_with_the_standard_library() {
         for i in -900..=900 {
             let x = 10.0_f64.powf(f64::from(i) / 3.1);
-            assert!((cube_root(x) / x.cbrt() - 1.0).abs() < 4e-16, "{x:e}");
+            assert!((cbrt(x) / x.cbrt() - 1.0).abs() < 4e-16, "{x:e}");
             let angle = f64::from(i) * 8.72e-4;
             assert!((sine(angle) - angle.sin()).abs() <= 3e-16, "{angle}");
         }
-        assert_eq!((cube_root(0.0), cube_root(f64::INFINITY)), (0.0, f64::INFINITY));
+        assert_eq!((cbrt(0.0), cbrt(f64::INFINITY)), (0.0, f64::INFINITY));
     }
 
     #[test]
@@ -198,13 +198,13 @@ mod tests {
                 #[inline(always)]
                 || {
                     let sum = x * x * 0.3 + x / 7.0 - x.power(1.6);
-                    [x.map(exp), x.map(ln), x.map(cube_root), x.map(|x| sine(x * 0.007)), sum]
+                    [x.map(exp), x.map(ln), x.map(cbrt), x.map(|x| sine(x * 0.007)), sum]
                 },
             );
             for i in 0..LANES {
                 let x = x[i];
                 let sum = x * x * 0.3 + x / 7.0 - x.power(1.6);
-                let alone = [exp(x), ln(x), cube_root(x), sine(x * 0.007), sum];
+                let alone = [exp(x), ln(x), cbrt(x), sine(x * 0.007), sum];
                 assert_eq!(
                     together.map(|lane: Lane| lane[i].to_bits()),
                     alone.map(f64::to_bits),

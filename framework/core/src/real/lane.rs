@@ -201,23 +201,23 @@ impl Real for Lane {
         then
     }
     #[inline(always)]
-    fn magnitude(self) -> Self {
+    fn abs(self) -> Self {
         self.map(f64::abs)
     }
     #[inline(always)]
-    fn root(self) -> Self {
+    fn sqrt(self) -> Self {
         self.map(f64::sqrt)
     }
     #[inline(always)]
-    fn cube_root(self) -> Self {
-        self.map(elementary::cube_root)
+    fn cbrt(self) -> Self {
+        self.map(elementary::cbrt)
     }
     #[inline(always)]
-    fn exponential(self) -> Self {
+    fn exp(self) -> Self {
         self.map(elementary::exp)
     }
     #[inline(always)]
-    fn logarithm(self) -> Self {
+    fn ln(self) -> Self {
         self.map(elementary::ln)
     }
     #[inline(always)]

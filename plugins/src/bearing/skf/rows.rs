@@ -408,10 +408,7 @@ fn combined<R: Real>(fr: R, fa: R, share: R, (rolling, r2): (f64, f64), sliding:
     let pushed = fa / angle.sine();
     let fr_2 = fr * fr;
     let cube = fr_2 * fr_2 * fr + (fa * fa * fa) * sliding.1 * pushed;
-    (
-        (fr + pushed * r2).power(ROLLING) * rolling,
-        cube.cube_root() * sliding.0,
-    )
+    ((fr + pushed * r2).power(ROLLING) * rolling, cube.cbrt() * sliding.0)
 }
 
 /// Blends the radial form continuously into the combined form, for a share from zero to one.
@@ -494,9 +491,9 @@ impl Variables {
                 let cube = |x: R| x * x * x;
                 let light = (fr + fa * rolling[0].1).power(0.54) * rolling[0].0;
                 let heavy = (fr + fa * rolling[1].1).power(0.31) * rolling[1].0;
-                let sliding_light = (cube(fr) * fr + cube(fa) * fa * sliding[0].1).cube_root() * sliding[0].0;
-                let sliding_heavy = (cube(fr) + cube(fa) * sliding[1].1).cube_root() * sliding[1].0;
-                (light.smaller(heavy), sliding_light.smaller(sliding_heavy))
+                let sliding_light = (cube(fr) * fr + cube(fa) * fa * sliding[0].1).cbrt() * sliding[0].0;
+                let sliding_heavy = (cube(fr) + cube(fa) * sliding[1].1).cbrt() * sliding[1].0;
+                (light.min(heavy), sliding_light.min(sliding_heavy))
             }
             Self::Toroidal {
                 rolling,
@@ -526,10 +523,10 @@ impl Variables {
                 let power = |x: R| x.power(5.0 / 3.0);
                 let rolling_light = (fr + fa * rolling[0].1).power(0.54) * rolling[0].0;
                 let rolling_heavy = (fr + fa * rolling[1].1).power(0.31) * rolling[1].0;
-                let sliding = ((power(fr) + power(fa) * light.1) * light.0).smaller((fr + fa) * heavy);
+                let sliding = ((power(fr) + power(fa) * light.1) * light.0).min((fr + fa) * heavy);
                 let guide = (fr + fa * guide.1) * guide.0;
-                let weight = ((n * nu).power(1.4) * (-1e-6 * d_m)).exponential();
-                (rolling_light.smaller(rolling_heavy), sliding + guide * weight)
+                let weight = ((n * nu).power(1.4) * (-1e-6 * d_m)).exp();
+                (rolling_light.min(rolling_heavy), sliding + guide * weight)
             }
         }
     }

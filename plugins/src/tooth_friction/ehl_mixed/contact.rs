@@ -47,7 +47,7 @@ impl<R: Real> Contact<R> {
     /// A contact from line load (N/m), radius (m), reduced modulus (Pa), length (m), surface speeds (m/s).
     #[inline(always)]
     pub fn new(line_load: R, radius: R, modulus: R, length: R, speeds: [R; 2]) -> Self {
-        let half_width = (line_load * 8.0 * radius / (modulus * PI)).root();
+        let half_width = (line_load * 8.0 * radius / (modulus * PI)).sqrt();
         Self {
             line_load,
             radius,
@@ -63,7 +63,7 @@ impl<R: Real> Contact<R> {
     /// the slower one is used by magnitude. \[m/s\]
     #[inline(always)]
     pub fn speeds(sliding: R, sum: R, first_faster: bool) -> [R; 2] {
-        let (fast, slow) = ((sum + sliding) * 0.5, ((sum - sliding) * 0.5).magnitude());
+        let (fast, slow) = ((sum + sliding) * 0.5, ((sum - sliding) * 0.5).abs());
         if first_faster { [fast, slow] } else { [slow, fast] }
     }
 
@@ -72,12 +72,12 @@ impl<R: Real> Contact<R> {
         let [u1, u2] = self.speeds;
         let speed = (u1 + u2) * 0.5;
         Logarithms {
-            line_load: self.line_load.logarithm(),
-            radius: self.radius.logarithm(),
-            modulus: self.modulus.logarithm(),
-            length: self.length.logarithm(),
-            speed: speed.logarithm(),
-            slide_roll: ((u1 - u2).magnitude() / speed).logarithm(),
+            line_load: self.line_load.ln(),
+            radius: self.radius.ln(),
+            modulus: self.modulus.ln(),
+            length: self.length.ln(),
+            speed: speed.ln(),
+            slide_roll: ((u1 - u2).abs() / speed).ln(),
         }
     }
 

@@ -36,7 +36,7 @@ pub fn dilogarithm_of_negative<R: Real>(y: R) -> R {
     if !far.any() {
         return near;
     }
-    let ln = y.logarithm();
+    let ln = y.ln();
     R::select(far, -(ln * ln * 0.5) - PI * PI / 6.0 - near, near)
 }
 

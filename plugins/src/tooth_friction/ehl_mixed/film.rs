@@ -47,7 +47,7 @@ impl Film {
             Self::ErtelGrubin => (1.95, false, [8.0 / 11.0, 8.0 / 11.0, -1.0 / 11.0]),
         };
         let ln_w = if ellipse { ln_w + ln_length + ELLIPSE.ln() } else { ln_w };
-        (ln_u * exponents[0] + ln_g * exponents[1] + ln_w * exponents[2]).exponential() * factor
+        (ln_u * exponents[0] + ln_g * exponents[1] + ln_w * exponents[2]).exp() * factor
     }
 }
 
@@ -143,15 +143,15 @@ impl InletHeating {
         let one = R::constant(1.0);
         match self {
             Self::None => one,
-            Self::MurchWilson => R::constant(3.94) / ((ln.thermal_load * 0.62).exponential() + 3.94),
+            Self::MurchWilson => R::constant(3.94) / ((ln.thermal_load * 0.62).exp() + 3.94),
             Self::Gupta => thermal_factor(at.pressure, at.slide_roll, at.thermal_load),
             Self::WilsonSheu => {
-                let sliding = ((ln.slide_roll - LN_2) * 0.83).exponential() * 14.8 + 1.0;
-                one / (sliding * 0.1 * ((ln.thermal_load + 2.0 * LN_2) * 0.64).exponential() + 1.0)
+                let sliding = ((ln.slide_roll - LN_2) * 0.83).exp() * 14.8 + 1.0;
+                one / (sliding * 0.1 * ((ln.thermal_load + 2.0 * LN_2) * 0.64).exp() + 1.0)
             }
             Self::HsuLee => {
-                let load = (ln.g * 0.687 + ln.w * 0.447 + ln.thermal_load * 0.527).exponential();
-                one / (load * 0.0766 * (at.slide_roll * 0.875).exponential() + 1.0)
+                let load = (ln.g * 0.687 + ln.w * 0.447 + ln.thermal_load * 0.527).exp();
+                one / (load * 0.0766 * (at.slide_roll * 0.875).exp() + 1.0)
             }
         }
     }

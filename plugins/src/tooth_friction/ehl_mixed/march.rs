@@ -153,10 +153,10 @@ impl<'a, R: Points> March<'a, R> {
             path,
             laws,
             oil,
-            ln_line_load: path.line_load.logarithm(),
-            ln_modulus: R::constant(path.modulus).logarithm(),
-            ln_length: R::constant(path.length).logarithm(),
-            ln_speed: path.speed.logarithm(),
+            ln_line_load: path.line_load.ln(),
+            ln_modulus: R::constant(path.modulus).ln(),
+            ln_length: R::constant(path.length).ln(),
+            ln_speed: path.speed.ln(),
         }
     }
 
@@ -286,9 +286,7 @@ impl<'a, R: Points> March<'a, R> {
             let bodies = Bodies::Held(rise.map(|rise| self.oil.supplied.temperature + rise));
             let found = self.run(bodies, open, mu, &mut tally);
             let settled = found.rise(resistances, found.heat);
-            let off = (settled[0] - rise[0])
-                .magnitude()
-                .larger((settled[1] - rise[1]).magnitude());
+            let off = (settled[0] - rise[0]).abs().max((settled[1] - rise[1]).abs());
             heats = [0, 1].map(|i| R::select(open, found.heats[i], heats[i]));
             open = open & off.is_above(R::constant(SETTLED));
             if !open.any() || tally.runs == MOST_RUNS {

@@ -188,9 +188,9 @@ impl<R: Points> Oil<'_, R> {
             eta,
             alpha,
             unit_thermal_load,
-            ln_eta: eta.logarithm(),
-            ln_alpha: alpha.logarithm(),
-            ln_unit_thermal_load: unit_thermal_load.logarithm(),
+            ln_eta: eta.ln(),
+            ln_alpha: alpha.ln(),
+            ln_unit_thermal_load: unit_thermal_load.ln(),
         }
     }
 

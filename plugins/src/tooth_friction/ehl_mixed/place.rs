@@ -157,7 +157,7 @@ impl<'a, R: Points> Place<'a, R> {
             inlet,
         } = *conditions;
         let [u1, u2] = contact.speeds;
-        let (speed, sliding) = ((u1 + u2) * 0.5, (u1 - u2).magnitude());
+        let (speed, sliding) = ((u1 + u2) * 0.5, (u1 - u2).abs());
         let rheology = oil.rheology;
         let resistance = |speed: R| laws.flank.resistance(contact.half_width, contact.length, speed);
         let mut place = Self {
@@ -320,7 +320,7 @@ impl<'a, R: Points> Place<'a, R> {
     /// Smaller of the Peclet numbers of both flanks.
     #[inline(always)]
     pub fn peclet(&self) -> R {
-        let slow = self.contact.speeds[0].smaller(self.contact.speeds[1]);
+        let slow = self.contact.speeds[0].min(self.contact.speeds[1]);
         self.laws.flank.peclet(self.contact.half_width, slow)
     }
 
@@ -328,7 +328,7 @@ impl<'a, R: Points> Place<'a, R> {
     /// derivative of the friction map. Counts iterations. A point that has converged keeps its friction while others iterate.
     #[inline(always)]
     pub fn settle(&self, guess: R, slope: &mut R, passes: &mut u32) -> R {
-        let near = |difference: R, tolerance: f64| difference.magnitude().is_below(R::constant(tolerance));
+        let near = |difference: R, tolerance: f64| difference.abs().is_below(R::constant(tolerance));
         let mut search = Search::new(R::constant(self.most), *slope);
         let mut mu = guess.at_least(0.0).at_most(self.most);
         let mut solved = mu;
@@ -348,7 +348,7 @@ impl<'a, R: Points> Place<'a, R> {
             solved = R::select(running, solution, solved);
             *slope = R::select(running, search.slope(), *slope);
             let left = (found.mu - mu) * found.warming;
-            running = running & left.magnitude().is_above(R::constant(SETTLED));
+            running = running & left.abs().is_above(R::constant(SETTLED));
             if pass > 1 {
                 // The error of a secant with a measured slope is far less than what that slope has changed of it.
                 let agrees = near((solved - expected) * found.warming, SETTLED) & near(left, NEAR);

@@ -45,9 +45,9 @@ impl Flank {
     #[inline(always)]
     pub fn resistance<R: Real>(&self, half_width: R, length: R, speed: R) -> R {
         let least = R::constant(2.0 * FAST * self.diffusivity()) / half_width;
-        let swept = speed.larger(least) * (self.conductivity * self.density * self.heat_capacity);
+        let swept = speed.max(least) * (self.conductivity * self.density * self.heat_capacity);
         // Two thirds of 2 q''/k sqrt(chi 2a/(pi U)) on the area 2 a L.
-        (R::constant(2.0) / (half_width * PI * swept)).root() * (2.0 / 3.0) / length
+        (R::constant(2.0) / (half_width * PI * swept)).sqrt() * (2.0 / 3.0) / length
     }
 
     /// Mean rise under a uniformly heated circle at any speed according to Tian and Kennedy, from heat per area (W/m2), radius (m) and

@@ -35,7 +35,7 @@ impl Transit {
             Self::Chart => {
                 R::each(|point| chart(s.at_point(point), d0.at_point(point), limit.stress.at_point(point)).0)
             }
-            Self::Steady => asinh(s).smaller(limit.stress),
+            Self::Steady => asinh(s).min(limit.stress),
         }
     }
 }
@@ -55,7 +55,7 @@ impl<R: Real> Limit<R> {
     pub fn new(stress: R) -> Self {
         Self {
             stress,
-            exponential: stress.exponential(),
+            exponential: stress.exp(),
         }
     }
 }
@@ -76,17 +76,17 @@ const STEADY: f64 = 45.0;
 pub fn exact<R: Real>(s: R, d0: R, limit: &Limit<R>) -> R {
     let (limit, cap) = (limit.stress, limit.exponential);
     let one = R::constant(1.0);
-    let c = R::select(s.is_below(R::constant(LARGE)), (s * s + 1.0).root(), s);
+    let c = R::select(s.is_below(R::constant(LARGE)), (s * s + 1.0).sqrt(), s);
     let linear = s.is_below(R::constant(LINEAR)) | (d0 * LINEAR).is_above(c);
     let u = s + c;
-    let steady = u.logarithm();
+    let steady = u.ln();
     let pace = c / d0;
     let entry = u * ((u - 1.0) / (u + 1.0));
     // Leaves the contact at theta = 1, or reaches the limit before. In gears the flow is steady long before.
     let leaves = pace.is_below(R::constant(STEADY));
     let mut y = R::ZERO;
     if leaves.any() {
-        y = R::select(leaves, entry * (-pace).exponential(), y);
+        y = R::select(leaves, entry * (-pace).exp(), y);
     }
     let mut flowing = one;
     let plastic = limit.is_below(steady);
@@ -94,7 +94,7 @@ pub fn exact<R: Real>(s: R, d0: R, limit: &Limit<R>) -> R {
         let reached = (u - cap) / (cap + one / u);
         let reaches = plastic & reached.is_above(y);
         y = R::select(reaches, reached, y);
-        flowing = R::select(reaches, (entry / reached).logarithm() / pace, flowing);
+        flowing = R::select(reaches, (entry / reached).ln() / pace, flowing);
     }
     let g = one / (u * u);
     let mean = capped(steady * flowing + (part(entry, g) - part(y, g)) / pace, flowing, limit);

@@ -380,8 +380,8 @@ fn lost<R: Points>(rig: &Rig, state: &mut FlowState<'_, R>) {
         };
         let of = |column: Option<usize>| column.map_or(R::ZERO, |c| state.speeds[c]);
         let multiplier = state.multipliers[mesh.row];
-        let power = (multiplier * z * (of(column) - of(mesh.carrier))).magnitude() * zeta;
-        *loss = power * multiplier.magnitude().at_least(1e-3).power(-0.01);
+        let power = (multiplier * z * (of(column) - of(mesh.carrier))).abs() * zeta;
+        *loss = power * multiplier.abs().at_least(1e-3).power(-0.01);
     }
     state.drags.copy_from_slice(state.steady);
 }
