@@ -106,10 +106,16 @@ fn tooth_table(stages: &[Stage]) -> String {
         let above = |gear: usize| stage.undercut_limit[gear].map(|limit| stage.profile_shift[gear] - limit);
         table.row(vec![
             mesh_name(stage),
-            both([0, 1].map(|gear| stage.tip_clearance_mm.map(|own| own[gear])), 3),
+            both(
+                [0, 1].map(|gear| stage.tip_clearance_mm.map(|clearances| clearances[gear])),
+                3,
+            ),
             both(stage.tip_width_mm, 3),
             both([0, 1].map(above), 3),
-            both([0, 1].map(|gear| stage.specific_sliding.map(|own| own[gear])), 2),
+            both(
+                [0, 1].map(|gear| stage.specific_sliding.map(|slidings| slidings[gear])),
+                2,
+            ),
         ]);
     }
     table.render()
@@ -150,12 +156,14 @@ fn bearing_table(bearings: &[BearingCard]) -> String {
             kilo(bearing.c0_n),
         ];
         if rated {
-            let own = bearing.at_rating.clone().unwrap_or_default();
-            let life = own.l10h_h.map_or_else(|| "-".to_owned(), |hours| format!("{hours:.0}"));
-            let speed = own
+            let at_rating = bearing.at_rating.clone().unwrap_or_default();
+            let life = at_rating
+                .l10h_h
+                .map_or_else(|| "-".to_owned(), |hours| format!("{hours:.0}"));
+            let speed = at_rating
                 .speed_factor
                 .map_or_else(|| "-".to_owned(), |factor| format!("{factor:.0}"));
-            row.extend([kilo(own.p_n), kilo(own.p0_n), life, speed]);
+            row.extend([kilo(at_rating.p_n), kilo(at_rating.p0_n), life, speed]);
         }
         table.row(row);
     }

@@ -64,11 +64,11 @@ pub fn checked_text(file: &str, checked: &CheckedGearbox) -> String {
         let line = line.trim_start_matches("outside: ");
         text.push_str(&format!("  at the rated torque: {line}\n"));
     }
-    for own in out_of_bounds(checked) {
-        let sentence = own.quantity.sentence().unwrap_or_default();
+    for found in out_of_bounds(checked) {
+        let sentence = found.quantity.sentence().unwrap_or_default();
         text.push_str(&format!(
             "  at the rated torque: {}: {sentence} (ratings.{})\n",
-            own.component, own.rating
+            found.component, found.rating
         ));
     }
     for line in remarks(resolved, &checked.changed, &checked.evidence) {

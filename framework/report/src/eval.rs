@@ -78,9 +78,9 @@ fn finite(x: f64) -> Option<f64> {
 }
 
 /// Steps of a formula; those of nested models with their path.
-fn steps(own: &str, steps: &[(String, Step)], out: &mut Lines) {
+fn steps(alone: &str, steps: &[(String, Step)], out: &mut Lines) {
     for (path, step) in steps {
-        let place = if path == own {
+        let place = if path == alone {
             String::new()
         } else {
             format!("{path}: ")
@@ -105,14 +105,14 @@ pub fn rated_json(plugin: &RatingPlugin, alone: &RatedAlone, packages: impl Seri
         "packages": packages,
         "mechanism": plugin.entry.mechanism,
         "rating": plugin.entry.name,
-        "quantities": alone.rated.figures().iter().map(|own| json!({
-            "symbol": own.figure.symbol,
-            "meaning": own.figure.meaning,
-            "unit": own.figure.unit,
-            "value": own.value,
-            "least": finite(own.bound.least),
-            "greatest": finite(own.bound.greatest),
-            "outside": own.is_outside(),
+        "quantities": alone.rated.figures().iter().map(|rated| json!({
+            "symbol": rated.figure.symbol,
+            "meaning": rated.figure.meaning,
+            "unit": rated.figure.unit,
+            "value": rated.value,
+            "least": finite(rated.bound.least),
+            "greatest": finite(rated.bound.greatest),
+            "outside": rated.is_outside(),
         })).collect::<Vec<_>>(),
     })
 }
@@ -123,15 +123,19 @@ pub fn rated_text(plugin: &RatingPlugin, alone: &RatedAlone) -> String {
     out.line(format!("rating {}: {}", plugin.entry.name, plugin.entry.meaning()));
     out.line(format!("source: {}", plugin.entry.source));
     steps("rating", &alone.steps, &mut out);
-    for own in alone.rated.figures() {
-        let unit = if own.figure.unit == "-" { "" } else { own.figure.unit };
+    for rated in alone.rated.figures() {
+        let unit = if rated.figure.unit == "-" {
+            ""
+        } else {
+            rated.figure.unit
+        };
         let value = format!(
             "{} {} = {} {unit}",
-            own.figure.meaning,
-            own.figure.symbol,
-            significant(own.value)
+            rated.figure.meaning,
+            rated.figure.symbol,
+            significant(rated.value)
         );
-        let fault = own
+        let fault = rated
             .fault()
             .map(|(side, bound)| format!(", which is {side} {}", significant(bound)));
         out.line(value.trim_end().to_owned() + &fault.unwrap_or_default());

@@ -26,7 +26,7 @@ pub fn add(outcome: &MapOutcome, page: &mut Page) {
         for (i, map) in outcome.maps.iter().enumerate() {
             let Some(grid) = &map.shown.whole else { continue };
             let same = |m: &&MapOfSet| m.model_set == map.model_set && m.gear == map.gear;
-            let own = ExportMap {
+            let exported = ExportMap {
                 outcome,
                 map,
                 grid,
@@ -34,10 +34,10 @@ pub fn add(outcome: &MapOutcome, page: &mut Page) {
                 number: outcome.maps[..i].iter().filter(same).count() + 1,
                 further: map.export.further.get(format).map_or(&[], Vec::as_slice),
             };
-            match export.format().file(&own) {
+            match export.format().file(&exported) {
                 Ok(None) => {}
                 Ok(Some(file)) => {
-                    let missed = missed(&export.format().covered(&own));
+                    let missed = missed(&export.format().covered(&exported));
                     page.line(format!(
                         "{}: {}: {}{missed}",
                         outcome.head.analysis, file.name, file.about

@@ -155,7 +155,7 @@ fn six_digits(x: f64) -> f64 {
 #[derive(Serialize)]
 struct WithPictures<'a, T> {
     #[serde(flatten)]
-    own: &'a T,
+    content: &'a T,
     pictures: Vec<PictureOfPage<'a>>,
 }
 
@@ -317,14 +317,14 @@ impl Report {
             });
             pictures.collect()
         };
-        let sections = self.sections.iter().map(|own| WithPictures {
-            own,
-            pictures: placed(&own.pictures),
+        let sections = self.sections.iter().map(|section| WithPictures {
+            content: section,
+            pictures: placed(&section.pictures),
         });
         let sections = sections.collect();
-        let gearboxes = self.gearboxes.iter().map(|own| WithPictures {
-            own,
-            pictures: placed(&own.pictures),
+        let gearboxes = self.gearboxes.iter().map(|gearbox| WithPictures {
+            content: gearbox,
+            pictures: placed(&gearbox.pictures),
         });
         let gearboxes = gearboxes.collect();
         let datum = |(number, picture): (usize, &&Picture)| {
@@ -506,8 +506,8 @@ mod tests {
 
     #[test]
     fn a_template_of_the_user_takes_the_place_and_its_faults_are_reported() {
-        let own = "{{ frame.title }}: {% for s in sections %}{{ s.name }} {{ s.pictures | length }}{% endfor %}";
-        assert_eq!(page(&report(), Some(own)).unwrap(), "A &amp; B: limit 1");
+        let template = "{{ frame.title }}: {% for s in sections %}{{ s.name }} {{ s.pictures | length }}{% endfor %}";
+        assert_eq!(page(&report(), Some(template)).unwrap(), "A &amp; B: limit 1");
         let fault = page(&report(), Some("{% for %}")).unwrap_err();
         assert!(
             fault.starts_with("the template own.html: ") && fault.contains("own.html:1") && fault.contains("syntax"),

@@ -19,8 +19,8 @@ use crate::text::{Lines, TextTable, significant};
 /// Names and schemas of the parameters of a model, from the schema of gearboxes.
 fn parameters(entry: &Entry, schema: &Value) -> Vec<(String, Value)> {
     let models = records_by_type(&schema["definitions"][format!("{}_model", entry.mechanism)]);
-    let own = models.into_iter().find(|(name, _)| *name == entry.name);
-    let fields = own.as_ref().and_then(|(_, record)| record["properties"].as_object());
+    let named = models.into_iter().find(|(name, _)| *name == entry.name);
+    let fields = named.as_ref().and_then(|(_, record)| record["properties"].as_object());
     let fields = fields.into_iter().flatten();
     fields
         .filter(|(name, _)| !["type", COEFFICIENTS].contains(&name.as_str()))
@@ -148,9 +148,18 @@ pub fn model_text(language: &Language, entry: &Entry) -> String {
             entry.source
         ));
         let mut table = TextTable::new(&["coefficient", "published", "range", "description"]);
-        for own in coefficients {
-            let range = format!("{} to {}", significant(own.least), significant(own.greatest));
-            table.row(vec![own.name, own.published.to_string(), range, own.meaning]);
+        for coefficient in coefficients {
+            let range = format!(
+                "{} to {}",
+                significant(coefficient.least),
+                significant(coefficient.greatest)
+            );
+            table.row(vec![
+                coefficient.name,
+                coefficient.published.to_string(),
+                range,
+                coefficient.meaning,
+            ]);
         }
         out.text(&table.render());
     }

@@ -166,10 +166,10 @@ impl Page {
     pub fn from_outcome(outcome: &dyn Outcome) -> Self {
         let mut page = Self::default();
         page.verdicts.extend(outcome.head().about_data.iter().cloned());
-        let own: &dyn Any = outcome;
-        let view = inventory::iter::<View>().find(|view| (view.outcome)() == own.type_id());
+        let any: &dyn Any = outcome;
+        let view = inventory::iter::<View>().find(|view| (view.outcome)() == any.type_id());
         match view {
-            Some(view) => (view.show)(own, &mut page),
+            Some(view) => (view.show)(any, &mut page),
             None => page.tables(&outcome.tables()),
         }
         limits::add(&outcome.head().study_limits, &mut page);

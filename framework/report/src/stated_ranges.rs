@@ -136,26 +136,26 @@ impl StatedRanges {
     }
 
     fn add(&mut self, other: Left) {
-        let known = |own: &&mut Left| (&own.path, &own.name) == (&other.path, &other.name);
-        let Some(own) = self.0.iter_mut().find(known) else {
+        let known = |left: &&mut Left| (&left.path, &left.name) == (&other.path, &other.name);
+        let Some(left) = self.0.iter_mut().find(known) else {
             self.0.push(other);
             return;
         };
-        match (&mut own.values, other.values) {
+        match (&mut left.values, other.values) {
             (Some(values), Some(more)) => {
                 values.add(&more);
                 // The same component with another model set: the larger share.
                 for (analysis, share) in more.loss_shares {
-                    let own = values.loss_shares.entry(analysis).or_default();
-                    *own = own.max(share);
+                    let known_share = values.loss_shares.entry(analysis).or_default();
+                    *known_share = known_share.max(share);
                 }
             }
-            (None, more) => own.values = more,
+            (None, more) => left.values = more,
             (Some(_), None) => {}
         }
         for analysis in other.analyses {
-            if !own.analyses.contains(&analysis) {
-                own.analyses.push(analysis);
+            if !left.analyses.contains(&analysis) {
+                left.analyses.push(analysis);
             }
         }
     }
@@ -192,7 +192,7 @@ impl StatedRanges {
         let concerned = groups
             .iter()
             .enumerate()
-            .filter(|(_, group)| group.analyses.iter().any(|own| own == analysis));
+            .filter(|(_, group)| group.analyses.iter().any(|listed| listed == analysis));
         let rows: Vec<usize> = concerned.map(|(i, _)| i + 1).collect();
         let runs = rows.chunk_by(|a, b| a + 1 == *b).map(|run| match run {
             [first, .., last] => format!("{first}-{last}"),
@@ -256,8 +256,8 @@ impl Group {
                 all.add(&values);
                 // Different components of one analysis: their shares of its loss add up.
                 for (analysis, share) in values.loss_shares {
-                    let own = all.loss_shares.entry(analysis).or_default();
-                    *own = (*own + share).min(1.0);
+                    let known_share = all.loss_shares.entry(analysis).or_default();
+                    *known_share = (*known_share + share).min(1.0);
                 }
                 all
             })

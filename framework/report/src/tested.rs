@@ -58,13 +58,13 @@ pub struct Tested {
 impl Tested {
     /// Adds what an analysis tested or found.
     pub fn add_outcome(&mut self, analysis: &str, outcome: &dyn Outcome) {
-        let own: &dyn Any = outcome;
-        if let Some(listed) = own.downcast_ref::<OperatingPointsOutcome>() {
+        let any: &dyn Any = outcome;
+        if let Some(listed) = any.downcast_ref::<OperatingPointsOutcome>() {
             let points = listed.operating_points.iter().flat_map(|set| &set.points);
             for point in points {
                 self.add_point(&point.gear, point.torque_nm, point.speed_rpm);
             }
-        } else if let Some(compared) = own.downcast_ref::<CompareOutcome>() {
+        } else if let Some(compared) = any.downcast_ref::<CompareOutcome>() {
             let Comparisons::WithData(all) = &compared.comparisons else {
                 return;
             };
@@ -72,7 +72,7 @@ impl Tested {
             for point in points.filter(|point| point.measured.is_some()) {
                 self.add_point(&point.gear, point.torque_nm, point.speed_rpm);
             }
-        } else if let Some(found) = own.downcast_ref::<ThermalLimitOutcome>() {
+        } else if let Some(found) = any.downcast_ref::<ThermalLimitOutcome>() {
             let place = |limit: &ThermalLimit| Some((limit.torque_nm?, limit.speed_rpm?));
             self.limits.extend(found.thermal_limits.iter().map(|set| Limits {
                 analysis: analysis.to_owned(),
@@ -84,11 +84,11 @@ impl Tested {
     }
 
     fn add_point(&mut self, gear: &str, torque: f64, speed: f64) {
-        let own = Field {
+        let point = Field {
             torque: [torque; 2],
             speed: [speed; 2],
         };
-        let known = self.points.entry(gear.to_owned()).or_insert(own);
+        let known = self.points.entry(gear.to_owned()).or_insert(point);
         *known = known.with(torque, speed);
     }
 

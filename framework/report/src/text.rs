@@ -219,8 +219,8 @@ pub fn place(torque: f64, speed: f64) -> String {
 /// Two numbers as a range with the fewest decimals that distinguish them, at least `digits`.
 pub fn range(low: f64, high: f64, digits: usize) -> String {
     let words = |digits: usize| [low, high].map(|x| spaced(&fixed(x, digits)));
-    let own = (digits..digits + 3).map(words).find(|[low, high]| low != high);
-    let [low, high] = own.unwrap_or_else(|| words(digits));
+    let distinct = (digits..digits + 3).map(words).find(|[low, high]| low != high);
+    let [low, high] = distinct.unwrap_or_else(|| words(digits));
     if low == high { low } else { format!("{low} to {high}") }
 }
 

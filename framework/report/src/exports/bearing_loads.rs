@@ -41,13 +41,13 @@ pub fn add(outcome: &CycleOutcome, page: &mut Page) {
             }
             CycleExport::RexsLoads => {
                 // The loads of one set follow each other.
-                for own in outcome.loads.chunk_by(|a, b| a.model_set == b.model_set) {
-                    let name = format!("{analysis}-{}-bearing_loads.rexs", own[0].model_set).replace('/', "-");
+                for loads in outcome.loads.chunk_by(|a, b| a.model_set == b.model_set) {
+                    let name = format!("{analysis}-{}-bearing_loads.rexs", loads[0].model_set).replace('/', "-");
                     page.line(format!(
                         "{analysis}: {name}: {}",
-                        about(&own.iter().collect::<Vec<_>>())
+                        about(&loads.iter().collect::<Vec<_>>())
                     ));
-                    page.file(name, rexs(own).into_bytes());
+                    page.file(name, rexs(loads).into_bytes());
                 }
             }
         }

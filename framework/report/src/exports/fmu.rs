@@ -88,8 +88,8 @@ impl ExportFormat for Fmu3 {
 
 /// All maps of the model set.
 fn of_set<'a>(map: &ExportMap<'a>) -> Vec<&'a MapOfSet> {
-    let own = map.outcome.maps.iter();
-    own.filter(|other| other.model_set == map.map.model_set).collect()
+    let maps = map.outcome.maps.iter();
+    maps.filter(|other| other.model_set == map.map.model_set).collect()
 }
 
 /// The FMU of a model set, for its first map.
@@ -99,10 +99,10 @@ fn file(map: &ExportMap<'_>, version: Version) -> Result<Option<ExportFile>, Ref
         return Ok(None);
     }
     let mut gears: Vec<(&str, GridTable, Option<f64>)> = Vec::new();
-    for own in &maps {
-        if !gears.iter().any(|(gear, ..)| *gear == own.gear) {
-            let of_gear: Vec<&MapOfSet> = maps.iter().copied().filter(|map| map.gear == own.gear).collect();
-            gears.push((&own.gear, GridTable::new(&of_gear)?, own.export.ratio));
+    for first in &maps {
+        if !gears.iter().any(|(gear, ..)| *gear == first.gear) {
+            let of_gear: Vec<&MapOfSet> = maps.iter().copied().filter(|map| map.gear == first.gear).collect();
+            gears.push((&first.gear, GridTable::new(&of_gear)?, first.export.ratio));
         }
     }
     let oil = |slabs: &GridTable| match slabs.slabs[0].oil {
@@ -149,7 +149,7 @@ fn file(map: &ExportMap<'_>, version: Version) -> Result<Option<ExportFile>, Ref
         .outcome
         .libraries
         .iter()
-        .map(|own| own.platform.names()[2])
+        .map(|library| library.platform.names()[2])
         .collect();
     Ok(Some(ExportFile {
         name: format!("{name}-{}.fmu", if version == Version::Two { "fmi2" } else { "fmi3" }),
@@ -181,14 +181,14 @@ fn about(gears: &[(&str, GridTable, Option<f64>)]) -> String {
 }
 
 /// The table of a gear: speed, torque and, if there are several, oil temperature.
-fn table(own: &GridTable) -> Table {
-    let (torques, mut speeds) = (&own.axes().torques, own.speeds());
-    let oils: Vec<f64> = own.slabs.iter().filter_map(|slab| slab.oil).collect();
-    let is_balanced = own.slabs[0].oil.is_none();
+fn table(grid: &GridTable) -> Table {
+    let (torques, mut speeds) = (&grid.axes().torques, grid.speeds());
+    let oils: Vec<f64> = grid.slabs.iter().filter_map(|slab| slab.oil).collect();
+    let is_balanced = grid.slabs[0].oil.is_none();
     let mut values = Vec::new();
-    for (column, speed) in own.columns.iter().zip(&speeds) {
+    for (column, speed) in grid.columns.iter().zip(&speeds) {
         for t in 0..torques.len() {
-            for slab in &own.slabs {
+            for slab in &grid.slabs {
                 let loss = slab.grid.loss(t, *column);
                 values.push(loss.and_then(|loss| loss.loss_torque).unwrap_or(0.0));
                 values.extend(loss.map_or([0.0; 6], |loss| loss.sums).map(|watts| watts / speed.abs()));
@@ -199,7 +199,7 @@ fn table(own: &GridTable) -> Table {
         }
     }
     // A grid that begins at standstill includes it, with the loss torque of the lowest speed.
-    if own.axes().speeds[0] == 0.0 && speeds[0] > 0.0 {
+    if grid.axes().speeds[0] == 0.0 && speeds[0] > 0.0 {
         let lowest = values[..values.len() / speeds.len()].to_vec();
         values.splice(0..0, lowest);
         speeds.insert(0, 0.0);

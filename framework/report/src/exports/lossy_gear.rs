@@ -49,8 +49,8 @@ impl ExportFormat for LossyGear {
 
     fn file(&self, map: &ExportMap<'_>) -> Result<Option<ExportFile>, Refusal> {
         // Modelica requires that the file has the name of the record.
-        let own = map.own_name();
-        let letters = own.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' });
+        let name = map.own_name();
+        let letters = name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' });
         let name: String = "losses_".chars().chain(letters).collect();
         let (text, about) = table(map, &name)?;
         Ok(Some(ExportFile {

@@ -100,15 +100,15 @@ fn file(tables: &GridTable, gear: &str) -> Option<Vec<u8>> {
 fn values(tables: &GridTable, value: impl Fn(&LossGrid, usize, usize) -> Option<f64>) -> Vec<f64> {
     let rows = tables.axes().torques.len();
     let of_slab = |slab: &Slab| -> Vec<f64> {
-        let own = tables.columns.iter().flat_map(|w| (0..rows).map(move |t| (t, *w)));
-        own.map(|(t, w)| value(&slab.grid, t, w).unwrap_or(0.0)).collect()
+        let places = tables.columns.iter().flat_map(|w| (0..rows).map(move |t| (t, *w)));
+        places.map(|(t, w)| value(&slab.grid, t, w).unwrap_or(0.0)).collect()
     };
     tables.slabs.iter().flat_map(of_slab).collect()
 }
 
 /// Adds a variable; `None` if it is too large.
 fn add(bytes: &mut Vec<u8>, name: &str, size: &[usize], values: &[f64]) -> Option<()> {
-    let mut own = Vec::new();
+    let mut matrix = Vec::new();
     let part = |to: &mut Vec<u8>, kind: u32, data: Vec<u8>| {
         to.extend(kind.to_le_bytes());
         to.extend(u32::try_from(data.len()).ok()?.to_le_bytes());
@@ -116,10 +116,14 @@ fn add(bytes: &mut Vec<u8>, name: &str, size: &[usize], values: &[f64]) -> Optio
         to.resize(to.len().next_multiple_of(8), 0);
         Some(())
     };
-    part(&mut own, UINT32, [CLASS.to_le_bytes(), [0; 4]].concat())?;
+    part(&mut matrix, UINT32, [CLASS.to_le_bytes(), [0; 4]].concat())?;
     let size: Option<Vec<i32>> = size.iter().map(|n| i32::try_from(*n).ok()).collect();
-    part(&mut own, INT32, size?.iter().flat_map(|n| n.to_le_bytes()).collect())?;
-    part(&mut own, INT8, name.as_bytes().to_vec())?;
-    part(&mut own, DOUBLE, values.iter().flat_map(|x| x.to_le_bytes()).collect())?;
-    part(bytes, MATRIX, own)
+    part(&mut matrix, INT32, size?.iter().flat_map(|n| n.to_le_bytes()).collect())?;
+    part(&mut matrix, INT8, name.as_bytes().to_vec())?;
+    part(
+        &mut matrix,
+        DOUBLE,
+        values.iter().flat_map(|x| x.to_le_bytes()).collect(),
+    )?;
+    part(bytes, MATRIX, matrix)
 }

@@ -83,7 +83,7 @@ fn text(tables: &GridTable, gear: &str, about: &str) -> String {
             let oil = |t: usize, c: usize| {
                 slab.grid
                     .loss(t, tables.columns[c])
-                    .and_then(|own| own.oil)
+                    .and_then(|loss| loss.oil)
                     .unwrap_or(0.0)
             };
             text.push_str("# Oil temperature at the heat balance, degC.\n");

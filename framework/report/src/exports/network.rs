@@ -32,7 +32,11 @@ pub fn add(outcome: &CycleOutcome, page: &mut Page) {
             let file = format!("{name}-{suffix}.fmu");
             match fmu.bytes(version) {
                 Ok(bytes) => {
-                    let platforms: Vec<&str> = outcome.libraries.iter().map(|own| own.platform.names()[2]).collect();
+                    let platforms: Vec<&str> = outcome
+                        .libraries
+                        .iter()
+                        .map(|library| library.platform.names()[2])
+                        .collect();
                     page.line(format!("{analysis}: {file}: {about}; for {}", platforms.join(", ")));
                     page.file(file, bytes);
                 }

@@ -57,28 +57,31 @@ fn load_case(text: &mut String, id: usize, case: &LoadCase) {
         &format!("<attribute id=\"gear_shift_index\">{}</attribute>", case.gear_number),
     );
     line(text, 3, "</component>");
-    for (own, id) in case.bearings.iter().zip(UNIT + 1..) {
+    for (load, id) in case.bearings.iter().zip(UNIT + 1..) {
         line(
             text,
             3,
             &format!("<component id=\"{id}\" type=\"rolling_bearing_with_catalog_geometry\">"),
         );
-        bearing(text, own);
+        bearing(text, load);
         line(text, 3, "</component>");
     }
     line(text, 2, "</load_case>");
 }
 
-fn bearing(text: &mut String, own: &BearingLoad) {
-    for (name, speed) in [("speed_inner_ring", own.inner_rpm), ("speed_outer_ring", own.outer_rpm)] {
+fn bearing(text: &mut String, bearing: &BearingLoad) {
+    for (name, speed) in [
+        ("speed_inner_ring", bearing.inner_rpm),
+        ("speed_outer_ring", bearing.outer_rpm),
+    ] {
         if let Some(speed) = speed {
             attribute(text, name, "1 / min", speed);
         }
     }
-    if let Some(oil) = own.oil_degc {
+    if let Some(oil) = bearing.oil_degc {
         attribute(text, "temperature_lubricant", "C", oil);
     }
-    let Some(load) = own.load else { return };
+    let Some(load) = bearing.load else { return };
     // Without a direction the whole load is along v.
     let [v, w] = load.radial_yz_n.unwrap_or([load.radial_n, 0.0]);
     attribute(text, "force_acting_on_inner_component_v", "N", v);

@@ -104,8 +104,8 @@ impl GridTable {
         });
         let rows = 0..axes.torques.len();
         let without = |slab: &Slab| {
-            let own = rows.clone().flat_map(|t| self.columns.iter().map(move |w| (t, *w)));
-            own.filter(|(t, w)| slab.grid.efficiency(*t, *w).is_none()).count()
+            let places = rows.clone().flat_map(|t| self.columns.iter().map(move |w| (t, *w)));
+            places.filter(|(t, w)| slab.grid.efficiency(*t, *w).is_none()).count()
         };
         let without: usize = self.slabs.iter().map(without).sum();
         if without > 0 {

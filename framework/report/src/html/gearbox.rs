@@ -22,11 +22,11 @@ use crate::text::number;
 pub fn gearbox_page(cx: &Planner<'_>, name: &str, gearbox: &Gearbox) -> Result<GearboxPage, Stopped> {
     let sets = cx.study.sets_used_for(name);
     // Overrides may apply only to the models of a set and not to the defaults of the gearbox.
-    let own = cx.built(gearbox, &[]).or_else(|fault| match &sets[..] {
+    let described = cx.built(gearbox, &[]).or_else(|fault| match &sets[..] {
         [] => Err(fault),
         [first, ..] => cx.built(gearbox, std::slice::from_ref(first)),
     })?;
-    let (resolved, transmission) = (&own[0].resolved, &own[0].transmission);
+    let (resolved, transmission) = (&described[0].resolved, &described[0].transmission);
     let text = |key: &str| {
         resolved
             .value
@@ -43,7 +43,7 @@ pub fn gearbox_page(cx: &Planner<'_>, name: &str, gearbox: &Gearbox) -> Result<G
     let built = cx.built(gearbox, &sets)?;
     let point = point::page(cx, &built, &assumed);
     let mut tables = vec![gears(transmission), meshes(transmission), states(transmission)];
-    tables.extend(changed(own.iter().chain(&built).map(|b| &**b)));
+    tables.extend(changed(described.iter().chain(&built).map(|b| &**b)));
     Ok(GearboxPage {
         name: name.to_owned(),
         point: point.as_ref().map(|p| p.words.clone()).unwrap_or_default(),

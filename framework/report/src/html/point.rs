@@ -130,7 +130,7 @@ pub fn page(runner: &Planner<'_>, sets: &[Arc<Built<'_>>], assumed: &[AssumedEnt
 /// Losses by the parts of the drawing: those of a mesh and its drags belong to both of its gears in equal parts.
 pub fn losses_of_parts(t: &Transmission, solution: &Solution<'_>) -> Vec<(String, f64)> {
     let mut list: Vec<(String, f64)> = Vec::new();
-    let mut add = |path: &str, watts: f64| match list.iter_mut().find(|(own, _)| own == path) {
+    let mut add = |path: &str, watts: f64| match list.iter_mut().find(|(listed, _)| listed == path) {
         Some((_, sum)) => *sum += watts,
         None => list.push((path.to_owned(), watts)),
     };
@@ -271,18 +271,23 @@ fn ports(t: &Transmission, solution: &Solution<'_>) -> PageTable {
 /// Powers of each member.
 fn members(t: &Transmission, solution: &Solution<'_>) -> PageTable {
     let torques = solution.member_torques();
-    let rows = t.members().iter().zip(&torques).enumerate().map(|(i, (name, own))| {
-        let speed = solution.speed(i);
-        let watts = |torque: f64| format!("{:.3}", torque * speed);
-        vec![
-            name.clone(),
-            format!("{:.2}", speed * RPM),
-            watts(own.ports),
-            watts(own.meshes),
-            watts(own.drags),
-            format!("{:.1e}", own.residual() * speed),
-        ]
-    });
+    let rows = t
+        .members()
+        .iter()
+        .zip(&torques)
+        .enumerate()
+        .map(|(i, (name, balance))| {
+            let speed = solution.speed(i);
+            let watts = |torque: f64| format!("{:.3}", torque * speed);
+            vec![
+                name.clone(),
+                format!("{:.2}", speed * RPM),
+                watts(balance.ports),
+                watts(balance.meshes),
+                watts(balance.drags),
+                format!("{:.1e}", balance.residual() * speed),
+            ]
+        });
     table(
         "Power balance by member, inflow positive",
         &["member", "n rpm", "ports W", "meshes W", "drags W", "residual W"],
@@ -310,8 +315,8 @@ fn rest_on(b: &Built<'_>, solution: &Solution<'_>, assumed: &[AssumedEntry]) -> 
         let watts = loss.watts();
         let component = part.path.split(".drag.").next().unwrap_or(&part.path);
         let instance = &t.instances()[part.notes.instance()];
-        let own = |path: &str| path == instance.path || path.starts_with(&format!("{}.", instance.path));
-        let left = t.instances().iter().filter(|i| own(&i.path)).any(|i| {
+        let is_within = |path: &str| path == instance.path || path.starts_with(&format!("{}.", instance.path));
+        let left = t.instances().iter().filter(|i| is_within(&i.path)).any(|i| {
             let limits = i.entry.limits.iter();
             limits
                 .into_iter()

@@ -58,17 +58,17 @@ impl ChecksText {
                 .line(format!("   {}; tolerance: {}", check.source, check.because));
             match compare(check) {
                 Ok(all) => {
-                    for own in all {
+                    for checked in all {
                         self.values += 1;
-                        self.faults += usize::from(!own.agrees());
+                        self.faults += usize::from(!checked.agrees());
                         table.row(vec![
                             number.to_string(),
-                            own.quantity.to_owned(),
-                            own.stated.to_owned(),
-                            figures(own.computed, 8),
-                            format!("{:.1e}", own.deviation()),
+                            checked.quantity.to_owned(),
+                            checked.stated.to_owned(),
+                            figures(checked.computed, 8),
+                            format!("{:.1e}", checked.deviation()),
                             format!("{:e}", check.tolerance),
-                            if own.agrees() { "" } else { "outside" }.to_owned(),
+                            if checked.agrees() { "" } else { "outside" }.to_owned(),
                         ]);
                     }
                 }

@@ -210,22 +210,22 @@ impl ModelsRecord {
     pub fn new(language: &Language, mechanism: Option<&MechanismEntry>, model: Option<&Entry>) -> Self {
         let schema = language.published(Kind::Gearbox);
         let registry = language.registry();
-        let of_mechanism = |own: &MechanismEntry| {
-            let models = registry.models(own.key);
+        let of_mechanism = |mechanism: &MechanismEntry| {
+            let models = registry.models(mechanism.key);
             let models = models.filter(|entry| model.is_none_or(|only| only.name == entry.name));
             MechanismRecord {
-                mechanism: own.key,
-                meaning: own.meaning,
-                answer: own.answer,
-                section: own.section.as_ref().map(|section| section.name),
-                package: own.origin.package.name,
-                quantities: (own.quantities)().iter().map(QuantityRecord::new).collect(),
-                laws: (own.laws)(),
+                mechanism: mechanism.key,
+                meaning: mechanism.meaning,
+                answer: mechanism.answer,
+                section: mechanism.section.as_ref().map(|section| section.name),
+                package: mechanism.origin.package.name,
+                quantities: (mechanism.quantities)().iter().map(QuantityRecord::new).collect(),
+                laws: (mechanism.laws)(),
                 models: models.map(|entry| ModelRecord::new(language, entry, &schema)).collect(),
             }
         };
         let fits = |key: &str| mechanism.is_none_or(|only| only.key == key);
-        let mechanisms = registry.mechanisms().iter().filter(|own| fits(own.key));
+        let mechanisms = registry.mechanisms().iter().filter(|mechanism| fits(mechanism.key));
         let sets = registry.shipped_sets().iter().map(|set| SetRecord {
             name: set.name,
             meaning: set.meaning,

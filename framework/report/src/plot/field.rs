@@ -76,8 +76,8 @@ pub fn map(map: &Map) -> Result<String, PlotError> {
     drawn(&map.title, |root| {
         let (xs, ys) = (&map.x.1, &map.y.1);
         let (columns, rows) = (xs.len().max(1) as i32, ys.len().max(1) as i32);
-        let own = range(map.values.iter().flatten().copied(), map.diverging);
-        let Some(range) = map.ends.filter(|_| own.is_some()).or(own) else {
+        let range_of_map = range(map.values.iter().flatten().copied(), map.diverging);
+        let Some(range) = map.ends.filter(|_| range_of_map.is_some()).or(range_of_map) else {
             return names(root, &map.x.0, &map.y.0);
         };
         let x_at = |i: i32| LEFT + WIDTH * i / columns;

@@ -7,9 +7,9 @@ use crate::text::{TextTable, significant};
 /// A table of the derivatives over one variable, and how they were found.
 pub fn derivatives_text(found: &Derivatives) -> String {
     let mut table = TextTable::new(&["derivative of", "unit", "value", "method", "error"]);
-    for own in &found.derivatives {
-        let (value, error) = match (own.value, own.kink) {
-            (Some(value), _) => (scientific(value), own.error.map_or("-".to_owned(), scientific)),
+    for derivative in &found.derivatives {
+        let (value, error) = match (derivative.value, derivative.kink) {
+            (Some(value), _) => (scientific(value), derivative.error.map_or("-".to_owned(), scientific)),
             (None, Some([below, above])) => (
                 format!(
                     "kink or jump: {} below, {} above",
@@ -20,7 +20,13 @@ pub fn derivatives_text(found: &Derivatives) -> String {
             ),
             (None, None) => ("-".to_owned(), "-".to_owned()),
         };
-        table.row(vec![own.of.clone(), own.unit.clone(), value, method(found, own), error]);
+        table.row(vec![
+            derivative.of.clone(),
+            derivative.unit.clone(),
+            value,
+            method(found, derivative),
+            error,
+        ]);
     }
     let mut text = format!("\nover {}\n{}", found.variable, table.render());
     if !found.models.is_empty() {
@@ -38,8 +44,8 @@ fn scientific(value: f64) -> String {
     }
 }
 
-fn method(found: &Derivatives, own: &Derivative) -> String {
-    match own.value {
+fn method(found: &Derivatives, derivative: &Derivative) -> String {
+    match derivative.value {
         Some(_) => found.method.name().to_owned(),
         None => "-".to_owned(),
     }

@@ -29,12 +29,12 @@ impl Explained {
         };
         let parts = transmission.parts();
         let ways = transmission.housing().ways();
-        let own = Self {
+        let explained = Self {
             parts: (0..parts.len()).filter(|i| fits(&parts[*i].path, 1)).collect(),
             ways: (0..ways.len()).filter(|i| fits(&ways[*i].path, 2)).collect(),
         };
-        if !own.parts.is_empty() || !own.ways.is_empty() {
-            return Ok(own);
+        if !explained.parts.is_empty() || !explained.ways.is_empty() {
+            return Ok(explained);
         }
         let paths: Vec<&str> = parts.iter().map(|part| part.path.as_str()).collect();
         let ids: Vec<&str> = paths.iter().filter_map(|path| path.split('.').nth(1)).collect();

@@ -19,14 +19,14 @@ const DIGITS: u32 = 4;
 pub fn ratings_text(ratings: &[RatedComponent]) -> String {
     let mut out = Lines::default();
     let mut mechanisms: Vec<&str> = Vec::new();
-    for own in ratings {
-        if !mechanisms.contains(&own.mechanism) {
-            mechanisms.push(own.mechanism);
+    for rated in ratings {
+        if !mechanisms.contains(&rated.mechanism) {
+            mechanisms.push(rated.mechanism);
         }
     }
     for mechanism in mechanisms {
-        let own: Vec<&RatedComponent> = ratings.iter().filter(|own| own.mechanism == mechanism).collect();
-        if let Some(table) = table(mechanism, &own) {
+        let of_mechanism: Vec<&RatedComponent> = ratings.iter().filter(|rated| rated.mechanism == mechanism).collect();
+        if let Some(table) = table(mechanism, &of_mechanism) {
             out.line("");
             out.text(&table.render());
         }
@@ -34,15 +34,15 @@ pub fn ratings_text(ratings: &[RatedComponent]) -> String {
     for line in ratings.iter().flat_map(rating_lines) {
         out.line(line);
     }
-    if let Some(lowest) = ratings.iter().map(|own| own.evidence).max() {
-        let own = ratings
+    if let Some(lowest) = ratings.iter().map(|rated| rated.evidence).max() {
+        let lowest_rated = ratings
             .iter()
-            .filter(|own| own.evidence == lowest)
-            .map(|own| own.rating);
+            .filter(|rated| rated.evidence == lowest)
+            .map(|rated| rated.rating);
         let grade = lowest.name();
         out.line(format!(
             "lowest evidence grade of the ratings: {grade} ({})",
-            distinct(own).join(", ")
+            distinct(lowest_rated).join(", ")
         ));
     }
     out.into_text()
@@ -52,21 +52,21 @@ pub fn ratings_text(ratings: &[RatedComponent]) -> String {
 fn table(mechanism: &str, ratings: &[&RatedComponent]) -> Option<TextTable> {
     let mut columns: Vec<(&str, &str)> = Vec::new();
     let mut components: Vec<&str> = Vec::new();
-    for own in ratings {
-        for quantity in own.quantities.iter().filter(|q| !q.detail) {
-            if !columns.contains(&(own.rating, quantity.symbol)) {
-                columns.push((own.rating, quantity.symbol));
+    for rated in ratings {
+        for quantity in rated.quantities.iter().filter(|q| !q.detail) {
+            if !columns.contains(&(rated.rating, quantity.symbol)) {
+                columns.push((rated.rating, quantity.symbol));
             }
-            if components.last() != Some(&own.component.as_str()) {
-                components.push(&own.component);
+            if components.last() != Some(&rated.component.as_str()) {
+                components.push(&rated.component);
             }
         }
     }
     let quantity = |component: Option<&str>, (rating, symbol): (&str, &str)| -> Option<&RatedQuantity> {
         let of = ratings
             .iter()
-            .filter(|own| own.rating == rating && component.is_none_or(|component| component == own.component));
-        of.flat_map(|own| &own.quantities).find(|q| q.symbol == symbol)
+            .filter(|rated| rated.rating == rating && component.is_none_or(|component| component == rated.component));
+        of.flat_map(|rated| &rated.quantities).find(|q| q.symbol == symbol)
     };
     let head = |column: &(&str, &str)| match quantity(None, *column) {
         Some(q) if q.unit != "-" => format!("{} {}", q.symbol, q.unit),
@@ -90,17 +90,18 @@ fn table(mechanism: &str, ratings: &[&RatedComponent]) -> Option<TextTable> {
 }
 
 /// A line for each value outside its bound, for a rating that is undefined, and for a formula outside its stated range.
-pub fn rating_lines(own: &RatedComponent) -> Vec<String> {
+pub fn rating_lines(rated: &RatedComponent) -> Vec<String> {
     let mut lines = Vec::new();
-    let faults = own.quantities.iter().filter_map(RatedQuantity::sentence);
-    lines.extend(faults.map(|sentence| format!("warning: {}: {sentence} (ratings.{})", own.component, own.rating)));
+    let faults = rated.quantities.iter().filter_map(RatedQuantity::sentence);
+    lines.extend(faults.map(|sentence| format!("warning: {}: {sentence} (ratings.{})", rated.component, rated.rating)));
     lines.extend(
-        own.undefined
+        rated
+            .undefined
             .iter()
-            .map(|reason| format!("note: {}: {}: {reason}", own.component, own.rating)),
+            .map(|reason| format!("note: {}: {}: {reason}", rated.component, rated.rating)),
     );
-    let left = own.outside_ranges.iter();
-    lines.extend(left.map(|sentence| format!("note: {}: {}: {sentence}", own.component, own.rating)));
+    let left = rated.outside_ranges.iter();
+    lines.extend(left.map(|sentence| format!("note: {}: {}: {sentence}", rated.component, rated.rating)));
     lines
 }
 
@@ -112,8 +113,8 @@ pub fn explain_ratings(transmission: &Transmission, ratings: &Ratings, solution:
         return String::new();
     }
     out.line(format!("{}: ratings", transmission.parts()[part].path));
-    for own in &found {
-        let entry = &own.plugin.entry;
+    for found_rating in &found {
+        let entry = &found_rating.plugin.entry;
         out.line(format!("  {}: {}", entry.name, entry.meaning()));
         out.line(format!("  source: {}", entry.source));
         for graded in entry.evidence.iter().filter(|graded| graded.key.is_empty()) {
@@ -122,11 +123,11 @@ pub fn explain_ratings(transmission: &Transmission, ratings: &Ratings, solution:
     }
     steps(ratings.instances(), trace, &mut out);
     let path = &transmission.parts()[part].path;
-    for own in rated(ratings, transmission, solution)
+    for component in rated(ratings, transmission, solution)
         .iter()
-        .filter(|own| own.component == *path)
+        .filter(|component| component.component == *path)
     {
-        for quantity in &own.quantities {
+        for quantity in &component.quantities {
             let unit = if quantity.unit == "-" { "" } else { quantity.unit };
             let line = format!(
                 "  {} {} = {} {unit}",
@@ -136,7 +137,7 @@ pub fn explain_ratings(transmission: &Transmission, ratings: &Ratings, solution:
             );
             out.line(line.trim_end());
         }
-        for line in rating_lines(own) {
+        for line in rating_lines(component) {
             out.line(format!("  {line}"));
         }
     }

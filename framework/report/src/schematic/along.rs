@@ -269,8 +269,8 @@ impl Work<'_> {
         order.sort_by(|a, b| reach(self, *a).total_cmp(&reach(self, *b)));
         for port in order {
             let (member, side) = (things.ports[port].1, sides[port]);
-            let own = self.along.extents[things.shaft_of(member)].into_iter();
-            let all = self.taken[self.track(member)].iter().copied().chain(own);
+            let extents = self.along.extents[things.shaft_of(member)].into_iter();
+            let all = self.taken[self.track(member)].iter().copied().chain(extents);
             let outer = all
                 .map(|t| side * if side > 0.0 { t[1] } else { t[0] })
                 .fold(f64::NEG_INFINITY, f64::max);

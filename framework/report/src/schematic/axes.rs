@@ -195,9 +195,9 @@ fn covered(rows: &[Row], placed: &[(usize, f64)], axes: &Axes, line: usize, at: 
             let pairs = a.iter().flat_map(|a| b.iter().map(move |b| a.down(apart).overlap(b)));
             pairs.sum()
         };
-        let (own, theirs) = (&rows[line], &rows[*other]);
-        hard += sum(&own.hard, &theirs.hard);
-        soft += sum(&own.soft, &theirs.hard) + sum(&own.hard, &theirs.soft) + sum(&own.soft, &theirs.soft);
+        let (ours, theirs) = (&rows[line], &rows[*other]);
+        hard += sum(&ours.hard, &theirs.hard);
+        soft += sum(&ours.soft, &theirs.hard) + sum(&ours.hard, &theirs.soft) + sum(&ours.soft, &theirs.soft);
         // Two axes at one height would look like one.
         hard += if apart.abs() < 12.0 { 1e4 } else { 0.0 };
     }

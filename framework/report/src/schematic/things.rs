@@ -111,9 +111,9 @@ pub(super) struct Things {
 
 /// Name and member of every port on its shaft; ports of `wheels` are separate.
 fn ports(transmission: &Transmission) -> Vec<(String, usize)> {
-    let own = transmission.ports().iter();
-    let own = own.filter(|p| p.member < transmission.members().len());
-    let all = own.chain(transmission.wheels());
+    let ports = transmission.ports().iter();
+    let ports = ports.filter(|p| p.member < transmission.members().len());
+    let all = ports.chain(transmission.wheels());
     all.map(|p| (p.name.clone(), p.member)).collect()
 }
 
@@ -155,11 +155,11 @@ impl Things {
 
     /// True for a body with only rings and brakes: it needs no shaft.
     pub(super) fn floats(&self, member: usize) -> bool {
-        let own = || self.wheels.iter().filter(|w| w.member == member);
+        let wheels = || self.wheels.iter().filter(|w| w.member == member);
         let on_shaft =
             |p: &Part| p.between.contains(&Some(member)) && (p.symbol == Symbol::Bearing || !p.between.contains(&None));
-        own().count() > 0
-            && own().all(|w| w.ring)
+        wheels().count() > 0
+            && wheels().all(|w| w.ring)
             && !self.ports.iter().any(|p| p.1 == member)
             && !self.parts.iter().any(on_shaft)
             && !self.in_axle(member)

@@ -21,7 +21,7 @@ fn show(outcome: &BreakdownOutcome, page: &mut Page) {
     for of_set in &outcome.breakdowns {
         let mut points = &of_set.points[..];
         for row in &of_set.rows {
-            let (own, others) = points.split_at(row.values.len());
+            let (first, others) = points.split_at(row.values.len());
             points = others;
             let shown = Row {
                 name,
@@ -30,7 +30,7 @@ fn show(outcome: &BreakdownOutcome, page: &mut Page) {
                 title: title(&row.common),
                 labels: row.values.iter().map(|value| label(row.along, *value)).collect(),
                 along: row.along,
-                points: own,
+                points: first,
             };
             shown.figure(page);
             shown.table(page);

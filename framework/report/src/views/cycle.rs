@@ -114,29 +114,29 @@ fn text(name: &str, duty: &DutyOfSet, page: &mut Page) {
 }
 
 /// Consumption, recuperation and range of the vehicle.
-fn consumption_text(own: &Consumption, page: &mut Page) {
+fn consumption_text(consumption: &Consumption, page: &mut Page) {
     page.line(format!(
         "  battery: {} kWh/100 km drawn, {} recuperated, consumption {} kWh/100 km{}",
-        short(own.drawn_kwh_per_100_km),
-        short(own.recuperated_kwh_per_100_km),
-        short(own.consumption_kwh_per_100_km),
-        if own.includes_motor {
+        short(consumption.drawn_kwh_per_100_km),
+        short(consumption.recuperated_kwh_per_100_km),
+        short(consumption.consumption_kwh_per_100_km),
+        if consumption.includes_motor {
             ""
         } else {
             ", without losses of the motor"
         }
     ));
-    if own.motor_beyond_map {
+    if consumption.motor_beyond_map {
         page.line("  note: the motor was outside its map, the loss at the edge of the map is used");
     }
-    let Some(range) = own.range_km else {
+    let Some(range) = consumption.range_km else {
         page.line("  no range: more energy is recuperated than drawn");
         return;
     };
-    let lost = own
+    let lost = consumption
         .range_lost_in_transmission_km
         .map(|km| format!("; the losses of the transmission cost {} km", short(km)));
-    let difference = own
+    let difference = consumption
         .range_difference_km
         .map(|km| format!("; {} km against the first model set", signed(km)));
     page.line(format!(
@@ -304,15 +304,15 @@ fn mean_losses(chunk: &[IntervalOfDuty], shares: usize) -> Vec<f64> {
 /// Temperatures of all nodes, calculated and measured.
 fn temperatures(duty: &DutyOfSet, every: usize) -> Vec<Line> {
     let mut lines = Vec::new();
-    for (node, own) in duty.nodes.iter().enumerate() {
-        lines.push(line(&duty.series, every, &own.node, &|i| {
+    for (node, of_node) in duty.nodes.iter().enumerate() {
+        lines.push(line(&duty.series, every, &of_node.node, &|i| {
             (i.time_s + i.duration_s, i.temperatures_degc[node])
         }));
-        if !own.measured.is_empty() {
-            let every = own.measured.len().div_ceil(MOST / 8);
+        if !of_node.measured.is_empty() {
+            let every = of_node.measured.len().div_ceil(MOST / 8);
             lines.push(Line {
-                name: format!("{}, measured", own.node),
-                points: own.measured.iter().step_by(every).copied().map(Some).collect(),
+                name: format!("{}, measured", of_node.node),
+                points: of_node.measured.iter().step_by(every).copied().map(Some).collect(),
                 stroke: Stroke::Dots,
             });
         }
@@ -323,42 +323,42 @@ fn temperatures(duty: &DutyOfSet, every: usize) -> Vec<Line> {
 /// Ratings over the cycle: lives first, then what is outside its bound at some time.
 fn ratings(name: &str, duty: &DutyOfSet, page: &mut Page) {
     let Some(rated) = &duty.ratings else { return };
-    let unit = |own: &RatedOverTime| {
-        if own.unit == "-" {
+    let unit = |rated: &RatedOverTime| {
+        if rated.unit == "-" {
             String::new()
         } else {
-            format!(" {}", own.unit)
+            format!(" {}", rated.unit)
         }
     };
-    for own in rated.iter().filter(|own| own.over_time == "damage") {
+    for rating in rated.iter().filter(|rating| rating.over_time == "damage") {
         page.line(format!(
             "{name}: {}: {} {} = {}{} over {}",
-            own.component,
-            own.meaning,
-            own.symbol,
-            significant(own.value),
-            unit(own),
+            rating.component,
+            rating.meaning,
+            rating.symbol,
+            significant(rating.value),
+            unit(rating),
             duty.cycle
         ));
     }
-    for own in rated.iter().filter(|own| own.outside) {
-        let (side, bound) = match (own.least, own.greatest) {
-            (Some(least), _) if own.value < least => ("below", least),
+    for rating in rated.iter().filter(|rating| rating.outside) {
+        let (side, bound) = match (rating.least, rating.greatest) {
+            (Some(least), _) if rating.value < least => ("below", least),
             (_, Some(greatest)) => ("above", greatest),
             _ => continue,
         };
         page.careful.push(format!(
             "{}: {} {} reaches {}{}, {side} {}{}, for {} % of {} (ratings.{})",
-            own.component,
-            own.meaning,
-            own.symbol,
-            significant(own.value),
-            unit(own),
+            rating.component,
+            rating.meaning,
+            rating.symbol,
+            significant(rating.value),
+            unit(rating),
             significant(bound),
-            unit(own),
-            significant(100.0 * own.outside_share),
+            unit(rating),
+            significant(100.0 * rating.outside_share),
             duty.cycle,
-            own.rating
+            rating.rating
         ));
     }
 }

@@ -18,7 +18,7 @@ const PRINTED: usize = 12;
 
 fn show(outcome: &OptimiseOutcome, page: &mut Page) {
     summary::add(outcome, page);
-    let minimised: Vec<&GainOfCycle> = outcome.gains.iter().filter(|own| own.minimised).collect();
+    let minimised: Vec<&GainOfCycle> = outcome.gains.iter().filter(|gain| gain.minimised).collect();
     variables(outcome, page);
     losses(outcome, page);
     changes(outcome, &minimised, page);
@@ -45,13 +45,22 @@ fn variables(outcome: &OptimiseOutcome, page: &mut Page) {
         outcome.head.analysis, outcome.designs, outcome.feasible, outcome.failed, outcome.model_set
     ));
     let mut table = TextTable::new(&["variable", "path", "present", "best"]);
-    for own in &outcome.variables {
-        let end = if own.at_end_of_range { " (end of range)" } else { "" };
-        let best = own
+    for variable in &outcome.variables {
+        let end = if variable.at_end_of_range {
+            " (end of range)"
+        } else {
+            ""
+        };
+        let best = variable
             .best
             .as_ref()
             .map_or_else(|| "-".to_owned(), |best| format!("{best}{end}"));
-        table.row(vec![own.variable.clone(), own.path.clone(), own.present.clone(), best]);
+        table.row(vec![
+            variable.variable.clone(),
+            variable.path.clone(),
+            variable.present.clone(),
+            best,
+        ]);
     }
     page.table(table);
 }
@@ -66,14 +75,14 @@ fn losses(outcome: &OptimiseOutcome, page: &mut Page) {
         "gain at 2.5 %",
         "at 97.5 %",
     ]);
-    for own in &outcome.gains {
-        let band = own.band.map(|band| band.gain_w);
+    for gain in &outcome.gains {
+        let band = gain.band.map(|band| band.gain_w);
         table.row(vec![
-            own.cycle.clone(),
-            number(Some(own.present_w), 2),
-            number(own.best_w, 2),
-            number(own.best_w.map(|best| own.present_w - best), 2),
-            number(own.least_w, 2),
+            gain.cycle.clone(),
+            number(Some(gain.present_w), 2),
+            number(gain.best_w, 2),
+            number(gain.best_w.map(|best| gain.present_w - best), 2),
+            number(gain.least_w, 2),
             number(band.map(|band| band[0]), 2),
             number(band.map(|band| band[2]), 2),
         ]);
@@ -86,16 +95,16 @@ fn changes(outcome: &OptimiseOutcome, minimised: &[&GainOfCycle], page: &mut Pag
         return;
     }
     let mut titles = vec!["change".to_owned(), "from".to_owned(), "to".to_owned()];
-    for own in minimised {
-        titles.push(format!("{} alone W", own.cycle));
-        titles.push(format!("{} share W", own.cycle));
+    for gain in minimised {
+        titles.push(format!("{} alone W", gain.cycle));
+        titles.push(format!("{} share W", gain.cycle));
     }
     let mut table = TextTable::new(&titles.iter().map(String::as_str).collect::<Vec<_>>());
-    for own in &outcome.changes {
-        let mut row = vec![own.variable.clone(), own.from.clone(), own.to.clone()];
+    for change in &outcome.changes {
+        let mut row = vec![change.variable.clone(), change.from.clone(), change.to.clone()];
         for i in 0..minimised.len() {
             let value = |list: &Option<Vec<f64>>| number(list.as_ref().map(|list| list[i]), 2);
-            row.extend([value(&own.alone_w), value(&own.share_w)]);
+            row.extend([value(&change.alone_w), value(&change.share_w)]);
         }
         table.row(row);
     }
@@ -108,21 +117,21 @@ fn limits(outcome: &OptimiseOutcome, page: &mut Page) {
         return;
     }
     let mut table = TextTable::new(&["limit", "quantity", "least", "most", "present", "best", "unit"]);
-    for own in &outcome.limits {
+    for limit in &outcome.limits {
         let value = |x: Option<f64>| x.map_or_else(|| "-".to_owned(), significant);
-        let best = if own.binding { "*" } else { "" };
+        let best = if limit.binding { "*" } else { "" };
         table.row(vec![
-            own.entry.limit.clone(),
-            own.entry.quantity.clone(),
-            value(own.entry.least),
-            value(own.entry.most),
-            value(own.entry.present),
-            value(own.best) + best,
-            own.entry.unit.clone(),
+            limit.entry.limit.clone(),
+            limit.entry.quantity.clone(),
+            value(limit.entry.least),
+            value(limit.entry.most),
+            value(limit.entry.present),
+            value(limit.best) + best,
+            limit.entry.unit.clone(),
         ]);
     }
     page.table(table);
-    if outcome.limits.iter().any(|own| own.binding) {
+    if outcome.limits.iter().any(|limit| limit.binding) {
         page.line("  * at the limit");
     }
 }
@@ -132,13 +141,13 @@ fn front(outcome: &OptimiseOutcome, minimised: &[&GainOfCycle], page: &mut Page)
     if minimised.len() < 2 {
         return;
     }
-    let mut titles: Vec<&str> = minimised.iter().map(|own| own.cycle.as_str()).collect();
-    titles.extend(outcome.variables.iter().map(|own| own.variable.as_str()));
+    let mut titles: Vec<&str> = minimised.iter().map(|gain| gain.cycle.as_str()).collect();
+    titles.extend(outcome.variables.iter().map(|variable| variable.variable.as_str()));
     let mut table = TextTable::new(&titles).titled("Front: mean losses in W, and values");
     let step = outcome.front.len().div_ceil(PRINTED).max(1);
-    for own in outcome.front.iter().step_by(step) {
-        let losses = own.mean_losses_w.iter().flatten().map(|loss| number(Some(*loss), 2));
-        table.row(losses.chain(own.values.iter().cloned()).collect());
+    for design in outcome.front.iter().step_by(step) {
+        let losses = design.mean_losses_w.iter().flatten().map(|loss| number(Some(*loss), 2));
+        table.row(losses.chain(design.values.iter().cloned()).collect());
     }
     page.table(table);
 }
@@ -146,12 +155,12 @@ fn front(outcome: &OptimiseOutcome, minimised: &[&GainOfCycle], page: &mut Page)
 /// The gain of each change in the first cycle: its band, or its value.
 fn saved(outcome: &OptimiseOutcome, minimised: &[&GainOfCycle]) -> Option<(&'static str, Figure)> {
     let of = cycle(&minimised.first()?.cycle);
-    let interval = |own: &ChangeOfDesign| {
+    let interval = |change: &ChangeOfDesign| {
         Some(Interval {
-            name: format!("{} {}", own.variable, own.to),
-            at: own.alone_w.as_ref()?[0],
-            ends: own.bands.first().map(|band| [band.gain_w[0], band.gain_w[2]]),
-            before: own.share_w.as_ref().map(|share| share[0]),
+            name: format!("{} {}", change.variable, change.to),
+            at: change.alone_w.as_ref()?[0],
+            ends: change.bands.first().map(|band| [band.gain_w[0], band.gain_w[2]]),
+            before: change.share_w.as_ref().map(|share| share[0]),
         })
     };
     let list: Vec<Interval> = outcome.changes.iter().filter_map(interval).collect();
@@ -168,8 +177,8 @@ fn saved(outcome: &OptimiseOutcome, minimised: &[&GainOfCycle]) -> Option<(&'sta
 /// Losses of two cycles: all designs that keep the limits, and the front.
 fn compromises(outcome: &OptimiseOutcome, minimised: &[&GainOfCycle]) -> Option<(&'static str, Figure)> {
     let [first, second, ..] = minimised else { return None };
-    let point = |own: &DesignOfSearch| own.mean_losses_w.as_ref().map(|all| (all[0], all[1]));
-    let kept = outcome.all.iter().filter(|own| own.violation == Some(0.0));
+    let point = |design: &DesignOfSearch| design.mean_losses_w.as_ref().map(|all| (all[0], all[1]));
+    let kept = outcome.all.iter().filter(|design| design.violation == Some(0.0));
     let line = |name: &str, points: Vec<Option<(f64, f64)>>, stroke| Line {
         name: name.to_owned(),
         points,
@@ -192,12 +201,12 @@ fn compromises(outcome: &OptimiseOutcome, minimised: &[&GainOfCycle]) -> Option<
 fn progress(outcome: &OptimiseOutcome, minimised: &[&GainOfCycle]) -> Option<(&'static str, Figure)> {
     let of = cycle(&minimised.first()?.cycle);
     let mut least = f64::INFINITY;
-    let best = |own: &DesignOfSearch| {
-        let loss = own.mean_losses_w.as_ref()?[0];
-        if own.violation == Some(0.0) {
+    let best = |design: &DesignOfSearch| {
+        let loss = design.mean_losses_w.as_ref()?[0];
+        if design.violation == Some(0.0) {
             least = least.min(loss);
         }
-        least.is_finite().then_some((own.design as f64, least))
+        least.is_finite().then_some((design.design as f64, least))
     };
     let points: Vec<Option<(f64, f64)>> = outcome.all.iter().map(best).collect();
     let figure = Figure::Lines {

@@ -121,9 +121,9 @@ fn verdict(surface: &SurfaceOfSet, unit: &str) -> String {
         said.push_str(&format!("; {path} has no effect"));
     }
     let ranges = |flat: &Flat| {
-        let own = (0..2).filter(|k| least.depends[*k]);
-        let own: Vec<String> = own.map(|k| range(axes[k], flat[k])).collect();
-        own.join(", ")
+        let flat_ranges = (0..2).filter(|k| least.depends[*k]);
+        let flat_ranges: Vec<String> = flat_ranges.map(|k| range(axes[k], flat[k])).collect();
+        flat_ranges.join(", ")
     };
     said.push_str(&format!("; within 5 % of the minimum: {}", ranges(&least.close)));
     if let (Some(unseen), Some(accuracy)) = (&least.unseen, surface.accuracy) {

@@ -118,8 +118,8 @@ fn effects_in_words(
     let order = descending(&magnitudes);
     let path = |k: usize| set.parameters[k].path.as_str();
     let with = |influence: Influence| {
-        let own = order.iter().filter(|k| effects[**k].influence == influence);
-        own.map(|k| path(*k)).collect::<Vec<_>>().join(", ")
+        let parameters = order.iter().filter(|k| effects[**k].influence == influence);
+        parameters.map(|k| path(*k)).collect::<Vec<_>>().join(", ")
     };
     let [none, curved] = [Influence::None, Influence::NonlinearOrInteracting].map(with);
     let first = order[0];

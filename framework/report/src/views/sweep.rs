@@ -121,9 +121,9 @@ const QUANTITIES: [Quantity; 2] = [
 impl<'a> Sweep<'a> {
     fn new(outcome: &'a SweepOutcome) -> Option<Self> {
         let first = outcome.sweep.first()?;
-        let own = || outcome.values_of_set(&first.model_set);
-        let along = own().filter(|value| value.places[1] == 0);
-        let seconds = own().filter(|value| value.places[0] == 0);
+        let values = || outcome.values_of_set(&first.model_set);
+        let along = values().filter(|value| value.places[1] == 0);
+        let seconds = values().filter(|value| value.places[0] == 0);
         Some(Self {
             outcome,
             name: &outcome.head.analysis,
@@ -143,13 +143,13 @@ impl<'a> Sweep<'a> {
 
     /// The points of one set and one second value, in the order of the first values.
     fn row(&self, set: &'a str, second: usize) -> Vec<&'a SweepOfValue> {
-        let own = self.outcome.values_of_set(set);
-        own.filter(|value| value.places[1] == second).collect()
+        let values = self.outcome.values_of_set(set);
+        values.filter(|value| value.places[1] == second).collect()
     }
 
     /// The loss over the first values at one second value.
     fn table(&self, set: &'a str, second: usize, page: &mut Page) {
-        let own = self.row(set, second);
+        let values = self.row(set, second);
         let beside = match (self.second_path, self.second_words.get(second)) {
             (Some(path), Some(word)) => format!(", {path} {word}"),
             _ => String::new(),
@@ -161,9 +161,9 @@ impl<'a> Sweep<'a> {
         let mut titles = vec!["torque Nm", "speed rpm"];
         titles.extend(self.words.iter().map(String::as_str));
         let mut table = TextTable::new(&titles);
-        for (i, point) in own[0].points.iter().enumerate() {
+        for (i, point) in values[0].points.iter().enumerate() {
             let mut row = vec![format!("{}", point.torque_nm), fixed(point.solved_speed_rpm, 0)];
-            row.extend(own.iter().map(|value| number(value.points[i].loss_w, 2)));
+            row.extend(values.iter().map(|value| number(value.points[i].loss_w, 2)));
             table.row(row);
         }
         page.table(table);
@@ -242,7 +242,7 @@ impl<'a> Sweep<'a> {
         }
         for column in &self.outcome.limits {
             let reached = &self.outcome.head.study_limits;
-            let Some(limit) = reached.iter().find(|own| own.limit == column.name) else {
+            let Some(limit) = reached.iter().find(|reached| reached.limit == column.name) else {
                 continue;
             };
             let values = bars(&|_, point| {
@@ -302,7 +302,7 @@ impl<'a> Sweep<'a> {
                 .head
                 .study_limits
                 .iter()
-                .find(|own| own.limit == column.name);
+                .find(|reached| reached.limit == column.name);
             let (Some(limit), false) = (reached, lines.is_empty()) else {
                 continue;
             };
@@ -350,9 +350,9 @@ impl<'a> Sweep<'a> {
         let (places, _) = self.axis();
         let mut lines = Vec::new();
         for set in self.sets() {
-            let own = self.row(set, 0);
-            for (i, point) in own[0].points.iter().enumerate() {
-                let points: Vec<_> = own
+            let values = self.row(set, 0);
+            for (i, point) in values[0].points.iter().enumerate() {
+                let points: Vec<_> = values
                     .iter()
                     .map(|value| Some((places[value.places[0]], quantity(&value.points[i])?)))
                     .collect();
@@ -373,8 +373,8 @@ impl<'a> Sweep<'a> {
         let mut maps = Vec::new();
         for set in self.sets() {
             for (i, point) in self.row(set, 0)[0].points.iter().enumerate() {
-                let own = self.outcome.values_of_set(set);
-                let values: Vec<Option<f64>> = own.map(|value| read(&value.points[i])).collect();
+                let values = self.outcome.values_of_set(set);
+                let values: Vec<Option<f64>> = values.map(|value| read(&value.points[i])).collect();
                 if values.iter().any(Option::is_some) {
                     maps.push(Map {
                         title: format!(

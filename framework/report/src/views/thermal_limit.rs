@@ -65,10 +65,10 @@ fn figures(outcome: &ThermalLimitOutcome, page: &mut Page) {
             } else {
                 format!("{temperature} degC")
             };
-            let own = of_set.limits.iter().filter(|limit| limit.limit_degc == temperature);
+            let limited = of_set.limits.iter().filter(|limit| limit.limit_degc == temperature);
             let line = |y: &dyn Fn(&ThermalLimit) -> Option<f64>| Line {
                 name: name.clone(),
-                points: own
+                points: limited
                     .clone()
                     .map(|limit| {
                         let x = match of_set.find {

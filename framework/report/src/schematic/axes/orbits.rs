@@ -60,8 +60,8 @@ pub(super) fn orbits(things: &Things, radii: &[f64], scale: f64) -> Vec<f64> {
 
 /// Orbit of a planet that meshes with rings alone.
 fn inside_a_ring(things: &Things, radii: &[f64], body: usize) -> Option<f64> {
-    let own = |c: &&Contact| things.wheels[c.gears[0]].member == body && things.wheels[c.gears[1]].ring;
-    let contact = things.contacts.iter().find(own)?;
+    let in_ring = |c: &&Contact| things.wheels[c.gears[0]].member == body && things.wheels[c.gears[1]].ring;
+    let contact = things.contacts.iter().find(in_ring)?;
     Some((radii[contact.gears[1]] - radii[contact.gears[0]]).max(0.0))
 }
 

@@ -40,15 +40,15 @@ fn spots(word: &Word) -> Vec<(f64, Spot)> {
         }
     } else if let Some(room) = word.within {
         for y in [o.y[1] + 0.5 * h + 1.0, o.y[0] - 0.5 * h - 1.0] {
-            let own = Rect::about(mx, y, w, h);
-            if own.overlap(&room) > 0.95 * w * h {
-                add(own, true, false, false);
+            let inside = Rect::about(mx, y, w, h);
+            if inside.overlap(&room) > 0.95 * w * h {
+                add(inside, true, false, false);
             }
         }
         for y in [o.y[1] + 0.5 * w + 1.0, o.y[0] - 0.5 * w - 1.0] {
-            let own = Rect::about(mx, y, h, w);
-            if own.overlap(&room) > 0.95 * w * h {
-                add(own, true, true, false);
+            let upright = Rect::about(mx, y, h, w);
+            if upright.overlap(&room) > 0.95 * w * h {
+                add(upright, true, true, false);
             }
         }
     }
@@ -108,8 +108,14 @@ impl Canvas {
                     .obstacles
                     .iter()
                     .filter(|(o, _)| !(spot.inside && Some(*o) == word.within));
-                let price = |own: f64| if word.voice == Voice::Quiet { own } else { COVERED };
-                let on_things: f64 = others.map(|(o, own)| price(*own) * o.overlap(&spot.room)).sum();
+                let price = |price_of_thing: f64| {
+                    if word.voice == Voice::Quiet {
+                        price_of_thing
+                    } else {
+                        COVERED
+                    }
+                };
+                let on_things: f64 = others.map(|(o, weight)| price(*weight) * o.overlap(&spot.room)).sum();
                 16.0 * on_words + on_things + 5.0 * rank
             };
             let spots = spots(&word);

@@ -17,12 +17,12 @@ impl Draw<'_> {
             Kind::Loose(_) => 1,
             Kind::Planet(_) => 0,
         };
-        let own = |p: &&Part| p.symbol == Symbol::Bearing && p.between[side] == Some(wheel.member);
+        let beside = |p: &&Part| p.symbol == Symbol::Bearing && p.between[side] == Some(wheel.member);
         let room = self
             .things
             .parts
             .iter()
-            .find(own)
+            .find(beside)
             .map_or(5.0, |p| height(p, self.scale));
         Some((self.inner(wheel.member) + room).min(0.7 * radius))
     }
@@ -94,8 +94,10 @@ impl Draw<'_> {
     /// The drum that joins several rings of one body without a shaft.
     pub(super) fn drums(&mut self) {
         for member in 0..self.things.members.len() {
-            let own = (0..self.things.wheels.len()).filter(|g| self.things.wheels[*g].member == member);
-            let mut rims: Vec<Rect> = own.map(|g| self.axes.rectangle(self.things, self.along, g)).collect();
+            let wheels = (0..self.things.wheels.len()).filter(|g| self.things.wheels[*g].member == member);
+            let mut rims: Vec<Rect> = wheels
+                .map(|g| self.axes.rectangle(self.things, self.along, g))
+                .collect();
             if !self.things.floats(member) {
                 continue;
             }
@@ -115,12 +117,12 @@ impl Draw<'_> {
             return;
         };
         let y = self.axes.height(self.things, body);
-        let own = |w: &&Wheel| w.member == body;
-        let bores = self.things.wheels.iter().enumerate().filter(|(_, w)| own(w));
+        let of_body = |w: &&Wheel| w.member == body;
+        let bores = self.things.wheels.iter().enumerate().filter(|(_, w)| of_body(w));
         let bore = bores
             .filter_map(|(g, w)| self.bore(w, self.axes.radii[g]))
             .fold(f64::INFINITY, f64::min);
-        if self.things.wheels.iter().filter(own).count() > 1 && bore.is_finite() {
+        if self.things.wheels.iter().filter(of_body).count() > 1 && bore.is_finite() {
             for side in SIDES {
                 let wall = [y + side * bore, y + side * (bore + 3.0)];
                 self.canvas.rect(&Rect::new(x, wall), LOOSE);

@@ -42,9 +42,9 @@ pub(super) fn members(transmission: &Transmission, resolved: &Value) -> (Vec<Mem
         .collect();
     for (id, gear) in section(resolved, "gears") {
         if text(gear, "mounted") == Some("loose")
-            && let (Some(own), Some(shaft)) = (number_of(id), text(gear, "shaft").and_then(number_of))
+            && let (Some(member), Some(shaft)) = (number_of(id), text(gear, "shaft").and_then(number_of))
         {
-            members[own].kind = Kind::Loose(shaft);
+            members[member].kind = Kind::Loose(shaft);
         }
     }
     for (_, set) in section(resolved, "planetary_sets") {
@@ -165,7 +165,7 @@ fn trains(count: usize, contacts: &[Contact]) -> Vec<Vec<usize>> {
     let mut trains: Vec<Vec<usize>> = Vec::new();
     for g in 0..count {
         match trains.iter_mut().find(|t| train[t[0]] == train[g]) {
-            Some(own) => own.push(g),
+            Some(train) => train.push(g),
             None => trains.push(vec![g]),
         }
     }

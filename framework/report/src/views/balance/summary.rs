@@ -7,9 +7,9 @@ use crate::text::{capitalised, of_set, short};
 
 pub fn add(outcome: &BalanceOutcome, page: &mut Page) {
     let mut words = Vec::new();
-    for own in &outcome.balances {
-        let balance = &own.balance;
-        let set = &own.model_set;
+    for found in &outcome.balances {
+        let balance = &found.balance;
+        let set = &found.model_set;
         let loss = balance.history.iter().find(|step| {
             let oil = balance.oil_temperature_degc;
             oil.is_some_and(|oil| (step.oil_temperature_degc - oil).abs() < 1e-6)

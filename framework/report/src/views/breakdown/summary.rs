@@ -12,7 +12,7 @@ const NAMED: usize = 3;
 
 pub fn add(outcome: &BreakdownOutcome, page: &mut Page) {
     let unit = outcome.unit.symbol();
-    let names = SetNames::new(outcome.breakdowns.iter().map(|own| own.model_set.as_str()));
+    let names = SetNames::new(outcome.breakdowns.iter().map(|breakdown| breakdown.model_set.as_str()));
     let mut words = Vec::new();
     for of_set in &outcome.breakdowns {
         let lost = of_set

@@ -10,20 +10,20 @@ use crate::text::{TextTable, number, signed};
 
 pub fn show(name: &str, all: &[CycleComparison], page: &mut Page) {
     for cycle in distinct(all.iter().map(|c| c.cycle.as_str())) {
-        let own: Vec<&CycleComparison> = all.iter().filter(|c| c.cycle == cycle).collect();
-        page.table(shares(&own));
-        if own.iter().any(|c| !c.phases.is_empty()) {
-            page.table(phases(&own));
+        let compared: Vec<&CycleComparison> = all.iter().filter(|c| c.cycle == cycle).collect();
+        page.table(shares(&compared));
+        if compared.iter().any(|c| !c.phases.is_empty()) {
+            page.table(phases(&compared));
         }
-        consumption(&own, page);
+        consumption(&compared, page);
         page.line("");
-        page.figure(format!("{name}-{cycle}"), bars(name, cycle, &own));
+        page.figure(format!("{name}-{cycle}"), bars(name, cycle, &compared));
     }
 }
 
 /// Differences of the consumption, if the vehicle has a battery.
-fn consumption(own: &[&CycleComparison], page: &mut Page) {
-    for c in own {
+fn consumption(compared: &[&CycleComparison], page: &mut Page) {
+    for c in compared {
         if let Some(difference) = c.consumption_difference_kwh_per_100_km {
             page.line(format!(
                 "consumption with {} minus {}: {difference:+.4} kWh/100 km",
@@ -34,36 +34,36 @@ fn consumption(own: &[&CycleComparison], page: &mut Page) {
 }
 
 /// Mean losses of base and cases by share, with their differences.
-fn shares(own: &[&CycleComparison]) -> TextTable {
-    let first = own[0];
+fn shares(compared: &[&CycleComparison]) -> TextTable {
+    let first = compared[0];
     let mut head = vec!["share".to_owned(), format!("{} W", first.base)];
-    head.extend(own.iter().map(|c| format!("{} W", c.model_set)));
-    head.extend(own.iter().map(|c| format!("{} minus {} W", c.model_set, c.base)));
+    head.extend(compared.iter().map(|c| format!("{} W", c.model_set)));
+    head.extend(compared.iter().map(|c| format!("{} minus {} W", c.model_set, c.base)));
     let mut table = TextTable::new(&head.iter().map(String::as_str).collect::<Vec<_>>())
         .titled(format!("mean loss over {} by share", first.cycle));
     for (i, share) in first.shares.iter().enumerate() {
         let mut row = vec![share.share.clone(), number(Some(share.base_mean_loss_w), 3)];
-        row.extend(own.iter().map(|c| number(Some(c.shares[i].mean_loss_w), 3)));
-        row.extend(own.iter().map(|c| difference(c.shares[i].difference_w)));
+        row.extend(compared.iter().map(|c| number(Some(c.shares[i].mean_loss_w), 3)));
+        row.extend(compared.iter().map(|c| difference(c.shares[i].difference_w)));
         table.row(row);
     }
     let mut row = vec!["sum".to_owned(), number(Some(first.base_mean_loss_w), 3)];
-    row.extend(own.iter().map(|c| number(Some(c.mean_loss_w), 3)));
-    row.extend(own.iter().map(|c| difference(c.difference_w)));
+    row.extend(compared.iter().map(|c| number(Some(c.mean_loss_w), 3)));
+    row.extend(compared.iter().map(|c| difference(c.difference_w)));
     table.row(row);
     table
 }
 
 /// Mean losses by phase of the cycle.
-fn phases(own: &[&CycleComparison]) -> TextTable {
-    let first = own[0];
+fn phases(compared: &[&CycleComparison]) -> TextTable {
+    let first = compared[0];
     let mut head = vec![
         "phase".to_owned(),
         "from s".to_owned(),
         "to s".to_owned(),
         format!("{} W", first.base),
     ];
-    head.extend(own.iter().map(|c| format!("{} minus {} W", c.model_set, c.base)));
+    head.extend(compared.iter().map(|c| format!("{} minus {} W", c.model_set, c.base)));
     let mut table = TextTable::new(&head.iter().map(String::as_str).collect::<Vec<_>>())
         .titled(format!("mean loss by phase of {}", first.cycle));
     for (i, phase) in first.phases.iter().enumerate() {
@@ -73,7 +73,7 @@ fn phases(own: &[&CycleComparison]) -> TextTable {
             number(Some(phase.to_s), 0),
             number(Some(phase.base_mean_loss_w), 3),
         ];
-        row.extend(own.iter().map(|c| difference(c.phases[i].difference_w)));
+        row.extend(compared.iter().map(|c| difference(c.phases[i].difference_w)));
         table.row(row);
     }
     table
@@ -85,8 +85,8 @@ fn difference(x: f64) -> String {
 }
 
 /// The base and every case as bars of their shares.
-fn bars(name: &str, cycle: &str, own: &[&CycleComparison]) -> Figure {
-    let first = own[0];
+fn bars(name: &str, cycle: &str, compared: &[&CycleComparison]) -> Figure {
+    let first = compared[0];
     let base = Bar {
         label: first.base.clone(),
         shares: first.shares.iter().map(|share| share.base_mean_loss_w).collect(),
@@ -104,6 +104,6 @@ fn bars(name: &str, cycle: &str, own: &[&CycleComparison]) -> Figure {
         over: String::new(),
         height: "mean loss in W".to_owned(),
         names: first.shares.iter().map(|share| share.share.clone()).collect(),
-        bars: std::iter::once(base).chain(own.iter().map(case)).collect(),
+        bars: std::iter::once(base).chain(compared.iter().map(case)).collect(),
     }
 }

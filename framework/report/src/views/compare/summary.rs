@@ -35,11 +35,11 @@ fn over_cycles(all: &[CycleComparison], page: &mut Page) -> Option<String> {
         let parts = Some(leading(&c.shares, OF_CYCLE).join(", ")).filter(|parts| !parts.is_empty());
         let details: Vec<String> = percent.into_iter().chain(parts).collect();
         let details = in_brackets(&details.join("; "));
-        let own = format!("{} W over {}{details}", signed(c.difference_w), cycle(&c.cycle));
+        let change = format!("{} W over {}{details}", signed(c.difference_w), cycle(&c.cycle));
         let set = names.quoted(&c.model_set);
         match words.iter_mut().find(|(other, _)| *other == set) {
-            Some((_, list)) => list.push(own),
-            None => words.push((set, vec![own])),
+            Some((_, list)) => list.push(change),
+            None => words.push((set, vec![change])),
         }
         let per_km = c
             .difference_wh_per_km
@@ -84,9 +84,9 @@ fn leading(shares: &[DifferenceOfShare], count: usize) -> Vec<String> {
     let words = order
         .into_iter()
         .take(count)
-        .filter(|own| own.difference_w.abs() >= least);
+        .filter(|part| part.difference_w.abs() >= least);
     words
-        .map(|own| format!("{} {} W", share(&own.share), signed(own.difference_w)))
+        .map(|part| format!("{} {} W", share(&part.share), signed(part.difference_w)))
         .collect()
 }
 
@@ -139,7 +139,7 @@ fn on_grid(all: &[GridComparison], (what, unit): (&str, &str), page: &mut Page) 
 
 /// A mean difference of the loss as a share of the mean loss of the base.
 fn share_of_loss(c: &GridComparison, mean: f64, unit: &str) -> String {
-    let base: f64 = c.components.iter().map(|own| own.base_mean_loss_w).sum();
+    let base: f64 = c.components.iter().map(|component| component.base_mean_loss_w).sum();
     if unit == "W" && base > 0.0 {
         format!(" ({} % of {} W)", short(100.0 * mean.abs() / base), short(base))
     } else {
@@ -151,17 +151,17 @@ fn share_of_loss(c: &GridComparison, mean: f64, unit: &str) -> String {
 fn tiles_of_components(c: &GridComparison, names: &SetNames<'_>, page: &mut Page) {
     let mut order: Vec<&DifferenceOfShare> = c.components.iter().collect();
     order.sort_by(|a, b| b.difference_w.abs().total_cmp(&a.difference_w.abs()));
-    for own in order.into_iter().filter(|own| own.difference_w != 0.0).take(TILES) {
+    for part in order.into_iter().filter(|part| part.difference_w != 0.0).take(TILES) {
         let detail = format!(
             "mean; {} {} W, {} {} W",
             names.word(&c.base),
-            short(own.base_mean_loss_w),
+            short(part.base_mean_loss_w),
             names.word(&c.model_set),
-            short(own.mean_loss_w)
+            short(part.mean_loss_w)
         );
         page.key_figure(
-            &format!("difference in {}", share(&own.share)),
-            signed(own.difference_w),
+            &format!("difference in {}", share(&part.share)),
+            signed(part.difference_w),
             "W",
             detail,
         );
@@ -223,7 +223,9 @@ fn with_data(all: &[DataComparison], (what, unit): (&str, &str), page: &mut Page
         format!("; {}", others.join(", "))
     };
     let mean = all.iter().find(|c| c.model_set == first.0).and_then(|c| c.difference);
-    let mean = mean.map_or_else(String::new, |own| format!(" (mean {} {unit})", signed(own.mean)));
+    let mean = mean.map_or_else(String::new, |difference| {
+        format!(" (mean {} {unit})", signed(difference.mean))
+    });
     let closest = if ranked.len() > 1 { "at best, " } else { "" };
     let (start, with) = if first.0 == OWN_MODELS && others.is_empty() {
         ("As described, the", String::new())

@@ -15,11 +15,11 @@ pub fn add(outcome: &ComponentCompareOutcome, page: &mut Page) {
     let at = place(*torque, speed * RPM);
     let mut words = Vec::new();
     let component = model(&c.component);
-    for own in &c.models {
-        if let Some(loss) = own.points.last().and_then(|point| point.loss_w) {
-            words.push(format!("`{}` {}", own.model, short(loss)));
+    for model in &c.models {
+        if let Some(loss) = model.points.last().and_then(|point| point.loss_w) {
+            words.push(format!("`{}` {}", model.model, short(loss)));
             page.key_figure(
-                &format!("{component} with {}", own.model),
+                &format!("{component} with {}", model.model),
                 short(loss),
                 "W",
                 at.as_str(),

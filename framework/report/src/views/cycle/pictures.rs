@@ -93,7 +93,7 @@ impl Cells {
             let is_shown = 100.0 * input >= LEAST * all && *input > 0.0 && *output > 0.0;
             is_shown.then(|| 100.0 * output / input)
         };
-        let shown = self.energies.iter().filter(|own| efficiency(own).is_some());
+        let shown = self.energies.iter().filter(|energies| efficiency(energies).is_some());
         let shares: Vec<f64> = shown.map(|[input, ..]| *input).collect();
         let largest = shares.iter().copied().fold(0.0, f64::max);
         let title = format!("Efficiency over {} with {}, area by energy", duty.cycle, duty.model_set);

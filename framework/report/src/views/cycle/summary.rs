@@ -19,10 +19,10 @@ pub fn add(outcome: &CycleOutcome, page: &mut Page) {
         } else {
             cycle(&duty.cycle)
         };
-        let mut own = format!("{} W over {of}", short(duty.mean_loss_w));
+        let mut words_of_set = format!("{} W over {of}", short(duty.mean_loss_w));
         let mut details = Vec::new();
         if let Some(per) = &duty.per_distance {
-            own = format!(
+            words_of_set = format!(
                 "{} W ({} Wh/km) over {of}",
                 short(duty.mean_loss_w),
                 short(per.loss_wh_per_km)
@@ -31,10 +31,10 @@ pub fn add(outcome: &CycleOutcome, page: &mut Page) {
         }
         if let Some((name, percent)) = largest(duty) {
             let name = share(name);
-            own.push_str(&format!(", {} % of it in the {name}", short(percent)));
+            words_of_set.push_str(&format!(", {} % of it in the {name}", short(percent)));
             details.push(format!("{} % {name}", short(percent)));
         }
-        own.push_str(&against_reference(duty));
+        words_of_set.push_str(&against_reference(duty));
         if let Some(reference) = &duty.reference {
             let source = reference.source.as_deref().unwrap_or("reference");
             details.push(format!("{} W: {source}", short(reference.mean_loss_w)));
@@ -49,7 +49,7 @@ pub fn add(outcome: &CycleOutcome, page: &mut Page) {
             }
         }
         if let Some(consumption) = &duty.consumption {
-            own.push_str(&format!(
+            words_of_set.push_str(&format!(
                 "; consumption {} kWh/100 km",
                 short(consumption.consumption_kwh_per_100_km)
             ));
@@ -63,7 +63,7 @@ pub fn add(outcome: &CycleOutcome, page: &mut Page) {
                 );
             }
         }
-        words.push(own);
+        words.push(words_of_set);
         page.key_figure(
             &format!("mean loss, {of}"),
             short(duty.mean_loss_w),

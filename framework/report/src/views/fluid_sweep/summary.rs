@@ -87,9 +87,9 @@ fn limits(set: &FluidsOfSet, duty: &FluidsOfDuty, of: &str, page: &mut Page) {
     if set.limits.is_empty() {
         return;
     }
-    let near = |own: &&LossOfFluid| (own.value / duty.least.value - 1.0).abs() < 0.01;
+    let near = |fluid: &&LossOfFluid| (fluid.value / duty.least.value - 1.0).abs() < 0.01;
     let best = duty.fluids.iter().find(near);
-    if best.is_some_and(|own| own.keeps_limits) {
+    if best.is_some_and(|fluid| fluid.keeps_limits) {
         return;
     }
     let broken: Vec<String> = set
@@ -97,26 +97,26 @@ fn limits(set: &FluidsOfSet, duty: &FluidsOfDuty, of: &str, page: &mut Page) {
         .iter()
         .enumerate()
         .filter(|(i, limit)| {
-            let value = best.and_then(|own| own.limited[*i]);
+            let value = best.and_then(|fluid| fluid.limited[*i]);
             value.is_none_or(|value| limit.least.is_some_and(|x| value < x) || limit.most.is_some_and(|x| value > x))
         })
         .map(|(_, limit)| format!("`{}`", limit.limit))
         .collect();
     match duty.least_within_limits {
-        Some(own) => {
+        Some(fluid) => {
             page.careful.push(format!(
                 "{of}: the oil with the lowest loss breaks {}; {} {} is the best that keeps all limits ({} W)",
                 listed(&broken),
-                short(own.value),
+                short(fluid.value),
                 set.unit,
-                short(own.mean_loss_w)
+                short(fluid.mean_loss_w)
             ));
             let label = format!("best {} within limits, {of}", property(set));
             page.key_figure(
                 &label,
-                short(own.value),
+                short(fluid.value),
                 set.unit,
-                format!("{} W", short(own.mean_loss_w)),
+                format!("{} W", short(fluid.mean_loss_w)),
             );
         }
         None => page.careful.push(format!("{of}: no oil keeps {}", listed(&broken))),

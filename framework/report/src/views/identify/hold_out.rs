@@ -16,16 +16,16 @@ fn short(x: f64) -> String {
 
 pub(super) fn show(name: &str, o: &IdentificationOfSet, page: &mut Page) {
     let Some(held) = &o.hold_out else { return };
-    for own in &held.quantities {
-        let (what, unit) = words(own.errors.quantity);
+    for held in &held.quantities {
+        let (what, unit) = words(held.errors.quantity);
         page.line(format!(
             "errors of the {what} in fitted and in held-out rows, in {unit}:"
         ));
-        page.table(summaries(&own.errors));
-        if own.regions.iter().any(|r| r.held_out.is_some()) {
-            page.table(by_region(&own.errors));
+        page.table(summaries(&held.errors));
+        if held.regions.iter().any(|r| r.held_out.is_some()) {
+            page.table(by_region(&held.errors));
         }
-        if let Some(sentence) = &own.sentence {
+        if let Some(sentence) = &held.sentence {
             page.verdict(format!("{name}: {sentence}"));
         }
     }
@@ -46,10 +46,10 @@ pub(super) fn show(name: &str, o: &IdentificationOfSet, page: &mut Page) {
     }
 }
 
-fn summaries(own: &ErrorsOfQuantity) -> TextTable {
-    let both = [("fitted", &own.fitted), ("held out", &own.held_out)];
+fn summaries(errors: &ErrorsOfQuantity) -> TextTable {
+    let both = [("fitted", &errors.fitted), ("held out", &errors.held_out)];
     let all = |has: &dyn Fn(&ErrorSummary) -> bool| both.iter().all(|(_, summary)| summary.as_ref().is_none_or(has));
-    let in_percent = own.is_relative() && all(&|s| s.in_percent.is_some());
+    let in_percent = errors.is_relative() && all(&|s| s.in_percent.is_some());
     let in_accuracies = all(&|s| s.in_accuracies.is_some());
     let mut head = vec!["rows".to_owned(), "points".to_owned()];
     head.extend(["rms", "bias", "max"].map(str::to_owned));
@@ -80,9 +80,9 @@ fn summaries(own: &ErrorsOfQuantity) -> TextTable {
     table
 }
 
-fn by_region(own: &ErrorsOfQuantity) -> TextTable {
+fn by_region(errors: &ErrorsOfQuantity) -> TextTable {
     let mut table = TextTable::new(&["region", "held out", "rms", "bias", "fitted", "rms", "bias"]);
-    for region in own.regions.iter().filter(|r| r.held_out.is_some()) {
+    for region in errors.regions.iter().filter(|r| r.held_out.is_some()) {
         let cells = |summary: &Option<ErrorSummary>| match summary {
             Some(s) => [s.count.to_string(), short(s.rms), short(s.mean)],
             None => ["0", "-", "-"].map(str::to_owned),
@@ -105,14 +105,14 @@ pub(super) fn pictures(name: &str, o: &IdentificationOfSet) -> Vec<(String, Figu
     };
     let mut all = Vec::new();
     for record in &held.quantities {
-        let own = &record.errors;
-        let (what, unit) = words(own.quantity);
+        let errors = &record.errors;
+        let (what, unit) = words(errors.quantity);
         let axes: [(&str, &str, fn(&PlacedError) -> f64); 2] =
             [("torque", "Nm", |e| e.torque), ("speed", "rpm", |e| e.speed)];
         for (axis, axis_unit, value) in axes {
             let dots = |held: bool| {
-                let own = own.all.iter().filter(move |e| e.is_held_out == held);
-                own.map(|e| Some((value(e), e.error))).collect::<Vec<_>>()
+                let placed = errors.all.iter().filter(move |e| e.is_held_out == held);
+                placed.map(|e| Some((value(e), e.error))).collect::<Vec<_>>()
             };
             let dotted = |name: &str, points: Vec<Option<(f64, f64)>>| Line {
                 name: name.to_owned(),
@@ -128,7 +128,7 @@ pub(super) fn pictures(name: &str, o: &IdentificationOfSet) -> Vec<(String, Figu
                 y: format!("calculated minus measured, {unit}"),
                 lines: vec![dotted("fitted", dots(false)), dotted("held out", dots(true))],
             };
-            all.push((format!("hold-out-{}-{axis}", slug(own.quantity)), figure));
+            all.push((format!("hold-out-{}-{axis}", slug(errors.quantity)), figure));
         }
     }
     all

@@ -58,11 +58,11 @@ fn parameters(name: &str, o: &IdentificationOfSet) -> Figure {
     let interval = |(k, (of, identified)): (usize, (&Parameter, &Identified))| {
         let [low, high] = of.bounds;
         let place = |theta: f64| of.scale.coordinate(theta).map(|u| (u - low) / (high - low));
-        let own = o.found.profiles[k]
+        let profiled = o.found.profiles[k]
             .as_ref()
             .and_then(|p| p.as_ref().ok())
             .map(|p| p.theta);
-        let ends = own.or_else(|| inference.interval(k, 0.95, 1.0).map(|i| i.ends));
+        let ends = profiled.or_else(|| inference.interval(k, 0.95, 1.0).map(|i| i.ends));
         Interval {
             name: of.name.clone(),
             at: (of.u - low) / (high - low),
@@ -86,16 +86,17 @@ fn maps(name: &str, o: &IdentificationOfSet, quantity: Quantity) -> Vec<(String,
     let mut figures = Vec::new();
     for (number, sheet) in o.found.sheets.iter().enumerate() {
         let lists = [0, 1].map(|which| -> Vec<Deviation> {
-            let own = o
+            let deviations = o
                 .found
                 .deviations(quantity, which)
                 .into_iter()
                 .filter(|(row, _)| sheet.rows.contains(row));
-            own.map(|(row, d)| {
-                let value = |name: &str| measured.value(&measured.rows[row], name).unwrap_or(0.0);
-                (value("torque"), value("speed") * RPM, Some(d))
-            })
-            .collect()
+            deviations
+                .map(|(row, d)| {
+                    let value = |name: &str| measured.value(&measured.rows[row], name).unwrap_or(0.0);
+                    (value("torque"), value("speed") * RPM, Some(d))
+                })
+                .collect()
         });
         let most = lists
             .iter()
@@ -141,9 +142,9 @@ fn accuracy(o: &IdentificationOfSet, quantity: Quantity, sheet: &Sheet) -> Optio
         return None;
     }
     let unit = if quantity == Quantity::Efficiency { 100.0 } else { 1.0 };
-    let own = o.found.observations.iter();
-    let own = own.filter(|x| x.quantity == quantity && sheet.rows.contains(&x.row));
-    let list: Vec<f64> = own.map(|x| unit * x.deviation).collect();
+    let observed = o.found.observations.iter();
+    let observed = observed.filter(|x| x.quantity == quantity && sheet.rows.contains(&x.row));
+    let list: Vec<f64> = observed.map(|x| unit * x.deviation).collect();
     (!list.is_empty()).then(|| (list.iter().map(|a| a * a).sum::<f64>() / list.len() as f64).sqrt())
 }
 
@@ -273,8 +274,8 @@ fn next(name: &str, o: &IdentificationOfSet) -> Vec<(String, Figure)> {
     let size = torques.len() * speeds.len();
     let figure = |(i, oil): (usize, &Option<f64>)| {
         let at = oil.map_or_else(String::new, |oil| format!(" at {oil:.0} degC"));
-        let own = next.plan.plan.choices.iter().filter(|c| c.candidate / size == i);
-        let marks = own.map(|c| {
+        let chosen = next.plan.plan.choices.iter().filter(|c| c.candidate / size == i);
+        let marks = chosen.map(|c| {
             let at = &next.candidates[c.candidate];
             (tidy(at.speed * RPM), at.torque)
         });

@@ -95,13 +95,13 @@ fn sentence(o: &IdentificationOfSet, after_misfit: bool, page: &mut Page) -> Str
 /// The errors of the predictions of held-out rows.
 fn held_out(o: &IdentificationOfSet, page: &mut Page) -> Option<String> {
     let held = o.hold_out.as_ref()?;
-    let errors = held.quantities.iter().filter_map(|own| {
-        let (what, unit) = words(own.errors.quantity);
-        let errors = own.held_out.as_ref()?;
+    let errors = held.quantities.iter().filter_map(|predicted| {
+        let (what, unit) = words(predicted.errors.quantity);
+        let errors = predicted.held_out.as_ref()?;
         let percent = errors
             .in_percent
             .as_ref()
-            .filter(|_| own.errors.quantity != Quantity::Efficiency)
+            .filter(|_| predicted.errors.quantity != Quantity::Efficiency)
             .map_or_else(String::new, |percent| format!(" or {} %", short(percent.rms)));
         page.key_figure(
             &format!("error of the predicted {what}, {}", o.model_set),

@@ -14,25 +14,25 @@ type Quantity = (&'static str, fn(&ShownPoint) -> Option<f64>);
 pub fn show(outcome: &MapOutcome, sets: &[NotesOfSet], page: &mut Page) {
     let name = &outcome.head.analysis;
     for NotesOfSet { model_set, .. } in sets {
-        let own: Vec<&MapOfSet> = outcome.maps.iter().filter(|m| m.model_set == *model_set).collect();
-        let points = &own[0].shown.points;
+        let maps: Vec<&MapOfSet> = outcome.maps.iter().filter(|m| m.model_set == *model_set).collect();
+        let points = &maps[0].shown.points;
         let shown = spread(points.len());
         let mut quantities: Vec<Quantity> = vec![("loss in W", |p| p.loss)];
-        if own[0].oil == OilTemperature::Balance {
+        if maps[0].oil == OilTemperature::Balance {
             quantities.push(("oil temperature in degC", |p| p.oil));
         }
         for (words, quantity) in quantities {
             page.line(format!(
                 "{name}: {words}, gear {}, {} Nm, models {model_set}",
-                own[0].gear, points[0].torque
+                maps[0].gear, points[0].torque
             ));
-            let mut head: Vec<String> = own[0].bound.keys().cloned().collect();
+            let mut head: Vec<String> = maps[0].bound.keys().cloned().collect();
             let speeds = shown
                 .iter()
                 .map(|i| format!("{} rpm", fixed(points[*i].speed * RPM, 0)));
             head.extend(speeds);
             let mut table = TextTable::new(&head.iter().map(String::as_str).collect::<Vec<_>>());
-            for map in &own {
+            for map in &maps {
                 let mut row: Vec<String> = map.bound.values().map(word).collect();
                 row.extend(shown.iter().map(|i| number(quantity(&map.shown.points[*i]), 2)));
                 table.row(row);

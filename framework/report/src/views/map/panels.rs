@@ -85,16 +85,16 @@ pub fn panels(outcome: &MapOutcome, names: &AxisNames) -> Option<Panels> {
 /// One panel for each map, over torque and speed; absent if their axes differ.
 fn over_torque<'a>(outcome: &'a MapOutcome, axes: &Axes, names: &AxisNames) -> Option<Layout<'a>> {
     let same = |map: &MapOfSet| {
-        let own = map.shown.grid.as_ref().map(|grid| &grid.axes);
-        own.is_some_and(|own| own.torques == axes.torques && own.speeds == axes.speeds)
+        let grid = map.shown.grid.as_ref().map(|grid| &grid.axes);
+        grid.is_some_and(|shown| shown.torques == axes.torques && shown.speeds == axes.speeds)
     };
     if !outcome.maps.iter().all(same) || axes.torques.len() < 2 || axes.speeds.len() < 2 {
         return None;
     }
     let rows: Vec<String> = outcome.set_names().into_iter().map(str::to_owned).collect();
     let columns = distinct(outcome.maps.iter().map(|map| column(outcome, map)));
-    let find = |row: &String, own: &String| -> Vec<&MapOfSet> {
-        let is_own = |map: &&MapOfSet| map.model_set == *row && column(outcome, map) == *own;
+    let find = |row: &String, name: &String| -> Vec<&MapOfSet> {
+        let is_own = |map: &&MapOfSet| map.model_set == *row && column(outcome, map) == *name;
         outcome.maps.iter().find(is_own).into_iter().collect()
     };
     let y = (
@@ -198,15 +198,15 @@ fn values(map: &MapOfSet, quantity: &Quantity) -> Vec<Option<f64>> {
 
 /// Cells outside a stated range; an empty list if there are none.
 fn outside(maps: &[&MapOfSet]) -> Vec<bool> {
-    let own = panel(maps, &|map| {
+    let outside = panel(maps, &|map| {
         cells(map, |point| point.is_some_and(|point| point.outside))
     });
-    own.filter(|own| own.contains(&true)).unwrap_or_default()
+    outside.filter(|cells| cells.contains(&true)).unwrap_or_default()
 }
 
 fn losses(map: &MapOfSet) -> Vec<f32> {
-    let own = cells(map, |point| point.map_or([0.0; SUMS.len()], |point| point.sums));
-    own.into_iter().flatten().map(|watts| watts as f32).collect()
+    let sums = cells(map, |point| point.map_or([0.0; SUMS.len()], |point| point.sums));
+    sums.into_iter().flatten().map(|watts| watts as f32).collect()
 }
 
 /// Maximum torque over speed, as the axes state them.

@@ -59,11 +59,11 @@ pub fn draw(outcome: &MapOutcome, page: &mut Page) {
         None => page.figure(name, figure),
     };
     for set in outcome.set_names() {
-        let own: Vec<&MapOfSet> = outcome.maps.iter().filter(|m| m.model_set == set).collect();
+        let maps: Vec<&MapOfSet> = outcome.maps.iter().filter(|m| m.model_set == set).collect();
         for quantity in quantities(outcome) {
             // Without load there is no efficiency.
             let is_known = |m: &&MapOfSet| m.shown.points.iter().any(|p| (quantity.value)(p).is_some());
-            if !own.iter().any(is_known) {
+            if !maps.iter().any(is_known) {
                 continue;
             }
             // All maps of a quantity share one colour scale.
@@ -73,12 +73,12 @@ pub fn draw(outcome: &MapOutcome, page: &mut Page) {
                 .flat_map(|m| m.shown.points.iter().filter_map(quantity.value));
             let ends = extremes(values.map(|x| (x, ()))).map(|[low, high]| (low.0, high.0));
             let file = format!("{name}-{set}-{}", quantity.short);
-            if let (true, Some(grid)) = (outcome.notes_of_sets.is_some(), &own[0].shown.grid) {
-                put(file, over_bound(name, &quantity, &own, grid, &axes, ends));
+            if let (true, Some(grid)) = (outcome.notes_of_sets.is_some(), &maps[0].shown.grid) {
+                put(file, over_bound(name, &quantity, &maps, grid, &axes, ends));
                 continue;
             }
-            for (i, map) in own.iter().enumerate() {
-                let number = if own.len() > 1 {
+            for (i, map) in maps.iter().enumerate() {
+                let number = if maps.len() > 1 {
                     format!("-{}", i + 1)
                 } else {
                     String::new()
@@ -116,7 +116,8 @@ fn limit_maps(outcome: &MapOutcome, names: &AxisNames, page: &mut Page) {
         };
         for (i, column) in map.limits.iter().enumerate() {
             let reached = outcome.head.study_limits.iter();
-            let mut reached = reached.filter(|own| own.limit == column.name && own.model_set == map.model_set);
+            let mut reached =
+                reached.filter(|reached| reached.limit == column.name && reached.model_set == map.model_set);
             let Some(limit) = reached.next() else { continue };
             let value = |place: &Option<usize>| {
                 let value = *map.shown.points[(*place)?].limits.get(i)?;
@@ -215,14 +216,14 @@ impl AxisNames {
 
     /// Name of the axis of speeds.
     pub fn over_speed(&self, axes: &Axes) -> String {
-        let own = axes.shares[0].map_or(self.speed.as_str(), |_| "speed / rated speed");
-        own.to_owned()
+        let words = axes.shares[0].map_or(self.speed.as_str(), |_| "speed / rated speed");
+        words.to_owned()
     }
 
     /// Name of the axis of torques.
     pub fn over_torque(&self, axes: &Axes) -> String {
-        let own = axes.shares[1].map_or(self.torque.as_str(), |_| "torque / rated torque");
-        own.to_owned()
+        let words = axes.shares[1].map_or(self.torque.as_str(), |_| "torque / rated torque");
+        words.to_owned()
     }
 }
 

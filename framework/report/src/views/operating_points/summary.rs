@@ -20,7 +20,7 @@ pub fn add(outcome: &OperatingPointsOutcome, page: &mut Page) {
             let at = place(tidy(point.torque_nm), point.speed_rpm);
             format!("point {}: {at}", point.name)
         };
-        let mut own = Vec::new();
+        let mut found = Vec::new();
         if let Some([low, high]) = ends(|point| point.loss_w) {
             let parts = high
                 .1
@@ -29,12 +29,12 @@ pub fn add(outcome: &OperatingPointsOutcome, page: &mut Page) {
                 .map(|losses| leading(&points_of_set.shares, losses));
             let parts = parts.filter(|parts| !parts.is_empty());
             let parts = parts.map_or_else(String::new, |parts| format!(" (at the highest loss {parts})"));
-            own.push(format!("loss {} W{parts}", range(low.0, high.0, 1)));
+            found.push(format!("loss {} W{parts}", range(low.0, high.0, 1)));
             let detail = format!("largest at {}", at(high.1));
             page.key_figure(&label("loss"), range(low.0, high.0, 1), "W", detail);
         }
         if let Some([low, high]) = ends(|point| point.oil_temperature_degc) {
-            own.push(format!("oil {} °C", range(low.0, high.0, 1)));
+            found.push(format!("oil {} °C", range(low.0, high.0, 1)));
             let detail = format!("highest at {}", at(high.1));
             page.key_figure(&label("oil temperature"), range(low.0, high.0, 1), "°C", detail);
         }
@@ -47,7 +47,7 @@ pub fn add(outcome: &OperatingPointsOutcome, page: &mut Page) {
             let count = deviations.len() as f64;
             let mean = deviations.iter().sum::<f64>() / count;
             let rms = (deviations.iter().map(|x| x * x).sum::<f64>() / count).sqrt();
-            own.push(format!(
+            found.push(format!(
                 "{} % to the measured loss on average ({} % rms)",
                 signed(mean),
                 short(rms)
@@ -59,12 +59,12 @@ pub fn add(outcome: &OperatingPointsOutcome, page: &mut Page) {
                 format!("rms; mean {} %", signed(mean)),
             );
         }
-        if !own.is_empty() {
+        if !found.is_empty() {
             words.push(format!(
                 "{}calculated at {} operating points: {}",
                 of_set(set, outcome.operating_points.len()),
                 points.len(),
-                own.join(", ")
+                found.join(", ")
             ));
         }
         let missing = points.iter().filter(|point| point.loss_w.is_none()).count();

@@ -11,8 +11,8 @@ const NAMED: usize = 3;
 
 pub fn add(outcome: &OptimiseOutcome, page: &mut Page) {
     careful(outcome, page);
-    let minimised: Vec<&GainOfCycle> = outcome.gains.iter().filter(|own| own.minimised).collect();
-    let gains: Vec<String> = minimised.iter().filter_map(|own| gain(own, page)).collect();
+    let minimised: Vec<&GainOfCycle> = outcome.gains.iter().filter(|gain| gain.minimised).collect();
+    let gains: Vec<String> = minimised.iter().filter_map(|of_cycle| gain(of_cycle, page)).collect();
     if gains.is_empty() {
         page.headline = Some(format!(
             "None of {} designs keeps all limits{}",
@@ -49,32 +49,32 @@ pub fn add(outcome: &OptimiseOutcome, page: &mut Page) {
 }
 
 /// Losses of a cycle before and after.
-fn gain(own: &GainOfCycle, page: &mut Page) -> Option<String> {
-    let best = own.best_w?;
-    let name = cycle(&own.cycle);
-    let percent = 100.0 * (best / own.present_w - 1.0);
-    let band = own.band.map_or_else(String::new, |band| {
+fn gain(cycle_gain: &GainOfCycle, page: &mut Page) -> Option<String> {
+    let best = cycle_gain.best_w?;
+    let name = cycle(&cycle_gain.cycle);
+    let percent = 100.0 * (best / cycle_gain.present_w - 1.0);
+    let band = cycle_gain.band.map_or_else(String::new, |band| {
         let [low, _, high] = band.gain_w.map(short);
         format!("; gain {low} to {high} W under the uncertain inputs")
     });
     let label = format!("mean loss over {name}");
-    let detail = format!("{} W at present{band}", short(own.present_w));
+    let detail = format!("{} W at present{band}", short(cycle_gain.present_w));
     page.key_figure(&label, short(best), "W", detail);
-    if own.band.is_some_and(|band| band.contains_zero) {
+    if cycle_gain.band.is_some_and(|band| band.contains_zero) {
         page.careful
             .push(format!("{name}: the gain is smaller than its uncertainty"));
     }
     Some(format!(
         "{} W over {name} instead of {} W ({percent:+.1} %)",
         short(best),
-        short(own.present_w)
+        short(cycle_gain.present_w)
     ))
 }
 
 /// A change with what it saves in the first cycle.
-fn change(own: &ChangeOfDesign) -> Option<String> {
-    let saved = own.share_w.as_ref().or(own.alone_w.as_ref())?.first()?;
-    let words = format!("{} {} instead of {}", own.variable, own.to, own.from);
+fn change(change: &ChangeOfDesign) -> Option<String> {
+    let saved = change.share_w.as_ref().or(change.alone_w.as_ref())?.first()?;
+    let words = format!("{} {} instead of {}", change.variable, change.to, change.from);
     Some(if *saved >= 0.0 {
         format!("{words} saves {} W", short(*saved))
     } else {
@@ -92,7 +92,7 @@ fn tightest(outcome: &OptimiseOutcome) -> String {
         outcome
             .all
             .iter()
-            .filter(|own| own.limited.get(i).is_some_and(beyond))
+            .filter(|design| design.limited.get(i).is_some_and(beyond))
             .count()
     };
     let worst = (0..outcome.limits.len()).max_by_key(|i| broken(*i));
@@ -102,7 +102,7 @@ fn tightest(outcome: &OptimiseOutcome) -> String {
 }
 
 fn careful(outcome: &OptimiseOutcome, page: &mut Page) {
-    for variable in outcome.variables.iter().filter(|own| own.at_end_of_range) {
+    for variable in outcome.variables.iter().filter(|variable| variable.at_end_of_range) {
         page.careful.push(format!(
             "{} {} is at the end of its range",
             variable.variable,
@@ -112,8 +112,8 @@ fn careful(outcome: &OptimiseOutcome, page: &mut Page) {
     for limit in outcome
         .limits
         .iter()
-        .map(|own| &own.entry)
-        .filter(|own| !own.present_keeps_it)
+        .map(|limit| &limit.entry)
+        .filter(|limit| !limit.present_keeps_it)
     {
         page.careful.push(format!(
             "the present design breaks `{}`: {} {}",

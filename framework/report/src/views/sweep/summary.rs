@@ -12,8 +12,8 @@ const NAMED: usize = 6;
 
 pub fn add(outcome: &SweepOutcome, page: &mut Page) {
     let mut words = Vec::new();
-    for own in &outcome.notes {
-        let set = &own.model_set;
+    for notes in &outcome.notes {
+        let set = &notes.model_set;
         let mean = |value: &SweepOfValue| {
             let losses: Option<Vec<f64>> = value.points.iter().map(|point| point.loss_w).collect();
             losses.map(|losses| losses.iter().sum::<f64>() / losses.len() as f64)
@@ -88,7 +88,9 @@ fn cards(
     }
     for column in &outcome.limits {
         let limits = &outcome.head.study_limits;
-        let least = limits.iter().any(|own| own.limit == column.name && own.least.is_some());
+        let least = limits
+            .iter()
+            .any(|reached| reached.limit == column.name && reached.least.is_some());
         let sign = if least { -1.0 } else { 1.0 };
         let value = largest(&|point| point.limit_values.get(&column.name).copied().flatten(), sign);
         if let Some(value) = value.filter(|_| !column.is_of_oil) {

@@ -9,11 +9,11 @@ use crate::{Figure, Map};
 
 pub fn show(name: &str, spread: &Spread, page: &mut Page) {
     let mut table = TextTable::new(&["mechanism", "models", "share of the spread %"]);
-    for (mechanism, own) in spread.mechanisms.iter().zip(&spread.shares_of_spread) {
+    for (mechanism, of_mechanism) in spread.mechanisms.iter().zip(&spread.shares_of_spread) {
         table.row(vec![
             mechanism.mechanism.clone(),
             mechanism.candidates.len().to_string(),
-            number(own.share.map(|share| 100.0 * share), 1),
+            number(of_mechanism.share.map(|share| 100.0 * share), 1),
         ]);
     }
     page.table(table);

@@ -72,13 +72,16 @@ pub fn add(outcome: &TournamentOutcome, page: &mut Page) {
                 unit,
                 "over all combinations, rms over the points",
             );
-            let shares = spread.shares_of_spread.iter().filter_map(|own| Some((own.share?, own)));
-            if let Some([_, (share, own)]) = extremes(shares) {
+            let shares = spread
+                .shares_of_spread
+                .iter()
+                .filter_map(|of_mechanism| Some((of_mechanism.share?, of_mechanism)));
+            if let Some([_, (share, of_mechanism)]) = extremes(shares) {
                 page.key_figure(
                     "largest share of the spread",
                     short(100.0 * share),
                     "%",
-                    share_words(own.mechanism.as_str()),
+                    share_words(of_mechanism.mechanism.as_str()),
                 );
             }
         }

@@ -13,10 +13,10 @@ pub fn add(outcome: &UncertaintyOutcome, page: &mut Page) {
         let half = |value: fn(&PointOfBand) -> Option<f64>| {
             extremes(set.points.iter().filter_map(move |point| Some((value(point)?, point))))
         };
-        let mut own = Vec::new();
+        let mut found = Vec::new();
         let at = |point: &PointOfBand| place(tidy(point.torque_nm), tidy(point.speed_rpm));
         if let Some([low, high]) = half(|point| point.efficiency_percent.half_width()) {
-            own.push(format!(
+            found.push(format!(
                 "the efficiency is known to ±{} points, widest at {}",
                 range(low.0, high.0, 2),
                 at(high.1)
@@ -29,7 +29,7 @@ pub fn add(outcome: &UncertaintyOutcome, page: &mut Page) {
             );
         }
         if let Some([low, high]) = half(|point| point.loss_w.half_width()) {
-            own.push(format!("the loss is known to ±{} W", range(low.0, high.0, 1)));
+            found.push(format!("the loss is known to ±{} W", range(low.0, high.0, 1)));
             page.key_figure(
                 "widest band of the loss",
                 format!("±{}", short(high.0)),
@@ -43,7 +43,7 @@ pub fn add(outcome: &UncertaintyOutcome, page: &mut Page) {
             .and_then(|i| Some((i, i.correlation_with_mean_loss?)))
         {
             let name = quantity(&input.path);
-            own.push(format!("the {name} contributes most"));
+            found.push(format!("the {name} contributes most"));
             page.key_figure(
                 "strongest input",
                 name.as_str(),
@@ -55,8 +55,8 @@ pub fn add(outcome: &UncertaintyOutcome, page: &mut Page) {
             page.careful
                 .push(format!("{}: {} samples have no value", set.model_set, set.failed));
         }
-        if !own.is_empty() {
-            words.push(of_set(&set.model_set, outcome.bands.len()) + &own.join(", "));
+        if !found.is_empty() {
+            words.push(of_set(&set.model_set, outcome.bands.len()) + &found.join(", "));
         }
     }
     page.headline = (!words.is_empty()).then(|| format!("With 95 % confidence: {}", words.join("; ")));
