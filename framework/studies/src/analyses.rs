@@ -167,8 +167,8 @@ impl<T: Serialize> AsJson for T {
 impl dyn Outcome {
     /// The outcome as its type; absent where it is that of another analysis.
     pub fn get<O: Outcome>(&self) -> Option<&O> {
-        let own: &dyn Any = self;
-        own.downcast_ref()
+        let any: &dyn Any = self;
+        any.downcast_ref()
     }
 
     /// A table by its name; the first one has the name of the analysis.
@@ -211,10 +211,10 @@ impl AnalysisKind {
             schema: SchemaGenerator::subschema_for::<A>,
             own_schema: A::json_schema,
             read: |value| Ok(Arc::new(serde_json::from_value::<A>(value)?)),
-            uses: |entry| own::<A>(entry).uses(),
-            then: |entry| own::<A>(entry).then(),
+            uses: |entry| typed::<A>(entry).uses(),
+            then: |entry| typed::<A>(entry).then(),
             plan: |entry, cx| {
-                let plan = own::<A>(entry).plan(cx)?;
+                let plan = typed::<A>(entry).plan(cx)?;
                 let work = plan.work();
                 let failures = plan.into_failures();
                 if failures.is_empty() {
@@ -224,11 +224,11 @@ impl AnalysisKind {
                 }
             },
             run: |entry, engine| {
-                let entry = own::<A>(entry);
+                let entry = typed::<A>(entry);
                 let plan = entry.plan(engine.planner())?;
                 Ok(Box::new(entry.reduce(plan, engine)?))
             },
-            formats: |entry| own::<A>(entry).formats(),
+            formats: |entry| typed::<A>(entry).formats(),
             outcome: SchemaGenerator::subschema_for::<A::Outcome>,
         }
     }
@@ -278,7 +278,7 @@ impl AnalysisKind {
 }
 
 /// The entry of this kind.
-fn own<A: Analysis>(entry: &Written) -> &A {
+fn typed<A: Analysis>(entry: &Written) -> &A {
     entry.downcast_ref().expect("a kind runs the entries that it has read")
 }
 

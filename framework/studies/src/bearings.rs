@@ -43,7 +43,7 @@ pub struct BearingAtRating {
 }
 
 impl BearingAtRating {
-    fn note(&mut self, own: &RatedComponent) {
+    fn note(&mut self, rated: &RatedComponent) {
         let slots: [(&str, &str, &mut Option<f64>, fn(f64, f64) -> f64); 4] = [
             ("iso_281", "P", &mut self.p_n, f64::max),
             ("iso_76", "P0", &mut self.p0_n, f64::max),
@@ -51,8 +51,8 @@ impl BearingAtRating {
             ("bearing_speed", "n d_m", &mut self.speed_factor, f64::max),
         ];
         for (rating, symbol, slot, worse) in slots {
-            let quantities = own.quantities.iter();
-            let mut quantities = quantities.filter(|quantity| own.rating == rating && quantity.symbol == symbol);
+            let quantities = rated.quantities.iter();
+            let mut quantities = quantities.filter(|quantity| rated.rating == rating && quantity.symbol == symbol);
             if let Some(quantity) = quantities.next() {
                 *slot = Some(slot.map_or(quantity.value, |known| worse(known, quantity.value)));
             }
@@ -69,9 +69,9 @@ pub fn bearing_cards(checked: &CheckedGearbox) -> Vec<BearingCard> {
         .map(|(id, entry)| described(id, entry))
         .collect();
     at_the_rating(&checked.transmission, |solution| {
-        for own in rated(&checked.ratings, &checked.transmission, solution) {
-            if let Some(card) = cards.iter_mut().find(|card| card.bearing == own.component) {
-                card.at_rating.get_or_insert_default().note(&own);
+        for rated_bearing in rated(&checked.ratings, &checked.transmission, solution) {
+            if let Some(card) = cards.iter_mut().find(|card| card.bearing == rated_bearing.component) {
+                card.at_rating.get_or_insert_default().note(&rated_bearing);
             }
         }
     });

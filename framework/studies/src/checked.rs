@@ -76,13 +76,13 @@ impl CheckedGearbox {
                     .code(codes::OVERLOADED),
             )
         });
-        let outside = out_of_bounds(self).into_iter().map(|own| {
-            let sentence = own.quantity.sentence().unwrap_or_default();
+        let outside = out_of_bounds(self).into_iter().map(|found| {
+            let sentence = found.quantity.sentence().unwrap_or_default();
             self.gearbox.places.place(
-                Diagnostic::warning(own.component, format!("at the rated torque, {sentence}"))
+                Diagnostic::warning(found.component, format!("at the rated torque, {sentence}"))
                     .help(format!(
                         "change the component, or state another bound under `ratings.{}`",
-                        own.rating
+                        found.rating
                     ))
                     .code(codes::RATED_OUTSIDE),
             )
@@ -148,19 +148,19 @@ pub fn out_of_bounds(checked: &CheckedGearbox) -> Vec<OutOfBound> {
     let t = &checked.transmission;
     let mut worst: Vec<OutOfBound> = Vec::new();
     at_the_rating(t, |solution| {
-        for own in rated(&checked.ratings, t, solution) {
-            for quantity in own.quantities.into_iter().filter(|quantity| quantity.outside) {
+        for rated in rated(&checked.ratings, t, solution) {
+            for quantity in rated.quantities.into_iter().filter(|quantity| quantity.outside) {
                 let known = worst.iter_mut().find(|known| {
-                    known.component == own.component
-                        && known.rating == own.rating
+                    known.component == rated.component
+                        && known.rating == rated.rating
                         && known.quantity.symbol == quantity.symbol
                 });
                 match known {
                     Some(known) if quantity.excess() > known.quantity.excess() => known.quantity = quantity,
                     Some(_) => {}
                     None => worst.push(OutOfBound {
-                        component: own.component.clone(),
-                        rating: own.rating,
+                        component: rated.component.clone(),
+                        rating: rated.rating,
                         quantity,
                     }),
                 }
@@ -168,8 +168,8 @@ pub fn out_of_bounds(checked: &CheckedGearbox) -> Vec<OutOfBound> {
         }
     });
     let reported = overloaded(t);
-    worst.retain(|own| {
-        let same = |note: &&Note| note.path == own.component && note.meaning == own.quantity.meaning;
+    worst.retain(|left| {
+        let same = |note: &&Note| note.path == left.component && note.meaning == left.quantity.meaning;
         !reported.iter().any(|note| same(&note))
     });
     worst

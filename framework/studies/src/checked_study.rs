@@ -55,8 +55,8 @@ impl CheckedStudy {
                 refused.push(Stopped::Interrupted);
                 break;
             }
-            let own = run.study_for_analysis();
-            let stopped = match run.plan(&Planner::new(language, &own, name)) {
+            let shortened = run.study_for_analysis();
+            let stopped = match run.plan(&Planner::new(language, &shortened, name)) {
                 Ok(work) => {
                     plans.push((name.to_owned(), work));
                     continue;

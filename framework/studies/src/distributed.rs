@@ -49,9 +49,9 @@ impl Collected {
     pub fn before(&self, analysis: &str, part: usize, stage: usize) -> Results {
         let all = self.all();
         let results = all.get(analysis).into_iter().flatten();
-        let before = results.filter(|((own, number, _), _)| match *own {
-            own if own == part => *number < stage,
-            own => own == 0 || part == 0,
+        let before = results.filter(|((of_part, number, _), _)| match *of_part {
+            of_part if of_part == part => *number < stage,
+            of_part => of_part == 0 || part == 0,
         });
         before.map(|(place, bytes)| (*place, bytes.clone())).collect()
     }
@@ -184,12 +184,12 @@ pub struct Parcel {
 #[derive(Debug, thiserror::Error)]
 pub enum ParcelError {
     /// It was packed by another program.
-    #[error("the study was sent by {theirs}, and this worker has {own}; install the same versions on all machines")]
+    #[error("the study was sent by {theirs}, and this worker has {ours}; install the same versions on all machines")]
     OtherProgram {
         /// Crates and versions of the sender.
         theirs: String,
         /// Those of the worker.
-        own: String,
+        ours: String,
     },
     /// It was damaged.
     #[error("the parcel of the study cannot be read: {0}")]
@@ -201,9 +201,9 @@ pub enum ParcelError {
 
 /// The program and the crates of its models, with their versions.
 fn program(language: &Language) -> Vec<String> {
-    let own = concat!("gearloss ", env!("CARGO_PKG_VERSION")).to_owned();
+    let this = concat!("gearloss ", env!("CARGO_PKG_VERSION")).to_owned();
     let packages = language.registry().packages();
-    std::iter::once(own)
+    std::iter::once(this)
         .chain(packages.iter().map(ToString::to_string))
         .collect()
 }
@@ -240,10 +240,10 @@ impl<'a> Worker<'a> {
     pub fn open(language: &'a Language, parcel: &[u8]) -> Result<Self, ParcelError> {
         let damaged = |error: &dyn ToString| ParcelError::Damaged(error.to_string());
         let parcel: Parcel = postcard::from_bytes(parcel).map_err(|e| damaged(&e))?;
-        let own = program(language);
-        if parcel.program != own {
-            let [theirs, own] = [parcel.program, own].map(|list| list.join(", "));
-            return Err(ParcelError::OtherProgram { theirs, own });
+        let ours = program(language);
+        if parcel.program != ours {
+            let [theirs, ours] = [parcel.program, ours].map(|list| list.join(", "));
+            return Err(ParcelError::OtherProgram { theirs, ours });
         }
         let found: FoundSets = serde_json::from_str(&parcel.found).map_err(|e| damaged(&e))?;
         let files = InMemory::new(parcel.files).shared();
@@ -278,18 +278,18 @@ pub fn compute(
     progress: &dyn Progress,
 ) -> Result<Results, Stopped> {
     let study = run.study_for_analysis();
-    let own = Own {
+    let tasks = Own {
         stage,
         before,
         computed: Mutex::default(),
     };
     let planner = Planner::new(run.language(), &study, analysis);
     let engine = Engine::new(&planner, progress);
-    match run.run(&engine.with_tasks(Some(&own)).with_sink(&DiscardedRows)) {
+    match run.run(&engine.with_tasks(Some(&tasks)).with_sink(&DiscardedRows)) {
         Ok(_) | Err(Stopped::Elsewhere) => {}
         Err(stopped) => return Err(stopped),
     }
-    let computed = own.computed.into_inner().unwrap_or_else(PoisonError::into_inner);
+    let computed = tasks.computed.into_inner().unwrap_or_else(PoisonError::into_inner);
     let place = |number: &usize| (stage.part, stage.stage, *number);
     match stage.tasks.iter().find(|number| !computed.contains_key(&place(number))) {
         None => Ok(computed),

@@ -112,7 +112,7 @@ pub fn bearing_needs(language: &Language, table: &CatalogueTable) -> Result<Vec<
                 Ok(_) => needs.ready += designations.len(),
                 Err(error) => {
                     let reason = reason(error);
-                    match needs.lacks.iter_mut().find(|(own, _)| *own == reason) {
+                    match needs.lacks.iter_mut().find(|(known, _)| *known == reason) {
                         Some((_, all)) => all.extend(designations.iter().cloned()),
                         None => needs.lacks.push((reason, designations.clone())),
                     }
@@ -151,7 +151,7 @@ fn slots(resolved: &Resolved, mechanism: &MechanismEntry) -> Vec<String> {
 
 fn with_model(resolved: &Resolved, entry: &Entry, slots: &[String], model: &Value, language: &Language) -> Resolved {
     let mut changed = resolved.clone();
-    let own = slots[0].split('.').next().unwrap_or_default().to_owned();
+    let first = slots[0].split('.').next().unwrap_or_default().to_owned();
     let section = if entry.mechanism == DRAGS {
         if language.fits_scope("gears", model) {
             "gears".to_owned()
@@ -159,7 +159,7 @@ fn with_model(resolved: &Resolved, entry: &Entry, slots: &[String], model: &Valu
             "meshes".to_owned()
         }
     } else {
-        own
+        first
     };
     if entry.mechanism == DRAGS {
         for side in ["gears", "meshes"] {

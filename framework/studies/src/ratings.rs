@@ -51,17 +51,17 @@ pub struct RatedQuantity {
 }
 
 impl RatedQuantity {
-    fn new(own: &RatedFigure) -> Self {
+    fn new(rated: &RatedFigure) -> Self {
         let finite = |end: f64| end.is_finite().then_some(end);
         Self {
-            symbol: own.figure.symbol,
-            meaning: own.figure.meaning,
-            unit: own.figure.unit,
-            value: own.value,
-            least: finite(own.bound.least),
-            greatest: finite(own.bound.greatest),
-            outside: own.is_outside(),
-            detail: own.figure.detail,
+            symbol: rated.figure.symbol,
+            meaning: rated.figure.meaning,
+            unit: rated.figure.unit,
+            value: rated.value,
+            least: finite(rated.bound.least),
+            greatest: finite(rated.bound.greatest),
+            outside: rated.is_outside(),
+            detail: rated.figure.detail,
         }
     }
 
@@ -105,14 +105,14 @@ impl RatedQuantity {
 const DIGITS: u32 = 4;
 
 impl RatedComponent {
-    fn new(transmission: &Transmission, own: &ComponentRating) -> Self {
-        let part = &transmission.parts()[own.part];
-        let entry = &own.plugin.entry;
-        let (rated, undefined) = match &own.result {
+    fn new(transmission: &Transmission, rating: &ComponentRating) -> Self {
+        let part = &transmission.parts()[rating.part];
+        let entry = &rating.plugin.entry;
+        let (rated, undefined) = match &rating.result {
             Ok(rated) => (rated.figures(), None),
             Err(reason) => (&[][..], Some(reason.to_string())),
         };
-        let left = own.left.iter().map(|(i, extent)| {
+        let left = rating.left.iter().map(|(i, extent)| {
             let limit = &entry.limits[*i];
             let value = if extent.least < limit.least {
                 extent.least
@@ -148,8 +148,8 @@ impl RatedComponent {
 /// The ratings of all components at a solved point; those without any quantity are omitted.
 pub fn rated(ratings: &Ratings, transmission: &Transmission, solution: &Solution<'_>) -> Vec<RatedComponent> {
     let all = ratings.at(solution);
-    let records = all.iter().map(|own| RatedComponent::new(transmission, own));
+    let records = all.iter().map(|rating| RatedComponent::new(transmission, rating));
     records
-        .filter(|own| own.undefined.is_some() || !own.quantities.is_empty())
+        .filter(|record| record.undefined.is_some() || !record.quantities.is_empty())
         .collect()
 }

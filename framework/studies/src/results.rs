@@ -51,8 +51,8 @@ fn close(schema: &mut Schema) {
         for form in schema.get_mut(key).and_then(Value::as_array_mut).into_iter().flatten() {
             let Some(form) = form.as_object_mut() else { continue };
             let mut properties = shared.clone();
-            if let Some(Value::Object(own)) = form.remove("properties") {
-                properties.extend(own);
+            if let Some(Value::Object(fields)) = form.remove("properties") {
+                properties.extend(fields);
             }
             let lists = [required.as_ref(), form.get("required")].into_iter().flatten();
             let all: Vec<Value> = lists.filter_map(Value::as_array).flatten().cloned().collect();

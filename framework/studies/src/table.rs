@@ -161,26 +161,26 @@ impl Values {
     /// If numbers and texts are mixed: a bug of the caller.
     fn extend(&mut self, others: &[&Self], order: &[(usize, Range<usize>)]) {
         match self {
-            Self::Numbers(own) => {
-                let own = Arc::make_mut(own);
+            Self::Numbers(values) => {
+                let values = Arc::make_mut(values);
                 for (number, cells) in order {
                     let Self::Numbers(other) = others[*number] else {
                         panic!("a column of numbers takes numbers");
                     };
-                    own.extend_from_slice(&other[cells.clone()]);
+                    values.extend_from_slice(&other[cells.clone()]);
                 }
             }
-            Self::Texts(own) => {
-                let own = Arc::make_mut(own);
+            Self::Texts(held) => {
+                let held = Arc::make_mut(held);
                 let texts = |values: &&Self| match values {
                     Self::Texts(texts) => Arc::clone(texts),
                     Self::Numbers(_) => panic!("a column of texts takes texts"),
                 };
                 let others: Vec<Arc<Texts>> = others.iter().map(texts).collect();
-                let codes: Vec<Vec<u32>> = others.iter().map(|other| own.codes_of(other)).collect();
+                let codes: Vec<Vec<u32>> = others.iter().map(|other| held.codes_of(other)).collect();
                 for (number, cells) in order {
                     let cells = others[*number].codes[cells.clone()].iter();
-                    own.codes
+                    held.codes
                         .extend(cells.map(|code| code.map(|code| codes[*number][code as usize])));
                 }
             }

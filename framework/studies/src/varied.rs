@@ -117,20 +117,20 @@ impl Varied {
     pub fn changed_from_source(&self, value: f64) -> Option<String> {
         self.overrides(value)
             .zip(&self.published)
-            .find_map(|((_, own), published)| {
-                let (own, published) = (own.as_f64()?, (*published)?);
-                (own != published).then(|| format!("{own} instead of the published {published}"))
+            .find_map(|((_, used), published)| {
+                let (used, published) = (used.as_f64()?, (*published)?);
+                (used != published).then(|| format!("{used} instead of the published {published}"))
             })
     }
 
     /// Overrides that set all of them to a value.
     pub fn overrides(&self, value: f64) -> impl Iterator<Item = (String, Value)> + '_ {
         self.paths.iter().zip(&self.base).map(move |(path, base)| {
-            let own = match self.tie {
+            let changed = match self.tie {
                 Tie::Value => value,
                 Tie::Factor => value * base.unwrap_or(0.0),
             };
-            (path.clone(), Value::from(own))
+            (path.clone(), Value::from(changed))
         })
     }
 

@@ -152,8 +152,8 @@ impl Draws {
         let [median, low, high] = SHARES.map(|share| quantile(&draws, share));
         // A walker that never moved has no autocorrelation time: use all of its steps.
         let time = |walker: usize| {
-            let own = (0..self.steps).map(|step| self.chain[step * self.walkers + walker][place]);
-            let time = auto_corr_time(own, None, Some(0)).filter(|time| time.is_finite());
+            let walked = (0..self.steps).map(|step| self.chain[step * self.walkers + walker][place]);
+            let time = auto_corr_time(walked, None, Some(0)).filter(|time| time.is_finite());
             time.map_or(self.steps as f64, |time| time.max(1.0))
         };
         let autocorrelation = (0..self.walkers).map(time).sum::<f64>() / self.walkers as f64;

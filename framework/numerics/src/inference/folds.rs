@@ -99,11 +99,11 @@ pub fn random_folds(rows: &[usize], most: usize, seed: u64) -> Result<Vec<Fold>,
     }
     Generator::new(seed).shuffle(&mut order);
     let fold = |k: usize| {
-        let own: Vec<usize> = order.iter().skip(k).step_by(count).copied().collect();
+        let groups: Vec<usize> = order.iter().skip(k).step_by(count).copied().collect();
         Fold {
             label: Some(format!("random group {}", k + 1)),
             band: None,
-            points: (0..rows.len()).filter(|i| own.contains(&rows[*i])).collect(),
+            points: (0..rows.len()).filter(|i| groups.contains(&rows[*i])).collect(),
         }
     };
     Ok((0..count).map(fold).collect())

@@ -95,10 +95,10 @@ pub struct Region {
 /// Errors over bands of torque, speed and oil temperature, and for both directions of power, without divisions that have one region only.
 /// Fitted and held-out rows share the bands.
 pub fn regions(errors: &[PlacedError]) -> Vec<Region> {
-    let region = |over: &'static str, band: Option<[f64; 2]>, name: String, own: &[usize]| {
+    let region = |over: &'static str, band: Option<[f64; 2]>, name: String, places: &[usize]| {
         let of_kind = |held: bool| {
-            let own = own.iter().map(|i| &errors[*i]);
-            ErrorSummary::summarise(own.filter(|e| e.is_held_out == held))
+            let placed = places.iter().map(|i| &errors[*i]);
+            ErrorSummary::summarise(placed.filter(|e| e.is_held_out == held))
         };
         Region {
             over,
@@ -124,17 +124,17 @@ pub fn regions(errors: &[PlacedError]) -> Vec<Region> {
             whole_levels(&list)
         };
         if found.len() > 1 {
-            all.extend(found.into_iter().map(|(band, own)| {
+            all.extend(found.into_iter().map(|(band, places)| {
                 let name = format!("{} {unit}", span(band));
-                region(over, Some(band), name, &own)
+                region(over, Some(band), name, &places)
             }));
         }
     }
     let enters = |e: &PlacedError| e.torque * e.speed >= 0.0;
     let (forth, back): (Vec<usize>, Vec<usize>) = (0..errors.len()).partition(|i| enters(&errors[*i]));
     if !forth.is_empty() && !back.is_empty() {
-        for (name, own) in [("power in", forth), ("power out", back)] {
-            all.push(region("direction", None, name.to_owned(), &own));
+        for (name, places) in [("power in", forth), ("power out", back)] {
+            all.push(region("direction", None, name.to_owned(), &places));
         }
     }
     all

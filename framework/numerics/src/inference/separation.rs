@@ -171,8 +171,8 @@ pub fn neighbours(torques: &[f64], speeds: &[f64], oils: &[f64]) -> Vec<Vec<usiz
     order.sort_by(|a, b| oils[*a].total_cmp(&oils[*b]));
     let mut cells = Vec::new();
     for group in order.chunk_by(|a, b| oils[*b] - oils[*a] <= APART) {
-        let own: Vec<f64> = group.iter().map(|i| torques[*i]).collect();
-        for (_, band) in bands(&own) {
+        let torques_of_group: Vec<f64> = group.iter().map(|i| torques[*i]).collect();
+        for (_, band) in bands(&torques_of_group) {
             let mut band: Vec<usize> = band.into_iter().map(|k| group[k]).collect();
             band.sort_by(|a, b| speeds[*a].total_cmp(&speeds[*b]));
             cells.extend(band.chunks(CELL).map(<[usize]>::to_vec));

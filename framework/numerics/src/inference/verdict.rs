@@ -73,7 +73,7 @@ pub struct Determination {
     /// The same conditional on all other parameters; absent if the column is zero or the parameter is not free.
     pub alone: Option<f64>,
     /// Part of the column that the others do not explain, from zero to one: the root of the tolerance, 1/VIF.
-    pub own: f64,
+    pub own_share: f64,
     /// Parameters that are identifiable only in combination with it, the strongest first.
     pub partners: Vec<usize>,
 }
@@ -93,7 +93,7 @@ impl Fit {
             filled: None,
             width: None,
             alone: None,
-            own: 0.0,
+            own_share: 0.0,
             partners: Vec::new(),
         };
         match self.parameters()[parameter].standing {
@@ -120,7 +120,7 @@ impl Fit {
             .map(|half| ((at.u + half).min(high) - (at.u - half).max(low)) / (high - low));
         found.width = half.map(|half| half / range);
         found.alone = half_alone.map(|half| half / range);
-        found.own = match deviation {
+        found.own_share = match deviation {
             Some(d) if d > 0.0 => (alone / d).min(1.0),
             // Without scatter every parameter is known exactly.
             Some(_) => 1.0,
@@ -131,7 +131,7 @@ impl Fit {
             Verdict::NotSeen
         } else if within(WELL) {
             Verdict::WellDetermined
-        } else if found.own < OWN {
+        } else if found.own_share < OWN {
             Verdict::OnlyInCombination
         } else if within(ROUGHLY) {
             Verdict::RoughlyDetermined

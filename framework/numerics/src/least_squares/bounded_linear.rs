@@ -127,8 +127,8 @@ mod tests {
             let mut other = x.clone();
             let j = way / 2;
             other[j] = (x[j] + if way % 2 == 0 { step } else { -step }).clamp(bounds[j][0], bounds[j][1]);
-            let [own, moved] = [&x, &other].map(|x| squares(&columns, &target, x));
-            prop_assert!(own <= moved + 1e-9 * (1.0 + own), "{own} {moved}");
+            let [least, moved] = [&x, &other].map(|x| squares(&columns, &target, x));
+            prop_assert!(least <= moved + 1e-9 * (1.0 + least), "{least} {moved}");
         }
     }
 }

@@ -129,8 +129,8 @@ impl Axes {
         }
         let mirrored = |i: usize| {
             let mut step = self.steps[i].clone();
-            for (k, own) in self.steps.iter().enumerate() {
-                step -= own * (2.0 * normal[i] * normal[k]);
+            for (k, earlier) in self.steps.iter().enumerate() {
+                step -= earlier * (2.0 * normal[i] * normal[k]);
             }
             step
         };

@@ -76,7 +76,7 @@ impl Evolution {
     /// Keeps the best of the members and of evaluated designs.
     pub fn select(&mut self, evaluated: impl IntoIterator<Item = Design>) {
         let old = std::mem::take(&mut self.members);
-        let all: Vec<Design> = old.into_iter().map(|own| own.0).chain(evaluated).collect();
+        let all: Vec<Design> = old.into_iter().map(|member| member.0).chain(evaluated).collect();
         let ranks = ranks(&all);
         let mut all: Vec<(Design, (usize, f64))> = all.into_iter().zip(ranks).collect();
         // A stable sort: equal designs keep their order.
@@ -91,18 +91,18 @@ impl Evolution {
         let mut child = Vec::with_capacity(count);
         for (i, gene) in self.genes.clone().into_iter().enumerate() {
             let (a, b) = (self.members[one].0.genes[i], self.members[other].0.genes[i]);
-            let mut own = match gene {
+            let mut inherited = match gene {
                 Gene::Number => self.between(a, b),
                 Gene::Choice(_) if self.generator.unit() < 0.5 => a,
                 Gene::Choice(_) => b,
             };
             if self.generator.below(count) == 0 {
-                own = match gene {
-                    Gene::Number => self.mutated(own),
+                inherited = match gene {
+                    Gene::Number => self.mutated(inherited),
                     Gene::Choice(choices) => self.generator.below(choices) as f64,
                 };
             }
-            child.push(own);
+            child.push(inherited);
         }
         child
     }
@@ -169,7 +169,7 @@ mod tests {
         let mut all: Vec<Design> = evolution.first(Vec::new()).unwrap().into_iter().map(evaluate).collect();
         evolution.select(all.clone());
         for _ in 1..generations {
-            let known = |genes: &[f64]| all.iter().any(|own| own.genes == genes);
+            let known = |genes: &[f64]| all.iter().any(|design| design.genes == genes);
             let next: Vec<Design> = evolution.children(&known).into_iter().map(evaluate).collect();
             evolution.select(next.clone());
             all.extend(next);
@@ -193,11 +193,11 @@ mod tests {
         assert!(all.len() <= 16 * 8);
         assert_eq!(best(&all, 0).unwrap().genes, [3.0, 3.0, 3.0]);
         // None is evaluated twice, and all are whole numbers in their ranges.
-        for (i, own) in all.iter().enumerate() {
-            assert!(all[..i].iter().all(|other| other.genes != own.genes));
+        for (i, design) in all.iter().enumerate() {
+            assert!(all[..i].iter().all(|other| other.genes != design.genes));
             let inside =
                 |(x, gene): (&f64, &Gene)| matches!(gene, Gene::Choice(n) if *x < *n as f64 && x.fract() == 0.0);
-            assert!(own.genes.iter().zip(&genes).all(inside), "{:?}", own.genes);
+            assert!(design.genes.iter().zip(&genes).all(inside), "{:?}", design.genes);
         }
     }
 
@@ -229,8 +229,8 @@ mod tests {
             let from = 0.1 * f64::from(tenth);
             let near = front
                 .iter()
-                .filter(|own| (from..=from + 0.1).contains(&own.score.objectives[0]));
-            let gap = near.map(|own| own.score.objectives[1] - 1.0 + own.score.objectives[0].sqrt());
+                .filter(|design| (from..=from + 0.1).contains(&design.score.objectives[0]));
+            let gap = near.map(|design| design.score.objectives[1] - 1.0 + design.score.objectives[0].sqrt());
             assert!(gap.fold(f64::INFINITY, f64::min) < 0.01, "no design near f1 = {from}");
         }
     }

@@ -15,7 +15,7 @@ impl Score {
             Ordering::Greater => false,
             Ordering::Equal => {
                 let pairs = || self.objectives.iter().zip(&other.objectives);
-                pairs().all(|(own, other)| own <= other) && pairs().any(|(own, other)| own < other)
+                pairs().all(|(mine, other)| mine <= other) && pairs().any(|(mine, other)| mine < other)
             }
         }
     }
@@ -48,8 +48,8 @@ pub(super) fn ranks(designs: &[Design]) -> Vec<(usize, f64)> {
     let mut rank = 0;
     while !left.is_empty() {
         let is_best = |i: &usize| left.iter().all(|k| !designs[*k].score.dominates(&designs[*i].score));
-        let (own, rest): (Vec<usize>, Vec<usize>) = left.iter().partition(|i| is_best(i));
-        for (i, distance) in own.iter().zip(crowding(designs, &own)) {
+        let (front, rest): (Vec<usize>, Vec<usize>) = left.iter().partition(|i| is_best(i));
+        for (i, distance) in front.iter().zip(crowding(designs, &front)) {
             ranks[*i] = (rank, distance);
         }
         left = rest;
@@ -104,7 +104,10 @@ mod tests {
         ];
         assert_eq!(front(&all), [0, 1, 2, 3]);
         let ranks = ranks(&all);
-        assert_eq!(ranks.iter().map(|own| own.0).collect::<Vec<_>>(), [0, 0, 0, 0, 1, 2, 3]);
+        assert_eq!(
+            ranks.iter().map(|rank| rank.0).collect::<Vec<_>>(),
+            [0, 0, 0, 0, 1, 2, 3]
+        );
         assert!(ranks[0].1.is_infinite() && ranks[3].1.is_infinite());
         // (2.5 - 1) / 4 + (5 - 2.9) / 4, and (5 - 2) / 4 + (3 - 1) / 4.
         assert!((ranks[1].1 - 0.9).abs() < 1e-15 && (ranks[2].1 - 1.25).abs() < 1e-15);
@@ -119,8 +122,8 @@ mod tests {
                 .map(|(a, b, violation)| design(vec![f64::from(a), f64::from(b)], f64::from(violation)))
                 .collect();
             let ranks = ranks(&all);
-            for (i, own) in all.iter().enumerate() {
-                let better = (0..all.len()).filter(|k| all[*k].score.dominates(&own.score));
+            for (i, design) in all.iter().enumerate() {
+                let better = (0..all.len()).filter(|k| all[*k].score.dominates(&design.score));
                 let expected = better.map(|k| ranks[k].0 + 1).max().unwrap_or(0);
                 prop_assert_eq!(ranks[i].0, expected);
             }

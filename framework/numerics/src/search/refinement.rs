@@ -62,9 +62,9 @@ impl Refinement {
             let x = self.best.genes[*i];
             let along = neighbours
                 .iter()
-                .filter(|own| own.genes[*i] != x && own.score.is_feasible());
+                .filter(|design| design.genes[*i] != x && design.score.is_feasible());
             let sides: Vec<(f64, f64)> = along
-                .map(|own| (own.genes[*i] - x, own.score.objectives[self.objective] - here))
+                .map(|design| (design.genes[*i] - x, design.score.objectives[self.objective] - here))
                 .collect();
             match sides[..] {
                 [(a, fa), (b, fb)] => {
@@ -84,18 +84,18 @@ impl Refinement {
         let halved: Vec<(usize, f64)> = moves.iter().map(|(i, step)| (*i, 0.5 * step)).collect();
         let mut all = vec![self.moved(&moves), self.moved(&halved)];
         all.dedup();
-        all.retain(|own| *own != self.best.genes);
+        all.retain(|genes| *genes != self.best.genes);
         all
     }
 
     /// Ends a round with all that it has evaluated: keeps the best design, and shortens the step if none is better.
     pub fn learn(&mut self, evaluated: &[Design]) {
-        let key = |own: &Design| (own.score.violation, own.score.objectives[self.objective]);
+        let key = |design: &Design| (design.score.violation, design.score.objectives[self.objective]);
         let mut best = &self.best;
-        for own in evaluated {
-            let ((violation, objective), (least, lowest)) = (key(own), key(best));
+        for design in evaluated {
+            let ((violation, objective), (least, lowest)) = (key(design), key(best));
             if violation < least || (violation == least && objective < lowest) {
-                best = own;
+                best = design;
             }
         }
         if *best == self.best {

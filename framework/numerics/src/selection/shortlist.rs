@@ -85,7 +85,7 @@ fn weights(misfits: &[Vec<f64>]) -> Vec<f64> {
     };
     let mut weights = vec![0.0; misfits.len()];
     for draw in &draws {
-        let whole = |own: &Vec<f64>| own.iter().zip(draw).map(|(q, share)| q * share).sum::<f64>();
+        let whole = |squares: &Vec<f64>| squares.iter().zip(draw).map(|(q, share)| q * share).sum::<f64>();
         let all: Vec<f64> = misfits.iter().map(whole).collect();
         let least = all.iter().copied().fold(f64::INFINITY, f64::min);
         let raw: Vec<f64> = all.iter().map(|q| (-0.5 * (q - least)).exp()).collect();

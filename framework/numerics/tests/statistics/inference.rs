@@ -175,12 +175,12 @@ fn check_7_2_verdicts() {
         (0.336978, 0.00801003, 0.0237702, Verdict::OnlyInCombination, &[D_T, H]),
         (0.153098, 0.00326041, 0.0212962, Verdict::OnlyInCombination, &[M_S, H]),
     ];
-    for (k, (width, alone, own, verdict, partners)) in expected.into_iter().enumerate() {
+    for (k, (width, alone, share, verdict, partners)) in expected.into_iter().enumerate() {
         let found = fit.determination(k);
         // Printed with six digits.
         near(found.width.unwrap(), width, 5e-6);
         near(found.alone.unwrap(), alone, 5e-6);
-        near(found.own, own, 5e-6);
+        near(found.own_share, share, 5e-6);
         assert_eq!(
             (found.verdict, &found.partners[..]),
             (verdict, partners),

@@ -120,7 +120,7 @@ fn check_7_5_offset_and_constant_drag() {
     for (k, other) in [(7, 8), (8, 7)] {
         let found = fit.determination(k);
         assert_eq!(
-            (found.verdict, found.partners, found.own),
+            (found.verdict, found.partners, found.own_share),
             (Verdict::OnlyInCombination, vec![other], 0.0)
         );
         assert!(fit.deviation(k).is_none() && fit.interval(k, 0.95, 1.0).is_none());

@@ -24,11 +24,11 @@ const MOST_POINTS: usize = 20_000_000;
 /// Torques and speeds of a grid for a gearbox; both are monotonic.
 pub fn grid_axes(cx: &Planner<'_>, name: &str, grid: &Grid, t: &Transmission) -> Result<(Vec<f64>, Vec<f64>), Stopped> {
     let path = format!("grids.{name}");
-    let own = (
+    let axes = (
         torques(cx, &format!("{path}.torque"), &grid.torque, t)?,
         speeds(cx, &format!("{path}.speed"), &grid.speed, t)?,
     );
-    for (list, key) in [(&own.0, "torque"), (&own.1, "speed")] {
+    for (list, key) in [(&axes.0, "torque"), (&axes.1, "speed")] {
         let along = |rises: bool| list.windows(2).all(|w| if rises { w[0] < w[1] } else { w[0] > w[1] });
         if !along(true) && !along(false) {
             let message = "the values of a grid axis are not monotonic";
@@ -40,11 +40,11 @@ pub fn grid_axes(cx: &Planner<'_>, name: &str, grid: &Grid, t: &Transmission) ->
             ));
         }
     }
-    if own.0.len().saturating_mul(own.1.len()) > MOST_POINTS {
+    if axes.0.len().saturating_mul(axes.1.len()) > MOST_POINTS {
         let message = format!("the grid has more than {MOST_POINTS} points");
         return Err(cx.wrong_as(codes::AXIS, &path, message, "use larger steps"));
     }
-    Ok(own)
+    Ok(axes)
 }
 
 /// Torques of an axis for a gearbox.

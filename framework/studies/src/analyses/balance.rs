@@ -235,7 +235,7 @@ impl Analysis for BalanceEntry {
 
     fn plan<'a>(&'a self, cx: &Planner<'a>) -> Result<Runs<'a>, Stopped> {
         let path = cx.path();
-        let change = |(own, value): (&str, &Value)| (own.to_owned(), value.clone(), format!("{path}.set"));
+        let change = |(set_path, value): (&str, &Value)| (set_path.to_owned(), value.clone(), format!("{path}.set"));
         let set: Vec<(String, Value, String)> = self.set.iter().map(change).collect();
         let built = cx.built_with(cx.gearbox(self.gearbox.as_ref())?, &self.model_sets, &set)?;
         let run = |b: &Arc<Built<'a>>| {

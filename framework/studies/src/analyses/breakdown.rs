@@ -123,12 +123,12 @@ impl BreakdownEntry {
     fn loads(&self, cx: &Planner<'_>, t: &Transmission, turning: &[f64]) -> Result<Vec<Load>, Stopped> {
         let path = cx.path();
         match (&self.torque, &self.power) {
-            (Some(own), None) => {
-                let values = torques(cx, &format!("{path}.torque"), own, t)?;
+            (Some(torque), None) => {
+                let values = torques(cx, &format!("{path}.torque"), torque, t)?;
                 Ok(values.into_iter().map(Load::Torque).collect())
             }
-            (None, Some(own)) => {
-                let values = axis(cx, &format!("{path}.power"), own.values())?;
+            (None, Some(power)) => {
+                let values = axis(cx, &format!("{path}.power"), power.values())?;
                 if turning.contains(&0.0) {
                     let speed = format!("{path}.speed");
                     return Err(cx.wrong(&speed, "a power at standstill is not possible", "omit 0 rpm"));

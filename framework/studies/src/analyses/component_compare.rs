@@ -208,14 +208,14 @@ impl Analysis for ComponentCompareEntry {
     fn plan<'a>(&'a self, cx: &Planner<'a>) -> Result<ComponentPlan<'a>, Stopped> {
         let path = cx.path();
         let gearbox = cx.gearbox(self.gearbox.as_ref())?;
-        let own = cx.built(gearbox, self.model_set.as_slice())?;
+        let variants = cx.built(gearbox, self.model_set.as_slice())?;
         // The models may define a drag slot.
         let known = |b: &Arc<Built<'_>>| b.transmission.parts().iter().any(|part| part.path == self.component);
-        if !self.component.contains(".drag.") && !own.iter().any(known) {
-            return Err(no_part(cx, &self.component, &own[0].transmission));
+        if !self.component.contains(".drag.") && !variants.iter().any(known) {
+            return Err(no_part(cx, &self.component, &variants[0].transmission));
         }
-        let torques = torques(cx, &format!("{path}.torque"), &self.torque, &own[0].transmission)?;
-        let speeds = speeds(cx, &format!("{path}.speed"), &self.speed, &own[0].transmission)?;
+        let torques = torques(cx, &format!("{path}.torque"), &self.torque, &variants[0].transmission)?;
+        let speeds = speeds(cx, &format!("{path}.speed"), &self.speed, &variants[0].transmission)?;
         cx.holds(&path, torques.len().saturating_mul(speeds.len()), self.models.len())?;
         let measured = match &self.measured {
             Some(data) => measured(cx, &format!("{path}.measured"), data)?,
@@ -312,8 +312,8 @@ impl ComponentCompareEntry {
         let set = self.set.iter().map(|(path, value)| (path.to_owned(), value.clone()));
         choice.overrides.extend(set);
         choice.overrides.push((self.slot(), value.clone()));
-        let own = (self.slot(), format!("{}.models.{model}", cx.path()));
-        let (resolved, transmission) = cx.study.built(cx.language, gearbox, &choice, &[own])?;
+        let choice_of_model = (self.slot(), format!("{}.models.{model}", cx.path()));
+        let (resolved, transmission) = cx.study.built(cx.language, gearbox, &choice, &[choice_of_model])?;
         if !transmission.parts().iter().any(|part| part.path == self.component) {
             return Err(no_part(cx, &self.component, &transmission));
         }

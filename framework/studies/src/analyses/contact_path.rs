@@ -253,9 +253,9 @@ impl ContactPathEntry {
 
     /// Index of the mesh; an unknown mesh or a mesh without path of contact is an error.
     fn mesh(&self, cx: &Planner<'_>, t: &Transmission) -> Result<usize, Stopped> {
-        let own = format!("meshes.{}", self.mesh);
+        let mesh_path = format!("meshes.{}", self.mesh);
         let path = format!("{}.mesh", cx.path());
-        let Some((index, (_, part))) = t.meshes().enumerate().find(|(_, (path, _))| *path == own) else {
+        let Some((index, (_, part))) = t.meshes().enumerate().find(|(_, (path, _))| *path == mesh_path) else {
             let names: Vec<&str> = t.meshes().map(|(path, _)| path.trim_start_matches("meshes.")).collect();
             return Err(cx.found(vec![dangling(&path, "mesh", &self.mesh, &names)]));
         };

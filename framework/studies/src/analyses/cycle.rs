@@ -220,8 +220,8 @@ impl Analysis for CycleAnalysisEntry {
             }
         }
         let mut all_left = Vec::new();
-        for (bands, own) in all_bands.into_iter().zip(cycles.chunks_mut(duties.list.len())) {
-            bands.add_to(own);
+        for (bands, cycles_of_set) in all_bands.into_iter().zip(cycles.chunks_mut(duties.list.len())) {
+            bands.add_to(cycles_of_set);
             all_left.extend(bands.left());
         }
         Ok(CycleOutcome {
@@ -284,8 +284,8 @@ impl CycleAnalysisEntry {
         let t = &b.transmission;
         let classes = self.load_classes.unwrap_or(bearings::CLASSES);
         let of_cycle = |(read, driven): (&Read, &Driven)| {
-            let own = bearings::bearing_loads(t, &b.name, (read, &duties.ride(t, read), driven), classes);
-            own.map_err(|list| Stopped::from(b.gearbox.findings(list)))
+            let loads = bearings::bearing_loads(t, &b.name, (read, &duties.ride(t, read), driven), classes);
+            loads.map_err(|list| Stopped::from(b.gearbox.findings(list)))
         };
         duties.list.iter().zip(driven).map(of_cycle).collect()
     }
@@ -306,7 +306,7 @@ fn range_differences(cycles: &mut [DutyOfSet], count: usize) {
     let range = |duty: &DutyOfSet| duty.consumption.and_then(|consumption| consumption.range_km);
     let first: Vec<Option<f64>> = cycles.iter().take(count).map(range).collect();
     for (i, duty) in cycles.iter_mut().enumerate().skip(count) {
-        let difference = range(duty).zip(first[i % count]).map(|(own, first)| own - first);
+        let difference = range(duty).zip(first[i % count]).map(|(here, first)| here - first);
         if let Some(consumption) = &mut duty.consumption {
             consumption.range_difference_km = difference;
         }
@@ -328,8 +328,8 @@ fn note_limits(
     let mut rated = Vec::new();
     if let Some(ratings) = at_points::ratings(engine.scope(b), limits, b.gearbox, &b.resolved)? {
         for (read, driven) in duties.list.iter().zip(driven) {
-            let own = ratings::over_cycle(t, &ratings, &duties.ride(t, read), driven);
-            rated.push(own.map_err(|list| b.gearbox.findings(list))?);
+            let ratings_over_cycle = ratings::over_cycle(t, &ratings, &duties.ride(t, read), driven);
+            rated.push(ratings_over_cycle.map_err(|list| b.gearbox.findings(list))?);
         }
     }
     let driven: Vec<&Driven> = driven.iter().collect();
@@ -357,7 +357,7 @@ impl Outcome for CycleOutcome {
     fn tables(&self) -> Vec<Table> {
         let nodes = self.nodes();
         // Columns of nodes that a set does not have are empty.
-        let place = |duty: &DutyOfSet, name: &str| duty.nodes.iter().position(|own| own.node == name);
+        let place = |duty: &DutyOfSet, name: &str| duty.nodes.iter().position(|known| known.node == name);
         let shares = self.cycles.first().map_or(&[][..], |duty| &duty.shares);
         let table = Table::of_each(&self.head.analysis, &self.cycles, |duty| &duty.series)
             .text("model_set", "Model set", |(duty, _)| &duty.model_set)

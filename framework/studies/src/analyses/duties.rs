@@ -109,13 +109,13 @@ impl<'a> Duties<'a> {
             let message = format!("the study has several vehicles: {}", names.join(", "));
             return Err(cx.wrong_as(codes::DUTY, path, message, "select one, such as `vehicle: car`"));
         }
-        let own = entry.vehicle.as_deref().or_else(|| study.vehicles.ids().next());
-        let vehicle = own.and_then(|id| Some((id, study.vehicles.get(id)?)));
+        let vehicle_id = entry.vehicle.as_deref().or_else(|| study.vehicles.ids().next());
+        let vehicle = vehicle_id.and_then(|id| Some((id, study.vehicles.get(id)?)));
         let vehicle = vehicle.and_then(|(id, vehicle)| {
             let read = vehicle.vehicle(&format!("vehicles.{id}"));
             read.map_err(|fault| found.push(fault)).ok()
         });
-        let battery = own.and_then(|id| Some((id, study.vehicles.get(id)?)));
+        let battery = vehicle_id.and_then(|id| Some((id, study.vehicles.get(id)?)));
         let battery = battery.and_then(|(id, vehicle)| {
             let read = battery_of(cx, &format!("vehicles.{id}"), vehicle);
             read.map_err(|faults| found.extend(faults)).ok().flatten()
@@ -436,7 +436,7 @@ pub fn mean_losses_of(t: &Transmission, driven: &[Driven], by: By, names: &[Stri
             shares: shares.sums(&driven.total.parts).iter().map(|x| x / time).collect(),
         }
     };
-    let seen = driven.iter().flat_map(|own| left(t, &own.seen));
+    let seen = driven.iter().flat_map(|cycle| left(t, &cycle.seen));
     (driven.iter().map(mean).collect(), seen.collect())
 }
 

@@ -169,18 +169,18 @@ impl<'a> Engine<'a> {
             return self.evaluate(run, &all, make, take);
         };
         let missing = self.missing(kept, stage, all.len())?;
-        self.evaluate(run, &missing.own, &take_points, &mut |piece| {
+        self.evaluate(run, &missing.ours, &take_points, &mut |piece| {
             let bytes = postcard::to_stdvec(&piece).map_err(StorageError::Encode)?;
             kept.keep(self.task(stage, piece.number), &bytes)
         })?;
         missing.end()?;
         for number in all {
             let task = self.task(stage, number);
-            let own = field.of_piece(number);
+            let numbers = field.of_piece(number);
             let piece = postcard::from_bytes::<Piece>(&kept.read(task)?).ok();
-            let piece = piece.filter(|piece| piece.is_sound(number, own.len()));
+            let piece = piece.filter(|piece| piece.is_sound(number, numbers.len()));
             let piece = piece.ok_or_else(|| unlike(task))?;
-            take(piece.made(own.start, make))?;
+            take(piece.made(numbers.start, make))?;
         }
         Ok(())
     }
@@ -214,8 +214,8 @@ impl<'a> Engine<'a> {
             all.push((set.to_owned(), none.collect()));
             all.len() - 1
         });
-        let own = &mut all[place].1;
-        for ((limit, known), more) in own.iter_mut().zip(reached) {
+        let limits_of_set = &mut all[place].1;
+        for ((limit, known), more) in limits_of_set.iter_mut().zip(reached) {
             known.merge(limit, more);
         }
     }
@@ -235,11 +235,11 @@ impl<'a> Engine<'a> {
         let missing = match self.tasks {
             Some(kept) => self.missing(kept, stage, count)?,
             None => Missing {
-                own: (0..count).collect(),
+                ours: (0..count).collect(),
                 others: 0,
             },
         };
-        let running = self.running(missing.own.len(), label);
+        let running = self.running(missing.ours.len(), label);
         let compute = |number: usize| {
             if !self.should_continue() {
                 return Err(Stopped::Interrupted);
@@ -254,13 +254,13 @@ impl<'a> Engine<'a> {
             }
             Ok(result)
         };
-        let own: Vec<Result<R, Stopped>> = missing.own.par_iter().with_max_len(1).map(|i| compute(*i)).collect();
-        let own: Vec<R> = own.into_iter().collect::<Result<_, _>>()?;
-        let Some(kept) = self.tasks else { return Ok(own) };
+        let results: Vec<Result<R, Stopped>> = missing.ours.par_iter().with_max_len(1).map(|i| compute(*i)).collect();
+        let results: Vec<R> = results.into_iter().collect::<Result<_, _>>()?;
+        let Some(kept) = self.tasks else { return Ok(results) };
         missing.end()?;
-        let mut own = missing.own.iter().zip(own).peekable();
+        let mut results = missing.ours.iter().zip(results).peekable();
         let result = |number: usize| {
-            if let Some((_, result)) = own.next_if(|(own, _)| **own == number) {
+            if let Some((_, result)) = results.next_if(|(next, _)| **next == number) {
                 return Ok(result);
             }
             let task = self.task(stage, number);
@@ -330,11 +330,11 @@ impl<'a> Engine<'a> {
     /// The tasks of a stage without results.
     fn missing(&self, kept: &dyn TaskResults, stage: usize, count: usize) -> Result<Missing, Stopped> {
         let missing = (0..count).filter(|number| !kept.is_kept(self.task(stage, *number)));
-        let (own, others): (Vec<usize>, Vec<usize>) =
+        let (ours, others): (Vec<usize>, Vec<usize>) =
             missing.partition(|number| kept.is_own(self.task(stage, *number)));
         if self.should_continue() {
             Ok(Missing {
-                own,
+                ours,
                 others: others.len(),
             })
         } else {
@@ -354,8 +354,8 @@ impl<'a> Engine<'a> {
             return Ok(());
         }
         let field = &run.points.field;
-        let own = field.len() * numbers.len() / field.pieces().max(1);
-        let running = self.running(own, &run.built.name);
+        let points = field.len() * numbers.len() / field.pieces().max(1);
+        let running = self.running(points, &run.built.name);
         let going = |n: usize| running.advance(n);
         let mut fault = None;
         let transmission = &run.built.transmission;
@@ -375,7 +375,7 @@ impl<'a> Engine<'a> {
 /// Tasks of a stage without results.
 struct Missing {
     /// Those of this run.
-    own: Vec<usize>,
+    ours: Vec<usize>,
     /// Number of tasks of others.
     others: usize,
 }

@@ -350,19 +350,19 @@ impl Search<'_> {
         let kept = self
             .fluids
             .iter()
-            .filter(|own| violation(self.limits, &own.limited) == 0.0);
+            .filter(|fluid| violation(self.limits, &fluid.limited) == 0.0);
         let least = kept.min_by(|a, b| a.losses[duty].loss.total_cmp(&b.losses[duty].loss));
         let least = least.filter(|_| !self.limits.is_empty());
-        least.map(|own| OilWithinLimits {
-            value: own.value,
-            mean_loss_w: own.losses[duty].loss,
+        least.map(|fluid| OilWithinLimits {
+            value: fluid.value,
+            mean_loss_w: fluid.losses[duty].loss,
         })
     }
 
     /// Notes the limited values of the oil with the least loss among those that break the limits least.
     fn note_limits(&self, b: &Built<'_>) {
-        let total = |own: &Fluid| own.losses.iter().map(|loss| loss.loss).sum::<f64>();
-        let broken = |own: &Fluid| violation(self.limits, &own.limited);
+        let total = |fluid: &Fluid| fluid.losses.iter().map(|loss| loss.loss).sum::<f64>();
+        let broken = |fluid: &Fluid| violation(self.limits, &fluid.limited);
         let better = |a: &&Fluid, b: &&Fluid| broken(a).total_cmp(&broken(b)).then(total(a).total_cmp(&total(b)));
         if let Some(best) = self.fluids.iter().min_by(better) {
             note_proposed(self.engine, &b.name, self.limits, &best.limited, "the best oil");

@@ -155,15 +155,15 @@ impl Limit {
             (LimitedQuantity::Loss | LimitedQuantity::Efficiency, Some(_)) => {
                 return Err(scope.wrong(of, "a loss and an efficiency are those of the gearbox", "delete `of`"));
             }
-            (LimitedQuantity::Rating, own) => Owner::Rating {
+            (LimitedQuantity::Rating, component) => Owner::Rating {
                 rating: rated.map_or("", |(rating, _)| rating),
                 symbol: rated.map_or("", |(_, figure)| figure.symbol),
-                components: known_components(scope, of, own.unwrap_or("*"))?,
+                components: known_components(scope, of, component.unwrap_or("*"))?,
             },
             (LimitedQuantity::Ratio, None) => Owner::Gear(0),
             (LimitedQuantity::Ratio, Some(gear)) => {
                 let names: Vec<&str> = t.states().iter().map(|state| state.name.as_str()).collect();
-                let place = names.iter().position(|own| *own == gear);
+                let place = names.iter().position(|known| *known == gear);
                 Owner::Gear(place.ok_or_else(|| scope.found(dangling(of, "gear state", gear, &names)))?)
             }
         };
@@ -273,7 +273,7 @@ fn known_cycle(scope: Scope<'_>, path: &str, name: &str) -> Result<Owner, Findin
     let of_study = || scope.study.entry.cycles.ids().collect::<Vec<_>>();
     if let Some(place) = scope
         .cycles
-        .and_then(|cycles| cycles.iter().position(|own| *own == name))
+        .and_then(|cycles| cycles.iter().position(|known| *known == name))
     {
         return Ok(Owner::Cycle(place));
     }
@@ -288,11 +288,11 @@ fn known_cycle(scope: Scope<'_>, path: &str, name: &str) -> Result<Owner, Findin
 
 /// A pattern of components, which one of the gearbox meets. In a study with several gearboxes it may belong to another one.
 fn known_components(scope: Scope<'_>, path: &str, pattern: &str) -> Result<String, Findings> {
-    let own = || scope.transmission.parts().iter().map(|part| part.path.as_str());
-    if pattern == "*" || own().any(|part| meets(pattern, part)) || scope.study.gearboxes.len() > 1 {
+    let parts = || scope.transmission.parts().iter().map(|part| part.path.as_str());
+    if pattern == "*" || parts().any(|part| meets(pattern, part)) || scope.study.gearboxes.len() > 1 {
         return Ok(pattern.to_owned());
     }
-    let names: Vec<&str> = own().collect();
+    let names: Vec<&str> = parts().collect();
     Err(scope.found(dangling(path, "component", pattern, &names)))
 }
 

@@ -227,16 +227,16 @@ impl MapEntry {
         for solved in &solved {
             for (place, run) in &solved.runs {
                 let gear = &run.points.gear;
-                let own = solved
+                let of_map = solved
                     .rows
                     .iter()
                     .zip(&listed.rows.measured.rows)
                     .filter(|(row, _)| row.0 == *place && row.1 == *gear);
-                let bound: Vec<(String, Value)> = own.clone().next().map_or_else(Vec::new, |(_, row)| {
+                let bound: Vec<(String, Value)> = of_map.clone().next().map_or_else(Vec::new, |(_, row)| {
                     let values = row.bound.iter().map(|v| Value::from(v.as_str()));
                     paths.iter().cloned().zip(values).collect()
                 });
-                let points: Vec<PointResult> = own.map(|((_, _, point), _)| point.clone()).collect();
+                let points: Vec<PointResult> = of_map.map(|((_, _, point), _)| point.clone()).collect();
                 let oil = common(&points).map_or(OilTemperature::Balance, OilTemperature::Fixed);
                 let mut map = Map::new(run, &bound, oil, &rows);
                 let selection = Selection::new(None, false);
@@ -357,9 +357,9 @@ impl<'a> Map<'a> {
             rows.table.extend(&tables, &order);
             self.rows.end = rows.table.len();
         } else if let Some(sink) = rows.engine.sink {
-            let mut own = rows.table.header();
-            own.extend(&tables, &order);
-            sink.take(&own)?;
+            let mut header = rows.table.header();
+            header.extend(&tables, &order);
+            sink.take(&header)?;
         }
         Ok(())
     }
@@ -414,15 +414,15 @@ fn notes_of_sets(maps: &[Map<'_>]) -> Option<Vec<NotesOfSet>> {
     let names = distinct(maps.iter().map(|map| map.run.built.name.as_str()));
     let of_set = |name: &str| {
         let mut all = Vec::new();
-        let own = || maps.iter().filter(|map| map.run.built.name == name);
+        let of_set = || maps.iter().filter(|map| map.run.built.name == name);
         let mut lost = TotalLoss::default();
-        for map in own() {
+        for map in of_set() {
             merge(&mut all, &map.seen);
             lost.merge(map.lost);
         }
         NotesOfSet {
             model_set: name.to_owned(),
-            notes: own().next().map_or_else(Vec::new, |map| {
+            notes: of_set().next().map_or_else(Vec::new, |map| {
                 notes_with_shares(&map.run.built.transmission, &all, lost)
             }),
         }

@@ -162,11 +162,11 @@ impl<'a> Planner<'a> {
         name: Option<&str>,
         changes: &[(String, Value, String)],
     ) -> Result<Built<'a>, Stopped> {
-        let (gearbox, own) = match set {
+        let (gearbox, set_of_gearbox) = match set {
             Some(set) => self.study.reference("analyses", set, gearbox)?,
             None => (gearbox, None),
         };
-        let mut choice = self.study.choice(own);
+        let mut choice = self.study.choice(set_of_gearbox);
         let overrides = changes.iter().map(|(path, value, _)| (path.clone(), value.clone()));
         choice.overrides.extend(overrides);
         let places: Vec<_> = changes

@@ -127,10 +127,10 @@ pub fn varied(
 
 /// Rejects two quantities that change the same value; `place` is the key of a list in the study.
 pub fn once(cx: &Planner<'_>, place: &str, all: &[&Varied]) -> Result<(), Stopped> {
-    for (i, own) in all.iter().enumerate() {
-        let twice = |other: &&&Varied| other.paths.iter().any(|p| own.paths.contains(p));
+    for (i, varied) in all.iter().enumerate() {
+        let twice = |other: &&&Varied| other.paths.iter().any(|p| varied.paths.contains(p));
         if let Some(other) = all[..i].iter().find(twice) {
-            let message = format!("`{}` and `{}` change the same value", other.pattern, own.pattern);
+            let message = format!("`{}` and `{}` change the same value", other.pattern, varied.pattern);
             return Err(cx.wrong_as(codes::VARIED, &format!("{place}.{i}"), message, "list every value once"));
         }
     }

@@ -208,10 +208,10 @@ impl<'a> RowsPlan<'a> {
         }
         let mut rows = solved.rows;
         for (place, run) in &set.runs {
-            let own = rows.iter_mut().enumerate();
-            let own = own.filter(|(_, row)| row.0 == *place && row.1 == run.points.gear);
-            let mut own: Vec<(usize, &mut PointResult)> = own.map(|(i, row)| (i, &mut row.2)).collect();
-            engine.mark(run, &mut own);
+            let of_run = rows.iter_mut().enumerate();
+            let of_run = of_run.filter(|(_, row)| row.0 == *place && row.1 == run.points.gear);
+            let mut of_run: Vec<(usize, &mut PointResult)> = of_run.map(|(i, row)| (i, &mut row.2)).collect();
+            engine.mark(run, &mut of_run);
         }
         let lost = TotalLoss::of(rows.iter().map(|(_, _, point)| point));
         Ok(Solved {

@@ -376,15 +376,15 @@ fn starts(cx: &Planner<'_>, ranges: &[Range]) -> Result<Vec<Parameter>, Stopped>
             cx.wrong(&place(cx, i), message, help)
         };
         let without = "`local` needs a value of the gearbox";
-        let Some(own) = range.varied.start() else {
+        let Some(present) = range.varied.start() else {
             let help = "state one, or omit `local`: `methods: [morris, sobol]`";
             return Err(wrong(without.to_owned(), help));
         };
-        Parameter::new(&range.varied.pattern, Scale::Linear, own, range.ends).map_err(|_| {
+        Parameter::new(&range.varied.pattern, Scale::Linear, present, range.ends).map_err(|_| {
             let [low, high] = range.ends.map(|end| range.varied.words(end));
             let message = format!(
                 "the value {} for `local` is not in {low} to {high}",
-                range.varied.words(own)
+                range.varied.words(present)
             );
             wrong(message, "widen the range, or omit `local`: `methods: [morris, sobol]`")
         })

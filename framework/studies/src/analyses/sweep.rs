@@ -88,8 +88,9 @@ impl Analysis for SweepEntry {
             for (i, value) in self.values.iter().enumerate() {
                 // If every value fails, the path is wrong, which is reported first.
                 let mut changes = vec![(self.path.clone(), value.clone(), format!("{path}.values.{i}"))];
-                let second =
-                    second.map(|(own, value)| (own.clone(), value.clone(), format!("{path}.second.values.{k}")));
+                let second = second.map(|(second_path, value)| {
+                    (second_path.clone(), value.clone(), format!("{path}.second.values.{k}"))
+                });
                 changes.extend(second);
                 for built in cx.built_with(gearbox, &self.model_sets, &changes)? {
                     let t = &built.transmission;
@@ -167,7 +168,7 @@ impl SweepEntry {
     ) -> SweepOfValue {
         let t = &run.built.transmission;
         let [first, second] = places;
-        let own = Shares::new(t, self.by).under(shares);
+        let summed = Shares::new(t, self.by).under(shares);
         SweepOfValue {
             model_set: run.built.name.clone(),
             gear: run.points.gear.clone(),
@@ -189,7 +190,7 @@ impl SweepEntry {
                     status: p.status,
                     efficiency: p.efficiency,
                     loss_w: p.loss,
-                    losses_w: own.stack(p),
+                    losses_w: summed.stack(p),
                     limit_values: LimitColumn::by_name(limits, &p.limits),
                     beyond: p.beyond,
                     solved_speed_rpm: p.speed * RPM,

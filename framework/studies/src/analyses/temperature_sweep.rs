@@ -55,8 +55,8 @@ impl Analysis for TemperatureSweepEntry {
     fn plan<'a>(&'a self, cx: &Planner<'a>) -> Result<BarsPlan<'a>, Stopped> {
         let path = cx.path();
         let built = cx.built(cx.gearbox(self.gearbox.as_ref())?, &self.model_sets)?;
-        let own = self.oil_temperature.values();
-        let temperatures = axis(cx, &format!("{path}.oil_temperature"), own)?;
+        let given = self.oil_temperature.values();
+        let temperatures = axis(cx, &format!("{path}.oil_temperature"), given)?;
         let mut plan = BarsPlan::new(self.by, self.unit, built.clone());
         for b in &built {
             let t = &b.transmission;

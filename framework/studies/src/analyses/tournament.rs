@@ -43,8 +43,9 @@ impl Plan for TournamentPlan<'_> {
             Some((measured, _)) => measured.rows.len(),
             None => self.run.points.field.len(),
         };
-        let models = |own: &Entrants| own.list.iter().filter(|entrant| entrant.built.is_ok()).count();
-        let work = |own: &Entrants| Work::new(&own.slot.name, "point of models", points * models(own)).at_most();
+        let models = |of_slot: &Entrants| of_slot.list.iter().filter(|entrant| entrant.built.is_ok()).count();
+        let work =
+            |of_slot: &Entrants| Work::new(&of_slot.slot.name, "point of models", points * models(of_slot)).at_most();
         self.entrants.iter().map(work).collect()
     }
 }

@@ -26,7 +26,7 @@ pub fn libraries(cx: &Planner<'_>, files: &[String], is_needed: bool) -> Result<
         });
         match library {
             Ok(library) => {
-                libraries.retain(|own| own.platform != library.platform);
+                libraries.retain(|known| known.platform != library.platform);
                 libraries.push(library);
             }
             Err(reason) => found.push(

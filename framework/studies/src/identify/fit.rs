@@ -185,8 +185,8 @@ impl Identification<'_> {
         for _ in 0..ROUNDS {
             let mut settled = true;
             for (quantity, factor) in &mut factors {
-                let own = |(i, o): (usize, &super::Observation)| (o.quantity == *quantity).then_some(i);
-                let places: Vec<usize> = self.observations.iter().enumerate().filter_map(own).collect();
+                let of_quantity = |(i, o): (usize, &super::Observation)| (o.quantity == *quantity).then_some(i);
+                let places: Vec<usize> = self.observations.iter().enumerate().filter_map(of_quantity).collect();
                 let squares: f64 = places.iter().map(|i| fitted.inference.residuals()[*i].powi(2)).sum();
                 let lost: f64 = places.iter().map(|i| fitted.inference.leverage()[*i]).sum();
                 let step = (squares / (places.len() as f64 - lost)).sqrt();
@@ -365,7 +365,7 @@ impl Identification<'_> {
             return Err("interrupted".to_owned());
         }
         // The row of the prior is absent for a fixed parameter, but its contribution remains.
-        let own = self.parameters[k].prior.map_or(0.0, |prior| {
+        let penalty = self.parameters[k].prior.map_or(0.0, |prior| {
             let row = match self.parameters[k].fitted().scale {
                 Scale::Linear => (v - prior.mean) / prior.deviation,
                 Scale::Log => (v - prior.mean.ln()) / prior.deviation,
@@ -375,7 +375,7 @@ impl Identification<'_> {
         *known = of_data(&fit).filter(|_| smooth);
         let mut u = fit.u;
         u[k] = v;
-        let mut objective = 2.0 * fit.cost + own;
+        let mut objective = 2.0 * fit.cost + penalty;
         // Near a kink the minimum is one of many indistinguishable ones: a slightly lower value is not a better optimum.
         let least = fitted.inference.objective();
         if !smooth && least - objective <= UNTOLD * fitted.fit().scatter() {

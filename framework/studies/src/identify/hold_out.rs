@@ -69,7 +69,7 @@ impl HoldOut {
                 .rows
                 .iter()
                 .zip(&chosen)
-                .filter(|(_, own)| **own == Some(held) || (!held && own.is_none()))
+                .filter(|(_, kind)| **kind == Some(held) || (!held && kind.is_none()))
                 .map(|(row, _)| row.clone())
                 .collect(),
             ..measured.clone()
@@ -78,7 +78,7 @@ impl HoldOut {
             fitted: of_kind(false),
             held_out: of_kind(true),
             words,
-            undecided: chosen.iter().filter(|own| own.is_none()).count(),
+            undecided: chosen.iter().filter(|kind| kind.is_none()).count(),
         };
         let all = measured.rows.len();
         if found.held_out.rows.is_empty() {
@@ -229,8 +229,8 @@ impl Identification<'_> {
         }
         let found = match by.by.as_str() {
             "random" => {
-                let own: Vec<usize> = self.observations.iter().map(|o| o.row).collect();
-                return random_folds(&own, most, u64::from(by.seed.unwrap_or(1))).map_err(few);
+                let numbers: Vec<usize> = self.observations.iter().map(|o| o.row).collect();
+                return random_folds(&numbers, most, u64::from(by.seed.unwrap_or(1))).map_err(few);
             }
             "sign" => {
                 let sign = |row: &&Row| {
@@ -300,8 +300,8 @@ impl Identification<'_> {
 fn texts(measured: &Measured, rows: &[&Row], name: &str) -> Result<Vec<String>, Diagnostic> {
     let known = |text: &dyn Fn(&Row) -> Option<String>| -> Option<Vec<String>> {
         measured.rows.iter().any(|row| text(row).is_some()).then(|| {
-            let own = rows.iter().map(|row| text(row).unwrap_or_default());
-            own.collect()
+            let texts = rows.iter().map(|row| text(row).unwrap_or_default());
+            texts.collect()
         })
     };
     let found = match name {

@@ -82,7 +82,7 @@ impl Identification<'_> {
                 let bent = |(part, (here, (below, above))): (usize, (&f64, (&f64, &f64)))| {
                     (part, (below + above - 2.0 * here).abs(), *here)
                 };
-                let Some((part, bent, own)) = parts.map(bent).max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)))
+                let Some((part, bent, watts)) = parts.map(bent).max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)))
                 else {
                     continue;
                 };
@@ -97,7 +97,7 @@ impl Identification<'_> {
                         .branches(&beside.transmissions[*number], gear, sides[k].point(row), part)
                 });
                 let regimes = changed(&taken);
-                let change = bent / own.abs().max(f64::MIN_POSITIVE);
+                let change = bent / watts.abs().max(f64::MIN_POSITIVE);
                 self.note(
                     &mut all,
                     kink,
@@ -153,8 +153,8 @@ impl Identification<'_> {
 
 /// The branches that differ between both sides as text; absent if none differ or a side has none.
 fn changed([below, above]: &[Vec<(String, &'static str)>; 2]) -> Option<[String; 2]> {
-    let only = |own: &[(String, &'static str)], other: &[(String, &'static str)]| {
-        let branches = own.iter().filter(|branch| !other.contains(branch));
+    let only = |taken: &[(String, &'static str)], other: &[(String, &'static str)]| {
+        let branches = taken.iter().filter(|branch| !other.contains(branch));
         distinct(branches.map(|(_, words)| *words)).join(", ")
     };
     let sides = [only(below, above), only(above, below)];

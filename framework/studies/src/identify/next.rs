@@ -168,8 +168,11 @@ impl Identification<'_> {
             let what = quantity.words(crate::study::Difference::Points).0;
             quantity.value(point).ok_or_else(|| none(what))?;
             let seen = Seen::with_rig(&calculated.rig, &measured, &measured.rows[i], point);
-            let own = seen.accuracy(quantity).filter(|a| *a > 0.0);
-            deviations.push(own.map_or_else(|| self.nearest(candidate, quantity) * scatter, |own| own * factor));
+            let stated = seen.accuracy(quantity).filter(|a| *a > 0.0);
+            deviations.push(stated.map_or_else(
+                || self.nearest(candidate, quantity) * scatter,
+                |accuracy| accuracy * factor,
+            ));
             losses.push(
                 loss + calculated
                     .rig
@@ -192,8 +195,9 @@ impl Identification<'_> {
             let apart = |a: f64, b: f64| (a - b) / (a.abs() + b.abs()).max(1e-9);
             apart(value("torque"), candidate.torque).hypot(apart(value("speed"), candidate.speed))
         };
-        let own = self.observations.iter().filter(|o| o.quantity == quantity);
-        own.min_by(|a, b| distance(a).total_cmp(&distance(b)))
+        let observed = self.observations.iter().filter(|o| o.quantity == quantity);
+        observed
+            .min_by(|a, b| distance(a).total_cmp(&distance(b)))
             .map_or(1.0, |o| o.deviation)
     }
 }

@@ -274,11 +274,13 @@ impl Written<'_> {
             let help = "sort them and remove duplicates";
             return Err(self.fault("over.torques", "the torques are not ascending", help));
         }
-        let own = |place: usize| curve.and_then(|list| list.get(place).copied());
+        let of_curve = |place: usize| curve.and_then(|list| list.get(place).copied());
         let at = |(place, torque): (usize, &f64)| Identified {
             name: format!("{} at {torque} Nm", self.name),
-            stated: own(place).or(one.stated),
-            start: own(place).filter(|_| self.entry.start.is_none()).unwrap_or(one.start),
+            stated: of_curve(place).or(one.stated),
+            start: of_curve(place)
+                .filter(|_| self.entry.start.is_none())
+                .unwrap_or(one.start),
             target: Target::Over {
                 varied: varied.clone(),
                 port: over.port.clone(),

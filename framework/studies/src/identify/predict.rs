@@ -49,11 +49,11 @@ pub struct Predictions {
 impl Predictions {
     /// Coverage of the bands of a quantity, or of all quantities.
     pub fn coverage(&self, quantity: Option<Quantity>) -> Option<Coverage> {
-        let own = self
+        let numbers = self
             .numbers
             .iter()
             .filter(|n| quantity.is_none_or(|q| n.observation.quantity == q));
-        Coverage::count(own.filter_map(PredictedNumber::is_inside))
+        Coverage::count(numbers.filter_map(PredictedNumber::is_inside))
     }
 }
 
@@ -154,29 +154,31 @@ impl Identification<'_> {
     /// Errors of a fitted quantity with their points; in percentage points, W, Nm or K.
     pub fn placed_errors(&self, calculated: &Calculated, pairs: &[Pair], quantity: Quantity) -> Vec<PlacedError> {
         let is_stated = self.accuracy == Accuracy::Given;
-        let own = self
+        let predicted = self
             .observations
             .iter()
             .zip(pairs)
             .filter(|(o, _)| o.quantity == quantity);
-        own.filter_map(|(o, pair)| {
-            let oil = calculated.point(o.row).oil;
-            placed(self.measured(), (o, pair), oil, (is_stated, false))
-        })
-        .collect()
+        predicted
+            .filter_map(|(o, pair)| {
+                let oil = calculated.point(o.row).oil;
+                placed(self.measured(), (o, pair), oil, (is_stated, false))
+            })
+            .collect()
     }
 }
 
 impl Predictions {
     /// Errors of a quantity with their points; in percentage points, W, Nm or K. `accuracy` is that of the fit.
     pub fn placed_errors(&self, held_out: &Measured, accuracy: Accuracy, quantity: Quantity) -> Vec<PlacedError> {
-        let own = self.numbers.iter().filter(|n| n.observation.quantity == quantity);
-        own.filter_map(|n| {
-            let oil = self.calculated.point(n.observation.row).oil;
-            let is_stated = accuracy == Accuracy::Given && n.observation.deviation.is_finite();
-            placed(held_out, (&n.observation, &n.pair), oil, (is_stated, true))
-        })
-        .collect()
+        let numbers = self.numbers.iter().filter(|n| n.observation.quantity == quantity);
+        numbers
+            .filter_map(|n| {
+                let oil = self.calculated.point(n.observation.row).oil;
+                let is_stated = accuracy == Accuracy::Given && n.observation.deviation.is_finite();
+                placed(held_out, (&n.observation, &n.pair), oil, (is_stated, true))
+            })
+            .collect()
     }
 }
 

@@ -290,12 +290,12 @@ impl<'a> Identification<'a> {
             torques.sort_by(f64::total_cmp);
             let median = torques.get(torques.len() / 2).copied();
             for parameter in &mut self.parameters {
-                let own = match parameter.target {
+                let is_changed = match parameter.target {
                     Target::Rig(RigQuantity::OffsetIn) => port == 0,
                     Target::Rig(RigQuantity::OffsetOut) => port == 1,
                     _ => false,
                 };
-                if own {
+                if is_changed {
                     parameter.size = median;
                 }
             }
@@ -341,9 +341,9 @@ impl<'a> Identification<'a> {
         calculated: &Calculated,
     ) -> Option<(Observation, Option<f64>)> {
         let measured = self.rows.measured;
-        let own = &measured.rows[row];
-        let seen = Seen::with_rig(&calculated.rig, measured, own, calculated.point(row));
-        let weight = measured.value(own, "weight").unwrap_or(1.0);
+        let measured_row = &measured.rows[row];
+        let seen = Seen::with_rig(&calculated.rig, measured, measured_row, calculated.point(row));
+        let weight = measured.value(measured_row, "weight").unwrap_or(1.0);
         let drowns = quantity == Quantity::Efficiency && seen.is_drowned();
         let quantity = if drowns { Quantity::LossTorque } else { quantity };
         if seen.quantity(quantity).is_none() || weight <= 0.0 {

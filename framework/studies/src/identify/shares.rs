@@ -64,8 +64,8 @@ impl Identification<'_> {
         let outputs = |theta: &[f64]| self.calculate(theta).map(|c| losses(&c));
         let slopes = gradients(fitted.inference.parameters(), JUMPS, outputs)?;
         let breakdown = |i: usize| {
-            let own = i * width..(i + 1) * width;
-            fitted.inference.breakdown(&values[own.clone()], &slopes[own])
+            let places = i * width..(i + 1) * width;
+            fitted.inference.breakdown(&values[places.clone()], &slopes[places])
         };
         let breakdowns: Vec<Breakdown> = (0..rows.len()).map(breakdown).collect::<Result<_, _>>()?;
         let mut bands: Vec<Vec<Option<[f64; 2]>>> = breakdowns
@@ -75,9 +75,9 @@ impl Identification<'_> {
         for theta in self.far_ends(fitted, profiles)? {
             let moved = outputs(&theta)?;
             for (i, bands) in bands.iter_mut().enumerate() {
-                let own = &moved[i * width..(i + 1) * width];
-                let sum: f64 = own.iter().sum();
-                for (band, value) in bands.iter_mut().zip(own.iter().chain([&sum])) {
+                let shares = &moved[i * width..(i + 1) * width];
+                let sum: f64 = shares.iter().sum();
+                for (band, value) in bands.iter_mut().zip(shares.iter().chain([&sum])) {
                     *band = band.map(|band| hull(band, [*value, *value]));
                 }
             }

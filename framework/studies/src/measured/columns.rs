@@ -191,23 +191,25 @@ impl<'a> Finder<'a> {
 
     /// Headers of columns that are not assigned to a quantity.
     fn free_headers(&self) -> impl Iterator<Item = &'a str> {
-        let own = self.file.own.into_iter().flat_map(|own| own.columns.iter());
-        let stated = own.chain(self.entry.columns.iter()).map(|(_, column)| column.header());
+        let of_file = self.file.entry.into_iter().flat_map(|entry| entry.columns.iter());
+        let stated = of_file
+            .chain(self.entry.columns.iter())
+            .map(|(_, column)| column.header());
         let stated: Vec<&str> = stated.collect();
         let names = self.table.names.iter().map(String::as_str);
         names.filter(move |name| !stated.contains(name))
     }
 
     fn written(&self, quantity: &str) -> Option<&'a ColumnEntry> {
-        let own = self.file.own.and_then(|own| own.columns.get(quantity));
-        own.or_else(|| self.entry.columns.get(quantity))
+        let of_file = self.file.entry.and_then(|entry| entry.columns.get(quantity));
+        of_file.or_else(|| self.entry.columns.get(quantity))
     }
 
     /// The key of a quantity: in the file entry, or in the measurement.
     fn key(&self, section: &str, quantity: &str) -> FaultPlace {
-        let stated_by_file = self.file.own.is_some_and(|own| match section {
-            "columns" => own.columns.get(quantity).is_some(),
-            _ => own.units.get(quantity).is_some(),
+        let stated_by_file = self.file.entry.is_some_and(|entry| match section {
+            "columns" => entry.columns.get(quantity).is_some(),
+            _ => entry.units.get(quantity).is_some(),
         });
         let files = self.entry.file.list();
         let number = files.iter().position(|file| file.file == self.file.file);
@@ -323,15 +325,15 @@ impl<'a> Finder<'a> {
     }
 
     fn stated_own_unit(&self, quantity: &str) -> Option<&'a str> {
-        let own = self.file.own.and_then(|own| own.units.get(quantity));
-        own.or_else(|| self.entry.units.get(quantity)).map(String::as_str)
+        let of_file = self.file.entry.and_then(|entry| entry.units.get(quantity));
+        of_file.or_else(|| self.entry.units.get(quantity)).map(String::as_str)
     }
 
     fn stated_unit(&self, quantity: &str, place: usize) -> StatedUnit<'a> {
         StatedUnit {
             study: self.stated_own_unit(quantity),
             file: self.table.units[place].as_deref(),
-            overrides: (self.file.own.and_then(|own| own.units_override)).unwrap_or(self.entry.units_override),
+            overrides: (self.file.entry.and_then(|entry| entry.units_override)).unwrap_or(self.entry.units_override),
         }
     }
 

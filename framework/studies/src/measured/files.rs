@@ -58,7 +58,7 @@ pub struct MeasuredFile<'a> {
     /// Name in messages.
     pub name: &'a str,
     /// Settings for this file only.
-    pub(super) own: Option<&'a OwnFileEntry>,
+    pub(super) entry: Option<&'a OwnFileEntry>,
 }
 
 impl MeasuredFiles {
@@ -68,7 +68,7 @@ impl MeasuredFiles {
             Self::One(file) => vec![MeasuredFile {
                 file,
                 name: file,
-                own: None,
+                entry: None,
             }],
             Self::Several(list) => list.iter().map(FileEntry::file).collect(),
         }
@@ -81,12 +81,12 @@ impl FileEntry {
             Self::Name(file) => MeasuredFile {
                 file,
                 name: file,
-                own: None,
+                entry: None,
             },
-            Self::Own(own) => MeasuredFile {
-                file: &own.file,
-                name: own.name.as_ref().unwrap_or(&own.file),
-                own: Some(own),
+            Self::Own(entry) => MeasuredFile {
+                file: &entry.file,
+                name: entry.name.as_ref().unwrap_or(&entry.file),
+                entry: Some(entry),
             },
         }
     }

@@ -26,13 +26,13 @@ impl MeasuredEntry {
     }
 
     fn form(&self, file: MeasuredFile<'_>) -> TableForm {
-        file.own
-            .map_or_else(|| self.form.clone(), |own| own.form.or(&self.form))
+        file.entry
+            .map_or_else(|| self.form.clone(), |entry| entry.form.or(&self.form))
     }
 
     /// Whether a header is that of a quantity, of a bound column or of the time.
     fn is_name(&self, file: MeasuredFile<'_>, bind: &[&str], header: &str) -> bool {
-        let of_file = |quantity: &str| file.own.and_then(|own| own.columns.get(quantity));
+        let of_file = |quantity: &str| file.entry.and_then(|entry| entry.columns.get(quantity));
         let written = |quantity: &str| of_file(quantity).or_else(|| self.columns.get(quantity));
         let is_of = |quantity: &str| match written(quantity) {
             Some(column) => is_name_of(header, column.header()),
@@ -183,10 +183,10 @@ impl MeasuredEntry {
         faults.extend(self.columns.ids().filter_map(|id| unknown("columns", id)));
         faults.extend(self.units.ids().filter_map(|id| unknown("units", id)));
         for (i, file) in self.file.list().iter().enumerate() {
-            let Some(own) = file.own else { continue };
+            let Some(entry) = file.entry else { continue };
             let [columns, units] = ["columns", "units"].map(|section| format!("file.{i}.{section}"));
-            faults.extend(own.columns.ids().filter_map(|id| unknown(&columns, id)));
-            faults.extend(own.units.ids().filter_map(|id| unknown(&units, id)));
+            faults.extend(entry.columns.ids().filter_map(|id| unknown(&columns, id)));
+            faults.extend(entry.units.ids().filter_map(|id| unknown(&units, id)));
         }
         faults
     }
@@ -281,8 +281,11 @@ impl MeasuredEntry {
             && let FoundColumn::At(place) = table.column(&steady.time)
             && table.take_times(place, form.date_order, notes)?
         {
-            let own = file.own.and_then(|own| own.units.get("time"));
-            if own.or_else(|| self.units.get("time")).is_some_and(|unit| unit != "s") {
+            let of_file = file.entry.and_then(|entry| entry.units.get("time"));
+            if of_file
+                .or_else(|| self.units.get("time"))
+                .is_some_and(|unit| unit != "s")
+            {
                 return Err(MeasuredFault {
                     place: FaultPlace::Entry("units.time".to_owned()),
                     message: format!("column `{}` has dates or clock times, which have no unit", steady.time),
@@ -296,9 +299,9 @@ impl MeasuredEntry {
     /// All columns from the header.
     fn file_columns(table: &Table, columns: &Columns) -> Vec<FileColumn> {
         let column = |(place, header): (usize, String)| {
-            let own = columns.bound.iter().find(|bound| bound.column.place == place);
-            let name = own.map(|bound| bound.name.clone());
-            let unit = match own {
+            let bound_column = columns.bound.iter().find(|bound| bound.column.place == place);
+            let name = bound_column.map(|bound| bound.name.clone());
+            let unit = match bound_column {
                 Some(bound) => Some(bound.unit.clone()),
                 None => table.units[place].clone(),
             };
@@ -379,12 +382,12 @@ struct ReadFile {
 impl ReadFile {
     /// Aligns the cells with the columns of the first file; returns a note on columns with another unit, which remain blank.
     fn align(&mut self, first: &[FileColumn]) -> Option<String> {
-        let place = |column: &FileColumn| self.columns.iter().position(|own| own.header == column.header);
+        let place = |column: &FileColumn| self.columns.iter().position(|known| known.header == column.header);
         let places: Vec<Option<usize>> = first.iter().map(place).collect();
         let fits = |(column, place): (&FileColumn, &Option<usize>)| {
             place.filter(|place| match (&self.columns[*place].unit, &column.unit) {
-                (Some(own), Some(first)) => Unit::is_same(own, first),
-                (own, first) => own == first,
+                (Some(unit), Some(first)) => Unit::is_same(unit, first),
+                (unit, first) => unit == first,
             })
         };
         let same: Vec<Option<usize>> = first.iter().zip(&places).map(fits).collect();
@@ -413,12 +416,15 @@ fn wrong_rows(wrong: ExpressionFault) -> MeasuredFault {
 }
 
 /// A file without the quantities of the first one.
-fn other_quantities(file: MeasuredFile<'_>, number: usize, own: &[&str], first: &Measured) -> MeasuredFault {
+fn other_quantities(file: MeasuredFile<'_>, number: usize, quantities: &[&str], first: &Measured) -> MeasuredFault {
     let beyond = |a: &[&str], b: &[&str]| -> Vec<String> {
         let beyond = a.iter().filter(|quantity| !b.contains(quantity));
         beyond.map(|quantity| format!("`{quantity}`")).collect()
     };
-    let (missing, more) = (beyond(&first.quantities, own), beyond(own, &first.quantities));
+    let (missing, more) = (
+        beyond(&first.quantities, quantities),
+        beyond(quantities, &first.quantities),
+    );
     let mut words = Vec::new();
     if !missing.is_empty() {
         words.push(format!("lacks {}", missing.join(", ")));

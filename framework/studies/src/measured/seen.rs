@@ -64,13 +64,19 @@ impl Seen {
             }
         });
         let of_torque = value("loss_torque").map(|t| t * reference);
-        let own = value("loss");
+        let measured_loss = value("loss");
         // Rigs write the torque of the brake with either sign; the sign here shows where power enters. Noise may make the difference
         // negative.
         let lost = |there: f64| if shown > 0.0 { shown - there } else { there + shown };
         let left = |loss: Option<f64>| loss.map(|loss| loss - added);
         let of_ports = there.map(lost);
-        let loss = left(own.or(of_torque).or(of_ports).or(of_efficiency).or(by_ratio.map(lost)));
+        let loss = left(
+            measured_loss
+                .or(of_torque)
+                .or(of_ports)
+                .or(of_efficiency)
+                .or(by_ratio.map(lost)),
+        );
         let efficiency = if rig.is_silent() { value("efficiency") } else { None }.or_else(|| {
             let loss = left(of_efficiency).or(loss)?;
             if here > 0.0 {

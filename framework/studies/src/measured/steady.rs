@@ -677,8 +677,8 @@ mod tests {
                 x
             })
             .collect();
-        let own = (red.iter().map(|x| x * x).sum::<f64>() / 4000.0).sqrt() / 4000.0_f64.sqrt();
-        let ratio = standard_error(&red).unwrap() / own;
+        let uncorrelated = (red.iter().map(|x| x * x).sum::<f64>() / 4000.0).sqrt() / 4000.0_f64.sqrt();
+        let ratio = standard_error(&red).unwrap() / uncorrelated;
         assert!((ratio / 19.0_f64.sqrt() - 1.0).abs() < 0.25, "{ratio}");
     }
 
@@ -698,9 +698,9 @@ mod tests {
             let span = [start, start + 100 + start % 7 / 6];
             sliding.move_to(span);
             let anew = series.line(&series.limits[0], span);
-            let own = sliding.lines[0];
-            assert!((own.slope() - anew.slope()).abs() < 1e-9 && (own.scatter() - anew.scatter()).abs() < 1e-9);
-            assert!((own.value - anew.value).abs() < 1e-9 && (own.count - anew.count).abs() < 0.5);
+            let slid = sliding.lines[0];
+            assert!((slid.slope() - anew.slope()).abs() < 1e-9 && (slid.scatter() - anew.scatter()).abs() < 1e-9);
+            assert!((slid.value - anew.value).abs() < 1e-9 && (slid.count - anew.count).abs() < 0.5);
         }
     }
 

@@ -350,8 +350,8 @@ impl Driven {
 fn wheels(t: &Transmission) -> Result<usize, Diagnostic> {
     let named = |name: &str| t.ports().iter().position(|p| p.name == name);
     let other = (t.ports().len() == 2).then(|| 1 - t.reference_port());
-    let own = named(WHEELS).or_else(|| named("output")).or(other);
-    own.ok_or_else(|| {
+    let port = named(WHEELS).or_else(|| named("output")).or(other);
+    port.ok_or_else(|| {
         let reference = &t.ports()[t.reference_port()].name;
         let names: Vec<&str> = t.ports().iter().map(|p| p.name.as_str()).collect();
         let others: Vec<&str> = names.iter().copied().filter(|name| name != reference).collect();
@@ -455,21 +455,21 @@ fn limit(
     let case = &cases.known[asked.place].1;
     let point = point_of(case, ride, &asked);
     let tried = t.try_point(case, &point, warm.unwrap_or(&oil), scratch, Noting::Muted);
-    let own = scratch.port_torque(t.ports()[t.reference_port()].member);
+    let asked_torque = scratch.port_torque(t.ports()[t.reference_port()].member);
     let Some(vehicle) = ride.vehicle.filter(|_| tried.is_ok()) else {
         // The solved point reports that losses have no value.
         return Ok((asked, false));
     };
     let regained = |torque: f64| vehicle.regained(torque, input_speed, around.vehicle_speed);
     let exceeds = |torque: f64| regained(torque) > torque;
-    let slack = 0.5 * (own - ideal).abs();
-    let is_clear = exceeds(own - slack) == exceeds(own + slack);
-    if !exceeds(own) {
+    let slack = 0.5 * (asked_torque - ideal).abs();
+    let is_clear = exceeds(asked_torque - slack) == exceeds(asked_torque + slack);
+    if !exceeds(asked_torque) {
         return Ok((asked, is_clear));
     }
     let gear = interval.given.gear.as_deref().unwrap_or(ride.gear);
     let place = cases.place(gear, At::Input)?;
-    let torque = regained(own);
+    let torque = regained(asked_torque);
     Ok((Asked { place, torque, ..asked }, is_clear))
 }
 

@@ -173,7 +173,11 @@ impl Derived<'_> {
         if let Some(position) = names.iter().position(|name| *name == port) {
             return Ok(position);
         }
-        let known = self.transmission.ports().iter().any(|own| own.name == port);
+        let known = self
+            .transmission
+            .ports()
+            .iter()
+            .any(|known_port| known_port.name == port);
         let message = if known {
             format!("the {what} at `{port}` is not given: it follows from the others")
         } else {
@@ -221,9 +225,9 @@ impl Derived<'_> {
     }
 
     fn of_slopes(&self, variable: &Variable, slopes: &Slopes, factor: f64, unit: &str) -> Derivatives {
-        let one = |of: &str, own: &str, slope: Slope| Derivative {
+        let one = |of: &str, own_unit: &str, slope: Slope| Derivative {
             of: of.to_owned(),
-            unit: over(own, unit),
+            unit: over(own_unit, unit),
             value: Some(slope.value * factor),
             error: Some(slope.error * factor),
             kink: None,
@@ -382,12 +386,12 @@ impl Derived<'_> {
     ) -> Derivatives {
         let parts = self.transmission.parts().iter().map(|part| (part.path.as_str(), "W"));
         let quantities = [LOSS, EFFICIENCY, OIL].into_iter().chain(parts);
-        let derivatives = quantities.zip(differences).filter_map(|((of, own), difference)| {
+        let derivatives = quantities.zip(differences).filter_map(|((of, own_unit), difference)| {
             let difference = difference.as_ref()?;
             let smooth = difference.kink.is_none();
             Some(Derivative {
                 of: of.to_owned(),
-                unit: over(own, unit),
+                unit: over(own_unit, unit),
                 value: smooth.then_some(difference.value * factor),
                 error: smooth.then_some(difference.error * factor),
                 kink: difference.kink.map(|sides| sides.map(|side| side * factor)),

@@ -217,9 +217,9 @@ pub fn evidence(transmission: &Transmission, resolved: &Resolved, written: &dyn 
             }
             let path = format!("{}.{}", instance.path, graded.key);
             let value = lookup(&resolved.value, &path);
-            let own = written(&path) || *resolved.source_of(&path) == ValueSource::Override;
+            let is_stated = written(&path) || *resolved.source_of(&path) == ValueSource::Override;
             // A parameter whose default is used, or one that the model sets itself.
-            if !own || value.is_none_or(Value::is_null) {
+            if !is_stated || value.is_none_or(Value::is_null) {
                 add(
                     format!("{model}.{}", graded.key),
                     graded.grade,

@@ -109,7 +109,7 @@ impl Piece {
 
     /// The points, in the order of the field.
     pub fn points(&self) -> impl Iterator<Item = &PointResult> {
-        self.runs().flat_map(|(task, own)| &self.tasks[task][own])
+        self.runs().flat_map(|(task, place)| &self.tasks[task][place])
     }
 
     /// The same, consuming the piece.
@@ -125,8 +125,8 @@ impl Piece {
         let is_there = |&(task, count): &(usize, usize)| {
             let rest = missing
                 .get_mut(task)
-                .and_then(|own| Some((own.checked_sub(count)?, own)));
-            rest.map(|(rest, own)| *own = rest).is_some()
+                .and_then(|count_left| Some((count_left.checked_sub(count)?, count_left)));
+            rest.map(|(rest, count_left)| *count_left = rest).is_some()
         };
         self.number == number
             && self.len() == points
@@ -173,15 +173,15 @@ impl Field {
 
     /// The points of a piece in solution order: grouped by speed and oil temperature.
     fn in_order(&self, number: usize) -> Vec<usize> {
-        let own = self.of_piece(number);
+        let numbers_of_piece = self.of_piece(number);
         if let Self::Grid { speeds, .. } = self {
-            let mut numbers = Vec::with_capacity(own.len());
-            for first in own.start..(own.start + speeds.len()).min(own.end) {
-                numbers.extend((first..own.end).step_by(speeds.len()));
+            let mut numbers = Vec::with_capacity(numbers_of_piece.len());
+            for first in numbers_of_piece.start..(numbers_of_piece.start + speeds.len()).min(numbers_of_piece.end) {
+                numbers.extend((first..numbers_of_piece.end).step_by(speeds.len()));
             }
             return numbers;
         }
-        let mut numbers: Vec<usize> = own.collect();
+        let mut numbers: Vec<usize> = numbers_of_piece.collect();
         numbers.sort_by(|a, b| {
             let (a, b) = (self.given_point(*a), self.given_point(*b));
             let oil = |oil: Option<f64>| oil.unwrap_or(f64::NEG_INFINITY);

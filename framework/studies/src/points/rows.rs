@@ -97,7 +97,7 @@ impl Rows<'_> {
         for (place, gear) in self.keys(transmissions) {
             if !kinds
                 .iter()
-                .any(|(own, points)| (*own, points.gear.as_str()) == (place, gear))
+                .any(|(known, points)| (*known, points.gear.as_str()) == (place, gear))
             {
                 kinds.push((place, self.points(gear, transmissions[place].borrow(), Vec::new())));
             }
@@ -164,7 +164,7 @@ impl Rows<'_> {
             (self.torque_at, self.measured.torque_at_other_port),
             (self.speed_at, self.measured.speed_at_other_port),
         ]
-        .map(|(own, other)| port_of(transmission, own, other).to_owned());
+        .map(|(port, other)| port_of(transmission, port, other).to_owned());
         Points {
             gear: gear.to_owned(),
             torque_at: vec![torque_at],
@@ -195,17 +195,20 @@ impl Rows<'_> {
             if found[i].is_some() {
                 continue;
             }
-            let own: Vec<usize> = (i..keys.len()).filter(|k| keys[*k] == *key).collect();
+            let places: Vec<usize> = (i..keys.len()).filter(|k| keys[*k] == *key).collect();
             let transmission = transmissions[key.0].borrow();
             let signs = self.signs(key.1, transmission);
-            let list = own.iter().map(|k| self.given(*k, transmission, signs, rig)).collect();
+            let list = places
+                .iter()
+                .map(|k| self.given(*k, transmission, signs, rig))
+                .collect();
             let points = self.points(key.1, transmission, list);
             let Some(solved) = run_grid(transmission, &points, progress)? else {
                 return Ok(None);
             };
             // The transmissions of one choice differ only in bound values, so their limits have the same order.
             merge(&mut seen, &solved.seen);
-            for (k, point) in own.into_iter().zip(solved.points) {
+            for (k, point) in places.into_iter().zip(solved.points) {
                 found[k] = Some(point);
             }
         }
@@ -305,9 +308,11 @@ impl Rows<'_> {
 }
 
 /// The port of the rows, or the other one.
-fn port_of<'s>(transmission: &'s Transmission, own: &'s str, other: bool) -> &'s str {
+fn port_of<'s>(transmission: &'s Transmission, port_of_rows: &'s str, other: bool) -> &'s str {
     let mut ports = transmission.ports().iter().map(|port| port.name.as_str());
-    ports.find(|port| other && *port != own).unwrap_or(own)
+    ports
+        .find(|port| other && *port != port_of_rows)
+        .unwrap_or(port_of_rows)
 }
 
 /// A bound value for the document: a text with its unit, or a number.

@@ -103,7 +103,7 @@ impl<'a> Solver<'a> {
             let first = given(&run[0]);
             match self.oil_of(first) {
                 OilTemperature::Fixed(oil) if self.points.flow == PowerFlow::Real && self.at_torque.is_some() => {
-                    let blocks = run.chunk_by(like).flat_map(|own| own.chunks(LANES));
+                    let blocks = run.chunk_by(like).flat_map(|alike| alike.chunks(LANES));
                     let (many, few): (Vec<&[usize]>, Vec<&[usize]>) = blocks.partition(|block| block.len() >= MANY);
                     rest.extend(few.into_iter().flatten());
                     if !many.is_empty() {
@@ -115,8 +115,8 @@ impl<'a> Solver<'a> {
             }
         }
         rest.sort_by_key(sense);
-        for own in rest.chunk_by(like).flat_map(|own| own.chunks(GROUP)) {
-            self.several(own, space, &mut results);
+        for alike in rest.chunk_by(like).flat_map(|group| group.chunks(GROUP)) {
+            self.several(alike, space, &mut results);
         }
         solved.extend(rest);
         space.results = results;
@@ -150,8 +150,8 @@ impl<'a> Solver<'a> {
         // Speeds or torques of all points in one buffer; all but the first of each point are zero.
         let spread = |each: usize, first: fn(&Given) -> f64| {
             let mut all = vec![0.0; each * given.len()];
-            for (own, given) in all.iter_mut().step_by(each.max(1)).zip(given) {
-                *own = first(given);
+            for (first_guess, given) in all.iter_mut().step_by(each.max(1)).zip(given) {
+                *first_guess = first(given);
             }
             all
         };
@@ -170,23 +170,23 @@ impl<'a> Solver<'a> {
         let found = find_all(self.transmission, self.case, &points, oil, scratch);
         let start = results.len();
         for first in (0..points.len()).step_by(LANES) {
-            let own = first..points.len().min(first + LANES);
-            let alone: Vec<usize> = if own.len() < FEW {
-                own.collect()
+            let places = first..points.len().min(first + LANES);
+            let alone: Vec<usize> = if places.len() < FEW {
+                places.collect()
             } else {
                 let temperatures = |lane: usize| found[first + lane].temperatures();
-                let some = &points[own.clone()];
+                let some = &points[places.clone()];
                 let block =
                     self.transmission
                         .evaluate_together(self.case, some, &temperatures, Noting::Counted, scratch);
                 self.of_block(
-                    &given[own.clone()],
+                    &given[places.clone()],
                     |lane| found[first + lane].oil,
                     &block,
                     spare,
                     results,
                 );
-                own.filter(|point| block.is_alone(point - first)).collect()
+                places.filter(|point| block.is_alone(point - first)).collect()
             };
             for point in alone {
                 let temperatures = found[point].temperatures();

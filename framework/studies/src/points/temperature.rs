@@ -129,8 +129,8 @@ pub fn find_all(
 ) -> Vec<Found> {
     let origin = &origin;
     let wanted = |wanted| points.iter().enumerate().filter(move |(i, _)| origin(*i) == wanted);
-    let own: Vec<Point<'_>> = wanted(OilTemperature::Balance).map(|(_, point)| *point).collect();
-    let mut balances = transmission.equilibria(case, &own, scratch).into_iter();
+    let balanced: Vec<Point<'_>> = wanted(OilTemperature::Balance).map(|(_, point)| *point).collect();
+    let mut balances = transmission.equilibria(case, &balanced, scratch).into_iter();
     let around = Surroundings::default();
     let moment = |(_, point)| Moment {
         case,

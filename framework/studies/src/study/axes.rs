@@ -98,7 +98,7 @@ impl Decimal {
     /// The value after some steps, as read if it is written.
     fn after(from: Self, step: Self, steps: usize) -> f64 {
         let decimals = from.decimals.max(step.decimals);
-        let aligned = |own: Self| own.whole * 10_i128.pow((decimals - own.decimals) as u32);
+        let aligned = |number: Self| number.whole * 10_i128.pow((decimals - number.decimals) as u32);
         let value = aligned(from) + steps as i128 * aligned(step);
         format!("{value}e-{decimals}").parse().unwrap_or(f64::NAN)
     }

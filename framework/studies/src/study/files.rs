@@ -170,13 +170,13 @@ impl Study {
         let mut sets: Vec<String> = Vec::new();
         for (_, analysis) in self.entry.analyses.iter() {
             let uses = analysis.uses();
-            let of_analysis = uses.gearbox.map_or(is_first, |own| own == gearbox);
+            let of_analysis = uses.gearbox.map_or(is_first, |named| named == gearbox);
             for set in uses.sets {
-                let own = match set.split_once('/') {
+                let is_of_gearbox = match set.split_once('/') {
                     Some((product, _)) => product == gearbox,
                     None => of_analysis,
                 };
-                if own && !sets.contains(set) {
+                if is_of_gearbox && !sets.contains(set) {
                     sets.push(set.clone());
                 }
             }
@@ -274,7 +274,7 @@ impl Study {
             Ok((resolved, transmission))
         };
         build().map_err(|findings: Findings| {
-            let own = |finding: &Diagnostic| {
+            let replaced = |finding: &Diagnostic| {
                 let changed = changes.iter().find(|(path, _)| meets(path, &finding.path));
                 let set = self.entry.conditions.set.ids().find(|path| meets(path, &finding.path));
                 let wheels = finding.path == WHEELS || finding.path.starts_with("wheels.");
@@ -299,8 +299,8 @@ impl Study {
                     _ => None,
                 }
             };
-            let own: Option<Vec<Diagnostic>> = findings.list.iter().map(own).collect();
-            own.map_or(findings, |list| self.findings(list))
+            let replaced_findings: Option<Vec<Diagnostic>> = findings.list.iter().map(replaced).collect();
+            replaced_findings.map_or(findings, |list| self.findings(list))
         })
     }
 
@@ -317,7 +317,10 @@ impl Study {
     pub fn pending(&self, analysis: &AnalysisEntry) -> Option<(String, String)> {
         analysis.uses().sets.into_iter().find_map(|set| {
             let (set, by) = self.promised.get_key_value(without_product(set))?;
-            let is_pending = self.sets.get(set).is_some_and(|own| own.get("set").is_none());
+            let is_pending = self
+                .sets
+                .get(set)
+                .is_some_and(|set_entry| set_entry.get("set").is_none());
             is_pending.then(|| (set.clone(), by.clone()))
         })
     }
@@ -356,8 +359,8 @@ impl Study {
             ("speed_at", &conditions.speed_at, &points.speed_at),
         ]
         .into_iter()
-        .filter(|(_, own, used)| used.contains(own) && !names.contains(&own.as_str()))
-        .map(|(key, own, _)| dangling(&format!("conditions.{key}"), "port", own, &names));
+        .filter(|(_, port, used)| used.contains(port) && !names.contains(&port.as_str()))
+        .map(|(key, port, _)| dangling(&format!("conditions.{key}"), "port", port, &names));
         let unknown: Vec<Diagnostic> = unknown.collect();
         if !unknown.is_empty() {
             return Err(self.findings(unknown));
@@ -543,10 +546,10 @@ impl Study {
         let elsewhere = data.name().map_or_else(Vec::new, |name| self.bound_columns(name));
         let analysis = path.rsplit_once('.').map_or(path, |(analysis, _)| analysis);
         let found = |list| self.findings(list);
-        let own = own_place(path, data);
-        let contents = self.contents(entry, &own).map_err(found)?;
+        let place = own_place(path, data);
+        let contents = self.contents(entry, &place).map_err(found)?;
         let measured = entry.read_files(&contents, bind, &elsewhere);
-        let measured = measured.map_err(|faults| found(diagnostics(faults, &own, analysis)))?;
+        let measured = measured.map_err(|faults| found(diagnostics(faults, &place, analysis)))?;
         let files = entry.file.list().into_iter().map(|file| file.file.to_owned());
         Ok((measured, files.zip(contents).collect()))
     }
@@ -603,21 +606,21 @@ impl Study {
         let uses: Vec<(String, Uses<'_>)> = analyses
             .map(|(name, analysis)| (format!("analyses.{name}"), analysis.uses()))
             .collect();
-        let mut look = |entry: &MeasuredEntry, own: &str, elsewhere: &[&str], users: &[(&str, Vec<&str>)]| {
-            let contents = match self.contents(entry, own) {
+        let mut look = |entry: &MeasuredEntry, place: &str, elsewhere: &[&str], users: &[(&str, Vec<&str>)]| {
+            let contents = match self.contents(entry, place) {
                 Ok(contents) => contents,
                 Err(faults) => return add(faults),
             };
             for (analysis, bind) in users {
                 if let Err(faults) = entry.read_files(&contents, bind, elsewhere) {
-                    add(diagnostics(faults, own, analysis));
+                    add(diagnostics(faults, place, analysis));
                 }
             }
         };
         for (name, entry) in self.entry.measurements.iter() {
             let mut users: Vec<(&str, Vec<&str>)> = Vec::new();
             for (path, uses) in &uses {
-                let named = |(_, data): &&(&str, &Data)| data.name().is_some_and(|own| own == name);
+                let named = |(_, data): &&(&str, &Data)| data.name().is_some_and(|known| known == name);
                 let Some((key, _)) = uses.data.iter().find(named) else {
                     continue;
                 };
@@ -679,11 +682,11 @@ fn own_place(path: &str, data: &Data) -> String {
 }
 
 /// Errors of data at their places: the entry of the data, or the bound columns of an analysis.
-fn diagnostics(faults: Vec<MeasuredFault>, own: &str, analysis: &str) -> Vec<Diagnostic> {
+fn diagnostics(faults: Vec<MeasuredFault>, place: &str, analysis: &str) -> Vec<Diagnostic> {
     let at_place = |fault: MeasuredFault| {
         let path = match fault.place {
-            FaultPlace::Entry(key) if key.is_empty() => own.to_owned(),
-            FaultPlace::Entry(key) => format!("{own}.{key}"),
+            FaultPlace::Entry(key) if key.is_empty() => place.to_owned(),
+            FaultPlace::Entry(key) => format!("{place}.{key}"),
             FaultPlace::Bind(column) => format!("{analysis}.bind.{column}"),
         };
         Diagnostic::error(path, fault.message)

@@ -133,8 +133,10 @@ fn range(name: &str, whole: &Value) -> Result<Value, Diagnostic> {
         let message = format!("the parameter `{name}` states no range");
         return Err(Diagnostic::error("", message).help(format!("give `parameters.{name}` both `from` and `to`")));
     }
-    let own = OF_RANGE.iter().filter(|key| stated(key));
-    Ok(own.map(|key| ((*key).to_owned(), whole[*key].clone())).collect())
+    let stated_keys = OF_RANGE.iter().filter(|key| stated(key));
+    Ok(stated_keys
+        .map(|key| ((*key).to_owned(), whole[*key].clone()))
+        .collect())
 }
 
 #[cfg(test)]
@@ -166,10 +168,10 @@ mod tests {
         );
         replace_names(&mut identify, key_of).unwrap();
         assert_eq!(identify["analyses"]["a"]["parameters"]["x"], whole);
-        let own = json!({ "path": "q", "percent": 5.0 });
+        let stated = json!({ "path": "q", "percent": 5.0 });
         let mut uncertainty = study(
             json!({ "x": whole }),
-            json!({ "type": "uncertainty", "inputs": ["x", own] }),
+            json!({ "type": "uncertainty", "inputs": ["x", stated] }),
         );
         let taken_over = replace_names(&mut uncertainty, key_of).unwrap();
         let written = |path: &str| written_at(&taken_over, path);
@@ -179,7 +181,7 @@ mod tests {
         );
         assert_eq!(written("analyses.a.inputs.01"), None);
         let range = json!({ "path": "p", "from": "1 mm", "to": "2 mm" });
-        assert_eq!(uncertainty["analyses"]["a"]["inputs"], json!([range, own]));
+        assert_eq!(uncertainty["analyses"]["a"]["inputs"], json!([range, stated]));
     }
 
     #[test]

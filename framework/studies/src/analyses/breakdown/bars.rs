@@ -142,10 +142,10 @@ impl Losses {
     /// The losses in the order of the shares.
     pub fn shares(&self) -> Option<&[f64]> {
         match self {
-            Self::Watts { losses_w: own, .. }
+            Self::Watts { losses_w: losses, .. }
             | Self::Percent {
-                losses_percent: own, ..
-            } => own.as_deref(),
+                losses_percent: losses, ..
+            } => losses.as_deref(),
         }
     }
 
@@ -153,12 +153,12 @@ impl Losses {
     pub fn measured(&self) -> Option<f64> {
         match self {
             Self::Watts {
-                measured_loss_w: own, ..
+                measured_loss_w: loss, ..
             }
             | Self::Percent {
-                measured_loss_percent: own,
+                measured_loss_percent: loss,
                 ..
-            } => *own,
+            } => *loss,
         }
     }
 }

@@ -140,12 +140,12 @@ impl<'a> GridPlan<'a> {
         base: &str,
     ) -> Result<Vec<GridComparison>, Stopped> {
         let solved = engine.solve_all(&self.runs)?;
-        let own = &self.runs.0[0];
-        let seen = notes(&own.built.transmission, &solved[0].seen);
+        let first = &self.runs.0[0];
+        let seen = notes(&first.built.transmission, &solved[0].seen);
         let base = Base {
             name: base,
-            built: &own.built,
-            gear: &own.points.gear,
+            built: &first.built,
+            gear: &first.points.gear,
             torques: &self.axes[0],
             speeds: &self.axes[1],
             points: &solved[0].points,
@@ -244,8 +244,8 @@ fn components(built: [&Built<'_>; 2], points: [&[PointResult]; 2]) -> Vec<Differ
             continue;
         };
         count += 1.0;
-        for (sums, own) in sums.iter_mut().zip([base, other]) {
-            sums.iter_mut().zip(own).for_each(|(sum, watts)| *sum += watts);
+        for (sums, losses) in sums.iter_mut().zip([base, other]) {
+            sums.iter_mut().zip(losses).for_each(|(sum, watts)| *sum += watts);
         }
     }
     let [of_base, of_other] = sums.map(|sums| {

@@ -109,18 +109,18 @@ pub(super) fn compare(
         return Ok(Vec::new());
     };
     let mut comparisons = Vec::new();
-    for (b, own) in others.iter().zip(of_others) {
-        for ((read, driven), of_base) in duties.list.iter().zip(own).zip(of_base) {
+    for (b, driven_of_set) in others.iter().zip(of_others) {
+        for ((read, driven), of_base) in duties.list.iter().zip(driven_of_set).zip(of_base) {
             let shares = [base, b].map(|b| Shares::new(&b.transmission, entry.by).under(&share_names));
-            let mut own = comparison(read, [(base, of_base), (b, driven)], &shares);
+            let mut compared = comparison(read, [(base, of_base), (b, driven)], &shares);
             let both = [(base, of_base), (b, driven)];
             let both = both.map(|(b, driven)| duties.consumption(&b.transmission, driven));
             if let [Some(before), Some(now)] = both {
-                own.consumption_difference_kwh_per_100_km =
+                compared.consumption_difference_kwh_per_100_km =
                     Some(now.consumption_kwh_per_100_km - before.consumption_kwh_per_100_km);
-                own.range_difference_km = now.range_km.zip(before.range_km).map(|(now, before)| now - before);
+                compared.range_difference_km = now.range_km.zip(before.range_km).map(|(now, before)| now - before);
             }
-            comparisons.push(own);
+            comparisons.push(compared);
         }
     }
     Ok(comparisons)
@@ -128,8 +128,8 @@ pub(super) fn compare(
 
 /// Rejects a cycle that broke off.
 fn whole(engine: &Engine<'_>, plan: &DrivePlan<'_>, driven: &[Vec<Driven>]) -> Result<(), Stopped> {
-    for (b, own) in plan.built.iter().zip(driven) {
-        for (read, driven) in plan.duties.list.iter().zip(own) {
+    for (b, driven_of_set) in plan.built.iter().zip(driven) {
+        for (read, driven) in plan.duties.list.iter().zip(driven_of_set) {
             let Some((time, why)) = &driven.broken else { continue };
             let message = format!(
                 "`{}` could not be simulated with `{}` beyond {time} s: {}",

@@ -234,13 +234,13 @@ fn bands_of_points(points: &[ComparedPoint]) -> Vec<Band> {
     for (over, unit, coordinate) in coordinates {
         let at: Vec<f64> = points.iter().map(coordinate).collect();
         for ([from, to], places) in bands(&at) {
-            let own = places.iter().map(|i| &points[*i]);
+            let compared = places.iter().map(|i| &points[*i]);
             list.push(Band {
                 over,
                 unit,
                 from,
                 to,
-                difference: Statistics::weighted(own.filter_map(|p| Some((p.difference?, p.weight)))),
+                difference: Statistics::weighted(compared.filter_map(|p| Some((p.difference?, p.weight)))),
             });
         }
     }

@@ -168,8 +168,8 @@ fn sorted<'a>(intervals: &[At<'a>], classes: u32) -> Vec<(At<'a>, usize)> {
                 let share = at.duration / (sum.duration + at.duration);
                 sum.torque += share * (at.torque - sum.torque);
                 sum.speed += share * (at.speed - sum.speed);
-                for (own, other) in sum.temperatures.iter_mut().zip(&at.temperatures) {
-                    *own += share * (other - *own);
+                for (mean, other) in sum.temperatures.iter_mut().zip(&at.temperatures) {
+                    *mean += share * (other - *mean);
                 }
                 sum.duration += at.duration;
                 *count += 1;
@@ -191,7 +191,7 @@ fn bearings(t: &Transmission, solution: &Solution<'_>) -> Vec<BearingLoad> {
             found.map(|reading| reading.value)
         };
         let outer_rpm = read("outer_speed");
-        let own = BearingLoad {
+        let record = BearingLoad {
             bearing: path.clone(),
             copies: part.map_or(1.0, |part| t.parts()[part].count),
             inner_rpm: read("speed").zip(outer_rpm).map(|(relative, outer)| outer + relative),
@@ -208,14 +208,14 @@ fn bearings(t: &Transmission, solution: &Solution<'_>) -> Vec<BearingLoad> {
         let flows = solution.has_flow();
         all.push(BearingLoad {
             load: flows.then(|| load(solution.load(support), forces[support])),
-            ..own.clone()
+            ..record.clone()
         });
         if let Some(most) = solution.most_loaded(support) {
             all.push(BearingLoad {
                 bearing: format!("{path}, most loaded planet"),
                 copies: 1.0,
                 load: flows.then(|| load(most, None)),
-                ..own
+                ..record
             });
         }
     }
@@ -227,19 +227,19 @@ fn deviation(cases: &[LoadCase], intervals: &[LoadCase]) -> f64 {
     let count = cases.first().map_or(0, |case| case.bearings.len());
     let sum = |cases: &[LoadCase], bearing: usize| -> f64 {
         let one = |case: &LoadCase| {
-            let own = &case.bearings[bearing];
-            let relative = own
+            let load = &case.bearings[bearing];
+            let relative = load
                 .inner_rpm
-                .zip(own.outer_rpm)
+                .zip(load.outer_rpm)
                 .map(|(inner, outer)| (inner - outer).abs())?;
-            Some(case.duration_s * relative * own.load?.radial_n.powf(LIFE_EXPONENT))
+            Some(case.duration_s * relative * load.load?.radial_n.powf(LIFE_EXPONENT))
         };
         cases.iter().filter_map(one).sum()
     };
     (0..count)
         .filter_map(|bearing| {
-            let (own, exact) = (sum(cases, bearing), sum(intervals, bearing));
-            (exact > 0.0).then(|| ((own / exact).powf(1.0 / LIFE_EXPONENT) - 1.0).abs())
+            let (binned, exact) = (sum(cases, bearing), sum(intervals, bearing));
+            (exact > 0.0).then(|| ((binned / exact).powf(1.0 / LIFE_EXPONENT) - 1.0).abs())
         })
         .fold(0.0, f64::max)
 }

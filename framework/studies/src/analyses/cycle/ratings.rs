@@ -61,11 +61,11 @@ pub fn over_cycle(
     let mut courses: BTreeMap<(usize, &'static str, usize), Course> = BTreeMap::new();
     for (i, at) in Points::of(ride, driven).into_iter().enumerate() {
         points.solve(&at, |solution| {
-            for own in ratings.at(solution) {
-                let Ok(rated) = &own.result else { continue };
+            for rating in ratings.at(solution) {
+                let Ok(rated) = &rating.result else { continue };
                 for figure in rated.figures() {
-                    let order = own.plugin.figures.iter().position(|known| *known == figure.figure);
-                    let key = (own.part, own.plugin.entry.name, order.unwrap_or(usize::MAX));
+                    let order = rating.plugin.figures.iter().position(|known| *known == figure.figure);
+                    let key = (rating.part, rating.plugin.entry.name, order.unwrap_or(usize::MAX));
                     let course = courses.entry(key).or_insert_with(|| Course {
                         figure: figure.figure,
                         bound: figure.bound,

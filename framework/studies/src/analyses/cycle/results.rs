@@ -95,9 +95,9 @@ fn energy(driven: &Driven) -> EnergyOfDuty {
 
 /// Output over input energy of the intervals whose power into the reference port meets a condition; absent without input.
 fn efficiency(driven: &Driven, holds: fn(f64) -> bool) -> Option<f64> {
-    let own = driven.stretches.iter().filter(|s| holds(s.torque * s.speed));
+    let stretches = driven.stretches.iter().filter(|s| holds(s.torque * s.speed));
     let sum = |sum: [f64; 2], s: &Stretch| [sum[0] + s.heats.input, sum[1] + s.heats.output];
-    let [input, output] = own.fold([0.0, 0.0], sum);
+    let [input, output] = stretches.fold([0.0, 0.0], sum);
     (input > 0.0).then(|| output / input)
 }
 

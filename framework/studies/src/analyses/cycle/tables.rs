@@ -137,8 +137,8 @@ pub fn tabulate(
     let rows = |read: &Read, driven: &Driven| rows(&content, network, read, driven, (&gears, &own_gear));
     let mut deviation = [0.0_f64; 2];
     for (read, driven) in duties.list.iter().zip(driven) {
-        let own = deviation_of(&content, network, driven, &rows(read, driven));
-        deviation = [deviation[0].max(own[0]), deviation[1].max(own[1])];
+        let of_cycle = deviation_of(&content, network, driven, &rows(read, driven));
+        deviation = [deviation[0].max(of_cycle[0]), deviation[1].max(of_cycle[1])];
     }
     let experiment = experiment(&rows(first, &driven[0]), &driven[0]);
     Ok(NetworkTables {

@@ -31,7 +31,7 @@ pub enum Swept {
 
 impl Swept {
     pub fn new(cx: &Planner<'_>, path: &str, entry: &FluidSweepEntry, b: &Built<'_>) -> Result<Self, Stopped> {
-        let own = lookup(&b.resolved.value, "housing.oil.lubricant").and_then(Value::as_str);
+        let described = lookup(&b.resolved.value, "housing.oil.lubricant").and_then(Value::as_str);
         let names: Vec<&str> = b.resolved.value["lubricants"]
             .as_object()
             .into_iter()
@@ -41,7 +41,7 @@ impl Swept {
         let oil = entry
             .lubricant
             .as_deref()
-            .or(own)
+            .or(described)
             .or(names.first().copied())
             .unwrap_or_default();
         if !names.contains(&oil) {
@@ -70,8 +70,8 @@ impl Swept {
                     "state the common index of all oils",
                 )
             })?;
-        let own = lookup(&b.resolved.value, &format!("{oil}.viscosity"));
-        let of = |key: &str| own.and_then(|v| v.get(key)).cloned().unwrap_or(Value::Null);
+        let viscosity = lookup(&b.resolved.value, &format!("{oil}.viscosity"));
+        let of = |key: &str| viscosity.and_then(|v| v.get(key)).cloned().unwrap_or(Value::Null);
         Ok(Self::Viscosity {
             law: of("law"),
             factor: of("factor"),
@@ -131,9 +131,9 @@ impl Swept {
                     law.clone()
                 };
                 let mut viscosity = json!({ "kv40": kv40, "kv100": value });
-                for (key, own) in [("law", law), ("factor", factor.clone())] {
-                    if !own.is_null() {
-                        viscosity[key] = own;
+                for (key, stated) in [("law", law), ("factor", factor.clone())] {
+                    if !stated.is_null() {
+                        viscosity[key] = stated;
                     }
                 }
                 Ok(vec![(format!("{oil}.viscosity"), viscosity)])

@@ -82,10 +82,10 @@ fn common_deviations(outcomes: &[IdentificationOfSet]) -> Option<Vec<f64>> {
 fn model(o: &IdentificationOfSet, common: &[f64]) -> Option<FittedModel> {
     let inference = &o.found.fitted.inference;
     let in_common = |list: &[f64]| -> Vec<f64> {
-        let own = o.found.observations.iter().zip(common);
-        let pairs = list.iter().zip(own);
+        let deviations = o.found.observations.iter().zip(common);
+        let pairs = list.iter().zip(deviations);
         pairs
-            .map(|(residual, (own, common))| residual * own.deviation / common)
+            .map(|(residual, (observation, common))| residual * observation.deviation / common)
             .collect()
     };
     let residuals = in_common(inference.residuals());
@@ -138,8 +138,9 @@ fn points(o: &IdentificationOfSet, common: &[f64]) -> PointSet {
     }
     for sheet in &o.found.sheets {
         for quantity in o.found.quantities() {
-            let own = |i: &usize| observations[*i].quantity == quantity && sheet.rows.contains(&observations[*i].row);
-            let places: Vec<usize> = (0..observations.len()).filter(own).collect();
+            let is_within =
+                |i: &usize| observations[*i].quantity == quantity && sheet.rows.contains(&observations[*i].row);
+            let places: Vec<usize> = (0..observations.len()).filter(is_within).collect();
             let [torques, speeds] =
                 ["torque", "speed"].map(|q| places.iter().map(|i| value(*i, q)).collect::<Vec<f64>>());
             let of_places = |cell: Vec<usize>| cell.into_iter().map(|k| places[k]).collect();

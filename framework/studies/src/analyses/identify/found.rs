@@ -187,8 +187,8 @@ impl Found {
     pub fn weighted_rms(&self, quantity: Quantity) -> [f64; 2] {
         [0, 1].map(|k| {
             let all = self.observations.iter().zip(&self.pairs[k]);
-            let own = all.filter(|(o, _)| o.quantity == quantity);
-            let list: Vec<f64> = own.map(|(o, p)| (p.model - p.measured) / o.deviation).collect();
+            let of_quantity = all.filter(|(o, _)| o.quantity == quantity);
+            let list: Vec<f64> = of_quantity.map(|(o, p)| (p.model - p.measured) / o.deviation).collect();
             (list.iter().map(|r| r * r).sum::<f64>() / list.len().max(1) as f64).sqrt()
         })
     }
@@ -224,11 +224,11 @@ fn rows(there: &Calculated, measured: &Measured, mechanisms: &[&'static str]) ->
         let point: &crate::points::PointResult = point;
         let parts = there.solved.transmissions[*number].parts();
         let of_mechanism = |mechanism: &&str| {
-            let own = parts
+            let watts_of_parts = parts
                 .iter()
                 .zip(&point.parts)
                 .filter(|(part, _)| part.mechanism == *mechanism);
-            own.map(|(_, watts)| watts).sum()
+            watts_of_parts.map(|(_, watts)| watts).sum()
         };
         let seen = Seen::with_rig(&there.rig, measured, row, point);
         let accuracy = seen.accuracy(Quantity::Loss).unwrap_or(0.0);

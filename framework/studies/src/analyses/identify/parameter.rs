@@ -224,7 +224,7 @@ impl ParameterOfSet {
             range_filled: found.filled,
             width_over_range: found.width,
             width_over_range_alone: found.alone,
-            own_share: found.own,
+            own_share: found.own_share,
             judgement: found.verdict,
         }
     }

@@ -142,15 +142,17 @@ pub(super) fn parameters(name: &str, all: &[IdentificationOfSet]) -> Table {
     }
     Table::of(format!("{name}-parameters"), rows)
         .text("model_set", "Model set", |(o, ..)| &o.model_set)
-        .text("parameter", "Name of the parameter", |(.., own)| &own.name)
-        .fields("path unit", |(.., own)| own)
-        .fields_in(UNIT, "stated published start least greatest", |(.., own)| own)
-        .number("fitted", UNIT, "Identified value", |(.., own)| own.value)
+        .text("parameter", "Name of the parameter", |(.., parameter)| &parameter.name)
+        .fields("path unit", |(.., parameter)| parameter)
+        .fields_in(UNIT, "stated published start least greatest", |(.., parameter)| {
+            parameter
+        })
+        .number("fitted", UNIT, "Identified value", |(.., parameter)| parameter.value)
         .ends(
             ["low", "high"],
             UNIT,
             "the 95 % interval of the linearised fit",
-            |(.., own)| own.interval,
+            |(.., parameter)| parameter.interval,
         )
         .ends(
             ["profile_low", "profile_high"],
@@ -158,7 +160,11 @@ pub(super) fn parameters(name: &str, all: &[IdentificationOfSet]) -> Table {
             "the 95 % profile interval",
             |(_, profile, _)| profile.map(|p| p.theta),
         )
-        .text("verdict", "Verdict", |(.., own)| verdict_words(own.judgement))
-        .text("sentence", "The same as a sentence", |(.., own)| &own.sentence)
+        .text("verdict", "Verdict", |(.., parameter)| {
+            verdict_words(parameter.judgement)
+        })
+        .text("sentence", "The same as a sentence", |(.., parameter)| {
+            &parameter.sentence
+        })
         .finish()
 }

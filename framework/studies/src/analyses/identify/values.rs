@@ -30,14 +30,14 @@ pub(super) fn as_yaml(name: &str, o: &IdentificationOfSet) -> String {
         any |= matches!(parameter.target, Target::Path(_) | Target::Over { place: 0, .. });
         match &parameter.target {
             Target::Path(varied) => {
-                for (path, own) in varied.overrides(*value) {
+                for (path, set_value) in varied.overrides(*value) {
                     // A factor leaves each path its own unit.
                     let unit = if parameter.unit.symbol == "-" {
                         ""
                     } else {
                         parameter.unit.symbol
                     };
-                    let _ = writeln!(text, "    {path}: {}", format!("{own} {unit}").trim_end());
+                    let _ = writeln!(text, "    {path}: {}", format!("{set_value} {unit}").trim_end());
                 }
             }
             Target::Over {

@@ -73,8 +73,12 @@ impl Watch {
                         flow: points.flow,
                         ..Point::default()
                     };
-                    let own = [oil];
-                    let temperatures = if point.nodes.is_empty() { &own[..] } else { &point.nodes };
+                    let alone = [oil];
+                    let temperatures = if point.nodes.is_empty() {
+                        &alone[..]
+                    } else {
+                        &point.nodes
+                    };
                     let solution: Solution<'_> = t.evaluate(&case, &prescribed, temperatures, &mut scratch);
                     ratings.at(&solution)
                 }
@@ -195,7 +199,7 @@ impl Limit {
             }
             Owner::Node(name) => {
                 let names = t.network().map_or(&[][..], Network::names);
-                let node = names.iter().position(|own| own == name);
+                let node = names.iter().position(|known| known == name);
                 node.map_or(point.oil, |node| point.nodes.get(node).copied())
             }
             Owner::Gear(gear) => t.ratios(*gear).first().and_then(|(_, ratio)| *ratio).map(f64::abs),
@@ -203,12 +207,12 @@ impl Limit {
             Owner::Gearbox => point.loss,
             Owner::Cycle(_) | Owner::AllCycles | Owner::OtherCycle => None,
             Owner::Rating { rating, symbol, .. } => {
-                let own = rated.iter().filter(|own| own.plugin.entry.name == *rating);
-                let own = own.filter(|own| self.rates(rating, &t.parts()[own.part].path));
-                let values = own.flat_map(|own| {
-                    let figures = own.result.as_ref().map_or(&[][..], |rated| rated.figures());
+                let ratings = rated.iter().filter(|rated| rated.plugin.entry.name == *rating);
+                let ratings = ratings.filter(|rated| self.rates(rating, &t.parts()[rated.part].path));
+                let values = ratings.flat_map(|rating| {
+                    let figures = rating.result.as_ref().map_or(&[][..], |rated| rated.figures());
                     let figures = figures.iter().filter(|figure| figure.figure.symbol == *symbol);
-                    figures.map(|figure| (figure.value, own.part))
+                    figures.map(|figure| (figure.value, rating.part))
                 });
                 let worst = values.min_by(|a, b| self.margin(a.0).total_cmp(&self.margin(b.0)));
                 return worst.map_or((f64::NAN, None), |(value, part)| (value, Some(part)));

@@ -40,7 +40,7 @@ pub fn limits_of(
 /// The index of a cycle of an analysis.
 pub fn cycle(cx: &Planner<'_>, path: &str, name: &str, duties: &Duties<'_>) -> Result<usize, Stopped> {
     let names: Vec<&str> = duties.list.iter().map(|read| read.name.as_str()).collect();
-    let place = names.iter().position(|own| *own == name);
+    let place = names.iter().position(|known| *known == name);
     place.ok_or_else(|| cx.found(vec![dangling(path, "cycle of this analysis", name, &names)]))
 }
 
@@ -49,14 +49,14 @@ impl Limit {
     fn value(&self, t: &Transmission, driven: &[Driven], rated: &[Vec<RatedOverTime>]) -> Option<f64> {
         match &self.of {
             Owner::Rating { .. } => {
-                let own = rated.iter().flatten();
-                let own = own.filter(|own| self.limits(own));
+                let ratings = rated.iter().flatten();
+                let ratings = ratings.filter(|rating| self.limits(rating));
                 // Where the quantity is unknown, the limit cannot be kept.
-                Some(self.worst(own.map(|own| own.value)))
+                Some(self.worst(ratings.map(|rating| rating.value)))
             }
             Owner::OtherCycle => None,
             Owner::Gearbox => {
-                let all = driven.iter().flat_map(|own| self.of_gearbox(own));
+                let all = driven.iter().flat_map(|cycle| self.of_gearbox(cycle));
                 Some(self.worst(all))
             }
             Owner::Gear(gear) => t.ratios(*gear).first().and_then(|(_, ratio)| *ratio).map(f64::abs),
@@ -67,13 +67,15 @@ impl Limit {
             }
             Owner::Oil | Owner::Node(_) => {
                 let node = match &self.of {
-                    Owner::Node(name) => nodes(t, driven.first()?).iter().position(|own| own == name)?,
+                    Owner::Node(name) => nodes(t, driven.first()?)
+                        .iter()
+                        .position(|node_name| node_name == name)?,
                     _ => t.network().map_or(0, Network::oil),
                 };
                 let of_node = |all: &Vec<f64>| all.get(node).or(all.first()).copied();
-                let all = driven.iter().flat_map(|own| {
-                    let ends = own.stretches.iter().map(|stretch| &stretch.temperatures);
-                    std::iter::once(&own.start).chain(ends).filter_map(of_node)
+                let all = driven.iter().flat_map(|cycle| {
+                    let ends = cycle.stretches.iter().map(|stretch| &stretch.temperatures);
+                    std::iter::once(&cycle.start).chain(ends).filter_map(of_node)
                 });
                 Some(self.worst(all))
             }
@@ -96,14 +98,14 @@ impl Limit {
     }
 
     /// Whether it limits a quantity of a rating.
-    fn limits(&self, own: &RatedOverTime) -> bool {
-        self.symbol() == Some(own.symbol) && self.rates(own.rating, &own.component)
+    fn limits(&self, rating: &RatedOverTime) -> bool {
+        self.symbol() == Some(rating.symbol) && self.rates(rating.rating, &rating.component)
     }
 
     /// Whether it limits one of the cycles but not this one.
     fn is_of_another_cycle(&self, cycle: usize) -> bool {
         match self.of {
-            Owner::Cycle(own) => own != cycle,
+            Owner::Cycle(limited) => limited != cycle,
             Owner::OtherCycle => true,
             _ => false,
         }
@@ -125,14 +127,16 @@ pub fn reached(
             .enumerate()
             .filter(|(k, _)| !limit.is_of_another_cycle(*k))
         {
-            let own = std::slice::from_ref(*driven);
+            let alone = std::slice::from_ref(*driven);
             let value = match limit.of {
                 Owner::Cycle(_) => mean_loss(driven),
-                _ => limit.value(t, own, rated.get(k).map_or(&[], std::slice::from_ref)),
+                _ => limit.value(t, alone, rated.get(k).map_or(&[], std::slice::from_ref)),
             };
             let value = value.unwrap_or(f64::NAN);
-            let mut parts = rated.get(k).into_iter().flatten().filter(|own| limit.limits(own));
-            let component = parts.find(|own| own.value == value).map(|own| own.component.clone());
+            let mut parts = rated.get(k).into_iter().flatten().filter(|rating| limit.limits(rating));
+            let component = parts
+                .find(|rating| rating.value == value)
+                .map(|rating| rating.component.clone());
             let place = Place {
                 component,
                 cycle: Some(duties.list[k].name.clone()),
@@ -192,8 +196,9 @@ pub fn values(
     let mut rated = Vec::new();
     if let Some(ratings) = ratings {
         for (read, driven) in duties.list.iter().zip(driven) {
-            let own = over_cycle(t, ratings, &duties.ride(t, read), driven);
-            rated.push(own.map_err(|list| list.first().map_or_else(String::new, |d| d.message.clone()))?);
+            let ratings_over_cycle = over_cycle(t, ratings, &duties.ride(t, read), driven);
+            rated
+                .push(ratings_over_cycle.map_err(|list| list.first().map_or_else(String::new, |d| d.message.clone()))?);
         }
     }
     let value = |limit: &Limit| limit.value(t, driven, &rated).unwrap_or(f64::NAN);

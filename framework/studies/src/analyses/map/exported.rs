@@ -39,12 +39,14 @@ impl ExportData {
     /// Deviations between the oil temperatures of the maps of one set and gear.
     pub(super) fn solve_between_oils(engine: &Engine<'_>, maps: &mut [Map<'_>]) -> Result<(), Stopped> {
         for i in 0..maps.len() {
-            let Some(own) = maps[i].oil.given() else { continue };
+            let Some(cooler) = maps[i].oil.given() else { continue };
             let same = |map: &&Map<'_>| {
                 (&map.run.built.name, &map.run.points.gear) == (&maps[i].run.built.name, &maps[i].run.points.gear)
             };
             let warmer = maps.iter().filter(same).filter_map(|map| Some((map.oil.given()?, map)));
-            let next = warmer.filter(|(oil, _)| *oil > own).min_by(|a, b| a.0.total_cmp(&b.0));
+            let next = warmer
+                .filter(|(oil, _)| *oil > cooler)
+                .min_by(|a, b| a.0.total_cmp(&b.0));
             let Some((oil, next)) = next else { continue };
             let complete = |map: &Map<'_>| {
                 let grid = map.shown.whole.as_ref()?;
@@ -54,7 +56,7 @@ impl ExportData {
                 continue;
             };
             if cold.axes.torques == warm.axes.torques && cold.axes.speeds == warm.axes.speeds {
-                let middle = Some(0.5 * (own + oil));
+                let middle = Some(0.5 * (cooler + oil));
                 maps[i].export.between_oils = between(engine, &maps[i], &[cold, warm], middle)?;
             }
         }

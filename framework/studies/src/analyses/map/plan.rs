@@ -39,7 +39,7 @@ pub fn on_grid<'a>(
     }
     let mut maps = Vec::new();
     for bound in combinations {
-        let change = |(own, value): &(String, Value)| (own.clone(), value.clone(), format!("{path}.bind"));
+        let change = |(changed, value): &(String, Value)| (changed.clone(), value.clone(), format!("{path}.bind"));
         let changes: Vec<_> = bound.iter().map(change).collect();
         for built in cx.built_with(gearbox, &entry.model_sets, &changes)? {
             let t = &built.transmission;

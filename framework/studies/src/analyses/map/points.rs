@@ -45,8 +45,8 @@ impl RowsOf {
     }
 
     pub fn new(run: &Run<'_>, bound: &[(String, Value)], parts: &[String], limits: &[LimitColumn]) -> Self {
-        let own = run.built.transmission.parts();
-        let place = |part: &String| own.iter().position(|o| o.path == *part);
+        let all = run.built.transmission.parts();
+        let place = |part: &String| all.iter().position(|o| o.path == *part);
         Self {
             model_set: run.built.name.clone(),
             gear: run.points.gear.clone(),
@@ -255,9 +255,9 @@ impl MapPoints {
 
     /// The limited quantities, which have the last columns.
     fn limits_at(&self, row: usize) -> Vec<f64> {
-        let own = &self.table.columns[self.table.columns.len() - self.limits.len()..];
+        let limited = &self.table.columns[self.table.columns.len() - self.limits.len()..];
         let value = |column: &Column| column.numbers().map_or(f64::NAN, |numbers| numbers[row]);
-        own.iter().map(value).collect()
+        limited.iter().map(value).collect()
     }
 
     fn sums(&self, row: usize) -> Option<Sums> {
@@ -268,8 +268,11 @@ impl MapPoints {
     /// A point by its row of the table; its index in the map is used for undefined losses.
     fn point(&self, row: usize) -> MapPoint<'_> {
         let number = |column: usize| self.number(column, row);
-        let own = row - self.rows.start;
-        let undefined = self.undefined.binary_search_by_key(&own, |loss| loss.number).ok();
+        let row_of_chunk = row - self.rows.start;
+        let undefined = self
+            .undefined
+            .binary_search_by_key(&row_of_chunk, |loss| loss.number)
+            .ok();
         MapPoint {
             torque_nm: number(0),
             speed_rpm: number(1),

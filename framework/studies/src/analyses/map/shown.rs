@@ -150,18 +150,18 @@ impl LossGrid {
     /// The same grid with a row at zero torque, one value for each speed; without a value at every speed that has one elsewhere, and with a
     /// grid that has such a row, the grid itself.
     pub fn with_no_load(&self, row: &[LossAt]) -> Self {
-        let mut own = self.clone();
+        let mut extended = self.clone();
         let Axes { torques, speeds, .. } = &self.axes;
         let turns = |w: usize| (0..torques.len()).any(|t| self.loss_torque(t, w).is_some());
         let has_all = row.len() == speeds.len() && (0..speeds.len()).all(|w| row[w].loss_torque.is_some() || !turns(w));
         if torques.contains(&0.0) || !has_all {
-            return own;
+            return extended;
         }
         let place = torques.partition_point(|torque| *torque < 0.0);
-        own.axes.torques.insert(place, 0.0);
+        extended.axes.torques.insert(place, 0.0);
         let at = place * speeds.len();
-        own.values.splice(at..at, row.iter().copied().map(Some));
-        own
+        extended.values.splice(at..at, row.iter().copied().map(Some));
+        extended
     }
 
     /// True if an envelope leaves positions empty.

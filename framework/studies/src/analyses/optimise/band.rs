@@ -40,16 +40,22 @@ pub fn of_gain(
         for (input, share) in inputs.iter().zip(shares) {
             values.extend(input.range.varied.overrides(input.value(share)?));
         }
-        let losses = |own: &dyn Fn(usize) -> bool| -> Result<Vec<f64>, String> {
-            let changes = drives.overrides(genes, own);
+        let losses = |is_changed: &dyn Fn(usize) -> bool| -> Result<Vec<f64>, String> {
+            let changes = drives.overrides(genes, is_changed);
             let drive = drives.drive(values.iter().cloned().chain(changes).collect())?;
             Ok(objectives.iter().map(|cycle| drive.losses[*cycle]).collect())
         };
         let present = losses(&|_| false)?;
-        let gain = |losses: Vec<f64>| present.iter().zip(losses).map(|(present, own)| present - own).collect();
+        let gain = |losses: Vec<f64>| {
+            present
+                .iter()
+                .zip(losses)
+                .map(|(present, changed_loss)| present - changed_loss)
+                .collect()
+        };
         let mut gains = vec![gain(losses(&|_| true)?)];
         for variable in changed {
-            gains.push(gain(losses(&|own| own == *variable)?));
+            gains.push(gain(losses(&|place| place == *variable)?));
         }
         Ok(gains)
     };

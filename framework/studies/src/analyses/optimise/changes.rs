@@ -37,7 +37,7 @@ pub fn of_design(
         (0..count).map(|place| 1 << place).collect()
     };
     let holds = |set: u64, variable: usize| {
-        let place = changed.iter().position(|own| *own == variable);
+        let place = changed.iter().position(|known| *known == variable);
         place.is_some_and(|place| set & (1 << place) != 0)
     };
     let driven = drives.engine.jobs("combinations of changes", sets.len(), |i| {
@@ -99,8 +99,8 @@ mod tests {
         };
         let gains: Vec<_> = (0..8).map(gain).collect();
         let shares: Vec<f64> = (0..3).filter_map(|place| Some(share(&gains, place, 3)?[0])).collect();
-        for (own, expected) in shares.iter().zip([4.0, 6.0, 0.0]) {
-            assert!((own - expected).abs() < 1e-14, "{shares:?}");
+        for (share, expected) in shares.iter().zip([4.0, 6.0, 0.0]) {
+            assert!((share - expected).abs() < 1e-14, "{shares:?}");
         }
         let mut broken = gains.clone();
         broken[3] = None;

@@ -50,14 +50,15 @@ impl Drives<'_> {
     }
 
     /// Overrides of the variables of a subset; the others are as described.
-    pub fn overrides<'g>(&'g self, genes: &'g [f64], own: impl Fn(usize) -> bool + 'g) -> Vec<(String, Value)> {
-        let own = self
+    pub fn overrides<'g>(&'g self, genes: &'g [f64], is_changed: impl Fn(usize) -> bool + 'g) -> Vec<(String, Value)> {
+        let overridden = self
             .variables
             .iter()
             .zip(genes)
             .enumerate()
-            .filter(move |(i, _)| own(*i));
-        own.flat_map(|(_, (variable, gene))| variable.overrides(*gene))
+            .filter(move |(i, _)| is_changed(*i));
+        overridden
+            .flat_map(|(_, (variable, gene))| variable.overrides(*gene))
             .collect()
     }
 
@@ -71,10 +72,10 @@ impl Drives<'_> {
         Ok(Drive {
             losses: driven
                 .iter()
-                .map(|own| mean_loss(own).unwrap_or(f64::INFINITY))
+                .map(|cycle| mean_loss(cycle).unwrap_or(f64::INFINITY))
                 .collect(),
             limited: values(self.limits, self.duties, &t, ratings.as_ref(), &driven)?,
-            left: driven.iter().flat_map(|own| left(&t, &own.seen)).collect(),
+            left: driven.iter().flat_map(|cycle| left(&t, &cycle.seen)).collect(),
         })
     }
 

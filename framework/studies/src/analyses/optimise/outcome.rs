@@ -177,8 +177,8 @@ pub fn put_together(
     bands: Vec<Band>,
 ) -> OptimiseOutcome {
     let chosen = search.chosen();
-    let best = chosen.as_ref().and_then(|own| {
-        let place = search.designs.iter().position(|other| other == own)?;
+    let best = chosen.as_ref().and_then(|design| {
+        let place = search.designs.iter().position(|other| other == design)?;
         search.driven[place].as_ref().ok()
     });
     let front = search.front();
@@ -190,15 +190,18 @@ pub fn put_together(
             .then(|| search.designs[i].score.objectives.clone()),
         limited: search.driven[i]
             .as_ref()
-            .map_or_else(|_| Vec::new(), |own| own.limited.clone()),
+            .map_or_else(|_| Vec::new(), |driven| driven.limited.clone()),
         violation: search.driven[i].is_ok().then_some(search.designs[i].score.violation),
         on_front: front.contains(&i),
     };
-    let mut failures = search.driven.iter().filter_map(|own| own.as_ref().err());
+    let mut failures = search.driven.iter().filter_map(|driven| driven.as_ref().err());
     let first_failure = failures.next().cloned();
-    let genes = chosen.as_ref().map(|own| own.genes.as_slice());
+    let genes = chosen.as_ref().map(|design| design.genes.as_slice());
     let study = drives.engine.study;
-    let gearbox = study.gearboxes.iter().position(|(_, own)| std::ptr::eq(own, b.gearbox));
+    let gearbox = study
+        .gearboxes
+        .iter()
+        .position(|(_, known)| std::ptr::eq(known, b.gearbox));
     let gearbox = gearbox.and_then(|i| study.entry.gearboxes.iter().nth(i));
     let proposed = best.unwrap_or(present);
     note_proposed(
@@ -212,7 +215,11 @@ pub fn put_together(
         head: drives.engine.head(&[Arc::clone(b)]),
         model_set: b.name.clone(),
         designs: search.designs.len(),
-        feasible: search.designs.iter().filter(|own| own.score.is_feasible()).count(),
+        feasible: search
+            .designs
+            .iter()
+            .filter(|design| design.score.is_feasible())
+            .count(),
         failed: usize::from(first_failure.is_some()) + failures.count(),
         first_failure,
         exhaustive: search.is_exhaustive,
@@ -226,7 +233,7 @@ pub fn put_together(
         found: genes.map_or_else(Vec::new, |genes| drives.overrides(genes, |_| true)),
         gearbox: gearbox.map_or_else(String::new, |(_, file)| file.clone()),
         left: best
-            .map_or_else(Left::new, |own| own.left.clone())
+            .map_or_else(Left::new, |drive| drive.left.clone())
             .into_iter()
             .collect(),
     }
@@ -239,15 +246,15 @@ fn words(drives: &Drives<'_>, genes: &[f64]) -> Vec<String> {
 
 fn variables(drives: &Drives<'_>, genes: Option<&[f64]>, b: &Built<'_>) -> Vec<VariableOfSearch> {
     let variables = drives.variables.iter().enumerate();
-    let variable = |(i, own): (usize, &super::Variable)| {
+    let variable = |(i, entry): (usize, &super::Variable)| {
         let gene = genes.map(|genes| genes[i]);
         VariableOfSearch {
-            variable: own.name.clone(),
-            path: own.path.clone(),
-            present: own.present_words(b),
-            best: gene.map(|gene| own.words(gene)),
+            variable: entry.name.clone(),
+            path: entry.path.clone(),
+            present: entry.present_words(b),
+            best: gene.map(|gene| entry.words(gene)),
             at_end_of_range: gene
-                .is_some_and(|gene| own.number(gene).is_some() && !(1e-3..=1.0 - 1e-3).contains(&gene)),
+                .is_some_and(|gene| entry.number(gene).is_some() && !(1e-3..=1.0 - 1e-3).contains(&gene)),
         }
     };
     variables.map(variable).collect()
@@ -255,10 +262,10 @@ fn variables(drives: &Drives<'_>, genes: Option<&[f64]>, b: &Built<'_>) -> Vec<V
 
 fn limits(drives: &Drives<'_>, present: &Drive, best: Option<&Drive>) -> Vec<LimitOfSearch> {
     let limits = drives.limits.iter().enumerate();
-    let limit = |(i, own): (usize, &Limit)| {
+    let limit = |(i, entry): (usize, &Limit)| {
         let best = best.map(|drive| drive.limited[i]).filter(|x| x.is_finite());
         let near = |value: f64, bound: &f64| {
-            let width = if own.unit.symbol == "degC" {
+            let width = if entry.unit.symbol == "degC" {
                 1.0
             } else {
                 0.01 * bound.abs()
@@ -266,9 +273,9 @@ fn limits(drives: &Drives<'_>, present: &Drive, best: Option<&Drive>) -> Vec<Lim
             (value - bound).abs() <= width
         };
         LimitOfSearch {
-            entry: own.record(Some(present.limited[i])),
+            entry: entry.record(Some(present.limited[i])),
             best,
-            binding: best.is_some_and(|value| own.bounds.iter().flatten().any(|bound| near(value, bound))),
+            binding: best.is_some_and(|value| entry.bounds.iter().flatten().any(|bound| near(value, bound))),
         }
     };
     limits.map(limit).collect()
@@ -283,9 +290,9 @@ fn gains(
 ) -> Vec<GainOfCycle> {
     let cycles = drives.duties.list.iter().enumerate();
     let gain = |(cycle, read): (usize, &crate::analyses::duties::Read)| {
-        let objective = objectives.iter().position(|own| *own == cycle);
+        let objective = objectives.iter().position(|known| *known == cycle);
         let feasible = search.designs.iter().zip(&search.driven);
-        let feasible = feasible.filter(|(own, _)| own.score.is_feasible());
+        let feasible = feasible.filter(|(design, _)| design.score.is_feasible());
         let losses = feasible.filter_map(|(_, drive)| Some(drive.as_ref().ok()?.losses[cycle]));
         let band = objective.and_then(|objective| bands.get(objective));
         GainOfCycle {
@@ -309,14 +316,14 @@ fn ordered(
     bands: &[Band],
 ) -> Vec<ChangeOfDesign> {
     let Some(genes) = genes else { return Vec::new() };
-    let change = |(place, own): (usize, Change)| {
-        let variable = &drives.variables[own.variable];
+    let change = |(place, saved): (usize, Change)| {
+        let variable = &drives.variables[saved.variable];
         ChangeOfDesign {
             variable: variable.name.clone(),
             from: variable.present_words(b),
-            to: variable.words(genes[own.variable]),
-            alone_w: own.alone,
-            share_w: own.share,
+            to: variable.words(genes[saved.variable]),
+            alone_w: saved.alone,
+            share_w: saved.share,
             bands: bands
                 .iter()
                 .map(|band| BandOfGain::new(band.alone[place], band.samples))
@@ -324,8 +331,8 @@ fn ordered(
         }
     };
     let mut all: Vec<ChangeOfDesign> = changes.into_iter().enumerate().map(change).collect();
-    let saved = |own: &ChangeOfDesign| {
-        let list = own.share_w.as_ref().or(own.alone_w.as_ref());
+    let saved = |change: &ChangeOfDesign| {
+        let list = change.share_w.as_ref().or(change.alone_w.as_ref());
         list.map_or(f64::NEG_INFINITY, |list| list[0])
     };
     all.sort_by(|a, b| saved(b).total_cmp(&saved(a)));
@@ -339,32 +346,32 @@ impl Outcome for OptimiseOutcome {
 
     fn tables(&self) -> Vec<Table> {
         let name = &self.head.analysis;
-        let minimised: Vec<&GainOfCycle> = self.gains.iter().filter(|own| own.minimised).collect();
+        let minimised: Vec<&GainOfCycle> = self.gains.iter().filter(|gain| gain.minimised).collect();
         let designs = Table::of(name, &self.all)
-            .number("design", "-", "Number in the order of evaluation", |own| {
-                own.design as f64
+            .number("design", "-", "Number in the order of evaluation", |design| {
+                design.design as f64
             })
             .each(self.variables.iter().enumerate(), |table, (i, variable)| {
                 let meaning = format!("Value of {}", variable.path);
-                table.text(variable.variable.clone(), meaning, move |own| &own.values[i])
+                table.text(variable.variable.clone(), meaning, move |design| &design.values[i])
             })
             .each(minimised.iter().enumerate(), |table, (i, cycle)| {
                 let meaning = format!("Mean loss over {}", cycle.cycle);
-                table.number(format!("{}_w", cycle.cycle), "W", meaning, move |own| {
-                    own.mean_losses_w.as_ref().map(|all| all[i])
+                table.number(format!("{}_w", cycle.cycle), "W", meaning, move |design| {
+                    design.mean_losses_w.as_ref().map(|all| all[i])
                 })
             })
             .each(self.limits.iter().enumerate(), |table, (i, limit)| {
                 let LimitRecord {
                     limit, quantity, unit, ..
                 } = limit.entry.clone();
-                table.number(format!("{limit}_limited"), unit, quantity, move |own| {
-                    own.limited.get(i).copied()
+                table.number(format!("{limit}_limited"), unit, quantity, move |design| {
+                    design.limited.get(i).copied()
                 })
             })
-            .fields("violation on_front", |own| own);
+            .fields("violation on_front", |design| design);
         let changes = Table::of(format!("{name}-changes"), &self.changes)
-            .fields("variable from to", |own| own)
+            .fields("variable from to", |change| change)
             .each(minimised.iter().enumerate(), |table, (i, cycle)| {
                 let of = &cycle.cycle;
                 table
@@ -372,13 +379,13 @@ impl Outcome for OptimiseOutcome {
                         format!("{of}_alone_w"),
                         "W",
                         format!("Gain of the change alone over {of}"),
-                        move |own| own.alone_w.as_ref().map(|all| all[i]),
+                        move |change| change.alone_w.as_ref().map(|all| all[i]),
                     )
                     .number(
                         format!("{of}_share_w"),
                         "W",
                         format!("Share of the gain of all changes over {of}"),
-                        move |own| own.share_w.as_ref().map(|all| all[i]),
+                        move |change| change.share_w.as_ref().map(|all| all[i]),
                     )
             });
         vec![designs.finish(), changes.finish()]

@@ -88,7 +88,7 @@ impl<'a> Search<'a> {
 
     fn evolve(&mut self, most: usize) -> Result<(), Stopped> {
         let usual = (8 + 4 * self.genes.len()).min(64);
-        let size = self.entry.population.map_or(usual, |own| own as usize).min(most);
+        let size = self.entry.population.map_or(usual, |stated| stated as usize).min(most);
         let mut evolution = Evolution::new(self.genes.clone(), size, u64::from(self.entry.seed));
         let start: Vec<f64> = self
             .drives
@@ -118,7 +118,7 @@ impl<'a> Search<'a> {
 
     /// Refines the numbers of the best design of an objective.
     fn refine(&mut self, objective: usize, most: usize) -> Result<(), Stopped> {
-        let Some(start) = best(&self.designs, objective).filter(|own| own.score.is_feasible()) else {
+        let Some(start) = best(&self.designs, objective).filter(|design| design.score.is_feasible()) else {
             return Ok(());
         };
         let mut refinement = Refinement::new(&self.genes, start.clone(), objective, STEP);
@@ -160,18 +160,20 @@ impl<'a> Search<'a> {
             self.designs.push(Design { genes, score });
             self.driven.push(drive);
         }
-        let own = designs.iter().filter_map(|genes| self.known.get(&bits(genes)));
-        Ok(own.map(|i| self.designs[*i].clone()).collect())
+        let known = designs.iter().filter_map(|genes| self.known.get(&bits(genes)));
+        Ok(known.map(|i| self.designs[*i].clone()).collect())
     }
 
     /// The design with the least losses, relative to those of the design as described: their mean over the objectives. Absent if no design
     /// keeps the limits.
     pub fn chosen(&self) -> Option<Design> {
-        let sum = |own: &&Design| -> f64 {
-            let pairs = own.score.objectives.iter().zip(&self.present);
-            pairs.map(|(own, present)| own / present.max(f64::MIN_POSITIVE)).sum()
+        let sum = |design: &&Design| -> f64 {
+            let pairs = design.score.objectives.iter().zip(&self.present);
+            pairs
+                .map(|(objective, present)| objective / present.max(f64::MIN_POSITIVE))
+                .sum()
         };
-        let feasible = self.designs.iter().filter(|own| own.score.is_feasible());
+        let feasible = self.designs.iter().filter(|design| design.score.is_feasible());
         feasible.min_by(|a, b| sum(a).total_cmp(&sum(b))).cloned()
     }
 

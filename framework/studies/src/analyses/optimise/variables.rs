@@ -120,9 +120,9 @@ impl Variable {
                 "add the values to choose from, the present one among them",
             ));
         } else {
-            let own = lookup(&b.resolved.value, path);
+            let present = lookup(&b.resolved.value, path);
             Kind::Choice {
-                present: own.and_then(|own| values.iter().position(|value| value == own)),
+                present: present.and_then(|described| values.iter().position(|value| value == described)),
                 values,
             }
         };
@@ -147,8 +147,10 @@ impl Variable {
             Kind::Choice { present, .. } => present.unwrap_or(0) as f64,
             Kind::Number { range, log } => {
                 let [low, high] = range.ends.map(|end| on_scale(end, *log));
-                let own = range.varied.start().filter(|own| !log || *own > 0.0);
-                own.map_or(0.5, |own| ((on_scale(own, *log) - low) / (high - low)).clamp(0.0, 1.0))
+                let start = range.varied.start().filter(|number| !log || *number > 0.0);
+                start.map_or(0.5, |number| {
+                    ((on_scale(number, *log) - low) / (high - low)).clamp(0.0, 1.0)
+                })
             }
         }
     }
@@ -159,12 +161,12 @@ impl Variable {
             Kind::Choice { .. } => None,
             Kind::Number { range, log } => {
                 let [low, high] = range.ends;
-                let own = if *log {
+                let number = if *log {
                     low * (high / low).powf(gene)
                 } else {
                     range.value_at(gene)
                 };
-                Some(rounded(own).clamp(low, high))
+                Some(rounded(number).clamp(low, high))
             }
         }
     }
@@ -180,12 +182,12 @@ impl Variable {
     /// Whether a gene is the value of the description, to a thousandth of the range.
     pub fn is_present(&self, gene: f64) -> bool {
         match &self.kind {
-            Kind::Choice { present, .. } => present.is_some_and(|own| own as f64 == gene),
+            Kind::Choice { present, .. } => present.is_some_and(|place| place as f64 == gene),
             Kind::Number { range, .. } => {
-                let [now, own] = [range.varied.start(), self.number(gene)];
+                let [now, asked] = [range.varied.start(), self.number(gene)];
                 let [low, high] = range.ends;
-                now.zip(own)
-                    .is_some_and(|(now, own)| (own - now).abs() <= 1e-3 * (high - low))
+                now.zip(asked)
+                    .is_some_and(|(now, number)| (number - now).abs() <= 1e-3 * (high - low))
             }
         }
     }
@@ -202,8 +204,8 @@ impl Variable {
     pub fn present_words(&self, b: &Built<'_>) -> String {
         match &self.kind {
             Kind::Number { range, .. } => {
-                let own = range.varied.start();
-                own.map_or_else(|| "not stated".to_owned(), |own| range.varied.words(own))
+                let start = range.varied.start();
+                start.map_or_else(|| "not stated".to_owned(), |number| range.varied.words(number))
             }
             Kind::Choice { .. } => {
                 lookup(&b.resolved.value, &self.path).map_or_else(|| "not stated".to_owned(), in_words)
@@ -230,12 +232,12 @@ fn designations(cx: &Planner<'_>, at: &str, entry: &VariableEntry, b: &Built<'_>
     for (key, wanted) in entry.catalogue.iter() {
         // Numbers are compared in the unit of the key.
         let number = Varied::new(cx.language, &b.resolved, &format!("{owner}.{key}"), Tie::Value).ok();
-        let value = |written: &Value| number.as_ref().and_then(|own| own.quantity(written, false).ok());
+        let value = |written: &Value| number.as_ref().and_then(|varied| varied.quantity(written, false).ok());
         found.retain(|designation| {
-            let own = table.0[*designation].values.iter().find(|(own, _)| own == key);
-            own.is_some_and(|(_, own)| match (value(own), value(wanted)) {
-                (Some(own), Some(wanted)) => (own - wanted).abs() <= 1e-9 * wanted.abs(),
-                _ => in_words(own) == in_words(wanted),
+            let entry = table.0[*designation].values.iter().find(|(name, _)| name == key);
+            entry.is_some_and(|(_, stated)| match (value(stated), value(wanted)) {
+                (Some(number), Some(wanted)) => (number - wanted).abs() <= 1e-9 * wanted.abs(),
+                _ => in_words(stated) == in_words(wanted),
             })
         });
         if found.is_empty() {
@@ -247,7 +249,10 @@ fn designations(cx: &Planner<'_>, at: &str, entry: &VariableEntry, b: &Built<'_>
             ));
         }
     }
-    Ok(found.into_iter().map(|own| Value::from(own.as_str())).collect())
+    Ok(found
+        .into_iter()
+        .map(|designation| Value::from(designation.as_str()))
+        .collect())
 }
 
 /// A number with four digits: more cannot be made, and are hard to read.

@@ -173,11 +173,11 @@ pub fn counted_points<'p, 'b: 'p, 's>(
     // Speeds depend only on the gear, so one pair provides the accuracies for all.
     let mut all = solved.flat_map(|(_, pairs)| pairs);
     let first = all.find(|pair| pair.differences.is_ok());
-    let own = places
+    let deviations = places
         .iter()
         .filter_map(|i| first?.accuracies.get(*i).copied().flatten());
     Ok(Counted {
-        accuracy: Statistics::from_values(own).map(|s| s.rms).or(entry.accuracy),
+        accuracy: Statistics::from_values(deviations).map(|s| s.rms).or(entry.accuracy),
         places,
         left_out: faults.into_iter().collect(),
     })

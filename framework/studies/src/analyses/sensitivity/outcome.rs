@@ -257,46 +257,46 @@ impl Outcome for SensitivityOutcome {
                 "local_slope",
                 "unit of the output over unit of the parameter",
                 "Slope at the values of the gearbox",
-                |row| row.local.map(|own| own.slope),
+                |row| row.local.map(|local| local.slope),
             )
             .number("local_scaled", "-", "Slope times the range over the output", |row| {
-                row.local.and_then(|own| own.scaled)
+                row.local.and_then(|local| local.scaled)
             })
             .number("local_elasticity", "-", "Relative change over relative change", |row| {
-                row.local.and_then(|own| own.elasticity)
+                row.local.and_then(|local| local.elasticity)
             })
             .number("morris_mu", of_output, "Mean change over the whole range", |row| {
-                row.effect.map(|own| own.mu)
+                row.effect.map(|effect| effect.mu)
             })
             .number(
                 "morris_mu_star",
                 of_output,
                 "Mean magnitude of the change over the whole range",
-                |row| row.effect.map(|own| own.mu_star),
+                |row| row.effect.map(|effect| effect.mu_star),
             )
             .number("morris_sigma", of_output, "Standard deviation of the change", |row| {
-                row.effect.map(|own| own.sigma)
+                row.effect.map(|effect| effect.sigma)
             })
             .text("morris_influence", "Influence of the parameter on the output", |row| {
-                row.effect.map_or("", |own| own.influence.name())
+                row.effect.map_or("", |effect| effect.influence.name())
             })
             .number("sobol_first", "-", "First-order share of the variance", |row| {
-                row.first.map(|own| own.value)
+                row.first.map(|index| index.value)
             })
             .ends(
                 ["sobol_first_low", "sobol_first_high"],
                 "-",
                 "its 95 % interval",
-                |row| row.first.map(|own| own.interval),
+                |row| row.first.map(|index| index.interval),
             )
             .number("sobol_total", "-", "Total share of the variance", |row| {
-                row.total.map(|own| own.value)
+                row.total.map(|index| index.value)
             })
             .ends(
                 ["sobol_total_low", "sobol_total_high"],
                 "-",
                 "its 95 % interval",
-                |row| row.total.map(|own| own.interval),
+                |row| row.total.map(|index| index.interval),
             );
         vec![table.finish()]
     }

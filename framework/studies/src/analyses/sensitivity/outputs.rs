@@ -159,10 +159,10 @@ impl Outputs {
 fn load_dependent(t: &Transmission, name: &str) -> Option<bool> {
     let of = |part: &PartInfo| {
         let terms = t.instances()[part.notes.instance()].entry.terms;
-        let own = terms
+        let terms_of_part = terms
             .iter()
             .find(|term| format!("{} {}", part.mechanism, term.name) == name);
-        own.map(|term| term.load_dependent)
+        terms_of_part.map(|term| term.load_dependent)
     };
     let mut all = t.parts().iter().filter_map(of);
     let first = all.next()?;

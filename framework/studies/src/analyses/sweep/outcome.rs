@@ -117,10 +117,10 @@ impl NotesOfSet {
     pub(super) fn all(sweep: &[SweepOfValue]) -> Vec<Self> {
         let first = sweep.iter().take_while(|value| value.places == [0, 0]);
         let set = |first: &SweepOfValue| {
-            let own = sweep.iter().filter(|value| value.model_set == first.model_set);
+            let of_set = sweep.iter().filter(|value| value.model_set == first.model_set);
             Self {
                 model_set: first.model_set.clone(),
-                notes: merged(own.flat_map(|value| &value.notes)),
+                notes: merged(of_set.flat_map(|value| &value.notes)),
             }
         };
         first.map(set).collect()

@@ -65,26 +65,26 @@ impl<'a> Gathering<'a> {
             left_out: Vec::new(),
             unlisted: 0,
         };
-        for own in entrants {
-            let slot = gathering.slot(own)?;
+        for of_slot in entrants {
+            let slot = gathering.slot(of_slot)?;
             gathering.slots.push(slot);
         }
         Ok(gathering)
     }
 
     /// Evaluates the entrants of a mechanism.
-    fn slot(&mut self, own: &Entrants) -> Result<Slot, Stopped> {
-        let mut slot = own.slot.clone();
-        self.left_out.extend(own.left_out.iter().cloned());
-        for entrant in &own.list {
+    fn slot(&mut self, entrants: &Entrants) -> Result<Slot, Stopped> {
+        let mut slot = entrants.slot.clone();
+        self.left_out.extend(entrants.left_out.iter().cloned());
+        for entrant in &entrants.list {
             let built = entrant
                 .built
                 .as_ref()
                 .map_err(|reason| Refused::Because(reason.clone()));
             match built.and_then(|transmission| self.evaluated(&slot, transmission)) {
                 Err(Refused::Interrupted) => return Err(Stopped::Interrupted),
-                Err(Refused::Because(reason)) if own.named => {
-                    return Err(own.unusable_model(self.engine, &entrant.name, &reason));
+                Err(Refused::Because(reason)) if entrants.named => {
+                    return Err(entrants.unusable_model(self.engine, &entrant.name, &reason));
                 }
                 Err(Refused::Because(reason)) => {
                     self.left_out.push(format!("{} {}: {reason}", slot.name, entrant.name));
@@ -103,10 +103,10 @@ impl<'a> Gathering<'a> {
             }
         }
         if slot.candidates.is_empty() {
-            return Err(own.no_usable_model(self.engine));
+            return Err(entrants.no_usable_model(self.engine));
         }
         // If all models are candidates, so is the model of the set.
-        if !own.named {
+        if !entrants.named {
             self.add_own(&mut slot);
             self.merge_alike(&mut slot);
         }
@@ -116,8 +116,8 @@ impl<'a> Gathering<'a> {
     /// Adds the models of the set as the first candidate, instead of an equal candidate.
     fn add_own(&self, slot: &mut Slot) {
         let (language, base) = (self.engine.language, self.base);
-        let own = slot.covered(base.transmission.parts());
-        let loss_of_own = |p: &PointResult| own.iter().map(|i| p.parts[*i]).sum();
+        let covered = slot.covered(base.transmission.parts());
+        let loss_of_own = |p: &PointResult| covered.iter().map(|i| p.parts[*i]).sum();
         let loss: Vec<f64> = self.solved.points.iter().map(loss_of_own).collect();
         let same = |model: &Value| slot.with(language, &base.resolved, model).map(|r| r.value);
         let twin = |candidate: &Candidate| same(&candidate.model).as_ref() == Ok(&base.resolved.value);
@@ -130,14 +130,14 @@ impl<'a> Gathering<'a> {
             let replaced = slot.replaced(language, &base.resolved);
             marks(&base.transmission, &self.solved.seen, &replaced)
         };
-        let own = Candidate {
+        let present = Candidate {
             name: format!("as in {}", base.name),
             model: Value::Null,
             loss,
             time: 1.0,
             marks,
         };
-        slot.candidates.insert(0, own);
+        slot.candidates.insert(0, present);
     }
 
     /// Models with equal losses at every point are one candidate, because duplicates would split its weight.

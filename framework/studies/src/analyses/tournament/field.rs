@@ -67,8 +67,9 @@ impl<'a> Field<'a> {
         }
         let parts = base.transmission.parts();
         let rest = |p: &PointResult| {
-            let own = parts.iter().zip(&p.parts);
-            own.filter(|(part, _)| !slots.iter().any(|s| s.covers(part)))
+            let parts_with_losses = parts.iter().zip(&p.parts);
+            parts_with_losses
+                .filter(|(part, _)| !slots.iter().any(|s| s.covers(part)))
                 .map(|(_, w)| w)
                 .sum()
         };

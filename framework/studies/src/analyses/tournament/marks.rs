@@ -17,16 +17,16 @@ pub struct Mark {
 
 /// Quantities of models at some paths, including nested models, outside their stated ranges, except the safety of components.
 pub fn marks(transmission: &Transmission, seen: &[Extent], paths: &[String]) -> Vec<Mark> {
-    let own = |path: &str| {
-        let below = |own: &String| {
-            path.strip_prefix(own.as_str())
+    let is_concerned = |path: &str| {
+        let below = |whole: &String| {
+            path.strip_prefix(whole.as_str())
                 .is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
         };
         paths.iter().any(below)
     };
     let mut groups: Vec<Note> = Vec::new();
     for note in notes(transmission, seen) {
-        if note.outside == 0 || note.name == STATIC_SAFETY || !own(&note.path) {
+        if note.outside == 0 || note.name == STATIC_SAFETY || !is_concerned(&note.path) {
             continue;
         }
         match groups

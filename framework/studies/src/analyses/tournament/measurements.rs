@@ -22,8 +22,8 @@ pub struct OwnRows<'r> {
 impl<'r> OwnRows<'r> {
     /// The rows in the gear of the analysis.
     pub fn new(cx: &Planner<'_>, measured: &'r Measured, gear: &str) -> Result<Self, Stopped> {
-        let own = |row: &&Row| row.gear.as_deref().is_none_or(|g| g == gear);
-        let rows: Vec<&Row> = measured.rows.iter().filter(own).collect();
+        let of_gear = |row: &&Row| row.gear.as_deref().is_none_or(|g| g == gear);
+        let rows: Vec<&Row> = measured.rows.iter().filter(of_gear).collect();
         if rows.len() < 3 {
             let message = format!("{} points in gear `{gear}` are not enough for a ranking", rows.len());
             let help = "select the gear with `gear`";

@@ -24,7 +24,11 @@ struct Ranked {
 impl Ranked {
     /// Weight of a combination by its index; absent if it is not on the shortlist.
     fn weight(&self, place: usize) -> Option<f64> {
-        let member = self.shortlist.members.iter().position(|own| *own == place)?;
+        let member = self
+            .shortlist
+            .members
+            .iter()
+            .position(|member_place| *member_place == place)?;
         self.shortlist.weights.get(member).copied()
     }
 }
@@ -39,8 +43,8 @@ impl TournamentEntry {
         entrants: &[Entrants],
     ) -> Result<Ranking, Stopped> {
         let (base, gear) = (&run.built, &run.points.gear);
-        let own = OwnRows::new(engine, measured, gear)?;
-        let (mut list, mut unlisted) = (own.given, 0);
+        let of_gear = OwnRows::new(engine, measured, gear)?;
+        let (mut list, mut unlisted) = (of_gear.given, 0);
         if !measured.rig.is_silent() {
             // The contribution of the rig depends on the speeds; it is subtracted from the torque.
             let solved = engine.solve(&run.with_list(list.clone()))?;
@@ -52,7 +56,7 @@ impl TournamentEntry {
         }
         let run = run.with_list(list);
         let field = Field::new(engine, self, &run, entrants)?;
-        let rows = Measurements::new(engine, self, (measured, &own.rows), &field)?;
+        let rows = Measurements::new(engine, self, (measured, &of_gear.rows), &field)?;
         let found = self.ranked(engine, &field, &rows.losses)?;
         let gap = gap_of_sum(engine, &field, &found.combinations[found.winner.place])?;
         let accuracies = (0..rows.losses.len()).filter_map(|i| Some((rows.accuracy(i)?, rows.losses.weights[i])));
@@ -74,7 +78,7 @@ impl TournamentEntry {
             unit_in_words: self.unit_in_words(),
             notes_on_file: measured.notes.iter().map(|note| format!("{file}: {note}")).collect(),
             notes: rows.notes,
-            points_of_other_gears: own.others,
+            points_of_other_gears: of_gear.others,
             unranked: field.count() - found.combinations.len(),
             groups: rows.losses.folds.len(),
             fits_factors: self.factors.is_some(),

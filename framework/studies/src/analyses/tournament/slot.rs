@@ -122,8 +122,8 @@ impl Slot {
                 let Some(drags) = record.get_mut("drag").and_then(Value::as_object_mut) else {
                     continue;
                 };
-                let own = drags.contains_key(slot) && !taken_over(resolved, &path);
-                if own {
+                let is_drag = drags.contains_key(slot) && !taken_over(resolved, &path);
+                if is_drag {
                     continue;
                 }
                 drags.shift_remove(slot);

@@ -60,9 +60,9 @@ pub fn history(place: &Path, frame: Frame) -> Result<Vec<Sample>, HistoryFault> 
 /// The file of moments that openfoam.com writes beside one of forces.
 fn moments_beside(file: &Path, name: &str) -> Option<PathBuf> {
     let rest = name.strip_prefix("force")?;
-    let own = file.with_file_name(format!("moment{rest}"));
+    let beside = file.with_file_name(format!("moment{rest}"));
     let written = file.with_file_name("moment.dat");
-    [own, written].into_iter().find(|file| file.is_file())
+    [beside, written].into_iter().find(|file| file.is_file())
 }
 
 fn files(folder: &Path, frame: Frame) -> Result<Vec<PathBuf>, HistoryFault> {
@@ -70,11 +70,11 @@ fn files(folder: &Path, frame: Frame) -> Result<Vec<PathBuf>, HistoryFault> {
         Frame::Global => &["moment.dat", "forces.dat"],
         Frame::Local => &["localMoment.dat", "moment.dat", "forces.dat"],
     };
-    let own = |folder: &Path| {
+    let file_in = |folder: &Path| {
         let mut files = names.iter().map(|name| folder.join(name));
         files.find(|file| file.is_file())
     };
-    if let Some(file) = own(folder) {
+    if let Some(file) = file_in(folder) {
         return Ok(vec![file]);
     }
     let entries = std::fs::read_dir(folder).map_err(|e| fault(format!("cannot read: {e}")))?;
@@ -82,7 +82,7 @@ fn files(folder: &Path, frame: Frame) -> Result<Vec<PathBuf>, HistoryFault> {
         .filter_map(|entry| {
             let path = entry.ok()?.path();
             let time = path.file_name()?.to_str()?.parse::<f64>().ok()?;
-            Some((time, own(&path)?))
+            Some((time, file_in(&path)?))
         })
         .collect();
     starts.sort_by(|a, b| a.0.total_cmp(&b.0));

@@ -57,11 +57,11 @@ impl Around {
                     let [half, one, two] = side;
                     Some([number(half)?, number(one)?, number(two)?])
                 });
-                let own = difference(here, below?, above?, *step);
+                let found = difference(here, below?, above?, *step);
                 // The last steps are the narrowest.
-                kink = own.kink;
-                if best.is_none_or(|best| own.error < best.error) {
-                    best = Some(own);
+                kink = found.kink;
+                if best.is_none_or(|best| found.error < best.error) {
+                    best = Some(found);
                 }
             }
             best.map(|best| Difference { kink, ..best })

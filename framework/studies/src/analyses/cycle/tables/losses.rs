@@ -73,9 +73,9 @@ impl Tabulated<'_> {
                 };
                 let mut loads = vec![load(even.clone())];
                 for node in 0..count {
-                    let mut own = even.clone();
-                    own[node] -= PROBE;
-                    loads.push(load(own));
+                    let mut probed = even.clone();
+                    probed[node] -= PROBE;
+                    loads.push(load(probed));
                 }
                 let Some(all) = self.heats(&loads, scratch).into_iter().collect::<Option<Vec<_>>>() else {
                     continue;
@@ -199,7 +199,7 @@ impl Tabulated<'_> {
                     let group = &groups[*place];
                     let at = (w * torques.len() + t) * group.heated.len();
                     for (node, watts) in group.parts.iter().flat_map(|part| &heats.parts[*part]) {
-                        let channel = group.heated.iter().position(|own| own == node).unwrap_or(0);
+                        let channel = group.heated.iter().position(|heated| heated == node).unwrap_or(0);
                         values[at + channel] += watts / speeds[column + 1];
                     }
                 }

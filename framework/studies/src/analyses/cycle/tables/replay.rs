@@ -25,7 +25,7 @@ pub fn rows(
     let ambient = driven.start[0];
     let row = |(stretch, interval): (&crate::points::Stretch, &crate::duty::Interval)| {
         let given = &interval.given;
-        let own = |use_: Use| match use_ {
+        let input = |use_: Use| match use_ {
             Use::Speed => stretch.speed,
             Use::Torque => stretch.torque,
             Use::Ambient => given.ambient.unwrap_or(ambient),
@@ -43,13 +43,13 @@ pub fn rows(
                 let gear = given.gear.as_ref().unwrap_or(own_gear);
                 gears
                     .iter()
-                    .position(|own| *own == gear)
+                    .position(|known| *known == gear)
                     .map_or(1.0, |i| (i + 1) as f64)
             }
             _ => 0.0,
         };
         let inputs = slots.iter().filter(|slot| slot.causality == Causality::Input);
-        inputs.map(|slot| own(slot.use_)).collect()
+        inputs.map(|slot| input(slot.use_)).collect()
     };
     driven.stretches.iter().zip(&read.intervals).map(row).collect()
 }
@@ -78,10 +78,10 @@ pub fn deviation_of(content: &Content, network: &Network, driven: &Driven, rows:
             let (Use::Node(node), Ok(value)) = (slot.use_, model.get(*reference, slot.kind)) else {
                 continue;
             };
-            let own = (value - stretch.temperatures[node as usize]).abs();
-            deviation[1] = deviation[1].max(own);
+            let deviation_here = (value - stretch.temperatures[node as usize]).abs();
+            deviation[1] = deviation[1].max(deviation_here);
             if node as usize == network.oil() {
-                deviation[0] = deviation[0].max(own);
+                deviation[0] = deviation[0].max(deviation_here);
             }
         }
     }

@@ -31,13 +31,13 @@ impl Sweep {
                 continue;
             }
             let counts = TEMPERATURES[group.nodes.len()];
-            let mut own = Self {
+            let mut begun = Self {
                 groups: Vec::new(),
                 ranks: vec![None; nodes],
                 axes: counts.iter().map(|count| spaced(temperatures, *count)).collect(),
             };
-            own.join(place, group);
-            sweeps.push(own);
+            begun.join(place, group);
+            sweeps.push(begun);
         }
         sweeps
     }
@@ -45,7 +45,7 @@ impl Sweep {
     /// Adds a group whose nodes have no other rank in the groups before; true if it is one.
     fn join(&mut self, place: usize, group: &Group) -> bool {
         let ranked = || group.nodes.iter().zip(0..);
-        let fits = ranked().all(|(node, rank)| self.ranks[*node].is_none_or(|own| own == rank));
+        let fits = ranked().all(|(node, rank)| self.ranks[*node].is_none_or(|known| known == rank));
         if !fits || group.nodes.len() != self.axes.len() {
             return false;
         }
@@ -65,8 +65,8 @@ impl Sweep {
     /// `middle`. \[degC\]
     pub fn temperatures(&self, combination: usize, middle: f64) -> Vec<f64> {
         let (mut rest, mut given) = (combination, vec![0.0; self.axes.len()]);
-        for (own, axis) in given.iter_mut().zip(&self.axes).rev() {
-            *own = axis[rest % axis.len()];
+        for (temperature, axis) in given.iter_mut().zip(&self.axes).rev() {
+            *temperature = axis[rest % axis.len()];
             rest /= axis.len();
         }
         let mean = given.iter().sum::<f64>() / given.len().max(1) as f64;

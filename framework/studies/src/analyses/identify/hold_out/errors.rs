@@ -48,7 +48,7 @@ impl ErrorsOfQuantity {
         let (what, unit) = self.quantity.words(Difference::Points);
         let in_percent = |s: ErrorSummary| s.in_percent.filter(|_| self.is_relative());
         let relative = in_percent(held).filter(|_| self.fitted.is_none_or(|fitted| in_percent(fitted).is_some()));
-        let ([rms, mean], own) = match relative {
+        let ([rms, mean], unit_of_errors) = match relative {
             Some([rms, mean, _]) => ([rms, mean], "%"),
             None => ([held.rms, held.mean], unit),
         };
@@ -64,7 +64,7 @@ impl ErrorsOfQuantity {
         let at = held.greatest;
         let points = if held.count == 1 { "point" } else { "points" };
         let mut words = format!(
-            "predicts the {what} of the {} held-out {points} ({choice}) with {} {own} rms{held_over}{beside}, bias {} {own}, maximum {} {unit} at \
+            "predicts the {what} of the {} held-out {points} ({choice}) with {} {unit_of_errors} rms{held_over}{beside}, bias {} {unit_of_errors}, maximum {} {unit} at \
              {} Nm and {} rpm (line {})",
             held.count,
             short(rms),

@@ -35,37 +35,37 @@ pub(in crate::analyses::identify) fn table(name: &str, compared: &ComparisonOfSe
             "folds_won_by_first",
             "-",
             "Number of groups that the first set predicts better",
-            |(.., folds)| folds.map(|own| own.won as f64),
+            |(.., folds)| folds.map(|compared| compared.won as f64),
         )
         .number(
             "ratio_of_first",
             "-",
             "Error of the first set over that of this one",
-            |(.., folds)| folds.map(|own| own.ratio),
+            |(.., folds)| folds.map(|compared| compared.ratio),
         )
         .ends(
             ["ratio_low", "ratio_high"],
             "-",
             "the 95 % interval of the ratio",
-            |(.., folds)| folds.map(|own| own.interval),
+            |(.., folds)| folds.map(|compared| compared.interval),
         )
         .number(
             "separation",
             "-",
             "Distance of the predictions in units of the errors of the set of points",
-            |(_, against, _)| against.and_then(|own| own.separation),
+            |(_, against, _)| against.and_then(|compared| compared.separation),
         )
         .number(
             "evidence",
             "-",
             "Misfit of this set minus that of the first, allowing for common errors",
-            |(_, against, _)| against.and_then(|own| own.evidence),
+            |(_, against, _)| against.and_then(|compared| compared.evidence),
         )
         .number(
             "correlation",
             "-",
             "Correlation of the errors used for the distance",
-            |(_, against, _)| against.and_then(|own| own.correlation),
+            |(_, against, _)| against.and_then(|compared| compared.correlation),
         )
         .number(
             "lack_of_fit_probability",
@@ -74,9 +74,11 @@ pub(in crate::analyses::identify) fn table(name: &str, compared: &ComparisonOfSe
             |(set, ..)| set.lack_of_fit_probability,
         )
         .text("decision", "Whether the first set is better", |(_, against, _)| {
-            against.map_or("", |own| own.decision)
+            against.map_or("", |compared| compared.decision)
         })
-        .text("reason", "Why", |(_, against, _)| against.map_or("", |own| own.reason))
+        .text("reason", "Why", |(_, against, _)| {
+            against.map_or("", |compared| compared.reason)
+        })
         .finish()
 }
 

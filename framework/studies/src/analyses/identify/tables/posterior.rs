@@ -10,30 +10,35 @@ pub(in crate::analyses::identify) fn table(name: &str, all: &[IdentificationOfSe
         o.posterior.iter().flat_map(|posterior| &posterior.parameters)
     })
     .text("model_set", "Model set", |(o, _)| &o.model_set)
-    .text("parameter", "Name of the parameter", |(_, own)| &own.name)
-    .text("unit", "Unit of the values of this row", |(_, own)| own.unit)
-    .number("median", UNIT, "Median of the draws", |(_, own)| own.median)
-    .ends(["low", "high"], UNIT, "the 95 % interval of the draws", |(_, own)| {
-        own.interval
+    .text("parameter", "Name of the parameter", |(_, parameter)| &parameter.name)
+    .text("unit", "Unit of the values of this row", |(_, parameter)| {
+        parameter.unit
     })
+    .number("median", UNIT, "Median of the draws", |(_, parameter)| parameter.median)
+    .ends(
+        ["low", "high"],
+        UNIT,
+        "the 95 % interval of the draws",
+        |(_, parameter)| parameter.interval,
+    )
     .number(
         "standard_deviation",
         UNIT,
         "Standard deviation of the draws",
-        |(_, own)| own.standard_deviation,
+        |(_, parameter)| parameter.standard_deviation,
     )
     .ends(
         ["linearised_low", "linearised_high"],
         UNIT,
         "the 95 % interval of the linearised fit",
-        |(_, own)| own.linearised,
+        |(_, parameter)| parameter.linearised,
     )
     .ends(
         ["profile_low", "profile_high"],
         UNIT,
         "the 95 % profile interval",
-        |(_, own)| own.profile,
+        |(_, parameter)| parameter.profile,
     )
-    .fields("autocorrelation_steps independent_draws", |(_, own)| own)
+    .fields("autocorrelation_steps independent_draws", |(_, parameter)| parameter)
     .finish()
 }
