@@ -62,8 +62,8 @@ fn build(to: &Path, hosted: bool) -> bool {
         command.args(["--cfg", "hosted"]);
     }
     // Paths of this machine are not part of the library, whose bytes are then the same everywhere.
-    if let Ok(own) = env::current_dir() {
-        command.arg(format!("--remap-path-prefix={}=gearloss-fmu", own.display()));
+    if let Ok(folder) = env::current_dir() {
+        command.arg(format!("--remap-path-prefix={}=gearloss-fmu", folder.display()));
     }
     // Warnings appear where the same sources are checked as a part of this crate.
     command

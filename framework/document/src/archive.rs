@@ -79,7 +79,7 @@ impl<'a> Archive<'a> {
             if entry.is_dir() {
                 continue;
             }
-            let own = ArchiveEntry {
+            let listed = ArchiveEntry {
                 encrypted: entry.flags().is_encrypted(),
                 length: entry.uncompressed_size_hint(),
                 packed: entry.compressed_size_hint(),
@@ -87,14 +87,14 @@ impl<'a> Archive<'a> {
                 place: entry.wayfinder(),
             };
             let name = String::from_utf8_lossy(entry.file_path().as_bytes()).into_owned();
-            entries.push((name, own));
+            entries.push((name, listed));
         }
         Ok(Self { slice, entries })
     }
 
     /// The entry of a name; upper and lower case are equal, as on the systems of most writers.
     pub fn find(&self, name: &str) -> Option<ArchiveEntry> {
-        let found = self.entries.iter().find(|(own, _)| own.eq_ignore_ascii_case(name));
+        let found = self.entries.iter().find(|(known, _)| known.eq_ignore_ascii_case(name));
         found.map(|(_, entry)| *entry)
     }
 

@@ -85,9 +85,9 @@ impl<'a> StatedUnit<'a> {
         let (Some(study), Some(file)) = (self.study, self.file) else {
             return Ok(self.study.or(self.file));
         };
-        let own = Unit::read(study);
+        let unit = Unit::read(study);
         // A dash in a file is no unit, except of a plain number.
-        let is_blank = matches!(file, "" | "-" | "1") && own.is_none_or(|own| own.dimension != Dimension::None);
+        let is_blank = matches!(file, "" | "-" | "1") && unit.is_none_or(|unit| unit.dimension != Dimension::None);
         if self.overrides || is_blank || Unit::is_same(study, file) {
             return Ok(Some(study));
         }

@@ -398,10 +398,10 @@ fn is_another_thing(word: &str, candidate: &str) -> bool {
         let parts = name.split(|c: char| !c.is_alphanumeric());
         parts.filter(|part| !part.is_empty()).map(str::to_lowercase).collect()
     };
-    let (own, other) = (words(word), words(candidate));
+    let (wanted, other) = (words(word), words(candidate));
     let has_all =
         |few: &[String], many: &[String]| few.len() < many.len() && few.iter().all(|part| many.contains(part));
-    numbers(word) != numbers(candidate) || has_all(&own, &other) || has_all(&other, &own)
+    numbers(word) != numbers(candidate) || has_all(&wanted, &other) || has_all(&other, &wanted)
 }
 
 /// The groups of digits of a name. A letter that looks like a digit counts as one beside a digit: `62O5`.

@@ -81,11 +81,11 @@ fn search(schema: &Schema, shape: &Shape, key: &str, path: &str, depth: usize, f
     match schema.follow(shape) {
         Shape::Record(fields) => {
             for (name, field) in fields {
-                let own = format!("{path}.{name}");
-                if name == key && !found.contains(&own) {
-                    found.push(own);
+                let inner = format!("{path}.{name}");
+                if name == key && !found.contains(&inner) {
+                    found.push(inner);
                 } else {
-                    search(schema, &field.shape, key, &own, depth - 1, found);
+                    search(schema, &field.shape, key, &inner, depth - 1, found);
                 }
             }
         }

@@ -144,11 +144,11 @@ impl Node {
     /// Merges this document into a base: maps key by key; other values replace those of the base.
     pub fn merged_over(self, base: Node) -> Node {
         match (self.content, base.content) {
-            (Content::Map(own), Content::Map(mut entries)) => {
+            (Content::Map(over), Content::Map(mut entries)) => {
                 let names = entries.iter().enumerate().map(|(i, (key, _))| (key.name.clone(), i));
                 let known: HashMap<String, usize> = names.collect();
                 // The keys of a document differ.
-                for (key, node) in own {
+                for (key, node) in over {
                     match known.get(&key.name).copied() {
                         Some(i) => {
                             let (_, under) = std::mem::replace(&mut entries[i], (key.clone(), NOTHING));

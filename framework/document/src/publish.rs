@@ -81,7 +81,7 @@ fn visit(schema: &mut Value, inherited: Option<&'static Unit>, is_bare: bool) {
 
 /// Whether a schema has a key. It has so few keys that comparing them is faster than a lookup.
 fn has(object: &Map<String, Value>, key: &str) -> bool {
-    object.keys().any(|own| own == key)
+    object.keys().any(|known| known == key)
 }
 
 /// `Option` allows null; in a document an optional key is omitted instead.

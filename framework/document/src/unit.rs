@@ -310,8 +310,8 @@ impl Unit {
 
     /// The SI unit of a dimension.
     pub fn si(dimension: Dimension) -> Option<&'static Unit> {
-        let own = |u: &&Unit| u.dimension == dimension && u.factor.to_bits() == 1.0_f64.to_bits() && u.offset == 0.0;
-        UNITS.iter().find(own)
+        let is_si = |u: &&Unit| u.dimension == dimension && u.factor.to_bits() == 1.0_f64.to_bits() && u.offset == 0.0;
+        UNITS.iter().find(is_si)
     }
 
     /// The unit in brackets at the end of a doc comment.
@@ -394,10 +394,10 @@ impl Unit {
     /// # Errors
     /// If it is unknown or of another dimension, with a help that does not repeat the number with another unit.
     pub fn read_as(text: &str, dimension: Dimension) -> Result<Conversion, UnitFault> {
-        let own = UNITS
+        let listed = UNITS
             .iter()
             .find(|unit| unit.dimension == dimension && unit.symbol == text);
-        match own {
+        match listed {
             Some(unit) => Ok(unit.conversion()),
             None => grammar::read(text, Some(dimension)).ok_or_else(|| UnitFault::new(text, dimension)),
         }
@@ -424,8 +424,8 @@ impl Conversion {
 
     /// The number in this unit from which the same bits in SI are read; `None` if it has more than 13 digits.
     pub fn written(&self, si: f64) -> Option<f64> {
-        let own = (si - self.offset) / self.factor;
-        let tidy: f64 = format!("{own:.12e}").parse().unwrap_or(own);
+        let converted = (si - self.offset) / self.factor;
+        let tidy: f64 = format!("{converted:.12e}").parse().unwrap_or(converted);
         (self.to_si(tidy).to_bits() == si.to_bits()).then_some(tidy)
     }
 }

@@ -94,8 +94,8 @@ mod tests {
             "two\nlines\r\nand\ta tab",
             "",
         ] {
-            assert!(matches!(visible(text), Cow::Borrowed(own) if own == text));
-            assert!(matches!(visible_json(text), Cow::Borrowed(own) if own == text));
+            assert!(matches!(visible(text), Cow::Borrowed(unchanged) if unchanged == text));
+            assert!(matches!(visible_json(text), Cow::Borrowed(unchanged) if unchanged == text));
         }
     }
 

@@ -611,13 +611,16 @@ impl<'a> Walker<'a> {
             && matches!(list.content, Content::List(_))
             && !shapes.iter().any(|s| known(&s) > 0)
         {
-            let own = self.path.rsplit('.').next().unwrap_or_default();
+            let list_name = self.path.rsplit('.').next().unwrap_or_default();
             let finding = Diagnostic::error(
                 format!("{}.{}", self.path, key.name),
                 format!("unknown key `{}`", key.name),
             )
             .at_span(key.span)
-            .help(format!("write the list itself: `{own}: [...]`, without `{}`", key.name));
+            .help(format!(
+                "write the list itself: `{list_name}: [...]`, without `{}`",
+                key.name
+            ));
             self.findings.push(finding.code(codes::UNKNOWN_KEY));
             return None;
         }
@@ -738,22 +741,25 @@ impl<'a> Walker<'a> {
             let names = || fields.iter().map(|(name, _)| name.as_str());
             let error = Diagnostic::error(path, format!("unknown key `{}`", key.name));
             // The key may belong to a model of another `type`.
-            let of_others = tag.map(|(own, variants)| {
+            let of_others = tag.map(|(variant, variants)| {
                 let has =
                     |shape: &Shape| matches!(shape, Shape::Record(f) if f.iter().any(|(name, _)| *name == key.name));
-                let others = variants.iter().filter(|(name, shape)| name != own && has(shape));
+                let others = variants.iter().filter(|(name, shape)| name != variant && has(shape));
                 let others: Vec<&str> = others.map(|(name, _)| name.as_str()).collect();
-                (own, others)
+                (variant, others)
             });
             let inside = !self.path.is_empty();
             let help = misplaced::help(self.schema, fields, open, &key.name, inside && tag.is_none());
             meant = help.meant;
             match (help.words, of_others) {
                 (Some(words), _) => error.help(words),
-                (None, Some((own, others))) if !others.is_empty() => error
-                    .note(format!("keys of `{own}`: {}", names().collect::<Vec<_>>().join(", ")))
+                (None, Some((variant, others))) if !others.is_empty() => error
+                    .note(format!(
+                        "keys of `{variant}`: {}",
+                        names().collect::<Vec<_>>().join(", ")
+                    ))
                     .help(format!(
-                        "`{}` is a key of {}: choose another `type`, or a key of `{own}`",
+                        "`{}` is a key of {}: choose another `type`, or a key of `{variant}`",
                         key.name,
                         others.join(", ")
                     )),

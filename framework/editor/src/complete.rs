@@ -134,7 +134,7 @@ impl Completer<'_, '_> {
             return;
         }
         let written =
-            |name: &str| node.is_some_and(|node| node.entries().iter().any(|own| own.colon && own.key == name));
+            |name: &str| node.is_some_and(|node| node.entries().iter().any(|entry| entry.colon && entry.key == name));
         let mut fields: Vec<Field<'_>> = place.fields(node);
         // A key that is already written is only suggested where the cursor is on it.
         fields.retain(|field| !written(field.name));
@@ -221,8 +221,8 @@ impl Completer<'_, '_> {
             self.push(word.word, Suggested::Word, "", word.doc, None);
         }
         self.names(&item);
-        for own in self.found.iter_mut().skip(before) {
-            own.insert = format!("{}[{}]", self.cursor.blank, own.insert.trim_start());
+        for proposal in self.found.iter_mut().skip(before) {
+            proposal.insert = format!("{}[{}]", self.cursor.blank, proposal.insert.trim_start());
         }
     }
 
@@ -249,7 +249,7 @@ impl Completer<'_, '_> {
             .lines
             .range(&self.document.text, &(from..self.cursor.word.end));
         let symbols =
-            std::iter::once(unit.symbol).chain(Unit::symbols(unit.dimension).filter(|own| *own != unit.symbol));
+            std::iter::once(unit.symbol).chain(Unit::symbols(unit.dimension).filter(|symbol| *symbol != unit.symbol));
         for symbol in symbols.filter(|symbol| *symbol != "-") {
             let detail = if symbol == unit.symbol { "documented unit" } else { "" };
             self.found.push(Completion {
@@ -344,7 +344,7 @@ impl Completer<'_, '_> {
         for (file, outline) in self.scopes() {
             let entries = section(&outline, name).map(Node::entries).unwrap_or_default();
             for entry in entries {
-                if mark(&entry.key) || !entry.colon || self.found.iter().any(|own| own.label == entry.key) {
+                if mark(&entry.key) || !entry.colon || self.found.iter().any(|proposal| proposal.label == entry.key) {
                     continue;
                 }
                 let from = if file.is_empty() {
@@ -455,9 +455,9 @@ impl Completer<'_, '_> {
 impl Workspace<'_> {
     /// The catalogue of a section that a gearbox names itself.
     pub(crate) fn catalogue(&self, document: &Document, name: &str) -> Option<CatalogueTable> {
-        self.chain(&document.path).iter().find_map(|own| {
-            let file = section(&own.outline, &format!("catalogues.{name}"))?.text()?;
-            let bytes = self.files().read(&named(&own.path, file), LONGEST_CATALOGUE).ok()?;
+        self.chain(&document.path).iter().find_map(|opened| {
+            let file = section(&opened.outline, &format!("catalogues.{name}"))?.text()?;
+            let bytes = self.files().read(&named(&opened.path, file), LONGEST_CATALOGUE).ok()?;
             CatalogueTable::from_file(&bytes).ok()
         })
     }
@@ -511,7 +511,7 @@ pub(crate) fn summary(node: &Node) -> String {
         }
         match &node.content {
             Content::Empty => {}
-            Content::Scalar { text: own, .. } => text.push_str(own),
+            Content::Scalar { text: part, .. } => text.push_str(part),
             Content::List(items) => {
                 text.push('[');
                 for (i, item) in items.iter().enumerate() {

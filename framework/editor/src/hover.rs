@@ -84,17 +84,17 @@ impl Workspace<'_> {
         let occurrences = self.occurrences(document);
         let here = occurrences
             .iter()
-            .find(|own| own.span.start <= offset && offset <= own.span.end);
-        match here.map(|own| &own.name) {
+            .find(|occurrence| occurrence.span.start <= offset && offset <= occurrence.span.end);
+        match here.map(|occurrence| &occurrence.name) {
             Some(Name::Designation { section, designation }) => self.row(document, section, designation),
             Some(Name::File(file)) => Some(format!("File `{}`", named(&document.path, file).display())),
             Some(Name::Id { id, .. }) => {
                 let definitions = self.definitions(document, here?);
                 let lines = definitions.iter().filter_map(|(name, site)| {
-                    let own = self.document(&site.path)?;
-                    let node = section(&own.outline, name)?.get(id)?;
-                    let file =
-                        (own.path != document.path).then(|| own.path.file_name().unwrap_or_default().to_string_lossy());
+                    let defining = self.document(&site.path)?;
+                    let node = section(&defining.outline, name)?.get(id)?;
+                    let file = (defining.path != document.path)
+                        .then(|| defining.path.file_name().unwrap_or_default().to_string_lossy());
                     let file = file.map_or_else(String::new, |file| format!(" of {file}"));
                     Some(format!("`{id}` in `{name}`{file}: `{}`", summary(node)))
                 });
@@ -143,13 +143,13 @@ impl Workspace<'_> {
     }
 
     fn row(&self, document: &Document, section: &str, designation: &str) -> Option<String> {
-        let own = self.catalogue(document, section);
-        let own = own.as_ref().and_then(|table| table.0.get(designation));
+        let catalogue = self.catalogue(document, section);
+        let stated = catalogue.as_ref().and_then(|table| table.0.get(designation));
         let shipped = self
             .language
             .catalogue(section)
             .and_then(|table| table.0.get(designation));
-        let row = own.or(shipped)?;
+        let row = stated.or(shipped)?;
         let mut text = format!("**{designation}**, catalogue of {section}\n");
         for (key, value) in &row.values {
             text.push_str(&format!("\n- `{key}`: {}", shown(value)));

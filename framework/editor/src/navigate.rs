@@ -64,9 +64,9 @@ impl Workspace<'_> {
     /// The name at a byte.
     fn name_at(&self, document: &Document, offset: usize) -> Option<Occurrence> {
         let all = self.occurrences(document).into_iter();
-        let touching = all.filter(|own| own.span.start <= offset && offset <= own.span.end);
+        let touching = all.filter(|occurrence| occurrence.span.start <= offset && offset <= occurrence.span.end);
         // The shortest: an id within a path.
-        touching.min_by_key(|own| own.span.len())
+        touching.min_by_key(|occurrence| occurrence.span.len())
     }
 
     /// Where the name at a byte is defined; a file is its first character.
@@ -136,8 +136,8 @@ impl Workspace<'_> {
         }
         if new != symbol.id {
             for path in &symbol.family {
-                let Some(own) = self.document(path) else { continue };
-                if let Some(name) = symbol.sections.iter().find(|name| has_id(&own.outline, name, new)) {
+                let Some(opened) = self.document(path) else { continue };
+                if let Some(name) = symbol.sections.iter().find(|name| has_id(&opened.outline, name, new)) {
                     return Err(refuse(
                         format!("`{name}` of {} already has an id `{new}`", path.display()),
                         "choose another name",
@@ -163,17 +163,17 @@ impl Workspace<'_> {
                 range: place.range,
                 insert: new.to_owned(),
             };
-            match edits.iter_mut().find(|own| own.file == place.file) {
-                Some(own) => own.edits.push(edit),
+            match edits.iter_mut().find(|edits_of_file| edits_of_file.file == place.file) {
+                Some(edits_of_file) => edits_of_file.edits.push(edit),
                 None => edits.push(FileEdits {
                     file: place.file,
                     edits: vec![edit],
                 }),
             }
         }
-        for own in &mut edits {
-            own.edits.sort_by_key(|edit| edit.range.from);
-            own.edits.dedup();
+        for edits_of_file in &mut edits {
+            edits_of_file.edits.sort_by_key(|edit| edit.range.from);
+            edits_of_file.edits.dedup();
         }
         Ok(edits)
     }
@@ -236,7 +236,7 @@ impl Workspace<'_> {
         for other in self.documents() {
             let is_gearbox = self
                 .document(&other)
-                .is_some_and(|own| own.kind == DocumentKind::Gearbox);
+                .is_some_and(|opened| opened.kind == DocumentKind::Gearbox);
             if is_gearbox {
                 chains.push(paths(&self.chain(&other)));
             }
@@ -264,28 +264,33 @@ impl Workspace<'_> {
         let mut found = Vec::new();
         for path in &symbol.family {
             if let Some(document) = self.document(path) {
-                let own = self.occurrences(&document).into_iter().filter(|own| names(own, symbol));
-                found.extend(own.map(|own| (site(&document, own), false)));
+                let here = self
+                    .occurrences(&document)
+                    .into_iter()
+                    .filter(|occurrence| names(occurrence, symbol));
+                found.extend(here.map(|occurrence| (site(&document, occurrence), false)));
             }
         }
         if !symbol.of_gearbox {
             return found;
         }
         for path in self.documents() {
-            let Some(study) = self.document(&path).filter(|own| own.kind == DocumentKind::Study) else {
+            let Some(study) = self.document(&path).filter(|opened| opened.kind == DocumentKind::Study) else {
                 continue;
             };
             let listed = gearboxes(&study);
-            let (own, others): (Vec<_>, Vec<_>) = listed
-                .iter()
-                .partition(|(_, file)| self.chain(file).iter().any(|own| symbol.family.contains(&own.path)));
-            if own.is_empty() {
+            let (of_family, others): (Vec<_>, Vec<_>) = listed.iter().partition(|(_, file)| {
+                self.chain(file)
+                    .iter()
+                    .any(|opened| symbol.family.contains(&opened.path))
+            });
+            if of_family.is_empty() {
                 continue;
             }
             for occurrence in self
                 .occurrences(&study)
                 .into_iter()
-                .filter(|own| names(own, symbol) && !own.defines)
+                .filter(|occurrence| names(occurrence, symbol) && !occurrence.defines)
             {
                 // An id of the study itself has precedence: a model set of the same name.
                 if symbol
@@ -296,15 +301,15 @@ impl Workspace<'_> {
                     continue;
                 }
                 let stated = |name: &String| occurrence.gearboxes.is_empty() || occurrence.gearboxes.contains(name);
-                if !own.iter().any(|(name, _)| stated(name)) {
+                if !of_family.iter().any(|(name, _)| stated(name)) {
                     continue;
                 }
                 let shared = others.iter().any(|(name, file)| {
-                    let defines = |own: &Document| {
+                    let defines = |opened: &Document| {
                         symbol
                             .sections
                             .iter()
-                            .any(|name| has_id(&own.outline, name, &symbol.id))
+                            .any(|name| has_id(&opened.outline, name, &symbol.id))
                     };
                     stated(name) && self.chain(file).iter().any(defines)
                 });
@@ -316,7 +321,7 @@ impl Workspace<'_> {
 }
 
 fn paths(chain: &[Document]) -> Vec<PathBuf> {
-    chain.iter().map(|own| own.path.clone()).collect()
+    chain.iter().map(|opened| opened.path.clone()).collect()
 }
 
 fn site(document: &Document, occurrence: Occurrence) -> Site {

@@ -252,14 +252,14 @@ impl Reader<'_> {
             mark: self.mark,
             depth: 0,
         };
-        while let Some((start, own)) = reader.next_line() {
-            if own < indent {
+        while let Some((start, column)) = reader.next_line() {
+            if column < indent {
                 return false;
             }
-            if own == indent && reader.is_item(start) {
+            if column == indent && reader.is_item(start) {
                 return false;
             }
-            if own == indent && reader.colon(start).is_some() {
+            if column == indent && reader.colon(start).is_some() {
                 return true;
             }
             at = reader.line_end(start);
@@ -298,8 +298,8 @@ impl Reader<'_> {
     fn list(&mut self, start: usize, indent: usize) -> Node {
         let mut items = Vec::new();
         let mut end = start;
-        while let Some((at, own)) = self.next_line() {
-            if own != indent || !self.is_item(at) {
+        while let Some((at, column)) = self.next_line() {
+            if column != indent || !self.is_item(at) {
                 break;
             }
             self.at = at + 1;
@@ -350,11 +350,11 @@ impl Reader<'_> {
         let mut entries = Vec::new();
         let mut end = start;
         let mut first = true;
-        while let Some((at, own)) = self.next_line() {
+        while let Some((at, column)) = self.next_line() {
             // The first key of a map in a list is behind its hyphen.
-            let (at, own) = if first { (start, indent) } else { (at, own) };
+            let (at, column) = if first { (start, indent) } else { (at, column) };
             first = false;
-            if own < indent || (own == indent && self.is_item(at)) {
+            if column < indent || (column == indent && self.is_item(at)) {
                 break;
             }
             let Some(colon) = self.colon(at) else {
@@ -372,7 +372,7 @@ impl Reader<'_> {
             };
             let (key, span) = self.key(at, colon);
             self.at = colon + 1;
-            let value = self.after_colon(own);
+            let value = self.after_colon(column);
             end = value.span.end.max(colon + 1);
             entries.push(Entry {
                 key,
@@ -416,14 +416,14 @@ impl Reader<'_> {
             return self.value(indent + 1);
         }
         self.at = self.line_end(self.at);
-        if let Some((at, own)) = self.next_line()
-            && own == indent
+        if let Some((at, column)) = self.next_line()
+            && column == indent
             && self.is_item(at)
             && self.depth < DEEPEST
         {
             self.at = at;
             self.depth += 1;
-            let list = self.list(at, own);
+            let list = self.list(at, column);
             self.depth -= 1;
             return list;
         }

@@ -163,9 +163,9 @@ impl<'s> Place<'s> {
 
     /// Description; that of the key has precedence over that of the type.
     pub fn doc(&self) -> &'s str {
-        let own = self.field.get("description").and_then(Value::as_str);
+        let described = self.field.get("description").and_then(Value::as_str);
         let other = self.alternatives.iter().find_map(|schema| text(schema, "description"));
-        own.or(other).unwrap_or_default()
+        described.or(other).unwrap_or_default()
     }
 
     /// Default, in the documented unit; that of a record is those of its keys, and an empty list says nothing.
@@ -190,20 +190,20 @@ impl<'s> Place<'s> {
     /// Minimum and maximum of a number, in the documented unit.
     pub fn range(&self) -> (Option<f64>, Option<f64>) {
         let bound = |key: &str| {
-            let own = self.alternatives.iter().find_map(|schema| schema.get(key));
+            let of_value = self.alternatives.iter().find_map(|schema| schema.get(key));
             let items = self
                 .alternatives
                 .iter()
                 .find_map(|schema| schema.get("items")?.get(key));
-            own.or(items).and_then(Value::as_f64)
+            of_value.or(items).and_then(Value::as_f64)
         };
         (bound("minimum"), bound("maximum"))
     }
 
     fn has_type(&self, name: &str) -> bool {
         self.alternatives.iter().any(|schema| match schema.get("type") {
-            Some(Value::String(own)) => own == name,
-            Some(Value::Array(list)) => list.iter().any(|own| own == name),
+            Some(Value::String(title)) => title == name,
+            Some(Value::Array(list)) => list.iter().any(|title| title == name),
             _ => false,
         })
     }
@@ -302,7 +302,7 @@ impl<'s> Place<'s> {
             let required = [schema.get("required"), otherwise];
             let required = |name: &str| {
                 let lists = required.iter().flatten().filter_map(|list| list.as_array());
-                lists.flatten().any(|own| own == name)
+                lists.flatten().any(|known| known == name)
             };
             for (name, schema) in fields {
                 if all.iter().all(|field| field.name != name) {
@@ -323,7 +323,7 @@ impl<'s> Place<'s> {
         let mut words = Vec::new();
         let mut add = |word: Option<&'s str>, doc: &'s str| {
             if let Some(word) = word
-                && words.iter().all(|own: &Word<'s>| own.word != word)
+                && words.iter().all(|known: &Word<'s>| known.word != word)
             {
                 words.push(Word { word, doc });
             }
@@ -344,7 +344,7 @@ impl<'s> Place<'s> {
         for schema in self.alternatives.iter().filter(|schema| is_choice(schema)) {
             let list = schema
                 .get("properties")
-                .and_then(|own| own.pointer("/type/oneOf")?.as_array());
+                .and_then(|fields| fields.pointer("/type/oneOf")?.as_array());
             for variant in list.into_iter().flatten() {
                 let word = variant.get("const").and_then(Value::as_str);
                 let doc = variant.get("description").and_then(Value::as_str);
@@ -363,9 +363,9 @@ impl<'s> Place<'s> {
         for schema in &self.alternatives {
             let next = match step {
                 Step::Key(key) => {
-                    let own = schema.get("properties").and_then(|fields| fields.get(key));
-                    if let Some(own) = own {
-                        Some(Self::new(self.root, own, node, None, false))
+                    let described = schema.get("properties").and_then(|fields| fields.get(key));
+                    if let Some(described) = described {
+                        Some(Self::new(self.root, described, node, None, false))
                     } else {
                         let any = schema.get("additionalProperties").filter(|any| any.is_object());
                         any.map(|any| Self::new(self.root, any, node, self.refers, self.path_keys))
@@ -427,7 +427,7 @@ impl<'s> Place<'s> {
 fn is_model(schema: &Map<String, Value>) -> bool {
     schema
         .get("properties")
-        .and_then(|own| own.pointer("/type/const"))
+        .and_then(|fields| fields.pointer("/type/const"))
         .is_some()
 }
 

@@ -218,7 +218,7 @@ impl<'l> Workspace<'l> {
                 for section in sections {
                     let place = definition(&document.outline, section, id).or_else(|| {
                         let defined = |other: &Occurrence| {
-                            other.defines && matches!(&other.name, Name::Id { sections, id: own } if sections.contains(section) && own == id)
+                            other.defines && matches!(&other.name, Name::Id { sections, id: known } if sections.contains(section) && known == id)
                         };
                         // Sets that analyses define.
                         (section == "model_sets" && document.kind == DocumentKind::Study)

@@ -90,7 +90,7 @@ fn keys_and_values_are_suggested_in_whole_and_in_broken_documents() {
         ("bearings: # |", "", "shaft"),
     ] {
         let found = suggested(rest);
-        let has = |word: &str| found.iter().any(|own| own == word);
+        let has = |word: &str| found.iter().any(|known| known == word);
         for word in present.split_whitespace() {
             assert!(has(word), "`{word}` is missing at\n{rest}\n{found:?}");
         }
@@ -215,13 +215,13 @@ fn an_empty_document_may_become_either_kind() {
 #[test]
 fn a_catalogue_of_the_user_is_suggested_and_explained() {
     let (text, at) = cursor("catalogues: { bearings: own.csv }\nbearings: { B1: { designation: | } }\n");
-    let own = "designation,kind,bore [mm],outside [mm]\nOWN 7,deep_groove_ball,25,52\n";
-    let workspace = in_memory(&[("f/a.yaml", &text), ("f/own.csv", own)]);
+    let table = "designation,kind,bore [mm],outside [mm]\nOWN 7,deep_groove_ball,25,52\n";
+    let workspace = in_memory(&[("f/a.yaml", &text), ("f/own.csv", table)]);
     let items = workspace.completion(Path::new("f/a.yaml"), at);
     let row = items.iter().find(|item| item.label == "OWN 7").unwrap();
     assert!(row.detail.contains("outside 52 mm"), "{row:?}");
     let written = text.replace("designation: ", "designation: OWN 7");
-    let workspace = in_memory(&[("f/a.yaml", &written), ("f/own.csv", own)]);
+    let workspace = in_memory(&[("f/a.yaml", &written), ("f/own.csv", table)]);
     let hover = workspace.hover(Path::new("f/a.yaml"), at + 1).unwrap();
     assert!(hover.text.contains("`outside`: 52 mm"), "{hover:?}");
 }

@@ -167,10 +167,10 @@ fn renamed(files: &[(&str, &str)], file: &str, before: &str, new: &str) -> Vec<(
     let workspace = in_memory(files);
     let (_, text) = files.iter().find(|(name, _)| *name == file).unwrap();
     let edits = workspace.rename(Path::new(file), at(text, before), new).unwrap();
-    let changed = edits.iter().map(|own| {
-        let (name, text) = files.iter().find(|(name, _)| *name == own.file).unwrap();
+    let changed = edits.iter().map(|edited| {
+        let (name, text) = files.iter().find(|(name, _)| *name == edited.file).unwrap();
         let mut text = (*text).to_owned();
-        for edit in own.edits.iter().rev() {
+        for edit in edited.edits.iter().rev() {
             text.replace_range(edit.range.from..edit.range.to, &edit.insert);
         }
         ((*name).to_owned(), text)

@@ -5,8 +5,8 @@ use gearloss_editor::outline::{Content, Node, read};
 
 use super::common::examples;
 
-fn compare(own: &Node, read: &ReadNode, path: &str, text: &str) {
-    match (&own.content, &read.content) {
+fn compare(node: &Node, read: &ReadNode, path: &str, text: &str) {
+    match (&node.content, &read.content) {
         (Content::Empty, Read::Null) => {}
         (Content::Map { entries, .. }, Read::Map(other)) => {
             let keys: Vec<&str> = entries.iter().map(|entry| entry.key.as_str()).collect();
@@ -28,13 +28,13 @@ fn compare(own: &Node, read: &ReadNode, path: &str, text: &str) {
             let (start, end) = (read.span.start as usize, read.span.end as usize);
             // A block of text has its own rules for the end of lines.
             if !(*quoted && text[start..].starts_with(['|', '>'])) {
-                assert_eq!(own.span, start..end, "{path}");
+                assert_eq!(node.span, start..end, "{path}");
             }
             match &read.content {
                 Read::Text { text: other, .. } if !text[start..end].contains(['\n', '\\']) => {
                     assert_eq!(own_text.replace("''", "'"), *other, "{path}");
                 }
-                Read::Map(_) | Read::List(_) => panic!("{path}: {own:?} instead of {read:?}"),
+                Read::Map(_) | Read::List(_) => panic!("{path}: {node:?} instead of {read:?}"),
                 _ => {}
             }
         }

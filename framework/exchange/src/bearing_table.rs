@@ -70,7 +70,7 @@ pub fn import(
     if let Some(wrong) = options
         .kind
         .as_deref()
-        .filter(|own| kind::all().all(|kind| kind != *own))
+        .filter(|stated| kind::all().all(|kind| kind != *stated))
     {
         let help = did_you_mean(wrong, kind::all()).map_or_else(
             || kind::all().collect::<Vec<_>>().join(", "),
@@ -198,7 +198,7 @@ fn columns(table: &Table, name: &str, options: &Options) -> Result<(Vec<Used>, V
         let by_heading = || {
             let key = headings::key(header)?;
             // A column that the user assigns to the key has precedence.
-            (!stated.values().any(|(own, _)| own.name == key.name)).then_some((key, None))
+            (!stated.values().any(|(known, _)| known.name == key.name)).then_some((key, None))
         };
         let Some((key, unit)) = stated.get(&place).cloned().or_else(by_heading) else {
             unused.push(header.clone());
@@ -218,18 +218,19 @@ fn columns(table: &Table, name: &str, options: &Options) -> Result<(Vec<Used>, V
             unused.push(format!("{header} (a second column of `{}`)", key.name));
             continue;
         }
-        let own = table.units[place].as_deref();
-        if let (Some(option), Some(own)) = (&unit, own)
-            && let (Some(a), Some(b)) = (Unit::read(option), Unit::read(without_brackets(own)))
+        let of_file = table.units[place].as_deref();
+        if let (Some(option), Some(of_file)) = (&unit, of_file)
+            && let (Some(a), Some(b)) = (Unit::read(option), Unit::read(without_brackets(of_file)))
             && a != b
         {
-            let message =
-                format!("column `{header}` is in `{own}` according to the file, in `{option}` according to --columns");
+            let message = format!(
+                "column `{header}` is in `{of_file}` according to the file, in `{option}` according to --columns"
+            );
             let help = format!("write `--columns \"{}={header}\"`, or correct the file", key.name);
             found.push(error(format!("{name}: {}{message}", table.at_header()), &help));
             continue;
         }
-        let unit = unit.or_else(|| own.map(str::to_owned));
+        let unit = unit.or_else(|| of_file.map(str::to_owned));
         match factor(key, unit.as_deref(), header) {
             Ok(factor) => used.push(Used {
                 key,
@@ -270,7 +271,7 @@ fn is_another_quantity(key: &Key, place: usize, table: &Table) -> bool {
     let mut others = (0..table.names.len()).filter(|other| *other != place);
     fits(place) == Some(false)
         && others.any(|other| {
-            let of_key = headings::key(&table.names[other]).is_some_and(|own| own.name == key.name);
+            let of_key = headings::key(&table.names[other]).is_some_and(|known| known.name == key.name);
             of_key && fits(other) == Some(true)
         })
 }
@@ -284,7 +285,7 @@ fn stated_column(text: &str, table: &Table) -> Result<(usize, &'static Key, Opti
     let key = key.trim();
     let of_key = KEYS
         .iter()
-        .find(|own| own.name == key && !own.total)
+        .find(|known| known.name == key && !known.total)
         .or_else(|| headings::key(key));
     let Some(of_key) = of_key else {
         let names: Vec<&str> = KEYS.iter().filter(|key| !key.total).map(|key| key.name).collect();

@@ -21,7 +21,7 @@ pub fn json_of(xml: &str) -> String {
             let refs: Vec<Value> = relation
                 .children()
                 .filter(roxmltree::Node::is_element)
-                .map(|own| json!({ "id": integer(own), "role": own.attribute("role"), "hint": own.attribute("hint") }))
+                .map(|reference| json!({ "id": integer(reference), "role": reference.attribute("role"), "hint": reference.attribute("hint") }))
                 .collect();
             json!({ "id": integer(relation), "type": relation.attribute("type"), "refs": refs })
         })

@@ -375,13 +375,13 @@ fn worm_stages_are_refused_plainly() {
 fn positions_relative_to_other_components_are_followed() {
     let text = crate::common::text(TWO_STAGE);
     // Shaft 12 moves by (1, 2, 3); gear 15 is placed relative to it.
-    let own = text.find("<component id=\"15\"").unwrap();
-    let end = own + text[own..].find("</component>").unwrap();
-    let gear = text[own..end].replace("<c>47</c>", "<c>117</c>").replace(
+    let start = text.find("<component id=\"15\"").unwrap();
+    let end = start + text[start..].find("</component>").unwrap();
+    let gear = text[start..end].replace("<c>47</c>", "<c>117</c>").replace(
         "reference_component_for_position\" unit=\"\">1<",
         "reference_component_for_position\" unit=\"\">12<",
     );
-    let moved = format!("{}{gear}{}", &text[..own], &text[end..]);
+    let moved = format!("{}{gear}{}", &text[..start], &text[end..]);
     let original = imported(TWO_STAGE);
     let again = gearloss_exchange::rexs::import(moved.as_bytes(), TWO_STAGE, language()).unwrap();
     let of_gear = |text: &str| line(text, "gear_15").to_owned();

@@ -44,7 +44,7 @@ fn newest(renames: &[Rename], of: &Rename, component: &str) -> String {
     let mut id = of.new.clone();
     for version in of.from + 1..VERSIONS.len() {
         let next = renames.iter().find(|rename| {
-            rename.from == version && rename.old == id && rename.components.iter().any(|own| own == component)
+            rename.from == version && rename.old == id && rename.components.iter().any(|renamed| renamed == component)
         });
         if let Some(next) = next {
             id.clone_from(&next.new);
@@ -57,8 +57,8 @@ fn newest(renames: &[Rename], of: &Rename, component: &str) -> String {
 fn sources() -> String {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/rexs");
     let files = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
-    let own = files.filter(|path| !path.ends_with("aliases.rs"));
-    own.map(|path| fs::read_to_string(path).unwrap()).collect()
+    let sources = files.filter(|path| !path.ends_with("aliases.rs"));
+    sources.map(|path| fs::read_to_string(path).unwrap()).collect()
 }
 
 #[test]
@@ -91,7 +91,7 @@ const TYPES: [(&str, &str); 2] = [
 ];
 
 /// A model with the ids of another version.
-fn rewritten(text: &str, renames: &[Rename], own: usize, wanted: usize) -> String {
+fn rewritten(text: &str, renames: &[Rename], stated: usize, wanted: usize) -> String {
     let mut out = String::new();
     let mut component = String::new();
     for line in text.split_inclusive('\n') {
@@ -99,16 +99,16 @@ fn rewritten(text: &str, renames: &[Rename], own: usize, wanted: usize) -> Strin
         if line.contains("<component ") {
             attribute(&line, "type").clone_into(&mut component);
             for (old, new) in TYPES {
-                if own < 3 && wanted >= 3 {
+                if stated < 3 && wanted >= 3 {
                     line = line.replace(&format!("type=\"{old}\""), &format!("type=\"{new}\""));
-                } else if own >= 3 && wanted < 3 {
+                } else if stated >= 3 && wanted < 3 {
                     line = line.replace(&format!("type=\"{new}\""), &format!("type=\"{old}\""));
                 }
             }
         }
         if line.contains("<attribute ") {
             let id = attribute(&line, "id").to_owned();
-            let renamed = renamed(renames, &component, &id, own, wanted);
+            let renamed = renamed(renames, &component, &id, stated, wanted);
             line = line.replace(
                 &format!("<attribute id=\"{id}\""),
                 &format!("<attribute id=\"{renamed}\""),
@@ -127,10 +127,10 @@ fn rewritten(text: &str, renames: &[Rename], own: usize, wanted: usize) -> Strin
     out
 }
 
-fn renamed(renames: &[Rename], component: &str, id: &str, own: usize, wanted: usize) -> String {
+fn renamed(renames: &[Rename], component: &str, id: &str, stated: usize, wanted: usize) -> String {
     let mut id = id.to_owned();
-    let is_of = |rename: &&Rename| rename.components.iter().any(|own| own == component);
-    for version in own..wanted {
+    let is_of = |rename: &&Rename| rename.components.iter().any(|renamed| renamed == component);
+    for version in stated..wanted {
         let step = renames
             .iter()
             .filter(|rename| rename.from == version && rename.old == id)
@@ -139,7 +139,7 @@ fn renamed(renames: &[Rename], component: &str, id: &str, own: usize, wanted: us
             id.clone_from(&step.new);
         }
     }
-    for version in (wanted..own).rev() {
+    for version in (wanted..stated).rev() {
         let step = renames
             .iter()
             .filter(|rename| rename.from == version && rename.new == id)
@@ -165,20 +165,20 @@ fn described(gearbox: &str) -> &str {
 fn a_model_in_the_words_of_every_version_is_the_same() {
     let renames = renames();
     let mut changed = BTreeMap::new();
-    for (name, own) in [(THREE_STAGE, 0), (PLANETARY, 1), (TWO_STAGE, 4)] {
+    for (name, stated) in [(THREE_STAGE, 0), (PLANETARY, 1), (TWO_STAGE, 4)] {
         let original = imported(name);
         let text = text(name);
         let xml = text.replacen(" version=\"1.0\" enc", " version=\"xml\" enc", 1);
         for wanted in 0..VERSIONS.len() {
-            let version = format!(" version=\"{}\"", if own == 0 { "1.0" } else { VERSIONS[own] });
-            let again = rewritten(&xml, &renames, own, wanted);
+            let version = format!(" version=\"{}\"", if stated == 0 { "1.0" } else { VERSIONS[stated] });
+            let again = rewritten(&xml, &renames, stated, wanted);
             let again = again.replacen(&version, &format!(" version=\"{}\"", VERSIONS[wanted]), 1);
             let again = again.replacen(" version=\"xml\" enc", " version=\"1.0\" enc", 1);
             *changed.entry(name).or_insert(0) += usize::from(again != text);
             let found = import(again.as_bytes(), name, language()).unwrap_or_else(|found| panic!("{}", found.render()));
             assert!(found.warnings.list.is_empty());
             let expected = original.gearbox.replace(
-                &format!("REXS {} model", VERSIONS[own]),
+                &format!("REXS {} model", VERSIONS[stated]),
                 &format!("REXS {} model", VERSIONS[wanted]),
             );
             assert_eq!(

@@ -52,11 +52,11 @@ impl Fmu<'_> {
             .name
             .chars()
             .map(|c| if c.is_ascii_alphanumeric() { c } else { '_' });
-        let own: String = letters.collect();
-        if own.starts_with(|c: char| c.is_ascii_alphabetic()) {
-            own
+        let identifier: String = letters.collect();
+        if identifier.starts_with(|c: char| c.is_ascii_alphabetic()) {
+            identifier
         } else {
-            format!("m_{own}")
+            format!("m_{identifier}")
         }
     }
 
@@ -142,8 +142,8 @@ mod tests {
         for entry in archive.entries() {
             let entry = entry.expect("its entries can be read");
             let name = String::from_utf8_lossy(entry.file_path().as_ref()).into_owned();
-            let own = archive.get_entry(entry.wayfinder()).expect("it is there");
-            let content = miniz_oxide::inflate::decompress_to_vec(own.data()).expect("it is deflated");
+            let stored = archive.get_entry(entry.wayfinder()).expect("it is there");
+            let content = miniz_oxide::inflate::decompress_to_vec(stored.data()).expect("it is deflated");
             assert_eq!(rawzip::crc32(&content), entry.crc32(), "{name}");
             files.push((name, content));
         }
@@ -159,8 +159,8 @@ mod tests {
             assert_eq!(bytes, fmu(&content, &libraries, version));
             let files = files(&bytes);
             let of = |name: &str| {
-                let own = files.iter().find(|(own, _)| own == name);
-                own.map(|(_, content)| content.clone()).unwrap_or_default()
+                let found = files.iter().find(|(known, _)| known == name);
+                found.map(|(_, content)| content.clone()).unwrap_or_default()
             };
             let resource = of("resources/network.bin");
             assert_eq!(Content::decode(&resource), Some(content.clone()));
@@ -183,8 +183,8 @@ mod tests {
                 assert_eq!(String::from_utf8_lossy(&text).lines().count(), 4, "{name}");
             }
             assert!(files.iter().all(|(name, _)| !name.contains('\\')));
-            let own = files.iter().filter(|(name, _)| name.starts_with("binaries/")).count();
-            assert_eq!(own, libraries.len());
+            let count = files.iter().filter(|(name, _)| name.starts_with("binaries/")).count();
+            assert_eq!(count, libraries.len());
         }
     }
 }

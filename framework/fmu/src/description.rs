@@ -181,7 +181,7 @@ pub fn xml(fmu: &Fmu<'_>, version: Version, token: &str) -> String {
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<fmiModelDescription fmiVersion=\"{number}\" modelName=\"{name}\" {key}=\"{token}\"\n  \
          description=\"{description}\"\n  generationTool=\"{tool}\" variableNamingConvention=\"structured\"{events}>\n"
     );
-    let own = format!(
+    let common = format!(
         "modelIdentifier=\"{}\" canGetAndSet{state}=\"true\" canSerialize{state}=\"true\"",
         fmu.identifier()
     );
@@ -189,9 +189,9 @@ pub fn xml(fmu: &Fmu<'_>, version: Version, token: &str) -> String {
         Version::Two => "completedIntegratorStepNotNeeded=\"true\"",
         Version::Three => "needsCompletedIntegratorStep=\"false\"",
     };
-    xml.push_str(&format!("  <ModelExchange {own} {steps}/>\n"));
+    xml.push_str(&format!("  <ModelExchange {common} {steps}/>\n"));
     xml.push_str(&format!(
-        "  <CoSimulation {own} canHandleVariableCommunicationStepSize=\"true\"/>\n"
+        "  <CoSimulation {common} canHandleVariableCommunicationStepSize=\"true\"/>\n"
     ));
     xml.push_str(&units(fmu, &slots));
     xml.push_str("  <LogCategories>\n");
@@ -263,21 +263,21 @@ fn variable(fmu: &Fmu<'_>, version: Version, (reference, slot): (usize, &Slot), 
         Causality::State => common.push_str(" initial=\"exact\""),
         Causality::Input | Causality::Independent => {}
     }
-    let mut own = String::new();
+    let mut particular = String::new();
     if slot.kind == Kind::Integer {
-        own.push_str(&format!(" min=\"1\" max=\"{}\"", gear_count(fmu.content)));
+        particular.push_str(&format!(" min=\"1\" max=\"{}\"", gear_count(fmu.content)));
     }
     if matches!(slot.causality, Causality::Input | Causality::State) {
-        own.push_str(&format!(" start=\"{}\"", slot.start));
+        particular.push_str(&format!(" start=\"{}\"", slot.start));
     }
     if let Some(state) = state {
-        own.push_str(&format!(" derivative=\"{}\"", number(version, state)));
+        particular.push_str(&format!(" derivative=\"{}\"", number(version, state)));
     }
     if let Some(unit) = info.unit {
-        own.push_str(&format!(" unit=\"{unit}\""));
+        particular.push_str(&format!(" unit=\"{unit}\""));
         let known = UNITS.iter().find(|(name, ..)| *name == unit);
         if let Some((_, _, Some((shown, _)))) = known {
-            own.push_str(&format!(" displayUnit=\"{shown}\""));
+            particular.push_str(&format!(" displayUnit=\"{shown}\""));
         }
     }
     match (version, slot.kind) {
@@ -287,7 +287,7 @@ fn variable(fmu: &Fmu<'_>, version: Version, (reference, slot): (usize, &Slot), 
                 Kind::Integer => "Integer",
                 Kind::Boolean => "Boolean",
             };
-            format!("    <ScalarVariable {common}><{kind}{own}/></ScalarVariable>\n")
+            format!("    <ScalarVariable {common}><{kind}{particular}/></ScalarVariable>\n")
         }
         (Version::Three, kind) => {
             let kind = match kind {
@@ -295,7 +295,7 @@ fn variable(fmu: &Fmu<'_>, version: Version, (reference, slot): (usize, &Slot), 
                 Kind::Integer => "Int32",
                 Kind::Boolean => "Boolean",
             };
-            format!("    <{kind} {common}{own}/>\n")
+            format!("    <{kind} {common}{particular}/>\n")
         }
     }
 }
@@ -314,8 +314,9 @@ fn structure(version: Version, slots: &[Slot]) -> String {
     let list = |output: &Slot| {
         let knowns = slots.iter().enumerate();
         let knowns = knowns.filter(|(_, slot)| matches!(slot.causality, Causality::Input | Causality::State));
-        let own = knowns.filter(|(_, slot)| depends(output, slot));
-        own.map(|(i, _)| number(version, i).to_string())
+        let needed = knowns.filter(|(_, slot)| depends(output, slot));
+        needed
+            .map(|(i, _)| number(version, i).to_string())
             .collect::<Vec<_>>()
             .join(" ")
     };

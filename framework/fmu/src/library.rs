@@ -81,7 +81,7 @@ impl Library {
     /// If it is none.
     pub fn read(bytes: Vec<u8>) -> Result<Self, UnknownLibrary> {
         let platform = platform(&bytes).ok_or(UnknownLibrary::Platform)?;
-        let has = |name: &[u8]| bytes.windows(name.len()).any(|own| own == name);
+        let has = |name: &[u8]| bytes.windows(name.len()).any(|part| part == name);
         if !(has(b"fmi2DoStep") && has(b"fmi3DoStep") && has(b"GEARLOSS")) {
             return Err(UnknownLibrary::Functions);
         }
@@ -165,10 +165,10 @@ mod tests {
     #[cfg(all(target_os = "linux", target_env = "gnu"))]
     #[test]
     fn the_own_library_is_small_and_needs_an_old_c_library() {
-        let own = Library::own().expect("this target has a library");
-        assert!(own.bytes().len() < 100_000, "{} bytes", own.bytes().len());
-        assert!(Library::read(own.bytes().to_vec()).is_ok());
-        let text = String::from_utf8_lossy(own.bytes());
+        let library = Library::own().expect("this target has a library");
+        assert!(library.bytes().len() < 100_000, "{} bytes", library.bytes().len());
+        assert!(Library::read(library.bytes().to_vec()).is_ok());
+        let text = String::from_utf8_lossy(library.bytes());
         let versions = text.match_indices("GLIBC_").map(|(at, name)| {
             let rest = text[at + name.len()..].chars();
             let digits: String = rest.take_while(|c| c.is_ascii_digit() || *c == '.').collect();

@@ -40,8 +40,8 @@ fn simulated(fmu: &Fmu<'_>) -> (String, String) {
     let mut model = Model::new(fmu.content.clone());
     let slots = model.slots().to_vec();
     let those = |wanted: fn(Causality) -> bool| -> Vec<(u32, Slot)> {
-        let own = (0..).zip(slots.iter().copied());
-        own.filter(|(_, slot)| wanted(slot.causality)).collect()
+        let numbered = (0..).zip(slots.iter().copied());
+        numbered.filter(|(_, slot)| wanted(slot.causality)).collect()
     };
     let ins = those(|c| c == Causality::Input);
     let outs = those(|c| matches!(c, Causality::Output | Causality::State));

@@ -211,10 +211,10 @@ fn rounded(value: f64) -> f64 {
 
 /// Model sets of a gearbox and those that are shipped.
 fn model_sets(language: &Language, gearbox: &Value) -> Vec<String> {
-    let own = gearbox["model_sets"].as_object();
-    let own = own.into_iter().flatten().map(|(name, _)| name.clone());
+    let sets = gearbox["model_sets"].as_object();
+    let sets = sets.into_iter().flatten().map(|(name, _)| name.clone());
     let mut names = vec![String::new()];
-    for name in own.chain(language.shipped_sets().keys().cloned()) {
+    for name in sets.chain(language.shipped_sets().keys().cloned()) {
         if !names.contains(&name) {
             names.push(name);
         }

@@ -110,20 +110,20 @@ mod on_disk {
         }
 
         fn write(&self, name: &str, record: &[u8]) -> io::Result<()> {
-            let own = self.folder.join(&self.program);
+            let folder = self.folder.join(&self.program);
             let mut lock = self.lock.lock().unwrap_or_else(PoisonError::into_inner);
-            if lock.is_none() || !own.is_dir() {
-                private_folder(&own)?;
-                let file = private(&own.join(LOCK))?;
+            if lock.is_none() || !folder.is_dir() {
+                private_folder(&folder)?;
+                let file = private(&folder.join(LOCK))?;
                 // On a file system without locks, drafts of a running program are offered, too.
                 let _ = file.try_lock();
                 *lock = Some(file);
             }
-            let path = own.join(format!("{name}.json"));
-            if !path.exists() && fs::read_dir(&own)?.count() > MOST {
+            let path = folder.join(format!("{name}.json"));
+            if !path.exists() && fs::read_dir(&folder)?.count() > MOST {
                 return Err(io::Error::other(format!("there are {MOST} others")));
             }
-            let part = own.join(format!("{name}.part"));
+            let part = folder.join(format!("{name}.part"));
             private(&part)?.write_all(record)?;
             fs::rename(part, path)
         }

@@ -93,8 +93,8 @@ impl Drop for SaveLock {
 fn is_present(file: &File, path: &Path) -> bool {
     use std::os::unix::fs::MetadataExt as _;
     let number = |data: fs::Metadata| (data.dev(), data.ino());
-    let own = file.metadata().map(number);
-    own.is_ok_and(|own| fs::symlink_metadata(path).is_ok_and(|data| number(data) == own))
+    let locked = file.metadata().map(number);
+    locked.is_ok_and(|locked| fs::symlink_metadata(path).is_ok_and(|data| number(data) == locked))
 }
 
 /// Elsewhere the file is never removed.

@@ -9,14 +9,14 @@ use serde_json::{Value, json};
 #[derive(Serialize)]
 struct WithPictures<'a> {
     #[serde(flatten)]
-    own: &'a Section,
+    section: &'a Section,
     pictures: &'a [Picture],
 }
 
 /// A section with its pictures as JSON.
 pub fn section_json(section: &Section) -> Value {
     json!(WithPictures {
-        own: section,
+        section,
         pictures: &section.pictures,
     })
 }

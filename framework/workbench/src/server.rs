@@ -131,11 +131,11 @@ async fn accept(listener: tokio::net::TcpListener, work: Arc<Work>) {
         };
         has_place(&mut open).await;
         let activity = Activity::begin();
-        let (work, own) = (Arc::clone(&work), Arc::clone(&activity));
+        let (work, served) = (Arc::clone(&work), Arc::clone(&activity));
         let task = tokio::spawn(async move {
             let service = service_fn(|request| {
-                let (work, own) = (Arc::clone(&work), Arc::clone(&own));
-                async move { Ok::<_, Infallible>(reply::reply(&work, request, &own).await) }
+                let (work, served) = (Arc::clone(&work), Arc::clone(&served));
+                async move { Ok::<_, Infallible>(reply::reply(&work, request, &served).await) }
             });
             // A connection that breaks off concerns nobody else.
             let _ = http1::Builder::new()

@@ -265,25 +265,25 @@ impl Store for Memory {
 
     fn text(&self, file: &str) -> Result<Option<String>, Fault> {
         let files = self.files();
-        let found = files.iter().find(|(own, _)| own == file);
+        let found = files.iter().find(|(known, _)| known == file);
         Ok(found.map(|(_, text)| text.clone()))
     }
 
     fn save(&self, file: &str, text: &str, known: Option<&str>) -> Result<Saved, Fault> {
         let mut files = self.files();
-        let Some((_, own)) = files.iter_mut().find(|(own, _)| own == file) else {
+        let Some((_, known_text)) = files.iter_mut().find(|(name, _)| name == file) else {
             let known: Vec<String> = files.iter().map(|(file, _)| file.clone()).collect();
             check_new_name(file, &known)?;
             files.push((file.to_owned(), text.to_owned()));
             return Ok(Saved::Saved(hash(text)));
         };
-        if known != Some(hash(own).as_str()) {
+        if known != Some(hash(known_text).as_str()) {
             return Ok(Saved::Changed {
-                text: Some(own.clone()),
-                hash: Some(hash(own)),
+                text: Some(known_text.clone()),
+                hash: Some(hash(known_text)),
             });
         }
-        text.clone_into(own);
+        text.clone_into(known_text);
         Ok(Saved::Saved(hash(text)))
     }
 

@@ -57,7 +57,7 @@ pub fn run(
     let mut report = Report::default();
     let mut failed = 0;
     for (name, analysis) in study.entry.analyses.iter() {
-        if !wanted.is_empty() && !wanted.iter().any(|own| own == name) {
+        if !wanted.is_empty() && !wanted.iter().any(|known| known == name) {
             continue;
         }
         report.begin(name, analysis);
@@ -79,8 +79,8 @@ pub fn run(
         listener.event(json!({ "event": "section", "section": section }));
     }
     if wanted.is_empty() {
-        let own = run.study_for_analysis();
-        report.complete(&Planner::new(language, &own, "report"))?;
+        let shortened = run.study_for_analysis();
+        report.complete(&Planner::new(language, &shortened, "report"))?;
         let frame = Frame::new(&study, language, env!("CARGO_PKG_VERSION"));
         let address = listener.report(report.html(&frame)?);
         listener.event(json!({ "event": "report", "address": address }));

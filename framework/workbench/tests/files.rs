@@ -144,8 +144,8 @@ fn two_pages_save_one_after_the_other() {
         });
         let kept = saved.iter().filter(|saved| matches!(saved, Saved::Saved(_))).count();
         assert_eq!(kept, 1, "{saved:?}");
-        let own = usize::from(matches!(saved[1], Saved::Saved(_)));
-        assert_eq!(folder.read("gearbox.yaml").unwrap(), texts[own]);
+        let saved_one = usize::from(matches!(saved[1], Saved::Saved(_)));
+        assert_eq!(folder.read("gearbox.yaml").unwrap(), texts[saved_one]);
     }
     assert_eq!(fs::read_dir(&root).unwrap().count(), 1, "a temporary file is left");
     fs::remove_dir_all(root).unwrap();
@@ -210,7 +210,7 @@ fn programs_with_one_folder_lose_no_save() {
     let programs = ["one", "two", "three"].map(|name| program(&root, name, 60));
     let reported: Vec<String> = programs.into_iter().flat_map(reported).collect();
     let text = fs::read_to_string(root.join("gearbox.yaml")).unwrap();
-    let is_lost = |line: &&String| !text.lines().any(|own| own == *line);
+    let is_lost = |line: &&String| !text.lines().any(|kept| kept == *line);
     let lost: Vec<&String> = reported.iter().filter(is_lost).collect();
     assert!(
         lost.is_empty(),

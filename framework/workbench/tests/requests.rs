@@ -68,8 +68,8 @@ fn the_first_point_of_a_differential_has_a_result() {
         let members = answer["point"]["members"].as_array().unwrap().iter();
         members
             .clone()
-            .find(|own| own["member"] == name)
-            .map(|own| own["speed_rpm"].as_f64().unwrap())
+            .find(|member| member["member"] == name)
+            .map(|member| member["speed_rpm"].as_f64().unwrap())
     };
     let (left, right) = (speed("left_shaft").unwrap(), speed("right_shaft").unwrap());
     assert!((left / right - 1.0).abs() < 1e-3, "{left} {right}");

@@ -231,14 +231,14 @@ fn answers_prove_their_program() {
         found.map(str::to_owned)
     };
     let hello = raw(&post(r#"{"request":"hello"}"#, |line| Some(line.to_owned())));
-    let own = proof(&hello).unwrap();
+    let proven = proof(&hello).unwrap();
     assert!(
-        own.len() == 64 && own != SERVER.1 && hello.ends_with(r#"{"value":null}"#),
+        proven.len() == 64 && proven != SERVER.1 && hello.ends_with(r#"{"value":null}"#),
         "{hello}"
     );
     // A refusal of a known page, too.
     let unknown = raw(&post(r#"{"request":"shell"}"#, |line| Some(line.to_owned())));
-    assert_eq!((status(&unknown), proof(&unknown)), (400, Some(own)));
+    assert_eq!((status(&unknown), proof(&unknown)), (400, Some(proven)));
     for request in [
         post(FOLDER, replace("Authorization:", "")),
         post(FOLDER, replace("Host:", "Host: evil.example")),

@@ -44,12 +44,12 @@ impl NumberStyle {
             Decimal::Comma => ',',
         };
         let (whole, decimals) = cell.split_once(decimal).unwrap_or((&cell, "0"));
-        let own = match self.thousands {
+        let stated = match self.thousands {
             Some(Thousands::Comma) => Some(','),
             Some(Thousands::Point) => Some('.'),
             None => None,
         };
-        let sign = GROUP_SIGNS.into_iter().chain(own).find(|sign| whole.contains(*sign));
+        let sign = GROUP_SIGNS.into_iter().chain(stated).find(|sign| whole.contains(*sign));
         let whole = match sign {
             Some(sign) if in_groups(whole, sign) => whole.replace(sign, ""),
             Some(_) => return None,
@@ -198,23 +198,23 @@ pub(super) fn style(
             .as_ref()
             .or(seen.either[index(decimal)].as_ref())
     };
-    for (own, other) in [(Decimal::Point, Decimal::Comma), (Decimal::Comma, Decimal::Point)] {
-        if !groups(own) {
+    for (mark, other) in [(Decimal::Point, Decimal::Comma), (Decimal::Comma, Decimal::Point)] {
+        if !groups(mark) {
             continue;
         }
         let against = seen.groups[index(other)]
             .as_ref()
             .or(seen.decimal[index(other)].as_ref());
-        if let (Some((line, cell)), Some((at, against))) = (&seen.groups[index(own)], against) {
+        if let (Some((line, cell)), Some((at, against))) = (&seen.groups[index(mark)], against) {
             return Err(mixed((*line, cell), (*at, against)));
         }
-        notes.push(match own {
+        notes.push(match mark {
             Decimal::Point => "decimal point, thousands with commas".to_owned(),
             Decimal::Comma => "decimal comma, thousands with points".to_owned(),
         });
         return Ok(NumberStyle {
-            decimal: own,
-            thousands: Some(of_decimal(own)),
+            decimal: mark,
+            thousands: Some(of_decimal(mark)),
         });
     }
     match (any(Decimal::Comma), any(Decimal::Point)) {

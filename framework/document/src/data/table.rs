@@ -66,7 +66,10 @@ impl Table {
     pub fn column(&self, header: &str) -> FoundColumn {
         let of_name = |name: &str| -> Vec<usize> {
             let names = self.names.iter().enumerate();
-            names.filter(|(_, own)| *own == name).map(|(place, _)| place).collect()
+            names
+                .filter(|(_, known)| *known == name)
+                .map(|(place, _)| place)
+                .collect()
         };
         match of_name(header).as_slice() {
             [place] => FoundColumn::At(*place),

@@ -486,14 +486,14 @@ pub(super) fn read(text: &str, dimension: Option<Dimension>) -> Option<Conversio
     if REFUSED.iter().any(|(refused, _)| *refused == text) {
         return None;
     }
-    let is_wanted = |own: Dimension| dimension.is_none_or(|wanted| wanted == own);
+    let is_wanted = |given: Dimension| dimension.is_none_or(|wanted| wanted == given);
     let usual = USUAL
         .iter()
-        .find(|(own, unit)| is_wanted(unit.dimension) && *own == text);
+        .find(|(symbol, unit)| is_wanted(unit.dimension) && *symbol == text);
     if let Some((_, unit)) = usual {
         return Some(*unit);
     }
-    let compounds = COMPOUNDS.iter().filter(|(own, _)| is_wanted(*own));
+    let compounds = COMPOUNDS.iter().filter(|(of_compound, _)| is_wanted(*of_compound));
     compounds.into_iter().find_map(|(dimension, parts)| {
         let (number, exponent) = matched(&text, parts)?;
         Some(Conversion {
@@ -515,13 +515,13 @@ fn matched(text: &str, parts: &[Part]) -> Option<(f64, i32)> {
         return text.is_empty().then_some((1.0, 0));
     };
     match first {
-        Text(own) => matched(text.strip_prefix(own)?, rest),
+        Text(fixed) => matched(text.strip_prefix(fixed)?, rest),
         Times => matched(text.strip_prefix('·').unwrap_or(text), rest),
         Of(symbols, power) => {
             let with = |behind: &str, symbol: &Symbol, prefix: i32| {
                 let (number, exponent) = matched(behind, rest)?;
-                let own = (symbol.exponent + prefix) * power;
-                Some((number * symbol.number.powi(*power), exponent + own))
+                let power_of_ten = (symbol.exponent + prefix) * power;
+                Some((number * symbol.number.powi(*power), exponent + power_of_ten))
             };
             symbols.iter().find_map(|symbol| {
                 let bare = text
@@ -587,11 +587,11 @@ fn normalised(text: &str) -> String {
 static PATTERNS: LazyLock<HashMap<Dimension, String>> = LazyLock::new(|| {
     let mut patterns: HashMap<Dimension, String> = HashMap::new();
     let mut add = |dimension: Dimension, pattern: String| {
-        let own = patterns.entry(dimension).or_default();
-        if !own.is_empty() {
-            own.push('|');
+        let pattern_of_unit = patterns.entry(dimension).or_default();
+        if !pattern_of_unit.is_empty() {
+            pattern_of_unit.push('|');
         }
-        own.push_str(&pattern);
+        pattern_of_unit.push_str(&pattern);
     };
     for (dimension, parts) in COMPOUNDS {
         let mut pattern = String::new();
@@ -606,7 +606,9 @@ static PATTERNS: LazyLock<HashMap<Dimension, String>> = LazyLock::new(|| {
     }
     // What is no compound.
     for (text, unit) in USUAL.iter() {
-        let compounds = COMPOUNDS.iter().filter(|(own, _)| *own == unit.dimension);
+        let compounds = COMPOUNDS
+            .iter()
+            .filter(|(of_compound, _)| *of_compound == unit.dimension);
         if !compounds.into_iter().any(|(_, parts)| matched(text, parts).is_some()) {
             add(unit.dimension, spellings(text, true));
         }
@@ -654,8 +656,9 @@ fn spellings(text: &str, at_start: bool) -> String {
 /// Regular expression of one of several symbols.
 fn any(symbols: Symbols) -> String {
     let texts = |prefixed: bool| {
-        let own = symbols.iter().filter(|symbol| symbol.prefixed == prefixed);
-        own.map(|symbol| spellings(symbol.text, true))
+        let of_kind = symbols.iter().filter(|symbol| symbol.prefixed == prefixed);
+        of_kind
+            .map(|symbol| spellings(symbol.text, true))
             .collect::<Vec<_>>()
             .join("|")
     };

@@ -45,7 +45,7 @@ pub struct Checker<'l> {
 /// Continues while no newer texts have arrived.
 struct Newest<'a> {
     generation: &'a AtomicU64,
-    own: u64,
+    started: u64,
 }
 
 impl Progress for Newest<'_> {
@@ -54,7 +54,7 @@ impl Progress for Newest<'_> {
     }
 
     fn should_continue(&self) -> bool {
-        self.generation.load(Ordering::Relaxed) == self.own
+        self.generation.load(Ordering::Relaxed) == self.started
     }
 }
 
@@ -99,7 +99,7 @@ impl<'l> Checker<'l> {
         while let Some(work) = self.next() {
             let newest = Newest {
                 generation: &self.generation,
-                own: work.generation,
+                started: work.generation,
             };
             for job in &work.jobs {
                 // A file of another program, or a text that is still empty.
@@ -136,12 +136,12 @@ impl Work<'_> {
 
     /// A finding in another file is shown where the document names that file.
     fn diagnostic(&self, path: &Path, finding: &Finding) -> Value {
-        let own = finding
+        let here = finding
             .place
             .as_ref()
             .filter(|place| without_dots(Path::new(&place.file)) == *path);
-        let other = finding.place.as_ref().filter(|_| own.is_none());
-        let range = match own {
+        let other = finding.place.as_ref().filter(|_| here.is_none());
+        let range = match here {
             Some(place) => show::range(&place.range, self.encoding),
             None => self.naming(path, other.map(|place| without_dots(Path::new(&place.file))).as_deref()),
         };
@@ -161,7 +161,12 @@ impl Work<'_> {
             message.push_str(&format!("\nhelp: {help}"));
         }
         let related = other.map(|place| (place, "here")).into_iter();
-        let related = related.chain(finding.related.iter().map(|own| (&own.place, own.message.as_str())));
+        let related = related.chain(
+            finding
+                .related
+                .iter()
+                .map(|place| (&place.place, place.message.as_str())),
+        );
         let related: Vec<Value> = related
             .map(|(place, message)| {
                 let uri = self.uri(&without_dots(Path::new(&place.file)));
@@ -183,8 +188,8 @@ impl Work<'_> {
         let document = self.workspace.document(path);
         let span = document.as_ref().zip(file).and_then(|(document, file)| {
             let all = self.workspace.occurrences(document).into_iter();
-            let mut named = all.filter_map(|own| match &own.name {
-                Name::File(name) => Some((named(path, name), own.span)),
+            let mut named = all.filter_map(|occurrence| match &occurrence.name {
+                Name::File(name) => Some((named(path, name), occurrence.span)),
                 _ => None,
             });
             let found = named.find(|(named, _)| {

@@ -51,7 +51,7 @@ pub(super) fn complete(row: &mut Row) {
     match (kind.as_str(), angle) {
         ("angular_contact_ball", Some(15)) => put(row, "y0", Y0_15, ANGLE),
         ("angular_contact_ball", Some(angle)) => {
-            if let Some((_, e, y, y0)) = ANGULAR.iter().find(|own| own.0 == angle) {
+            if let Some((_, e, y, y0)) = ANGULAR.iter().find(|row| row.0 == angle) {
                 put_all(row, [*e, *y, *y0]);
             }
         }

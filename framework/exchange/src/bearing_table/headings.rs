@@ -195,7 +195,7 @@ pub(super) fn key(heading: &str) -> Option<&'static Key> {
     }
     let by_symbol = |symbol: &str| {
         KEYS.iter()
-            .find(|key| key.symbols.split_whitespace().any(|own| own == symbol))
+            .find(|key| key.symbols.split_whitespace().any(|known| known == symbol))
     };
     let plain: String = heading
         .chars()
@@ -216,14 +216,14 @@ pub(super) fn key(heading: &str) -> Option<&'static Key> {
     }
     let by_words = |words: &str| {
         KEYS.iter()
-            .find(|key| key.words.split_whitespace().any(|own| own == words) || key.name.replace('_', "") == words)
+            .find(|key| key.words.split_whitespace().any(|known| known == words) || key.name.replace('_', "") == words)
     };
     by_words(&words).or_else(|| {
         // A symbol after the words, such as `Bore diameter, d`.
         let (words, symbol) = heading.rsplit_once([' ', ','])?;
         let key = by_symbol(symbol)?;
         let words: String = words.to_lowercase().chars().filter(|c| c.is_alphanumeric()).collect();
-        by_words(&words).filter(|own| own.name == key.name).map(|_| key)
+        by_words(&words).filter(|named| named.name == key.name).map(|_| key)
     })
 }
 

@@ -74,7 +74,7 @@ pub(super) fn from_words(text: &str) -> Option<&'static str> {
     let plain: String = text.to_lowercase().chars().filter(|c| c.is_alphanumeric()).collect();
     let found = WORDS
         .iter()
-        .find(|(kind, words)| kind.replace('_', "") == plain || words.split_whitespace().any(|own| own == plain));
+        .find(|(kind, words)| kind.replace('_', "") == plain || words.split_whitespace().any(|known| known == plain));
     found.map(|(kind, _)| *kind)
 }
 

@@ -110,7 +110,7 @@ fn static_to_dynamic(row: &Row) -> [f64; 2] {
 fn shipped_sizes(shipped: Option<&CatalogueTable>, designation: &str) -> Option<[f64; 2]> {
     let row = shipped?.0.get(designation)?;
     let size = |key: &str| {
-        let (_, value) = row.values.iter().find(|(own, _)| own == key)?;
+        let (_, value) = row.values.iter().find(|(name, _)| name == key)?;
         value.as_str()?.split_once(' ')?.0.parse::<f64>().ok()
     };
     Some([size("bore")?, size("outside")?])

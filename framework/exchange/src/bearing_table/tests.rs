@@ -210,8 +210,8 @@ fn implausible_rows_are_told() {
 /// Every key is found by its own name, and no heading belongs to two keys.
 #[test]
 fn headings_are_unambiguous() {
-    for own in KEYS.iter().filter(|key| !key.total && key.name.len() > 1) {
-        assert_eq!(headings::key(own.name).unwrap().name, own.name);
+    for key in KEYS.iter().filter(|key| !key.total && key.name.len() > 1) {
+        assert_eq!(headings::key(key.name).unwrap().name, key.name);
     }
     for (heading, name) in [
         ("C₀", "c0"),

@@ -107,7 +107,7 @@ fn bearing(
         );
         return None;
     };
-    let own = id("bearing", component.id);
+    let name = id("bearing", component.id);
     let mut bearing = Bearing {
         comment: named(component),
         shaft: map.member_name(shaft),
@@ -131,7 +131,7 @@ fn bearing(
         oil_height: source
             .number(component, "depth_of_immersion_in_oil", Quantity::Length)
             .filter(|height| *height >= 0.0),
-        id: own,
+        id: name,
         ..Bearing::default()
     };
     if source.flag(component, "radial_force_absorption") == Some(false) {
@@ -224,7 +224,7 @@ fn data(map: &Map<'_>, component: &Component, bearing: &mut Bearing) {
         return;
     };
     let double = source.number(component, "number_of_bearing_rows", Quantity::Number) == Some(2.0);
-    bearing.kind = match KINDS.iter().find(|(own, _)| *own == kind) {
+    bearing.kind = match KINDS.iter().find(|(known, _)| *known == kind) {
         Some((_, Some("deep_groove_ball"))) if double => Some("deep_groove_ball_double_row"),
         Some((_, Some("angular_contact_ball"))) if double => Some("angular_contact_ball_double_row"),
         Some((_, Some(kind))) => Some(kind),
@@ -282,7 +282,12 @@ fn catalogue(map: &Map<'_>, language: &Language, component: &Component, bearing:
         ));
         return;
     };
-    let of_row = |key: &str| row.values.iter().find(|(own, _)| own == key).map(|(_, value)| value);
+    let of_row = |key: &str| {
+        row.values
+            .iter()
+            .find(|(known, _)| known == key)
+            .map(|(_, value)| value)
+    };
     // A row of other dimensions is another bearing.
     let differs = [
         ("bore", bearing.bore),

@@ -205,7 +205,7 @@ pub fn gears(map: &mut Map<'_>) -> (Vec<Gear>, Vec<Mesh>, Vec<Set>) {
     }
     let mut hands = BTreeSet::new();
     let mut written = Vec::new();
-    for (own, gear) in &gears {
+    for (id, gear) in &gears {
         if map.copies.contains(&gear.member) {
             continue;
         }
@@ -216,7 +216,7 @@ pub fn gears(map: &mut Map<'_>) -> (Vec<Gear>, Vec<Mesh>, Vec<Set>) {
             _ => Some("left"),
         };
         hands.extend(hand);
-        let shift = shifts.get(own).copied().unwrap_or(gear.shift);
+        let shift = shifts.get(id).copied().unwrap_or(gear.shift);
         written.push(written_gear(map, gear, hand, shift));
     }
     if !hands.is_empty() {
@@ -523,14 +523,14 @@ fn trains(planets: &BTreeSet<Id>, gears: &BTreeMap<Id, ReadGear<'_>>, pairs: &[P
     for pair in pairs {
         let [a, b] = pair.gears.map(|id| gears[&id].member);
         if let (Some(&a), Some(&b)) = (group.get(&a), group.get(&b)) {
-            for own in group.values_mut().filter(|own| **own == a.max(b)) {
-                *own = a.min(b);
+            for first in group.values_mut().filter(|first| **first == a.max(b)) {
+                *first = a.min(b);
             }
         }
     }
     let mut trains: BTreeMap<Id, Vec<Id>> = BTreeMap::new();
-    for (planet, own) in group {
-        trains.entry(own).or_default().push(planet);
+    for (planet, first) in group {
+        trains.entry(first).or_default().push(planet);
     }
     trains.into_values().collect()
 }
@@ -539,12 +539,12 @@ fn trains(planets: &BTreeSet<Id>, gears: &BTreeMap<Id, ReadGear<'_>>, pairs: &[P
 fn signature(map: &Map<'_>, train: &[Id], gears: &BTreeMap<Id, ReadGear<'_>>, pairs: &[Pair<'_>]) -> String {
     let mut lines = Vec::new();
     for gear in gears.values().filter(|gear| train.contains(&gear.member)) {
-        let own = gear.component.id;
+        let id = gear.component.id;
         let mut mates: Vec<String> = pairs
             .iter()
-            .filter(|pair| pair.gears.contains(&own))
+            .filter(|pair| pair.gears.contains(&id))
             .map(|pair| {
-                let mate = if pair.gears[0] == own {
+                let mate = if pair.gears[0] == id {
                     pair.gears[1]
                 } else {
                     pair.gears[0]

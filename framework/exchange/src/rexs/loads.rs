@@ -47,8 +47,10 @@ struct Values<'a> {
 impl<'a> Values<'a> {
     /// The component of the load case if it states an attribute, else that of the model.
     fn holder(&self, component: &'a Component, id: &str) -> &'a Component {
-        let own = self.case.and_then(|case| case.components.get(&component.id));
-        own.filter(|own| own.attribute(id).is_some()).unwrap_or(component)
+        let in_case = self.case.and_then(|case| case.components.get(&component.id));
+        in_case
+            .filter(|in_case| in_case.attribute(id).is_some())
+            .unwrap_or(component)
     }
 
     fn number(&self, component: &'a Component, id: &str, quantity: Quantity) -> Option<f64> {
@@ -57,8 +59,8 @@ impl<'a> Values<'a> {
 
     /// The time of a load case itself: that of the gear unit is the life of the gearbox.
     fn own_time(&self, unit: &'a Component) -> Option<f64> {
-        let own = self.case?.components.get(&unit.id)?;
-        self.source.number(own, "operating_time", Quantity::Time)
+        let in_case = self.case?.components.get(&unit.id)?;
+        self.source.number(in_case, "operating_time", Quantity::Time)
     }
 
     fn flag(&self, component: &'a Component, id: &str) -> Option<bool> {
@@ -133,7 +135,7 @@ pub fn forces(map: &Map<'_>) -> Vec<Force> {
             comment: named(load),
             at: map.poses.get(load.id).map_or_else(
                 || super::shafts::along(map, pose, at),
-                |own| map.frame.coordinates(own.origin)[0],
+                |pose_of_load| map.frame.coordinates(pose_of_load.origin)[0],
             ),
             by_case,
         });
@@ -163,7 +165,7 @@ pub fn loads(map: &Map<'_>) -> Loads {
         ..Loads::default()
     };
     let name = |member: Option<Id>| {
-        let port = loads.ports.iter().find(|(own, _)| Some(*own) == member)?;
+        let port = loads.ports.iter().find(|(loaded, _)| Some(*loaded) == member)?;
         Some((port.0, port.1.clone()))
     };
     let (Some(torque_at), Some(speed_at)) = (name(torque_at), name(speed_at)) else {

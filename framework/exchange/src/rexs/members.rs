@@ -125,7 +125,7 @@ impl Members {
     pub fn parts(&self, member: Id) -> impl Iterator<Item = Id> {
         self.of
             .iter()
-            .filter(move |(_, own)| **own == member)
+            .filter(move |(_, its_member)| **its_member == member)
             .map(|(id, _)| *id)
     }
 

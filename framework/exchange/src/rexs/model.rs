@@ -72,7 +72,7 @@ pub struct Relation {
 impl Relation {
     /// The component in a role.
     pub fn role(&self, role: &str) -> Option<Id> {
-        self.refs.iter().find(|(own, _)| own == role).map(|(_, id)| *id)
+        self.refs.iter().find(|(known, _)| known == role).map(|(_, id)| *id)
     }
 }
 

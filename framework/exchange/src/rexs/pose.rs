@@ -54,12 +54,12 @@ impl Pose {
     }
 
     /// A pose that is relative to this one.
-    fn then(&self, own: &Self) -> Self {
+    fn then(&self, next: &Self) -> Self {
         Self {
-            origin: sum(self.origin, self.turned(own.origin), 1.0),
-            u: self.turned(own.u),
-            v: self.turned(own.v),
-            w: self.turned(own.w),
+            origin: sum(self.origin, self.turned(next.origin), 1.0),
+            u: self.turned(next.u),
+            v: self.turned(next.v),
+            w: self.turned(next.w),
         }
     }
 }
@@ -128,8 +128,8 @@ impl Poses {
                 _ => None,
             };
         }
-        for (id, own) in chain.into_iter().rev() {
-            known = known.then(&own);
+        for (id, pose_in_chain) in chain.into_iter().rev() {
+            known = known.then(&pose_in_chain);
             self.0.insert(id, known);
         }
     }

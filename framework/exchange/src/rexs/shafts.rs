@@ -124,14 +124,15 @@ pub fn sections(map: &Map<'_>, part: &Component) -> Vec<Section> {
         return section(part, 0.0).into_iter().collect();
     }
     let parts = map.parts_of(part.id);
-    let own = parts.iter().filter(|part| part.kind == "shaft_section");
-    own.filter_map(|own| {
-        let start = source
-            .number(own, "u_coordinate_on_shaft", Quantity::Length)
-            .unwrap_or(0.0);
-        section(own, start)
-    })
-    .collect()
+    let sections = parts.iter().filter(|part| part.kind == "shaft_section");
+    sections
+        .filter_map(|part| {
+            let start = source
+                .number(part, "u_coordinate_on_shaft", Quantity::Length)
+                .unwrap_or(0.0);
+            section(part, start)
+        })
+        .collect()
 }
 
 /// Sections one after the other: where several lie inside each other, as a hollow shaft on a pin, one with the sum of their bending

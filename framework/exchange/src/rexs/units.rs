@@ -109,7 +109,9 @@ const UNITS: &[(&str, Quantity, f64)] = &[
 /// A value in the unit of gearbox files; `None` for a unit of another quantity.
 pub fn converted(value: f64, unit: &str, quantity: Quantity) -> Option<f64> {
     let unit: String = unit.chars().filter(|c| !c.is_whitespace()).collect();
-    let mut known = UNITS.iter().filter(|(_, own, _)| *own == quantity);
+    let mut known = UNITS
+        .iter()
+        .filter(|(_, known_quantity, _)| *known_quantity == quantity);
     let listed = if unit.is_empty() || unit == "none" {
         Some(known.next()?)
     } else {
@@ -155,7 +157,9 @@ fn written_otherwise(value: f64, unit: &str, quantity: Quantity) -> Option<f64> 
 
 /// The units in which a quantity can be written.
 pub fn known(quantity: Quantity) -> String {
-    let names = UNITS.iter().filter(|(_, own, _)| *own == quantity);
+    let names = UNITS
+        .iter()
+        .filter(|(_, known_quantity, _)| *known_quantity == quantity);
     names.map(|(name, _, _)| *name).collect::<Vec<_>>().join(", ")
 }
 

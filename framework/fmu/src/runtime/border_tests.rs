@@ -20,12 +20,13 @@ struct Environment {
 unsafe extern "C" fn logger(environment: *mut c_void, status: i32, _: *const c_char, text: *const c_char) {
     // SAFETY: the environment is that of `Program`, and the text ends with a zero byte.
     unsafe {
-        let own = &mut *environment.cast::<Environment>();
+        let program = &mut *environment.cast::<Environment>();
         let text = CStr::from_ptr(text).to_string_lossy().into_owned();
-        own.messages.push(format!("{status} {text}"));
+        program.messages.push(format!("{status} {text}"));
         let mut count = 0;
-        own.answers
-            .push(fmi3GetNumberOfContinuousStates(own.instance, &raw mut count));
+        program
+            .answers
+            .push(fmi3GetNumberOfContinuousStates(program.instance, &raw mut count));
     }
 }
 
@@ -105,14 +106,17 @@ fn a_boolean_of_another_program_may_have_any_bits() {
     let values = [2_u8];
     // SAFETY: all pointers are to such values.
     unsafe {
-        let own = program.instance;
-        assert_eq!(fmi3SetDebugLogging(own, 128, 0, null()), 0);
-        assert_eq!(fmi3EnterInitializationMode(own, 3, 0.0, 0.0, 9, 1.0), 0);
-        assert_eq!(fmi3ExitInitializationMode(own), 0);
+        let instance = program.instance;
+        assert_eq!(fmi3SetDebugLogging(instance, 128, 0, null()), 0);
+        assert_eq!(fmi3EnterInitializationMode(instance, 3, 0.0, 0.0, 9, 1.0), 0);
+        assert_eq!(fmi3ExitInitializationMode(instance), 0);
         let [event, terminate, early] = [&raw mut event, &raw mut terminate, &raw mut early];
-        assert_eq!(fmi3DoStep(own, 0.0, 1.0, 4, event, terminate, early, &raw mut last), 0);
+        assert_eq!(
+            fmi3DoStep(instance, 0.0, 1.0, 4, event, terminate, early, &raw mut last),
+            0
+        );
         // No variable takes a boolean.
-        assert_eq!(fmi3SetBoolean(own, [9999].as_ptr(), 1, values.as_ptr(), 1), 3);
+        assert_eq!(fmi3SetBoolean(instance, [9999].as_ptr(), 1, values.as_ptr(), 1), 3);
     }
     assert_eq!((event, terminate, early, last), (0, 0, 0, 1.0));
     program.end();
@@ -121,28 +125,34 @@ fn a_boolean_of_another_program_may_have_any_bits() {
 #[test]
 fn a_state_is_kept_serialised_and_restored() {
     let program = Program::new(0);
-    let own = program.instance;
+    let instance = program.instance;
     let (mut state, mut copy, mut size, mut last) = (null_mut(), null_mut(), 0, 0.0);
     let mut before = [0.0; 8];
     let mut after = before;
     // SAFETY: all pointers are to such values; states are freed once.
     unsafe {
         let mut count = 0;
-        fmi3GetNumberOfContinuousStates(own, &raw mut count);
+        fmi3GetNumberOfContinuousStates(instance, &raw mut count);
         assert!(count > 0 && count <= before.len());
-        assert_eq!(fmi3GetFMUState(own, &raw mut state), 0);
-        assert_eq!(fmi3SerializedFMUStateSize(own, state, &raw mut size), 0);
+        assert_eq!(fmi3GetFMUState(instance, &raw mut state), 0);
+        assert_eq!(fmi3SerializedFMUStateSize(instance, state, &raw mut size), 0);
         let mut bytes = vec![0_u8; size];
-        assert_eq!(fmi3SerializeFMUState(own, state, bytes.as_mut_ptr(), size), 0);
-        assert_eq!(fmi3GetContinuousStates(own, before.as_mut_ptr(), count), 0);
+        assert_eq!(fmi3SerializeFMUState(instance, state, bytes.as_mut_ptr(), size), 0);
+        assert_eq!(fmi3GetContinuousStates(instance, before.as_mut_ptr(), count), 0);
         let [event, terminate, early] = [null_mut(); 3];
-        assert_eq!(fmi3DoStep(own, 0.0, 1.0, 0, event, terminate, early, &raw mut last), 0);
-        assert_eq!(fmi3DeserializeFMUState(own, bytes.as_ptr(), size, &raw mut copy), 0);
-        assert_eq!(fmi3SetFMUState(own, copy), 0);
-        assert_eq!(fmi3GetContinuousStates(own, after.as_mut_ptr(), count), 0);
+        assert_eq!(
+            fmi3DoStep(instance, 0.0, 1.0, 0, event, terminate, early, &raw mut last),
+            0
+        );
+        assert_eq!(
+            fmi3DeserializeFMUState(instance, bytes.as_ptr(), size, &raw mut copy),
+            0
+        );
+        assert_eq!(fmi3SetFMUState(instance, copy), 0);
+        assert_eq!(fmi3GetContinuousStates(instance, after.as_mut_ptr(), count), 0);
         assert_eq!(before, after);
-        fmi3FreeFMUState(own, &raw mut state);
-        fmi3FreeFMUState(own, &raw mut copy);
+        fmi3FreeFMUState(instance, &raw mut state);
+        fmi3FreeFMUState(instance, &raw mut copy);
     }
     assert!(state.is_null() && copy.is_null());
     program.end();

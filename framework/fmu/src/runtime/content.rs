@@ -232,9 +232,9 @@ impl Reader<'_> {
 
     fn text(&mut self) -> Option<String> {
         let count = self.number()? as usize;
-        let (own, rest) = self.0.split_at_checked(count)?;
+        let (text, rest) = self.0.split_at_checked(count)?;
         self.0 = rest;
-        core::str::from_utf8(own).ok().map(String::from)
+        core::str::from_utf8(text).ok().map(String::from)
     }
 
     /// A number that may be absent; `None` at the end of the bytes.
@@ -268,7 +268,7 @@ impl Reader<'_> {
         let axes = self.list(axis)?;
         let channels = self.number()? as usize;
         let values = if self.flag()? {
-            self.list(|from| from.bytes().map(|own| f64::from(f32::from_le_bytes(own))))?
+            self.list(|from| from.bytes().map(|number| f64::from(f32::from_le_bytes(number))))?
         } else {
             self.list(Self::real)?
         };
@@ -475,13 +475,13 @@ pub(crate) mod tests {
         let mut state = 88_172_645_463_325_252;
         let mut sound = 0;
         for _ in 0..100_000 {
-            let mut own = bytes.clone();
+            let mut damaged = bytes.clone();
             for _ in 0..=random(&mut state) % 3 {
-                let place = random(&mut state) % own.len();
-                own[place] = random(&mut state) as u8;
+                let place = random(&mut state) % damaged.len();
+                damaged[place] = random(&mut state) as u8;
             }
-            own.truncate(own.len() - random(&mut state) % 2);
-            if let Some(content) = Content::decode(&own) {
+            damaged.truncate(damaged.len() - random(&mut state) % 2);
+            if let Some(content) = Content::decode(&damaged) {
                 let mut model = crate::model::Model::new(content);
                 // A step length may have become tiny.
                 let _ = model.advance(1e-3);

@@ -90,9 +90,9 @@ pub unsafe extern "C" fn fmi2Instantiate(
 ) -> Handle {
     // SAFETY: the standard.
     unsafe {
-        let (logger, environment) = callbacks
-            .as_ref()
-            .map_or((None, core::ptr::null_mut()), |own| (own.logger, own.environment));
+        let (logger, environment) = callbacks.as_ref().map_or((None, core::ptr::null_mut()), |callbacks| {
+            (callbacks.logger, callbacks.environment)
+        });
         let mut name = text(name).unwrap_or(b"").to_vec();
         name.push(0);
         let log = Receiver {
@@ -134,30 +134,30 @@ functions! {
         start: f64,
         _stop_defined: Boolean,
         _stop: f64
-    ) => |own| {
-        own.model.set_time(start);
+    ) => |instance| {
+        instance.model.set_time(start);
         OK
     };
     fmi2EnterInitializationMode() => |_| OK;
-    fmi2GetReal(references: *const u32, count: usize, values: *mut f64) => |own| {
-        own.get(list(references, count), Kind::Real, list_mut(values, count), |x| x)
+    fmi2GetReal(references: *const u32, count: usize, values: *mut f64) => |instance| {
+        instance.get(list(references, count), Kind::Real, list_mut(values, count), |x| x)
     };
-    fmi2GetInteger(references: *const u32, count: usize, values: *mut i32) => |own| {
-        own.get(list(references, count), Kind::Integer, list_mut(values, count), |x| x as i32)
+    fmi2GetInteger(references: *const u32, count: usize, values: *mut i32) => |instance| {
+        instance.get(list(references, count), Kind::Integer, list_mut(values, count), |x| x as i32)
     };
-    fmi2GetBoolean(references: *const u32, count: usize, values: *mut Boolean) => |own| {
+    fmi2GetBoolean(references: *const u32, count: usize, values: *mut Boolean) => |instance| {
         let convert = |x: f64| Boolean::from(x != 0.0);
-        own.get(list(references, count), Kind::Boolean, list_mut(values, count), convert)
+        instance.get(list(references, count), Kind::Boolean, list_mut(values, count), convert)
     };
     fmi2GetString(_references: *const u32, count: usize, _values: *mut Name) => |_| none(count);
-    fmi2SetReal(references: *const u32, count: usize, values: *const f64) => |own| {
-        own.set(list(references, count), Kind::Real, list(values, count), |x| x)
+    fmi2SetReal(references: *const u32, count: usize, values: *const f64) => |instance| {
+        instance.set(list(references, count), Kind::Real, list(values, count), |x| x)
     };
-    fmi2SetInteger(references: *const u32, count: usize, values: *const i32) => |own| {
-        own.set(list(references, count), Kind::Integer, list(values, count), f64::from)
+    fmi2SetInteger(references: *const u32, count: usize, values: *const i32) => |instance| {
+        instance.set(list(references, count), Kind::Integer, list(values, count), f64::from)
     };
-    fmi2SetBoolean(references: *const u32, count: usize, values: *const Boolean) => |own| {
-        own.set(list(references, count), Kind::Boolean, list(values, count), f64::from)
+    fmi2SetBoolean(references: *const u32, count: usize, values: *const Boolean) => |instance| {
+        instance.set(list(references, count), Kind::Boolean, list(values, count), f64::from)
     };
     fmi2SetString(_references: *const u32, count: usize, _values: *const Name) => |_| none(count);
     /// Not provided, as the model description says.
@@ -195,17 +195,17 @@ functions! {
         _orders: *const i32,
         _values: *mut f64
     ) => |_| ERROR;
-    fmi2DoStep(time: f64, length: f64, _no_earlier: Boolean) => |own| own.step(time, length);
+    fmi2DoStep(time: f64, length: f64, _no_earlier: Boolean) => |instance| instance.step(time, length);
     /// A step is over when its call returns.
     fmi2CancelStep() => |_| ERROR;
     /// A step is over when its call returns.
     fmi2GetStatus(_kind: i32, _to: *mut Status) => |_| ERROR;
     /// The time of the last successful step, kind 2, and nothing else.
-    fmi2GetRealStatus(kind: i32, to: *mut f64) => |own| {
+    fmi2GetRealStatus(kind: i32, to: *mut f64) => |instance| {
         if kind != 2 {
             return ERROR;
         }
-        put(to, own.model.time());
+        put(to, instance.model.time());
         OK
     };
     /// A step is over when its call returns.

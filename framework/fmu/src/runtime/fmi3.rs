@@ -135,8 +135,8 @@ functions! {
         start: f64,
         _stop_defined: Boolean,
         _stop: f64
-    ) => |own| {
-        own.model.set_time(start);
+    ) => |instance| {
+        instance.model.set_time(start);
         OK
     };
     /// There are no structural parameters.
@@ -145,25 +145,25 @@ functions! {
     fmi3ExitConfigurationMode() => |_| ERROR;
     fmi3EvaluateDiscreteStates() => |_| OK;
     fmi3EnterStepMode() => |_| OK;
-    fmi3GetFloat64(references: *const u32, count: usize, values: *mut f64, value_count: usize) => |own| {
-        own.get(list(references, count), Kind::Real, list_mut(values, value_count), |x| x)
+    fmi3GetFloat64(references: *const u32, count: usize, values: *mut f64, value_count: usize) => |instance| {
+        instance.get(list(references, count), Kind::Real, list_mut(values, value_count), |x| x)
     };
-    fmi3SetFloat64(references: *const u32, count: usize, values: *const f64, value_count: usize) => |own| {
-        own.set(list(references, count), Kind::Real, list(values, value_count), |x| x)
+    fmi3SetFloat64(references: *const u32, count: usize, values: *const f64, value_count: usize) => |instance| {
+        instance.set(list(references, count), Kind::Real, list(values, value_count), |x| x)
     };
-    fmi3GetInt32(references: *const u32, count: usize, values: *mut i32, value_count: usize) => |own| {
-        own.get(list(references, count), Kind::Integer, list_mut(values, value_count), |x| x as i32)
+    fmi3GetInt32(references: *const u32, count: usize, values: *mut i32, value_count: usize) => |instance| {
+        instance.get(list(references, count), Kind::Integer, list_mut(values, value_count), |x| x as i32)
     };
-    fmi3SetInt32(references: *const u32, count: usize, values: *const i32, value_count: usize) => |own| {
-        own.set(list(references, count), Kind::Integer, list(values, value_count), f64::from)
+    fmi3SetInt32(references: *const u32, count: usize, values: *const i32, value_count: usize) => |instance| {
+        instance.set(list(references, count), Kind::Integer, list(values, value_count), f64::from)
     };
-    fmi3GetBoolean(references: *const u32, count: usize, values: *mut Boolean, value_count: usize) => |own| {
+    fmi3GetBoolean(references: *const u32, count: usize, values: *mut Boolean, value_count: usize) => |instance| {
         let convert = |x: f64| Boolean::from(x != 0.0);
-        own.get(list(references, count), Kind::Boolean, list_mut(values, value_count), convert)
+        instance.get(list(references, count), Kind::Boolean, list_mut(values, value_count), convert)
     };
-    fmi3SetBoolean(references: *const u32, count: usize, values: *const Boolean, value_count: usize) => |own| {
+    fmi3SetBoolean(references: *const u32, count: usize, values: *const Boolean, value_count: usize) => |instance| {
         let convert = |x: Boolean| f64::from(u8::from(x != 0));
-        own.set(list(references, count), Kind::Boolean, list(values, value_count), convert)
+        instance.set(list(references, count), Kind::Boolean, list(values, value_count), convert)
     };
 }
 
@@ -301,8 +301,8 @@ functions! {
         put(to, 0);
         OK
     };
-    fmi3GetNumberOfContinuousStates(to: *mut usize) => |own| {
-        put(to, own.model.state_count());
+    fmi3GetNumberOfContinuousStates(to: *mut usize) => |instance| {
+        put(to, instance.model.state_count());
         OK
     };
     /// Not provided, as the model description says.
@@ -321,12 +321,12 @@ functions! {
         terminate: *mut Boolean,
         early: *mut Boolean,
         last: *mut f64
-    ) => |own| {
-        let status = own.step(time, length);
+    ) => |instance| {
+        let status = instance.step(time, length);
         for to in [event, terminate, early] {
             put(to, 0);
         }
-        put(last, own.model.time());
+        put(last, instance.model.time());
         status
     };
     /// Not provided, as the model description says.

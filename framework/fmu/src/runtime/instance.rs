@@ -180,12 +180,12 @@ impl<L: Log> Instance<L> {
     /// The pointer is null or of [`Instance::new`], not freed, and not in use by another thread.
     pub unsafe fn with(pointer: *mut c_void, call: impl FnOnce(&mut Self) -> Status) -> Status {
         // SAFETY: as promised by the caller.
-        let Some(own) = (unsafe { pointer.cast::<Self>().as_mut() }) else {
+        let Some(instance) = (unsafe { pointer.cast::<Self>().as_mut() }) else {
             return ERROR;
         };
-        let status = call(own);
-        if !own.messages.is_empty() {
-            let (log, messages) = (Rc::clone(&own.log), core::mem::take(&mut own.messages));
+        let status = call(instance);
+        if !instance.messages.is_empty() {
+            let (log, messages) = (Rc::clone(&instance.log), core::mem::take(&mut instance.messages));
             for (status, category, text) in messages {
                 log.send(status, category, text);
             }
@@ -194,8 +194,8 @@ impl<L: Log> Instance<L> {
     }
 
     /// As a pointer; null if there is none.
-    pub fn into_pointer(own: Option<Box<Self>>) -> *mut c_void {
-        own.map_or(core::ptr::null_mut(), |own| Box::into_raw(own).cast())
+    pub fn into_pointer(instance: Option<Box<Self>>) -> *mut c_void {
+        instance.map_or(core::ptr::null_mut(), |instance| Box::into_raw(instance).cast())
     }
 
     /// Frees an instance.
@@ -221,7 +221,7 @@ pub unsafe fn keep_state(model: &Model, to: *mut *mut c_void) -> Status {
     };
     // SAFETY: as promised by the caller.
     match unsafe { to.cast::<Vec<u8>>().as_mut() } {
-        Some(own) => *own = model.state(),
+        Some(kept) => *kept = model.state(),
         None => *to = Box::into_raw(Box::new(model.state())).cast(),
     }
     OK
@@ -348,21 +348,21 @@ macro_rules! shared_functions {
         }
 
         functions! {
-            $set_debug_logging(on: Boolean, _count: usize, _categories: *const Name) => |own| {
-                own.logging = on != 0;
+            $set_debug_logging(on: Boolean, _count: usize, _categories: *const Name) => |instance| {
+                instance.logging = on != 0;
                 OK
             };
-            $exit_initialization_mode() => |own| {
-                own.model.start();
+            $exit_initialization_mode() => |instance| {
+                instance.model.start();
                 OK
             };
             $terminate() => |_| OK;
             $reset() => Own::reset;
-            $get_state(to: *mut *mut c_void) => |own| keep_state(&own.model, to);
-            $set_state(from: *mut c_void) => |own| match state(from) {
+            $get_state(to: *mut *mut c_void) => |instance| keep_state(&instance.model, to);
+            $set_state(from: *mut c_void) => |instance| match state(from) {
                 Some(bytes) => {
-                    let result = own.model.restore(bytes);
-                    own.result(result)
+                    let result = instance.model.restore(bytes);
+                    instance.result(result)
                 }
                 None => ERROR,
             };
@@ -383,11 +383,11 @@ macro_rules! shared_functions {
                     _ => ERROR,
                 }
             };
-            $deserialize_state(from: *const u8, size: usize, to: *mut *mut c_void) => |own| {
+            $deserialize_state(from: *const u8, size: usize, to: *mut *mut c_void) => |instance| {
                 // The copy checks the bytes without touching the instance.
-                let mut copy = own.model.clone();
+                let mut copy = instance.model.clone();
                 let result = copy.restore(list(from, size));
-                match own.result(result) {
+                match instance.result(result) {
                     OK => keep_state(&copy, to),
                     status => status,
                 }
@@ -403,18 +403,18 @@ macro_rules! shared_functions {
                 put(terminate, 0);
                 OK
             };
-            $set_time(time: f64) => |own| {
-                own.model.set_time(time);
+            $set_time(time: f64) => |instance| {
+                instance.model.set_time(time);
                 OK
             };
-            $set_states(values: *const f64, count: usize) => |own| own.set_continuous(list(values, count));
-            $get_states(values: *mut f64, count: usize) => |own| {
-                own.get_continuous(Causality::State, list_mut(values, count))
+            $set_states(values: *const f64, count: usize) => |instance| instance.set_continuous(list(values, count));
+            $get_states(values: *mut f64, count: usize) => |instance| {
+                instance.get_continuous(Causality::State, list_mut(values, count))
             };
-            $get_derivatives(values: *mut f64, count: usize) => |own| {
-                own.get_continuous(Causality::Derivative, list_mut(values, count))
+            $get_derivatives(values: *mut f64, count: usize) => |instance| {
+                instance.get_continuous(Causality::Derivative, list_mut(values, count))
             };
-            $get_nominals(values: *mut f64, count: usize) => |own| own.get_nominals(list_mut(values, count));
+            $get_nominals(values: *mut f64, count: usize) => |instance| instance.get_nominals(list_mut(values, count));
             /// There are no event indicators.
             $get_event_indicators(_values: *mut f64, count: usize) => |_| none(count);
         }

@@ -36,8 +36,8 @@ pub fn ln(x: f64) -> f64 {
     for i in (0..12).rev() {
         sum = sum * s * s + 1.0 / f64::from(2 * i + 1);
     }
-    let own = 2.0 * s * sum;
-    exponent as f64 * LN_2_HIGH + (exponent as f64 * LN_2_LOW + own)
+    let series = 2.0 * s * sum;
+    exponent as f64 * LN_2_HIGH + (exponent as f64 * LN_2_LOW + series)
 }
 
 /// A number that is not negative to a power.

@@ -50,13 +50,13 @@ impl Fault {
 impl Model {
     /// A model at its start values.
     pub fn new(content: Content) -> Self {
-        let own = match &content {
+        let variables = match &content {
             Content::Map(map) => map.variables(),
             Content::Network(network) => network.variables(),
         };
-        let mut slots = Vec::with_capacity(own.len() + 1);
+        let mut slots = Vec::with_capacity(variables.len() + 1);
         slots.push(Slot::time());
-        slots.extend(own);
+        slots.extend(variables);
         let mut model = Self {
             content,
             values: Vec::new(),
@@ -92,8 +92,8 @@ impl Model {
 
     /// Sets the time. \[s\]
     pub fn set_time(&mut self, time: f64) {
-        if let Some(own) = self.values.first_mut() {
-            *own = time;
+        if let Some(first) = self.values.first_mut() {
+            *first = time;
         }
     }
 
@@ -122,8 +122,8 @@ impl Model {
         if !value.is_finite() {
             return Err(Fault::NotFinite);
         }
-        if let Some(own) = self.values.get_mut(place) {
-            *own = value;
+        if let Some(known) = self.values.get_mut(place) {
+            *known = value;
         }
         self.current = false;
         Ok(())
@@ -172,8 +172,8 @@ impl Model {
         }
         let places: Vec<usize> = self.places(Causality::State).collect();
         for (place, from) in places.into_iter().zip(from) {
-            if let Some(own) = self.values.get_mut(place) {
-                *own = *from;
+            if let Some(known) = self.values.get_mut(place) {
+                *known = *from;
             }
         }
         self.current = false;
@@ -229,8 +229,8 @@ impl Model {
             return Err(Fault::State);
         }
         let (started, values) = state.split_first().ok_or(Fault::State)?;
-        for (own, bytes) in self.values.iter_mut().zip(values.chunks_exact(8)) {
-            *own = bytes.try_into().map(f64::from_le_bytes).map_err(|_| Fault::State)?;
+        for (known, bytes) in self.values.iter_mut().zip(values.chunks_exact(8)) {
+            *known = bytes.try_into().map(f64::from_le_bytes).map_err(|_| Fault::State)?;
         }
         (self.started, self.current) = (*started != 0, false);
         Ok(())

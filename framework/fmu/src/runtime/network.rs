@@ -190,7 +190,7 @@ impl Network {
             l.between.iter().all(|node| known(*node))
                 && match &l.conductance {
                     Conductance::Given(given) => given.is_finite(),
-                    Conductance::Table(own) => table(own, 1),
+                    Conductance::Table(interpolated) => table(interpolated, 1),
                 }
         };
         let gear = |g: &GearOfNetwork| {
@@ -273,14 +273,14 @@ impl Network {
                 Use::Node(node) => (node as usize, slot.causality == Causality::State),
                 _ => continue,
             };
-            if let Some(own) = temperatures.get_mut(place).filter(|_| is_free) {
-                *own = *value;
+            if let Some(temperature) = temperatures.get_mut(place).filter(|_| is_free) {
+                *temperature = *value;
             }
         }
         let oil = temperatures.get(self.oil as usize).copied();
-        for (own, node) in temperatures.iter_mut().zip(&self.nodes).skip(1) {
+        for (temperature, node) in temperatures.iter_mut().zip(&self.nodes).skip(1) {
             if let (true, Some(oil)) = (node.is_algebraic(), oil) {
-                *own = oil;
+                *temperature = oil;
             }
         }
         temperatures
@@ -325,8 +325,8 @@ impl Network {
                 Use::Rate(node) => state.rate(node as usize, &self.nodes, &temperatures),
                 Use::ExchangerHeat(i) => {
                     let place = i as usize;
-                    let own = self.exchangers.get(place).zip(state.exchangers.get(place));
-                    own.map_or(0.0, |(e, (transfer, coolant))| transfer * (at(e.from) - coolant))
+                    let exchanger = self.exchangers.get(place).zip(state.exchangers.get(place));
+                    exchanger.map_or(0.0, |(e, (transfer, coolant))| transfer * (at(e.from) - coolant))
                 }
                 Use::Outside => f64::from(!state.inside),
                 _ => *value,
@@ -448,9 +448,9 @@ impl Network {
                 }
             };
             let [a, b] = link.between.map(|node| node as usize);
-            for (own, other) in [(a, b), (b, a)] {
-                state.add(own, own, conductance);
-                state.add(own, other, -conductance);
+            for (here, other) in [(a, b), (b, a)] {
+                state.add(here, here, conductance);
+                state.add(here, other, -conductance);
             }
         }
         let rate = |flow: Flow| match flow {
@@ -488,14 +488,14 @@ impl Network {
 impl State {
     fn add(&mut self, row: usize, column: usize, value: f64) {
         let count = self.right.len();
-        if let Some(own) = self.matrix.get_mut(row * count + column) {
-            *own += value;
+        if let Some(entry) = self.matrix.get_mut(row * count + column) {
+            *entry += value;
         }
     }
 
     fn add_heat(&mut self, node: u32, heat: f64) {
-        if let Some(own) = self.right.get_mut(node as usize) {
-            *own += heat;
+        if let Some(sum) = self.right.get_mut(node as usize) {
+            *sum += heat;
         }
     }
 
@@ -505,7 +505,7 @@ impl State {
         let row = self.matrix.get(node * count..(node + 1) * count).unwrap_or_default();
         let heat = self.right.get(node).copied().unwrap_or(0.0);
         let lost: f64 = row.iter().zip(temperatures).map(|(k, t)| k * t).sum();
-        nodes.get(node).map_or(0.0, |own| (heat - lost) / own.capacity)
+        nodes.get(node).map_or(0.0, |heated| (heat - lost) / heated.capacity)
     }
 
     /// Temperatures after a backward step (s) from `before`, or of the algebraic nodes if no time passes; `None` if a node is isolated.
@@ -651,13 +651,13 @@ mod tests {
     /// Heat and conductances without tables: each backward step is T = (C T0/h + Q + G Ta)/(C/h + G).
     #[test]
     fn one_node_by_hand() {
-        let mut own = network();
-        own.exchangers.clear();
-        own.flows.clear();
-        own.nodes.truncate(2);
-        own.gears[0].links.truncate(1);
-        own.gears[0].motors.clear();
-        let mut model = Model::new(Content::Network(own));
+        let mut reduced = network();
+        reduced.exchangers.clear();
+        reduced.flows.clear();
+        reduced.nodes.truncate(2);
+        reduced.gears[0].links.truncate(1);
+        reduced.gears[0].motors.clear();
+        let mut model = Model::new(Content::Network(reduced));
         set(&mut model, Use::Speed, 100.0);
         set(&mut model, Use::Torque, 10.0);
         set(&mut model, Use::Ambient, 10.0);

@@ -86,8 +86,8 @@ impl Table {
             if weight == 0.0 {
                 continue;
             }
-            let own = self.values.get(place * self.channels..(place + 1) * self.channels);
-            for (sum, value) in sums.iter_mut().zip(own.unwrap_or(&[])) {
+            let row = self.values.get(place * self.channels..(place + 1) * self.channels);
+            for (sum, value) in sums.iter_mut().zip(row.unwrap_or(&[])) {
                 *sum += weight * value;
             }
         }

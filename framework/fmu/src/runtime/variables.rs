@@ -119,7 +119,7 @@ impl Slot {
 
     /// Value of the variable with a meaning; zero if there is none.
     pub fn value(slots: &[Self], values: &[f64], wanted: Use) -> f64 {
-        let own = slots.iter().zip(values).find(|(slot, _)| slot.use_ == wanted);
-        own.map_or(0.0, |(_, value)| *value)
+        let wanted_value = slots.iter().zip(values).find(|(slot, _)| slot.use_ == wanted);
+        wanted_value.map_or(0.0, |(_, value)| *value)
     }
 }

@@ -167,7 +167,7 @@ impl Reader<'_> {
             let new: Vec<&str> = gears
                 .iter()
                 .copied()
-                .filter(|gear| !shown.iter().any(|own| own == gear))
+                .filter(|gear| !shown.iter().any(|known| known == gear))
                 .collect();
             for (key, label, kind) in [
                 ("z", "Teeth", FieldKind::Integer),

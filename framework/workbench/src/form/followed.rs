@@ -27,12 +27,12 @@ pub fn followed(layout: &Layout, document: &Node, values: &BTreeMap<String, Stri
             form.follow(&format!("gears.{ring}.z"), || sum.map(|z| z.to_string()));
         }
     }
-    for own in layout.distances {
+    for axis in layout.distances {
         // The working pressure angle stays, and with it the sum of the profile shifts over that of the teeth.
-        let was = form.as_in_template(|form| form.reference_distance(own.mesh));
-        let scaled = |(now, was): (f64, f64)| (now != was).then(|| own.value * now / was);
-        let value = form.reference_distance(own.mesh).zip(was).and_then(scaled);
-        form.follow(&distance(own.mesh), || value.map(millimetres));
+        let was = form.as_in_template(|form| form.reference_distance(axis.mesh));
+        let scaled = |(now, was): (f64, f64)| (now != was).then(|| axis.value * now / was);
+        let value = form.reference_distance(axis.mesh).zip(was).and_then(scaled);
+        form.follow(&distance(axis.mesh), || value.map(millimetres));
     }
     if let Some([_, planets, ring]) = layout.planetary {
         let path = format!("gears.{ring}.tip_diameter");
@@ -101,10 +101,10 @@ impl Form<'_> {
     /// Reference diameter of a ring in its mesh with planets. \[mm\]
     fn reference_diameter(&self, planets: &str, ring: &str) -> Option<f64> {
         let meshes = at(self.document, "meshes")?.entries().iter();
-        let own = meshes
+        let mesh_of_ring = meshes
             .map(|entry| entry.key.as_str())
             .find(|mesh| self.gears(mesh) == Some([planets, ring]))?;
-        Some(self.transverse_module(own)? * self.teeth(ring)?)
+        Some(self.transverse_module(mesh_of_ring)? * self.teeth(ring)?)
     }
 
     fn gears(&self, mesh: &str) -> Option<[&str; 2]> {

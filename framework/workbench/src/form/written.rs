@@ -48,7 +48,7 @@ pub fn written(layout: &Layout, values: &BTreeMap<String, String>) -> Result<Wri
         if typed.contains(['\n', '\r']) {
             return wrong("the value has several lines", "write one line");
         }
-        if layout.distances.iter().any(|own| distance(own.mesh) == *path) {
+        if layout.distances.iter().any(|axis| distance(axis.mesh) == *path) {
             continue;
         }
         for path in twins(layout, path) {
@@ -64,7 +64,7 @@ pub fn written(layout: &Layout, values: &BTreeMap<String, String>) -> Result<Wri
     let typed = |path: &str| {
         values
             .keys()
-            .any(|own| twins(layout, own).iter().any(|own| own == path))
+            .any(|shown| twins(layout, shown).iter().any(|twin| twin == path))
     };
     changes.extend(assumed(layout, &document, &fields, &typed));
     Ok(Written {
@@ -90,8 +90,8 @@ fn twins(layout: &Layout, path: &str) -> Vec<String> {
     }
     // Bearings of twins: `L1` and `R1`.
     let letters = [first, second].map(|word| word.chars().next().unwrap_or_default().to_ascii_uppercase());
-    let own = format!("bearings.{}", letters[0]);
-    if let Some(rest) = path.strip_prefix(&own) {
+    let first_bearing = format!("bearings.{}", letters[0]);
+    if let Some(rest) = path.strip_prefix(&first_bearing) {
         paths.push(format!("bearings.{}{rest}", letters[1]));
     }
     paths
@@ -138,12 +138,12 @@ fn not_typed(
     let distances = layout.distances.iter();
     let moves_axes = distances
         .clone()
-        .any(|own| own.cells.iter().any(|(cell, ..)| cell.starts_with("shafts.")));
-    if path == "shafts" && moves_axes && distances.clone().all(|own| typed(&distance(own.mesh))) {
+        .any(|axis| axis.cells.iter().any(|(cell, ..)| cell.starts_with("shafts.")));
+    if path == "shafts" && moves_axes && distances.clone().all(|axis| typed(&distance(axis.mesh))) {
         return Vec::new();
     }
-    let below = |own: &str| -> Vec<String> {
-        let prefix = format!("{own}.");
+    let below = |owner: &str| -> Vec<String> {
+        let prefix = format!("{owner}.");
         let known = fields.iter().flat_map(|field| twins(layout, &field.path));
         // A centre distance that is only in the form says nothing about its mesh.
         known
@@ -157,15 +157,15 @@ fn not_typed(
     let Some(node) = at(document, path) else { return whole() };
     let mut left = Vec::new();
     for entry in node.entries() {
-        let own = format!("{path}.{}", entry.key);
-        let fields = below(&own);
-        if typed(&own) {
+        let place = format!("{path}.{}", entry.key);
+        let fields = below(&place);
+        if typed(&place) {
             continue;
         }
         if fields.iter().any(|field| typed(field)) {
             left.extend(fields.into_iter().filter(|field| !typed(field)));
         } else if !matches!(entry.value.content, Content::Scalar { .. }) {
-            left.push(own);
+            left.push(place);
         }
     }
     left
@@ -187,16 +187,16 @@ fn axes(
 ) -> Result<(), Fault> {
     let mut sums: Vec<(&str, Option<usize>, f64)> = Vec::new();
     let mut is_typed = false;
-    for own in layout.distances {
-        let path = distance(own.mesh);
+    for axis in layout.distances {
+        let path = distance(axis.mesh);
         let value = match values.get(&path) {
-            None => own.value,
+            None => axis.value,
             Some(typed) => {
                 is_typed = true;
                 millimetres(&path, typed.trim())?
             }
         };
-        for (path, number, share) in own.cells {
+        for (path, number, share) in axis.cells {
             match sums.iter_mut().find(|(p, n, _)| p == path && n == number) {
                 Some((_, _, sum)) => *sum += share * value,
                 None => sums.push((path, *number, share * value)),

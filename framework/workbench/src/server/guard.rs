@@ -41,12 +41,12 @@ impl Guard {
     /// Refuses what does not come from a browser at this address: a page of another origin, or a name that leads here.
     pub fn check(&self, headers: &HeaderMap) -> Result<(), (StatusCode, &'static str)> {
         match only(headers, &HOST) {
-            Some(host) if self.hosts.iter().any(|own| own == host) => {}
+            Some(host) if self.hosts.iter().any(|known| known == host) => {}
             _ => return Err((StatusCode::BAD_REQUEST, "open the printed address")),
         }
         if headers.contains_key(ORIGIN) {
             let origin = only(headers, &ORIGIN);
-            if !origin.is_some_and(|origin| self.origins.iter().any(|own| own == origin)) {
+            if !origin.is_some_and(|origin| self.origins.iter().any(|known| known == origin)) {
                 return Err((StatusCode::FORBIDDEN, "another page may not ask"));
             }
         }

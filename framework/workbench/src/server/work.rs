@@ -95,7 +95,7 @@ impl Work {
     /// The report of an address.
     pub fn report(&self, address: &str) -> Option<Bytes> {
         let reports = self.reports.lock().unwrap_or_else(PoisonError::into_inner);
-        let found = reports.iter().find(|(own, _)| own == address);
+        let found = reports.iter().find(|(known, _)| known == address);
         found.map(|(_, html)| html.clone())
     }
 
@@ -114,15 +114,15 @@ impl Work {
             Request::Run { texts, study, analyses } => {
                 let turn = self.turn(&self.runs).await?;
                 let (lines, body) = Answered::lines(interrupt);
-                let own = Arc::clone(self);
+                let work = Arc::clone(self);
                 tokio::task::spawn_blocking(move || {
                     let _turn = turn;
                     let events = Events {
-                        work: &own,
+                        work: &work,
                         lines,
                         token,
                     };
-                    let run = || own.session.run(&texts, &study, &analyses, &events);
+                    let run = || work.session.run(&texts, &study, &analyses, &events);
                     if catch_unwind(AssertUnwindSafe(run)).is_err() {
                         events.event(json!({ "event": "fault", "fault": bug() }));
                     }

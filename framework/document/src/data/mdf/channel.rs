@@ -81,8 +81,12 @@ impl Channel {
             Ok(conversion) => conversion,
             Err(why) => return Ok(Err(why)),
         };
-        let own = file.text(block.link(6))?;
-        let unit = if own.is_empty() { conversion.unit.clone() } else { own };
+        let stated = file.text(block.link(6))?;
+        let unit = if stated.is_empty() {
+            conversion.unit.clone()
+        } else {
+            stated
+        };
         Ok(Ok(Self {
             name,
             unit: (!unit.is_empty()).then_some(unit),

@@ -295,8 +295,8 @@ fn other_versions_and_damaged_files_are_refused() {
     // A list of data groups that returns to itself.
     let mut circle = whole.clone();
     let at = u64::from_le_bytes(circle[88..96].try_into().unwrap()) as usize;
-    let own = (at as u64).to_le_bytes();
-    circle[at + 24..at + 32].copy_from_slice(&own);
+    let address = (at as u64).to_le_bytes();
+    circle[at + 24..at + 32].copy_from_slice(&address);
     assert!(refused(&circle, None).contains("blocks"));
 }
 

@@ -12,7 +12,7 @@ const MOST: usize = 100_000;
 
 /// For each format of cells, whether it shows a date or a time.
 pub(super) fn dates(styles: &str) -> Result<Vec<bool>, MeasuredFault> {
-    let mut own: BTreeMap<u32, bool> = BTreeMap::new();
+    let mut custom: BTreeMap<u32, bool> = BTreeMap::new();
     let mut dates = Vec::new();
     let mut of_cells = false;
     walk(styles, |event| {
@@ -22,12 +22,12 @@ pub(super) fn dates(styles: &str) -> Result<Vec<bool>, MeasuredFault> {
                 "numFmt" => {
                     let id = attribute(element, "numFmtId").and_then(|id| id.parse().ok());
                     let code = attribute(element, "formatCode");
-                    own.extend(id.zip(code.map(|code| shows_date(&code))));
+                    custom.extend(id.zip(code.map(|code| shows_date(&code))));
                 }
                 "xf" if of_cells && dates.len() < MOST => {
                     let id = attribute(element, "numFmtId").and_then(|id| id.parse::<u32>().ok());
                     let id = id.unwrap_or(0);
-                    dates.push(own.get(&id).copied().unwrap_or_else(|| is_built_in(id)));
+                    dates.push(custom.get(&id).copied().unwrap_or_else(|| is_built_in(id)));
                 }
                 _ => {}
             },
