@@ -32,7 +32,7 @@ mod tests {
         let catalogue = Printed::read(include_str!("../catalogues/bearings.csv"));
         let mut series: std::collections::BTreeMap<String, Vec<[f64; 6]>> = std::collections::BTreeMap::new();
         for row in catalogue.rows().filter(|row| row.text("kind") == "deep_groove_ball") {
-            let own = [
+            let columns = [
                 "bore [mm]",
                 "outside [mm]",
                 "c [N]",
@@ -40,7 +40,7 @@ mod tests {
                 "calculation_factor [-]",
                 "pu [N]",
             ];
-            let values = own.map(|column| row.number(column));
+            let values = columns.map(|column| row.number(column));
             series.entry(row.text("series").to_owned()).or_default().push(values);
         }
         assert_eq!(series.len(), 7);
@@ -71,7 +71,7 @@ mod tests {
                 "pao" | "pag" => format!("ISO VG {grade} {}", base.to_uppercase()),
                 _ => format!("ISO VG {grade} {base}"),
             };
-            let own = catalogue
+            let oil = catalogue
                 .rows()
                 .find(|row| row.text("designation") == designation)
                 .unwrap_or_else(|| panic!("{designation}"));
@@ -82,7 +82,7 @@ mod tests {
                 let lg = line.number("A") - line.number("B") * (celsius + 273.15).log10();
                 let nu = 10.0_f64.powf(10.0_f64.powf(lg)) - 0.7;
                 // The catalogue gives five digits, the source three or four.
-                let cell = own.number(column);
+                let cell = oil.number(column);
                 assert!(
                     (cell / nu - 1.0).abs() < 5e-5,
                     "{designation}: {column} {cell}, not {nu}"

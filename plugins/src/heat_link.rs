@@ -27,13 +27,13 @@ fn part(cx: &Build<'_>) -> HeatLinkPart {
 
 /// The model's own value, else that of the gear named by the link; otherwise an error with an example of the missing key.
 fn of_gear(
-    own: Option<f64>,
+    stated: Option<f64>,
     gear: impl FnOnce(&GearShape) -> f64,
     what: &str,
     example: &str,
     cx: &Build<'_>,
 ) -> Result<f64, Diagnostic> {
-    own.or_else(|| part(cx).gear.as_ref().map(gear)).ok_or_else(|| {
+    stated.or_else(|| part(cx).gear.as_ref().map(gear)).ok_or_else(|| {
         cx.error(format!("the link needs {what}")).help(format!(
             "name the gear of the link, or write `{example}` beside `type`, with your value"
         ))
@@ -42,13 +42,14 @@ fn of_gear(
 
 /// The model's own value, else that of the housing; otherwise an error with an example of the missing key.
 fn of_housing(
-    own: Option<f64>,
+    stated: Option<f64>,
     housing: impl FnOnce(&HousingPart) -> Option<f64>,
     what: &str,
     example: &str,
     cx: &Build<'_>,
 ) -> Result<f64, Diagnostic> {
-    own.or_else(|| part(cx).housing.as_ref().and_then(housing))
+    stated
+        .or_else(|| part(cx).housing.as_ref().and_then(housing))
         .ok_or_else(|| {
             cx.error(format!("the link needs {what}")).help(format!(
                 "write `{example}` beside `type` or in `housing: {{ outside: {{ ... }} }}`, with your value"

@@ -60,11 +60,11 @@ impl Row<'_> {
 
     /// Compares a constant of the code with a cell; only binary rounding may differ.
     #[track_caller]
-    pub fn is(&self, column: &str, own: f64) {
+    pub fn is(&self, column: &str, coded: f64) {
         let printed = self.number(column);
         assert!(
-            (own - printed).abs() <= 1e-12 * printed.abs(),
-            "{column} of {:?} is {printed} in the source and {own} in the code",
+            (coded - printed).abs() <= 1e-12 * printed.abs(),
+            "{column} of {:?} is {printed} in the source and {coded} in the code",
             self.cells
         );
     }

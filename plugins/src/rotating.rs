@@ -30,7 +30,7 @@ pub const AIR: Fluid = Fluid {
 impl Fluid {
     /// A mist of this fluid in air, from its volume fraction.
     pub fn mist(&self, share: f64) -> Self {
-        let mean = |own: f64, air: f64| share * own + (1.0 - share) * air;
+        let mean = |liquid: f64, air: f64| share * liquid + (1.0 - share) * air;
         let density = mean(self.density, AIR.density);
         Self {
             conductivity: mean(self.conductivity, AIR.conductivity),

@@ -50,8 +50,8 @@ pub(crate) fn finite<R: Real>(mu: R) -> Result<R, Undefined> {
 #[inline(always)]
 pub fn observe_along<R: Real>(path: &PathAt<'_, R>, observed: &Observed, all: impl Iterator<Item = R>) {
     let mut range = Range::default();
-    for (node, own) in path.nodes.iter().zip(all) {
-        range.extend(node, own);
+    for (node, value) in path.nodes.iter().zip(all) {
+        range.extend(node, value);
     }
     for end in range.ends() {
         path.notes.observe(observed, end);

@@ -75,9 +75,9 @@ fn every_check_value_can_fail() {
 fn a_check_that_cannot_fail_is_a_fault() {
     let is_linke = |entry: &&Entry| (entry.mechanism, entry.name) == ("seal", "linke");
     let entry = models().find(is_linke).unwrap();
-    let own = entry.checks[0];
-    assert_eq!(of_model(entry, own), [""; 0]);
-    let values = |values| Check { values, ..own };
+    let first = entry.checks[0];
+    assert_eq!(of_model(entry, first), [""; 0]);
+    let values = |values| Check { values, ..first };
     for (check, words) in [
         (values(&[]), "has no value"),
         (values(&[("total", "36.9 W")]), "total is 36.91"),
@@ -89,24 +89,30 @@ fn a_check_that_cannot_fail_is_a_fault() {
         (
             Check {
                 tolerance: f64::INFINITY,
-                ..own
+                ..first
             },
             "its tolerance inf",
         ),
         (
             Check {
                 tolerance: f64::NAN,
-                ..own
+                ..first
             },
             "its tolerance NaN",
         ),
-        (Check { tolerance: 0.5, ..own }, "its tolerance 0.5"),
-        (Check { source: " ", ..own }, "has no source"),
-        (Check { because: "", ..own }, "no reason for its tolerance"),
+        (
+            Check {
+                tolerance: 0.5,
+                ..first
+            },
+            "its tolerance 0.5",
+        ),
+        (Check { source: " ", ..first }, "has no source"),
+        (Check { because: "", ..first }, "no reason for its tolerance"),
         (
             Check {
                 input: "{ part: { diametre: 40 mm } }",
-                ..own
+                ..first
             },
             "diameter",
         ),

@@ -95,11 +95,11 @@ fn choice(churning: &str, overrides: &[(&str, f64)]) -> Choice {
         ("housing.oil.volume".to_owned(), json!(3.0)),
         ("housing.oil.running_level".to_owned(), json!(-30.0)),
     ];
-    let own = overrides.iter().map(|(path, value)| ((*path).to_owned(), json!(value)));
+    let given = overrides.iter().map(|(path, value)| ((*path).to_owned(), json!(value)));
     Choice {
         set: Some("churned".to_owned()),
         sets: std::iter::once(("churned".to_owned(), models)).collect(),
-        overrides: charge.into_iter().chain(own).collect(),
+        overrides: charge.into_iter().chain(given).collect(),
     }
 }
 

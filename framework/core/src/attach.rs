@@ -260,7 +260,7 @@ pub struct Names<'a> {
     path: String,
     id: String,
     site: (Option<u16>, f64),
-    own: Option<f64>,
+    level: Option<f64>,
 }
 
 impl<'a> Names<'a> {
@@ -275,7 +275,7 @@ impl<'a> Names<'a> {
             path: String::new(),
             id: String::new(),
             site: (None, 0.0),
-            own: None,
+            level: None,
         }
     }
 
@@ -284,7 +284,7 @@ impl<'a> Names<'a> {
         self.path = format!("{section}.{id}");
         id.clone_into(&mut self.id);
         self.site = (None, 0.0);
-        self.own = None;
+        self.level = None;
     }
 
     /// Path of the component.
@@ -322,7 +322,7 @@ impl<'a> Names<'a> {
     }
 
     fn own_level(&mut self, level: Option<f64>) {
-        self.own = level;
+        self.level = level;
     }
 
     fn add_support(&mut self, inner: u16, outer: Option<u16>, place: &SupportPlace) -> u16 {
@@ -347,7 +347,7 @@ impl<'a> Names<'a> {
     pub fn spot(&mut self, common: &Common) -> Option<Spot> {
         let oil = self.places.oil(&self.path, common)?;
         let level = self
-            .own
+            .level
             .map_or_else(|| self.places.level(self.site.0, self.site.1), Level::Own);
         Some(Spot { oil, level })
     }

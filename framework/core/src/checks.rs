@@ -64,9 +64,10 @@ fn compare_all<'a>(check: &Check, find: impl Fn(&str) -> Option<(f64, &'a str)>)
         let (number, unit) = stated.split_once(' ').unwrap_or((stated, "-"));
         let number = number.parse().ok().filter(|number: &f64| number.is_finite());
         let expected = number.ok_or_else(|| format!("{quantity}: `{stated}` does not begin with a number"))?;
-        let (value, own) =
+        let (value, known_unit) =
             find(quantity).ok_or_else(|| format!("`{quantity}` is no result, term, step or observed quantity"))?;
-        let computed = convert(value, own, unit).ok_or_else(|| format!("{quantity} is in [{own}], not in [{unit}]"))?;
+        let computed = convert(value, known_unit, unit)
+            .ok_or_else(|| format!("{quantity} is in [{known_unit}], not in [{unit}]"))?;
         Ok(Compared {
             quantity,
             stated,
@@ -81,7 +82,7 @@ fn compare_all<'a>(check: &Check, find: impl Fn(&str) -> Option<(f64, &'a str)>)
 
 /// A quantity of an evaluated model and its unit.
 fn of_model<'a>(evaluated: &'a Evaluated, answer: &'a str, name: &str) -> Option<(f64, &'a str)> {
-    let term = evaluated.values.iter().find(|(own, _)| *own == name);
+    let term = evaluated.values.iter().find(|(term_name, _)| *term_name == name);
     match (name, evaluated.moment, term) {
         ("total", Some(_), _) => Some((evaluated.total, "W")),
         ("total", None, _) => Some((evaluated.total, Unit::of_doc(answer)?.symbol)),
@@ -93,9 +94,9 @@ fn of_model<'a>(evaluated: &'a Evaluated, answer: &'a str, name: &str) -> Option
 
 /// A quantity of an evaluated rating and its unit.
 fn of_rating<'a>(rated: &'a RatedAlone, name: &str) -> Option<(f64, &'a str)> {
-    let own = rated.rated.figures().iter().find(|own| own.figure.symbol == name);
-    match own {
-        Some(own) => Some((own.value, own.figure.unit)),
+    let found = rated.rated.figures().iter().find(|figure| figure.figure.symbol == name);
+    match found {
+        Some(figure) => Some((figure.value, figure.figure.unit)),
         None => step(&rated.steps, name),
     }
 }
@@ -150,15 +151,15 @@ fn faults_of(check: &Check, compared: Result<Vec<Compared>, String>) -> Vec<Stri
         faults.push("states no reason for its tolerance".to_owned());
     }
     match compared {
-        Ok(all) => faults.extend(all.iter().filter(|own| !own.agrees()).map(|own| {
+        Ok(all) => faults.extend(all.iter().filter(|compared| !compared.agrees()).map(|compared| {
             format!(
                 "{} is {} {}, not {} within {:e} of it: off by {:.2e}",
-                own.quantity,
-                own.computed,
-                own.unit,
-                own.stated,
+                compared.quantity,
+                compared.computed,
+                compared.unit,
+                compared.stated,
                 check.tolerance,
-                own.deviation()
+                compared.deviation()
             )
         })),
         Err(fault) => faults.push(fault),

@@ -56,10 +56,10 @@ pub trait Coefficients: Copy + Default {
 /// # Errors
 /// If the serializer fails.
 pub fn serialize<C: Coefficients, S: Serializer>(coefficients: &C, serializer: S) -> Result<S::Ok, S::Error> {
-    let mut own = *coefficients;
+    let mut fields = *coefficients;
     let mut map = serializer.serialize_map(Some(C::LIST.len()))?;
     for declared in C::LIST {
-        if let Some(value) = own.field(declared.name) {
+        if let Some(value) = fields.field(declared.name) {
             map.serialize_entry(declared.name, value)?;
         }
     }
@@ -85,7 +85,7 @@ impl<'de, C: Coefficients> Visitor<'de> for Record<C> {
     }
 
     fn visit_map<M: MapAccess<'de>>(self, mut map: M) -> Result<C, M::Error> {
-        let mut own = C::default();
+        let mut read = C::default();
         while let Some(declared) = map.next_key_seed(Name::<C>(PhantomData))? {
             let value: f64 = map.next_value()?;
             if !(declared.least..=declared.greatest).contains(&value) {
@@ -94,11 +94,11 @@ impl<'de, C: Coefficients> Visitor<'de> for Record<C> {
                     declared.name, declared.least, declared.greatest
                 )));
             }
-            if let Some(field) = own.field(declared.name) {
+            if let Some(field) = read.field(declared.name) {
                 *field = value;
             }
         }
-        Ok(own)
+        Ok(read)
     }
 }
 
@@ -318,12 +318,13 @@ pub fn changed_from_source(transmission: &Transmission, resolved: &Resolved) -> 
     let mut all: Vec<Changed> = Vec::new();
     for instance in transmission.instances() {
         for changed in changed_in(instance, &resolved.value) {
-            let same = |own: &&mut Changed| {
-                (own.mechanism, own.model, &own.coefficient) == (changed.mechanism, changed.model, &changed.coefficient)
-                    && own.value == changed.value
+            let same = |known: &&mut Changed| {
+                (known.mechanism, known.model, &known.coefficient)
+                    == (changed.mechanism, changed.model, &changed.coefficient)
+                    && known.value == changed.value
             };
             match all.iter_mut().find(same) {
-                Some(own) => own.paths.extend(changed.paths),
+                Some(known) => known.paths.extend(changed.paths),
                 None => all.push(changed),
             }
         }
@@ -376,10 +377,10 @@ mod tests {
     #[test]
     fn absent_ones_keep_the_published_value_to_the_bit() {
         assert_eq!(read(json!({})).unwrap(), Constants::default());
-        let own = read(json!({ "factor": 0.05 })).unwrap();
-        assert_eq!((own.factor, own.speed_exponent), (0.05, -1.0 / 3.0));
-        let back: Constants = serde_json::from_value(serde_json::to_value(own).unwrap()).unwrap();
-        assert_eq!(back, own);
+        let read_back = read(json!({ "factor": 0.05 })).unwrap();
+        assert_eq!((read_back.factor, read_back.speed_exponent), (0.05, -1.0 / 3.0));
+        let back: Constants = serde_json::from_value(serde_json::to_value(read_back).unwrap()).unwrap();
+        assert_eq!(back, read_back);
     }
 
     #[test]

@@ -237,24 +237,24 @@ fn together<M: Mechanism>(
                 points: 1 << i,
                 ..Notebook::CLOSED
             };
-            let mut own = M::usual(part, book.notes(base));
+            let mut point = M::usual(part, book.notes(base));
             for (k, (q, [load, state])) in M::QUANTITIES.iter().zip(&kinds).enumerate() {
                 let factor = match *load || states && *state {
                     true if *load && i % 5 == 4 && k % 2 == 0 => 0.0,
                     true => 0.3 + 1.5 * i as f64 / LANES as f64,
                     false => 1.0,
                 };
-                (q.set)(&mut own, (q.get)(at) * factor);
+                (q.set)(&mut point, (q.get)(at) * factor);
             }
-            own
+            point
         };
         let lanes = M::At::together(part, several.notes(base), point);
         let Ok(answers) = M::answer_together(model, &lanes) else {
             continue;
         };
         for i in 0..LANES {
-            let own = point(i);
-            let (alone, speed) = (M::answer(model, &own), M::speed(&own));
+            let here = point(i);
+            let (alone, speed) = (M::answer(model, &here), M::speed(&here));
             if !same_result(&Ok(M::Answer::at_point(&answers, i)), &alone, speed) {
                 return Some("gives another result at one of several points");
             }

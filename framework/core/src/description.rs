@@ -141,7 +141,7 @@ fn entry_again<T: DeserializeOwned>(
     section: &Value,
     id: &str,
 ) -> Result<(), serde_json::Error> {
-    if let Some((_, entry)) = entries.0.iter_mut().find(|(own, _)| own == id) {
+    if let Some((_, entry)) = entries.0.iter_mut().find(|(known, _)| known == id) {
         *entry = T::deserialize(&section[id])?;
     }
     Ok(())

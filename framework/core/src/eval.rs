@@ -100,20 +100,20 @@ fn evaluate(
                 Diagnostic::error("", "the input is not a mapping").help("write `part`, `at` or `model`"),
             ]));
         };
-        if let Some(own) = written.remove("model") {
-            let of = own.as_str().or_else(|| own["type"].as_str()).unwrap_or_default();
+        if let Some(given) = written.remove("model") {
+            let of = given.as_str().or_else(|| given["type"].as_str()).unwrap_or_default();
             if of != entry.name {
                 let error = Diagnostic::error("model", format!("the input is for `{of}`, not for `{}`", entry.name));
                 let help = format!("write `model: {{ type: {} }}`, or omit `model`", entry.name);
                 return Err(found(vec![place(error.help(help))]));
             }
-            model = Some(own);
+            model = Some(given);
         }
-        if let Some(own) = written.remove("part") {
-            part = own;
+        if let Some(given) = written.remove("part") {
+            part = given;
         }
-        if let Some(Value::Object(own)) = written.remove("at") {
-            at = own;
+        if let Some(Value::Object(given)) = written.remove("at") {
+            at = given;
         }
         places = Some(place);
     }
@@ -251,7 +251,7 @@ pub fn rate_input(
     let (_, example) = language.example_of_rating(plugin).map_err(found)?;
     let written = |key: &str| walked.value.get(key).filter(|value| !value.is_null()).cloned();
     let rating = match written("rating") {
-        Some(own) => own,
+        Some(rating) => rating,
         None => language.default_rating(plugin.entry.name).map_err(found)?,
     };
     let at = match written("at") {

@@ -66,10 +66,10 @@ impl Findings {
     pub fn render_new(&self, shown: &mut BTreeSet<String>) -> String {
         let mut text = String::new();
         let (mut errors, mut again, mut listed) = (0, 0, 0);
-        let mut own = BTreeSet::new();
+        let mut keys = BTreeSet::new();
         for finding in &self.list {
             let key = self.key(finding);
-            if !own.insert(key.clone()) {
+            if !keys.insert(key.clone()) {
                 continue;
             }
             errors += usize::from(finding.severity == Severity::Error);
@@ -241,8 +241,8 @@ impl Gearbox {
     /// If a set extends one that does not exist, or itself.
     pub fn check_sets(&self, language: &Language) -> Result<(), Findings> {
         let sets = sets_of(language, &self.value, &Map::new());
-        let own = self.value.get("model_sets").and_then(Value::as_object);
-        let names = own.into_iter().flatten().map(|(name, _)| name);
+        let written = self.value.get("model_sets").and_then(Value::as_object);
+        let names = written.into_iter().flatten().map(|(name, _)| name);
         let mut found: Vec<Diagnostic> = Vec::new();
         found.extend(called_own(names.clone()));
         for error in names.filter_map(|name| expand_set(&sets, name).err()) {
@@ -273,12 +273,12 @@ impl Gearbox {
             return finding.moved(&format!("model_sets.{name}.set"), &path);
         }
         let changes = self.value.get("set").and_then(Value::as_object);
-        let own = changes
+        let change = changes
             .into_iter()
             .flatten()
             .filter(|(path, _)| meets(path, &finding.path))
             .max_by_key(|(path, _)| path.split('.').count());
-        match own {
+        match change {
             Some((path, _)) => finding.moved("set", path),
             None => finding,
         }

@@ -330,16 +330,16 @@ impl<M: Mechanism> Lookup<M> {
         }
         let axes: Vec<&'static Quantity<M>> = columns[..axes].iter().filter_map(|c| quantity(c)).collect();
         for (i, (axis, quantity)) in tables[0].axes().iter().zip(&axes).enumerate() {
-            let own = quantity.unit.symbol;
-            if !Unit::is_same(&axis.unit, own) {
+            let symbol = quantity.unit.symbol;
+            if !Unit::is_same(&axis.unit, symbol) {
                 return Err(cx
                     .error(format!(
-                        "{file}: line 1, column {}: `{}` is in {}, not in {own}",
+                        "{file}: line 1, column {}: `{}` is in {}, not in {symbol}",
                         i + 1,
                         axis.name,
                         axis.unit
                     ))
-                    .help(format!("convert it and write `{} [{own}]`", axis.name)));
+                    .help(format!("convert it and write `{} [{symbol}]`", axis.name)));
             }
             if let Some(needed) = cx.part::<M>().and_then(|part| M::needs(part, quantity.name)) {
                 return Err(cx

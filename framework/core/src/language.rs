@@ -302,7 +302,7 @@ impl Language {
         let Shape::Record(fields) = self.shape_at(document, record)? else {
             return None;
         };
-        let (_, field) = fields.iter().find(|(own, _)| own == name)?;
+        let (_, field) = fields.iter().find(|(known, _)| known == name)?;
         field.default.as_ref()?.as_f64()
     }
 

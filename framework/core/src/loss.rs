@@ -325,18 +325,18 @@ impl<R: Points> Loss<R> {
     pub fn one_by_one(points: u32, mut evaluate: impl FnMut(usize) -> Result<Loss, Undefined>) -> Self {
         let mut all: Option<Self> = None;
         for point in (0..R::COUNT).filter(|point| points >> point & 1 == 1) {
-            let own = evaluate(point);
+            let result = evaluate(point);
             let all = all.get_or_insert(Self {
-                measure: own.map_or(Measure::Power, |own| own.measure),
+                measure: result.map_or(Measure::Power, |loss| loss.measure),
                 ..Self::POWERS
             });
-            match own {
-                Ok(own) if own.measure == all.measure => {
-                    for (value, own) in all.values.iter_mut().zip(own.values) {
-                        value.set(point, own);
+            match result {
+                Ok(loss) if loss.measure == all.measure => {
+                    for (value, number) in all.values.iter_mut().zip(loss.values) {
+                        value.set(point, number);
                     }
-                    all.first_share.set(point, own.first_share);
-                    all.first_heat.set(point, own.first_heat);
+                    all.first_share.set(point, loss.first_share);
+                    all.first_heat.set(point, loss.first_heat);
                 }
                 _ => all.values[0].set(point, f64::NAN),
             }

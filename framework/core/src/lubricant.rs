@@ -181,11 +181,12 @@ fn points(entry: &ViscosityEntry, density: Option<&Density>) -> Result<Vec<(f64,
             })?,
         ),
         (Some(kv40), Some(kv100), Some(vi)) => {
-            let own = index::index(kv40, kv100).map_or_else(|| "none".to_owned(), |own| format!("{own:.1}"));
+            let index_of_both =
+                index::index(kv40, kv100).map_or_else(|| "none".to_owned(), |number| format!("{number:.1}"));
             return Err((
                 "viscosity",
                 format!(
-                    "three values for a law with two parameters: kv40 {kv40} and kv100 {kv100} mm2/s give the index {own}, not {vi}"
+                    "three values for a law with two parameters: kv40 {kv40} and kv100 {kv100} mm2/s give the index {index_of_both}, not {vi}"
                 ),
                 "remove one of them".to_owned(),
             ));
@@ -567,17 +568,17 @@ mod tests {
         assert_eq!(lines.len(), 5);
         for line in lines {
             let kind: LubricantKind = serde_json::from_value(line[0].into()).unwrap();
-            let own = usual(kind);
+            let ranges = usual(kind);
             let cell = |i: usize| line[i].parse::<f64>().unwrap();
             assert_eq!(
-                [own.gold.0, own.gold.1, own.mu_ehl],
+                [ranges.gold.0, ranges.gold.1, ranges.mu_ehl],
                 [cell(1), cell(2), cell(3)],
                 "{}",
                 line[0]
             );
             let (least, greatest) = (cell(4) * 1e-4, cell(5) * 1e-4);
             assert!(
-                own.expansion >= 0.999_999 * least && own.expansion <= 1.000_001 * greatest,
+                ranges.expansion >= 0.999_999 * least && ranges.expansion <= 1.000_001 * greatest,
                 "{}",
                 line[0]
             );

@@ -234,7 +234,7 @@ impl Entry {
         let schema = (self.schema)(&mut SchemaGenerator::default()).to_value();
         let is_required = |key: &String| {
             let required = schema.get("required").and_then(Value::as_array);
-            required.is_some_and(|list| list.iter().any(|own| own.as_str() == Some(key)))
+            required.is_some_and(|list| list.iter().any(|name| name.as_str() == Some(key)))
         };
         let mechanism = |record: &Value| {
             let reference = record

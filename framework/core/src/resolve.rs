@@ -140,8 +140,15 @@ impl Draft {
         catalogue::fill(language, files, &mut value, &mut sources, &mut designations, &mut found);
         surfaces(&mut value, &mut sources);
 
-        let own = value.get("models").cloned().unwrap_or(Value::Null);
-        let without = give_models(language, &mut value, &own, set.as_ref(), &mut sources, &mut unreached);
+        let defaults = value.get("models").cloned().unwrap_or(Value::Null);
+        let without = give_models(
+            language,
+            &mut value,
+            &defaults,
+            set.as_ref(),
+            &mut sources,
+            &mut unreached,
+        );
         if let Some(document) = value.as_object_mut() {
             for key in ["models", "model_sets", "extends", "set"] {
                 document.shift_remove(key);
@@ -237,13 +244,13 @@ fn absent(entry: &Map<String, Value>, key: &str) -> bool {
 fn give_models(
     language: &Language,
     value: &mut Value,
-    own: &Value,
+    defaults: &Value,
     set: Option<&(String, ModelSet)>,
     sources: &mut BTreeMap<String, ValueSource>,
     unreached: &mut Vec<String>,
 ) -> Vec<String> {
     let mut giving = Giving {
-        own,
+        defaults,
         set,
         sources,
         unreached,
@@ -266,7 +273,7 @@ fn give_models(
 /// The models to give to components that have none of their own, with what is reported about them.
 struct Giving<'a> {
     /// Defaults of the gearbox.
-    own: &'a Value,
+    defaults: &'a Value,
     set: Option<&'a (String, ModelSet)>,
     sources: &'a mut BTreeMap<String, ValueSource>,
     unreached: &'a mut Vec<String>,
@@ -285,7 +292,7 @@ impl<'a> Giving<'a> {
                 Some((s.models[key].clone(), ValueSource::Set(name.clone())))
             }
             _ => self
-                .own
+                .defaults
                 .get(key)
                 .filter(|v| !v.is_null())
                 .map(|v| (v.clone(), ValueSource::Models)),
@@ -341,12 +348,12 @@ impl<'a> Giving<'a> {
         let Some(thermal) = value.get_mut("thermal").and_then(Value::as_object_mut) else {
             return;
         };
-        let own = written_slots(thermal, HEAT);
+        let written = written_slots(thermal, HEAT);
         let path = |slot: &str| format!("thermal.{HEAT}.{slot}");
         if let Some((name, s)) = self.set {
             let kept: Vec<&str> = ways
                 .keys()
-                .filter(|slot| own.contains_key(*slot))
+                .filter(|slot| written.contains_key(*slot))
                 .map(String::as_str)
                 .collect();
             if s.models.contains_key(HEAT) && !kept.is_empty() {
@@ -357,11 +364,11 @@ impl<'a> Giving<'a> {
             }
         }
         let mut slots = Map::new();
-        for (slot, model) in ways.iter().filter(|(slot, _)| !own.contains_key(*slot)) {
+        for (slot, model) in ways.iter().filter(|(slot, _)| !written.contains_key(*slot)) {
             slots.insert(slot.clone(), model.clone());
             self.sources.insert(path(slot), from.clone());
         }
-        slots.extend(own);
+        slots.extend(written);
         for (slot, model) in &mut slots {
             if let Some((name, named)) = self.named(&path(slot)) {
                 *model = named.clone();
@@ -376,15 +383,15 @@ impl<'a> Giving<'a> {
         let (drags, from) = self.slots_of(DRAGS);
         for section in ["gears", "meshes"] {
             for (id, entry) in entries_mut(value, section) {
-                let own = written_slots(entry, "drag");
+                let written = written_slots(entry, "drag");
                 let mut slots = Map::new();
                 for (slot, model) in &drags {
-                    if !own.contains_key(slot) && language.fits_scope(section, model) {
+                    if !written.contains_key(slot) && language.fits_scope(section, model) {
                         slots.insert(slot.clone(), model.clone());
                         self.sources.insert(format!("{section}.{id}.drag.{slot}"), from.clone());
                     }
                 }
-                slots.extend(own);
+                slots.extend(written);
                 for slot in self.set.into_iter().flat_map(|(_, s)| s.drag_slots(section, id)) {
                     let path = format!("{section}.{id}.drag.{slot}");
                     if let Some((name, model)) = self.named(&path) {

@@ -358,7 +358,7 @@ impl Table {
         }
         let before = (i > 0).then(|| (xs[i] - xs[i - 1], (low - at(i - 1)) / (xs[i] - xs[i - 1])));
         let behind = (i + 2 < xs.len()).then(|| (xs[i + 2] - xs[i + 1], (at(i + 2) - high) / (xs[i + 2] - xs[i + 1])));
-        let slope_at = |own: Option<(f64, f64)>, other: Option<(f64, f64)>| match (own, other) {
+        let slope_at = |near: Option<(f64, f64)>, other: Option<(f64, f64)>| match (near, other) {
             (Some((h_own, d_own)), _) => inner_slope(h_own, d_own, h, slope),
             (None, Some((h_other, d_other))) => end_slope(h, slope, h_other, d_other),
             (None, None) => slope,

@@ -146,9 +146,9 @@ mod tests {
                 other => panic!("{other}"),
             };
             for (column, series) in [("z_light", light), ("z_heavy", heavy)] {
-                let own = PLAIN.model(&part(kind, series, 40.0, 80.0, Some(26000.0))).unwrap();
-                line.is(column, own.law.z);
-                line.is("y", own.law.exponent);
+                let palmgren = PLAIN.model(&part(kind, series, 40.0, 80.0, Some(26000.0))).unwrap();
+                line.is(column, palmgren.law.z);
+                line.is("y", palmgren.law.exponent);
             }
         }
     }

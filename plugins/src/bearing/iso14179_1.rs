@@ -30,7 +30,7 @@ pub struct Params {
 
 impl Params {
     fn model(&self, part: &BearingPart) -> Result<Palmgren, Lack> {
-        let f0 = |own: Option<f64>, lubrication| own.map_or_else(|| rows::f0_under(part, lubrication), Ok);
+        let f0 = |stated: Option<f64>, lubrication| stated.map_or_else(|| rows::f0_under(part, lubrication), Ok);
         let f0 = F0::Dip {
             least: f0(self.f0_min, Lubrication::OilAir)?,
             most: f0(self.f0_max, Lubrication::Jet)?,

@@ -198,11 +198,11 @@ mod tests {
                 y0: Some(0.9),
                 ..BearingEntry::default()
             };
-            let own = row(&BearingPart::try_from(entry).unwrap()).unwrap();
-            line.is("f0_grease", own.f0[0]);
-            line.is("f0_bath", own.f0[1]);
-            line.is("factor", own.law.z);
-            line.is("exponent", own.law.exponent);
+            let constants = row(&BearingPart::try_from(entry).unwrap()).unwrap();
+            line.is("f0_grease", constants.f0[0]);
+            line.is("f0_bath", constants.f0[1]);
+            line.is("factor", constants.law.z);
+            line.is("exponent", constants.law.exponent);
         }
     }
 }

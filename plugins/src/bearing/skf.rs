@@ -838,10 +838,10 @@ mod tests {
             (SealDesign::NonContact, 2, 0.0),
         ] {
             part.seals = Some(BearingSeals { design, number });
-            let own = loss(&part, params());
+            let by_bearing = loss(&part, params());
             assert!(
-                (own - share * by_model).abs() <= 1e-12 * by_model,
-                "{design:?}: {own} and {by_model}"
+                (by_bearing - share * by_model).abs() <= 1e-12 * by_model,
+                "{design:?}: {by_bearing} and {by_model}"
             );
         }
         part.seals = Some(BearingSeals {

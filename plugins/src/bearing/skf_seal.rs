@@ -150,11 +150,11 @@ mod tests {
             };
             let (above, up_to) = (line.number("above"), line.cell("up_to").unwrap_or(1e4));
             for outside in [above + 0.01, up_to] {
-                let own = SealRow::new(code, outside, 2).unwrap();
-                line.is("beta", own.beta);
-                line.is("K_S1", own.k_s1);
-                line.is("K_S2", own.k_s2);
-                assert_eq!(own.share, 1.0);
+                let seal = SealRow::new(code, outside, 2).unwrap();
+                line.is("beta", seal.beta);
+                line.is("K_S1", seal.k_s1);
+                line.is("K_S2", seal.k_s2);
+                assert_eq!(seal.share, 1.0);
             }
             // No seal above the last row of its table, nor below the first.
             if code != Code::Rs1DeepGroove && up_to > 25.0 {

@@ -216,9 +216,12 @@ mod tests {
         let c_l = teeth(1.0, 72.0, 0.144, 0.148, r_b, 0.030);
         close(c_l, 0.0721945);
         for (omega, c_f, power) in [(1000.0, 0.00588094, 2900.54), (100.0, 0.00546263, 2.885)] {
-            let own = faces(&Constants::PUBLISHED, 1.2 * omega * 0.144 * 0.144 / 1.8e-5);
-            close(own, c_f);
-            close(0.5 * (own + c_l) * 1.2 * f64::powi(omega, 3) * 0.144_f64.powi(5), power);
+            let moment = faces(&Constants::PUBLISHED, 1.2 * omega * 0.144 * 0.144 / 1.8e-5);
+            close(moment, c_f);
+            close(
+                0.5 * (moment + c_l) * 1.2 * f64::powi(omega, 3) * 0.144_f64.powi(5),
+                power,
+            );
         }
     }
 

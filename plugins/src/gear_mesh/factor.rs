@@ -82,11 +82,11 @@ mod tests {
                 .iter()
                 .map(move |mean| json!({ "type": name, "mean_friction": mean }))
         };
-        let own = ["iso14179_1", "iso14179_2", "anderson_loewenthal"].map(|name| json!({ "type": name }));
+        let formulas = ["iso14179_1", "iso14179_2", "anderson_loewenthal"].map(|name| json!({ "type": name }));
         let models: Vec<Value> = ["ohlendorf", "wimmer", "even_share"]
             .into_iter()
             .flat_map(with_mean)
-            .chain(own)
+            .chain(formulas)
             .collect();
         for model in models {
             let slot = Build::new(&registry, &files)

@@ -420,8 +420,11 @@ pub(crate) mod tests {
         for (film, width, sum_speed, force, power) in
             [(0.8e-6, 20e-3, 10.0, 1.44, 14.4), (0.3e-6, 30e-3, 25.0, 0.81, 20.25)]
         {
-            let own = crook(film) * width;
-            assert!((own / force - 1.0_f64).abs() < 1e-12 && (own * sum_speed / power - 1.0_f64).abs() < 1e-12);
+            let rolling_force = crook(film) * width;
+            assert!(
+                (rolling_force / force - 1.0_f64).abs() < 1e-12
+                    && (rolling_force * sum_speed / power - 1.0_f64).abs() < 1e-12
+            );
         }
     }
 

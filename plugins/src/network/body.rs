@@ -168,8 +168,8 @@ impl<'a> Bodies<'a> {
     pub fn copies(&self, member: &str) -> f64 {
         let shaft = self.entry.gears.get(member).map_or(member, |gear| gear.shaft.as_str());
         let mut sets = self.entry.planetary_sets.iter();
-        let own = sets.find(|(_, set)| set.planets.iter().any(|planet| planet == shaft));
-        own.map_or(1.0, |(_, set)| f64::from(set.count))
+        let set_of_shaft = sets.find(|(_, set)| set.planets.iter().any(|planet| planet == shaft));
+        set_of_shaft.map_or(1.0, |(_, set)| f64::from(set.count))
     }
 
     /// Number of equal copies of a gear.
@@ -213,7 +213,7 @@ impl<'a> Bodies<'a> {
 
     /// Diameter of the planet orbit, from the mesh with a sun or a ring. \[m\]
     fn orbit(&self, planet: &str) -> Option<f64> {
-        let own = self.size(planet)?.diameter;
+        let diameter = self.size(planet)?.diameter;
         let mates = self.entry.meshes.iter().filter_map(|(_, mesh)| {
             let [one, other] = mesh.gears.each_ref().map(String::as_str);
             match (one == planet, other == planet) {
@@ -227,9 +227,9 @@ impl<'a> Bodies<'a> {
             .find_map(|mate| self.size(mate))
             .map(|mate| {
                 if mate.ring {
-                    mate.diameter - own
+                    mate.diameter - diameter
                 } else {
-                    mate.diameter + own
+                    mate.diameter + diameter
                 }
             })
     }

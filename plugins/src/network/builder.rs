@@ -78,7 +78,7 @@ impl NetworkBuilder {
     pub fn of_member(&self, id: &str) -> Option<String> {
         self.members
             .iter()
-            .find(|(own, _)| own == id)
+            .find(|(known, _)| known == id)
             .map(|(_, node)| node.clone())
     }
 
@@ -86,7 +86,7 @@ impl NetworkBuilder {
     pub fn of_gear(&self, id: &str) -> Option<String> {
         self.gears
             .iter()
-            .find(|(own, _)| own == id)
+            .find(|(known, _)| known == id)
             .map(|(_, node)| node.clone())
     }
 

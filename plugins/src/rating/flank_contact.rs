@@ -93,12 +93,12 @@ impl Rating<GearMesh> for Prepared {
             at.branch("no torque");
             return Ok(());
         }
-        let own = &self.params;
+        let params = &self.params;
         let mean = MeanFrictionAt::at_pitch_point(at, at.notes);
         let (mut pressure, mut thinnest) = (0.0_f64, f64::INFINITY);
         flank::contacts(path, at, &mean, |_, _, contact| {
             pressure = pressure.max(contact.pressure);
-            thinnest = thinnest.min(film(contact, own.film, own.thermal));
+            thinnest = thinnest.min(film(contact, params.film, params.thermal));
         });
         let share = path.nodes()[self.pitch].share;
         at.show("F_bn", "N", mean.normal_force);
@@ -106,7 +106,7 @@ impl Rating<GearMesh> for Prepared {
         let line_load = mean.part.pair.line_load(mean.normal_force) * share;
         let at_pitch = hertz(line_load, mean.part.modulus, mean.radius);
         to.add(&AT_PITCH, at.show("p_HC", "MPa", at_pitch * 1e-6));
-        let bound = own
+        let bound = params
             .greatest_pressure
             .map_or(Bound::NONE, |bound| Bound::at_most(bound * 1e-6));
         to.add_bounded(&PRESSURE, at.show("p_H", "MPa", pressure * 1e-6), bound);
@@ -117,12 +117,12 @@ impl Rating<GearMesh> for Prepared {
         to.add(&FILM, at.show("h_min", "um", thinnest.um()));
         at.show("Rq", "um", at.part.rq.um());
         let lambda = at.show("lambda", "-", thinnest / at.part.rq);
-        to.add_bounded(&LAMBDA, lambda, at_least_unless_zero(own.least_film_ratio));
+        to.add_bounded(&LAMBDA, lambda, at_least_unless_zero(params.least_film_ratio));
         let of_mean = at.show("lambda_GF", "-", thinnest / at.part.ra);
         to.add(&LAMBDA_RA, of_mean);
-        if let Some(permissible) = own.permissible_film_ratio {
+        if let Some(permissible) = params.permissible_film_ratio {
             let safety = at.show("S_lambda", "-", of_mean / permissible);
-            to.add_bounded(&MICROPITTING, safety, Bound::at_least(own.least_safety));
+            to.add_bounded(&MICROPITTING, safety, Bound::at_least(params.least_safety));
         }
         Ok(())
     }

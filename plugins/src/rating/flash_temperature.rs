@@ -114,13 +114,13 @@ impl Rating<GearMesh> for Prepared {
             at.branch("no torque or no speed");
             return Ok(());
         }
-        let own = &self.params;
+        let params = &self.params;
         let mean = MeanFrictionAt::at_pitch_point(at, at.notes.nested(self.friction.notes));
         let mu = at.show("mu", "-", self.friction.mu(&mean)?);
         let flank = Flank {
-            conductivity: own.conductivity,
-            density: own.density,
-            heat_capacity: own.heat_capacity,
+            conductivity: params.conductivity,
+            density: params.density,
+            heat_capacity: params.heat_capacity,
         };
         let (mut greatest, mut sum, mut length) = (0.0_f64, 0.0, 0.0);
         flank::contacts(path, at, &mean, |i, _, contact| {
@@ -144,16 +144,16 @@ impl Rating<GearMesh> for Prepared {
                 at.branch("bulk temperature of the thermal network, the warmer gear");
                 first.max(second)
             }
-            None => at.temperature + own.bulk_factor * at.show("theta_flm", "K", sum / length),
+            None => at.temperature + params.bulk_factor * at.show("theta_flm", "K", sum / length),
         };
         to.add(&BULK, at.show("theta_M", "degC", bulk));
         let contact = at.show("theta_B", "degC", bulk + greatest);
         to.add(&CONTACT, contact);
-        if let Some(scuffing) = own.scuffing_temperature {
+        if let Some(scuffing) = params.scuffing_temperature {
             let rise = contact - at.temperature;
             if rise > 0.0 {
                 let safety = at.show("S_B", "-", (scuffing - at.temperature) / rise);
-                to.add_bounded(&SCUFFING, safety, Bound::at_least(own.least_safety));
+                to.add_bounded(&SCUFFING, safety, Bound::at_least(params.least_safety));
             }
         }
         Ok(())

@@ -510,11 +510,11 @@ mod tests {
         #[test]
         fn modification_grows(kappa in 0.1..4.0_f64, cleanliness in 0.0..5.0_f64, roller in proptest::bool::ANY) {
             let part = example(if roller { "tapered_roller" } else { "deep_groove_ball" });
-            let own = life_modification(&part, kappa, cleanliness);
-            prop_assert!((0.1..=50.0).contains(&own), "{own}");
+            let factor = life_modification(&part, kappa, cleanliness);
+            prop_assert!((0.1..=50.0).contains(&factor), "{factor}");
             // The branches meet to four digits only.
-            prop_assert!(life_modification(&part, kappa * 1.05, cleanliness) >= own * 0.999);
-            prop_assert!(life_modification(&part, kappa, cleanliness * 1.05) >= own);
+            prop_assert!(life_modification(&part, kappa * 1.05, cleanliness) >= factor * 0.999);
+            prop_assert!(life_modification(&part, kappa, cleanliness * 1.05) >= factor);
         }
     }
 }

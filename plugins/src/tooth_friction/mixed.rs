@@ -175,12 +175,14 @@ impl ToothFrictionLaw for Mixed {
 
     /// The share of boundary friction vanishes at a film ratio of two, for Matsumoto with a kink.
     fn kinked_order(&self) -> Option<usize> {
-        let own = match self.params.weight {
+        let of_weight = match self.params.weight {
             Weight::Doleschel => Some(2 * SMOOTH),
             Weight::Matsumoto => Some(KINKED),
             Weight::Diab | Weight::OlverSpikes => None,
         };
-        let most = own.max(self.boundary.cut_off_order()).max(self.fluid.cut_off_order());
+        let most = of_weight
+            .max(self.boundary.cut_off_order())
+            .max(self.fluid.cut_off_order());
         most.map(|order| order.max(self.order()))
     }
 

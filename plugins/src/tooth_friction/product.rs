@@ -53,8 +53,8 @@ impl Product {
     #[inline(always)]
     pub fn logarithms<R: Real>(&self, path: &PathAt<'_, R>, all: &mut [R]) {
         let common = self.common(path);
-        for (node, own) in path.nodes.iter().zip(all) {
-            *own = common + self.at_node(node);
+        for (node, value) in path.nodes.iter().zip(all) {
+            *value = common + self.at_node(node);
         }
     }
 
@@ -68,8 +68,8 @@ impl Product {
                 #[inline(always)]
                 |i| nodes.get(i).map_or(0.0, |node| self.at_node(node)),
             );
-            for (own, power) in all.iter_mut().zip(*powers.exp()) {
-                *own = factor * power;
+            for (value, power) in all.iter_mut().zip(*powers.exp()) {
+                *value = factor * power;
             }
         }
     }

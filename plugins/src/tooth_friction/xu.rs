@@ -278,8 +278,8 @@ mod tests {
     #[test]
     fn every_constant_is_that_of_the_paper() {
         let table = crate::printed::Printed::read(include_str!("../../tests/tables/xu.csv"));
-        for (line, own) in table.rows().zip(Constants::LIST) {
-            line.is("value", own.published);
+        for (line, constant) in table.rows().zip(Constants::LIST) {
+            line.is("value", constant.published);
         }
         assert_eq!(table.rows().count(), Constants::LIST.len());
     }

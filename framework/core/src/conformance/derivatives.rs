@@ -20,16 +20,17 @@ pub(super) fn faults<M: Mechanism>(model: &M::Model, part: &M::Part) -> Vec<Stri
     let mut random = Random(1);
     let (mut defined, mut compared) = (0, 0);
     for _ in 0..CONTEXTS {
-        let own = context::<M>(part, &mut random);
-        let directions: [M::At<'_, f64>; DIRECTIONS] = std::array::from_fn(|_| direction::<M>(&own, part, &mut random));
+        let at_point = context::<M>(part, &mut random);
+        let directions: [M::At<'_, f64>; DIRECTIONS] =
+            std::array::from_fn(|_| direction::<M>(&at_point, part, &mut random));
         let at = M::At::gather(part, Notebook::CLOSED.notes(NoteBase::default()), |quantity| Dual {
-            value: quantity(&own),
+            value: quantity(&at_point),
             slopes: directions.each_ref().map(quantity),
         });
         let Some(answer) = M::answer_with_derivatives(model, &at) else {
             return faults;
         };
-        let alone = M::answer(model, &own);
+        let alone = M::answer(model, &at_point);
         let value = answer.as_ref().map(|all| M::Answer::map(all, |x: Dual| x.value));
         if !super::same_result(&value.map_err(|e| *e), &alone, 1.0) {
             faults.push("returns a different result with derivatives".to_owned());

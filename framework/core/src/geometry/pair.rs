@@ -511,9 +511,9 @@ impl Pair {
     /// against its mate over its own surface speed, negative (ISO 21771).
     pub fn specific_sliding(&self) -> [f64; 2] {
         let [a, .., e] = self.points;
-        let [[own, mate], [mate_at_e, own_at_e]] = [self.curvature(a), self.curvature(e)];
+        let [[first, mate], [mate_at_e, own_at_e]] = [self.curvature(a), self.curvature(e)];
         [
-            1.0 - mate / (self.ratio() * own),
+            1.0 - mate / (self.ratio() * first),
             1.0 - self.ratio() * mate_at_e / own_at_e,
         ]
     }

@@ -59,13 +59,13 @@ impl Ramp {
     pub fn share(&self, x: f64) -> f64 {
         let steps = |length: f64| (length / self.pitch).floor().max(0.0) as usize;
         let (before, behind) = (steps(x - self.path[0]), steps(self.path[1] - x));
-        let own = self.raw(x);
+        let height = self.raw(x);
         let others: f64 = (1..=before)
             .map(|k| self.raw(x - k as f64 * self.pitch))
             .chain((1..=behind).map(|k| self.raw(x + k as f64 * self.pitch)))
             .sum();
-        if own + others > 0.0 {
-            own / (own + others)
+        if height + others > 0.0 {
+            height / (height + others)
         } else {
             // A shifted trapezoid may have zero load on all pairs in contact; they then share equally.
             1.0 / (1 + before + behind) as f64

@@ -101,8 +101,8 @@ impl Reduced {
         while let Some((_, column)) = open.pop_first() {
             let Some(row) = self.pivot_row(column) else { continue };
             let pivot = self.entry(row, column);
-            for (own, x) in &mut self.rows[row] {
-                *x = if *own == column { 1.0 } else { *x / pivot };
+            for (place, x) in &mut self.rows[row] {
+                *x = if *place == column { 1.0 } else { *x / pivot };
             }
             self.steps.push(Step::Divide { row, by: pivot });
             self.pivots[row] = Some(column);
@@ -141,15 +141,15 @@ impl Reduced {
     ) {
         let factor = self.entry(from, pivot);
         self.steps.push(Step::Subtract { from, row, factor });
-        let own = std::mem::take(&mut self.rows[from]);
-        let mut reduced = Vec::with_capacity(own.len() + of_pivot.len());
-        let (mut own, mut other) = (own.into_iter().peekable(), of_pivot.iter().peekable());
-        while let Some(column) = [own.peek().map(|x| x.0), other.peek().map(|y| y.0)]
+        let reduced_from = std::mem::take(&mut self.rows[from]);
+        let mut reduced = Vec::with_capacity(reduced_from.len() + of_pivot.len());
+        let (mut entries, mut other) = (reduced_from.into_iter().peekable(), of_pivot.iter().peekable());
+        while let Some(column) = [entries.peek().map(|x| x.0), other.peek().map(|y| y.0)]
             .into_iter()
             .flatten()
             .min()
         {
-            let x = own.next_if(|x| x.0 == column).map(|x| x.1);
+            let x = entries.next_if(|x| x.0 == column).map(|x| x.1);
             let y = other.next_if(|y| y.0 == column).map(|y| y.1);
             let entry = y.map_or(x.unwrap_or(0.0), |y| x.unwrap_or(0.0) - factor * y);
             if column == pivot {

@@ -236,10 +236,10 @@ fn long_chains_move_by_the_product_of_their_ratios() {
     let mut speeds = vec![0.0; 3000];
     motion.speeds(&[100.0], &mut speeds);
     let mut speed = 100.0;
-    for (i, own) in speeds.iter().enumerate() {
+    for (i, solved) in speeds.iter().enumerate() {
         assert!(
-            (own - speed).abs() <= 1e-12 * speed.abs() * (i + 1) as f64,
-            "{i}: {own}, {speed}"
+            (solved - speed).abs() <= 1e-12 * speed.abs() * (i + 1) as f64,
+            "{i}: {solved}, {speed}"
         );
         speed *= -((20 + i * 7 % 5) as f64) / (20 + i * 11 % 5) as f64;
     }
@@ -254,8 +254,8 @@ fn the_rows_of_a_fault_in_a_long_chain_are_named() {
         panic!("a loop with another ratio moves")
     };
     let rows: Vec<usize> = (200..261).chain([499]).collect();
-    let [Fault::Locked { port: 0, rows: own }] = &faults[..] else {
+    let [Fault::Locked { port: 0, rows: locked }] = &faults[..] else {
         panic!("{faults:?}")
     };
-    assert!(rows.iter().all(|row| own.contains(row)), "{own:?}");
+    assert!(rows.iter().all(|row| locked.contains(row)), "{locked:?}");
 }

@@ -297,12 +297,14 @@ fn finish(registry: &Registry, mut generator: SchemaGenerator, mut root: Value) 
 
 /// A variant of a tagged enum consists of its tag and a reference to its record: merges both into one record, so that it can be closed.
 fn flatten_tagged(root: &mut Value) {
-    let Some(own) = root.get_mut("definitions").and_then(Value::as_object_mut) else {
+    let Some(definitions) = root.get_mut("definitions").and_then(Value::as_object_mut) else {
         return;
     };
-    let records = own.iter().filter(|(_, schema)| schema.get("properties").is_some());
+    let records = definitions
+        .iter()
+        .filter(|(_, schema)| schema.get("properties").is_some());
     let records: Map<String, Value> = records.map(|(name, record)| (name.clone(), record.clone())).collect();
-    for schema in own.values_mut() {
+    for schema in definitions.values_mut() {
         for variant in schema
             .get_mut("oneOf")
             .and_then(Value::as_array_mut)
@@ -329,10 +331,10 @@ fn flatten_tagged(root: &mut Value) {
             variant.shift_remove("allOf");
             for key in ["properties", "required"] {
                 match (variant.get_mut(key), record.get(key)) {
-                    (Some(Value::Object(own)), Some(Value::Object(more))) => {
-                        own.extend(more.iter().map(|(k, v)| (k.clone(), v.clone())));
+                    (Some(Value::Object(present)), Some(Value::Object(more))) => {
+                        present.extend(more.iter().map(|(k, v)| (k.clone(), v.clone())));
                     }
-                    (Some(Value::Array(own)), Some(Value::Array(more))) => own.extend(more.iter().cloned()),
+                    (Some(Value::Array(present)), Some(Value::Array(more))) => present.extend(more.iter().cloned()),
                     _ => {}
                 }
             }

@@ -49,15 +49,15 @@ fn quantity(si: f64, documented: &'static Unit) -> Option<Value> {
     if documented.symbol == Unit::ONE.symbol {
         return None;
     }
-    let own = documented.from_si(si);
+    let number = documented.from_si(si);
     let exact = |number: &f64| documented.to_si(*number).to_bits() == si.to_bits();
     let written = |number: f64, unit: &Unit| format!("{number} {}", unit.symbol);
     if let Some(tidy) = documented.conversion().written(si) {
         return Some(Value::from(written(tidy, documented)));
     }
     // A number with many digits in its documented unit may have few in SI.
-    let own = Some(own).filter(exact).map(|own| written(own, documented));
-    let candidates = own
+    let in_unit = Some(number).filter(exact).map(|number| written(number, documented));
+    let candidates = in_unit
         .into_iter()
         .chain(Unit::si(documented.dimension).map(|unit| written(si, unit)));
     candidates.min_by_key(String::len).map(Value::from)

@@ -29,7 +29,7 @@ pub fn undescribed_stage(word: &str) -> Option<&'static str> {
     let parts: Vec<&str> = word.split(|c: char| !c.is_alphanumeric()).collect();
     let meant = STAGES
         .iter()
-        .find(|(words, _)| words.iter().any(|own| parts.contains(own)));
+        .find(|(words, _)| words.iter().any(|word| parts.contains(word)));
     meant.map(|(_, name)| *name)
 }
 

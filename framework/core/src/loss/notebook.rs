@@ -65,10 +65,10 @@ impl<'a, R: Points> Notebook<'a, R> {
     #[inline]
     pub(crate) fn at_point(&self, point: usize) -> Notebook<'a> {
         let alike = (self.starts >> point >> 1).trailing_zeros();
-        let own = (1_u64 << alike.saturating_add(1).min(32)) - 1;
+        let bits = (1_u64 << alike.saturating_add(1).min(32)) - 1;
         Notebook {
             cells: self.cells,
-            points: self.points & (own << point) as u32,
+            points: self.points & (bits << point) as u32,
             starts: !0,
             kept: self.kept_alone,
             kept_alone: self.kept_alone,

@@ -173,9 +173,9 @@ mod tests {
         assert_eq!(lines.len(), ROWS.len());
         let mut from = 2.0;
         for (line, (to, coefficients)) in lines.iter().zip(ROWS) {
-            let own = [from, to].into_iter().chain(coefficients);
-            for (i, (cell, own)) in line.iter().zip(own).enumerate() {
-                assert_eq!(cell.unwrap_or(f64::INFINITY), own, "column {i} from {from} mm2/s");
+            let expected = [from, to].into_iter().chain(coefficients);
+            for (i, (cell, expected)) in line.iter().zip(expected).enumerate() {
+                assert_eq!(cell.unwrap_or(f64::INFINITY), expected, "column {i} from {from} mm2/s");
             }
             assert_eq!(line.len(), 8);
             from = to;

@@ -124,11 +124,11 @@ impl Answers for Lane {
         let mut all = Along::<Lane>::default();
         let mut kinks = [false; Lane::COUNT];
         let points = path.notes.points();
-        with_space(mu.len(), |own: &mut [f64]| {
+        with_space(mu.len(), |numbers: &mut [f64]| {
             for point in (0..Lane::COUNT).filter(|point| points >> point & 1 == 1) {
-                let along = path.at_point(point, |path| model.uncut_along(path, own));
-                for (mu, own) in mu.iter_mut().zip(&*own) {
-                    mu.set(point, if along.is_ok() { *own } else { f64::NAN });
+                let along = path.at_point(point, |path| model.uncut_along(path, numbers));
+                for (mu, number) in mu.iter_mut().zip(&*numbers) {
+                    mu.set(point, if along.is_ok() { *number } else { f64::NAN });
                 }
                 if let Ok(along) = along {
                     all.first_heat.set(point, along.first_heat);

@@ -53,11 +53,11 @@ pub(super) fn along(
     mu: &mut [Dual],
 ) -> Result<Along<Dual>, Undefined> {
     let evaluate = |number: &dyn Fn(Dual) -> f64| {
-        let mut own = vec![0.0; path.nodes.len()];
-        let along = path.map([Notes::MUTED; 2], number, |path| model.uncut_along(path, &mut own))?;
-        Ok((own, along))
+        let mut values = vec![0.0; path.nodes.len()];
+        let along = path.map([Notes::MUTED; 2], number, |path| model.uncut_along(path, &mut values))?;
+        Ok((values, along))
     };
-    let (values, own) = evaluate(&|x| x.value)?;
+    let (values, value_along) = evaluate(&|x| x.value)?;
     for (mu, value) in mu.iter_mut().zip(values) {
         *mu = Dual {
             value,
@@ -66,10 +66,10 @@ pub(super) fn along(
     }
     let mut along = Along {
         first_heat: Dual {
-            value: own.first_heat,
+            value: value_along.first_heat,
             ..Dual::default()
         },
-        kink: own.kink,
+        kink: value_along.kink,
     };
     let Some(node) = path.nodes.first() else {
         return Ok(along);
@@ -82,7 +82,7 @@ pub(super) fn along(
         };
         let stencil = Stencil::new(step, |s| evaluate(&moved(direction, s)))?;
         for (k, mu) in mu.iter_mut().enumerate() {
-            mu.slopes[direction] = stencil.slope(|(own, _)| own[k]);
+            mu.slopes[direction] = stencil.slope(|(values, _)| values[k]);
         }
         along.first_heat.slopes[direction] = stencil.slope(|(_, along)| along.first_heat);
         path.notes.branch(BY_DIFFERENCES);
@@ -97,7 +97,7 @@ fn moved(direction: usize, distance: f64) -> impl Fn(Dual) -> f64 {
 
 /// The step along a direction; `None` if nothing changes along it.
 fn step<M: Mechanism>(at: &M::At<'_, Dual>, direction: usize) -> Option<f64> {
-    let own = at.map(Notes::MUTED, |x| x.value);
+    let alone = at.map(Notes::MUTED, |x| x.value);
     let change = at.map(Notes::MUTED, |x| x.slopes[direction]);
     let mut most = 0.0_f64;
     for q in M::QUANTITIES {
@@ -108,7 +108,7 @@ fn step<M: Mechanism>(at: &M::At<'_, Dual>, direction: usize) -> Option<f64> {
                 TEMPERATURES
             } else {
                 let usual = if q.usual == 0.0 { q.greatest } else { q.usual };
-                (q.get)(&own).abs().max(LEAST * unit.to_si(usual).abs())
+                (q.get)(&alone).abs().max(LEAST * unit.to_si(usual).abs())
             };
             most = most.max((change / size).abs());
         }

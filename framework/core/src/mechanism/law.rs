@@ -118,12 +118,12 @@ fn within<M: Mechanism>(law: &Law<M>, quantity: &Quantity<M>, value: f64) -> Res
 /// Rejects a law whose quantities contradict each other.
 fn agree<M: Mechanism>(law: &Law<M>, at: &M::At<'_, f64>, stated: &[&'static str]) -> Result<(), Diagnostic> {
     // Of two contradicting quantities, the stated one is named.
-    let own = law
+    let named_law = law
         .quantities
         .iter()
         .find(|(name, _)| stated.contains(name))
         .unwrap_or(&law.quantities[0]);
-    let (name, follows) = own;
+    let (name, follows) = named_law;
     let Some(quantity) = named::<M>(name) else {
         return Ok(());
     };

@@ -573,7 +573,7 @@ impl<R: Real> PathAt<'_, R> {
     /// Runs a function with a path at one point, whose quantities follow from these.
     pub(crate) fn map<T>(
         &self,
-        [mean, own]: [Notes<'_>; 2],
+        [mean, notes]: [Notes<'_>; 2],
         number: impl Fn(R) -> f64,
         run: impl FnOnce(&PathAt<'_>) -> T,
     ) -> T {
@@ -597,7 +597,7 @@ impl<R: Real> PathAt<'_, R> {
             x_l: number(self.x_l),
             bodies: self.bodies.map(|bodies| bodies.map(&number)),
             mean: &mean,
-            notes: own,
+            notes,
         })
     }
 }

@@ -297,10 +297,10 @@ impl Real for Dual {
             let Ok(stencil) = Stencil::new(step * factor, |distance| {
                 Ok::<_, Infallible>(function(self.value + distance))
             });
-            for (n, own) in all.iter_mut().enumerate() {
+            for (n, result) in all.iter_mut().enumerate() {
                 let derivative = stencil.slope(|results| results[n]);
                 for direction in (0..DIRECTIONS).filter(|i| Self::step_factor(*i) == factor) {
-                    own.slopes[direction] = self.slopes[direction] * derivative;
+                    result.slopes[direction] = self.slopes[direction] * derivative;
                 }
             }
         }
@@ -387,11 +387,11 @@ mod tests {
             let kinks = [y, 2.0 * y, 0.3, 40.0];
             prop_assume!(kinks.iter().all(|kink| (x / kink - 1.0).abs() > 0.01));
             let dual = functions(variable(x), Dual::constant(y));
-            for (k, own) in dual.iter().enumerate() {
+            for (k, derived) in dual.iter().enumerate() {
                 let wanted = by_differences(x, |x| functions(x, y)[k]);
-                let scale = wanted.abs() + own.value.abs() / x;
-                prop_assert!((own.slopes[0] - wanted).abs() <= 1e-10 * scale, "{}: {} against {}", k, own.slopes[0], wanted);
-                prop_assert_eq!(own.slopes, [own.slopes[0], own.slopes[0], 0.0, 0.0]);
+                let scale = wanted.abs() + derived.value.abs() / x;
+                prop_assert!((derived.slopes[0] - wanted).abs() <= 1e-10 * scale, "{}: {} against {}", k, derived.slopes[0], wanted);
+                prop_assert_eq!(derived.slopes, [derived.slopes[0], derived.slopes[0], 0.0, 0.0]);
             }
         }
     }

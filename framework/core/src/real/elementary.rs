@@ -158,13 +158,13 @@ mod tests {
     fn the_logarithm_agrees_with_the_standard_library() {
         for i in -10_210..=10_230 {
             let x = 2.0_f64.powf(f64::from(i) * 0.100_07);
-            let (own, std) = (ln(x), x.ln());
-            assert!((own - std).abs() <= 5e-16 * std.abs(), "{x:e}: {own} against {std}");
+            let (ours, std) = (ln(x), x.ln());
+            assert!((ours - std).abs() <= 5e-16 * std.abs(), "{x:e}: {ours} against {std}");
         }
         for i in 1..100_000 {
             let x = 0.5 + f64::from(i) * 1.5e-5;
-            let (own, std) = (ln(x), x.ln());
-            assert!((own - std).abs() <= 5e-16 * std.abs(), "{x}: {own} against {std}");
+            let (ours, std) = (ln(x), x.ln());
+            assert!((ours - std).abs() <= 5e-16 * std.abs(), "{x}: {ours} against {std}");
         }
         assert_eq!(
             [1.0, 0.0, -0.0, f64::MIN_POSITIVE / 2.0, f64::INFINITY].map(ln),

@@ -39,8 +39,8 @@ impl Lane {
     /// A function of each number.
     #[inline(always)]
     pub fn map(mut self, mut number: impl FnMut(f64) -> f64) -> Self {
-        for own in &mut self.0 {
-            *own = number(*own);
+        for x in &mut self.0 {
+            *x = number(*x);
         }
         self
     }
@@ -48,8 +48,8 @@ impl Lane {
     /// A number from two.
     #[inline(always)]
     fn with(mut self, other: Self, number: impl Fn(f64, f64) -> f64) -> Self {
-        for (own, other) in self.0.iter_mut().zip(other.0) {
-            *own = number(*own, other);
+        for (x, other) in self.0.iter_mut().zip(other.0) {
+            *x = number(*x, other);
         }
         self
     }
@@ -57,8 +57,8 @@ impl Lane {
     #[inline(always)]
     fn compare(self, other: Self, holds: impl Fn(f64, f64) -> bool) -> LaneMask {
         let mut mask = LaneMask([0; LANES]);
-        for ((own, a), b) in mask.0.iter_mut().zip(self.0).zip(other.0) {
-            *own = if holds(a, b) { !0 } else { 0 };
+        for ((bits, a), b) in mask.0.iter_mut().zip(self.0).zip(other.0) {
+            *bits = if holds(a, b) { !0 } else { 0 };
         }
         mask
     }
@@ -110,8 +110,8 @@ impl BitAnd for LaneMask {
     type Output = Self;
     #[inline(always)]
     fn bitand(mut self, other: Self) -> Self {
-        for (own, other) in self.0.iter_mut().zip(other.0) {
-            *own &= other;
+        for (bits, other) in self.0.iter_mut().zip(other.0) {
+            *bits &= other;
         }
         self
     }
@@ -121,8 +121,8 @@ impl BitOr for LaneMask {
     type Output = Self;
     #[inline(always)]
     fn bitor(mut self, other: Self) -> Self {
-        for (own, other) in self.0.iter_mut().zip(other.0) {
-            *own |= other;
+        for (bits, other) in self.0.iter_mut().zip(other.0) {
+            *bits |= other;
         }
         self
     }
@@ -132,8 +132,8 @@ impl Not for LaneMask {
     type Output = Self;
     #[inline(always)]
     fn not(mut self) -> Self {
-        for own in &mut self.0 {
-            *own = !*own;
+        for bits in &mut self.0 {
+            *bits = !*bits;
         }
         self
     }
@@ -143,11 +143,11 @@ impl Mask for LaneMask {
     const NEVER: Self = Self([0; LANES]);
     #[inline(always)]
     fn any(self) -> bool {
-        self.0.iter().fold(0, |all, own| all | own) != 0
+        self.0.iter().fold(0, |all, bits| all | bits) != 0
     }
     #[inline(always)]
     fn all(self) -> bool {
-        self.0.iter().fold(!0, |all, own| all & own) != 0
+        self.0.iter().fold(!0, |all, bits| all & bits) != 0
     }
     #[inline(always)]
     fn at_point(self, point: usize) -> bool {
@@ -156,8 +156,8 @@ impl Mask for LaneMask {
     #[inline(always)]
     fn bits(self) -> u32 {
         let mut bits = 0;
-        for (point, own) in self.0.iter().enumerate() {
-            bits |= (*own as u32 & 1) << point;
+        for (point, mask) in self.0.iter().enumerate() {
+            bits |= (*mask as u32 & 1) << point;
         }
         bits
     }
@@ -195,8 +195,8 @@ impl Real for Lane {
     }
     #[inline(always)]
     fn select(mask: LaneMask, mut then: Self, other: Self) -> Self {
-        for ((own, mask), other) in then.0.iter_mut().zip(mask.0).zip(other.0) {
-            *own = f64::from_bits(own.to_bits() & mask | other.to_bits() & !mask);
+        for ((x, mask), other) in then.0.iter_mut().zip(mask.0).zip(other.0) {
+            *x = f64::from_bits(x.to_bits() & mask | other.to_bits() & !mask);
         }
         then
     }
@@ -243,8 +243,8 @@ impl Real for Lane {
             if point > 0 && self.0[point].to_bits() != self.0[point - 1].to_bits() {
                 results = function(self.0[point]);
             }
-            for (own, result) in all.iter_mut().zip(results) {
-                own.0[point] = result;
+            for (lane, result) in all.iter_mut().zip(results) {
+                lane.0[point] = result;
             }
         }
         all
@@ -256,16 +256,16 @@ impl Points for Lane {
     #[inline(always)]
     fn each(mut number: impl FnMut(usize) -> f64) -> Self {
         let mut lane = Self([0.0; LANES]);
-        for (point, own) in lane.0.iter_mut().enumerate() {
-            *own = number(point);
+        for (point, x) in lane.0.iter_mut().enumerate() {
+            *x = number(point);
         }
         lane
     }
     #[inline(always)]
     fn mask(mut holds: impl FnMut(usize) -> bool) -> LaneMask {
         let mut mask = LaneMask([0; LANES]);
-        for (point, own) in mask.0.iter_mut().enumerate() {
-            *own = if holds(point) { !0 } else { 0 };
+        for (point, bits) in mask.0.iter_mut().enumerate() {
+            *bits = if holds(point) { !0 } else { 0 };
         }
         mask
     }
@@ -280,8 +280,8 @@ impl Points for Lane {
     #[inline(always)]
     fn test(self, mut holds: impl FnMut(f64) -> bool) -> LaneMask {
         let mut mask = LaneMask([0; LANES]);
-        for (own, x) in mask.0.iter_mut().zip(self.0) {
-            *own = if holds(x) { !0 } else { 0 };
+        for (bits, x) in mask.0.iter_mut().zip(self.0) {
+            *bits = if holds(x) { !0 } else { 0 };
         }
         mask
     }

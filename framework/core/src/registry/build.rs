@@ -208,8 +208,8 @@ impl<'a> Build<'a> {
 
     /// States parameters of the model that is being built which its part does not need, so that the grades of their defaults do not count.
     pub fn leave_unused(&mut self, keys: impl IntoIterator<Item = &'static str>) {
-        if let Some(own) = self.instances.iter_mut().rfind(|own| own.path == self.path) {
-            own.unused.extend(keys);
+        if let Some(instance) = self.instances.iter_mut().rfind(|instance| instance.path == self.path) {
+            instance.unused.extend(keys);
         }
     }
 

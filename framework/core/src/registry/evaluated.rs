@@ -26,7 +26,9 @@ impl Evaluated {
     /// The value of a step of the formula, in the unit of its source; the last one if it was taken several times.
     pub fn step(&self, symbol: &str) -> Option<f64> {
         self.steps.iter().rev().find_map(|(_, step)| match step {
-            Step::Value { symbol: own, value, .. } if *own == symbol => Some(*value),
+            Step::Value {
+                symbol: name, value, ..
+            } if *name == symbol => Some(*value),
             _ => None,
         })
     }

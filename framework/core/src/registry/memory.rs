@@ -42,9 +42,9 @@ impl Memory {
 
     /// True if the value at a path in an entry is as it was.
     pub(crate) fn is_same_value(&self, path: &str) -> bool {
-        let (entry, own) = split(path);
+        let (entry, place) = split(path);
         let keys = self.changed.get(entry);
-        keys.is_none_or(|keys| keys.iter().all(|key| !is_within(key, own) && !is_within(own, key)))
+        keys.is_none_or(|keys| keys.iter().all(|key| !is_within(key, place) && !is_within(place, key)))
     }
 
     /// True if an entry is as it was.

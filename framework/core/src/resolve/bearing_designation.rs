@@ -181,7 +181,7 @@ fn suffixes(rest: &str) -> Option<Vec<Suffix>> {
             // The rest must be known too: `C3` after `RS1`, not `1C3` after `RS`.
             let (name, meaning) = fits.max_by_key(|(name, _)| name.len())?;
             let sort = (rank(name, *meaning), std::mem::discriminant(meaning));
-            if before.iter().any(|own| own.0 > sort.0 || *own == sort) {
+            if before.iter().any(|known| known.0 > sort.0 || *known == sort) {
                 return None;
             }
             before.push(sort);
@@ -201,7 +201,7 @@ fn matched(written: &str, base: &str) -> Option<usize> {
     for (i, c) in written.char_indices() {
         match base.peek() {
             None => return Some(i),
-            Some(own) if own.eq_ignore_ascii_case(&c) => {
+            Some(letter) if letter.eq_ignore_ascii_case(&c) => {
                 base.next();
             }
             Some(_) if separates(c) => {}
@@ -278,17 +278,17 @@ impl Suffix {
 impl Designation<'_> {
     /// Whether no two suffixes contradict each other, and none states another contact angle than the basic designation has.
     fn is_consistent(&self) -> bool {
-        let count = |of: fn(Meaning) -> bool| self.suffixes.iter().filter(|own| of(own.meaning)).count();
-        let seals = count(|own| matches!(own, Meaning::Seals(..)));
-        let clearances = count(|own| matches!(own, Meaning::Clearance(_)));
+        let count = |of: fn(Meaning) -> bool| self.suffixes.iter().filter(|suffix| of(suffix.meaning)).count();
+        let seals = count(|meaning| matches!(meaning, Meaning::Seals(..)));
+        let clearances = count(|meaning| matches!(meaning, Meaning::Clearance(_)));
         // Tapered roller bearings: B, C and D have other angles.
         let angle = self.base.starts_with('3')
             && self
                 .suffixes
                 .iter()
-                .any(|own| matches!(own.written.as_str(), "B" | "C"));
+                .any(|suffix| matches!(suffix.written.as_str(), "B" | "C"));
         // Only tapered roller bearings have two sizes of one designation.
-        let size = !self.base.starts_with('3') && self.suffixes.iter().any(|own| own.written == "X");
+        let size = !self.base.starts_with('3') && self.suffixes.iter().any(|suffix| suffix.written == "X");
         seals <= 1 && clearances <= 1 && !angle && !size
     }
 

@@ -76,7 +76,7 @@ pub fn basic_designation(designation: &str) -> Option<BasicDesignation> {
     if !letters.is_empty() {
         let (kind, _) = LETTERS
             .iter()
-            .find(|(_, all)| all.split(' ').any(|own| own == letters))?;
+            .find(|(_, all)| all.split(' ').any(|known| known == letters))?;
         return match *kind {
             "cylindrical_roller" if matches!(series.len(), 1 | 2) => Some(basic(kind, Some(series.to_owned()), bore)),
             "four_point_contact_ball" if matches!(series.len(), 1 | 2) => {
@@ -99,8 +99,10 @@ pub fn basic_designation(designation: &str) -> Option<BasicDesignation> {
             _ => None,
         };
     }
-    let (kind, _) = SERIES.iter().find(|(_, all)| all.split(' ').any(|own| own == series))?;
-    let starts = |letters: &[&'static str]| letters.iter().copied().find(|own| suffix.starts_with(own));
+    let (kind, _) = SERIES
+        .iter()
+        .find(|(_, all)| all.split(' ').any(|known| known == series))?;
+    let starts = |letters: &[&'static str]| letters.iter().copied().find(|start| suffix.starts_with(start));
     let (letter, contact_angle) = match *kind {
         "angular_contact_ball" => match starts(&["BE", "B", "AC", "A", "C"]) {
             Some(letter @ ("BE" | "B")) => (Some(letter), Some(40)),

@@ -169,17 +169,17 @@ pub(super) fn fill(
     notes: &mut Vec<String>,
     found: &mut Vec<Diagnostic>,
 ) {
-    let own = written_catalogues(language, files, value, found);
+    let of_gearbox = written_catalogues(language, files, value, found);
     let components = language.registry().sections().map(|(_, s)| (s.name, "bore"));
     // A designation may be just a name, if the required keys are written.
     let sections: Vec<(&str, &str)> = components.chain([(LUBRICANTS, "viscosity")]).collect();
     for (section, needed) in sections {
-        let (shipped, own) = (language.catalogue(section), own.get(section));
+        let (shipped, written) = (language.catalogue(section), of_gearbox.get(section));
         for (id, entry) in entries_mut(value, section) {
             let Some(designation) = entry.get("designation").and_then(Value::as_str).map(str::to_owned) else {
                 continue;
             };
-            let tables = || own.into_iter().chain(shipped);
+            let tables = || written.into_iter().chain(shipped);
             let path = format!("{section}.{id}");
             let mut fill = |designation: &str, row: &CatalogueRow| {
                 fill_entry(language, &path, entry, designation, row, sources, found);
@@ -190,7 +190,7 @@ pub(super) fn fill(
                 notes.push(format!("{path}.designation `{designation}`: {}", read.words()));
                 fill(&designation, &row);
             } else if absent(entry, needed) {
-                let rows = shipped.into_iter().chain(own).flat_map(|t| &t.0);
+                let rows = shipped.into_iter().chain(written).flat_map(|t| &t.0);
                 let rows: Vec<(&str, &CatalogueRow)> = rows.map(|(name, row)| (name.as_str(), row)).collect();
                 found.push(unknown_designation(section, id, &designation, &rows));
             }
@@ -224,7 +224,7 @@ fn written_catalogues(
     value: &Value,
     found: &mut Vec<Diagnostic>,
 ) -> BTreeMap<String, CatalogueTable> {
-    let mut own = BTreeMap::new();
+    let mut tables = BTreeMap::new();
     for (section, file) in value.get("catalogues").and_then(Value::as_object).into_iter().flatten() {
         let path = format!("catalogues.{section}");
         let file = file.as_str().unwrap_or_default();
@@ -233,7 +233,7 @@ fn written_catalogues(
             .and_then(|bytes| CatalogueTable::from_file(&bytes).map_err(|e| format!("{file}: {e}")))
         {
             Ok(table) if section == LUBRICANTS || language.registry().sections().any(|(_, s)| s.name == section) => {
-                own.insert(section.clone(), table);
+                tables.insert(section.clone(), table);
             }
             Ok(_) => {
                 let sections = language.registry().sections().map(|(_, s)| s.name);
@@ -245,7 +245,7 @@ fn written_catalogues(
             }
         }
     }
-    own
+    tables
 }
 
 /// The error for a designation without a row, among all rows of its section.

@@ -113,8 +113,8 @@ pub fn expand_set(sets: &BTreeMap<String, Value>, name: &str) -> Result<ModelSet
     while let Some(name) = next {
         let Some((known, set)) = sets.get_key_value(name) else {
             // A set cannot extend the gearbox's own models.
-            let own = chain.is_empty().then_some(OWN_MODELS);
-            let names: Vec<&str> = sets.keys().map(String::as_str).chain(own).collect();
+            let own_models = chain.is_empty().then_some(OWN_MODELS);
+            let names: Vec<&str> = sets.keys().map(String::as_str).chain(own_models).collect();
             let path = chain
                 .last()
                 .map_or_else(|| "model_sets".to_owned(), |last| format!("model_sets.{last}.extends"));

@@ -9,32 +9,33 @@ const SUGGESTED: usize = 5;
 
 /// A length in a row. \[mm\]
 fn length(row: &CatalogueRow, key: &str) -> Option<f64> {
-    let (_, value) = row.values.iter().find(|(own, _)| own == key)?;
+    let (_, value) = row.values.iter().find(|(name, _)| name == key)?;
     value.as_str().and_then(|text| text.strip_suffix(" mm"))?.parse().ok()
 }
 
 /// A text of a row.
 fn text<'a>(row: &'a CatalogueRow, key: &str) -> Option<&'a str> {
-    row.values.iter().find(|(own, _)| own == key)?.1.as_str()
+    row.values.iter().find(|(name, _)| name == key)?.1.as_str()
 }
 
 /// The known designation at the start of a longer one, with what is behind it.
 fn start_and_rest<'w, 'k>(designation: &'w str, known: impl Iterator<Item = &'k str>) -> Option<(&'k str, &'w str)> {
-    let starts = |own: &&str| {
-        let start = designation.get(..own.len());
+    let starts = |start_of_known: &&str| {
+        let start = designation.get(..start_of_known.len());
         // A digit behind it would make it another designation.
-        let goes_on = |c: char| c.is_ascii_digit() && own.ends_with(|c: char| c.is_ascii_digit());
-        start.is_some_and(|start| start.eq_ignore_ascii_case(own)) && !designation[own.len()..].starts_with(goes_on)
+        let goes_on = |c: char| c.is_ascii_digit() && start_of_known.ends_with(|c: char| c.is_ascii_digit());
+        start.is_some_and(|start| start.eq_ignore_ascii_case(start_of_known))
+            && !designation[start_of_known.len()..].starts_with(goes_on)
     };
-    let own = known.filter(starts).max_by_key(|own| own.len())?;
-    let rest = designation[own.len()..].trim_matches(|c: char| c.is_whitespace() || c == '-' || c == '/');
-    (!rest.is_empty()).then_some((own, rest))
+    let longest = known.filter(starts).max_by_key(|start| start.len())?;
+    let rest = designation[longest.len()..].trim_matches(|c: char| c.is_whitespace() || c == '-' || c == '/');
+    (!rest.is_empty()).then_some((longest, rest))
 }
 
 /// The known designation at the start of a longer one, as a sentence with what is behind it.
 pub fn known_start<'a>(designation: &str, known: impl Iterator<Item = &'a str>) -> Option<String> {
-    let (own, rest) = start_and_rest(designation, known)?;
-    Some(format!("`{own}` is known, but not what `{rest}` behind it means"))
+    let (longest, rest) = start_and_rest(designation, known)?;
+    Some(format!("`{longest}` is known, but not what `{rest}` behind it means"))
 }
 
 /// Adds suggestions for the designation to an error; `here` lists what can be stated instead.
@@ -42,11 +43,11 @@ pub fn known_start<'a>(designation: &str, known: impl Iterator<Item = &'a str>) 
 /// Another part is not a misspelling: only rows of the same kind and bore are suggested, and as the correct spelling only a name with
 /// the same numbers for what is no usual designation.
 pub(super) fn suggest(error: Diagnostic, designation: &str, rows: &[(&str, &CatalogueRow)], here: &str) -> Diagnostic {
-    if let Some((own, rest)) = start_and_rest(designation, rows.iter().map(|(name, _)| *name)) {
+    if let Some((longest, rest)) = start_and_rest(designation, rows.iter().map(|(name, _)| *name)) {
         return error
-            .note(format!("`{own}` is known, but not what `{rest}` behind it means"))
+            .note(format!("`{longest}` is known, but not what `{rest}` behind it means"))
             .help(format!(
-                "write `{own}` if `{rest}` changes neither dimensions nor ratings, or {here}"
+                "write `{longest}` if `{rest}` changes neither dimensions nor ratings, or {here}"
             ));
     }
     let Some(basic) = basic_designation(designation).filter(|_| has_bores(rows)) else {

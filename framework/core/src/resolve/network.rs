@@ -17,7 +17,7 @@ pub(super) fn meets_inside(pattern: &str) -> bool {
     let mut keys = pattern.split('.');
     NETWORK
         .split('.')
-        .all(|own| keys.next().is_some_and(|key| key == own || key == "*"))
+        .all(|part| keys.next().is_some_and(|key| key == part || key == "*"))
         && keys.next().is_some()
 }
 

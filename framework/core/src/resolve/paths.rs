@@ -24,7 +24,7 @@ pub fn meets(pattern: &str, path: &str) -> bool {
     pattern == path
         || pattern
             .split('.')
-            .all(|own| keys.next().is_some_and(|key| own == "*" || own == key))
+            .all(|part| keys.next().is_some_and(|key| part == "*" || part == key))
 }
 
 /// All paths that a pattern matches, in the order of the document. The last key may be missing if its parent exists: the schema

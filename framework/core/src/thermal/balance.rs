@@ -242,7 +242,7 @@ fn search<E>(
     let mut closings: Vec<Closings> = scans
         .into_iter()
         .zip(&mut search.found)
-        .map(|(scan, own)| own.bracket(scan))
+        .map(|(scan, found)| found.bracket(scan))
         .collect();
     loop {
         let asked: Vec<(usize, f64)> = everyone
@@ -257,8 +257,8 @@ fn search<E>(
             closings[*member].take(step);
         }
     }
-    for (own, closings) in search.found.iter_mut().zip(closings) {
-        own.outcome = match &own.stable[..] {
+    for (found, closings) in search.found.iter_mut().zip(closings) {
+        found.outcome = match &found.stable[..] {
             [] if closings.gap => Outcome::Undefined,
             [] => Outcome::NoneBelowMaximum,
             [one] if one.beyond.is_some() => Outcome::AtDiscontinuity,
@@ -416,11 +416,11 @@ mod tests {
                 each.collect()
             });
             prop_assert_eq!(estimated, (STRETCHES + 1) * members.len());
-            for (member, own) in found.iter().enumerate() {
+            for (member, together) in found.iter().enumerate() {
                 let alone = balance([20.0, 150.0], |t| Ok::<_, ()>(exact(member, t)));
-                prop_assert_eq!((own.outcome, &own.stable), (alone.outcome, &alone.stable));
-                prop_assert_eq!((own.spacing, own.undefined), (alone.spacing, None));
-                prop_assert!(own.history.len() <= alone.history.len());
+                prop_assert_eq!((together.outcome, &together.stable), (alone.outcome, &alone.stable));
+                prop_assert_eq!((together.spacing, together.undefined), (alone.spacing, None));
+                prop_assert!(together.history.len() <= alone.history.len());
             }
         }
     }

@@ -285,12 +285,12 @@ mod tests {
     /// A housing with paths of constant conductance from the surface: conductance in W/K, heat sink in degC.
     fn housing(ways: &[(f64, f64)], resistance: f64, source: f64) -> Housing {
         // A registry needs at least one model in addition to the generic ones.
-        let own = Entry {
+        let entry = Entry {
             name: "stand_in",
             ..crate::generic::entries::<HeatDissipation>()[0]
         };
         let mechanism = MechanismEntry::new::<HeatDissipation>(crate::origin!());
-        let registry = Registry::from_entries([mechanism], [own], [], []).unwrap();
+        let registry = Registry::from_entries([mechanism], [entry], [], []).unwrap();
         let files = Files::default();
         let mut build = Build::new(&registry, &files);
         let part = Arc::new(HousingPart::from(OutsideEntry::default()));

@@ -185,7 +185,7 @@ fn limited(
             list.extend((first..first + instance.entry.limits.len()).map(|cell| (cell, part)));
         }
     }
-    let places: HashMap<&str, usize> = parts.iter().map(|own| own.path.as_str()).zip(0..).collect();
+    let places: HashMap<&str, usize> = parts.iter().map(|part| part.path.as_str()).zip(0..).collect();
     for (i, rated) in rated.iter().enumerate() {
         let bearing = places.get(supports[rated.support].path.as_str());
         list.extend(bearing.map(|part| (cells + i, *part)));
@@ -271,7 +271,7 @@ fn entry_again(language: &Language, document: &Value, memory: &mut Memory) -> Re
     for path in memory.changed() {
         let (section, id) = path.split_once('.').unwrap_or((path, ""));
         // The sections of components are read where they are placed.
-        if !language.registry().sections().any(|(_, own)| own.name == section) {
+        if !language.registry().sections().any(|(_, known)| known.name == section) {
             entry.read_again(document, section, id)?;
         }
     }
@@ -668,8 +668,8 @@ fn levels(entry: &GearboxEntry, gears: &[GearSeat], oils: &OilNumbers<'_>) -> Ve
     let seats = gears.iter().enumerate();
     seats
         .map(|(i, g)| {
-            let own = entry.gears.0[i].1.level;
-            own.map_or_else(|| oils.level(Some(g.member as u16), g.at), Level::Own)
+            let stated = entry.gears.0[i].1.level;
+            stated.map_or_else(|| oils.level(Some(g.member as u16), g.at), Level::Own)
         })
         .collect()
 }

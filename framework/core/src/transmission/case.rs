@@ -41,7 +41,9 @@ struct Asked {
 impl Cases {
     fn get(&self, asked: &Asked) -> Option<Case> {
         let kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        kept.iter().find(|(own, _)| own == asked).map(|(_, case)| case.clone())
+        kept.iter()
+            .find(|(known, _)| known == asked)
+            .map(|(_, case)| case.clone())
     }
 
     fn keep(&self, asked: Asked, case: &Case) {
@@ -211,8 +213,8 @@ impl Transmission {
     /// # Errors
     /// The required numbers, with a fix.
     pub fn takes_one(&self, state: usize) -> Result<(), Diagnostic> {
-        let (torques, own) = (self.torques_needed(state), &self.states[state]);
-        if own.freedom <= 1 && torques <= 1 {
+        let (torques, described) = (self.torques_needed(state), &self.states[state]);
+        if described.freedom <= 1 && torques <= 1 {
             return Ok(());
         }
         let reference = self.reference_port();
@@ -220,12 +222,12 @@ impl Transmission {
         let others: Vec<&str> = others.map(|(_, port)| port.name.as_str()).collect();
         let plural = |count: usize| if count == 1 { "" } else { "s" };
         let error = Diagnostic::error(
-            path_of_state(&own.name),
+            path_of_state(&described.name),
             format!(
                 "`{}` requires {} given speed{} and {torques} given torque{}, but an analysis states one of each",
-                own.name,
-                own.freedom,
-                plural(own.freedom),
+                described.name,
+                described.freedom,
+                plural(described.freedom),
                 plural(torques)
             ),
         );

@@ -195,11 +195,11 @@ impl Drags<'_, '_, '_> {
     /// Reports what a model of a mesh and one of its gears both compute.
     fn check_meshes_against_gears(&mut self) {
         let first = self.gears.len();
-        let is_mesh = |(own, ..): &&Covered| own.first().is_some_and(|number| *number >= first);
-        for (own, mesh_path, mesh_covers) in self.covered.iter().filter(is_mesh) {
-            let mesh = &self.meshes[own[0] - first];
+        let is_mesh = |(numbers, ..): &&Covered| numbers.first().is_some_and(|number| *number >= first);
+        for (numbers, mesh_path, mesh_covers) in self.covered.iter().filter(is_mesh) {
+            let mesh = &self.meshes[numbers[0] - first];
             let of_gears = self.covered.iter().filter(|covered| !is_mesh(covered));
-            let of_gears = of_gears.filter(|(own, ..)| own.iter().any(|gear| mesh.gears.contains(gear)));
+            let of_gears = of_gears.filter(|(numbers, ..)| numbers.iter().any(|gear| mesh.gears.contains(gear)));
             self.found
                 .extend(of_gears.filter_map(|(_, path, covers)| doubled((mesh_path, *mesh_covers), (path, *covers))));
         }

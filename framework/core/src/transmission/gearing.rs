@@ -478,12 +478,14 @@ fn one_orbit<'a>(
         if planet.is_none() {
             continue;
         }
-        let mut own = meshes
+        let mut meshes_of_body = meshes
             .clone()
             .filter(|(m, _)| m.members.contains(&body) && !m.members.iter().all(|b| members.planets[*b].is_some()));
-        let Some((first, at_first)) = own.next() else { continue };
+        let Some((first, at_first)) = meshes_of_body.next() else {
+            continue;
+        };
         let distance = first.pair.centre_distance;
-        for (other, at_other) in own {
+        for (other, at_other) in meshes_of_body {
             let more = other.pair.centre_distance;
             if equal(more, distance) {
                 continue;

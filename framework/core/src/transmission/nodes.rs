@@ -101,7 +101,7 @@ impl NodeNames {
 
     /// Number of a node by its name.
     pub fn node(&self, name: &str) -> Option<usize> {
-        self.names.iter().position(|own| own == name)
+        self.names.iter().position(|known| known == name)
     }
 
     /// Names of all nodes.

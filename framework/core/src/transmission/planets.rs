@@ -182,10 +182,10 @@ pub fn models(
         let (Some(carrier), Some(first)) = (member(&set.carrier), bodies.first()) else {
             continue;
         };
-        let own: Vec<usize> = (0..gears.len())
+        let gears_of_set: Vec<usize> = (0..gears.len())
             .filter(|g| bodies.contains(&gears[*g].member))
             .collect();
-        let planets = own
+        let planets = gears_of_set
             .iter()
             .filter(|g| gears[**g].member == *first)
             .filter_map(|g| {
@@ -223,7 +223,7 @@ pub fn models(
         let Some(oil) = oils.oil(&path, &common) else { continue };
         let covers = if model.off { Covers::default() } else { model.covers() };
         held.push(Held {
-            covered: (own, format!("{path}.model"), covers),
+            covered: (gears_of_set, format!("{path}.model"), covers),
             loss_factor: set.loss_factor,
             path,
             placed: Box::new(PlacedDrag {
@@ -274,8 +274,8 @@ pub fn assembly(
                 );
             }
             // For a single gear between a sun and a ring the condition is known; a stepped planet can be rotated to match.
-            let own: Vec<&MeshSeat> = meshes.iter().filter(|m| m.members.contains(&body)).collect();
-            let [a, b] = own[..] else { continue };
+            let seats: Vec<&MeshSeat> = meshes.iter().filter(|m| m.members.contains(&body)).collect();
+            let [a, b] = seats[..] else { continue };
             let one_gear = a.gears.iter().any(|g| b.gears.contains(g));
             if one_gear && a.pair.internal != b.pair.internal {
                 let central = |m: &MeshSeat| {

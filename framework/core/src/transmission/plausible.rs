@@ -51,7 +51,7 @@ pub fn shifts(path: &str, spec: &PairSpec, pair: &Pair, follows: [bool; 2], most
     if largest <= most {
         return None;
     }
-    let own: Vec<String> = (0..2)
+    let modules: Vec<String> = (0..2)
         .filter(|i| follows[*i])
         .map(|i| format!("x{} = {:.3}", i + 1, pair.profile_shift[i]))
         .collect();
@@ -59,7 +59,7 @@ pub fn shifts(path: &str, spec: &PairSpec, pair: &Pair, follows: [bool; 2], most
         path,
         format!(
             "profile shift {} follows from the centre distance of {:.4} mm only",
-            own.join(", "),
+            modules.join(", "),
             pair.centre_distance * 1e3
         ),
     )

@@ -263,7 +263,7 @@ fn unsupported(
     for (i, name) in members.names.iter().enumerate() {
         let section = if members.loose[i] { "gears" } else { "shafts" };
         let path = format!("{section}.{name}");
-        let own: Vec<&SupportLayout> = supports_of[i].iter().map(|s| &layout.supports[*s]).collect();
+        let supports: Vec<&SupportLayout> = supports_of[i].iter().map(|s| &layout.supports[*s]).collect();
         let meshes = meshes_of[i].iter().map(|mesh| &layout.meshes[*mesh]);
         let member = &layout.members[i];
         let loaded = meshes
@@ -275,7 +275,7 @@ fn unsupported(
         } else {
             entry.shafts.get(name).and_then(|shaft| shaft.bearings)
         };
-        match (own.is_empty(), without) {
+        match (supports.is_empty(), without) {
             (true, Some(Unsupported::None)) => continue,
             (true, None) if loaded && members.planets[i].is_some() => {
                 planets.push(name.as_str());
@@ -303,9 +303,9 @@ fn unsupported(
             _ => {}
         }
         let helical = meshes.clone().any(|m| m.hand_tan_beta != 0.0);
-        if helical && !members.loose[i] && !own.is_empty() {
+        if helical && !members.loose[i] && !supports.is_empty() {
             for (side, words) in [(Axial::Right, "+x"), (Axial::Left, "-x")] {
-                let taken = own.iter().any(|s| s.axial == side || s.axial == Axial::Both);
+                let taken = supports.iter().any(|s| s.axial == side || s.axial == Axial::Both);
                 if !taken {
                     warnings.push(
                         Diagnostic::warning(path.clone(), format!("no bearing takes thrust towards {words}"))

@@ -279,9 +279,9 @@ mod tests {
         // The last row of the code extends beyond the diagram.
         assert_eq!(table.rows().count(), V_M.len() - 1);
         for (line, (ball, roller)) in table.rows().zip(V_M.iter().zip(V_M_ROLLERS)) {
-            for (column, own) in [("ball", *ball), ("roller", roller)] {
-                line.is("H/d_m", own.0);
-                line.is(column, own.1);
+            for (column, constants) in [("ball", *ball), ("roller", roller)] {
+                line.is("H/d_m", constants.0);
+                line.is(column, constants.1);
             }
         }
         // Constant from there on.

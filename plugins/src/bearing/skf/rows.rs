@@ -576,11 +576,11 @@ mod tests {
                     let [n, nu] = [1000.0, 30.0];
                     let all = row.evaluate(radial, fa, Lane::constant(n), Lane::constant(nu), blend);
                     for i in 0..LANES {
-                        let own = row.evaluate(radial[i], fa[i], n, nu, blend);
+                        let alone = row.evaluate(radial[i], fa[i], n, nu, blend);
                         let bits = |(g_rr, g_sl): (f64, f64)| (g_rr.to_bits(), g_sl.to_bits());
                         assert_eq!(
                             bits((all.0[i], all.1[i])),
-                            bits(own),
+                            bits(alone),
                             "{blend:?} {} {}",
                             radial[i],
                             fa[i]
@@ -642,7 +642,7 @@ mod tests {
             assert_eq!(is_of_other_series(&part), series != "other");
             format!("{:?}", row(&part, false).unwrap())
         });
-        assert!(rows.iter().all(|own| *own == rows[0]));
+        assert!(rows.iter().all(|bits| *bits == rows[0]));
         assert!(row(&part(BearingKind::AngularContactBall, "72BE", 65.0), false).is_ok());
         // A pair of single-row bearings is two bearings, not a double row.
         assert!(row(&part(BearingKind::AngularContactBallDoubleRow, "72 BE", 65.0), false).is_err());
@@ -690,9 +690,9 @@ mod tests {
                 ("thrust_ball", _) => (K::ThrustBall, ""),
                 (other, _) => panic!("{other}"),
             };
-            let own = constants(kind, series);
-            line.is("K_Z", own.k_z);
-            match own.variables {
+            let constants_of_row = constants(kind, series);
+            line.is("K_Z", constants_of_row.k_z);
+            match constants_of_row.variables {
                 Variables::DeepGroove {
                     rolling,
                     r2,
@@ -728,11 +728,11 @@ mod tests {
                 other => panic!("{other:?}"),
             }
         }
-        let own = names(DEEP_GROOVE)
+        let listed = names(DEEP_GROOVE)
             .chain(names(SELF_ALIGNING))
             .chain(names(ANGULAR))
             .chain(names(ANGULAR_DOUBLE));
-        for name in own.filter(|name| *name != "other") {
+        for name in listed.filter(|name| *name != "other") {
             assert!(met.contains(&name), "{name} is not in the transcription");
         }
     }
@@ -755,11 +755,11 @@ mod tests {
                 ("spherical_roller_thrust", _) => (K::SphericalRollerThrust, series.replace(" E", "E")),
                 (other, _) => panic!("{other}"),
             };
-            let own = constants(kind, &series);
+            let constants_of_row = constants(kind, &series);
             met.push(series);
-            line.is("K_Z", own.k_z);
-            line.is("K_L", own.k_l.unwrap());
-            match own.variables {
+            line.is("K_Z", constants_of_row.k_z);
+            line.is("K_L", constants_of_row.k_l.unwrap());
+            match constants_of_row.variables {
                 Variables::Cylindrical { rolling, axial, radial } => {
                     line.is("R1", rolling);
                     line.is("S1", axial);
@@ -816,12 +816,12 @@ mod tests {
                 other => panic!("{other:?}"),
             }
         }
-        let own = names(CYLINDRICAL)
+        let listed = names(CYLINDRICAL)
             .chain(names(TAPERED))
             .chain(names(SPHERICAL))
             .chain(names(TOROIDAL))
             .chain(names(SPHERICAL_THRUST));
-        for name in own {
+        for name in listed {
             // Alternative spellings of two series.
             let name = match name {
                 "320" => "320 X",

@@ -158,8 +158,8 @@ mod tests {
             [1.0 / 3.0, 0.5, 0.25],
         ] {
             let expected = cubic(place[0], place[1], place[2]);
-            for (own, expected) in spline.value(place).iter().zip(expected) {
-                assert!((own - expected).abs() < 1e-13, "{own} {expected} at {place:?}");
+            for (value, expected) in spline.value(place).iter().zip(expected) {
+                assert!((value - expected).abs() < 1e-13, "{value} {expected} at {place:?}");
             }
         }
     }

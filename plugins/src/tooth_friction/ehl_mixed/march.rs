@@ -134,14 +134,14 @@ impl<R: Points> Sums<R> {
     /// These sums where a condition holds, others elsewhere.
     #[inline(always)]
     fn select(mask: R::Mask, then: Self, other: Self) -> Self {
-        let own = |of: fn(&Self) -> R| R::select(mask, of(&then), of(&other));
+        let selected = |of: fn(&Self) -> R| R::select(mask, of(&then), of(&other));
         Self {
-            weight: own(|sums| sums.weight),
-            heat: own(|sums| sums.heat),
-            first: own(|sums| sums.first),
-            conductance: own(|sums| sums.conductance),
-            bodies: [own(|sums| sums.bodies[0]), own(|sums| sums.bodies[1])],
-            heats: [own(|sums| sums.heats[0]), own(|sums| sums.heats[1])],
+            weight: selected(|sums| sums.weight),
+            heat: selected(|sums| sums.heat),
+            first: selected(|sums| sums.first),
+            conductance: selected(|sums| sums.conductance),
+            bodies: [selected(|sums| sums.bodies[0]), selected(|sums| sums.bodies[1])],
+            heats: [selected(|sums| sums.heats[0]), selected(|sums| sums.heats[1])],
         }
     }
 }

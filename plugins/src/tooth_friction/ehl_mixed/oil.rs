@@ -60,7 +60,7 @@ impl MeshFluid {
     /// # Errors
     /// All values that neither states.
     pub fn new(written: Written, oil: Option<&MeshOil>, cx: &Build<'_>) -> Result<Self, Diagnostic> {
-        let own = oil.map(|oil| *oil.lubricant.rheology()).unwrap_or_default();
+        let of_lubricant = oil.map(|oil| *oil.lubricant.rheology()).unwrap_or_default();
         let mut missing = Vec::new();
         let mut need = |value: Option<f64>, key: &'static str| {
             value.unwrap_or_else(|| {
@@ -69,10 +69,13 @@ impl MeshFluid {
             })
         };
         let rheology = Rheology {
-            tau0: need(written.tau0.or(own.tau0), "tau0"),
-            limiting_slope: need(written.limiting_slope.or(own.limiting_slope), "limiting_slope"),
-            mu_b: need(written.mu_b.or(own.mu_b), "mu_b"),
-            shear_modulus: written.shear_modulus.or(own.shear_modulus).unwrap_or(USUAL_MODULUS),
+            tau0: need(written.tau0.or(of_lubricant.tau0), "tau0"),
+            limiting_slope: need(written.limiting_slope.or(of_lubricant.limiting_slope), "limiting_slope"),
+            mu_b: need(written.mu_b.or(of_lubricant.mu_b), "mu_b"),
+            shear_modulus: written
+                .shear_modulus
+                .or(of_lubricant.shear_modulus)
+                .unwrap_or(USUAL_MODULUS),
         };
         if !missing.is_empty() {
             let fault = cx.error(format!(
@@ -85,7 +88,7 @@ impl MeshFluid {
                 None => fault.help(format!("write {} beside `type`", missing.join(", "))),
             });
         }
-        let z = written.z.or(own.z);
+        let z = written.z.or(of_lubricant.z);
         Ok(Self {
             rheology,
             z,

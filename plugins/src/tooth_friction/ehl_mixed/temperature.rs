@@ -92,8 +92,8 @@ impl FilmHeat {
 /// the band and from body to oil.
 #[inline(always)]
 pub fn first_share<R: Real>(bands: [R; 2], bodies: [R; 2]) -> R {
-    let own = [bands[0] + bodies[0], bands[1] + bodies[1]];
-    own[1] / (own[0] + own[1])
+    let resistances = [bands[0] + bodies[0], bands[1] + bodies[1]];
+    resistances[1] / (resistances[0] + resistances[1])
 }
 
 /// Heat into the first body between bodies at given temperatures. \[W\] Without friction it is the heat from the warmer body to the
@@ -151,8 +151,8 @@ mod tests {
             let (half, length) = (1e-4, 0.03);
             let speed = 2.0 * pe * STEEL.diffusivity() / half;
             // One watt on the area 2 a L.
-            let own = STEEL.resistance(half, length, speed) * 2.0 * length * STEEL.conductivity;
-            let ratio = own / jaeger(pe);
+            let band = STEEL.resistance(half, length, speed) * 2.0 * length * STEEL.conductivity;
+            let ratio = band / jaeger(pe);
             assert!((0.935..1.08).contains(&ratio), "{pe}: {ratio}");
         }
     }

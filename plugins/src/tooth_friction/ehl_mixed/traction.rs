@@ -255,9 +255,12 @@ mod tests {
         for s in [2e-4, 0.01, 0.3, 1.0, 3.0, 20.0] {
             for d0 in [0.02, 0.3, 1.0, 30.0, 900.0] {
                 for limit in [FREE, 1.5, 0.2] {
-                    let (own, solved) = (exact(s, d0, limit), integrated(s, d0, limit));
+                    let (closed, solved) = (exact(s, d0, limit), integrated(s, d0, limit));
                     // The integration step that reaches the limit is cut; that leaves about 1e-6.
-                    assert!((own / solved - 1.0).abs() < 3e-6, "{s} {d0} {limit}: {own} {solved}");
+                    assert!(
+                        (closed / solved - 1.0).abs() < 3e-6,
+                        "{s} {d0} {limit}: {closed} {solved}"
+                    );
                 }
             }
         }

@@ -332,8 +332,8 @@ fn undercut_begins_at_seventeen_teeth() {
 fn specific_sliding_is_that_of_the_surface_speeds_at_the_ends() {
     for pair in [fzg_c14(), helical(), internal()] {
         let at = |x: f64| {
-            let [own, mate] = pair.curvature(x);
-            [own, mate / pair.ratio()]
+            let [first, mate] = pair.curvature(x);
+            [first, mate / pair.ratio()]
         };
         let ([v1, v2], [w1, w2]) = (at(pair.points[0]), at(pair.points[4]));
         let [first, second] = pair.specific_sliding();

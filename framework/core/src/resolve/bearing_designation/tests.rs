@@ -74,8 +74,8 @@ fn fifty_usual_designations_are_found() {
     ];
     assert!(all.len() >= 50);
     for (written, base) in all {
-        let own = found(written);
-        assert_eq!(own.map(|own| own.base), Some(base), "{written}");
+        let read = found(written);
+        assert_eq!(read.map(|read| read.base), Some(base), "{written}");
     }
 }
 

@@ -73,9 +73,9 @@ impl<E, L: FnMut(&[(usize, f64)], Accuracy) -> Vec<Result<Step, E>>> Search<E, L
             step: *step,
             accuracy,
         };
-        let own = |number: usize| steps.iter().skip(number).step_by(members.len());
+        let steps_of_member = |number: usize| steps.iter().skip(number).step_by(members.len());
         (0..members.len())
-            .map(|number| places.iter().zip(own(number)).map(scanned).collect())
+            .map(|number| places.iter().zip(steps_of_member(number)).map(scanned).collect())
             .collect()
     }
 
@@ -131,7 +131,7 @@ impl<E> Balance<E> {
             self.stable.push(Root::from_step(*first));
         }
         let mut brackets = Vec::new();
-        let mut gap = scan.iter().all(|own| own.step.is_none());
+        let mut gap = scan.iter().all(|scanned| scanned.step.is_none());
         for pair in scan.windows(2) {
             match (pair[0].step, pair[1].step) {
                 (Some(a), Some(b)) if is_bracket(&pair[0], &pair[1]) => brackets.push([a, b]),

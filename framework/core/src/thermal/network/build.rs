@@ -141,7 +141,7 @@ fn law(
     path: &str,
     link: &LinkEntry,
     around: &Around<'_>,
-    own: Option<&Arc<Lubricant>>,
+    of_network: Option<&Arc<Lubricant>>,
     build: &mut Build<'_>,
     found: &mut Vec<Diagnostic>,
 ) -> Option<Link> {
@@ -181,7 +181,7 @@ fn law(
             }
             named
         }
-        None => own,
+        None => of_network,
     };
     if matches!(gear, Some(None)) {
         return None;

@@ -80,9 +80,9 @@ impl Circuit {
         let mut k = DMatrix::zeros(self.len(), self.len());
         let mut coolants = DVector::zeros(self.len());
         for ([a, b], g) in &self.links {
-            for (own, other) in [(*a, *b), (*b, *a)] {
-                k[(own, own)] += g;
-                k[(own, other)] -= g;
+            for (node, other) in [(*a, *b), (*b, *a)] {
+                k[(node, node)] += g;
+                k[(node, other)] -= g;
             }
         }
         for ([from, to], flow) in &self.flows {
@@ -147,9 +147,9 @@ impl Circuit {
             }
         }
         for ([a, b], g) in &self.links {
-            for (own, other) in [(*a, *b), (*b, *a)] {
-                if is_held(own) && !is_held(other) {
-                    leaving.held[own] += g * (temperatures[other] - temperatures[own]);
+            for (node, other) in [(*a, *b), (*b, *a)] {
+                if is_held(node) && !is_held(other) {
+                    leaving.held[node] += g * (temperatures[other] - temperatures[node]);
                 }
             }
         }

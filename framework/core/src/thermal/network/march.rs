@@ -56,8 +56,8 @@ impl Heats {
     }
 
     /// Linear combination with another.
-    pub(super) fn combine(&mut self, own: f64, more: &Self, share: f64) {
-        let one = |sum: &mut f64, x: f64| *sum = own * *sum + share * x;
+    pub(super) fn combine(&mut self, factor: f64, more: &Self, share: f64) {
+        let one = |sum: &mut f64, x: f64| *sum = factor * *sum + share * x;
         let each = |sums: &mut Vec<f64>, more: &[f64]| {
             sums.resize(sums.len().max(more.len()), 0.0);
             sums.iter_mut().zip(more).for_each(|(sum, x)| one(sum, *x));

@@ -39,10 +39,10 @@ impl Network {
             let found = motor.map.loss(speed, torque, temperatures[motor.stator]);
             outside |= found.outside;
             let share = motor.rotor_share.share_at(speed.abs()).unwrap_or(0.0);
-            let own = [share * found.loss, (1.0 - share) * found.loss];
-            heat[motor.rotor] += own[0];
-            heat[motor.stator] += own[1];
-            losses.push(own);
+            let losses_of_motor = [share * found.loss, (1.0 - share) * found.loss];
+            heat[motor.rotor] += losses_of_motor[0];
+            heat[motor.stator] += losses_of_motor[1];
+            losses.push(losses_of_motor);
         }
         outside
     }

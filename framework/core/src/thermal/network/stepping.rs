@@ -178,14 +178,14 @@ impl Stepping {
         let trials = &mut self.trials;
         self.passes = implicit(heated, now, trials)?;
         let mut passed: Vec<Passed> = Vec::with_capacity(durations.len());
-        for own in trials.chunk_by(|a, b| a.stage == b.stage) {
+        for stage in trials.chunk_by(|a, b| a.stage == b.stage) {
             let mut heats = Heats::default();
-            for trial in own {
+            for trial in stage {
                 heated.stepped(Some((trial.length, &trial.warm)));
                 heats.add(&trial.heats(now));
                 now.clone_from(&trial.after);
             }
-            passed.extend(own.last().map(|last| last.passed(heats, now)));
+            passed.extend(stage.last().map(|last| last.passed(heats, now)));
         }
         Ok(passed)
     }

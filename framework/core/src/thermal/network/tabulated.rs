@@ -110,15 +110,15 @@ impl Network {
 
     /// Member, rotor and stator node of a motor, by its number.
     pub fn motor_nodes(&self, motor: usize) -> (usize, [usize; 2]) {
-        let own = &self.motors[motor];
-        (own.member, [own.rotor, own.stator])
+        let seat = &self.motors[motor];
+        (seat.member, [seat.rotor, seat.stator])
     }
 
     /// Losses of a motor in rotor and stator at a speed (rad/s), a torque (Nm) and a temperature of its windings (degC). \[W\]
     pub fn motor_loss(&self, motor: usize, speed: f64, torque: f64, temperature: f64) -> [f64; 2] {
-        let own = &self.motors[motor];
-        let loss = own.map.loss(speed, torque, temperature).loss;
-        let share = own.rotor_share.share_at(speed.abs()).unwrap_or(0.0);
+        let seat = &self.motors[motor];
+        let loss = seat.map.loss(speed, torque, temperature).loss;
+        let share = seat.rotor_share.share_at(speed.abs()).unwrap_or(0.0);
         [share * loss, (1.0 - share) * loss]
     }
 

@@ -313,8 +313,8 @@ fn intervals(unit: &mut Unit, step: f64, together: bool) -> (Vec<f64>, Heats, Ve
     while !rest.is_empty() {
         let some = if together { rest } else { &rest[..1] };
         let passed = stepping.advance_together(unit, &mut t, some).unwrap();
-        for own in &passed {
-            heats.add(&own.heats);
+        for stretch in &passed {
+            heats.add(&stretch.heats);
         }
         assert_eq!(passed.last().unwrap().temperatures, t);
         rest = &rest[passed.len()..];
