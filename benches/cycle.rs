@@ -34,9 +34,9 @@ fn wltc(t: &Transmission, vehicle: &Vehicle, intervals: &[Interval], scheme: Sch
 fn cycle(c: &mut Criterion) {
     let language = language();
     let gearbox = gearbox(&language, "electric-drive-unit");
-    let own = gearbox.resolve(&language, &Choice::default()).unwrap();
+    let resolved = gearbox.resolve(&language, &Choice::default()).unwrap();
     let table = |mesh: &str, torques: [&str; 2]| {
-        let model = lookup(&own.value, &format!("meshes.{mesh}.model")).unwrap();
+        let model = lookup(&resolved.value, &format!("meshes.{mesh}.model")).unwrap();
         // The law as written in the gearbox; resolved values are SI.
         assert_eq!(model["type"], "path_integral");
         let law = json!({ "type": "ehl_mixed" });

@@ -72,14 +72,14 @@ pub use gearloss_studies::table::{Column, Table, Texts, Values};
 
 /// Every code of a finding, in the order of their numbers; docs/errors.md lists them with cause and help.
 pub fn codes() -> Vec<Code> {
-    let own: [&[Code]; 5] = [
+    let lists: [&[Code]; 5] = [
         gearloss_document::codes::ALL,
         gearloss_framework::codes::ALL,
         gearloss_studies::codes::ALL,
         gearloss_report::codes::ALL,
         gearloss_exchange::codes::ALL,
     ];
-    own.concat()
+    lists.concat()
 }
 
 /// Reads a study of a source with its gearboxes, and checks every name that its analyses use.

@@ -126,10 +126,10 @@ fn the_loss_outside_a_range_is_that_of_the_component_at_the_points_outside() {
         // The line load grows with the torque, so the points with the smallest torques are below its range.
         let path = note["path"].as_str().unwrap().trim_end_matches(".model");
         let place = parts.iter().position(|part| part["part"] == path).unwrap();
-        let own = points
+        let lightest = points
             .iter()
             .filter(|point| number(&point["torque_nm"]) <= torques[outside - 1]);
-        let lost: f64 = own.map(|point| number(&point["parts_w"][place])).sum();
+        let lost: f64 = lightest.map(|point| number(&point["parts_w"][place])).sum();
         let share = number(&note["loss_share"]);
         assert!((share - lost / total).abs() < 1e-9, "{path}: {share} {}", lost / total);
         counts.push(outside);

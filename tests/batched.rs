@@ -48,7 +48,9 @@ fn compare(t: &Transmission, speeds: &[f64], torques: &[f64], temperatures: &[f6
                 };
                 let temperature = [*temperature];
                 // Those of one sense first, then a few of both and none.
-                let blocks = torques.chunk_by(|a, b| a * b > 0.0).flat_map(|own| own.chunks(LANES));
+                let blocks = torques
+                    .chunk_by(|a, b| a * b > 0.0)
+                    .flat_map(|alike| alike.chunks(LANES));
                 let mut row = t.batch(&case, &point, &temperature, &mut rows);
                 for some in blocks.chain([&torques[12..25]]) {
                     let block = row.solve(some);
@@ -154,12 +156,12 @@ fn the_examples_have_the_same_bits_side_by_side_and_alone() {
     ] {
         for set in sets {
             let t = transmission(&language, path, *set);
-            let mut own = Count::default();
-            compare(&t, &speeds, &torques, &[100.0, 20.0], &mut own);
+            let mut of_case = Count::default();
+            compare(&t, &speeds, &torques, &[100.0, 20.0], &mut of_case);
             // The others have states whose points seldom stay together.
             if path.contains("two-speed") {
-                count.together += own.together;
-                count.alone += own.alone;
+                count.together += of_case.together;
+                count.alone += of_case.alone;
             }
         }
     }
@@ -169,11 +171,11 @@ fn the_examples_have_the_same_bits_side_by_side_and_alone() {
         let t = two_speed(&language)
             .transmission(&language, &study.choice(Some(set)))
             .unwrap();
-        let mut own = Count::default();
-        compare(&t, &speeds, &torques, &[100.0, 20.0], &mut own);
-        assert!(own.together > own.alone, "{set}: {own:?}");
-        count.together += own.together;
-        count.alone += own.alone;
+        let mut of_set = Count::default();
+        compare(&t, &speeds, &torques, &[100.0, 20.0], &mut of_set);
+        assert!(of_set.together > of_set.alone, "{set}: {of_set:?}");
+        count.together += of_set.together;
+        count.alone += of_set.alone;
     }
     // Most points are solved side by side, or nothing is won.
     assert!(count.together > 3 * count.alone, "{count:?}");
@@ -199,13 +201,13 @@ fn changed_coefficients_of_formulas_count_side_by_side_as_alone() {
         (
             "joint",
             [
-                of_xu.map(|own| (xu, own)).to_vec(),
-                more_of_xu.map(|own| (xu, own)).to_vec(),
+                of_xu.map(|law| (xu, law)).to_vec(),
+                more_of_xu.map(|law| (xu, law)).to_vec(),
             ]
             .concat(),
         ),
-        ("joint", of_skf.map(|own| (bearing, own)).to_vec()),
-        ("iso14179_2", of_palmgren.map(|own| (bearing, own)).to_vec()),
+        ("joint", of_skf.map(|law| (bearing, law)).to_vec()),
+        ("iso14179_2", of_palmgren.map(|law| (bearing, law)).to_vec()),
         (
             "iso14179_2",
             vec![("meshes.*.model.coefficients", ("load_exponent", 0.27))],
@@ -259,10 +261,10 @@ fn what_was_seen_is_the_same_taken_in_one_go_or_in_the_middle_of_a_row() {
             for some in part.chunks(LANES) {
                 row.solve(some);
             }
-            let own = rows.take_totals();
+            let totals = rows.take_totals();
             seen = Some(match seen {
-                None => own,
-                Some(before) => before.into_iter().zip(own).map(|(a, b)| a.merge(b)).collect(),
+                None => totals,
+                Some(before) => before.into_iter().zip(totals).map(|(a, b)| a.merge(b)).collect(),
             });
         }
         seen.unwrap()
@@ -329,9 +331,9 @@ fn points_of_any_composition_have_the_bits_of_each_alone() {
             for size in [LANES, 5] {
                 let order: Vec<usize> = (0..points.len()).map(|i| i * step % points.len()).collect();
                 for some in order.chunks(size) {
-                    let own: Vec<Point<'_>> = some.iter().map(|i| points[*i]).collect();
+                    let group: Vec<Point<'_>> = some.iter().map(|i| points[*i]).collect();
                     let temperatures = |lane: usize| &given[some[lane]].2[..];
-                    let block = t.evaluate_together(&case, &own, &temperatures, Noting::Counted, &mut scratch);
+                    let block = t.evaluate_together(&case, &group, &temperatures, Noting::Counted, &mut scratch);
                     for (lane, i) in some.iter().enumerate().filter(|(lane, _)| !block.is_alone(*lane)) {
                         together += 1;
                         let watts = bits(block.watts().iter().map(|watts| watts[lane]));

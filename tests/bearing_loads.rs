@@ -30,7 +30,7 @@ fn rows(text: &str) -> Vec<Vec<(String, String)>> {
 }
 
 fn cell<'a>(row: &'a [(String, String)], name: &str) -> &'a str {
-    &row.iter().find(|(own, _)| own == name).unwrap().1
+    &row.iter().find(|(known, _)| known == name).unwrap().1
 }
 
 fn value(row: &[(String, String)], name: &str) -> f64 {
@@ -58,12 +58,12 @@ fn loads_of_a_spectrum_are_those_of_solve() {
         let mut compared = 0;
         for row in rows.iter().filter(|row| cell(row, "load_case") == case) {
             let loads = solved["supports"].as_array().unwrap();
-            let own = loads
+            let found = loads
                 .iter()
                 .find(|load| load["support"] == cell(row, "bearing"))
                 .unwrap();
             for name in ["radial_n", "axial_n", "tilting_nm"] {
-                let (ours, theirs) = (value(row, name), number(&own[name]));
+                let (ours, theirs) = (value(row, name), number(&found[name]));
                 assert!(
                     (ours - theirs).abs() <= 1e-9 * theirs.abs().max(1.0),
                     "{row:?} {name}: {theirs}"
@@ -154,13 +154,13 @@ fn rexs_has_the_same_loads() {
             ("speed_inner_ring", "inner_rpm", 1.0),
             ("temperature_lubricant", "oil_degc", 1.0),
         ] {
-            let own = node.children().find(|child| child.attribute("id") == Some(id));
-            let own: Option<f64> = own.map(|own| own.text().unwrap().parse().unwrap());
+            let attribute = node.children().find(|child| child.attribute("id") == Some(id));
+            let text: Option<f64> = attribute.map(|child| child.text().unwrap().parse().unwrap());
             let expected = Some(cell(row, column)).filter(|cell| !cell.is_empty());
             let expected = expected.map(|cell| cell.parse::<f64>().unwrap() * factor);
-            let difference = own.zip(expected).map(|(a, b)| (a - b).abs() / b.abs().max(1.0));
+            let difference = text.zip(expected).map(|(a, b)| (a - b).abs() / b.abs().max(1.0));
             assert_eq!(
-                (own.is_some(), difference.is_none_or(|x| x < 1e-9)),
+                (text.is_some(), difference.is_none_or(|x| x < 1e-9)),
                 (expected.is_some(), true),
                 "{id} {row:?}"
             );
@@ -254,11 +254,11 @@ fn rexs_has_the_ids_units_and_values_of_version_1_7() {
     let mut seen = std::collections::BTreeSet::new();
     for case in document.descendants().filter(|node| node.has_tag_name("load_case")) {
         for component in case.children().filter(roxmltree::Node::is_element) {
-            let own = of(component);
-            assert!(known.contains(&own), "{own:?}");
+            let bearing = of(component);
+            assert!(known.contains(&bearing), "{bearing:?}");
             for attribute in component.children().filter(roxmltree::Node::is_element) {
                 let key = (
-                    own.1.as_str(),
+                    bearing.1.as_str(),
                     attribute.attribute("id").unwrap(),
                     attribute.attribute("unit"),
                 );

@@ -29,8 +29,8 @@ fn printed() -> BTreeMap<String, Vec<(String, f64)>> {
     lines
         .map(|line| {
             let (model, list) = line.split_once(": ").unwrap();
-            let list = list.split("; ").map(|own| {
-                let (name, value) = own.split_once(' ').unwrap();
+            let list = list.split("; ").map(|coefficient| {
+                let (name, value) = coefficient.split_once(' ').unwrap();
                 (name.to_owned(), number(value))
             });
             (model.to_owned(), list.collect())
@@ -43,11 +43,11 @@ fn every_published_value_is_that_of_its_source() {
     let mut printed = printed();
     for mechanism in language().registry().mechanisms() {
         for entry in language().registry().models(mechanism.key) {
-            let own = entry.coefficients();
+            let declared = entry.coefficients();
             let name = format!("{}/{}", mechanism.key, entry.name);
             let of_source = printed.remove(&name).unwrap_or_default();
-            let own: Vec<(String, f64)> = own.into_iter().map(|c| (c.name, c.published)).collect();
-            assert_eq!(own, of_source, "{name}");
+            let declared: Vec<(String, f64)> = declared.into_iter().map(|c| (c.name, c.published)).collect();
+            assert_eq!(declared, of_source, "{name}");
             // What nobody writes is the published value to the bit, and stands in the resolved model.
             let example = language().example_of(entry).unwrap().0;
             for (coefficient, value) in of_source {
@@ -69,10 +69,13 @@ fn no_value_of_a_range_makes_a_formula_undefined() {
     for mechanism in registry.mechanisms() {
         for entry in registry.models(mechanism.key) {
             let coefficients = entry.coefficients();
-            for own in &coefficients {
-                let name = format!("{}/{} {}", mechanism.key, entry.name, own.name);
-                assert!(own.least < own.published && own.published < own.greatest, "{name}");
-                assert!(!own.meaning.is_empty(), "{name}");
+            for coefficient in &coefficients {
+                let name = format!("{}/{} {}", mechanism.key, entry.name, coefficient.name);
+                assert!(
+                    coefficient.least < coefficient.published && coefficient.published < coefficient.greatest,
+                    "{name}"
+                );
+                assert!(!coefficient.meaning.is_empty(), "{name}");
             }
             if coefficients.is_empty() {
                 continue;
@@ -82,9 +85,10 @@ fn no_value_of_a_range_makes_a_formula_undefined() {
             files.put_all(entry.files);
             for choice in 0..3_usize {
                 let mut model = example.clone();
-                for (i, own) in coefficients.iter().enumerate() {
+                for (i, coefficient) in coefficients.iter().enumerate() {
                     let low = choice == 0 || (choice == 2 && i % 2 == 0);
-                    model[COEFFICIENTS][&own.name] = json!(if low { own.least } else { own.greatest });
+                    model[COEFFICIENTS][&coefficient.name] =
+                        json!(if low { coefficient.least } else { coefficient.greatest });
                 }
                 for fault in (mechanism.conform)(registry, &files, entry, &model, &part) {
                     faults.push(format!("{}/{} {choice}: {fault}", mechanism.key, entry.name));

@@ -283,9 +283,9 @@ fn table(out: &mut String, columns: &[&str], rows: &[(String, Vec<(f64, f64)>)])
     let mut worst = vec![0.0_f64; columns.len()];
     for (case, cells) in rows {
         write!(out, "| {case} |").unwrap();
-        for ((own, printed), worst) in cells.iter().zip(&mut worst) {
-            *worst = worst.max((own / printed - 1.0).abs());
-            write!(out, " {} ({}) |", three(*own), three(*printed)).unwrap();
+        for ((computed, printed), worst) in cells.iter().zip(&mut worst) {
+            *worst = worst.max((computed / printed - 1.0).abs());
+            write!(out, " {} ({}) |", three(*computed), three(*printed)).unwrap();
         }
         out.push('\n');
     }

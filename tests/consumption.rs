@@ -29,7 +29,7 @@ fn consumption_is_the_energy_of_shaft_motor_and_auxiliaries_through_the_battery(
     let battery = "    battery: { energy: 50 kWh, efficiency: 0.8, auxiliaries: 500 W }\n    motor_map: map.csv\n";
     let ran = ridden(battery, steady, "");
     let duty = ran.json("c")["cycles"][0].clone();
-    let own = &duty["consumption"];
+    let consumption = &duty["consumption"];
     let input = number(&duty["energy"]["input_j"]);
     // 100 s at 20 m/s are 2 km; a constant loss of 1 kW in the motor.
     let drawn = (input + 1.5e3 * 100.0) / 0.8;
@@ -37,14 +37,14 @@ fn consumption_is_the_energy_of_shaft_motor_and_auxiliaries_through_the_battery(
         let value = number(value);
         assert!((value / expected - 1.0).abs() < 1e-9, "{value} is not {expected}");
     };
-    near(&own["drawn_kwh_per_100_km"], drawn / 3.6e6 * 50.0);
-    near(&own["consumption_kwh_per_100_km"], drawn / 3.6e6 * 50.0);
-    assert_eq!(number(&own["recuperated_kwh_per_100_km"]), 0.0);
-    assert_eq!(own["includes_motor"], true);
-    near(&own["range_km"], 50.0 * 3.6e6 / drawn * 2.0);
+    near(&consumption["drawn_kwh_per_100_km"], drawn / 3.6e6 * 50.0);
+    near(&consumption["consumption_kwh_per_100_km"], drawn / 3.6e6 * 50.0);
+    assert_eq!(number(&consumption["recuperated_kwh_per_100_km"]), 0.0);
+    assert_eq!(consumption["includes_motor"], true);
+    near(&consumption["range_km"], 50.0 * 3.6e6 / drawn * 2.0);
     let without = (input - number(&duty["energy"]["loss_j"]) + 1.5e3 * 100.0) / 0.8;
     near(
-        &own["range_lost_in_transmission_km"],
+        &consumption["range_lost_in_transmission_km"],
         50.0 * 3.6e6 * 2.0 * (1.0 / without - 1.0 / drawn),
     );
 }
@@ -56,7 +56,7 @@ fn recuperation_is_apart_and_charges_with_its_own_efficiency() {
     let duty = ridden(battery, braking, "").json("c")["cycles"][0].clone();
     let series = ridden(battery, braking, "").csv("c");
     let rows: Vec<Vec<&str>> = series.lines().map(|line| line.split(',').collect()).collect();
-    let column = |name: &str| rows[0].iter().position(|own| *own == name).unwrap();
+    let column = |name: &str| rows[0].iter().position(|known| *known == name).unwrap();
     let cell = |row: usize, name: &str| rows[row][column(name)].parse::<f64>().unwrap();
     let shaft = |row: usize| {
         cell(row, "torque_nm") * cell(row, "speed_rpm") * std::f64::consts::PI / 30.0 * cell(row, "duration_s")
@@ -65,20 +65,20 @@ fn recuperation_is_apart_and_charges_with_its_own_efficiency() {
         .map(|row| cell(row, "vehicle_speed_m_s") * cell(row, "duration_s"))
         .sum();
     let per = |joule: f64| joule / distance / 36.0;
-    let own = &duty["consumption"];
+    let consumption = &duty["consumption"];
     assert!(shaft(1) > 0.0 && shaft(2) < 0.0);
     for (value, expected) in [
-        (&own["drawn_kwh_per_100_km"], per(shaft(1) / 0.8)),
-        (&own["recuperated_kwh_per_100_km"], per(-shaft(2) * 0.5)),
+        (&consumption["drawn_kwh_per_100_km"], per(shaft(1) / 0.8)),
+        (&consumption["recuperated_kwh_per_100_km"], per(-shaft(2) * 0.5)),
     ] {
         assert!(
             (number(value) / expected - 1.0).abs() < 1e-9,
             "{value} is not {expected}"
         );
     }
-    assert_eq!(own["includes_motor"], false);
+    assert_eq!(consumption["includes_motor"], false);
     // More comes back than was drawn: no range.
-    assert!(own["range_km"].is_null() == (number(&own["consumption_kwh_per_100_km"]) <= 0.0));
+    assert!(consumption["range_km"].is_null() == (number(&consumption["consumption_kwh_per_100_km"]) <= 0.0));
 }
 
 #[test]

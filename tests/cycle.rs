@@ -219,15 +219,15 @@ fn intervals_together_are_those_one_by_one() {
     assert_eq!(single_seen, seen);
     let total = |passed: &[Passed]| passed.iter().flat_map(|p| &p.heats.parts).sum::<f64>();
     assert!((total(&together) / total(&single) - 1.0).abs() < 2e-6);
-    for (own, single) in lost.iter().zip(single_lost) {
-        assert!((own - single).abs() <= 1e-5 * single, "{own} {single}");
+    for (shared, single) in lost.iter().zip(single_lost) {
+        assert!((shared - single).abs() <= 1e-5 * single, "{shared} {single}");
     }
-    for (own, single) in together.iter().zip(&single) {
-        let pairs = own.temperatures.iter().zip(&single.temperatures);
+    for (shared, single) in together.iter().zip(&single) {
+        let pairs = shared.temperatures.iter().zip(&single.temperatures);
         let farthest = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         assert!(farthest < 1e-3, "{farthest}");
-        assert_eq!(own.status, single.status);
-        assert!(own.heats.residual().abs() < 1e-6 * own.heats.heat_input().max(1.0));
+        assert_eq!(shared.status, single.status);
+        assert!(shared.heats.residual().abs() < 1e-6 * shared.heats.heat_input().max(1.0));
     }
 }
 
@@ -318,32 +318,32 @@ fn refused(name: &str, cycles: &str, csv: &str, more: &str) -> String {
 
 #[test]
 fn a_faulty_file_is_refused_with_its_line() {
-    let own = "{ file: drive.csv, columns: { time: t, torque: T_in, speed: n_in } }";
+    let source = "{ file: drive.csv, columns: { time: t, torque: T_in, speed: n_in } }";
     let trace = "{ file: drive.csv, columns: { time: t, vehicle_speed: v } }";
     let head = "t [s],T_in [Nm],n_in [rpm]\n";
     for (name, cycles, csv, words) in [
         (
             "falls",
-            own,
+            source,
             format!("{head}0,1,100\n2,1,100\n1,1,100\n"),
             ["line 4", "time"],
         ),
         (
             "repeats",
-            own,
+            source,
             format!("{head}0,1,100\n1,1,100\n1,1,100\n"),
             ["line 4", "time"],
         ),
         (
             "gap",
-            own,
+            source,
             format!("{head}0,1,100\n1,1,100\n2,1,100\n3,1,100\n30,1,100\n"),
             ["line 6", "gap"],
         ),
-        ("nan", own, format!("{head}0,1,100\n1,NaN,100\n"), ["line 3", "NaN"]),
+        ("nan", source, format!("{head}0,1,100\n1,NaN,100\n"), ["line 3", "NaN"]),
         (
             "column",
-            own,
+            source,
             "t [s],T_in [Nm]\n0,1\n1,1\n".to_owned(),
             ["n_in", "line 1"],
         ),
@@ -364,9 +364,9 @@ fn a_faulty_file_is_refused_with_its_line() {
 
 #[test]
 fn what_does_not_fit_together_is_reported() {
-    let own = "{ file: drive.csv, columns: { time: t, torque: T_in, speed: n_in }, temperatures: { swamp: T } }";
+    let source = "{ file: drive.csv, columns: { time: t, torque: T_in, speed: n_in }, temperatures: { swamp: T } }";
     let csv = "t [s],T_in [Nm],n_in [rpm],T [degC],v [km/h]\n0,1,100,20,3\n1,1,100,20,3\n2,1,100,20,3\n";
-    assert!(refused("node", own, csv, "").contains("no node is called `swamp`"));
+    assert!(refused("node", source, csv, "").contains("no node is called `swamp`"));
     let trace = "{ file: drive.csv, columns: { time: t, vehicle_speed: v } }";
     assert!(refused("vehicle", trace, csv, "").contains("state the `vehicle`"));
     let oil = "{ file: drive.csv, columns: { time: t, torque: T_in, speed: n_in, oil_temperature: T } }";

@@ -127,7 +127,7 @@ impl Rig {
         names.extend(self.transmission.parts().iter().map(|part| part.path.as_str()));
         let mut compared = 0;
         for (k, name) in names.iter().enumerate() {
-            let Some(own) = found.derivatives.iter().find(|own| own.of == *name) else {
+            let Some(derivative) = found.derivatives.iter().find(|derivative| derivative.of == *name) else {
                 assert_eq!(*name, "oil_temperature");
                 continue;
             };
@@ -137,12 +137,15 @@ impl Rig {
                 (wide - narrow).abs() <= tolerance * scale,
                 "{variable}, {name}: differences are {wide} and {narrow}"
             );
-            let exact = own.value.unwrap();
+            let exact = derivative.value.unwrap();
             assert!(
                 (exact - narrow).abs() <= tolerance * scale,
                 "{variable}, {name}: {exact} against {narrow}"
             );
-            assert!(own.error.unwrap() <= tolerance * scale, "{variable}, {name}: {own:?}");
+            assert!(
+                derivative.error.unwrap() <= tolerance * scale,
+                "{variable}, {name}: {derivative:?}"
+            );
             compared += 1;
         }
         assert!(compared > 3);
@@ -175,7 +178,7 @@ fn derivatives_through_the_heat_balance_agree_with_differences_of_balances() {
         let warming = found
             .derivatives
             .iter()
-            .find(|own| own.of == "oil_temperature")
+            .find(|derivative| derivative.of == "oil_temperature")
             .unwrap();
         assert!(
             warming.value.unwrap() > 0.0 && warming.unit.starts_with("K/"),
@@ -244,7 +247,13 @@ fn only_the_models_that_depend_on_the_variable_are_named() {
         "{:?}",
         speed.models
     );
-    let of = |path: &str| torque.derivatives.iter().find(|own| own.of == path).unwrap();
+    let of = |path: &str| {
+        torque
+            .derivatives
+            .iter()
+            .find(|derivative| derivative.of == path)
+            .unwrap()
+    };
     assert_eq!(of("seals.D1").value, Some(0.0));
     assert_eq!(
         (of("loss").unit.as_str(), of("efficiency").unit.as_str()),
@@ -260,9 +269,9 @@ fn derivatives_over_a_path_are_those_of_an_equal_given_quantity() {
     assert_eq!(path.method, Method::Differences);
     for (path, given) in path.derivatives.iter().zip(&given.derivatives) {
         assert_eq!((&path.of, &path.unit), (&given.of, &given.unit));
-        let (own, wanted) = (path.value.unwrap(), given.value.unwrap());
+        let (found_value, wanted) = (path.value.unwrap(), given.value.unwrap());
         assert!(
-            (own - wanted).abs() <= 10.0 * path.error.unwrap() + 1e-8 * wanted.abs(),
+            (found_value - wanted).abs() <= 10.0 * path.error.unwrap() + 1e-8 * wanted.abs(),
             "{path:?} {given:?}"
         );
     }
@@ -276,7 +285,13 @@ fn a_kink_is_reported_with_both_sides() {
         .with("thermal.oil", 80.0);
     let rig = Rig::new("two-speed-ev", choice, "first", 20.0, 6000.0, None);
     let found = rig.over("thermal.oil");
-    let of = |path: &str| -> &Derivative { found.derivatives.iter().find(|own| own.of == path).unwrap() };
+    let of = |path: &str| -> &Derivative {
+        found
+            .derivatives
+            .iter()
+            .find(|derivative| derivative.of == path)
+            .unwrap()
+    };
     let seal = of("seals.D1");
     assert_eq!((seal.value, seal.error), (None, None));
     let [below, above] = seal.kink.unwrap();

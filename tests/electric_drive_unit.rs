@@ -417,8 +417,11 @@ fn u11b_losses_at_30_kw_and_40_degc() {
         (3000.0, [2.37, 23.47, 92.05, 46.81, 39.63, 20.93, 5.38]),
         (14000.0, [16.47, 41.18, 194.32, 89.48, 47.96, 28.68, 8.00]),
     ] {
-        for (own, printed) in ask(&t, torque(30.0, rpm), rpm).bearings.iter().zip(printed) {
-            assert!((own - printed).abs() < 0.0051, "{own} against {printed} at {rpm}");
+        for (computed, printed) in ask(&t, torque(30.0, rpm), rpm).bearings.iter().zip(printed) {
+            assert!(
+                (computed - printed).abs() < 0.0051,
+                "{computed} against {printed} at {rpm}"
+            );
         }
     }
     for (rpm, printed) in [
@@ -456,15 +459,21 @@ fn u11c_mean_losses_over_cycles_with_four_oils() {
         let table = Shares::coarse(&t);
         for (cycle, [mesh, bearings, churning, total]) in [("wltc_class3b", wltc), ("nycc", nycc)] {
             let driven = driven(&language, &t, cycle);
-            let own = means(&t, &driven);
+            let mean_losses = means(&t, &driven);
             // To the last printed digit.
-            assert!((own[1] - bearings).abs() < 0.051, "{own:?} against {bearings}");
-            assert!((own[2] - churning).abs() < 0.051, "{own:?} against {churning}");
+            assert!(
+                (mean_losses[1] - bearings).abs() < 0.051,
+                "{mean_losses:?} against {bearings}"
+            );
+            assert!(
+                (mean_losses[2] - churning).abs() < 0.051,
+                "{mean_losses:?} against {churning}"
+            );
             // The losses of the meshes come from a table, which lies up to 2 % above them.
             within(table.mean(&driven), mesh, 0.01);
-            let over = mesh / own[0];
+            let over = mesh / mean_losses[0];
             assert!((0.999..1.021).contains(&over), "{over}");
-            within(own.iter().sum(), total, 0.01);
+            within(mean_losses.iter().sum(), total, 0.01);
         }
     }
 }

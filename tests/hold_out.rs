@@ -155,21 +155,21 @@ fn rows_held_out_are_not_fitted_and_are_predicted() {
     let condition = found(&results);
     for (name, expected) in [("mesh", 1.2), ("viscosity", 0.8), ("seal", 1.3)] {
         let all = condition["parameters"].as_array().unwrap();
-        let own = all.iter().find(|p| p["name"] == name).unwrap();
-        let value = own["value"].as_f64().unwrap();
+        let parameter = all.iter().find(|p| p["name"] == name).unwrap();
+        let value = parameter["value"].as_f64().unwrap();
         assert!((value - expected).abs() < 1e-3, "{name} {value}\n{text}");
     }
     let held = &condition["hold_out"];
     assert_eq!((&held["rows"], &held["rows_fitted"]), (&json!(6), &json!(30)));
-    let own = &held["quantities"][0];
+    let errors = &held["quantities"][0];
     let number = |value: &Value| value.as_f64().unwrap();
     assert!(
-        (number(&own["held_out"]["mean"]) + 10.0).abs() < 0.1 && number(&own["fitted"]["rms"]) < 0.1,
-        "{own}"
+        (number(&errors["held_out"]["mean"]) + 10.0).abs() < 0.1 && number(&errors["fitted"]["rms"]) < 0.1,
+        "{errors}"
     );
-    assert!((number(&own["held_out"]["in_accuracies"]["rms"]) - 5.0).abs() < 0.05);
+    assert!((number(&errors["held_out"]["in_accuracies"]["rms"]) - 5.0).abs() < 0.05);
     assert_eq!(
-        (&own["coverage"]["inside"], &own["coverage"]["points"]),
+        (&errors["coverage"]["inside"], &errors["coverage"]["points"]),
         (&json!(0), &json!(6))
     );
     // Nothing of the fit knows of them: all its points are the others.
@@ -505,13 +505,13 @@ fn simulate(language: &Language, gearbox: &Gearbox, truth: &[[f64; 3]]) -> Vec<S
 
 /// Share of what is inside over data sets of some kind, printed with its name.
 fn covered(all: &[Simulated], name: &str, of_kind: impl Fn(&(usize, bool, bool)) -> bool) -> f64 {
-    let own: Vec<&Simulated> = all.iter().filter(|s| of_kind(&s.kind)).collect();
-    let coverage = Coverage::count(own.iter().flat_map(|s| s.inside.iter().copied())).unwrap();
+    let simulated: Vec<&Simulated> = all.iter().filter(|s| of_kind(&s.kind)).collect();
+    let coverage = Coverage::count(simulated.iter().flat_map(|s| s.inside.iter().copied())).unwrap();
     let [low, high] = coverage.interval(0.95).unwrap();
-    let widened = own.iter().filter(|s| s.widened).count();
+    let widened = simulated.iter().filter(|s| s.widened).count();
     println!(
         "{name}: {} data sets ({widened} widened), {} of {} inside, {:.1} % ({:.1} to {:.1} %)",
-        own.len(),
+        simulated.len(),
         coverage.inside,
         coverage.count,
         100.0 * coverage.share(),

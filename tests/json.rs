@@ -122,16 +122,16 @@ fn warnings_of_a_gearbox_are_those_of_its_study() {
     let study = "gearloss: study/1\ngearboxes: { ours: gearbox.yaml }\ngrids: { few: { torque: 10 Nm, speed: 1000 rpm } }\n\
                  analyses: { map: { type: map, grid: few } }\n";
     std::fs::write(folder.join("study.yaml"), study).unwrap();
-    let [own, of_study] = ["gearbox.yaml", "study.yaml"].map(|name| {
+    let [of_gearbox, of_study] = ["gearbox.yaml", "study.yaml"].map(|name| {
         let (value, code) = check(&[folder.join(name).to_str().unwrap()]);
         assert_eq!(code, 0, "{value:#}");
         value["files"][0]["findings"].as_array().unwrap().clone()
     });
     let has = |list: &[Value], words: &str| list.iter().any(|f| f["message"].as_str().unwrap().contains(words));
-    assert!(has(&own, "S0 = C0/P0"), "{own:#?}");
+    assert!(has(&of_gearbox, "S0 = C0/P0"), "{of_gearbox:#?}");
     assert!(
-        has(&own, "share only") && has(&of_study, "share only"),
-        "{own:#?} {of_study:#?}"
+        has(&of_gearbox, "share only") && has(&of_study, "share only"),
+        "{of_gearbox:#?} {of_study:#?}"
     );
 }
 
@@ -166,12 +166,12 @@ fn models_lists_everything() {
     let mechanisms = all["mechanisms"].as_array().unwrap();
     let language = common::language();
     assert_eq!(mechanisms.len(), language.registry().mechanisms().len());
-    for (own, listed) in language.registry().mechanisms().iter().zip(mechanisms) {
+    for (known, listed) in language.registry().mechanisms().iter().zip(mechanisms) {
         assert_eq!(
             listed["models"].as_array().unwrap().len(),
-            language.registry().models(own.key).count(),
+            language.registry().models(known.key).count(),
             "{}",
-            own.key
+            known.key
         );
     }
     let (one, _) = run_json("models", &["models", "bearing", "skf", "--format", "json"]);

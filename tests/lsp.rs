@@ -202,10 +202,10 @@ fn as_checked(finding: Value) -> Value {
     };
     let object = finding.as_object_mut().unwrap();
     object.remove("place");
-    let own = (!place.is_null()).then(|| point(&place));
+    let position = (!place.is_null()).then(|| point(&place));
     object.insert("file".to_owned(), place.get("file").cloned().unwrap_or_default());
-    object.insert("line".to_owned(), json!(own.map(|(line, _)| line)));
-    object.insert("column".to_owned(), json!(own.map(|(_, column)| column)));
+    object.insert("line".to_owned(), json!(position.map(|(line, _)| line)));
+    object.insert("column".to_owned(), json!(position.map(|(_, column)| column)));
     for related in object["related"].as_array_mut().unwrap() {
         let (line, column) = point(related);
         *related = json!({ "file": related["file"], "line": line, "column": column, "message": related["message"] });
@@ -230,7 +230,7 @@ fn findings_are_those_of_check() {
         faulty += usize::from(!found.is_empty());
         let found: Vec<Value> = found
             .iter()
-            .map(|own| as_checked(serde_json::to_value(own).unwrap()))
+            .map(|finding| as_checked(serde_json::to_value(finding).unwrap()))
             .collect();
         assert_eq!(json!(found), checked["findings"], "{}", file.display());
     }

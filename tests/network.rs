@@ -411,8 +411,8 @@ fn a_map_of_a_network_has_the_points_of_solve() {
         let map = run_grid(t, &points, &|_| true).unwrap().unwrap();
         for (i, point) in map.points.iter().enumerate() {
             points.field = Field::List(vec![Given::new(torques[i / speeds.len()], speeds[i % speeds.len()])]);
-            let own = run_grid(t, &points, &|_| true).unwrap().unwrap();
-            assert_eq!(*point, own.points[0], "{gear} {i}");
+            let alone = run_grid(t, &points, &|_| true).unwrap().unwrap();
+            assert_eq!(*point, alone.points[0], "{gear} {i}");
         }
     }
 }
@@ -468,11 +468,11 @@ fn a_circuit_of_oil_that_does_not_close_is_reported_and_no_exchanger_cools_the_a
         overrides: vec![(path.to_owned(), value)],
         ..Choice::default()
     };
-    let own = gearbox.transmission(&language, &Choice::default()).unwrap();
+    let built = gearbox.transmission(&language, &Choice::default()).unwrap();
     assert!(
-        own.warnings.iter().all(|w| !w.message.contains("oil flow of")),
+        built.warnings.iter().all(|w| !w.message.contains("oil flow of")),
         "{:?}",
-        own.warnings
+        built.warnings
     );
     let half = with("thermal.network.flows.to_gears.share", json!(0.25));
     let open = gearbox.transmission(&language, &half).unwrap();

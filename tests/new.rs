@@ -390,7 +390,7 @@ fn a_new_crate_names_the_versions_of_the_workspace() {
     let written = std::fs::read_to_string(folder.join("mine/Cargo.toml")).unwrap();
     for key in ["schemars = ", "serde = ", "edition = ", "rust-version = "] {
         let line = workspace.lines().find(|line| line.starts_with(key)).unwrap();
-        assert!(written.lines().any(|own| own == line), "{line} in {written}");
+        assert!(written.lines().any(|known| known == line), "{line} in {written}");
     }
 }
 

@@ -41,16 +41,16 @@ fn the_film_grows_and_the_best_oil_within_limits_is_thicker() {
     let film = "{ film: { quantity: rating, rating: flank_contact.lambda, of: meshes.M1, least: 1e-9 } }";
     let (free, _) = swept(film);
     let duty = &free.fluid_sweep[0].cycles[0];
-    let films: Vec<f64> = duty.fluids.iter().map(|own| own.limited[0].unwrap()).collect();
+    let films: Vec<f64> = duty.fluids.iter().map(|fluid| fluid.limited[0].unwrap()).collect();
     assert!(films.windows(2).all(|pair| pair[0] < pair[1]), "{films:?}");
-    assert!(duty.fluids.iter().all(|own| own.keeps_limits));
+    assert!(duty.fluids.iter().all(|fluid| fluid.keeps_limits));
     assert_eq!(duty.least_within_limits.unwrap().value, 3.0);
 
     // Between the films of the second and the third oil.
     let least = 0.5 * (films[1] + films[2]);
     let (bound, page) = swept(&film.replace("1e-9", &least.to_string()));
     let duty = &bound.fluid_sweep[0].cycles[0];
-    let kept: Vec<bool> = duty.fluids.iter().map(|own| own.keeps_limits).collect();
+    let kept: Vec<bool> = duty.fluids.iter().map(|fluid| fluid.keeps_limits).collect();
     assert_eq!(kept, [false, false, true, true]);
     let best = duty.least_within_limits.unwrap();
     assert_eq!((best.value, best.mean_loss_w), (8.0, duty.fluids[2].mean_loss_w));
@@ -60,7 +60,7 @@ fn the_film_grows_and_the_best_oil_within_limits_is_thicker() {
         said.contains("breaks `film`; 8 mm2/s is the best that keeps all limits"),
         "{said}"
     );
-    assert!(page.figures.iter().any(|own| own.name == "oils-joint-film"));
+    assert!(page.figures.iter().any(|figure| figure.name == "oils-joint-film"));
 }
 
 #[test]
@@ -73,7 +73,9 @@ fn an_impossible_limit_is_said() {
     );
     assert!(set.cycles[0].least_within_limits.is_none());
     assert!(
-        page.careful.iter().any(|own| own.contains("no oil keeps `hot`")),
+        page.careful
+            .iter()
+            .any(|sentence| sentence.contains("no oil keeps `hot`")),
         "{:?}",
         page.careful
     );

@@ -58,11 +58,12 @@ fn an_exhaustive_grid_has_the_same_optimum() {
         grid.join(", ")
     )));
     assert!(all.exhaustive && all.designs == 183 && !found.exhaustive && found.designs <= 150);
-    let [search, grid] = [&found, &all].map(|own| own.gains[0].best_w.unwrap());
+    let [search, grid] = [&found, &all].map(|outcome| outcome.gains[0].best_w.unwrap());
     assert!(search <= grid * (1.0 + 1e-6), "{search} {grid}");
     assert!(search > grid * (1.0 - 1e-3), "{search} {grid}");
     assert_eq!(found.variables[1].best, all.variables[1].best);
-    let [search, grid] = [&found, &all].map(|own| own.variables[0].best.as_ref().unwrap().parse::<f64>().unwrap());
+    let [search, grid] =
+        [&found, &all].map(|outcome| outcome.variables[0].best.as_ref().unwrap().parse::<f64>().unwrap());
     assert!(
         (search / grid).ln().abs() < 10_f64.ln() / f64::from(steps),
         "{search} {grid}"
@@ -73,7 +74,11 @@ fn an_exhaustive_grid_has_the_same_optimum() {
 fn shares_add_up_to_the_gain_and_a_single_change_is_its_own() {
     let found = search(&common(&format!("    cycles: [loads]{VARIABLES}\n    designs: 60")));
     let gain = found.gains[0].present_w - found.gains[0].best_w.unwrap();
-    let shares: f64 = found.changes.iter().map(|own| own.share_w.as_ref().unwrap()[0]).sum();
+    let shares: f64 = found
+        .changes
+        .iter()
+        .map(|change| change.share_w.as_ref().unwrap()[0])
+        .sum();
     // A number that is changed by less than a thousandth of its range is not a change.
     assert!((shares - gain).abs() < 1e-3 * gain.abs().max(1.0), "{shares} {gain}");
     let single = search(&common(
@@ -89,7 +94,7 @@ fn a_limit_is_kept_and_costs_something() {
     let free = search(&common(&format!(
         "    cycles: [loads, heavy]\n    minimise: [loads]{VARIABLES}\n    designs: 80"
     )));
-    let heavy = free.gains.iter().find(|own| own.cycle == "heavy").unwrap();
+    let heavy = free.gains.iter().find(|gain| gain.cycle == "heavy").unwrap();
     assert!(!heavy.minimised);
     // Both cycles prefer the same oil; a least loss of the other one keeps the search from it.
     let bound = 0.5 * (heavy.best_w.unwrap() + heavy.present_w);
@@ -114,7 +119,7 @@ fn a_life_limits_the_choice_of_a_bearing() {
     limits: { life: { quantity: rating, rating: iso_281.L10h, of: bearings.B5, least: LEAST h } }";
     let life = |least: &str| search(&common(&variables.replace("LEAST", least)));
     let free = life("0.001");
-    let lives: Vec<f64> = free.all.iter().map(|own| own.limited[0]).collect();
+    let lives: Vec<f64> = free.all.iter().map(|design| design.limited[0]).collect();
     assert!(
         free.exhaustive && lives.windows(2).all(|pair| pair[0] < pair[1]),
         "{lives:?}"
@@ -142,13 +147,13 @@ fn two_cycles_have_a_front() {
     let losses: Vec<&Vec<f64>> = found
         .front
         .iter()
-        .map(|own| own.mean_losses_w.as_ref().unwrap())
+        .map(|design| design.mean_losses_w.as_ref().unwrap())
         .collect();
     for pair in losses.windows(2) {
         assert!(pair[0][0] < pair[1][0] && pair[0][1] > pair[1][1], "{pair:?}");
     }
     for cycle in 0..2 {
-        let least = losses.iter().map(|own| own[cycle]).fold(f64::INFINITY, f64::min);
+        let least = losses.iter().map(|design| design[cycle]).fold(f64::INFINITY, f64::min);
         assert_eq!(Some(least), found.gains[cycle].least_w);
     }
 }
@@ -164,7 +169,7 @@ fn a_gain_has_a_band_under_uncertain_inputs() {
     assert!(low <= middle && middle <= high && band.samples == 16);
     assert!(low <= gain && gain <= high, "{low} {gain} {high}");
     assert!(!band.contains_zero);
-    assert!(found.changes.iter().all(|own| own.bands.len() == 1));
+    assert!(found.changes.iter().all(|change| change.bands.len() == 1));
 }
 
 /// The file of the best design is a gearbox with its loss.
@@ -172,7 +177,7 @@ fn a_gain_has_a_band_under_uncertain_inputs() {
 fn the_best_design_is_a_gearbox_that_runs() {
     let language = Language::linked().unwrap();
     let outcome = optimised(&common(&format!("    cycles: [loads]{VARIABLES}\n    designs: 40"))).unwrap();
-    let own = outcome.get::<OptimiseOutcome>().unwrap();
+    let optimised = outcome.get::<OptimiseOutcome>().unwrap();
     let files = outcome.files();
     assert_eq!(files[0].name, "best-best.yaml");
     let gearbox = std::fs::read_to_string(file("examples/two-speed-ev/gearbox.yaml")).unwrap();
@@ -190,7 +195,7 @@ fn the_best_design_is_a_gearbox_that_runs() {
         .unwrap();
     let check = StudyRun::new(&language, &study).analysis("check").unwrap();
     let check = check.get::<gearloss::api::analyses::cycle::CycleOutcome>().unwrap();
-    assert_eq!(Some(check.cycles[0].mean_loss_w), own.gains[0].best_w);
+    assert_eq!(Some(check.cycles[0].mean_loss_w), optimised.gains[0].best_w);
 }
 
 #[test]
@@ -199,7 +204,7 @@ fn designations_come_from_the_catalogue() {
         "    cycles: [loads]\n    variables: { bearing: { path: bearings.B5.designation, catalogue: { kind: deep_groove_ball, bore: 50 mm } } }",
     ));
     assert!(found.exhaustive, "{found:?}");
-    let all: Vec<&str> = found.all.iter().map(|own| own.values[0].as_str()).collect();
+    let all: Vec<&str> = found.all.iter().map(|design| design.values[0].as_str()).collect();
     assert!(
         all.contains(&"6010") && all.contains(&"16010") && all.len() >= 5,
         "{all:?}"

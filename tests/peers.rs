@@ -93,10 +93,10 @@ fn losses_are_those_of_an_independent_program() {
     let sets: [(&[[f64; 4]], &[&str]); 2] = [(&PLAIN, &[]), (&VARIED, &CHANGES)];
     for (points, changes) in sets {
         for [torque, speed, temperature, expected] in points {
-            let own = loss(&path, [*torque, *speed, *temperature], changes);
+            let computed = loss(&path, [*torque, *speed, *temperature], changes);
             assert!(
-                (own / expected - 1.0).abs() <= WITHIN,
-                "{torque} Nm, {speed} rpm, {temperature} degC: {own} W, NumPy {expected} W"
+                (computed / expected - 1.0).abs() <= WITHIN,
+                "{torque} Nm, {speed} rpm, {temperature} degC: {computed} W, NumPy {expected} W"
             );
         }
     }

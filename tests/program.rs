@@ -161,10 +161,10 @@ fn solve_follows_overrides_sets_and_the_other_port() {
             json["ports"][0]["torque_nm"].as_f64().unwrap(),
         )
     };
-    let own = loss(&["--torque", "10 Nm"]).0;
-    assert!(loss(&["--torque", "10 Nm", "--models", "joint"]).0 < own);
-    assert!(loss(&["--torque", "10 Nm", "--set", "meshes.*.model.x_l=0.5"]).0 < own);
-    assert!(loss(&["--torque", "10 Nm", "--set", "bearings.B1.designation=\"6204\""]).0 != own);
+    let described = loss(&["--torque", "10 Nm"]).0;
+    assert!(loss(&["--torque", "10 Nm", "--models", "joint"]).0 < described);
+    assert!(loss(&["--torque", "10 Nm", "--set", "meshes.*.model.x_l=0.5"]).0 < described);
+    assert!(loss(&["--torque", "10 Nm", "--set", "bearings.B1.designation=\"6204\""]).0 != described);
     let (_, input) = loss(&["--torque", "output=-218 Nm"]);
     assert!(input > 10.0 && input < 10.5, "{input}");
 }
@@ -409,10 +409,10 @@ fn run_prints_the_result_of_each_analysis_in_one_line() {
         "convergence",
         "careful",
     ] {
-        let own = text
+        let lines = text
             .lines()
             .filter(|line| line.trim_start_matches(['>', ' ']).starts_with(&format!("{name} ")));
-        assert_eq!(own.count(), 1, "{name}: {text}");
+        assert_eq!(lines.count(), 1, "{name}: {text}");
     }
     assert!(
         text.contains(

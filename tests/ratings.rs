@@ -46,9 +46,9 @@ fn json(torque: &str, more: &[&str]) -> Value {
 }
 
 fn quantity(value: &Value, component: &str, symbol: &str) -> Option<Value> {
-    let own = value["ratings"].as_array().unwrap().iter();
-    let own = own.filter(|rating| rating["component"] == component);
-    let mut quantities = own.flat_map(|rating| rating["quantities"].as_array().unwrap());
+    let rated = value["ratings"].as_array().unwrap().iter();
+    let rated = rated.filter(|rating| rating["component"] == component);
+    let mut quantities = rated.flat_map(|rating| rating["quantities"].as_array().unwrap());
     quantities.find(|quantity| quantity["symbol"] == symbol).cloned()
 }
 
@@ -107,9 +107,9 @@ fn static_safety_agrees_with_that_of_the_supports() {
     let value = json("350 Nm", &[]);
     for support in value["supports"].as_array().unwrap() {
         let path = support["support"].as_str().unwrap();
-        let own = quantity(&value, path, "S0").unwrap();
-        assert_eq!(own["value"], support["static_safety"], "{path}");
-        assert_eq!(own["outside"], own["value"].as_f64().unwrap() < 1.0);
+        let safety = quantity(&value, path, "S0").unwrap();
+        assert_eq!(safety["value"], support["static_safety"], "{path}");
+        assert_eq!(safety["outside"], safety["value"].as_f64().unwrap() < 1.0);
     }
 }
 
@@ -193,7 +193,7 @@ analyses:
     let of = |component: &str, symbol: &str| {
         let found = over
             .iter()
-            .find(|own| own["component"] == component && own["symbol"] == symbol);
+            .find(|rating| rating["component"] == component && rating["symbol"] == symbol);
         found.unwrap().clone()
     };
     let [light, heavy] = ["100 Nm", "300 Nm"].map(|torque| json(torque, &[]));
@@ -201,10 +201,10 @@ analyses:
         let at = |point: &Value, symbol: &str| quantity(point, bearing, symbol).unwrap()["value"].as_f64().unwrap();
         for symbol in ["L10h", "Lnmh"] {
             let by_hand = 1.0 / (0.75 / at(&light, symbol) + 0.25 / at(&heavy, symbol));
-            let own = of(bearing, symbol)["value"].as_f64().unwrap();
+            let value = of(bearing, symbol)["value"].as_f64().unwrap();
             assert!(
-                (own / by_hand - 1.0).abs() < 1e-9,
-                "{bearing} {symbol}: {own}, by hand {by_hand}"
+                (value / by_hand - 1.0).abs() < 1e-9,
+                "{bearing} {symbol}: {value}, by hand {by_hand}"
             );
         }
         let least = of(bearing, "S0")["value"].as_f64().unwrap();

@@ -104,10 +104,10 @@ fn choices(schema: &Value, field: &Value) -> String {
 
 fn parameters(out: &mut String, language: &Language, entry: &Entry) {
     let schema = language.published(Kind::Gearbox);
-    let own = records_by_type(&schema["definitions"][format!("{}_model", entry.mechanism)])
+    let records = records_by_type(&schema["definitions"][format!("{}_model", entry.mechanism)])
         .into_iter()
         .find_map(|(name, record)| (name == entry.name).then_some(record));
-    let fields: Vec<(&String, &Value)> = own
+    let fields: Vec<(&String, &Value)> = records
         .and_then(|v| v["properties"].as_object())
         .into_iter()
         .flatten()
@@ -166,12 +166,22 @@ fn coefficients(out: &mut String, entry: &Entry) {
     }
     writeln!(out, "Coefficients of the formula, published by {}:\n", entry.source).unwrap();
     header(out, &["`coefficients`", "published", "unit", "range", "description"]);
-    for own in list {
-        let range = format!("{} to {}", significant(own.least), significant(own.greatest));
-        let published = own.published.to_string();
+    for coefficient in list {
+        let range = format!(
+            "{} to {}",
+            significant(coefficient.least),
+            significant(coefficient.greatest)
+        );
+        let published = coefficient.published.to_string();
         row(
             out,
-            &[&format!("`{}`", own.name), &published, own.unit, &range, &own.meaning],
+            &[
+                &format!("`{}`", coefficient.name),
+                &published,
+                coefficient.unit,
+                &range,
+                &coefficient.meaning,
+            ],
         );
     }
     out.push('\n');
@@ -358,9 +368,13 @@ fn rating(out: &mut String, language: &Language, plugin: &RatingPlugin) {
         .rated
         .figures()
         .iter()
-        .map(|own| {
-            let unit = if own.figure.unit == "-" { "" } else { own.figure.unit };
-            format!("{} {} {unit}", own.figure.symbol, significant(own.value))
+        .map(|rated| {
+            let unit = if rated.figure.unit == "-" {
+                ""
+            } else {
+                rated.figure.unit
+            };
+            format!("{} {} {unit}", rated.figure.symbol, significant(rated.value))
                 .trim_end()
                 .to_owned()
         })
@@ -451,14 +465,14 @@ fn the_reference_is_not_stale() {
         pages.push((mechanism.key.to_owned(), mechanism_page(&language, mechanism)));
     }
     pages.push(("ratings".to_owned(), ratings_page(&language)));
-    for (name, own) in &pages {
+    for (name, page) in &pages {
         let path = common::file(&format!("docs/models/{name}.md"));
         if std::env::var_os("UPDATE").is_some() {
-            std::fs::write(&path, own).unwrap();
+            std::fs::write(&path, page).unwrap();
         }
         let committed = std::fs::read_to_string(&path).unwrap_or_default();
         assert!(
-            committed == *own,
+            committed == *page,
             "docs/models/{name}.md is stale: run `UPDATE=1 cargo test --test all reference::`"
         );
     }

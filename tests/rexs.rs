@@ -35,7 +35,7 @@ fn a_model_is_imported_checked_and_run() {
     let model = file(MODEL);
     let (code, out, err) = called(&folder, &["import", "rexs", model.to_str().unwrap()]);
     assert_eq!((code, err.as_str()), (0, ""));
-    let own = "SEW_3-stage_cylindrical_gearbox_1.0";
+    let model = "SEW_3-stage_cylindrical_gearbox_1.0";
     for name in [
         "gearbox.yaml",
         "study.yaml",
@@ -43,8 +43,8 @@ fn a_model_is_imported_checked_and_run() {
         "gearbox.schema.json",
         "study.schema.json",
     ] {
-        assert!(out.contains(&format!("wrote {own}/{name}")), "{out}");
-        assert!(folder.join(own).join(name).is_file());
+        assert!(out.contains(&format!("wrote {model}/{name}")), "{out}");
+        assert!(folder.join(model).join(name).is_file());
     }
     for text in ["Taken: ", "Missing for losses:", "Assumed:", "Not used: ", "next:"] {
         assert!(out.contains(text), "{text} is not in\n{out}");
@@ -58,7 +58,7 @@ fn a_model_is_imported_checked_and_run() {
         &folder,
         &[
             "solve",
-            &format!("{own}/gearbox.yaml"),
+            &format!("{model}/gearbox.yaml"),
             "--torque",
             "4.7246 Nm",
             "--speed",

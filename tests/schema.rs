@@ -24,17 +24,17 @@ fn committed_schemas_are_those_of_the_program() {
     let mut kinds: Vec<&str> = kinds.split_once(']').unwrap().0.split(", ").collect();
     kinds.sort_unstable();
     for kind in &kinds {
-        let own = String::from_utf8(schema(kind).stdout).unwrap();
+        let generated = String::from_utf8(schema(kind).stdout).unwrap();
         let path = common::file(&format!("schemas/{kind}.schema.json"));
         if std::env::var_os("UPDATE").is_some() {
-            std::fs::write(&path, &own).unwrap();
+            std::fs::write(&path, &generated).unwrap();
         }
         let committed = std::fs::read_to_string(&path).unwrap();
         assert!(
-            committed == own,
+            committed == generated,
             "schemas/{kind}.schema.json is stale: run `UPDATE=1 cargo test --test all schema::`"
         );
-        let meta = jsonschema::meta::validate(&serde_json::from_str(&own).unwrap()).map_err(|e| e.to_string());
+        let meta = jsonschema::meta::validate(&serde_json::from_str(&generated).unwrap()).map_err(|e| e.to_string());
         assert_eq!(meta, Ok(()), "{kind}");
     }
     let files = std::fs::read_dir(common::file("schemas")).unwrap();

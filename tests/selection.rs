@@ -78,15 +78,18 @@ fn bench(language: &Language, setting: &Setting<'_>) -> Bench {
                 terms: false,
             };
             let solved = run_grid(&transmission, &points, &|_| true).unwrap().unwrap();
-            let of = |own: &dyn Fn(&str) -> bool| -> Vec<f64> {
+            let of = |is_counted: &dyn Fn(&str) -> bool| -> Vec<f64> {
                 let sum = |p: &gearloss_studies::points::PointResult| {
                     assert!(p.loss.is_some(), "{model} has no loss at {} Nm", p.torque);
                     let parts = transmission.parts().iter().zip(&p.parts);
-                    parts.filter(|(part, _)| own(part.mechanism)).map(|(_, w)| w).sum()
+                    parts
+                        .filter(|(part, _)| is_counted(part.mechanism))
+                        .map(|(_, w)| w)
+                        .sum()
                 };
                 solved.points.iter().map(sum).collect()
             };
-            mechanisms[k].push(of(&|own| own == *mechanism));
+            mechanisms[k].push(of(&|mechanism_of_part| mechanism_of_part == *mechanism));
             bench.get_or_insert_with(|| Bench {
                 torques: solved.points.iter().map(|p| p.torque).collect(),
                 speeds: solved.points.iter().map(|p| p.speed).collect(),
@@ -96,7 +99,12 @@ fn bench(language: &Language, setting: &Setting<'_>) -> Bench {
                     .map(|p| (p.torque * p.torque_speed).abs())
                     .collect(),
                 inputs: solved.points.iter().map(|p| p.reference_speed.abs()).collect(),
-                rest: of(&|own| setting.mechanisms.iter().all(|(mechanism, ..)| own != *mechanism)),
+                rest: of(&|mechanism_of_part| {
+                    setting
+                        .mechanisms
+                        .iter()
+                        .all(|(mechanism, ..)| mechanism_of_part != *mechanism)
+                }),
                 mechanisms: Vec::new(),
             });
         }
@@ -262,8 +270,8 @@ fn decisions_are_rarely_wrong() {
         let [gain, offset] = [noise, floor].map(|x| [0.0, 1.0, 3.0][kind] * x);
         let [drawn_gain, drawn_offset] = [gain * random.normal(), offset * random.normal()];
         let mut seen = |loss: &f64| {
-            let own = (noise * loss).hypot(floor) * random.normal();
-            loss * (1.0 + drawn_gain) + drawn_offset + own
+            let scatter = (noise * loss).hypot(floor) * random.normal();
+            loss * (1.0 + drawn_gain) + drawn_offset + scatter
         };
         let points: Vec<f64> = truth.iter().map(&mut seen).collect();
         let deviation = |loss: &f64| (noise * loss).hypot(floor).hypot(gain * loss).hypot(offset);

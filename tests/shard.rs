@@ -275,32 +275,36 @@ fn counted(output: &Output) -> (usize, usize) {
         .split_whitespace()
         .filter_map(|w| w.parse().ok())
         .collect();
-    let [own, before] = numbers[..] else {
+    let [computed, before] = numbers[..] else {
         panic!("{line}");
     };
-    (own, before)
+    (computed, before)
 }
 
 #[test]
 fn a_broken_off_shard_goes_on_where_it_stopped() {
     let folder = small("resumed");
     let run = ["run", "study.yaml", "--shard", "1/2", "-o", "one"];
-    let (own, before) = counted(&fine(&folder, &run));
-    assert!(own >= 2 && before == 0, "{own} {before}");
-    assert_eq!(counted(&fine(&folder, &run)), (own, own), "nothing is computed twice");
+    let (computed, before) = counted(&fine(&folder, &run));
+    assert!(computed >= 2 && before == 0, "{computed} {before}");
+    assert_eq!(
+        counted(&fine(&folder, &run)),
+        (computed, computed),
+        "nothing is computed twice"
+    );
 
     // The last result is cut off in the middle, as by a full disk, and then one byte of another one is changed.
     let path = folder.join("one/maps.tasks");
     let whole = fs::read(&path).unwrap();
     fs::write(&path, &whole[..whole.len() - 100]).unwrap();
-    assert_eq!(counted(&fine(&folder, &run)), (own, own - 1));
+    assert_eq!(counted(&fine(&folder, &run)), (computed, computed - 1));
     assert_eq!(fs::read(&path).unwrap(), whole);
 
     let mut changed = whole.clone();
     changed[200] ^= 1;
     fs::write(&path, changed).unwrap();
     let (_, before) = counted(&fine(&folder, &run));
-    assert!(before < own);
+    assert!(before < computed);
     assert_eq!(fs::read(&path).unwrap(), whole);
 
     fine(&folder, &["run", "study.yaml", "--shard", "2/2", "-o", "two"]);

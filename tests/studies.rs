@@ -230,9 +230,9 @@ analyses:
         ]
         .map(|key| point[key].clone())
     };
-    let [own, read] = [&here, &file].map(|of_set| points(of_set).iter().map(calculated).collect::<Vec<_>>());
-    assert_eq!(own, read);
-    assert_eq!(own[0][..2], ["road", "first"].map(Value::from));
+    let [entered, read] = [&here, &file].map(|of_set| points(of_set).iter().map(calculated).collect::<Vec<_>>());
+    assert_eq!(entered, read);
+    assert_eq!(entered[0][..2], ["road", "first"].map(Value::from));
     let measured = |point: &Value| point["measured"]["oil_temperature_degc"].is_null();
     assert!(points(&here).iter().all(measured));
     let [fluids, same] = ["fluids", "same"].map(|name| results.json(name)["fluid_sweep"][0]["cycles"][0].clone());
@@ -549,14 +549,14 @@ analyses:
         assert!(least <= mean + 1e-9 && mean <= greatest + 1e-9);
     }
     assert!(!results.csv("fitted-shortlist").is_empty() && results.draws("fitted-shortlist"));
-    let own = fitted["ranking"]
+    let ranked = fitted["ranking"]
         .as_array()
         .unwrap()
         .iter()
         .find(|r| r["models"][1] == "as in joint")
         .unwrap();
-    for factor in own["factors"].as_array().unwrap() {
-        assert!((number(factor) - 1.0).abs() < 0.03, "{own}");
+    for factor in ranked["factors"].as_array().unwrap() {
+        assert!((number(factor) - 1.0).abs() < 0.03, "{ranked}");
     }
     let spread = results.json("spread")["tournament"].clone();
     for point in points(&spread) {

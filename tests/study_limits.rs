@@ -48,9 +48,9 @@ fn solved(torque: &str, speed: &str, component: &str, symbol: &str) -> f64 {
         .unwrap();
     let point: Value = serde_json::from_slice(&output.stdout).unwrap();
     let ratings = point["ratings"].as_array().unwrap().iter();
-    let own = ratings.filter(|own| own["component"] == component);
-    let mut quantities = own.flat_map(|own| own["quantities"].as_array().unwrap());
-    number(&quantities.find(|own| own["symbol"] == symbol).unwrap()["value"])
+    let of_component = ratings.filter(|rating| rating["component"] == component);
+    let mut quantities = of_component.flat_map(|rating| rating["quantities"].as_array().unwrap());
+    number(&quantities.find(|quantity| quantity["symbol"] == symbol).unwrap()["value"])
 }
 
 #[test]
@@ -71,11 +71,11 @@ fn a_map_has_the_ratings_of_solve_and_counts_what_is_beyond() {
             .iter()
             .map(|point| number(&point["limit_values"][name]))
             .collect();
-        let own = limit(&map, name);
-        assert_eq!(own["points"], 6);
-        assert_eq!(own["beyond"], values.iter().filter(|value| **value < bound).count());
+        let reached = limit(&map, name);
+        assert_eq!(reached["points"], 6);
+        assert_eq!(reached["beyond"], values.iter().filter(|value| **value < bound).count());
         assert_eq!(
-            number(&own["worst"]),
+            number(&reached["worst"]),
             values.iter().copied().fold(f64::INFINITY, f64::min)
         );
     }
@@ -87,7 +87,7 @@ fn a_map_has_the_ratings_of_solve_and_counts_what_is_beyond() {
             .as_array()
             .unwrap()
             .iter()
-            .all(|own| own["limit"] != "small")
+            .all(|limit| limit["limit"] != "small")
     );
     let head = ran.csv("m").lines().next().unwrap().to_owned();
     assert!(
@@ -146,19 +146,19 @@ fn a_cycle_and_a_sweep_of_oils_keep_the_limits_of_the_study() {
     let ran = run("  c: { type: cycle, gear: first, cycles: [loads], ratings: true }
   o: { type: fluid_sweep, gear: first, cycles: [loads], kv100: [3 mm2/s, 5 mm2/s, 8 mm2/s], limits: { film: { quantity: rating, rating: flank_contact.lambda, least: 0.01 } } }");
     let cycle = ran.json("c");
-    let own = limit(&cycle, "life");
-    assert_eq!((own["points"].clone(), own["beyond"].clone()), (1.into(), 1.into()));
-    assert_eq!(own["at"]["cycle"], "loads");
+    let life = limit(&cycle, "life");
+    assert_eq!((life["points"].clone(), life["beyond"].clone()), (1.into(), 1.into()));
+    assert_eq!(life["at"]["cycle"], "loads");
     let rated = cycle["cycles"][0]["ratings"].as_array().unwrap().iter();
-    let mut lives = rated.filter(|own| own["component"] == "bearings.B2" && own["symbol"] == "L10h");
-    assert_eq!(own["worst"], lives.next().unwrap()["value"]);
+    let mut lives = rated.filter(|rating| rating["component"] == "bearings.B2" && rating["symbol"] == "L10h");
+    assert_eq!(life["worst"], lives.next().unwrap()["value"]);
     assert_eq!(limit(&cycle, "small")["beyond"], 1);
     let oils = ran.json("o");
     let names: Vec<&str> = oils["fluid_sweep"][0]["limits"]
         .as_array()
         .unwrap()
         .iter()
-        .map(|own| own["limit"].as_str().unwrap())
+        .map(|limit| limit["limit"].as_str().unwrap())
         .collect();
     // Its own limit replaces the one of the same name.
     assert_eq!(names, ["life", "efficient", "cool", "small", "film"]);

@@ -92,14 +92,14 @@ fn at_the_own_values_it_is_the_deviation_of_a_comparison() {
     for (compared, surface) in [("both", "points"), ("percent", "shares")] {
         for set in 0..2 {
             let rms = number(&results.json(compared)["comparisons"][set]["difference"]["rms"]);
-            let own = results.json(surface)["surfaces"][set].clone();
+            let of_set = results.json(surface)["surfaces"][set].clone();
             assert_eq!(
-                (number(&own["pairs"][1]["x"]), number(&own["pairs"][1]["y"])),
+                (number(&of_set["pairs"][1]["x"]), number(&of_set["pairs"][1]["y"])),
                 (6.4, 0.0)
             );
-            let here = number(&own["pairs"][1]["rms"]);
+            let here = number(&of_set["pairs"][1]["rms"]);
             assert!((here - rms).abs() < 1e-9 * rms, "{here} {rms}\n{text}");
-            assert!(number(&own["pairs"][0]["rms"]) != here);
+            assert!(number(&of_set["pairs"][0]["rms"]) != here);
         }
     }
     // Root of the mean of 0.3, 0.2 and 0.1 points squared.

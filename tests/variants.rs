@@ -160,13 +160,13 @@ fn other_numbers_in_place_are_those_of_a_new_build() {
         let variants = Variants::new(&language, &gearbox, choice.clone());
         for _ in 0..rounds {
             // The same paths several times, with other numbers, some of which stay.
-            let own: Vec<&Quantity> = (0..=generator.below(5))
+            let changed: Vec<&Quantity> = (0..=generator.below(5))
                 .map(|_| &all[generator.below(all.len())])
                 .collect();
             let mut overrides: Vec<(String, Value)> = Vec::new();
             for _ in 0..4 {
                 let draw = |quantity: &&Quantity| (quantity.path.clone(), Value::from(drawn(&mut generator, quantity)));
-                let new: Vec<(String, Value)> = own.iter().map(draw).collect();
+                let new: Vec<(String, Value)> = changed.iter().map(draw).collect();
                 let stays = generator.below(2) == 0;
                 overrides = match overrides.first() {
                     Some(first) if stays => [vec![first.clone()], new[1..].to_vec()].concat(),

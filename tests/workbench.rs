@@ -83,7 +83,7 @@ fn points_are_those_of_solve() {
         let open = Open::start(&folder);
         let controls = open.ask(&json!({ "request": "controls", "texts": {}, "gearbox": "gearbox.yaml" }));
         let mut gears = controls["gears"].as_array().unwrap().iter();
-        let state = gears.find(|own| own["name"] == gear).unwrap();
+        let state = gears.find(|member| member["name"] == gear).unwrap();
         let (mut inputs, mut args) = (Vec::new(), vec!["solve".to_owned(), file]);
         for input in state["inputs"].as_array().unwrap() {
             let value = if input["quantity"] == "torque" { torque } else { speed };

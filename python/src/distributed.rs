@@ -54,7 +54,10 @@ impl Distribution {
             self.collected.missing(&study.run, analysis, &Interruptible(stop))
         })?;
         let stages = listed.map_err(|why| stopped(py, why))?;
-        Ok(stages.into_iter().map(|own| (own.part, own.stage, own.tasks)).collect())
+        Ok(stages
+            .into_iter()
+            .map(|stage| (stage.part, stage.stage, stage.tasks))
+            .collect())
     }
 
     /// The study with everything that it has read, for [`compute`].

@@ -55,14 +55,14 @@ impl Function for PyFunction {
 /// Adds a function under a name, or replaces it; transmissions that were built before keep the old one.
 #[pyfunction]
 pub fn add_function(name: String, function: Py<PyAny>, quantities: Vec<String>, vectorised: bool) {
-    let own = PyFunction {
+    let added = PyFunction {
         name: name.clone(),
         function,
         quantities,
         vectorised,
     };
     // What is replaced is dropped after the lock is gone, because that may run code of Python.
-    let replaced = known().insert(name, Arc::new(own));
+    let replaced = known().insert(name, Arc::new(added));
     drop(replaced);
 }
 
@@ -72,8 +72,8 @@ pub fn one_by_one(value: &Value) -> Option<String> {
         Value::Array(list) => list.iter().find_map(one_by_one),
         Value::Object(map) => {
             let name = map.get("name").and_then(Value::as_str);
-            let name = name.filter(|_| map.get("type").is_some_and(|own| own == "function"));
-            let slow = name.filter(|name| known().get(*name).is_some_and(|own| !own.vectorised));
+            let name = name.filter(|_| map.get("type").is_some_and(|kind| kind == "function"));
+            let slow = name.filter(|name| known().get(*name).is_some_and(|function| !function.vectorised));
             slow.map(str::to_owned).or_else(|| map.values().find_map(one_by_one))
         }
         _ => None,

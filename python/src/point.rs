@@ -84,7 +84,7 @@ pub fn prepared(py: Python<'_>, t: &Transmission, request: Request<'_>) -> PyRes
             "give a number",
         ));
     }
-    let names = |list: &[(String, f64)]| list.iter().map(|own| own.0.clone()).collect::<Vec<String>>();
+    let names = |list: &[(String, f64)]| list.iter().map(|port| port.0.clone()).collect::<Vec<String>>();
     let (torque_at, speed_at) = (names(&torques), names(&speeds));
     let strs = |list: &[String]| list.iter().map(String::as_str).collect::<Vec<&str>>().join(", ");
     let state = t.built.state(&gear).map_err(|error| raised(py, &error.into()))?;
@@ -113,8 +113,8 @@ pub fn prepared(py: Python<'_>, t: &Transmission, request: Request<'_>) -> PyRes
     Ok(PreparedPoint {
         case: case.map_err(|list| raised(py, &list.into()))?,
         gear,
-        speeds: speeds.iter().map(|own| unit("rpm").to_si(own.1)).collect(),
-        torques: torques.iter().map(|own| own.1).collect(),
+        speeds: speeds.iter().map(|port| unit("rpm").to_si(port.1)).collect(),
+        torques: torques.iter().map(|port| port.1).collect(),
         oil: oil_of(py, t, request.oil_temperature)?,
         flow: flow(request.ideal),
     })
@@ -154,7 +154,7 @@ impl Solution {
             .built
             .evaluate(&prepared.case, &point, found.temperatures(), &mut scratch);
         let sound = found.is_sound() && solution.has_flow();
-        let own = Self {
+        let point = Self {
             loss: solution.loss().filter(|_| sound),
             efficiency: solution.efficiency().filter(|_| sound),
             oil_temperature: Some(found.oil).filter(|_| found.is_sound()),
@@ -168,7 +168,7 @@ impl Solution {
             transmission: transmission.clone_ref(py),
             prepared,
         };
-        Ok(own)
+        Ok(point)
     }
 }
 

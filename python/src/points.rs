@@ -138,7 +138,7 @@ pub fn solve(py: Python<'_>, t: &Transmission, field: Field, oil: Option<f64>, g
     let count = NUMBERS.len() + SUMS.len() + parts.len();
     let transmission = &t.built;
     let solved = work::run(py, |stop| {
-        let make = |own: &mut Numbered<'_>| numbers(own, count, parts.len());
+        let make = |piece: &mut Numbered<'_>| numbers(piece, count, parts.len());
         let pieces: Vec<usize> = (0..points.field.pieces()).collect();
         let mut all = Numbers {
             columns: vec![Vec::with_capacity(points.field.len()); count],
@@ -159,10 +159,10 @@ pub fn solve(py: Python<'_>, t: &Transmission, field: Field, oil: Option<f64>, g
     let parts = parts
         .iter()
         .map(|part| (format!("{}_w", part.path), "W", format!("Loss of {}", part.path)));
-    let own = NUMBERS
+    let of_points = NUMBERS
         .iter()
         .map(|(name, unit, meaning)| ((*name).to_owned(), *unit, (*meaning).to_owned()));
-    for ((name, unit, meaning), values) in own.chain(sums).chain(parts).zip(all.columns) {
+    for ((name, unit, meaning), values) in of_points.chain(sums).chain(parts).zip(all.columns) {
         columns.push(Column::numbers(py, name, unit, meaning, values)?);
     }
     let states = all.states.iter().map(|(status, _)| Some(status.name()));
@@ -182,7 +182,7 @@ fn numbers(points: &mut Numbered<'_>, count: usize, parts: usize) -> Numbers {
     let value = |x: Option<f64>| x.unwrap_or(f64::NAN);
     for (_, point) in points.iter() {
         let solved = point.loss.is_some();
-        let own = [
+        let numbers_of_point = [
             point.torque,
             tidy(point.speed * RPM),
             value(point.oil),
@@ -194,7 +194,7 @@ fn numbers(points: &mut Numbered<'_>, count: usize, parts: usize) -> Numbers {
         ];
         let watts = point.sums.iter().chain(&point.parts[..parts]);
         let watts = watts.map(|watts| if solved { *watts } else { f64::NAN });
-        for (column, x) in all.columns.iter_mut().zip(own.into_iter().chain(watts)) {
+        for (column, x) in all.columns.iter_mut().zip(numbers_of_point.into_iter().chain(watts)) {
             column.push(x);
         }
         all.states.push((point.status, point.balance));
@@ -208,8 +208,8 @@ impl Numbers {
         let mut tasks = Vec::new();
         let order = piece.map(|task| tasks.push(task));
         for (task, cells) in order.runs() {
-            for (column, own) in self.columns.iter_mut().zip(&tasks[task].columns) {
-                column.extend_from_slice(&own[cells.clone()]);
+            for (column, cells_of_task) in self.columns.iter_mut().zip(&tasks[task].columns) {
+                column.extend_from_slice(&cells_of_task[cells.clone()]);
             }
             self.states.extend_from_slice(&tasks[task].states[cells]);
         }

@@ -84,9 +84,9 @@ fn wait(finished: &Mutex<Receiver<()>>) -> Result<(), RecvTimeoutError> {
 /// Refuses to compute in a process that was forked after its parent had computed: it has no threads, so it would wait forever.
 fn same_process() -> PyResult<()> {
     static FIRST: AtomicU32 = AtomicU32::new(0);
-    let own = std::process::id();
-    match FIRST.compare_exchange(0, own, Ordering::Relaxed, Ordering::Relaxed) {
-        Err(first) if first != own => Err(PyRuntimeError::new_err(
+    let this = std::process::id();
+    match FIRST.compare_exchange(0, this, Ordering::Relaxed, Ordering::Relaxed) {
+        Err(first) if first != this => Err(PyRuntimeError::new_err(
             "this process was forked from one that has computed; use the start method `spawn`",
         )),
         _ => Ok(()),

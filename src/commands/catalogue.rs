@@ -17,12 +17,12 @@ pub fn run(args: &CatalogueArgs, out: &mut Out) -> Result<End, Failure> {
         CatalogueArg::Bearings => "bearings",
         CatalogueArg::Oils => LUBRICANTS,
     };
-    let own = args
+    let file_of_user = args
         .file
         .as_deref()
         .map(|file| own_catalogue(file, section, language))
         .transpose()?;
-    let Some(all) = own.as_ref().or_else(|| language.catalogue(section)) else {
+    let Some(all) = file_of_user.as_ref().or_else(|| language.catalogue(section)) else {
         return Err(Failure::input("no catalogue is linked", "link a crate with catalogues"));
     };
     let text = args.text.as_deref().unwrap_or_default();
@@ -136,7 +136,11 @@ fn table(found: &[(String, CatalogueRow)]) -> Table {
     for (designation, row) in found {
         let mut cells = vec![designation.clone()];
         for key in &keys {
-            let value = row.values.iter().find(|(own, _)| own == key).map(|(_, value)| value);
+            let value = row
+                .values
+                .iter()
+                .find(|(known, _)| known == key)
+                .map(|(_, value)| value);
             cells.push(value.map_or_else(String::new, |v| v.as_str().map_or_else(|| v.to_string(), str::to_owned)));
         }
         cells.extend([row.confidence.clone(), row.basis.clone()]);

@@ -115,14 +115,14 @@ pub fn prepare(args: &PointArgs, gearbox: &Gearbox, transmission: &Transmission)
     divide_powers(&powers, &mut torques, &mut speeds)?;
     let needed = transmission.torques_needed(state);
     if speeds.is_empty() {
-        let own: Vec<&str> = transmission.states()[state]
+        let released: Vec<&str> = transmission.states()[state]
             .speed_ports
             .iter()
             .map(|p| ports[*p])
             .collect();
         return Err(Failure::input(
             "no speed is given",
-            format!("add --speed \"{}=1000 rpm\"", own.join("=1000 rpm\" --speed \"")),
+            format!("add --speed \"{}=1000 rpm\"", released.join("=1000 rpm\" --speed \"")),
         ));
     }
     if torques.len() < needed {

@@ -83,7 +83,7 @@ pub(crate) fn all(
     }
     interrupt::listen();
     let (mut failed, mut done_so_far, mut finished) = (0, 0, None);
-    let answers = |name: &str| study.entry.answered_by.iter().any(|own| own == name);
+    let answers = |name: &str| study.entry.answered_by.iter().any(|analysis| analysis == name);
     for (name, analysis) in study.entry.analyses.iter() {
         let start = Instant::now();
         match runner.attempt(name, analysis, out) {
@@ -202,10 +202,10 @@ fn overridden(study: &Study, out: &mut Out) -> Result<(), Failure> {
     };
     for (name, gearbox) in &study.gearboxes {
         let thermal = &gearbox.value["thermal"];
-        let own = thermal["oil"].as_f64().filter(|own| (own - oil).abs() > 1e-9);
-        let words = match (own, thermal["mode"].as_str()) {
+        let used = thermal["oil"].as_f64().filter(|used| (used - oil).abs() > 1e-9);
+        let words = match (used, thermal["mode"].as_str()) {
             (_, Some("balance")) => "the heat balance of".to_owned(),
-            (Some(own), _) if gearbox.places.is_written("thermal.oil") => format!("{own} °C of"),
+            (Some(used), _) if gearbox.places.is_written("thermal.oil") => format!("{used} °C of"),
             _ => continue,
         };
         out.line(format!(

@@ -112,7 +112,7 @@ fn reaches(pattern: &str, path: &str) -> bool {
     let mut keys = path.split('.');
     pattern
         .split('.')
-        .all(|key| keys.next().is_some_and(|own| key == "*" || own == key))
+        .all(|key| keys.next().is_some_and(|part| key == "*" || part == key))
 }
 
 /// Position in a pattern of the first key that matches nothing.

@@ -20,12 +20,12 @@ pub fn server() -> Result<PathBuf, String> {
 }
 
 fn installed() -> Result<PathBuf, String> {
-    let own = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/editor");
+    let scripts = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/editor");
     let folder = target().join("editor");
     let program = folder.join("node_modules/yaml-language-server/bin/yaml-language-server");
     std::fs::create_dir_all(&folder).unwrap();
     for name in ["package.json", "package-lock.json"] {
-        std::fs::copy(own.join(name), folder.join(name)).unwrap();
+        std::fs::copy(scripts.join(name), folder.join(name)).unwrap();
     }
     packages(&folder)?;
     Ok(program)

@@ -58,14 +58,14 @@ fn worker() {
 
 /// This program as a worker.
 fn begin(folder: &Path, [first, end, stride]: [u64; 3]) -> ExitStatus {
-    let own = std::env::current_exe().unwrap();
+    let program = std::env::current_exe().unwrap();
     let mut command = if cfg!(unix) {
         let mut shell = Command::new("sh");
         // In kB: room for threads and what is asked for and not used.
-        shell.args(["-c", "ulimit -v 3000000; exec \"$0\" \"$@\""]).arg(own);
+        shell.args(["-c", "ulimit -v 3000000; exec \"$0\" \"$@\""]).arg(program);
         shell
     } else {
-        Command::new(own)
+        Command::new(program)
     };
     let open = |name: &str| {
         File::options()

@@ -42,14 +42,14 @@ impl Tree {
 
     pub fn get(&self, key: &str) -> Option<&Self> {
         match self {
-            Self::Map(map) => map.iter().find(|(own, _)| own == key).map(|(_, tree)| tree),
+            Self::Map(map) => map.iter().find(|(known, _)| known == key).map(|(_, tree)| tree),
             _ => None,
         }
     }
 
     pub fn set(&mut self, key: &str, tree: Self) {
         if let Self::Map(map) = self {
-            map.retain(|(own, _)| own != key);
+            map.retain(|(known, _)| known != key);
             map.push((key.to_owned(), tree));
         }
     }
@@ -156,7 +156,7 @@ impl Tree {
 
     fn flow(&self, text: &mut String) {
         match self {
-            Self::Scalar(own) => text.push_str(&scalar(own)),
+            Self::Scalar(written) => text.push_str(&scalar(written)),
             Self::List(list) => {
                 text.push('[');
                 for (i, tree) in list.iter().enumerate() {

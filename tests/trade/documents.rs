@@ -34,7 +34,10 @@ fn files(ends: &[&str]) -> Vec<PathBuf> {
                 if !name.starts_with('.') && !["node_modules", "out", "results", "target"].contains(&name) {
                     folders.push(path);
                 }
-            } else if path.extension().is_some_and(|end| ends.iter().any(|own| end == *own)) {
+            } else if path
+                .extension()
+                .is_some_and(|end| ends.iter().any(|known| end == *known))
+            {
                 files.push(path);
             }
         }
@@ -154,7 +157,7 @@ fn study_keys(language: &Language) -> Vec<String> {
 fn findings(language: &Language, study_keys: &[String], block: &Block) -> Vec<Diagnostic> {
     let is_in = |folder: &str| block.page.parent().is_some_and(|parent| parent.ends_with(folder));
     let name = block.page.file_stem().unwrap().to_str().unwrap();
-    let of_study = |key: &str| study_keys.iter().any(|own| own == key);
+    let of_study = |key: &str| study_keys.iter().any(|known| known == key);
     let study = |text: &str| {
         let mut text = format!("gearloss: study/1\n{text}");
         for (key, line) in [
@@ -230,7 +233,7 @@ fn every_link_of_a_page_resolves() {
             let has_anchor = || {
                 anchors(&std::fs::read_to_string(&target).unwrap())
                     .iter()
-                    .any(|own| own == anchor)
+                    .any(|known| known == anchor)
             };
             if !target.exists() || !(anchor.is_empty() || has_anchor()) {
                 wrong.push(format!("{}:{line}: {link}", page.display()));

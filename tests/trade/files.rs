@@ -568,7 +568,13 @@ fn a_cycle_with_a_long_first_step_asks_for_units_and_for_the_gap() {
     assert_eq!(said.code, Some(0), "{}", said.text);
     let series = std::fs::read_to_string(case.path("results/c.csv")).unwrap();
     let mut rows = series.lines().filter(|line| !line.starts_with('#'));
-    let place = |name: &str| rows.clone().next().unwrap().split(',').position(|own| own == name);
+    let place = |name: &str| {
+        rows.clone()
+            .next()
+            .unwrap()
+            .split(',')
+            .position(|column| column == name)
+    };
     let column = place("output_torque_nm")
         .or(place("torque_nm"))
         .unwrap_or_else(|| panic!("{series}"));

@@ -169,7 +169,11 @@ fn the_import_says_which_models_every_kind_serves() {
         ("iso14179_2", vec!["C 2208"]),
         (
             "timken",
-            designations.iter().copied().filter(|own| *own != "30208").collect(),
+            designations
+                .iter()
+                .copied()
+                .filter(|designation| *designation != "30208")
+                .collect(),
         ),
     ] {
         let ready = designations.len() - lacking.len();

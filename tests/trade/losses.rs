@@ -36,8 +36,8 @@ pub(super) fn solved(case: &Case, gearbox: &str, torque: &str, speed: &str) -> V
 /// The torque at a port of a solved point. \[Nm\]
 fn torque_at(point: &Value, port: &str) -> f64 {
     let ports = point["ports"].as_array().unwrap();
-    let own = ports.iter().find(|p| p["port"] == port).unwrap();
-    own["torque_nm"].as_f64().unwrap()
+    let found = ports.iter().find(|p| p["port"] == port).unwrap();
+    found["torque_nm"].as_f64().unwrap()
 }
 
 /// Consumption of a vehicle at a constant torque of its motor, 1000 rpm and 10 m/s. \[kWh/100 km\]

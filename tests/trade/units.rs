@@ -71,14 +71,14 @@ fn another_unit_in_the_study_than_in_the_file_is_an_error_unless_it_overrides() 
         "{said}"
     );
     // One file of several has its own word.
-    let own = "  rig: { file: [{ file: rig.csv, units: { speed: rpm }, units_override: true }], columns: { torque: T, speed: n_in, loss: P } }";
+    let overridden = "  rig: { file: [{ file: rig.csv, units: { speed: rpm }, units_override: true }], columns: { torque: T, speed: n_in, loss: P } }";
     let text = std::fs::read_to_string(case.path("study.yaml")).unwrap();
     let rig = text.lines().find(|line| line.contains("rig: {")).unwrap();
-    case.write("own.yaml", text.replace(rig, own));
+    case.write("own.yaml", text.replace(rig, overridden));
     assert!((greatest_difference(&case.result("own.yaml", "c")) - 123.57).abs() < 0.01);
     case.write(
         "own.yaml",
-        text.replace(rig, &own.replace(", units_override: true", "")),
+        text.replace(rig, &overridden.replace(", units_override: true", "")),
     );
     assert_ne!(case.gearloss(&["check", "own.yaml"]).code, Some(0));
 }
@@ -311,9 +311,9 @@ fn oils_are_stated_by_their_dynamic_viscosity_and_density() {
 fn implausible_oils_are_findings_on_both_sides() {
     let case = Case::new("us-units", "oils");
     let text = std::fs::read_to_string(case.path("gearbox.yaml")).unwrap();
-    let own = "kv40: 46 mm2/s, kv100: 8 mm2/s";
+    let stated = "kv40: 46 mm2/s, kv100: 8 mm2/s";
     for (oil, is_plausible) in [
-        (own, true),
+        (stated, true),
         ("kv40: 46000 mm2/s, kv100: 800 mm2/s", false),
         ("kv40: 46 mm2/s, kv100: 45 mm2/s", false),
         ("kv40: 46 mm2/s, kv100: 2.5 mm2/s", false),
@@ -324,7 +324,7 @@ fn implausible_oils_are_findings_on_both_sides() {
         ("kv40: 10 mm2/s, kv100: 2.7 mm2/s", true),
         ("kv40: 220 mm2/s, kv100: 41 mm2/s", true),
     ] {
-        case.write("oil.yaml", text.replace(own, oil));
+        case.write("oil.yaml", text.replace(stated, oil));
         let said = case.gearloss(&["check", "oil.yaml"]);
         assert_eq!(said.code, Some(0), "{oil}: {}", said.text);
         let is_warned =
@@ -333,7 +333,8 @@ fn implausible_oils_are_findings_on_both_sides() {
     }
     case.write(
         "oil.yaml",
-        text.replace(own, "kv40: 46000 mm2/s, kv100: 800 mm2/s") + "\nplausibility: { greatest_kv40: 50000 mm2/s }\n",
+        text.replace(stated, "kv40: 46000 mm2/s, kv100: 800 mm2/s")
+            + "\nplausibility: { greatest_kv40: 50000 mm2/s }\n",
     );
     let said = case.gearloss(&["check", "oil.yaml"]);
     assert!(!said.text.contains("check the numbers"), "{}", said.text);
@@ -625,7 +626,7 @@ fn random_unit(random: &mut Random) -> (&'static str, String, f64, f64) {
     for part in *parts {
         match part {
             Text("/") => text.push_str(random.pick(&["/", "/", " / ", "/ "])),
-            Text(own) => text.push_str(own),
+            Text(symbol) => text.push_str(symbol),
             Times => text.push_str(random.pick(&[" ", "·", "*", " · ", "-", ".", "⋅"])),
             Of(kind, power) => {
                 let all = kind.bare.len() + kind.si.len();

@@ -189,6 +189,9 @@ mod tests {
             "cold oil drags more: {torques:?}"
         );
         let ratio = torques[0] / torques[3];
-        assert!(set.cold_over_warm.is_some_and(|own| (own - ratio).abs() < 1e-12));
+        assert!(
+            set.cold_over_warm
+                .is_some_and(|measured| (measured - ratio).abs() < 1e-12)
+        );
     }
 }

@@ -10,14 +10,14 @@ use common::{Run, program};
 fn all_models_conform() {
     use in_house_plugin as _;
     let language = gearloss_framework::testing::language();
-    let own = [
+    let models = [
         ("bearing", "rig_line"),
         ("bearing", "rig_power"),
         ("gear_drag", "baffled"),
         ("parking_lock", "pawl"),
         ("bearing", "skf"),
     ];
-    for (mechanism, model) in own {
+    for (mechanism, model) in models {
         assert!(
             language.registry().model(mechanism, model).is_some(),
             "{mechanism}/{model} is not linked"
@@ -88,8 +88,8 @@ fn check_solve_and_explain_know_them() {
     };
     // 0.5 N at 45 mm on the wheel at 3000/3.5 rpm.
     let ratings = solved["ratings"].as_array().unwrap();
-    let own = ratings.iter().find(|own| own["rating"] == "lock_speed").unwrap();
-    assert_eq!(own["component"], "parking_locks.lock");
+    let rating = ratings.iter().find(|rating| rating["rating"] == "lock_speed").unwrap();
+    assert_eq!(rating["component"], "parking_locks.lock");
     let expected = 0.5 * 0.045 * 3000.0 / 3.5 * std::f64::consts::PI / 30.0;
     assert!((part("parking_locks.lock")["loss_w"].as_f64().unwrap() - expected).abs() < 1e-9);
     assert_eq!(part("bearings.P1")["model"], "rig_line");

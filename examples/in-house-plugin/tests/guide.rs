@@ -84,13 +84,13 @@ fn the_guide_shows_this_crate() {
     while let Some((before, fenced)) = rest.split_once("```") {
         let (head, fenced) = fenced.split_once('\n').unwrap();
         let (body, after) = fenced.split_once("\n```").unwrap();
-        let own = expected(head, body);
+        let made_block = expected(head, body);
         assert!(
-            own.is_some() || head == "sh",
+            made_block.is_some() || head == "sh",
             "a block `{head}` stands for itself: {body}"
         );
-        blocks += usize::from(own.is_some());
-        made += &format!("{before}```{head}\n{}\n```", own.as_deref().unwrap_or(body));
+        blocks += usize::from(made_block.is_some());
+        made += &format!("{before}```{head}\n{}\n```", made_block.as_deref().unwrap_or(body));
         rest = after;
     }
     made += rest;

@@ -27,8 +27,8 @@ fn said(output: &Output) -> String {
 
 /// A new crate on the gearloss of the repository; none where this crate stands alone.
 fn scaffold(name: &str) -> Option<PathBuf> {
-    let own = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let root = own.join("../..");
+    let package = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let root = package.join("../..");
     if !root.join("framework/core/Cargo.toml").is_file() {
         common::skipped(
             "new plugin is not tested: there is no ../../framework/core/Cargo.toml to build a new crate on",
@@ -92,8 +92,8 @@ struct WithCompiler {
 
 impl WithCompiler {
     fn new(home: PathBuf) -> Self {
-        let own = Path::new(env!("CARGO_MANIFEST_DIR"));
-        let built = cargo(own, &["build", "--offline", "--lib", "--message-format", "json"]);
+        let package = Path::new(env!("CARGO_MANIFEST_DIR"));
+        let built = cargo(package, &["build", "--offline", "--lib", "--message-format", "json"]);
         assert!(built.status.success(), "{}", said(&built));
         let text = String::from_utf8(built.stdout).unwrap();
         let messages: Vec<serde_json::Value> = text.lines().map(|line| serde_json::from_str(line).unwrap()).collect();

@@ -158,7 +158,7 @@ impl Stream {
         let heads = columns
             .iter()
             .map(|(name, unit, cells)| (name.clone(), unit.clone(), cells.format()));
-        let own = OwnStream {
+        let stream = OwnStream {
             columns: heads.collect(),
             rows: i64::try_from(rows).map_err(|error| error.to_string())?,
             batches: VecDeque::from([columns.into_iter().map(|(.., cells)| cells).collect()]),
@@ -168,7 +168,7 @@ impl Stream {
             get_next: Some(get_next),
             get_last_error: Some(get_last_error),
             release: Some(release_stream),
-            private_data: Box::into_raw(Box::new(own)).cast(),
+            private_data: Box::into_raw(Box::new(stream)).cast(),
         })
     }
 
@@ -197,7 +197,7 @@ fn schema(name: &str, metadata: Vec<u8>, format: &'static CStr, children: Vec<Sc
         .into_iter()
         .map(|child| Box::into_raw(Box::new(child)))
         .collect();
-    let mut own = Box::new(OwnSchema {
+    let mut kept = Box::new(OwnSchema {
         // Names of columns have no zero bytes.
         name: CString::new(name).unwrap_or_default(),
         metadata,
@@ -205,18 +205,18 @@ fn schema(name: &str, metadata: Vec<u8>, format: &'static CStr, children: Vec<Sc
     });
     Schema {
         format: format.as_ptr(),
-        name: own.name.as_ptr(),
-        metadata: if own.metadata.is_empty() {
+        name: kept.name.as_ptr(),
+        metadata: if kept.metadata.is_empty() {
             null()
         } else {
-            own.metadata.as_ptr().cast()
+            kept.metadata.as_ptr().cast()
         },
         flags: NULLABLE,
-        n_children: i64::try_from(own.children.len()).unwrap_or_default(),
-        children: own.children.as_mut_ptr(),
+        n_children: i64::try_from(kept.children.len()).unwrap_or_default(),
+        children: kept.children.as_mut_ptr(),
         dictionary: null_mut(),
         release: Some(release_schema),
-        private_data: Box::into_raw(own).cast(),
+        private_data: Box::into_raw(kept).cast(),
     }
 }
 
@@ -243,7 +243,7 @@ fn owned(cells: Option<Cells>, buffers: Vec<*const c_void>, children: Vec<Array>
         .into_iter()
         .map(|child| Box::into_raw(Box::new(child)))
         .collect();
-    let mut own = Box::new(OwnArray {
+    let mut kept = Box::new(OwnArray {
         _cells: cells,
         buffers,
         children,
@@ -252,20 +252,20 @@ fn owned(cells: Option<Cells>, buffers: Vec<*const c_void>, children: Vec<Array>
         length: rows,
         null_count: gaps,
         offset: 0,
-        n_buffers: i64::try_from(own.buffers.len()).unwrap_or_default(),
-        n_children: i64::try_from(own.children.len()).unwrap_or_default(),
-        buffers: own.buffers.as_mut_ptr(),
-        children: own.children.as_mut_ptr(),
+        n_buffers: i64::try_from(kept.buffers.len()).unwrap_or_default(),
+        n_children: i64::try_from(kept.children.len()).unwrap_or_default(),
+        buffers: kept.buffers.as_mut_ptr(),
+        children: kept.children.as_mut_ptr(),
         dictionary: null_mut(),
         release: Some(release_array),
-        private_data: Box::into_raw(own).cast(),
+        private_data: Box::into_raw(kept).cast(),
     }
 }
 
 unsafe extern "C" fn get_schema(stream: *mut Stream, out: *mut Schema) -> c_int {
     // SAFETY: a consumer calls it with the stream made above, not released, and with room for a schema.
     unsafe {
-        let own = &*(*stream).private_data.cast::<OwnStream>();
+        let stream_data = &*(*stream).private_data.cast::<OwnStream>();
         let column = |(name, unit, format): &(String, String, &'static CStr)| {
             let metadata = if unit.is_empty() {
                 Vec::new()
@@ -274,7 +274,12 @@ unsafe extern "C" fn get_schema(stream: *mut Stream, out: *mut Schema) -> c_int 
             };
             schema(name, metadata, format, Vec::new())
         };
-        out.write(schema("", Vec::new(), c"+s", own.columns.iter().map(column).collect()));
+        out.write(schema(
+            "",
+            Vec::new(),
+            c"+s",
+            stream_data.columns.iter().map(column).collect(),
+        ));
     }
     FINE
 }
@@ -282,10 +287,10 @@ unsafe extern "C" fn get_schema(stream: *mut Stream, out: *mut Schema) -> c_int 
 unsafe extern "C" fn get_next(stream: *mut Stream, out: *mut Array) -> c_int {
     // SAFETY: as for the schema, with room for an array. The end of a stream is an array without `release`.
     unsafe {
-        let own = &mut *(*stream).private_data.cast::<OwnStream>();
-        let next = own.batches.pop_front().map(|cells| {
-            let children = cells.into_iter().map(|cells| array(cells, own.rows)).collect();
-            owned(None, vec![null()], children, own.rows, 0)
+        let stream_data = &mut *(*stream).private_data.cast::<OwnStream>();
+        let next = stream_data.batches.pop_front().map(|cells| {
+            let children = cells.into_iter().map(|cells| array(cells, stream_data.rows)).collect();
+            owned(None, vec![null()], children, stream_data.rows, 0)
         });
         out.write(next.unwrap_or(Array {
             length: 0,
@@ -318,8 +323,8 @@ unsafe extern "C" fn release_stream(stream: *mut Stream) {
 unsafe extern "C" fn release_schema(schema: *mut Schema) {
     // SAFETY: called once; the children that a consumer has moved out have no `release` any more.
     unsafe {
-        let own = Box::from_raw((*schema).private_data.cast::<OwnSchema>());
-        for child in own.children {
+        let kept = Box::from_raw((*schema).private_data.cast::<OwnSchema>());
+        for child in kept.children {
             let child = &mut *Box::from_raw(child);
             if let Some(release) = child.release {
                 release(child);
@@ -332,8 +337,8 @@ unsafe extern "C" fn release_schema(schema: *mut Schema) {
 unsafe extern "C" fn release_array(array: *mut Array) {
     // SAFETY: as for a schema.
     unsafe {
-        let own = Box::from_raw((*array).private_data.cast::<OwnArray>());
-        for child in own.children {
+        let kept = Box::from_raw((*array).private_data.cast::<OwnArray>());
+        for child in kept.children {
             let child = &mut *Box::from_raw(child);
             if let Some(release) = child.release {
                 release(child);
@@ -368,13 +373,13 @@ mod tests {
 
     #[test]
     fn a_consumer_reads_and_releases_everything() {
-        let mut own = stream();
+        let mut sent = stream();
         let mut read = schema("", Vec::new(), c"+s", Vec::new());
         let mut batch = empty_array();
         // SAFETY: as a consumer does: what is written over was released before, and each is released once.
         unsafe {
             release_schema(&raw mut read);
-            assert_eq!(own.get_schema.expect("it has one")(&raw mut own, &raw mut read), FINE);
+            assert_eq!(sent.get_schema.expect("it has one")(&raw mut sent, &raw mut read), FINE);
             assert_eq!(read.n_children, 2);
             let gear = &**read.children.add(1);
             assert_eq!(
@@ -382,7 +387,7 @@ mod tests {
                 (c"gear", c"U")
             );
             release_array(&raw mut batch);
-            assert_eq!(own.get_next.expect("it has one")(&raw mut own, &raw mut batch), FINE);
+            assert_eq!(sent.get_next.expect("it has one")(&raw mut sent, &raw mut batch), FINE);
             let [loss, gear] = [&**batch.children, &**batch.children.add(1)];
             let numbers = std::slice::from_raw_parts((*loss.buffers.add(1)).cast::<f64>(), 3);
             assert!(numbers[0] == 1.5 && numbers[1].is_nan() && numbers[2] == -2.0);
@@ -391,22 +396,22 @@ mod tests {
             let offsets = std::slice::from_raw_parts((*gear.buffers.add(1)).cast::<i64>(), 4);
             assert_eq!(offsets, [0, 5, 5, 6]);
             release_array(&raw mut batch);
-            assert_eq!(own.get_next.expect("it has one")(&raw mut own, &raw mut batch), FINE);
+            assert_eq!(sent.get_next.expect("it has one")(&raw mut sent, &raw mut batch), FINE);
             assert!(batch.release.is_none(), "one batch");
             release_schema(&raw mut read);
         }
-        own.release();
+        sent.release();
     }
 
     #[test]
     fn a_consumer_may_move_columns_out_and_leave_the_rest() {
-        let mut own = stream();
+        let mut sent = stream();
         let mut batch = empty_array();
         // SAFETY: a child that is moved out stays without `release` in its batch.
         unsafe {
             release_array(&raw mut batch);
-            own.get_next.expect("it has one")(&raw mut own, &raw mut batch);
-            own.release();
+            sent.get_next.expect("it has one")(&raw mut sent, &raw mut batch);
+            sent.release();
             let place = *batch.children;
             let mut loss = place.read();
             (*place).release = None;

@@ -153,14 +153,14 @@ enum Source {
 
 impl Source {
     fn choose(named: Option<&Path>, home: &Path) -> Result<Self, Failure> {
-        let own = Path::new(env!("CARGO_MANIFEST_DIR"));
+        let sources = Path::new(env!("CARGO_MANIFEST_DIR"));
         Ok(match named {
             // Links are resolved, because `..` after a link leads elsewhere.
             Some(path) if path.is_relative() => {
                 Self::Named(path_from(&std::fs::canonicalize(home)?, &std::fs::canonicalize(path)?))
             }
             Some(path) => Self::Named(path.to_path_buf()),
-            None if is_checkout(own) => Self::Own(own.to_path_buf()),
+            None if is_checkout(sources) => Self::Own(sources.to_path_buf()),
             None => Self::Registry,
         })
     }

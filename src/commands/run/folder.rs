@@ -171,12 +171,12 @@ mod tests {
         let Err(Failure::Input(refused)) = Held::take(&folder) else {
             panic!("two runs hold one folder");
         };
-        let own = format!(
+        let reason = format!(
             "another run writes into {}: process {}",
             folder.display(),
             std::process::id()
         );
-        assert!(refused.contains(&own) || cfg!(windows), "{refused}");
+        assert!(refused.contains(&reason) || cfg!(windows), "{refused}");
         // Broken off: the lock is gone, the mark is not.
         let (part, _) = temporary(&folder.join("map.csv")).unwrap();
         drop(held);

@@ -20,8 +20,8 @@ use crate::shard::Shard;
 /// Computes the tasks of a shard; continues an interrupted run.
 pub fn run(language: &Language, study: &Study, shard: Shard, args: &RunArgs, out: &mut Out) -> Result<End, Failure> {
     let beside = study.folder.join("shards");
-    let own = || beside.join(format!("{}-of-{}", shard.number, shard.of));
-    let folder = args.results.output.clone().unwrap_or_else(own);
+    let folder_of_shard = || beside.join(format!("{}-of-{}", shard.number, shard.of));
+    let folder = args.results.output.clone().unwrap_or_else(folder_of_shard);
     let manifest = Manifest::for_shard(language, study, shard);
     let held = manifest.claim(&folder)?;
     // Finished results of other shards allow later stages.

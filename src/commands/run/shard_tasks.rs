@@ -27,7 +27,7 @@ pub struct ShardTasks {
 #[derive(Default)]
 struct Files {
     /// The file of the computing shard, if it exists.
-    own: Option<TaskFile>,
+    ours: Option<TaskFile>,
     others: Vec<TaskFile>,
     /// Number of results from earlier runs.
     before: usize,
@@ -50,10 +50,10 @@ impl ShardTasks {
         for (analysis, files) in &tasks.analyses {
             let path = file(folder, analysis);
             if path.symlink_metadata().is_ok() {
-                let own = TaskFile::reopen(&path).map_err(|e| cannot_write(&path, e))?;
+                let file = TaskFile::reopen(&path).map_err(|e| cannot_write(&path, e))?;
                 let mut files = locked(files);
-                files.before = own.len();
-                files.own = Some(own);
+                files.before = file.len();
+                files.ours = Some(file);
             }
         }
         Ok(tasks)
@@ -96,7 +96,7 @@ impl ShardTasks {
             let files = locked(files);
             (files.computed, files.before)
         });
-        all.fold((0, 0), |sum, own| (sum.0 + own.0, sum.1 + own.1))
+        all.fold((0, 0), |sum, counts| (sum.0 + counts.0, sum.1 + counts.1))
     }
 
     fn files(&self, task: Task<'_>) -> Option<MutexGuard<'_, Files>> {
@@ -125,7 +125,7 @@ impl TaskResults for ShardTasks {
 
     fn is_kept(&self, task: Task<'_>) -> bool {
         self.files(task).is_some_and(|files| {
-            let mut all = files.own.iter().chain(&files.others);
+            let mut all = files.ours.iter().chain(&files.others);
             all.any(|file| file.holds(place(task)))
         })
     }
@@ -135,11 +135,11 @@ impl TaskResults for ShardTasks {
     }
 
     fn read(&self, task: Task<'_>) -> Result<Vec<u8>, Stopped> {
-        let own = place(task);
+        let wanted = place(task);
         let result = self.files(task).map(|mut files| {
-            let Files { own: mine, others, .. } = &mut *files;
+            let Files { ours: mine, others, .. } = &mut *files;
             let mut all = mine.iter_mut().chain(others);
-            all.find(|file| file.holds(own)).map(|file| file.read(own))
+            all.find(|file| file.holds(wanted)).map(|file| file.read(wanted))
         });
         let result = result
             .flatten()
@@ -156,10 +156,10 @@ impl TaskResults for ShardTasks {
             return Ok(());
         };
         let path = file(&self.folder, task.analysis);
-        if files.own.is_none() {
-            files.own = Some(TaskFile::reopen(&path).map_err(|e| cannot_write(&path, e))?);
+        if files.ours.is_none() {
+            files.ours = Some(TaskFile::reopen(&path).map_err(|e| cannot_write(&path, e))?);
         }
-        let kept = files.own.as_mut().map(|own| own.append(place(task), result));
+        let kept = files.ours.as_mut().map(|file| file.append(place(task), result));
         kept.transpose().map_err(|e| cannot_write(&path, e))?;
         files.computed += 1;
         Ok(())

@@ -92,8 +92,8 @@ impl<'r> Tables<'r> {
         let mut whole = Vec::new();
         let mut begun = self.begun.into_inner().unwrap_or_else(PoisonError::into_inner);
         for table in tables {
-            let file = if let Some(own) = begun.iter().position(|(name, _)| *name == table.name) {
-                begun.swap_remove(own).1
+            let file = if let Some(place) = begun.iter().position(|(name, _)| *name == table.name) {
+                begun.swap_remove(place).1
             } else {
                 let mut file = TableFiles::new(self.files, self.formats, table)?;
                 file.rows(table)?;
@@ -109,13 +109,13 @@ impl RowSink for Tables<'_> {
     fn take(&self, rows: &Table) -> Result<(), Stopped> {
         let mut begun = self.begun.lock().unwrap_or_else(PoisonError::into_inner);
         let known = begun.iter().position(|(name, _)| *name == rows.name);
-        let own = if let Some(own) = known {
-            own
+        let place = if let Some(place) = known {
+            place
         } else {
             let file = TableFiles::new(self.files, self.formats, rows)?;
             begun.push((rows.name.clone(), file));
             begun.len() - 1
         };
-        Ok(begun[own].1.rows(rows)?)
+        Ok(begun[place].1.rows(rows)?)
     }
 }

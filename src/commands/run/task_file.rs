@@ -45,18 +45,18 @@ impl TaskFile {
     }
 
     fn scanned(file: File, path: &Path) -> io::Result<Self> {
-        let mut own = Self {
+        let mut reopened = Self {
             file,
             path: path.to_owned(),
             end: 0,
             places: BTreeMap::new(),
         };
-        while let Some(bytes) = own.read_at(own.end)? {
+        while let Some(bytes) = reopened.read_at(reopened.end)? {
             let place = [0, 8, 16].map(|from| little(&bytes[from..from + 8]) as usize);
-            own.places.insert(place, own.end);
-            own.end += (HEAD + bytes.len()) as u64;
+            reopened.places.insert(place, reopened.end);
+            reopened.end += (HEAD + bytes.len()) as u64;
         }
-        Ok(own)
+        Ok(reopened)
     }
 
     /// Number of results.

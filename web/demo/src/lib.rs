@@ -44,8 +44,8 @@ pub extern "C" fn allocate(length: usize) -> usize {
 #[unsafe(no_mangle)]
 pub extern "C" fn release(place: usize) {
     let known = LENT.with_borrow_mut(|lent| {
-        let own = lent.iter().position(|(own, _)| *own == place)?;
-        Some(lent.swap_remove(own))
+        let entry = lent.iter().position(|(known, _)| *known == place)?;
+        Some(lent.swap_remove(entry))
     });
     if let Some((place, length)) = known
         && let Ok(layout) = Layout::array::<u8>(length.max(1))
@@ -58,7 +58,7 @@ pub extern "C" fn release(place: usize) {
 /// Answers the request at a place that [`allocate`] gave; the place of the answer, or zero if there is no memory.
 #[unsafe(no_mangle)]
 pub extern "C" fn answer(place: usize) -> usize {
-    let known = LENT.with_borrow(|lent| lent.iter().find(|(own, _)| *own == place).copied());
+    let known = LENT.with_borrow(|lent| lent.iter().find(|(known, _)| *known == place).copied());
     let text = match known {
         // SAFETY: it is memory of this length that was lent, and the page has written it.
         Some((place, length)) => answered(unsafe { std::slice::from_raw_parts(place as *const u8, length) }),
