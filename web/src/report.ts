@@ -2,7 +2,7 @@
 
 import { Drawn, Picture, colourBooks, draw } from "./draw.ts";
 import { colourByLoss, heatScale, legible } from "./drawing.ts";
-import { significant, words } from "./format.ts";
+import { significant, withUnit, words } from "./format.ts";
 import { html } from "./svg.ts";
 import { equip } from "./table.ts";
 import { theme } from "./theme.ts";
@@ -40,7 +40,7 @@ function fit(host: HTMLElement): void {
     const used = host.firstElementChild?.getBoundingClientRect().height ?? room;
     if (used <= room && used > room - 24) return;
     const before = Number(host.dataset.plot ?? room);
-    const next = Math.max(160, before - (used - room));
+    const next = Math.max(150, before - (used - room));
     host.dataset.plot = String(next);
     picture.redraw({ height: next });
   }
@@ -234,7 +234,7 @@ function drawings(): void {
     const note = drawing.parentElement?.querySelector(".loss-note");
     if (!most || !note) continue;
     heatScale(note, most[1]);
-    html(note, "p", {}, `Loss at ${words(drawing.dataset.at ?? "")}, that of a mesh in equal parts in its gears; largest: ${words(most[0])}, ${significant(most[1], 3)} W.`);
+    html(note, "p", {}, `Loss at ${words(drawing.dataset.at ?? "")}. Largest: ${words(most[0])}, ${withUnit(significant(most[1], 3), "W")}. Gears share the loss of their mesh equally.`);
   }
 }
 
