@@ -185,6 +185,8 @@ function typography(): void {
   for (const element of document.querySelectorAll("[data-words], td, th, figcaption")) {
     // Copies and files keep the text as it was.
     if (element instanceof HTMLTableCellElement) element.dataset.text = element.textContent?.trim() ?? "";
+    // The first head names what the rows are; others may be mechanisms.
+    if (element instanceof HTMLTableCellElement && element.tagName === "TH" && element.cellIndex === 0) continue;
     for (const node of [...element.childNodes]) {
       if (node.nodeType !== Node.TEXT_NODE || !node.nodeValue) continue;
       const parts = words(node.nodeValue).split(/`([^`\n]+)`/);
