@@ -67,6 +67,47 @@ fn long_reports_work_in_a_browser() {
     ]);
 }
 
+/// Names have no place on an axis: a sweep over them has bars for loss, temperature and limits.
+#[test]
+fn a_sweep_over_names_is_bars_in_a_browser() {
+    if let Err(reason) = tools() {
+        return skipped(&format!("no report was opened: {reason}"));
+    }
+    let Some(browser) = browser() else {
+        return skipped("no report was opened: no browser; on Debian `apt-get install chromium` brings one");
+    };
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("names");
+    std::fs::create_dir_all(&folder).unwrap();
+    let names = "mineral, polyalphaolefin, polyglycol";
+    let study = format!(
+        "gearloss: study/1
+gearboxes: {{ reducer: {}/examples/planetary-reducer/gearbox.yaml }}
+limits: {{ life: {{ quantity: rating, rating: iso_281.L10h, of: bearings.O2, least: 20000 h }} }}
+analyses:
+  kinds: {{ type: sweep, path: lubricants.sump.kind, values: [{names}], torque: 2 Nm, speed: 3000 rpm }}
+",
+        env!("CARGO_MANIFEST_DIR")
+    );
+    let (study_file, results) = (folder.join("study.yaml"), folder.join("results"));
+    std::fs::write(&study_file, study).unwrap();
+    let mut run = Command::new(env!("CARGO_BIN_EXE_gearloss"));
+    let output = run
+        .arg("run")
+        .arg(&study_file)
+        .arg("-o")
+        .arg(&results)
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let report = results.join("report.html");
+    let output = node(
+        &["test/page.mjs", report.to_str().unwrap(), &format!("kinds: {names}")],
+        Some(&browser),
+    );
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{errors}");
+}
+
 fn reports_work(most_pages: &[(&'static str, u64)]) {
     if let Err(reason) = tools() {
         return skipped(&format!("no report was opened: {reason}"));

@@ -416,7 +416,7 @@ fn run_prints_the_result_of_each_analysis_in_one_line() {
     }
     assert!(
         text.contains(
-            "With `own` calculated at 12 operating points: loss 20.6 to 72.5 W (at the highest loss bearings 42.2 %, seals 41.9 %), oil 29.5 to 53.6 °C"
+            "At 12 operating points with the gearbox's own models: loss 20.6 to 72.5 W (at the highest loss: bearings 42.2 %, seals 41.9 %), oil 29.5 to 53.6 °C"
         ),
         "{text}"
     );

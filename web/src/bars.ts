@@ -81,7 +81,7 @@ export function drawBars(stage: Stage, data: Bars): void {
     const room = Math.min(Math.max(0, ...flat.map((t) => textWidth(t))) + 12, 0.42 * stage.width);
     const usual = bars.length > 24 ? 18 : 26;
     // A given height is filled, within limits.
-    const line = stage.height ? Math.max(17, Math.min(46, (stage.height - 64) / Math.max(1, bars.length))) : usual;
+    const line = stage.height ? Math.max(15, Math.min(46, (stage.height - 64) / Math.max(1, bars.length))) : usual;
     const aboveRoom = Math.max(0, ...bars.map((b) => Math.max(textWidth(words(b.above)), textWidth(words(b.above_measured))))) + 10;
     const [left, right, top] = [room, Math.max(room + 80, stage.width - 12 - aboveRoom), data.over ? 20 : 8];
     const bottom = top + line * bars.length;

@@ -15,7 +15,7 @@ export function heat(share: number): string {
 
 /** A bar of colours with losses in W, from none at the bottom to the largest. */
 export function heatScale(parent: Element, most: number): void {
-  const [top, length, thick] = [20, 110, 10];
+  const [top, length, thick] = [20, 90, 10];
   const element = canvas({ root: parent, width: 72 }, top + length + 8, `colours of losses from 0 to ${significant(most, 3)} W`);
   const height = (watts: number) => top + length - (length * watts) / most;
   const steps = 40;
@@ -27,7 +27,7 @@ export function heatScale(parent: Element, most: number): void {
     svg(element, "line", { x1: 1, x2: thick + 5, y1: y, y2: y, class: "gl-tick" });
     svg(element, "text", { x: thick + 8, y: y + 4 }, short(watts));
   }
-  svg(element, "text", { x: 0, y: 11 }, "W lost");
+  svg(element, "text", { x: 0, y: 11 }, "loss in W");
 }
 
 /** Fills the shapes of each part by its loss and adds the loss to its tooltip. Returns the part with the largest loss. */

@@ -78,7 +78,7 @@ export function words(text: string): string {
     .replace(/\bmm3\b/g, "mm³")
     .replace(/\bm\/s2\b/g, "m/s²")
     .replace(/(^|[\s(])-(?=\d)/g, `$1${MINUS}`)
-    .replace(/(\d) (?=(°C|%|Nm|rpm|W|kW|kJ|mm|ml)(?![\w²³]))/g, "$1\u00a0");
+    .replace(/(\d) (?=(°C|%|Nm|rpm|W|kW|kJ|kWh|Wh|km|mm|ml|l|h|K|N|kN|MPa|GPa)(?![\w²³]))/g, "$1\u00a0");
 }
 
 /** A label that is a large whole number, in groups of three digits. */

@@ -49,7 +49,7 @@ export function drawPanels(stage: Stage, panels: Panels): void {
   const across = byRows ? panels.columns.length : Math.max(1, Math.min(count, fit));
   const width = Math.floor((stage.width - numberRoom - gap * (across - 1) - 24) / across);
   const rowsOfPanels = Math.ceil(count / across);
-  const height = stage.height && rowsOfPanels > 0 ? Math.max(150, stage.height / rowsOfPanels - 60) : Math.round(Math.max(150, Math.min(0.72 * width, across === 1 ? 440 : 330)));
+  const height = stage.height && rowsOfPanels > 0 ? Math.max(100, stage.height / rowsOfPanels - 60) : Math.round(Math.max(150, Math.min(0.72 * width, across === 1 ? 440 : 330)));
 
   const grid = html(body, "div", { class: "gl-panels", role: "group", "aria-label": `${panels.title}, ${quantityName(quantity)}` });
   const shown: Shown[] = [];

@@ -2,7 +2,7 @@
 
 import { Drawn, Picture, colourBooks, draw } from "./draw.ts";
 import { colourByLoss, heatScale, legible } from "./drawing.ts";
-import { significant, words } from "./format.ts";
+import { significant, withUnit, words } from "./format.ts";
 import { html } from "./svg.ts";
 import { equip } from "./table.ts";
 import { theme } from "./theme.ts";
@@ -40,7 +40,7 @@ function fit(host: HTMLElement): void {
     const used = host.firstElementChild?.getBoundingClientRect().height ?? room;
     if (used <= room && used > room - 24) return;
     const before = Number(host.dataset.plot ?? room);
-    const next = Math.max(160, before - (used - room));
+    const next = Math.max(150, before - (used - room));
     host.dataset.plot = String(next);
     picture.redraw({ height: next });
   }
@@ -185,6 +185,8 @@ function typography(): void {
   for (const element of document.querySelectorAll("[data-words], td, th, figcaption")) {
     // Copies and files keep the text as it was.
     if (element instanceof HTMLTableCellElement) element.dataset.text = element.textContent?.trim() ?? "";
+    // The first head names what the rows are; others may be mechanisms.
+    if (element instanceof HTMLTableCellElement && element.tagName === "TH" && element.cellIndex === 0) continue;
     for (const node of [...element.childNodes]) {
       if (node.nodeType !== Node.TEXT_NODE || !node.nodeValue) continue;
       const parts = words(node.nodeValue).split(/`([^`\n]+)`/);
@@ -234,7 +236,7 @@ function drawings(): void {
     const note = drawing.parentElement?.querySelector(".loss-note");
     if (!most || !note) continue;
     heatScale(note, most[1]);
-    html(note, "p", {}, `Loss at ${words(drawing.dataset.at ?? "")}, that of a mesh in equal parts in its gears; largest: ${words(most[0])}, ${significant(most[1], 3)} W.`);
+    html(note, "p", {}, `Loss at ${words(drawing.dataset.at ?? "")}. Largest: ${words(most[0])}, ${withUnit(significant(most[1], 3), "W")}. Gears share the loss of their mesh equally.`);
   }
 }
 

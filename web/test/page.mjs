@@ -1,5 +1,6 @@
 // Opens a report in a browser and checks it: node test/page.mjs [report.html]. Prints one line of JSON with figures.
 // Without an argument it builds the page of made-up results. BROWSER names the program; CAPTURE a folder for images.
+// A second argument names an analysis that sweeps over names, with these, such as `oils: thin, thick`.
 
 import { mkdir, readFile, stat, writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
@@ -171,6 +172,31 @@ const serious = async (page, what) => {
   await page.close();
 }
 
+// A sweep over names is bars: of loss with efficiency, of oil temperature, of each limited quantity; a bar for each name, with its value. The
+// headline has all names.
+if (process.argv[3]) {
+  const [name, list] = process.argv[3].split(": ");
+  const names = list.split(", ");
+  const page = await open(1440, 900);
+  await scrolled(page);
+  await page.evaluate(() => document.querySelectorAll("details.more").forEach((d) => (d.open = true)));
+  await scrolled(page);
+  const section = await page.$(`#analysis-${name}`);
+  check(section !== null, `there is no analysis ${name}`);
+  const headline = (await section?.$eval(".headline", (e) => e.textContent).catch(() => "")) ?? "";
+  for (const own of names) check(headline.includes(own), `the headline of ${name} lacks ${own}: ${headline}`);
+  const figures = (await section?.$$eval("figure", (list) => list.map((f) => [f.querySelector("figcaption").textContent, [...f.querySelectorAll(".gl-bar-group")].map((g) => [g.textContent, [...g.querySelectorAll(".gl-share")].some((r) => r.getBoundingClientRect().width > 1 && r.getBoundingClientRect().height > 1)])]))) ?? [];
+  for (const [what, value] of [[/^loss and efficiency/i, /\d.W.*\d.%/], [/^oil temperature/i, /\d.°C/], [/limit:/i, /\d/]]) {
+    const [caption, bars] = figures.find(([caption]) => what.test(caption)) ?? [`${what}`, []];
+    check(bars.length === names.length, `${name}: ${bars.length} bars of ${names.length} names in "${caption}"`);
+    for (const own of names) {
+      const bar = bars.find(([text]) => text.includes(own));
+      check(bar?.[1] && value.test(bar[0].replace(own, "")), `${name}: "${caption}" has no bar with a value for ${own}: ${bar?.[0] ?? ""}`);
+    }
+  }
+  await page.close();
+}
+
 // Each link of the bar leads to its heading, although no picture was drawn before.
 {
   const page = await open(1440, 900);
@@ -205,6 +231,21 @@ const serious = async (page, what) => {
   check(ground === null || (await drawing())[0] === 255, "on paper the drawing is not light");
   await page.emulateMediaType("screen");
   await serious(page, "dark");
+  await page.close();
+}
+
+// A low screen, as of a notebook: the first picture with its legend, the note of the drawing and the bar of sections end on it.
+{
+  const page = await open(1366, 768);
+  await pause(800);
+  await image(page, "low");
+  const cut = await page.evaluate(() => {
+    if (!document.querySelector(".first.fills")) return [];
+    const long = [...document.querySelectorAll(".first [data-picture], .first .loss-note")].filter((e) => e.scrollHeight > e.clientHeight + 12);
+    const low = [...document.querySelectorAll(".lead, nav")].filter((e) => e.getBoundingClientRect().bottom > innerHeight + 1);
+    return [...long, ...low].map((e) => e.className || e.tagName.toLowerCase());
+  });
+  check(cut.length === 0, `at 1366x768 the first screen cuts ${cut.join(", ")}`);
   await page.close();
 }
 

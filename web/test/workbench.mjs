@@ -190,6 +190,27 @@ await step("First screen with the planetary example", async () => {
 });
 await image(page, "planetary");
 
+// The losses have the colours of their mechanisms; the tables of the point are tables that can be sorted and copied.
+await step("Losses and tables of the point", async () => {
+  const colours = await page.$$eval(".losses tr[data-path]", (rows) => rows.map((row) => [row.dataset.path.split(".")[0], row.querySelector(".bar-own i") && getComputedStyle(row.querySelector(".bar-own")).getPropertyValue("--own")]).filter(([, colour]) => colour));
+  const of = (section) => [...new Set(colours.filter(([own]) => own === section).map(([, colour]) => colour))];
+  check(of("bearings").join() === "#e69f00" && of("seals").join() === "#b83280", `colours of the losses: ${JSON.stringify(colours)}`);
+  await page.click("#losses-tabs [role=tab]:nth-child(3)");
+  await until(page, "tables of the point", () => document.querySelectorAll(".panel-text table").length >= 3);
+  const heads = await page.$$eval(".panel-text table", (tables) => tables.map((t) => t.tHead.rows[0].cells[0].textContent));
+  check(["port", "bearing", "component"].every((head) => heads.includes(head)), `tables of the point: ${heads}`);
+  const sorted = await page.evaluate(() => {
+    const table = [...document.querySelectorAll(".panel-text table")].find((t) => t.tHead.rows[0].cells[0].textContent === "component");
+    const head = [...table.tHead.rows[0].cells].findIndex((cell) => cell.textContent === "loss W");
+    table.tHead.rows[0].cells[head].querySelector("button").click();
+    const losses = [...table.tBodies[0].rows].map((row) => parseFloat(row.cells[head].textContent)).filter((v) => !Number.isNaN(v));
+    return losses.length > 3 && losses.every((v, k) => k === 0 || losses[k - 1] >= v);
+  });
+  check(sorted, "the tables of the point cannot be sorted");
+  await image(page, "tables");
+  await page.click("#losses-tabs [role=tab]:nth-child(1)");
+});
+
 // A click on a bearing selects its line and explains it; so do the keys.
 await step("A click on a bearing selects its line and explains it; so do the keys", async () => {
   const hit = await page.evaluate(() => {

@@ -93,6 +93,7 @@ pub fn quantity(path: &str) -> String {
     let name = known.map_or_else(|| spaced(last_key(path)), |[_, words]| (*words).to_owned());
     match owner(path) {
         Some((owner, rest)) if !rest.is_empty() => format!("{name} of {owner}"),
+        None if known.is_none() && path.starts_with("lubricants.") => format!("{name} of the oil"),
         _ => name,
     }
 }
@@ -152,6 +153,7 @@ mod tests {
     fn paths_are_words_of_the_field() {
         assert_eq!(quantity("gears.*.surface.rq"), "surface roughness of the gears");
         assert_eq!(quantity("lubricants.sump.viscosity.kv100"), "oil viscosity at 100 °C");
+        assert_eq!(quantity("lubricants.sump.kind"), "kind of the oil");
         assert_eq!(quantity("bearings.B3.oil_height"), "oil level of bearing B3");
         assert_eq!(quantity("thermal.network.oil_flow"), "oil flow");
         assert_eq!(model("meshes.M1.model.tooth_friction"), "tooth friction of mesh M1");

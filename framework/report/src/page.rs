@@ -78,6 +78,50 @@ pub enum Block {
     Table(TextTable),
 }
 
+/// Text and tables in their order.
+#[derive(Debug, Default)]
+pub struct Blocks(Vec<Block>);
+
+impl Blocks {
+    /// Adds text behind what there is.
+    pub fn text(&mut self, text: &str) {
+        match self.0.last_mut() {
+            Some(Block::Text(last)) => last.push_str(text),
+            _ if text.is_empty() => {}
+            _ => self.0.push(Block::Text(text.to_owned())),
+        }
+    }
+
+    /// Adds a table.
+    pub fn table(&mut self, table: TextTable) {
+        self.0.push(Block::Table(table));
+    }
+
+    /// Adds other blocks behind these.
+    pub fn append(&mut self, other: Self) {
+        for block in other.0 {
+            match block {
+                Block::Text(text) => self.text(&text),
+                Block::Table(table) => self.table(table),
+            }
+        }
+    }
+
+    /// All of them as text.
+    pub fn render(&self) -> String {
+        let parts = self.0.iter().map(|block| match block {
+            Block::Text(text) => text.clone(),
+            Block::Table(table) => table.render(),
+        });
+        parts.collect()
+    }
+
+    /// All of them in their order.
+    pub fn into_vec(self) -> Vec<Block> {
+        self.0
+    }
+}
+
 /// A figure with the name of its file.
 #[derive(Debug)]
 pub struct NamedFigure {
@@ -108,7 +152,8 @@ impl Page {
         self.key_figures.push(KeyFigure {
             label: label.to_owned(),
             value: value.into(),
-            unit: unit.to_owned(),
+            // The unit of a ratio is not printed.
+            unit: if unit == "-" { String::new() } else { unit.to_owned() },
             detail: detail.into(),
         });
     }

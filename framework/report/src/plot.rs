@@ -25,6 +25,34 @@ pub(super) const COLOURS: [RGBColor; 8] = [
     RGBColor(120, 120, 120),
 ];
 
+/// Colours of the mechanisms, which are those of the report.
+const MECHANISMS: [(&str, RGBColor); 9] = [
+    ("gear_mesh", RGBColor(0x1f, 0x77, 0xb4)),
+    ("bearing", RGBColor(0xe6, 0x9f, 0x00)),
+    ("gear_drag", RGBColor(0x12, 0xb4, 0x88)),
+    ("seal", RGBColor(0xb8, 0x32, 0x80)),
+    ("planetary_drag", RGBColor(0x56, 0xb4, 0xe9)),
+    ("clutch", RGBColor(0xd7, 0x68, 0x21)),
+    ("synchronizer", RGBColor(0x5d, 0x55, 0xc8)),
+    ("auxiliary", RGBColor(0xc1, 0xdd, 0x59)),
+    ("others", RGBColor(0xa9, 0xb0, 0xb8)),
+];
+
+/// Mechanisms of the components of a section of the gearbox.
+const SECTIONS: [(&str, &str); 8] = [
+    ("meshes", "gear_mesh"),
+    ("gears", "gear_drag"),
+    ("bearings", "bearing"),
+    ("seals", "seal"),
+    ("planetary_sets", "planetary_drag"),
+    ("clutches", "clutch"),
+    ("couplings", "synchronizer"),
+    ("auxiliaries", "auxiliary"),
+];
+
+/// Shares of black (negative) or white in the shades of several components with one mechanism.
+const SHADES: [f64; 5] = [0.0, 0.4, -0.35, 0.2, -0.18];
+
 /// Anchors of the colour scale viridis, whose lightness increases evenly.
 const SCALE: [(u8, u8, u8); 6] = [
     (68, 1, 84),
@@ -112,6 +140,47 @@ fn colour(i: usize) -> RGBColor {
     COLOURS[i % COLOURS.len()]
 }
 
+/// The mechanism of a share of a loss, and whether it is one of several parts with this mechanism: `bearings.B2` is one of the bearings.
+fn mechanism_of(name: &str) -> Option<(&str, bool)> {
+    match name {
+        "gears, load-dependent" => return Some(("gear_mesh", false)),
+        "gears, load-independent" => return Some(("gear_drag", false)),
+        "bearings, load-dependent" => return Some(("bearing", false)),
+        "bearings, load-independent" => return Some(("bearing", true)),
+        "seals" => return Some(("seal", false)),
+        _ => {}
+    }
+    if MECHANISMS.iter().any(|(own, _)| *own == name) {
+        return Some((name, false));
+    }
+    let (section, rest) = name.split_once('.')?;
+    let (_, own) = SECTIONS.iter().find(|(own, _)| *own == section)?;
+    let is_drag = section == "meshes" && rest.contains(".drag");
+    Some((if is_drag { "gear_drag" } else { own }, true))
+}
+
+/// Colours of stacked shares: mechanisms have theirs, components the shades of their mechanism's, other names those of their place.
+fn colours_of(names: &[String]) -> Vec<RGBColor> {
+    let mut parts: Vec<&str> = Vec::new();
+    let own = names.iter().enumerate().map(|(i, name)| {
+        let Some((mechanism, is_part)) = mechanism_of(name) else {
+            return colour(i);
+        };
+        let base = MECHANISMS.iter().find(|(own, _)| *own == mechanism);
+        let base = base.map_or(colour(i), |(_, colour)| *colour);
+        if !is_part {
+            return base;
+        }
+        let count = parts.iter().filter(|other| **other == mechanism).count();
+        parts.push(mechanism);
+        let share = SHADES[count % SHADES.len()];
+        let end = if share > 0.0 { 255.0 } else { 0.0 };
+        let mix = |own: u8| (f64::from(own) + share.abs() * (end - f64::from(own))).round() as u8;
+        RGBColor(mix(base.0), mix(base.1), mix(base.2))
+    });
+    own.collect()
+}
+
 /// A colour of the scale, from zero to one.
 fn shade(share: f64) -> RGBColor {
     let place = share.clamp(0.0, 1.0) * (SCALE.len() - 1) as f64;
@@ -156,14 +225,20 @@ fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
     (low - 0.03 * span, high + 0.08 * span)
 }
 
-fn legend(root: &DrawingArea<SVGBackend<'_>, Shift>, names: &[String], solid: bool) -> Result<(), PlotError> {
+fn legend(
+    root: &DrawingArea<SVGBackend<'_>, Shift>,
+    names: &[String],
+    colours: &[RGBColor],
+    solid: bool,
+) -> Result<(), PlotError> {
     let style = ("sans-serif", TEXT).into_font().color(&BLACK);
     for (i, name) in names.iter().enumerate() {
+        let colour = colours.get(i).copied().unwrap_or_else(|| colour(i));
         let (x, y) = (SIZE.0 as i32 - 190, 60 + 24 * i as i32);
         let mark = if solid {
-            Rectangle::new([(x, y), (x + 16, y + 14)], colour(i).filled())
+            Rectangle::new([(x, y), (x + 16, y + 14)], colour.filled())
         } else {
-            Rectangle::new([(x, y + 6), (x + 16, y + 9)], colour(i).filled())
+            Rectangle::new([(x, y + 6), (x + 16, y + 9)], colour.filled())
         };
         root.draw(&mark).map_err(fault)?;
         root.draw(&Text::new(name.clone(), (x + 24, y), style.clone()))
@@ -182,6 +257,7 @@ pub(super) fn bars(
     names: &[String],
     bars: &[Bar],
 ) -> Result<String, PlotError> {
+    let colours = colours_of(names);
     drawn(title, |root| {
         let measured = bars.iter().any(|b| b.measured.is_some());
         let tallest = bars
@@ -214,7 +290,8 @@ pub(super) fn bars(
             let right = if measured { i as f64 + 0.50 } else { i as f64 + 0.88 };
             let mut low = 0.0;
             for (k, share) in bar.shares.iter().enumerate() {
-                let part = Rectangle::new([(left, low), (right, low + share)], colour(k).filled());
+                let own = colours.get(k).copied().unwrap_or_else(|| colour(k));
+                let part = Rectangle::new([(left, low), (right, low + share)], own.filled());
                 chart.draw_series([part]).map_err(fault)?;
                 low += share;
             }
@@ -259,7 +336,7 @@ pub(super) fn bars(
         if measured {
             names.push("measured: outline".to_owned());
         }
-        legend(root, &names, true)
+        legend(root, &names, &colours, true)
     })
 }
 
@@ -301,6 +378,7 @@ pub(super) fn areas(
     places: &[f64],
     stacks: &[Vec<f64>],
 ) -> Result<String, PlotError> {
+    let colours = colours_of(names);
     drawn(title, |root| {
         let highest = stacks.iter().map(|s| s.iter().sum()).fold(0.0, f64::max);
         let (first, last) = range(places.iter().copied());
@@ -315,10 +393,10 @@ pub(super) fn areas(
             back.reverse();
             edge.extend(back);
             chart
-                .draw_series([Polygon::new(edge, colour(i).filled())])
+                .draw_series([Polygon::new(edge, colours[i].filled())])
                 .map_err(fault)?;
         }
-        legend(root, names, true)
+        legend(root, names, &colours, true)
     })
 }
 
@@ -347,7 +425,7 @@ pub(super) fn lines(title: &str, x_name: &str, y_name: &str, lines: &[Line]) -> 
             }
         }
         let names: Vec<String> = lines.iter().map(|l| l.name.clone()).collect();
-        legend(root, &names, false)
+        legend(root, &names, &[], false)
     })
 }
 
@@ -386,6 +464,17 @@ mod tests {
             stroke: Stroke::Marked,
         };
         assert!(lines("Limit", "speed", "torque", &[line]).unwrap().contains("limit"));
+    }
+
+    #[test]
+    fn mechanisms_have_the_colours_of_the_report() {
+        let names = ["seal", "bearings.B1", "bearings.B2", "gear_mesh", "iron"].map(str::to_owned);
+        let colours = colours_of(&names);
+        assert_eq!(colours[0], RGBColor(0xb8, 0x32, 0x80));
+        assert_eq!(colours[1], RGBColor(0xe6, 0x9f, 0x00));
+        assert_ne!(colours[2], colours[1]);
+        assert_eq!(colours[3], RGBColor(0x1f, 0x77, 0xb4));
+        assert_eq!(colours[4], COLOURS[4]);
     }
 
     #[test]

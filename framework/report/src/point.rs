@@ -20,12 +20,12 @@ use gearloss_studies::points::{Found, PreparedPoint, STATIC_SAFETY, SUMS, SelfLo
 pub use derivatives::derivatives_text;
 use explain::{explain_heat_path, explain_part};
 pub use explained::Explained;
-use network::network_text;
+use network::network_blocks;
 use ratings::explain_ratings;
-pub use ratings::{rating_lines, ratings_text};
+pub use ratings::{rating_lines, ratings_blocks, ratings_text};
 pub use record::PointRecord;
 
-use crate::page::outside;
+use crate::page::{Blocks, outside};
 use crate::text::{TextTable, figures, fixed, number, significant};
 pub use crate::views::balance::{balance_text, over_temperature};
 
@@ -60,7 +60,7 @@ pub fn heading(transmission: &Transmission, prepared: &PreparedPoint, at: &str) 
 }
 
 /// Speeds, torques and powers at the ports.
-pub fn ports_text(transmission: &Transmission, solution: &Solution<'_>) -> String {
+fn ports_table(transmission: &Transmission, solution: &Solution<'_>) -> TextTable {
     let mut ports = TextTable::new(&["port", "speed rpm", "torque Nm", "power W"]);
     for (i, port) in transmission.ports().iter().enumerate() {
         let (speed, torque) = (solution.speed(port.member), solution.known_torque(i));
@@ -71,21 +71,33 @@ pub fn ports_text(transmission: &Transmission, solution: &Solution<'_>) -> Strin
             number(torque.map(|torque| speed * torque), 2),
         ]);
     }
-    ports.render() + "\n"
+    ports
 }
 
-/// A solved point as text: ports, loads, losses, sums, temperatures, and what was outside its stated range.
+/// The same as text.
+pub fn ports_text(transmission: &Transmission, solution: &Solution<'_>) -> String {
+    ports_table(transmission, solution).render() + "\n"
+}
+
+/// A solved point as text.
 pub fn point_text(transmission: &Transmission, prepared: &PreparedPoint, solved: &SolvedPoint<'_>) -> String {
+    point_blocks(transmission, prepared, solved).render()
+}
+
+/// A solved point: ports, loads, losses, sums, temperatures, and what was outside its stated range.
+pub fn point_blocks(transmission: &Transmission, prepared: &PreparedPoint, solved: &SolvedPoint<'_>) -> Blocks {
     let (solution, found) = (&solved.solution, &solved.found);
     let at = if found.is_sound() {
         format!("oil {} °C", figures(found.oil, 4))
     } else {
         format!("no heat balance, losses at {} °C", figures(found.oil, 4))
     };
-    let mut text = heading(transmission, prepared, &at);
-    text.push_str(&answer(solution));
-    text.push('\n');
-    text.push_str(&ports_text(transmission, solution));
+    let mut blocks = Blocks::default();
+    blocks.text(&heading(transmission, prepared, &at));
+    blocks.text(&answer(solution));
+    blocks.text("\n");
+    blocks.table(ports_table(transmission, solution));
+    blocks.text("\n");
     // Without a power flow there are no loads and losses.
     let flow = solution.has_flow();
     if flow && !transmission.supports().is_empty() {
@@ -104,8 +116,8 @@ pub fn point_text(transmission: &Transmission, prepared: &PreparedPoint, solved:
                 loads.row(row(format!("{path}, most loaded planet"), load));
             }
         }
-        text.push_str(&loads.render());
-        text.push('\n');
+        blocks.table(loads);
+        blocks.text("\n");
     }
     let mut parts = TextTable::new(&[
         "component",
@@ -135,30 +147,32 @@ pub fn point_text(transmission: &Transmission, prepared: &PreparedPoint, solved:
             fixed(loss.speed * RPM, 1),
         ]);
     }
-    text.push_str(&parts.render());
-    text.push('\n');
+    blocks.table(parts);
+    blocks.text("\n");
     if let Some(sums) = sums(transmission, solution) {
         let words: Vec<String> = SUMS
             .iter()
             .zip(sums)
             .map(|((name, _), watts)| format!("{name} {}", fixed(watts, 3)))
             .collect();
-        text.push_str(&format!("sums W: {}\n", words.join(", ")));
+        blocks.text(&format!("sums W: {}\n", words.join(", ")));
     }
     // The internal power exceeds the input only with circulating power.
     if let Some(times) = multiplied(solution).filter(|times| *times > 1.001) {
-        text.push_str(&format!(
+        blocks.text(&format!(
             "largest internal power {} W, {times:.2} times the input\n",
             number(Some(solution.largest_power()), 2),
         ));
     }
     if let Some((part, reason)) = solution.undefined() {
-        text.push_str(&format!("{}: {reason}\n", part.path));
+        blocks.text(&format!("{}: {reason}\n", part.path));
     }
-    text.extend(solved.locking.as_ref().map(locking_text));
-    text.push_str(&temperature_text(transmission, found));
-    text.push_str(&outside_ranges(solved));
-    text
+    if let Some(locking) = &solved.locking {
+        blocks.text(&locking_text(locking));
+    }
+    blocks.append(temperature_blocks(transmission, found));
+    blocks.text(&outside_ranges(solved));
+    blocks
 }
 
 /// Loss and efficiency in one line: what a point is solved for.
@@ -217,12 +231,17 @@ pub fn locking_text(locking: &SelfLocking) -> String {
 
 /// The heat balance of a point as text; empty if temperatures are given.
 pub fn temperature_text(transmission: &Transmission, warm: &Found) -> String {
-    let balance = warm
-        .balance
-        .as_ref()
-        .map(|b| balance_text(&BalanceOfPoint::new(transmission, b), true));
-    let network = warm.network.as_ref().map(|n| network_text(transmission, n));
-    balance.or(network).unwrap_or_default()
+    temperature_blocks(transmission, warm).render()
+}
+
+fn temperature_blocks(transmission: &Transmission, warm: &Found) -> Blocks {
+    if let Some(balance) = &warm.balance {
+        let mut blocks = Blocks::default();
+        blocks.text(&balance_text(&BalanceOfPoint::new(transmission, balance), true));
+        return blocks;
+    }
+    let network = warm.network.as_ref();
+    network.map_or_else(Blocks::default, |network| network_blocks(transmission, network))
 }
 
 /// The largest internal power relative to the input power.

@@ -309,7 +309,8 @@ impl Group {
         let first = model(&self.paths[0]);
         let paths = match self.paths.len() {
             1 => first,
-            count => format!("{first} and {} more", count - 1),
+            2 => format!("{first} and 1 other"),
+            count => format!("{first} and {} others", count - 1),
         };
         let name = self.quantity();
         let Some(all) = &self.values else {
@@ -380,7 +381,7 @@ mod tests {
             (ranges.rows_of("map"), ranges.rows_of("town")),
             ("1".to_owned(), String::new())
         );
-        let short = "bearing B1 and 1 more: speed factor n_dm (1 to 9) is above the stated range 0 to 5 at 40 % of the points, \
+        let short = "bearing B1 and 1 other: speed factor n_dm (1 to 9) is above the stated range 0 to 5 at 40 % of the points, \
                      with 50 % of the loss";
         assert_eq!(ranges.worst(), [short]);
     }

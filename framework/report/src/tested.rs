@@ -98,7 +98,7 @@ impl Tested {
             let warning = match self.points.get(&limits.gear) {
                 Some(field) => beyond(limits, *field)?,
                 None if limits.outside > 0 => format!(
-                    "no points of the data are in gear `{}`; on the way to the limits, {} quantities leave their stated ranges",
+                    "no points of the data are in gear `{}`; at the limits, {} quantities are outside their stated ranges",
                     limits.gear, limits.outside
                 ),
                 None => return None,
@@ -123,7 +123,7 @@ fn beyond(limits: &Limits, field: Field) -> Option<String> {
         format!("{} of {}", outside.len(), all.len())
     };
     Some(format!(
-        "{count} limits are beyond the points of the data ({torque} Nm, {speed} rpm), as far as {}",
+        "{count} limits are outside the range of the data ({torque} Nm, {speed} rpm), the farthest at {}",
         place(farthest.0, farthest.1)
     ))
 }
@@ -148,7 +148,7 @@ mod tests {
         );
         tested.add_point("first", -16.0, 500.0);
         tested.add_point("first", 0.0, 3000.0);
-        let words = "1 of 2 limits are beyond the points of the data (-16 to 0 Nm, 500 to 3000 rpm), as far as -50 Nm, 2000 rpm";
+        let words = "1 of 2 limits are outside the range of the data (-16 to 0 Nm, 500 to 3000 rpm), the farthest at -50 Nm, 2000 rpm";
         assert_eq!(tested.warnings(), [("limit", words.to_owned())]);
     }
 }

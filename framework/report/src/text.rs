@@ -118,9 +118,10 @@ impl TextTable {
 
 /// A number with three significant digits for a sentence; thousands are separated by narrow spaces.
 pub fn short(x: f64) -> String {
-    // Digits before the decimal point are all kept.
-    let digits = if x.abs() >= 1000.0 { 6 } else { 3 };
-    let x = if x.abs() >= 1000.0 { x.round() } else { x };
+    // Digits before the decimal point are all kept, but for powers of ten.
+    let large = (1000.0..999_999.5).contains(&x.abs());
+    let digits = if large { 6 } else { 3 };
+    let x = if large { x.round() } else { x };
     spaced(&figures(x, digits))
 }
 
@@ -184,14 +185,32 @@ pub fn of_set(set: &str, sets: usize) -> String {
     if set == OWN_MODELS && sets == 1 {
         String::new()
     } else {
-        format!("with `{set}` ")
+        format!("with {} ", quoted_set(set))
+    }
+}
+
+/// The name of a model set in a sentence.
+pub fn quoted_set(set: &str) -> String {
+    if set == OWN_MODELS {
+        "the gearbox's own models".to_owned()
+    } else {
+        format!("`{set}`")
+    }
+}
+
+/// The name of a model set in a label.
+pub fn words_of_set(set: &str) -> String {
+    if set == OWN_MODELS {
+        format!("{set} models")
+    } else {
+        set.to_owned()
     }
 }
 
 /// A label with the name of its model set; alone if there is only one.
 pub fn label_of_set(label: &str, set: &str, sets: usize) -> String {
     if sets > 1 {
-        format!("{label}, {set}")
+        format!("{label}, {}", words_of_set(set))
     } else {
         label.to_owned()
     }
@@ -255,7 +274,7 @@ mod tests {
         assert_eq!(short(-0.012_345), "-0.0123");
         assert_eq!(short(8000.4), "8000");
         assert_eq!(short(22_000.0), "22\u{202f}000");
-        assert_eq!(short(-1_234_567.8), "-1.23457e6");
+        assert_eq!(short(-1_234_567.8), "-1.23e6");
         assert_eq!(signed(0.5), "+0.5");
         assert_eq!(range(98.1234, 98.1299, 1), "98.12 to 98.13");
         assert_eq!(range(50.0, 50.0, 1), "50.0");

@@ -3,8 +3,9 @@
 use gearloss_framework::files::SharedSource;
 use gearloss_framework::language::Language;
 use gearloss_report::html::{losses_of_parts, waterfall};
+use gearloss_report::page::Block;
 use gearloss_report::picture::Picture;
-use gearloss_report::point::{Explained, PointRecord, outside_ranges, point_text, ratings_text, remarks};
+use gearloss_report::point::{Explained, PointRecord, outside_ranges, point_blocks, ratings_blocks, remarks};
 use gearloss_studies::analyses::progress::Progress;
 use gearloss_studies::points::SolvedPoint;
 use serde::Serialize;
@@ -19,8 +20,8 @@ use crate::request::PointOf;
 pub struct PointAnswer {
     /// The record of `gearloss solve --format json`.
     pub point: PointRecord,
-    /// The text of `gearloss solve`.
-    pub text: String,
+    /// Text and tables of `gearloss solve`.
+    pub blocks: Vec<Block>,
     /// Status of the power flow.
     pub status: &'static str,
     /// Loss. [W]
@@ -74,9 +75,11 @@ pub fn point(
     let solved = prepared.solve(transmission, &mut scratch);
     let (solution, found) = (&solved.solution, &solved.found);
     let record = PointRecord::new(language, (gearbox, resolved, transmission), &prepared, &solved)?;
+    let mut blocks = point_blocks(transmission, &prepared, &solved);
+    blocks.append(ratings_blocks(&record.ratings));
     let flow = solution.has_flow();
     Ok(PointAnswer {
-        text: point_text(transmission, &prepared, &solved) + &ratings_text(&record.ratings),
+        blocks: blocks.into_vec(),
         status: solution.status().name(),
         loss: solution.loss(),
         efficiency: solution.efficiency(),

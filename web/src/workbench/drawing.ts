@@ -1,7 +1,7 @@
 // The drawing of the gearbox: colours of the losses, parts that can be chosen.
 
 import { colourByLoss, heatScale, legible } from "../drawing.ts";
-import { significant, words } from "../format.ts";
+import { significant, withUnit, words } from "../format.ts";
 import { html } from "../svg.ts";
 import type { FileRange, PointAnswer } from "./protocol.ts";
 
@@ -104,7 +104,7 @@ export class DrawingPane {
     this.scale.replaceChildren();
     if (most) {
       heatScale(this.scale, most[1]);
-      html(this.scale, "p", {}, `Largest: ${words(most[0])}, ${significant(most[1], 3)} W. The loss of a mesh is shown in equal parts in its gears.`);
+      html(this.scale, "p", {}, `Largest: ${words(most[0])}, ${withUnit(significant(most[1], 3), "W")}. Gears share the loss of their mesh equally.`);
     }
   }
 

@@ -88,7 +88,11 @@ export function newGearbox(layouts: Layout[], transport: Transport, taken: () =>
         input.value = answer.followed[path] ?? field.value;
         input.classList.toggle("followed", path in answer.followed);
       }
-      ratios.textContent = answer.ratios.length ? `Ratio ${answer.ratios.map(({ gear, to, ratio }) => `${[gear, to].filter((name) => name !== "only" && name !== "output").join(" ")} ${Number(ratio.toPrecision(5))}`.trim()).join(", ").replace(/-/g, "\u2212")}` : "";
+      const ratioOf = ({ gear, to, ratio }: (typeof answer.ratios)[number]) => {
+        const of = [gear, to].filter((name) => name !== "only" && name !== "output").join(" ");
+        return `${String(Number(ratio.toPrecision(5))).replace("-", "\u2212")}${of ? ` (${of})` : ""}`;
+      };
+      ratios.textContent = answer.ratios.length ? `Ratio ${answer.ratios.map(ratioOf).join(", ")}` : "";
       delete preview.dataset.stale;
       // A value that cannot be a value of its field, or does not fit the others, is a finding of the text.
       const file = "new-gearbox.yaml";

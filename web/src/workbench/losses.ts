@@ -1,5 +1,6 @@
 // Losses of the components as a table with bars: load-dependent and no-load parts, and those of the pinned state.
 
+import { MECHANISMS } from "../colours.ts";
 import { fixed, significant, words } from "../format.ts";
 import { html } from "../svg.ts";
 import { signed } from "./numbers.ts";
@@ -10,6 +11,7 @@ type Loss = PointAnswer["losses"][number];
 /** Parts of one bar. */
 export interface Row {
   path: string;
+  mechanism: string;
   model: string;
   loss: number | null;
   load_dependent: number | null;
@@ -24,9 +26,9 @@ export function rowsOf(losses: Loss[], pinned: Loss[] | null): Row[] {
   const rows: Row[] = losses.map((l) => {
     const own = before.get(key(l));
     before.delete(key(l));
-    return { path: l.path, model: l.model, loss: l.loss, load_dependent: l.load_dependent, pinned: own?.loss ?? null };
+    return { path: l.path, mechanism: l.mechanism, model: l.model, loss: l.loss, load_dependent: l.load_dependent, pinned: own?.loss ?? null };
   });
-  for (const l of before.values()) rows.push({ path: l.path, model: l.model, loss: null, load_dependent: null, pinned: l.loss });
+  for (const l of before.values()) rows.push({ path: l.path, mechanism: l.mechanism, model: l.model, loss: null, load_dependent: null, pinned: l.loss });
   return rows.sort((a, b) => (b.loss ?? -1) - (a.loss ?? -1));
 }
 
@@ -65,7 +67,7 @@ export function drawLosses(host: HTMLElement, answer: PointAnswer, pinned: Point
     const button = html(name, "button", { type: "button", title: `${row.path}, model ${row.model}`, "data-path": row.path }, nameOf(row.path));
     button.addEventListener("click", () => choose(row.path));
     const cell = html(line, "td", { class: "bar" });
-    const bar = html(cell, "div", { class: "bar-own" });
+    const bar = html(cell, "div", { class: "bar-own", style: `--own:${MECHANISMS[row.mechanism] ?? MECHANISMS.others}` });
     const part = (type: string, value: number, parent: HTMLElement) => {
       if (value > 0) html(parent, "i", { class: type, style: `width:${((100 * value) / most).toFixed(2)}%` });
     };

@@ -116,7 +116,7 @@ export class PointPane {
       slider.element.dataset.port = input.port;
       return { input, slider };
     });
-    const asFile = `as in the file (${controls.oil.mode === "fixed" ? (controls.oil.value === null ? "fixed" : `${controls.oil.value} °C`) : controls.oil.mode})`;
+    const asFile = `${controls.oil.mode === "fixed" ? (controls.oil.value === null ? "fixed" : `${controls.oil.value} °C`) : controls.oil.mode}, as in the file`;
     const box = html(host, "div", { class: "oil" });
     const label = html(box, "label");
     html(label, "span", {}, "Oil temperature");

@@ -126,8 +126,8 @@ export interface Convergence {
 export interface PointAnswer {
   /** The record of `gearloss solve --format json`. */
   point: Record<string, any>;
-  /** The text of `gearloss solve`. */
-  text: string;
+  /** Text and tables of `gearloss solve`. */
+  blocks: Block[];
   status: string;
   loss: number | null; // W
   efficiency: number | null; // 0..1
@@ -167,10 +167,18 @@ export interface Section {
   careful: string[];
   verdicts: string[];
   outside: string[];
-  /** The first row of a table is its head. */
-  blocks: ({ text: string } | { table: { title: string; rows: string[][] } })[];
+  blocks: Block[];
   pictures: Picture[];
 }
+
+/** A table; its first row is the head. */
+export interface Table {
+  title: string;
+  rows: string[][];
+}
+
+/** Lines of text, or a table. */
+export type Block = { text: string } | { table: Table };
 
 /** A field of a form, at a path of the description. */
 export interface Field {

@@ -4,8 +4,9 @@ import { type Drawn, draw } from "../draw.ts";
 import { words } from "../format.ts";
 import { html } from "../svg.ts";
 import { equip } from "../table.ts";
+import { visible } from "../visible.ts";
 import type { ColourBook } from "../colours.ts";
-import type { Section } from "./protocol.ts";
+import type { Section, Table } from "./protocol.ts";
 import { Tabs } from "./tabs.ts";
 
 /** Adds a section; returns its pictures, to be removed with it. */
@@ -59,22 +60,30 @@ export function drawSection(host: HTMLElement, section: Section, books: { compon
       html(box, "p", { class: "text" }, words(block.text));
       continue;
     }
-    const { title } = block.table;
-    const [head = [], ...rows] = block.table.rows;
-    const details = html(box, "details", rows.length <= 12 ? { open: "" } : {});
-    html(details, "summary", {}, words(title) || `Table, ${rows.length} rows`);
-    const frame = html(details, "div", { class: "table" });
-    const scroll = html(frame, "div", { class: "scroll", tabindex: 0, role: "region", "aria-label": `${section.name}, table ${++tables}${title ? `: ${title}` : ""}` });
-    const table = html(scroll, "table");
-    const line = html(html(table, "thead"), "tr");
-    for (const cell of head) html(line, "th", { scope: "col" }, words(cell));
-    const body = html(table, "tbody");
-    for (const row of rows.slice(0, 2000)) {
-      const own = html(body, "tr");
-      for (const cell of row) html(own, "td", { "data-text": cell }, words(cell));
-    }
-    equip(table, title || section.name);
-    if (rows.length > 2000) html(frame, "p", { class: "quiet" }, `The first 2000 of ${rows.length} rows; the files of the results have all.`);
+    const { title, rows } = block.table;
+    const details = html(box, "details", rows.length <= 13 ? { open: "" } : {});
+    html(details, "summary", {}, words(title) || `Table, ${rows.length - 1} rows`);
+    drawTable(details, block.table, title || section.name, `${section.name}, table ${++tables}${title ? `: ${title}` : ""}`);
   }
   return drawn;
+}
+
+/** Rows of a table that are shown. */
+const SHOWN = 2000;
+
+/** Adds a sortable table without its title, with its tools. */
+export function drawTable(host: Element, { title, rows: [head = [], ...rows] }: Table, name: string, label = title || name): void {
+  const frame = html(host, "div", { class: "table" });
+  const scroll = html(frame, "div", { class: "scroll", tabindex: 0, role: "region", "aria-label": label });
+  const table = html(scroll, "table");
+  const line = html(html(table, "thead"), "tr");
+  // The first column is named by what its rows are; others may be mechanisms.
+  head.forEach((cell, k) => html(line, "th", { scope: "col" }, k === 0 ? visible(cell) : words(cell)));
+  const body = html(table, "tbody");
+  for (const row of rows.slice(0, SHOWN)) {
+    const own = html(body, "tr");
+    for (const cell of row) html(own, "td", { "data-text": cell }, words(cell));
+  }
+  equip(table, name);
+  if (rows.length > SHOWN) html(frame, "p", { class: "quiet" }, `The first ${SHOWN} of ${rows.length} rows; the files of the results have all.`);
 }

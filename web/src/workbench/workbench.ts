@@ -28,6 +28,7 @@ import { Pin } from "./pins.ts";
 import { PointPane } from "./point.ts";
 import type { Answers, FileRange, Finding, MapOf, PointAnswer, PointOf } from "./protocol.ts";
 import { store, stored } from "./storage.ts";
+import { drawTable } from "./sections.ts";
 import { StudyPane } from "./study.ts";
 import { Tabs } from "./tabs.ts";
 import { Gone, Locked, Newest, Patient, Refused, type Transport } from "./transport.ts";
@@ -705,8 +706,16 @@ export class Workbench {
         else html(panel("waterfall"), "p", { class: "quiet" }, "There is no waterfall for this point.");
         break;
       case "text": {
-        panel("text").replaceChildren();
-        html(panel("text"), "pre", {}, answer.text);
+        const host = panel("text");
+        const scrolled = host.scrollTop;
+        host.replaceChildren();
+        for (const block of answer.blocks) {
+          if ("table" in block) {
+            if (block.table.title) html(host, "h4", {}, words(block.table.title));
+            drawTable(host, block.table, block.table.title || `${block.table.rows[0]?.[0] ?? "point"}s`);
+          } else if (block.text.trim()) html(host, "p", { class: "text" }, words(block.text.trim()));
+        }
+        host.scrollTop = scrolled;
         break;
       }
     }

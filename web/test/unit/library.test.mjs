@@ -1,7 +1,7 @@
 // Tests of the functions without a browser. They are bundled first, because node reads no TypeScript.
 
 import assert from "node:assert/strict";
-import { mkdtemp, rm } from "node:fs/promises";
+import { mkdtemp, readFile, rm } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, test } from "node:test";
@@ -29,6 +29,14 @@ const { between } = await load("lines");
 
 const range = (n, f) => Array.from({ length: n }, (_, k) => f(k));
 
+test("pictures in files have the colours of the mechanisms, too", async () => {
+  const plot = await readFile(new URL("../../../framework/report/src/plot.rs", import.meta.url), "utf8");
+  for (const [mechanism, colour] of Object.entries(MECHANISMS)) {
+    const parts = [1, 3, 5].map((k) => `0x${colour.slice(k, k + 2)}`).join(", ");
+    assert.ok(plot.includes(`("${mechanism}", RGBColor(${parts}))`), mechanism);
+  }
+});
+
 test("numbers are written as engineers write them", () => {
   assert.equal(fixed(20000, 0), "20\u202f000");
   assert.equal(fixed(2000, 0), "2000");
@@ -45,9 +53,9 @@ test("numbers are written as engineers write them", () => {
 });
 
 test("words have the typography of the field", () => {
-  assert.equal(words("oil at 40 degC, 5 mm2/s, -3 K"), "oil at 40\u00a0°C, 5 mm²/s, \u22123 K");
+  assert.equal(words("oil at 40 degC, 5 mm2/s, -3 K"), "oil at 40\u00a0°C, 5 mm²/s, \u22123\u00a0K");
   assert.equal(words("m2 and B-2"), "m2 and B-2");
-  assert.equal(words("loss 12 W, 4 Wh"), "loss 12\u00a0W, 4 Wh");
+  assert.equal(words("loss 12 W, 4 Wh"), "loss 12\u00a0W, 4\u00a0Wh");
   assert.equal(unitOf("loss in W"), "W");
   assert.equal(unitOf("speed rpm"), "rpm");
   assert.equal(unitOf("place between the bounds"), "");

@@ -7,23 +7,25 @@ use gearloss_studies::analyses::balance::reason;
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use crate::page::Blocks;
 use crate::text::{TextTable, significant};
 
-/// The temperatures of the nodes as text.
-pub(super) fn network_text(transmission: &Transmission, steady: &Steady) -> String {
+/// The temperatures of the nodes.
+pub(super) fn network_blocks(transmission: &Transmission, steady: &Steady) -> Blocks {
     let Some(network) = transmission.network() else {
-        return String::new();
+        return Blocks::default();
     };
-    let mut text = format!(
+    let mut blocks = Blocks::default();
+    blocks.text(&format!(
         "network: {} after {} evaluations\n",
         steady.outcome.name(),
         steady.evaluations
-    );
+    ));
     if steady.outcome != Outcome::Converged {
         if let Some(why) = &steady.undefined {
-            text.push_str(&format!("  {}\n", reason(transmission, why)));
+            blocks.text(&format!("  {}\n", reason(transmission, why)));
         }
-        return text;
+        return blocks;
     }
     let mut table = TextTable::new(&["node", "degC", "heat in W", "heat out W"]);
     for (node, name) in network.names().iter().enumerate() {
@@ -38,15 +40,15 @@ pub(super) fn network_text(transmission: &Transmission, steady: &Steady) -> Stri
             },
         ]);
     }
-    text.push_str(&table.render());
+    blocks.table(table);
     for (path, heat) in network.exchangers().zip(&steady.leaving.exchangers) {
-        text.push_str(&format!("{path} transfers {heat:.2} W\n"));
+        blocks.text(&format!("{path} transfers {heat:.2} W\n"));
     }
     if steady.leaving.flows.abs() > 1e-6 * steady.heat.iter().sum::<f64>().abs() {
-        text.push_str(&format!("flows transfer {:.2} W\n", steady.leaving.flows));
+        blocks.text(&format!("flows transfer {:.2} W\n", steady.leaving.flows));
     }
-    text.push_str(&format!("residual {} W\n", significant(steady.residual)));
-    text
+    blocks.text(&format!("residual {} W\n", significant(steady.residual)));
+    blocks
 }
 
 /// Steady state of a thermal network.

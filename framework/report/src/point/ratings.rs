@@ -6,6 +6,7 @@ use gearloss_studies::distinct::distinct;
 use gearloss_studies::ratings::{RatedComponent, RatedQuantity, rated};
 
 use super::explain::steps;
+use crate::page::Blocks;
 use crate::text::{Lines, TextTable, figures, significant};
 
 /// Mark of a value outside its bound.
@@ -14,10 +15,15 @@ const OUTSIDE: &str = "!";
 /// Digits of values in tables and warnings.
 const DIGITS: u32 = 4;
 
-/// The ratings as text: a table for each mechanism with a row for each component, then one line for each value outside its bound. Empty
-/// without any.
+/// The ratings as text. Empty without any.
 pub fn ratings_text(ratings: &[RatedComponent]) -> String {
-    let mut out = Lines::default();
+    ratings_blocks(ratings).render()
+}
+
+/// The ratings: a table for each mechanism with a row for each component, then one line for each value outside its bound. Empty without
+/// any.
+pub fn ratings_blocks(ratings: &[RatedComponent]) -> Blocks {
+    let mut blocks = Blocks::default();
     let mut mechanisms: Vec<&str> = Vec::new();
     for rated in ratings {
         if !mechanisms.contains(&rated.mechanism) {
@@ -27,12 +33,12 @@ pub fn ratings_text(ratings: &[RatedComponent]) -> String {
     for mechanism in mechanisms {
         let of_mechanism: Vec<&RatedComponent> = ratings.iter().filter(|rated| rated.mechanism == mechanism).collect();
         if let Some(table) = table(mechanism, &of_mechanism) {
-            out.line("");
-            out.text(&table.render());
+            blocks.text("\n");
+            blocks.table(table);
         }
     }
     for line in ratings.iter().flat_map(rating_lines) {
-        out.line(line);
+        blocks.text(&format!("{line}\n"));
     }
     if let Some(lowest) = ratings.iter().map(|rated| rated.evidence).max() {
         let lowest_rated = ratings
@@ -40,12 +46,12 @@ pub fn ratings_text(ratings: &[RatedComponent]) -> String {
             .filter(|rated| rated.evidence == lowest)
             .map(|rated| rated.rating);
         let grade = lowest.name();
-        out.line(format!(
-            "lowest evidence grade of the ratings: {grade} ({})",
+        blocks.text(&format!(
+            "lowest evidence grade of the ratings: {grade} ({})\n",
             distinct(lowest_rated).join(", ")
         ));
     }
-    out.into_text()
+    blocks
 }
 
 /// A table of the components of one mechanism; a column for each quantity that is not an intermediate.

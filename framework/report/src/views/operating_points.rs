@@ -10,7 +10,7 @@ use crate::Figure;
 use crate::page::Page;
 use crate::plot::Bar;
 use crate::register_view;
-use crate::text::{TextTable, fixed, number};
+use crate::text::{TextTable, fixed, number, words_of_set};
 
 register_view!(OperatingPointsOutcome, show);
 
@@ -26,8 +26,13 @@ fn show(outcome: &OperatingPointsOutcome, page: &mut Page) {
         page.table(losses(&outcome.bound, of_set));
         differences(&of_set.points, page);
         page.line("");
+        let beside = if outcome.operating_points.len() > 1 {
+            format!(" with {}", words_of_set(set))
+        } else {
+            String::new()
+        };
         let figure = Figure::Bars {
-            title: format!("{name}: losses, models {set}, oil temperature beside each bar"),
+            title: format!("{name}: losses{beside}; oil temperature beside each bar"),
             over: String::new(),
             height: "loss in W".to_owned(),
             names: of_set.shares.clone(),

@@ -5,7 +5,7 @@ use gearloss_studies::analyses::numbers::tidy;
 
 use crate::names::{SetNames, share};
 use crate::page::Page;
-use crate::text::{in_brackets, place, short};
+use crate::text::{capitalised, in_brackets, place, short};
 
 /// Shares that are named.
 const NAMED: usize = 3;
@@ -48,7 +48,7 @@ pub fn add(outcome: &BreakdownOutcome, page: &mut Page) {
         let oil = oil.map_or_else(String::new, |oil| format!(", oil {} °C", short(oil)));
         let at = place(tidy(point.torque_nm), tidy(point.speed_rpm)) + &oil;
         let of = if outcome.breakdowns.iter().any(|other| other.gear != of_set.gear) {
-            format!("{}, gear {}", names.quoted(&of_set.model_set), of_set.gear)
+            format!("{} in gear {}", names.quoted(&of_set.model_set), of_set.gear)
         } else {
             names.quoted(&of_set.model_set)
         };
@@ -60,7 +60,7 @@ pub fn add(outcome: &BreakdownOutcome, page: &mut Page) {
                     .map(|(name, watts)| format!("{name} {} %", percent(*watts)))
                     .collect();
                 format!(
-                    "{of} loses {} W at {at}{}",
+                    "with {of} the loss is {} W at {at}{}",
                     short(total),
                     in_brackets(&leading.join(", "))
                 )
@@ -75,9 +75,9 @@ pub fn add(outcome: &BreakdownOutcome, page: &mut Page) {
             format!("{largest} {most}, at {at}"),
         );
     }
-    let largest = match outcome.unit {
-        As::Watts => "",
-        As::Percent => "Largest share: ",
-    };
-    page.headline = (!words.is_empty()).then(|| format!("{largest}{}", words.join("; ")));
+    let all = words.join("; ");
+    page.headline = (!words.is_empty()).then(|| match outcome.unit {
+        As::Watts => capitalised(&all),
+        As::Percent => format!("Largest share: {all}"),
+    });
 }

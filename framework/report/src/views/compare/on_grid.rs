@@ -5,6 +5,7 @@ use gearloss_studies::analyses::numbers::{RPM, tidy};
 
 use crate::deviations::{histograms, parity};
 use crate::figure::jumps;
+use crate::names::SetNames;
 use crate::page::Page;
 use crate::picture::{PanelQuantity, Panels, Screen};
 use crate::text::{TextTable, fixed, number, spread};
@@ -98,13 +99,17 @@ fn panels(all: &[GridComparison], (words, label): (&str, &str)) -> Option<Panels
     if !all.iter().all(same) || first.torques.len() < 2 || first.speeds.len() < 2 {
         return None;
     }
+    let names = SetNames::new(all.iter().flat_map(|c| [c.model_set.as_str(), c.base.as_str()]));
+    let minus = |c: &GridComparison| format!("{} minus {}", names.word(&c.model_set), names.word(&c.base));
+    // A single map has no name of its own.
+    let title = match all {
+        [only] => format!("Difference of the {words}, {}, gear {}", minus(only), first.gear),
+        _ => format!("Difference of the {words}, gear {}", first.gear),
+    };
     Some(Panels {
-        title: format!("Difference of the {words}, gear {}", first.gear),
+        title,
         rows: vec![String::new()],
-        columns: all
-            .iter()
-            .map(|c| format!("{} minus {}", c.model_set, c.base))
-            .collect(),
+        columns: all.iter().map(minus).collect(),
         x: (
             "speed in rpm".to_owned(),
             first.speeds.iter().map(|w| tidy(w * RPM)).collect(),

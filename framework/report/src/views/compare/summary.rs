@@ -128,7 +128,7 @@ fn on_grid(all: &[GridComparison], (what, unit): (&str, &str), page: &mut Page) 
             &format!("{what}: {} minus {}", names.word(&c.model_set), names.word(&c.base)),
             signed(mean),
             unit,
-            format!("mean{share}; {} at {at}", signed(largest.difference)),
+            format!("mean{share}; {}{} at {at}", signed(largest.difference), again(unit)),
         );
     }
     if let [only] = all {

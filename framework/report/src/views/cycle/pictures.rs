@@ -3,6 +3,7 @@
 use gearloss_studies::analyses::cycle::{CycleOutcome, DutyOfSet, IntervalOfDuty};
 
 use super::{MOST, line, mean_losses, temperatures};
+use crate::names::cycle as words;
 use crate::page::Page;
 use crate::picture::{Pane, Panes, Screen};
 use crate::plot::{Bar, Line, Stroke};
@@ -114,9 +115,9 @@ fn bars(outcome: &CycleOutcome, page: &mut Page) {
         let band = band.map_or_else(String::new, |[low, _, high]| format!(" ({low} to {high})"));
         Bar {
             label: if several {
-                format!("{}\n{}", duty.cycle, duty.model_set)
+                format!("{}\n{}", words(&duty.cycle), duty.model_set)
             } else {
-                duty.cycle.clone()
+                words(&duty.cycle)
             },
             shares: duty.mean_losses_w.clone(),
             above: format!("{} W{band}", short(duty.mean_loss_w)),
@@ -128,7 +129,7 @@ fn bars(outcome: &CycleOutcome, page: &mut Page) {
         }
     };
     page.report_figure(Figure::Bars {
-        title: "Mean loss over the cycle by share".to_owned(),
+        title: "Mean loss over the cycle".to_owned(),
         over: String::new(),
         height: "mean loss in W".to_owned(),
         names: first.shares.clone(),

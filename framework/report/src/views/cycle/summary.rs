@@ -27,7 +27,7 @@ pub fn add(outcome: &CycleOutcome, page: &mut Page) {
                 short(duty.mean_loss_w),
                 short(per.loss_wh_per_km)
             );
-            details.push(format!("{} kWh/100 km", short(per.loss_kwh_per_100_km)));
+            details.push(format!("{} Wh/km", short(per.loss_wh_per_km)));
         }
         if let Some((name, percent)) = largest(duty) {
             let name = share(name);

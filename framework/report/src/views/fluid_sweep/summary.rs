@@ -18,7 +18,7 @@ pub fn add(outcome: &FluidSweepOutcome, page: &mut Page) {
                 cycle(&duty.cycle)
             };
             let end = if least.at_end_of_range {
-                ", the end of the range,"
+                "at the end of the range; "
             } else {
                 ""
             };
@@ -31,7 +31,7 @@ pub fn add(outcome: &FluidSweepOutcome, page: &mut Page) {
                 )
             });
             words.push(format!(
-                "{} {}{end} over {of} ({} W{present}; within 1 % of it from {} to {})",
+                "{} {} over {of} ({end}{} W{present}; within 1 % of it from {} to {})",
                 short(least.value),
                 set.unit,
                 short(least.mean_loss_w),
@@ -52,7 +52,7 @@ pub fn add(outcome: &FluidSweepOutcome, page: &mut Page) {
             );
             if least.at_end_of_range {
                 page.careful
-                    .push(format!("{of}: the least loss is at the end of the range of oils"));
+                    .push(format!("{of}: the lowest loss is at the end of the range of oils"));
             }
             limits(set, duty, &of, page);
         }
@@ -72,7 +72,7 @@ pub fn add(outcome: &FluidSweepOutcome, page: &mut Page) {
         let start = outcome.start_degc;
         let start = start.map_or_else(
             || "The".to_owned(),
-            |start| format!("Started at {} °C, the", short(start)),
+            |start| format!("With a start at {} °C, the", short(start)),
         );
         format!(
             "{start} {property} with the lowest loss is {}{}",

@@ -121,7 +121,7 @@ pub(super) fn pictures(name: &str, o: &IdentificationOfSet) -> Vec<(String, Figu
             };
             let figure = Figure::Lines {
                 title: format!(
-                    "{name}: errors of {} over {axis}, {what}, fitted and held-out rows",
+                    "{name}: errors of the {what} over {axis}, {}, fitted and held-out rows",
                     o.model_set
                 ),
                 x: format!("{axis} {axis_unit}"),

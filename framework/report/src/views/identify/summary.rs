@@ -1,11 +1,13 @@
 //! The fit of each model set in one sentence.
 
+use gearloss_framework::resolve::OWN_MODELS;
 use gearloss_studies::analyses::identify::{IdentificationOfSet, IdentifyOutcome};
 use gearloss_studies::study::Quantity;
 
 use super::words;
+use crate::names::listed;
 use crate::page::Page;
-use crate::text::{again, short};
+use crate::text::{again, short, words_of_set};
 
 /// Probability below which a misfit is significant.
 const SIGNIFICANT: f64 = 0.05;
@@ -45,20 +47,25 @@ fn sentence(o: &IdentificationOfSet, after_misfit: bool, page: &mut Page) -> Str
     if is_misfit {
         page.careful.push(format!("{set} {fits}{probability}"));
     }
+    let named = if set == OWN_MODELS {
+        "`own` (the models of the gearbox)".to_owned()
+    } else {
+        format!("`{set}`")
+    };
     let mut sentence = match (is_misfit, after_misfit) {
-        (true, true) => format!("nor does `{set}`{probability}"),
-        _ => format!("`{set}` {fits}{probability}"),
+        (true, true) => format!("nor does {named}{probability}"),
+        _ => format!("{named} {fits}{probability}"),
     };
     for (i, quantity) in o.found.quantities().into_iter().enumerate() {
         let (what, unit) = words(quantity);
         let [before, after] = o.found.rms(quantity).map(short);
         sentence.push_str(&format!(
-            "{} {what} to {after}{} rms ({before} before the fit)",
+            "{} rms deviation of the {what} {after}{} ({before} before the fit)",
             if i == 0 { ":" } else { "," },
             if after_misfit { again(unit) } else { format!(" {unit}") }
         ));
         page.key_figure(
-            &format!("{what} deviation, {set}"),
+            &format!("{what} deviation, {}", words_of_set(set)),
             after,
             unit,
             format!("rms; {before} before the fit"),
@@ -75,13 +82,12 @@ fn sentence(o: &IdentificationOfSet, after_misfit: bool, page: &mut Page) -> Str
         ));
     }
     let bounded = o.parameters.iter().filter(|parameter| parameter.bound.is_some());
-    let bounded: Vec<&str> = bounded.map(|parameter| parameter.name.as_str()).collect();
+    let bounded: Vec<String> = bounded.map(|parameter| parameter.name.clone()).collect();
     if !bounded.is_empty() {
         if !is_misfit {
-            sentence.push_str(&format!(", but {} at the end of the allowed range", bounded.join(", ")));
+            sentence.push_str(&format!(", but {}", at_bound(&bounded)));
         }
-        page.careful
-            .push(format!("{set}: at a bound of its range: {}", bounded.join(", ")));
+        page.careful.push(format!("{set}: {}", at_bound(&bounded)));
     }
     if o.resolved_combinations < free {
         page.careful.push(format!(
@@ -90,6 +96,16 @@ fn sentence(o: &IdentificationOfSet, after_misfit: bool, page: &mut Page) -> Str
         ));
     }
     sentence
+}
+
+/// Says that parameters are at bounds of their ranges.
+fn at_bound(names: &[String]) -> String {
+    let end = if names.len() == 1 {
+        "is at a bound of its range"
+    } else {
+        "are at bounds of their ranges"
+    };
+    format!("{} {end}", listed(names))
 }
 
 /// The errors of the predictions of held-out rows.
@@ -104,7 +120,7 @@ fn held_out(o: &IdentificationOfSet, page: &mut Page) -> Option<String> {
             .filter(|_| predicted.errors.quantity != Quantity::Efficiency)
             .map_or_else(String::new, |percent| format!(" or {} %", short(percent.rms)));
         page.key_figure(
-            &format!("error of the predicted {what}, {}", o.model_set),
+            &format!("error of the predicted {what}, {}", words_of_set(&o.model_set)),
             short(errors.rms),
             unit,
             format!("rms{percent} at {} held-out points ({})", errors.points, held.chosen_by),

@@ -8,7 +8,7 @@ use gearloss_studies::points::SUMS;
 use super::pictures::{AxisNames, Quantity, quantities, speed, torque};
 use crate::figure::jumps;
 use crate::picture::{Breakdown, PanelQuantity, Panels};
-use crate::text::last_key;
+use crate::text::{last_key, words_of_set};
 
 /// Most panels side by side: a page that is 1440 pixels wide leaves each of them over 300, enough for labelled contours.
 const MOST_COLUMNS: usize = 4;
@@ -75,7 +75,7 @@ pub fn panels(outcome: &MapOutcome, names: &AxisNames) -> Option<Panels> {
             names: SUMS.iter().map(|(_, meaning)| (*meaning).to_owned()).collect(),
             panels: placed.iter().map(|maps| panel(maps, &losses)).collect(),
         }),
-        rows: layout.rows,
+        rows: layout.rows.iter().map(|set| words_of_set(set)).collect(),
         columns: layout.columns,
         slider: layout.slider,
         y: layout.y,
@@ -109,7 +109,7 @@ fn over_torque<'a>(outcome: &'a MapOutcome, axes: &Axes, names: &AxisNames) -> O
         return Some(Layout {
             placed: placed.collect(),
             columns: vec![String::new()],
-            slider: Some(("shown".to_owned(), columns)),
+            slider: Some(("map".to_owned(), columns)),
             rows,
             y,
         });
@@ -165,11 +165,10 @@ fn column(outcome: &MapOutcome, map: &MapOfSet) -> String {
     if outcome.maps.iter().any(|other| other.gear != map.gear) {
         words.push(format!("gear {}", map.gear));
     }
-    if let Some(oil) = map
-        .oil
-        .given()
-        .filter(|_| outcome.maps.iter().any(|other| other.oil.given() != map.oil.given()))
-    {
+    // A bound oil temperature is among the bound values.
+    let is_bound = map.bound.iter().any(|(path, _)| path.ends_with("thermal.oil"));
+    let differs = outcome.maps.iter().any(|other| other.oil.given() != map.oil.given());
+    if let Some(oil) = map.oil.given().filter(|_| differs && !is_bound) {
         words.push(format!("oil {oil} °C"));
     }
     words.extend(map.bound.iter().map(|(path, value)| {

@@ -57,7 +57,11 @@ pub fn add(outcome: &MapOutcome, page: &mut Page) {
             format!("largest at {}", at(high.1)),
         );
     }
-    if let Some([low, high]) = of(|point| point.oil).filter(|ends| ends[1].0 - ends[0].0 > 0.05) {
+    let is_given = outcome.maps.iter().all(|map| map.oil.given().is_some());
+    let oil = of(|point| point.oil).filter(|ends| ends[1].0 - ends[0].0 > 0.05);
+    if let (true, Some([low, high])) = (is_given, oil) {
+        words.push(format!("the oil temperature is given, {} °C", range(low.0, high.0, 0)));
+    } else if let Some([low, high]) = oil {
         words.push(format!("the oil temperature is {} °C", range(low.0, high.0, 0)));
         page.key_figure(
             "oil temperature",

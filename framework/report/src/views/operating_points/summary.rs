@@ -6,7 +6,7 @@ use gearloss_studies::analyses::operating_points::{OperatingPoint, OperatingPoin
 
 use crate::names::share;
 use crate::page::Page;
-use crate::text::{capitalised, extremes, label_of_set, of_set, place, range, short, signed};
+use crate::text::{extremes, label_of_set, of_set, place, range, short, signed};
 
 pub fn add(outcome: &OperatingPointsOutcome, page: &mut Page) {
     let mut words = Vec::new();
@@ -28,7 +28,7 @@ pub fn add(outcome: &OperatingPointsOutcome, page: &mut Page) {
                 .as_deref()
                 .map(|losses| leading(&points_of_set.shares, losses));
             let parts = parts.filter(|parts| !parts.is_empty());
-            let parts = parts.map_or_else(String::new, |parts| format!(" (at the highest loss {parts})"));
+            let parts = parts.map_or_else(String::new, |parts| format!(" (at the highest loss: {parts})"));
             found.push(format!("loss {} W{parts}", range(low.0, high.0, 1)));
             let detail = format!("largest at {}", at(high.1));
             page.key_figure(&label("loss"), range(low.0, high.0, 1), "W", detail);
@@ -48,7 +48,7 @@ pub fn add(outcome: &OperatingPointsOutcome, page: &mut Page) {
             let mean = deviations.iter().sum::<f64>() / count;
             let rms = (deviations.iter().map(|x| x * x).sum::<f64>() / count).sqrt();
             found.push(format!(
-                "{} % to the measured loss on average ({} % rms)",
+                "{} % relative to the measured loss on average ({} % rms)",
                 signed(mean),
                 short(rms)
             ));
@@ -60,12 +60,13 @@ pub fn add(outcome: &OperatingPointsOutcome, page: &mut Page) {
             );
         }
         if !found.is_empty() {
-            words.push(format!(
-                "{}calculated at {} operating points: {}",
-                of_set(set, outcome.operating_points.len()),
-                points.len(),
-                found.join(", ")
-            ));
+            let start = if words.is_empty() {
+                format!("At {} operating points ", points.len())
+            } else {
+                String::new()
+            };
+            let start = format!("{start}{}", of_set(set, outcome.operating_points.len()));
+            words.push(format!("{}: {}", start.trim_end(), found.join(", ")));
         }
         let missing = points.iter().filter(|point| point.loss_w.is_none()).count();
         if missing > 0 {
@@ -73,7 +74,7 @@ pub fn add(outcome: &OperatingPointsOutcome, page: &mut Page) {
                 .push(format!("{set}: {missing} points have no defined loss"));
         }
     }
-    page.headline = (!words.is_empty()).then(|| capitalised(&words.join("; ")));
+    page.headline = (!words.is_empty()).then(|| words.join("; "));
 }
 
 /// The two largest shares of a loss.

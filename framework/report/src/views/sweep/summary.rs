@@ -5,7 +5,7 @@ use gearloss_studies::analyses::sweep::{PointOfSweep, SweepOfValue, SweepOutcome
 
 use crate::names::{listed, quantity};
 use crate::page::Page;
-use crate::text::{extremes, label_of_set, of_set, short, signed};
+use crate::text::{extremes, label_of_set, of_set, short, with_printed_units};
 
 /// Most values that the sentence names.
 const NAMED: usize = 6;
@@ -30,10 +30,10 @@ pub fn add(outcome: &SweepOutcome, page: &mut Page) {
                 .second
                 .as_ref()
                 .map_or_else(String::new, |second| format!(" and {}", word(&second.value)));
-            format!("{}{second}", word(&value.value))
+            with_printed_units(&format!("{}{second}", word(&value.value)))
         };
         let change = if high.0 > 0.0 {
-            100.0 * (low.0 / high.0 - 1.0)
+            100.0 * (1.0 - low.0 / high.0)
         } else {
             0.0
         };
@@ -42,15 +42,15 @@ pub fn add(outcome: &SweepOutcome, page: &mut Page) {
             let each = values
                 .iter()
                 .map(|(loss, value)| format!("{} W at {}", short(*loss), at(value)));
-            format!("{of}the mean loss is {}", listed(&each.collect::<Vec<_>>()))
+            format!("{of}{}", listed(&each.collect::<Vec<_>>()))
         } else {
             format!(
-                "{of}the mean loss is {} W at {} and {} W at {} ({} %)",
-                short(low.0),
+                "{of}lowest at {} with {} W, {} % below the {} W at {}",
                 at(low.1),
+                short(low.0),
+                short(change),
                 short(high.0),
-                at(high.1),
-                signed(change)
+                at(high.1)
             )
         });
         cards(outcome, set, low, high, &at(low.1), &at(high.1), page);
@@ -59,7 +59,7 @@ pub fn add(outcome: &SweepOutcome, page: &mut Page) {
     let second = first.and_then(|value| Some(quantity(&value.second.as_ref()?.path)));
     let paths = first.map(|value| quantity(&value.path)).into_iter().chain(second);
     let paths = listed(&paths.collect::<Vec<_>>());
-    page.headline = (!words.is_empty()).then(|| format!("Over the {paths}: {}", words.join("; ")));
+    page.headline = (!words.is_empty()).then(|| format!("Mean loss by {paths}: {}", words.join("; ")));
 }
 
 /// What the value with the lowest loss reaches: its loss, oil temperature and limited quantities.
