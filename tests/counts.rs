@@ -62,21 +62,23 @@ fn work(t: &Transmission) -> [(usize, usize); 4] {
     })
 }
 
-/// More passes where losses depend more on each other's results, or where they must agree more closely; more calls in each pass
-/// where more models hang on load. Laws that hang on speed alone are called once, whatever the passes.
+/// Laws outside of loops are called once; the bearings of a shaft twice, the cage of the idle gear, whose torque is its own friction, three or
+/// four times. In coast (the last point) the mesh of each loop is called with them.
 #[test]
 fn a_point_takes_few_passes() {
     let of_set = |set: &str| work(&under(set));
     assert_eq!(
         [of_set("iso"), of_set("joint")],
-        [[(3, 34); 4], [(3, 37), (4, 47), (3, 37), (4, 47)]]
+        [
+            [(3, 24), (3, 26), (3, 24), (3, 30)],
+            [(4, 28), (4, 28), (4, 28), (4, 32)]
+        ]
     );
 }
 
-/// Nothing is noted in the first two passes; where they agree, the models of meshes are asked once more. Below 150 N/mm the friction of
-/// `iso` does not hang on the load, so that losses go with torque.
+/// Whatever is evaluated once is noted. Below 150 N/mm the friction of `iso` does not hang on the load.
 #[test]
-fn what_agrees_in_two_passes_is_noted_all_the_same() {
+fn what_is_evaluated_once_is_noted() {
     let t = under_with("iso", vec![("bearings.*.model".to_owned(), json!("none"))]);
     let case = t.case("first", &[], &["input"]).unwrap();
     let mut scratch = t.scratch(&case);
@@ -90,13 +92,13 @@ fn what_agrees_in_two_passes_is_noted_all_the_same() {
     };
     let (passes, few) = noted(0.5, &mut scratch);
     let (more, many) = noted(20.0, &mut scratch);
-    assert_eq!((passes, more), (2, 3));
+    assert_eq!((passes, more), (2, 2));
     assert!(few == many && few.iter().sum::<u32>() > 0, "{few:?}, {many:?}");
 }
 
 /// A point takes the same passes among others as alone.
 #[test]
-fn points_of_a_map_take_three_passes() {
+fn points_of_a_map_take_few_passes() {
     let of_set = |set: &str| {
         let t = under(set);
         let case = t.case("first", &[], &["input"]).unwrap();
@@ -112,7 +114,7 @@ fn points_of_a_map_take_three_passes() {
         }
         (passes, LANES * 250)
     };
-    assert_eq!([of_set("iso"), of_set("joint")], [(12_000, 4_000), (12_005, 4_000)]);
+    assert_eq!([of_set("iso"), of_set("joint")], [(12_000, 4_000), (16_000, 4_000)]);
 }
 
 /// Ways along the path, passes over its places, and places, of each mesh; the third one turns idly. Ways change with the limit

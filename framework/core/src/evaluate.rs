@@ -21,7 +21,7 @@ pub use solution::{PartLoss, Solution};
 
 use crate::attach::State;
 use crate::flow::{Balance, Drive, FlowState, Outcome, Start, Status, Tolerance};
-use crate::loads::{LEAST_STATIC_SAFETY, SupportLoad};
+use crate::loads::{Group, LEAST_STATIC_SAFETY, SupportLoad};
 use crate::loss::{Loss, NoteBase, Notebook, Seen, Undefined};
 use crate::mechanism::Answers;
 use crate::mechanism::gear_drag::{GearDrag, GearDragAt};
@@ -29,12 +29,6 @@ use crate::mechanism::gear_mesh::{GearMesh, GearMeshAt};
 use crate::real::{Mask as _, Points, Real};
 use crate::thermal::Unbalanced;
 use crate::transmission::{Case, Component, Sharing, Transmission};
-
-/// Iterations without notes. The torques of the first are a guess, those of the second are rarely the last; if they are, the models
-/// are evaluated once more.
-const SILENT: usize = 2;
-/// The same from the losses of the last solve, whose second iteration often is the last.
-const SILENT_FROM_LAST: usize = 1;
 
 /// Whether torque downstream is reduced by upstream losses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
@@ -201,15 +195,11 @@ impl Transmission {
         c.loads.fill(SupportLoad::default());
         let standing = c.speeds.iter().fold(R::mask(|_| true), |all, w| all & w.is_zero());
         s.standing = c.decide(standing);
-        m.braking.clear();
         for (i, component) in self.components.iter().enumerate() {
             let (state, _) = c.open(false);
             m.relative[i] = state.relative(component.between[0], component.between[1]);
             // Stationary components have no drag; they are evaluated once, at the end.
-            let rests = c.decide(m.relative[i].is_zero());
-            if component.loaded && !component.off && !rests {
-                m.braking.push(i);
-            }
+            m.rests[i] = c.decide(m.relative[i].is_zero());
         }
 
         // Models that are independent of torque are evaluated once.
@@ -258,36 +248,24 @@ impl Transmission {
         s: &mut Scratch<R>,
         noting: Noting,
     ) {
-        let quiet = noting == Noting::Muted;
-        let iterates = power_flow == PowerFlow::Real && !s.standing;
+        let notes = noting != Noting::Muted;
         s.ideal = power_flow == PowerFlow::Ideal;
-        let silent = match start {
-            _ if !iterates => 0,
-            Start::Lossless => SILENT,
-            Start::Last => SILENT_FROM_LAST,
-        };
-        let mut pass = 0;
         let (work, models) = (&mut s.work, &mut s.models);
+        models.loaded.fill(0);
+        models.round = 0;
         work.live = models.conditions.live;
-        let losses = |flow: &mut FlowState<'_, R>| {
-            let notes = !quiet && pass >= silent;
-            pass += 1;
-            self.lose(case, flow, models, notes);
-        };
-        let outcome = if iterates {
+        let losses = |flow: &mut FlowState<'_, R>| self.lose(case, flow, models, notes);
+        let outcome = if power_flow == PowerFlow::Real && !s.standing {
             case.flow.real(tolerance, start, work, losses)
         } else {
             case.flow.ideal(work);
-            work.once(losses);
+            work.once(&case.flow, losses);
             Outcome::Converged { passes: 1 }
         };
         models.conditions.live = work.live;
         let converged = matches!(outcome, Outcome::Converged { .. });
-        if !quiet && matches!(outcome, Outcome::Converged { passes } if passes <= silent) {
-            self.note(&s.work.drives, &mut s.models);
-        }
-        self.rest(&mut s.models, quiet);
-        if !quiet && converged {
+        self.rest(case, s, notes);
+        if notes && converged {
             self.note_static_safety(&mut s.models);
         }
         self.finish(outcome, s);
@@ -296,27 +274,37 @@ impl Transmission {
         }
     }
 
-    /// Losses of all models at the torques of one iteration.
+    /// Losses of some laws at the torques of the flow.
     fn lose<R: Answers>(&self, case: &Case, flow: &mut FlowState<'_, R>, m: &mut Models<R>, notes: bool) {
         R::wide(
             #[inline(always)]
             || {
-                self.load(case, flow, m);
-                m.conditions.live = *flow.live;
-                let (state, book) = m.conditions.open(notes);
-                flow.drags.copy_from_slice(flow.steady);
-                for &i in &m.braking {
-                    let (component, speed) = (&self.components[i], m.relative[i]);
+                m.round += 1;
+                self.forces(flow.multipliers, m);
+                for &drag in &flow.laws.drags {
+                    let i = flow.drags[drag].component;
+                    let component = &self.components[i];
+                    if m.rests[i] {
+                        flow.moments[drag] = R::ZERO;
+                        continue;
+                    }
+                    self.load(case, component, flow.ports, m);
+                    m.conditions.live = *flow.live;
+                    let (state, book) = m.conditions.open(notes);
                     let loss = loaded_loss(component, &state, &m.uneven_loads, &book, flow.live);
+                    let speed = m.relative[i];
                     let moment = moment(&loss, speed) * self.copies(i, state.speeds);
-                    brake(component.between, speed, moment, flow.drags);
+                    flow.moments[drag] = R::select(speed.is_below(R::ZERO), -moment, moment);
                     m.component_losses[i] = loss;
                 }
-                for (i, loss) in m.mesh_losses.iter_mut().enumerate() {
+                for &i in &flow.laws.meshes {
                     let mesh = &self.meshes[i];
                     if mesh.model.off {
                         continue;
                     }
+                    m.tangential[i] = m.forces[i];
+                    m.conditions.live = *flow.live;
+                    let (state, book) = m.conditions.open(notes);
                     let answer = self.mesh(i, m.tangential[i], flow.drives[i], &state, &book, flow.live);
                     let speed = self.mesh_speed(i, state.speeds);
                     flow.mesh_loss[i] = match &answer {
@@ -326,44 +314,47 @@ impl Transmission {
                         }
                         Err(_) => R::ZERO,
                     };
-                    *loss = answer;
+                    m.mesh_losses[i] = answer;
                 }
             },
         );
     }
 
-    /// Tangential forces of the meshes and loads of the supports at the torques of one iteration.
+    /// Tangential forces of all meshes. Meshes are the first rows, in the same order.
     #[inline(always)]
-    fn load<R: Points>(&self, case: &Case, flow: &FlowState<'_, R>, m: &mut Models<R>) {
-        let c = &mut m.conditions;
-        // Meshes are the first rows, in the same order.
-        let forces = self.meshes.iter().zip(&mut m.tangential).zip(flow.multipliers);
-        for ((mesh, tangential), multiplier) in forces {
-            *tangential = *multiplier * mesh.force_per_multiplier;
-        }
-        self.loads
-            .evaluate(&m.tangential, &c.speeds, &mut m.passed, &mut c.loads);
-        self.correct_loads(case, flow.ports, &mut c.loads);
-        if self.uneven {
-            for (which, loads) in m.uneven_loads.iter_mut().enumerate() {
-                for ((force, mean), mesh) in m.uneven_forces.iter_mut().zip(&m.tangential).zip(&self.meshes) {
-                    *force = *mean * mesh.sharing.map_or(1.0, |s| s.factors()[which]);
-                }
-                self.loads.evaluate(&m.uneven_forces, &c.speeds, &mut m.passed, loads);
-                self.correct_loads(case, flow.ports, loads);
-            }
+    fn forces<R: Points>(&self, multipliers: &[R], m: &mut Models<R>) {
+        for ((mesh, force), multiplier) in self.meshes.iter().zip(&mut m.forces).zip(multipliers) {
+            *force = *multiplier * mesh.force_per_multiplier;
         }
     }
 
-    /// Notes the contexts of the models at the torques of their last results.
-    fn note<R: Answers>(&self, drives: &[Drive], m: &mut Models<R>) {
-        let mut live = m.conditions.live;
-        let (state, book) = m.conditions.open(true);
-        for &i in &m.braking {
-            let _ = loaded_loss(&self.components[i], &state, &m.uneven_loads, &book, &mut live);
+    /// Loads of the supports of the group of a component, unless they are known for these torques.
+    #[inline(always)]
+    fn load<R: Points>(&self, case: &Case, component: &Component, ports: &[R], m: &mut Models<R>) {
+        if let Some(group) = component.group(&self.loads)
+            && std::mem::replace(&mut m.loaded[group], m.round) != m.round
+        {
+            self.load_group(case, group, ports, m);
         }
-        for i in (0..self.meshes.len()).filter(|i| !self.meshes[*i].model.off) {
-            let _ = self.mesh(i, m.tangential[i], drives[i], &state, &book, &mut live);
+    }
+
+    /// Loads of the supports of a group.
+    #[inline(always)]
+    fn load_group<R: Points>(&self, case: &Case, group: usize, ports: &[R], m: &mut Models<R>) {
+        let c = &mut m.conditions;
+        let group = &self.loads.groups()[group];
+        self.loads
+            .evaluate(group, &m.forces, &c.speeds, &mut m.passed, &mut c.loads);
+        self.correct_loads(case, group, ports, &mut c.loads);
+        if self.uneven {
+            for (which, loads) in m.uneven_loads.iter_mut().enumerate() {
+                for ((force, mean), mesh) in m.uneven_forces.iter_mut().zip(&m.forces).zip(&self.meshes) {
+                    *force = *mean * mesh.sharing.map_or(1.0, |s| s.factors()[which]);
+                }
+                self.loads
+                    .evaluate(group, &m.uneven_forces, &c.speeds, &mut m.passed, loads);
+                self.correct_loads(case, group, ports, loads);
+            }
         }
     }
 
@@ -381,10 +372,26 @@ impl Transmission {
         }
     }
 
-    /// Moments of stationary components that carry load.
-    fn rest<R: Answers>(&self, m: &mut Models<R>, quiet: bool) {
+    /// What no torque depends on: forces of meshes and loads of supports without a law, moments of stationary components that carry
+    /// load.
+    fn rest<R: Answers>(&self, case: &Case, s: &mut Scratch<R>, notes: bool) {
+        let m = &mut s.models;
+        R::wide(
+            #[inline(always)]
+            || {
+                self.forces(&s.work.multipliers, m);
+                for i in (0..self.meshes.len()).filter(|i| self.meshes[*i].model.off) {
+                    m.tangential[i] = m.forces[i];
+                }
+                for group in 0..self.loads.groups().len() {
+                    if m.loaded[group] == 0 {
+                        self.load_group(case, group, &s.work.ports, m);
+                    }
+                }
+            },
+        );
         let mut live = m.conditions.live;
-        let (state, book) = m.conditions.open(!quiet);
+        let (state, book) = m.conditions.open(notes);
         let losses = m.component_losses.iter_mut().zip(&m.relative);
         for (component, (loss, speed)) in self.components.iter().zip(losses) {
             if component.loaded && !component.off && (speed.is_zero() & live).any() {
@@ -550,18 +557,19 @@ impl Transmission {
         }
     }
 
-    fn correct_loads<R: Points>(&self, case: &Case, ports: &[R], loads: &mut [SupportLoad<R>]) {
+    fn correct_loads<R: Points>(&self, case: &Case, group: &Group, ports: &[R], loads: &mut [SupportLoad<R>]) {
         let torque = |port: usize| ports[self.ports[port].member];
-        if let Some(imported) = &self.imported {
-            for (i, load) in loads.iter_mut().enumerate() {
-                if let Some(own) = imported.load(case.state, i, torque(imported.port)) {
-                    *load = own;
-                }
+        for &support in &group.supports {
+            let load = &mut loads[support];
+            if let Some(imported) = &self.imported
+                && let Some(read) = imported.load(case.state, support, torque(imported.port))
+            {
+                *load = read;
             }
-        }
-        for (load, factors) in loads.iter_mut().zip(&self.load_factors) {
-            load.radial = load.radial * factors.radial.value_at(torque);
-            load.axial = load.axial * factors.axial.value_at(torque);
+            if let Some(factors) = self.load_factors.get(support) {
+                load.radial = load.radial * factors.radial.value_at(torque);
+                load.axial = load.axial * factors.axial.value_at(torque);
+            }
         }
     }
 

@@ -6,16 +6,17 @@
 
 mod derive;
 mod equilibrium;
-mod factors;
 mod linear;
+mod order;
 mod solve;
-mod sparse;
+mod structure;
 mod system;
 mod work;
 
 use crate::real::Points;
 
-pub use system::{Flow, FlowFault, MeshRow, Share};
+pub use order::{FlowBlock, Laws};
+pub use system::{Flow, FlowFault, LoadedDrag, MeshRow, Reading, Share};
 pub(crate) use work::Last;
 pub use work::{Drive, FlowState, Outcome, Start, Tolerance, Work};
 

@@ -13,7 +13,7 @@ mod thrust;
 
 pub use carries::{Carries, Thrust};
 pub use layout::{Layout, LoadFault, MemberLayout, MeshLayout, PlanetBody, Section, SupportLayout};
-pub use shaft_loads::ShaftLoads;
+pub use shaft_loads::{Group, ShaftLoads};
 pub use static_rating::{LEAST_STATIC_SAFETY, StaticFactors, StaticRating};
 
 use crate::real::Points;

@@ -14,6 +14,7 @@ mod seats;
 mod stage;
 mod states;
 mod statics;
+mod torque_order;
 
 use std::sync::Arc;
 
@@ -25,6 +26,7 @@ pub use seats::GearSeat;
 pub(crate) use seats::MeshSeat;
 pub use stage::Stage;
 pub use states::GearState;
+pub use torque_order::{TorqueBlock, TorqueOrder};
 
 pub(crate) use case::Cases;
 pub(crate) use states::RowName;
@@ -129,6 +131,11 @@ pub(crate) struct Component {
 }
 
 impl Component {
+    /// Group of its support, whose loads are found together.
+    pub fn group(&self, loads: &ShaftLoads) -> Option<usize> {
+        self.support.map(|support| loads.group_of(support.into()))
+    }
+
     /// A placed component. Unequal load sharing matters only if the loss may depend on load.
     fn new(placed: Box<dyn Placed>, count: f64, sharing: Option<Sharing>) -> Self {
         Self {

@@ -257,7 +257,7 @@ impl Scratch<Lane> {
         c.common = true;
         c.forget();
         spread(&mut own.relative, &from.relative);
-        own.braking.clone_from(&from.braking);
+        own.rests.clone_from(&from.rests);
         losses(&mut own.component_losses, &from.component_losses);
         losses(&mut own.drag_losses, &from.drag_losses);
         spread(&mut self.work.speeds, &settled.work.speeds);
@@ -339,7 +339,7 @@ impl Block<'_> {
         self.s.models.conditions.leaves_a_range(point, models)
     }
 
-    /// Iterations over the loss models.
+    /// Evaluations of the laws of the loop of torques and losses that needs the most; one without loops.
     pub fn passes(&self, point: usize) -> usize {
         self.s.passes[point] as usize
     }

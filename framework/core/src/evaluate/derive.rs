@@ -183,12 +183,12 @@ impl Transmission {
             case.flow.derive(&solved.work, work, &mut losses)
         } else {
             case.flow.ideal(work);
-            work.once(&mut losses);
+            work.once(&case.flow, &mut losses);
             Some(0.0)
         };
         s.ideal = point.flow == PowerFlow::Ideal;
         s.models.conditions.trace = Some(Trace::default());
-        self.rest(&mut s.models, true);
+        self.rest(case, &mut s, false);
         plain.extend(by_differences(&mut s.models.conditions.trace));
         self.finish(crate::flow::Outcome::Converged { passes: 1 }, &mut s);
         match (s.undefined, change) {

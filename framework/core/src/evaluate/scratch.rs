@@ -92,14 +92,19 @@ pub(super) struct Models<R: Points> {
     /// Tangential forces with those of a planet's meshes; empty if planets share equally.
     pub uneven_forces: Vec<R>,
     pub passed: Vec<R>,
+    /// Tangential force of each mesh as its law was evaluated, and at the present torques. \[N\]
     pub tangential: Vec<R>,
+    pub forces: Vec<R>,
     pub component_losses: Vec<Result<Loss<R>, Undefined>>,
     pub mesh_losses: Vec<Result<Loss<R>, Undefined>>,
     pub drag_losses: Vec<Result<Loss<R>, Undefined>>,
     /// Relative speed of each component. \[rad/s\]
     pub relative: Vec<R>,
-    /// Rotating components that carry load: they are evaluated in every iteration.
-    pub braking: Vec<usize>,
+    /// True for each component that is stationary.
+    pub rests: Vec<bool>,
+    /// Evaluations of laws at the point so far, and the one in which the loads of each group of supports were found.
+    pub round: usize,
+    pub loaded: Vec<usize>,
 }
 
 /// Workspace for evaluating the points of one case. All of it is allocated once.
@@ -197,11 +202,14 @@ impl<R: Points> Scratch<R> {
                 uneven_forces: zeros(uneven(meshes)),
                 passed: zeros(transmission.loads.scratch_len()),
                 tangential: zeros(meshes),
+                forces: zeros(meshes),
                 component_losses: losses(transmission.components.len()),
                 mesh_losses: losses(meshes),
                 drag_losses: losses(transmission.drags.len()),
                 relative: zeros(transmission.components.len()),
-                braking: Vec::with_capacity(transmission.components.len()),
+                rests: vec![false; transmission.components.len()],
+                round: 0,
+                loaded: vec![0; transmission.loads.groups().len()],
             },
             prescribed: zeros(case.speed_ports.len() + case.ruled_speeds),
             work: case.flow.work(),

@@ -15,8 +15,7 @@ pub struct PartLoss {
     pub result: Result<Loss, Undefined>,
     /// Relative speed opposed by the moments. \[rad/s\]
     pub speed: f64,
-    /// Copies, times the factor on the loss; for a mesh also the ratio of the power used in the balance to the last result, which
-    /// differs from one by the tolerance.
+    /// Copies, times the factor on the loss.
     pub factor: f64,
     /// True if nothing moves, so that no power is lost.
     pub still: bool,
@@ -92,13 +91,8 @@ impl Transmission {
             PartKind::Mesh(i) => {
                 let speed = self.mesh_speed(i, speeds);
                 let count = self.meshes[i].seat.count * self.meshes[i].loss_factor;
-                let returned = m.mesh_losses[i]
-                    .as_ref()
-                    .map_or(R::ZERO, |loss| loss.total_watts(speed));
-                let returned = returned * count;
-                let lost = returned.is_above(R::ZERO);
-                let ratio = R::select(lost, s.work.mesh_loss[i] / returned, R::constant(1.0));
-                (&m.mesh_losses[i], speed, ratio * count, speed.is_zero())
+                let factor = R::constant(count) * self.mesh_grip(i, speeds);
+                (&m.mesh_losses[i], speed, factor, speed.is_zero())
             }
             PartKind::Drag(i) => {
                 let seat = &self.drags[i].seat;
@@ -208,7 +202,7 @@ impl Solution<'_> {
         self.scratch.work.largest
     }
 
-    /// Iterations over the loss models.
+    /// Evaluations of the laws of the loop of torques and losses that needs the most; one without loops.
     pub fn passes(&self) -> usize {
         self.scratch.passes as usize
     }

@@ -1,60 +1,27 @@
-//! Equilibrium of every member at given losses: one product with the inverse, and one small system for friction; of large trains one
-//! elimination.
+//! Equilibrium of the members of a block, and the step of a loop towards the losses that its torques cause.
+
+use std::sync::Arc;
 
 use super::linear::{eliminate, substitute};
-use super::system::{Flow, MeshRow, Response, Solver};
-use super::work::{Drive, Work};
-use crate::real::{Mask as _, Points, Real};
+use super::order::{Block, Equation, Laws, Order};
+use super::system::{Flow, MeshRow};
+use super::work::{Start, Work};
+use crate::real::{Points, Real};
 
 /// Relative to the fastest speed, speeds below this are rounding error.
 const STILL: f64 = 1e-12;
+/// Safety factor of the estimated error of a loop.
+const SAFETY: f64 = 0.5;
+/// Greatest exponent with which a loss is assumed to follow a torque.
+const STEEPEST: f64 = 2.0;
+/// Share of a torque up to which a loss is assumed to follow it.
+const SMALL: f64 = 0.5;
 
 impl Flow {
-    /// Torques for the losses in `work.used`, refined to rounding where they are `kept`. Returns where friction leaves a unique
-    /// equilibrium; elsewhere the torques are as before.
+    /// Computes what is constant over a point: given torques, with or without the drags that are independent of torque, the speeds of
+    /// the gears of each mesh, and powers per unit of each law.
     #[inline(always)]
-    pub(super) fn solve<R: Points>(&self, work: &mut Work<R>, kept: R::Mask) -> R::Mask {
-        self.outside(work);
-        let regular = self.friction(work);
-        self.step(work);
-        std::mem::swap(&mut work.unknown, &mut work.step);
-        if kept.any() {
-            // One step of iterative refinement keeps the balance at rounding.
-            self.base.product(&work.unknown, &mut work.residual);
-            for (residual, right) in work.residual.iter().zip(&mut work.right) {
-                *right -= *residual;
-            }
-            for &mesh in &work.active {
-                let friction = &self.friction[mesh];
-                let lost = work.used.share(mesh) * work.unknown[friction.row];
-                let side = &friction.sides[driven_side(work.drives[mesh])];
-                side.change.add(-lost, &mut work.right);
-            }
-            self.step(work);
-            for (unknown, step) in work.unknown.iter_mut().zip(&work.step) {
-                *unknown = R::select(kept, *unknown + *step, *unknown);
-            }
-        }
-        let size = work.unknown[..self.size].iter();
-        let size = size.fold(R::ZERO, |sum, x| sum + x.abs());
-        let found = regular & size.is_below(R::constant(f64::INFINITY));
-        if !found.any() {
-            return found;
-        }
-        let (rows, ports) = work.unknown[..self.size].split_at(self.rows);
-        for ((multiplier, x), scale) in work.multipliers.iter_mut().zip(rows).zip(&self.scale) {
-            *multiplier = R::select(found, *x * *scale, *multiplier);
-        }
-        for (port, torque) in self.unknown.iter().zip(ports) {
-            work.ports[*port] = R::select(found, *torque, work.ports[*port]);
-        }
-        self.powers(work);
-        found
-    }
-
-    /// Copies the values that are constant over all solves of a point: given torques, and the speeds of the gears of each mesh.
-    #[inline(always)]
-    pub(super) fn prepare<R: Points>(&self, work: &mut Work<R>) {
+    pub(super) fn prepare<R: Points>(&self, work: &mut Work<R>, with_drags: bool) {
         work.ports.fill(R::ZERO);
         for (port, torque) in self.given.iter().zip(&work.given) {
             work.ports[*port] += *torque;
@@ -62,130 +29,261 @@ impl Flow {
         work.multipliers.fill(R::ZERO);
         work.applied.fill(R::ZERO);
         work.applied[..self.columns].copy_from_slice(&work.ports);
+        if with_drags {
+            for (applied, drag) in work.applied.iter_mut().zip(&work.steady) {
+                *applied += *drag;
+            }
+        }
         let fastest = work.speeds.iter().fold(R::ZERO, |most, w| most.max(w.abs()));
-        for (relative, mesh) in work.relative.iter_mut().zip(&self.meshes) {
-            *relative = [mesh.second, mesh.first].map(|gear| relative_speed(gear, mesh, &work.speeds, fastest * STILL));
-        }
-    }
-
-    /// The right-hand side: given torques, drags, and losses of meshes that are not a share of their power.
-    #[inline(always)]
-    fn outside<R: Points>(&self, work: &mut Work<R>) {
-        for (right, applied) in work.right.iter_mut().zip(&work.applied) {
-            *right = -*applied;
-        }
-        for (right, drag) in work.right.iter_mut().zip(work.used.drags()) {
-            *right -= *drag;
-        }
         for (k, mesh) in self.meshes.iter().enumerate() {
-            let loss = work.used.constant(k);
-            let side = driven_side(work.drives[k]);
-            let relative = work.relative[k][side];
-            let acts = !(loss.is_zero() | relative.is_zero());
-            if !acts.any() {
-                continue;
+            let relative =
+                [mesh.second, mesh.first].map(|gear| relative_speed(gear, mesh, &work.speeds, fastest * STILL));
+            let power = relative[1] * (mesh.z1 * self.scale[mesh.row]);
+            let rolls = !(relative[0].is_zero() | relative[1].is_zero());
+            work.relative[k] = relative;
+            work.per_watt[k] = R::select(rolls, R::constant(-1.0) / power, R::ZERO);
+            work.weights[k] = R::select(rolls, power.abs(), R::ZERO);
+        }
+        for (weight, drag) in work.weights[self.meshes.len()..].iter_mut().zip(&self.drags) {
+            let [a, b] = drag.between.map(|column| column.map_or(R::ZERO, |c| work.speeds[c]));
+            *weight = (a - b).abs();
+        }
+    }
+
+    /// The order of the present driving gears.
+    pub(super) fn adopt_order<R: Points>(&self, work: &mut Work<R>) -> Option<Arc<Order>> {
+        if !work.order.is_of(&work.drives) {
+            work.order = self.order(&work.drives)?;
+            let leads = work.order.blocks.iter().map(|block| block.leads.len()).max();
+            let leads = leads.unwrap_or(0).max(work.exchanged.len());
+            work.factors.resize(leads * leads, R::ZERO);
+            work.exchanged.resize(leads, 0);
+        }
+        Some(Arc::clone(&work.order))
+    }
+
+    /// Unknowns of a block in equilibrium with earlier unknowns and losses.
+    #[inline(always)]
+    pub(super) fn balance<R: Points>(&self, block: &Block, work: &mut Work<R>) {
+        self.balance_with(block, work, |_| &[]);
+    }
+
+    /// Ends a loop: its unknowns in equilibrium also with its own losses.
+    #[inline(always)]
+    pub(super) fn accept<R: Points>(&self, block: &Block, work: &mut Work<R>) {
+        for &unknown in &block.unknowns {
+            work.evaluated[unknown] = work.unknown[unknown];
+        }
+        self.balance_with(block, work, |equation| &equation.own_laws);
+    }
+
+    #[inline(always)]
+    fn balance_with<R: Points>(
+        &self,
+        block: &Block,
+        work: &mut Work<R>,
+        own_laws: impl Fn(&Equation) -> &[(usize, f64)],
+    ) {
+        let n = block.unknowns.len();
+        for (right, equation) in work.right.iter_mut().zip(&block.equations) {
+            let mut sum = -work.applied[equation.number];
+            for (law, effect) in equation.laws.iter().chain(own_laws(equation)) {
+                sum += work.answers[*law] * *effect;
             }
-            let torque = R::select(acts, loss / relative, R::ZERO);
-            if let Some(driven) = [mesh.second, mesh.first][side] {
-                work.right[driven] += torque;
+            for (unknown, coefficient) in &equation.unknowns {
+                sum -= work.unknown[*unknown] * *coefficient;
             }
-            if let Some(carrier) = mesh.carrier {
-                work.right[carrier] -= torque;
+            *right = sum;
+        }
+        substitute(&block.factors, &block.exchanged, &mut work.right[..n]);
+        for (place, unknown) in block.unknowns.iter().enumerate() {
+            work.unknown[*unknown] = work.right[place];
+        }
+        self.write(block, work);
+    }
+
+    /// Writes the torques of the unknowns of a block.
+    #[inline(always)]
+    pub(super) fn write<R: Points>(&self, block: &Block, work: &mut Work<R>) {
+        for &unknown in &block.unknowns {
+            let x = work.unknown[unknown];
+            match unknown.checked_sub(self.rows) {
+                None => work.multipliers[unknown] = x * self.scale[unknown],
+                Some(port) => work.ports[self.unknown[port]] = x,
             }
         }
     }
 
-    /// Factors the system with friction. Returns where it is regular.
+    /// Begins a loop: its unknowns without its own losses, or those of the last solve.
     #[inline(always)]
-    fn friction<R: Points>(&self, work: &mut Work<R>) -> R::Mask {
-        work.active.clear();
-        for mesh in 0..self.friction.len() {
-            if work.used.share(mesh).is_above(R::ZERO).any() {
-                work.active.push(mesh);
-            }
+    pub(super) fn begin<R: Points>(&self, block: &Block, start: Start, work: &mut Work<R>) {
+        for &unknown in &block.unknowns {
+            work.before[unknown] = work.unknown[unknown];
         }
-        match &self.solver {
-            Solver::Inverse { responses, .. } => small_system(responses, work),
-            Solver::Elimination { elimination, changed } => {
-                elimination.write(&mut work.factors);
-                for &mesh in &work.active {
-                    let share = work.used.share(mesh);
-                    for (place, change) in &changed[mesh][driven_side(work.drives[mesh])] {
-                        work.factors[*place] += share * *change;
-                    }
-                }
-                elimination.eliminate(&mut work.factors)
+        self.balance(block, work);
+        for &unknown in &block.unknowns {
+            work.bare[unknown] = work.unknown[unknown];
+        }
+        if start == Start::Last {
+            for &unknown in &block.unknowns {
+                work.unknown[unknown] = work.before[unknown];
             }
+            self.write(block, work);
         }
     }
 
-    /// The solution for the right-hand side.
+    /// Takes the losses of laws: meshes as lost multipliers, drags as moments. Returns where all of them are finite.
     #[inline(always)]
-    fn step<R: Points>(&self, work: &mut Work<R>) {
-        match &self.solver {
-            Solver::Inverse { inverse, responses } => {
-                inverse.product(&work.right, &mut work.step);
-                self.respond(responses, work);
-            }
-            Solver::Elimination { elimination, .. } => {
-                work.residual.copy_from_slice(&work.right);
-                elimination.solve(&work.factors, &mut work.residual, &mut work.step);
-            }
+    pub(super) fn take_answers<R: Points>(&self, laws: &Laws, work: &mut Work<R>) -> R::Mask {
+        let mut sum = R::ZERO;
+        let mut take = |answer: R| {
+            sum += answer.abs();
+            R::select(answer.abs().is_below(R::constant(f64::INFINITY)), answer, R::ZERO)
+        };
+        for &k in &laws.meshes {
+            let loss = take(work.mesh_loss[k]);
+            let loss = R::select(work.per_watt[k].is_zero(), R::ZERO, loss);
+            let sign = if work.drives[k].driven() == 1 { -1.0 } else { 1.0 };
+            work.mesh_loss[k] = loss;
+            work.answers[k] = loss * work.per_watt[k] * sign;
         }
+        for &drag in &laws.drags {
+            work.answers[self.meshes.len() + drag] = take(work.moments[drag]);
+        }
+        sum.is_below(R::constant(f64::INFINITY))
     }
 
-    /// Adds the effect of friction to a solution without it (Sherman, Morrison and Woodbury).
+    /// The next unknowns of a loop, with the share of a step that is taken. Points are done whose losses would change by less than a
+    /// tolerance of the power of the loop; after the first evaluation, when no secant is known, whose torques would. Returns where there are
+    /// any unknowns, and the greatest change. \[W\]
     #[inline(always)]
-    fn respond<R: Points>(&self, responses: &[[Response; 2]], work: &mut Work<R>) {
-        let n = work.active.len();
-        if n == 0 {
-            return;
+    pub(super) fn approach<R: Points>(
+        &self,
+        block: &Block,
+        (first, share): (bool, f64),
+        (power, tolerance): (R, R),
+        work: &mut Work<R>,
+    ) -> (R::Mask, R) {
+        let leads = block.leads.len();
+        let lead_of = |lead: usize| block.unknowns[block.leads[lead]];
+        let (matrix, right) = (&mut work.factors[..leads * leads], &mut work.right[..leads]);
+        matrix.fill(R::ZERO);
+        for (i, &place) in block.leads.iter().enumerate() {
+            matrix[i * leads + i] = R::constant(1.0);
+            right[i] = work.bare[block.unknowns[place]];
         }
-        for (share, &mesh) in work.shares.iter_mut().zip(&work.active) {
-            *share = work.step[self.friction[mesh].row];
+        for feedback in &block.feedback {
+            let (law, lead) = (feedback.law, feedback.lead);
+            let (x, y) = (work.unknown[lead_of(lead)], work.answers[law]);
+            let slope = bounded(work.slopes[law], x, y, feedback.gain);
+            let bare = y - slope * x;
+            for (i, &place) in block.leads.iter().enumerate() {
+                matrix[lead * leads + i] -= slope * feedback.response[place];
+                right[i] += bare * feedback.response[place];
+            }
         }
-        substitute(&work.factors[..n * n], &work.order[..n], &mut work.shares[..n]);
-        for (share, &mesh) in work.shares.iter().zip(&work.active) {
-            let lost = *share * work.used.share(mesh);
-            let side = &responses[mesh][driven_side(work.drives[mesh])];
-            side.response.add(-lost, &mut work.step);
+        let found = eliminate(matrix, &mut work.exchanged[..leads]);
+        substitute(matrix, &work.exchanged[..leads], right);
+        for &unknown in &block.unknowns {
+            work.next[unknown] = work.bare[unknown];
         }
+        for feedback in &block.feedback {
+            let (law, lead) = (feedback.law, feedback.lead);
+            let (x, y) = (work.unknown[lead_of(lead)], work.answers[law]);
+            let slope = bounded(work.slopes[law], x, y, feedback.gain);
+            let answer = y + slope * (work.right[lead] - x);
+            for (unknown, response) in block.unknowns.iter().zip(&feedback.response) {
+                work.next[*unknown] += answer * *response;
+            }
+        }
+        // The accepted unknowns are in equilibrium with the last losses, those of the next step with the next ones.
+        let mut change = R::ZERO;
+        for feedback in &block.feedback {
+            let (law, lead) = (feedback.law, lead_of(feedback.lead));
+            let x = work.unknown[lead];
+            let step = (work.next[lead] - x).abs();
+            let watts = if first {
+                step / x.abs() * power
+            } else {
+                step * work.slopes[law].abs() * work.weights[law]
+            };
+            change = change.max(watts);
+        }
+        let size = block.unknowns.iter().fold(R::ZERO, |sum, x| sum + work.next[*x].abs());
+        let found = found & size.is_below(R::constant(f64::INFINITY));
+        work.done = work.done | found & !change.is_above(power * tolerance * SAFETY);
+        for &unknown in &block.unknowns {
+            let x = work.unknown[unknown];
+            let step = (work.next[unknown] - x) * share;
+            work.before[unknown] = x;
+            work.unknown[unknown] = R::select(work.done | !found, x, x + step);
+        }
+        for feedback in &block.feedback {
+            work.answers_before[feedback.law] = work.answers[feedback.law];
+        }
+        self.write(block, work);
+        (found, change)
     }
 
-    /// Rolling powers, the largest internal power, and the losses of meshes as used.
+    /// The power that the first gear puts into a mesh.
     #[inline(always)]
-    fn powers<R: Points>(&self, work: &mut Work<R>) {
-        let mut largest = R::ZERO;
-        for (k, mesh) in self.meshes.iter().enumerate() {
-            let relative = work.relative[k];
-            let rolling = -work.multipliers[mesh.row] * mesh.z1 * relative[1];
-            largest = largest.max(rolling.abs());
-            let still = relative[driven_side(work.drives[k])].is_zero();
-            let constant = R::select(still, R::ZERO, work.used.constant(k));
-            work.mesh_loss[k] = work.used.share(k) * rolling.abs() + constant;
-            work.rolling[k] = rolling;
+    pub(super) fn roll<R: Points>(&self, k: usize, work: &mut Work<R>) {
+        let mesh = &self.meshes[k];
+        work.rolling[k] = -work.multipliers[mesh.row] * mesh.z1 * work.relative[k][1];
+        work.largest = work.largest.max(work.rolling[k].abs());
+    }
+
+    /// Rolling powers and the largest internal power.
+    #[inline(always)]
+    pub(super) fn powers<R: Points>(&self, work: &mut Work<R>) {
+        work.largest = R::ZERO;
+        for k in 0..self.meshes.len() {
+            self.roll(k, work);
         }
         for (speed, torque) in work.speeds.iter().zip(&work.ports) {
-            largest = largest.max((*speed * *torque).abs());
+            work.largest = work.largest.max((*speed * *torque).abs());
         }
-        work.largest = largest;
+    }
+
+    /// Powers and drags of a solved flow.
+    #[inline(always)]
+    pub(super) fn sum_up<R: Points>(&self, work: &mut Work<R>) {
+        self.powers(work);
+        work.drags.copy_from_slice(&work.steady);
+        for (drag, moment) in self.drags.iter().zip(&work.answers[self.meshes.len()..]) {
+            for (column, sign) in drag.between.iter().zip([-1.0, 1.0]) {
+                if let Some(column) = column {
+                    work.drags[*column] += *moment * sign;
+                }
+            }
+        }
     }
 }
 
-/// Factors the small system of the meshes with friction: identity plus responses times shares. Returns where it is regular.
+/// Derivatives of the laws of a loop over their leading unknowns: after the first evaluation losses are proportional to these, then
+/// secants.
 #[inline(always)]
-fn small_system<R: Points>(responses: &[[Response; 2]], work: &mut Work<R>) -> R::Mask {
-    let n = work.active.len();
-    for (j, &mesh) in work.active.iter().enumerate() {
-        let share = work.used.share(mesh);
-        let coupling = &responses[mesh][driven_side(work.drives[mesh])].coupling;
-        let column = &mut work.factors[j * n..(j + 1) * n];
-        for (entry, &other) in column.iter_mut().zip(&work.active) {
-            *entry = share * coupling[other];
-        }
-        column[j] = column[j] + 1.0;
+pub(super) fn follow<R: Points>(block: &Block, first: bool, work: &mut Work<R>) {
+    for feedback in &block.feedback {
+        let (law, lead) = (feedback.law, block.unknowns[block.leads[feedback.lead]]);
+        let (x, y) = (work.unknown[lead], work.answers[law]);
+        work.slopes[law] = if first {
+            R::select(y.is_zero() | x.is_zero(), R::ZERO, y / x)
+        } else {
+            let step = x - work.before[lead];
+            let secant = (y - work.answers_before[law]) / step;
+            R::select(step.is_zero(), work.slopes[law], secant)
+        };
     }
-    eliminate(&mut work.factors[..n * n], &mut work.order[..n])
+}
+
+/// A derivative of a loss `y` over a torque `x`, which may not be steeper than laws are. Where the loss, times a gain, is not small
+/// against the torque, it is not followed: the next torque would have another direction.
+#[inline(always)]
+fn bounded<R: Real>(slope: R, x: R, y: R, gain: f64) -> R {
+    let steepest = (y / x).abs() * STEEPEST;
+    let slope = slope.min(steepest).max(-steepest);
+    R::select((y.abs() * gain).is_below(x.abs() * SMALL), slope, R::ZERO)
 }
 
 /// Speed of a gear in the carrier's frame; zero if it is rounding error.
@@ -194,9 +292,4 @@ fn relative_speed<R: Real>(gear: Option<usize>, mesh: &MeshRow, speeds: &[R], st
     let speed = |column: Option<usize>| column.map_or(R::ZERO, |c| speeds[c]);
     let relative = speed(gear) - speed(mesh.carrier);
     R::select(relative.abs().is_above(still), relative, R::ZERO)
-}
-
-/// Which side of [`super::system::Friction`] and [`Response`] loses torque.
-pub(super) fn driven_side(drive: Drive) -> usize {
-    usize::from(drive == Drive::Second)
 }

@@ -1,4 +1,6 @@
-//! Small dense linear systems, column by column, of one point or of several: factors, solutions, inverse.
+//! Small dense linear systems, column by column, of one point or of several: factors and solutions.
+
+use std::ops::Mul;
 
 use crate::real::{Mask as _, Points, Real};
 
@@ -48,36 +50,22 @@ pub(super) fn eliminate<R: Points>(matrix: &mut [R], order: &mut [usize]) -> R::
 
 /// Solves with the factors of [`eliminate`], in place.
 #[inline(always)]
-pub(super) fn substitute<R: Real>(factors: &[R], order: &[usize], x: &mut [R]) {
+pub(super) fn substitute<F: Copy, R: Real + Mul<F, Output = R>>(factors: &[F], order: &[usize], x: &mut [R]) {
     let n = order.len();
     for (k, row) in order.iter().enumerate() {
         x.swap(k, *row);
     }
     for k in 0..n {
-        let own = x[k];
+        let found = x[k];
         for row in k + 1..n {
-            x[row] -= factors[k * n + row] * own;
+            x[row] -= found * factors[k * n + row];
         }
     }
     for k in (0..n).rev() {
-        let own = x[k] * factors[k * n + k];
-        x[k] = own;
+        let found = x[k] * factors[k * n + k];
+        x[k] = found;
         for row in 0..k {
-            x[row] -= factors[k * n + row] * own;
+            x[row] -= found * factors[k * n + row];
         }
     }
-}
-
-/// The inverse of a matrix; `None` if it is singular.
-pub(super) fn inverse(mut matrix: Vec<f64>, n: usize) -> Option<Vec<f64>> {
-    let mut order = vec![0; n];
-    if !eliminate(&mut matrix, &mut order) {
-        return None;
-    }
-    let mut inverse = vec![0.0; n * n];
-    for (j, column) in inverse.chunks_exact_mut(n.max(1)).enumerate() {
-        column[j] = 1.0;
-        substitute(&matrix, &order, column);
-    }
-    Some(inverse)
 }

@@ -1,10 +1,11 @@
-//! The square system of equilibrium: multipliers of rows and torques of ports.
+//! The equations of equilibrium: multipliers of rows and torques of ports, at given losses.
 
 use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, PoisonError};
 
-use super::factors::Elimination;
-use super::linear::inverse;
-use super::sparse::{SparseMatrix, SparseVector};
+use super::order::{Laws, Order};
+use super::structure::matching;
+use super::work::Drive;
 use crate::kinematics::Train;
 
 /// A mesh among the rows.
@@ -35,6 +36,28 @@ pub struct Share {
     pub b: (usize, f64),
 }
 
+/// A drag whose law depends on torques of the flow.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LoadedDrag {
+    /// Number of its component, for the caller.
+    pub component: usize,
+    /// Columns between which it acts.
+    pub between: [Option<usize>; 2],
+    /// What its law depends on, the most important first.
+    pub reads: Vec<Reading>,
+    /// Drags with a common group are evaluated together.
+    pub group: Option<usize>,
+}
+
+/// A torque on which a law depends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Reading {
+    /// The multiplier of a row.
+    Row(usize),
+    /// The torque of the port on a column.
+    Port(usize),
+}
+
 /// Why no torques can be found.
 #[derive(Debug, Clone, PartialEq)]
 pub enum FlowFault {
@@ -54,64 +77,34 @@ pub enum FlowFault {
     Singular,
 }
 
-/// Change of the column of a mesh by friction, for either driven gear.
-#[derive(Debug, Clone)]
-pub(super) struct Friction {
-    pub row: usize,
-    /// Second gear driven, first gear driven.
-    pub sides: [Side; 2],
-}
+/// Orders that are kept: more patterns of driving gears than a study of one gear state meets.
+const MOST_KEPT: usize = 64;
 
-/// One driven side of a mesh.
-#[derive(Debug, Clone)]
-pub(super) struct Side {
-    /// Change of the column per share of loss: less torque on the driven gear, the reaction on the carrier.
-    pub change: SparseVector,
-}
-
-/// The inverse times the change of a side.
-#[derive(Debug, Clone)]
-pub(super) struct Response {
-    pub response: SparseVector,
-    /// Its entries at the rows of all meshes.
-    pub coupling: Vec<f64>,
-}
-
-/// How the equilibrium is solved.
-#[derive(Debug, Clone)]
-pub(super) enum Solver {
-    /// Of gearboxes: the inverse without friction, and the responses of each mesh for both sides, of which friction is a change of low
-    /// rank. Their entries grow with the square of the number of members.
-    Inverse {
-        inverse: SparseMatrix,
-        responses: Vec<[Response; 2]>,
-    },
-    /// Of larger trains: elimination for each friction; entries of each mesh that friction changes, for both sides.
-    Elimination {
-        elimination: Elimination,
-        changed: Vec<[Vec<(usize, f64)>; 2]>,
-    },
-}
-
-/// Size of the largest system whose inverse is computed: beyond it, elimination is faster.
-const LARGEST_INVERSE: usize = 64;
-
-/// The equilibrium of one gear state for one choice of given torques.
+/// The equilibrium of one gear state for one choice of given torques. Laws are numbered: those of the meshes first, then those of the
+/// drags.
 #[derive(Debug, Clone)]
 pub struct Flow {
     pub(super) columns: usize,
     pub(super) rows: usize,
-    pub(super) size: usize,
-    /// The matrix without friction.
-    pub(super) base: SparseMatrix,
-    pub(super) solver: Solver,
-    /// Scale of each row: the unknown is the multiplier over its scale.
+    /// Unknowns of each equation with their coefficients: equilibrium of each column, then the splits. An unknown is the multiplier of
+    /// a row over its scale, then the torque of a port.
+    pub(super) equations: Vec<Vec<(usize, f64)>>,
+    /// The equation that each unknown is matched with.
+    pub(super) matched: Vec<usize>,
     pub(super) scale: Vec<f64>,
     pub(super) meshes: Vec<MeshRow>,
-    /// Effect of friction on the column of each mesh.
-    pub(super) friction: Vec<Friction>,
+    /// For each mesh what a lost multiplier adds to the right-hand sides of equations: if the second gear is driven, and if the first
+    /// one is.
+    pub(super) friction: Vec<[Vec<(usize, f64)>; 2]>,
+    pub(super) drags: Vec<LoadedDrag>,
     pub(super) unknown: Vec<usize>,
     pub(super) given: Vec<usize>,
+    /// All laws.
+    pub(super) laws: Laws,
+    /// The order without losses.
+    pub(super) lossless: Arc<Order>,
+    /// Orders with losses that were needed so far, by the pattern of driven gears.
+    orders: Arc<Mutex<Vec<Arc<Order>>>>,
 }
 
 impl Flow {
@@ -125,8 +118,8 @@ impl Flow {
         meshes: Vec<MeshRow>,
         shares: Vec<Share>,
         loops: &[Vec<usize>],
-        unknown: Vec<usize>,
-        given: Vec<usize>,
+        (unknown, given): (Vec<usize>, Vec<usize>),
+        drags: Vec<LoadedDrag>,
     ) -> Result<Self, FlowFault> {
         let (n, m) = (train.columns, train.rows.len());
         let rank = m - loops.len();
@@ -142,19 +135,19 @@ impl Flow {
             return Err(FlowFault::Redundant { loops: loops.to_vec() });
         }
         let size = m + unknown.len();
-        let mut base: BTreeMap<(usize, usize), f64> = BTreeMap::new();
+        let mut entries: BTreeMap<(usize, usize), f64> = BTreeMap::new();
         let mut scale = Vec::with_capacity(m);
         for (k, row) in train.rows.iter().enumerate() {
-            let entries = row.entries();
-            let largest = entries
+            let terms = row.entries();
+            let largest = terms
                 .iter()
                 .fold(0.0_f64, |most, (_, x)| most.max(x.abs()))
                 .max(f64::MIN_POSITIVE);
             scale.push(1.0 / largest);
-            base.extend(entries.iter().map(|(i, x)| ((*i, k), x / largest)));
+            entries.extend(terms.iter().map(|(i, x)| ((*i, k), x / largest)));
         }
         for (k, port) in unknown.iter().enumerate() {
-            base.insert((*port, m + k), 1.0);
+            entries.insert((*port, m + k), 1.0);
         }
         // Scaled columns: a torque is the entry times the unknown in both rows of a split, so the scales cancel.
         let parts: Vec<(usize, f64, usize, usize)> = shares
@@ -163,110 +156,86 @@ impl Flow {
             .flat_map(|(r, Share { member, a, b })| [(a.0, b.1, member, n + r), (b.0, -a.1, member, n + r)])
             .collect();
         for &(row, part, member, equation) in &parts {
-            let torque = base.get(&(member, row)).copied().unwrap_or(0.0);
-            base.insert((equation, row), part * torque);
+            let torque = entries.get(&(member, row)).copied().unwrap_or(0.0);
+            entries.insert((equation, row), part * torque);
         }
-        base.retain(|_, entry| *entry != 0.0);
-        let friction: Vec<Friction> = meshes
-            .iter()
-            .map(|mesh| Friction {
-                row: mesh.row,
-                sides: [(mesh.second, mesh.sz2), (mesh.first, mesh.z1)].map(|(driven, coefficient)| {
-                    let mut change: BTreeMap<usize, f64> = BTreeMap::new();
-                    if let Some(driven) = driven {
-                        *change.entry(driven).or_default() -= coefficient * scale[mesh.row];
-                    }
-                    if let Some(carrier) = mesh.carrier {
-                        *change.entry(carrier).or_default() += coefficient * scale[mesh.row];
-                    }
-                    for &(_, part, member, equation) in parts.iter().filter(|part| part.0 == mesh.row) {
-                        let torque = change.get(&member).copied().unwrap_or(0.0);
-                        *change.entry(equation).or_default() += part * torque;
-                    }
-                    Side {
-                        change: SparseVector::new(change),
-                    }
-                }),
+        let mut equations = vec![Vec::new(); size];
+        for ((equation, unknown), entry) in entries.into_iter().filter(|(_, entry)| *entry != 0.0) {
+            equations[equation].push((unknown, entry));
+        }
+        let friction = meshes.iter().map(|mesh| {
+            [(mesh.second, mesh.sz2), (mesh.first, mesh.z1)].map(|(driven, coefficient)| {
+                let mut change: BTreeMap<usize, f64> = BTreeMap::new();
+                if let Some(driven) = driven {
+                    *change.entry(driven).or_default() += coefficient * scale[mesh.row];
+                }
+                if let Some(carrier) = mesh.carrier {
+                    *change.entry(carrier).or_default() -= coefficient * scale[mesh.row];
+                }
+                for &(_, part, member, equation) in parts.iter().filter(|part| part.0 == mesh.row) {
+                    let torque = change.get(&member).copied().unwrap_or(0.0);
+                    *change.entry(equation).or_default() += part * torque;
+                }
+                change.into_iter().filter(|(_, x)| *x != 0.0).collect()
             })
-            .collect();
-        let solver = if size <= LARGEST_INVERSE {
-            Solver::inverse(&base, size, &friction)
-        } else {
-            Solver::elimination(&base, size, &friction)
-        };
-        Ok(Self {
+        });
+        let mut flow = Self {
             columns: n,
             rows: m,
-            size,
-            base: SparseMatrix::new(base, size),
-            solver: solver.ok_or(FlowFault::Singular)?,
+            matched: matching(&equations).ok_or(FlowFault::Singular)?,
+            friction: friction.collect(),
+            laws: Laws {
+                meshes: (0..meshes.len()).collect(),
+                drags: (0..drags.len()).collect(),
+            },
+            equations,
             scale,
             meshes,
-            friction,
+            drags,
             unknown,
             given,
-        })
+            lossless: Arc::default(),
+            orders: Arc::default(),
+        };
+        flow.lossless = Arc::new(Order::new(&flow, None).ok_or(FlowFault::Singular)?);
+        Ok(flow)
     }
 
     /// The meshes among the rows.
     pub fn meshes(&self) -> &[MeshRow] {
         &self.meshes
     }
-}
 
-impl Solver {
-    /// The solver by the inverse; absent if the matrix is singular.
-    fn inverse(base: &BTreeMap<(usize, usize), f64>, size: usize, friction: &[Friction]) -> Option<Self> {
-        let mut dense = vec![0.0; size * size];
-        for (&(row, column), &entry) in base {
-            dense[column * size + row] = entry;
+    /// The drags that depend on torques.
+    pub fn drags(&self) -> &[LoadedDrag] {
+        &self.drags
+    }
+
+    /// The order for these driving gears. `None` only if rounding makes a loop singular.
+    pub(super) fn order(&self, drives: &[Drive]) -> Option<Arc<Order>> {
+        let mut kept = self.orders.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(order) = kept.iter().find(|order| order.is_of(drives)) {
+            return Some(Arc::clone(order));
         }
-        let dense = inverse(dense, size)?;
-        let entries = (0..size).flat_map(|row| (0..size).map(move |column| (row, column)));
-        let entries = entries.map(|(row, column)| ((row, column), dense[column * size + row]));
-        let inverse = SparseMatrix::new(entries.filter(|(_, entry)| *entry != 0.0), size);
-        let response = |side: &Side| {
-            let mut change = vec![0.0; size];
-            side.change.add(1.0, &mut change);
-            let mut response = vec![0.0; size];
-            inverse.product(&change, &mut response);
-            Response {
-                coupling: friction.iter().map(|other| response[other.row]).collect(),
-                response: SparseVector::new(response.into_iter().enumerate()),
+        let driven: Vec<Driven> = drives.iter().map(|drive| drive.driven()).collect();
+        let order = Arc::new(Order::new(self, Some(&driven))?);
+        if kept.len() < MOST_KEPT {
+            kept.push(Arc::clone(&order));
+        }
+        Some(order)
+    }
+
+    /// Number of an unknown.
+    pub(super) fn unknown_of(&self, reading: Reading) -> Option<usize> {
+        match reading {
+            Reading::Row(row) => Some(row),
+            Reading::Port(column) => {
+                let port = self.unknown.iter().position(|port| *port == column)?;
+                Some(self.rows + port)
             }
-        };
-        Some(Self::Inverse {
-            responses: friction
-                .iter()
-                .map(|mesh| mesh.sides.each_ref().map(response))
-                .collect(),
-            inverse,
-        })
-    }
-
-    /// The solver by elimination; absent if the matrix is singular.
-    fn elimination(base: &BTreeMap<(usize, usize), f64>, size: usize, friction: &[Friction]) -> Option<Self> {
-        let elimination = Elimination::new(base, size)?;
-        let changed = |mesh: &Friction| {
-            mesh.sides.each_ref().map(|side| {
-                // Friction changes the torques of a mesh, which are entries already.
-                let entries = side.change.entries();
-                entries
-                    .filter_map(|(row, x)| Some((elimination.place(row, mesh.row)?, x)))
-                    .collect()
-            })
-        };
-        Some(Self::Elimination {
-            changed: friction.iter().map(changed).collect(),
-            elimination,
-        })
-    }
-
-    /// Length of the factors for so many meshes.
-    pub(crate) fn factor_count(&self, meshes: usize) -> usize {
-        match self {
-            Self::Inverse { .. } => meshes * meshes,
-            Self::Elimination { elimination, .. } => elimination.len(),
         }
     }
 }
+
+/// The driven gear of a mesh, which loses torque: the second one, or the first.
+pub(super) type Driven = usize;

@@ -2,11 +2,15 @@
 
 mod epicyclic;
 mod large;
+mod order;
 mod properties;
 mod sharing;
 mod two_speed;
 
-use super::{Balance, Drive, Flow, FlowFault, FlowState, MeshRow, Outcome, Share, Start, Status, Tolerance, Work};
+use super::{
+    Balance, Drive, Flow, FlowFault, FlowState, LoadedDrag, MeshRow, Outcome, Reading, Share, Start, Status, Tolerance,
+    Work,
+};
 use crate::kinematics::{Motion, Row, Train};
 
 /// A train under test: columns, meshes with a constant share of loss, other rows.
@@ -17,6 +21,8 @@ struct Rig {
     rows: Vec<Row>,
     /// Pairs of columns with a drag moment between them.
     drags: Vec<(Option<usize>, Option<usize>, f64)>,
+    /// Columns with a drag that depends on torques.
+    loaded: Vec<usize>,
     shares: Vec<Share>,
 }
 
@@ -48,6 +54,20 @@ impl Rig {
     fn drag(mut self, a: Option<usize>, b: Option<usize>, moment: f64) -> Self {
         self.drags.push((a, b, moment));
         self
+    }
+    fn loaded(mut self, column: usize) -> Self {
+        self.loaded.push(column);
+        self
+    }
+    /// Drags that may depend on the torques of all meshes.
+    fn loaded_drags(&self) -> Vec<LoadedDrag> {
+        let drags = self.loaded.iter().map(|column| LoadedDrag {
+            component: 0,
+            between: [Some(*column), None],
+            reads: (0..self.meshes.len()).map(Reading::Row).collect(),
+            group: None,
+        });
+        drags.collect()
     }
     fn train(&self) -> Train {
         Train {
@@ -85,7 +105,8 @@ impl Solved {
     }
 }
 
-/// Solves to 1e-12 with the law `loss(mesh, torque of the driver, relative speed of the driver)` per mesh.
+/// Solves to 1e-12 with the law `loss(mesh, torque of the driver, relative speed of the driver)` per mesh, and the torques that drags
+/// apply to the loaded columns.
 fn solve_with(
     rig: &Rig,
     ports: &[usize],
@@ -114,13 +135,35 @@ fn solve_to(
     let given: Vec<usize> = torque_ports.iter().map(|p| p.0).collect();
     let unknown: Vec<usize> = ports.iter().copied().filter(|p| !given.contains(p)).collect();
     let meshes: Vec<MeshRow> = rig.meshes.iter().map(|m| m.0).collect();
-    let flow = Flow::new(&train, meshes, rig.shares.clone(), &motion.loops, unknown, given).unwrap();
+    let ports = (unknown, given);
+    let flow = Flow::new(
+        &train,
+        meshes,
+        rig.shares.clone(),
+        &motion.loops,
+        ports,
+        rig.loaded_drags(),
+    )
+    .unwrap();
     let mut work = flow.work();
     work.given = torque_ports.iter().map(|p| p.1).collect();
     work.speeds.clone_from(&speeds);
     let tolerance = Tolerance { power, passes: 60 };
+    for (a, b, moment) in &rig.drags {
+        let speed = |c: Option<usize>| c.map_or(0.0, |c: usize| speeds[c]);
+        let delta = speed(*a) - speed(*b);
+        if delta.abs() > 1e-12 * speed(*a).abs().max(speed(*b).abs()) {
+            if let Some(a) = a {
+                work.steady[*a] -= moment * delta.signum();
+            }
+            if let Some(b) = b {
+                work.steady[*b] += moment * delta.signum();
+            }
+        }
+    }
     let outcome = flow.real(tolerance, Start::Lossless, &mut work, |state: &mut FlowState<'_>| {
-        for (k, (mesh, _)) in rig.meshes.iter().enumerate() {
+        for &k in &state.laws.meshes {
+            let mesh = rig.meshes[k].0;
             let speed = |c: Option<usize>| c.map_or(0.0, |c| state.speeds[c]);
             let lambda = state.multipliers[mesh.row].abs();
             let (z, column) = if state.drives[k] == Drive::Second {
@@ -136,21 +179,9 @@ fn solve_to(
             };
             state.mesh_loss[k] = law(k, lambda * z.abs(), relative.abs());
         }
-        for (a, b, moment) in &rig.drags {
-            let speed = |c: Option<usize>| c.map_or(0.0, |c: usize| state.speeds[c]);
-            let delta = speed(*a) - speed(*b);
-            if delta.abs() > 1e-12 * speed(*a).abs().max(speed(*b).abs()) {
-                if let Some(a) = a {
-                    state.drags[*a] -= moment * delta.signum();
-                }
-                if let Some(b) = b {
-                    state.drags[*b] += moment * delta.signum();
-                }
-            }
-        }
-        let more = extra(state);
-        for (drag, torque) in state.drags.iter_mut().zip(more) {
-            *drag += torque;
+        let torques = extra(state);
+        for &drag in &state.laws.drags {
+            state.moments[drag] = -torques[rig.loaded[drag]];
         }
     });
     let drag_loss = -work.drags.iter().zip(&speeds).map(|(d, w)| d * w).sum::<f64>();

@@ -17,6 +17,20 @@ pub struct ShaftLoads {
     pub(super) turned: Vec<bool>,
     /// Members from the supported to the supporting, without those whose thrust passes through their supports.
     pub(super) order: Vec<Axially>,
+    /// Supports whose loads are found together, and the group of each support.
+    groups: Vec<Group>,
+    group_of: Vec<usize>,
+}
+
+/// The supports of a member, or one through which thrust passes, and what their loads depend on.
+#[derive(Debug, Clone, Default)]
+pub struct Group {
+    /// Numbers of the supports.
+    pub supports: Vec<usize>,
+    /// Meshes whose tangential forces load them, those with the largest forces first.
+    pub meshes: Vec<usize>,
+    /// Places of the member, last, and of those that pass thrust on to it, in the order.
+    members: Vec<usize>,
 }
 
 /// Reactions of one support, without zero entries.
@@ -105,6 +119,70 @@ pub(super) struct Axially {
     pub carrier: Option<(usize, f64)>,
 }
 
+impl Axially {
+    /// The thrust with that which other members pass on, and the magnitude of the forces in its sum.
+    #[inline(always)]
+    fn thrust<R: Real>(&self, tangential: &[R], passed: R, size: R) -> (R, R) {
+        let (mut thrust, mut scale) = (R::constant(self.always), R::constant(self.size));
+        for (mesh, factor) in &self.meshes {
+            let force = tangential[*mesh] * *factor;
+            thrust += force;
+            scale += force.abs();
+        }
+        (thrust + passed, scale + size)
+    }
+}
+
+impl Group {
+    /// The groups of all supports.
+    fn all(cases: &[Cases], order: &[Axially]) -> Vec<Self> {
+        let mut alone = vec![true; cases.len()];
+        let mut groups = Vec::new();
+        for (place, member) in order.iter().enumerate() {
+            let supports = member.taking.supports();
+            if supports.is_empty() {
+                continue;
+            }
+            // Those that pass thrust on precede the members to which they do.
+            let mut members = vec![place];
+            for earlier in (0..place).rev() {
+                let carrier = order[earlier].carrier;
+                if carrier.is_some_and(|(carrier, _)| members.contains(&carrier)) {
+                    members.push(earlier);
+                }
+            }
+            members.reverse();
+            for support in supports {
+                alone[*support] = false;
+            }
+            groups.push(Self {
+                supports: supports.to_vec(),
+                members,
+                meshes: Vec::new(),
+            });
+        }
+        let alone = (0..cases.len()).filter(|support| alone[*support]);
+        groups.extend(alone.map(|support| Self {
+            supports: vec![support],
+            ..Self::default()
+        }));
+        for group in &mut groups {
+            let mut forces: BTreeMap<usize, f64> = BTreeMap::new();
+            for (mesh, senses) in group.supports.iter().flat_map(|support| &cases[*support].meshes) {
+                let sizes = senses.iter().map(|reaction| length(reaction.force));
+                *forces.entry(*mesh).or_default() += sizes.sum::<f64>();
+            }
+            for (mesh, factor) in group.members.iter().flat_map(|place| &order[*place].meshes) {
+                *forces.entry(*mesh).or_default() += factor.abs();
+            }
+            let mut forces: Vec<(usize, f64)> = forces.into_iter().collect();
+            forces.sort_by(|a, b| b.1.total_cmp(&a.1));
+            group.meshes = forces.into_iter().map(|(mesh, _)| mesh).collect();
+        }
+        groups
+    }
+}
+
 impl ShaftLoads {
     /// Solves the unit cases.
     ///
@@ -114,16 +192,27 @@ impl ShaftLoads {
         let system = System::new(layout)?;
         let units = system.units();
         let cases = system.permanent().into_iter().zip(&units).zip(system.planets());
+        let cases: Vec<Cases> = cases
+            .map(|((always, units), planets)| Cases::new(always, units, planets))
+            .collect();
+        let turned = layout.supports.iter();
+        let turned = turned
+            .map(|support| carried(layout, support).0 != support.inner)
+            .collect();
+        let order = passed_on(system.axial());
+        let groups = Group::all(&cases, &order);
+        let mut group_of = vec![0; cases.len()];
+        for (number, group) in groups.iter().enumerate() {
+            for support in &group.supports {
+                group_of[*support] = number;
+            }
+        }
         Ok(Self {
-            cases: cases
-                .map(|((always, units), planets)| Cases::new(always, units, planets))
-                .collect(),
-            turned: layout
-                .supports
-                .iter()
-                .map(|support| carried(layout, support).0 != support.inner)
-                .collect(),
-            order: passed_on(system.axial()),
+            cases,
+            turned,
+            order,
+            groups,
+            group_of,
         })
     }
 
@@ -132,12 +221,30 @@ impl ShaftLoads {
         2 * self.order.len()
     }
 
-    /// Writes the loads of all supports. `tangential` is the signed tangential force of one copy of each mesh (N), `speeds` are
-    /// those of all members (rad/s), the length of `passed` is [`ShaftLoads::scratch_len`].
+    /// Supports whose loads are found together.
+    pub fn groups(&self) -> &[Group] {
+        &self.groups
+    }
+
+    /// The group of a support.
+    pub fn group_of(&self, support: usize) -> usize {
+        self.group_of[support]
+    }
+
+    /// Writes the loads of the supports of a group. `tangential` is the signed tangential force of one copy of each mesh (N), `speeds`
+    /// are those of all members (rad/s), the length of `passed` is [`ShaftLoads::scratch_len`].
     #[inline(always)]
-    pub fn evaluate<R: Real>(&self, tangential: &[R], speeds: &[R], passed: &mut [R], loads: &mut [SupportLoad<R>]) {
-        for (cases, load) in self.cases.iter().zip(&mut *loads) {
-            *load = SupportLoad {
+    pub fn evaluate<R: Real>(
+        &self,
+        group: &Group,
+        tangential: &[R],
+        speeds: &[R],
+        passed: &mut [R],
+        loads: &mut [SupportLoad<R>],
+    ) {
+        for &support in &group.supports {
+            let cases = &self.cases[support];
+            loads[support] = SupportLoad {
                 radial: match &cases.only {
                     Some((mesh, lengths)) => under(lengths, tangential[*mesh]),
                     None => length(cases.sum(|reaction| reaction.force, tangential, speeds)),
@@ -152,26 +259,26 @@ impl ShaftLoads {
                 untaken: R::ZERO,
             };
         }
+        let Some((own, passing)) = group.members.split_last() else {
+            return;
+        };
         // Thrust that members pass on, and the magnitude of the forces in its sum.
         let (passed, sizes) = passed.split_at_mut(self.order.len());
-        passed.fill(R::ZERO);
-        sizes.fill(R::ZERO);
-        for (place, member) in self.order.iter().enumerate() {
-            let (mut thrust, mut scale) = (R::constant(member.always), R::constant(member.size));
-            for (mesh, factor) in &member.meshes {
-                let own = tangential[*mesh] * *factor;
-                thrust += own;
-                scale += own.abs();
-            }
-            thrust += passed[place];
-            scale += sizes[place];
-            let untaken = member.taking.share(thrust, scale, loads);
+        for &place in &group.members {
+            (passed[place], sizes[place]) = (R::ZERO, R::ZERO);
+        }
+        for &place in passing {
+            let member = &self.order[place];
+            let (thrust, scale) = member.thrust(tangential, passed[place], sizes[place]);
             // However the supports share it, the net thrust goes to the supporting member.
             if let Some((carrier, copies)) = member.carrier {
-                passed[carrier] += (thrust - untaken) * copies;
+                passed[carrier] += (thrust - member.taking.untaken(thrust, scale)) * copies;
                 sizes[carrier] += scale * copies;
             }
         }
+        let member = &self.order[*own];
+        let (thrust, scale) = member.thrust(tangential, passed[*own], sizes[*own]);
+        member.taking.share(thrust, scale, loads);
     }
 
     /// The force of each support on its member, y and z, for given tangential forces at standstill. \[N\]

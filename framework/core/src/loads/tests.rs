@@ -113,15 +113,24 @@ fn two_speed() -> Layout {
     }
 }
 
+/// The loads of all supports.
+fn all<R: Real>(solved: &ShaftLoads, tangential: &[R], speeds: &[R]) -> Vec<SupportLoad<R>> {
+    let mut loads = vec![SupportLoad::default(); solved.cases.len()];
+    for group in solved.groups() {
+        let mut passed = vec![R::ZERO; solved.scratch_len()];
+        solved.evaluate(group, tangential, speeds, &mut passed, &mut loads);
+    }
+    loads
+}
+
 fn loads_of(layout: &Layout, tangential: &[f64]) -> (Vec<SupportLoad>, Vec<[f64; 2]>) {
     let solved = ShaftLoads::new(layout).unwrap();
     assert_several_equal_single(&solved, layout.meshes.len(), &vec![100.0; layout.members.len()]);
-    let mut loads = vec![SupportLoad::default(); layout.supports.len()];
-    let mut passed = vec![0.0; solved.scratch_len()];
+    let mut loads = Vec::new();
     // Rotated first, so that the forces of the caller stay unchanged.
     for sense in [-1.0, 1.0] {
         let tangential: Vec<f64> = tangential.iter().map(|force| sense * force).collect();
-        solved.evaluate(&tangential, &vec![0.0; layout.members.len()], &mut passed, &mut loads);
+        loads = all(&solved, &tangential, &vec![0.0; layout.members.len()]);
         // If a single mesh loads a support, its radial load is not computed from a vector; it must equal that of all meshes.
         for (load, [y, z]) in loads.iter().zip(solved.vectors(&tangential)) {
             let length = y.hypot(z);
@@ -492,9 +501,7 @@ fn g_planet_bearing() {
     let on_sun = share / sun.radius[0];
     let planet_torque = on_sun * sun.radius[1];
     let tangential = [on_sun, -planet_torque / ring.radius[0]];
-    let mut loads = [SupportLoad::default()];
-    let mut passed = vec![0.0; solved.scratch_len()];
-    solved.evaluate(&tangential, &speeds, &mut passed, &mut loads);
+    let loads = all(&solved, &tangential, &speeds);
     close(loads[0].radial, 1799.85641, 1799.0);
     assert!(loads[0].axial.abs() < 1e-9);
     close(loads[0].tilting, 11.1912321, 11.2);
@@ -939,16 +946,12 @@ fn assert_several_equal_single(loads: &ShaftLoads, meshes: usize, speeds: &[f64]
                 1.0 + 0.1 * k as f64
             }
     };
-    let supports = loads.vectors(&vec![0.0; meshes]).len();
     let tangential: Vec<Lane> = (0..meshes).map(|k| Lane::each(|i| force(k, i))).collect();
     let lanes: Vec<Lane> = speeds.iter().map(|speed| Lane::constant(*speed)).collect();
-    let mut together = vec![SupportLoad::<Lane>::default(); supports];
-    let mut passed = vec![Lane::ZERO; loads.scratch_len()];
-    loads.evaluate(&tangential, &lanes, &mut passed, &mut together);
+    let together = all(loads, &tangential, &lanes);
     for i in 0..LANES {
         let own: Vec<f64> = (0..meshes).map(|k| force(k, i)).collect();
-        let mut alone = vec![SupportLoad::<f64>::default(); supports];
-        loads.evaluate(&own, speeds, &mut vec![0.0; loads.scratch_len()], &mut alone);
+        let alone = all(loads, &own, speeds);
         for (together, alone) in together.iter().zip(&alone) {
             assert_eq!(together.at_point(i), *alone);
         }

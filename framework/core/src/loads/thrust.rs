@@ -57,10 +57,38 @@ impl Taking {
         })
     }
 
-    /// Adds the axial load of each support for a thrust towards +x; returns the untaken thrust. `scale` is the magnitude of the
-    /// forces in the sum of the thrust.
+    /// Supports of the member.
+    pub fn supports(&self) -> &[usize] {
+        &self.supports
+    }
+
+    /// The thrust towards +x that no support takes. `scale` is the magnitude of the forces in the sum of the thrust.
     #[inline(always)]
-    pub fn share<R: Real>(&self, thrust: R, scale: R, loads: &mut [SupportLoad<R>]) -> R {
+    pub fn untaken<R: Real>(&self, thrust: R, scale: R) -> R {
+        if self.pair.is_some() {
+            return R::ZERO;
+        }
+        let rest = self.rest(thrust, scale);
+        let [left, right] = [-rest, rest].map(|own| own.at_least(0.0));
+        match &self.takers {
+            [l, r] if l.is_empty() && r.is_empty() => rest,
+            [l, _] if l.is_empty() => -left,
+            [_, r] if r.is_empty() => right,
+            _ => R::ZERO,
+        }
+    }
+
+    /// The thrust that springs leave.
+    #[inline(always)]
+    fn rest<R: Real>(&self, thrust: R, scale: R) -> R {
+        let rest = self.springs.iter().fold(thrust, |rest, (_, spring)| rest + *spring);
+        // What is rounding error is no thrust.
+        R::select(rest.abs().is_above(scale * 1e-9), rest, R::ZERO)
+    }
+
+    /// Adds the axial load of each support for a thrust towards +x, and the untaken thrust.
+    #[inline(always)]
+    pub fn share<R: Real>(&self, thrust: R, scale: R, loads: &mut [SupportLoad<R>]) {
         // Bearings with a contact angle load each other: the pair balances K + S_L against S_R.
         if let Some([(r, induced_r), (l, induced_l)]) = self.pair {
             let (s_r, s_l) = (loads[r].radial * induced_r, loads[l].radial * induced_l);
@@ -68,33 +96,21 @@ impl Taking {
             let left = (thrust + s_l).is_below(s_r);
             loads[r].axial += R::select(left, s_r, thrust + s_l);
             loads[l].axial += R::select(left, s_r - thrust, s_l);
-            return R::ZERO;
+            return;
         }
-        let mut rest = thrust;
         for (i, spring) in &self.springs {
             loads[*i].axial += R::constant(spring.abs());
-            rest += R::constant(*spring);
         }
-        // What is rounding error is no thrust.
-        let rest = R::select(rest.abs().is_above(scale * 1e-9), rest, R::ZERO);
-        let mut untaken = R::ZERO;
+        let rest = self.rest(thrust, scale);
         for (takers, own) in self.takers.iter().zip([-rest, rest]) {
-            let own = own.at_least(0.0);
             for (i, share) in takers {
-                loads[*i].axial += own * *share;
-            }
-            if takers.is_empty() {
-                untaken += own;
+                loads[*i].axial += own.at_least(0.0) * *share;
             }
         }
-        if self.takers.iter().all(|takers| !takers.is_empty()) {
-            return R::ZERO;
-        }
-        let untaken = R::select(rest.is_below(R::ZERO), -untaken, untaken);
+        let untaken = self.untaken(thrust, scale);
         for i in &self.supports {
             loads[*i].untaken = untaken;
         }
-        untaken
     }
 }
 

@@ -4,9 +4,10 @@ use std::sync::{Mutex, PoisonError};
 
 use super::Transmission;
 use super::states::{GearState, all_ports, explain, in_state, path_of_state, prescribed};
+use super::statics::LoadFactors;
 use crate::codes;
 use crate::document::{Diagnostic, classify};
-use crate::flow::{Flow, FlowFault};
+use crate::flow::{Flow, FlowFault, LoadedDrag, Reading};
 use crate::kinematics::Motion;
 
 /// A gear state with prescribed ports, factored once.
@@ -30,12 +31,13 @@ pub(crate) struct Cases(Mutex<Vec<(Asked, Case)>>);
 /// Maximum number of cases that are kept: gear states times the ports that a study uses.
 const MOST_KEPT: usize = 64;
 
-/// What determines a case: gear state, ports with given speed, ports with given torque.
+/// What determines a case: gear state, ports with given speed, ports with given torque, drags that depend on torques.
 #[derive(Debug, PartialEq)]
 struct Asked {
     state: usize,
     speed_ports: Vec<usize>,
     torque_ports: Vec<usize>,
+    drags: Vec<LoadedDrag>,
 }
 
 impl Cases {
@@ -95,6 +97,7 @@ impl Transmission {
             state: index,
             speed_ports: speed_ports.clone(),
             torque_ports: torque_ports.clone(),
+            drags: self.loaded_drags(index),
         };
         if let Some(case) = self.cases.get(&asked) {
             return Ok(case);
@@ -125,8 +128,8 @@ impl Transmission {
                 .copied()
                 .collect(),
             &motion.loops,
-            unknown,
-            given,
+            (unknown, given),
+            asked.drags.clone(),
         )
         .map_err(|fault| vec![self.flow_fault(&fault, state, equal.len(), &path).code(codes::GIVEN)])?;
         let case = Case {
@@ -139,6 +142,33 @@ impl Transmission {
         };
         self.cases.keep(asked, &case);
         Ok(case)
+    }
+
+    /// The components whose loss depends on torques in a gear state, and on which.
+    fn loaded_drags(&self, state: usize) -> Vec<LoadedDrag> {
+        let loaded = self.components.iter().enumerate();
+        let loaded = loaded.filter(|(_, component)| component.loaded && !component.off);
+        let drags = loaded.map(|(i, component)| {
+            let port = |port: usize| Reading::Port(self.ports[port].member);
+            let mut reads = Vec::new();
+            let group = component.group(&self.loads);
+            if let Some(group) = group.map(|group| &self.loads.groups()[group]) {
+                reads.extend(group.meshes.iter().map(|mesh| Reading::Row(*mesh)));
+                for support in &group.supports {
+                    let imported = self.imported.as_ref();
+                    reads.extend(imported.and_then(|loads| loads.reads(state, *support)).map(port));
+                    let factors = self.load_factors.get(*support);
+                    reads.extend(factors.into_iter().flat_map(LoadFactors::reads).map(port));
+                }
+            }
+            LoadedDrag {
+                component: i,
+                between: component.between.map(|member| member.map(usize::from)),
+                reads,
+                group,
+            }
+        });
+        drags.collect()
     }
 
     /// Checks that each speed and torque is given once, and no speed at a port that stands.

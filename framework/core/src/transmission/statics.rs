@@ -50,6 +50,18 @@ impl LoadFactor {
     }
 }
 
+impl LoadFactors {
+    /// Ports on whose torque the factors depend.
+    pub fn reads(&self) -> impl Iterator<Item = usize> {
+        [&self.radial, &self.axial]
+            .into_iter()
+            .filter_map(|factor| match factor {
+                LoadFactor::Constant(_) => None,
+                LoadFactor::Over { port, .. } => Some(*port),
+            })
+    }
+}
+
 /// Bearing loads from a file, over the torque of a port, by gear state.
 #[derive(Debug, Clone)]
 pub struct Imported {
@@ -62,6 +74,11 @@ pub struct Imported {
 const STEP: f64 = 1e-6;
 
 impl Imported {
+    /// The port on whose torque the load of a support depends, if the file has it.
+    pub fn reads(&self, state: usize, support: usize) -> Option<usize> {
+        self.tables[state][support].as_ref().map(|_| self.port)
+    }
+
     /// Replaces the load of a support if the file has it.
     pub fn load<R: Real>(&self, state: usize, support: usize, torque: R) -> Option<SupportLoad<R>> {
         let rows = self.tables[state][support].as_ref()?;

@@ -354,7 +354,7 @@ impl Derived<'_> {
     }
 
     /// The results of the point in a changed transmission.
-    fn solved_in(&self, transmission: &Transmission) -> Result<Vec<Option<f64>>, Findings> {
+    fn solved_in(&self, transmission: &Transmission) -> Result<Vec<Option<[f64; 2]>>, Findings> {
         let prepared = self.prepared;
         let names = |ports: &[usize]| -> Vec<&str> {
             let names = ports.iter().map(|port| self.transmission.ports()[*port].name.as_str());
@@ -438,13 +438,13 @@ fn tight(point: Point<'_>) -> Point<'_> {
     }
 }
 
-/// The loss, the efficiency and the balanced temperature of a point, and the loss of each part.
+/// The loss, the efficiency and the balanced temperature of a point, and the loss of each part, each with its error.
 fn solved(
     transmission: &Transmission,
     case: &Case,
     point: &Point<'_>,
     oil: OilTemperature,
-) -> Result<Vec<Option<f64>>, Unbalanced> {
+) -> Result<Vec<Option<[f64; 2]>>, Unbalanced> {
     let mut scratch: Scratch = transmission.scratch(case);
     let point = tight(*point);
     let found = oil.find(transmission, case, &point, &mut scratch);
@@ -456,8 +456,14 @@ fn solved(
     transmission.try_point(case, &point, temperatures, &mut scratch, Noting::Muted)?;
     let solution = transmission.evaluate(case, &point, temperatures, &mut scratch);
     let temperature = found.outcome().map(|_| balanced.unwrap_or(found.oil));
-    let mut results = vec![solution.loss(), solution.efficiency(), temperature];
-    results.extend(solution.watts().iter().map(|watts| Some(*watts)));
+    // Losses are within the tolerance of the flow, a temperature to rounding.
+    let watts = |watts: f64| [watts, TIGHT * solution.largest_power()];
+    let mut results = vec![
+        solution.loss().map(watts),
+        solution.efficiency().map(|efficiency| [efficiency, TIGHT]),
+        temperature.map(|temperature| [temperature, 0.0]),
+    ];
+    results.extend(solution.watts().iter().map(|loss| Some(watts(*loss))));
     Ok(results)
 }
 

@@ -307,7 +307,7 @@ fn p6_wolfrom_set_locks_itself_beyond_a_loss_of_0_0106820531() {
 
 #[test]
 fn p6_wolfrom_set_with_a_law_that_is_not_proportional() {
-    let rig = wolfrom(0.0).drag(Some(0), None, 0.01);
+    let rig = wolfrom(0.0).drag(Some(0), None, 0.01).loaded(3);
     let run = |given: usize, torque: f64| {
         solve_with(
             &rig,
@@ -372,7 +372,7 @@ fn p7_simpson_set() {
 
 /// Losses of the meshes of a set whose law is nearly proportional, so that the iteration converges, but not immediately.
 fn lost<R: Points>(rig: &Rig, state: &mut FlowState<'_, R>) {
-    for (k, loss) in state.mesh_loss.iter_mut().enumerate() {
+    for &k in &state.laws.meshes {
         let (mesh, zeta) = rig.meshes[k];
         let (z, column) = match state.drives[k] {
             Drive::Second => (mesh.sz2, mesh.second),
@@ -381,9 +381,8 @@ fn lost<R: Points>(rig: &Rig, state: &mut FlowState<'_, R>) {
         let of = |column: Option<usize>| column.map_or(R::ZERO, |c| state.speeds[c]);
         let multiplier = state.multipliers[mesh.row];
         let power = (multiplier * z * (of(column) - of(mesh.carrier))).abs() * zeta;
-        *loss = power * multiplier.abs().at_least(1e-3).power(-0.01);
+        state.mesh_loss[k] = power * multiplier.abs().at_least(1e-3).power(-0.01);
     }
-    state.drags.copy_from_slice(state.steady);
 }
 
 /// Near self-locking and beyond, where points turn, lock or converge slowly: those that stay together have the bits of each alone.
@@ -395,7 +394,15 @@ fn points_of_a_set_near_self_locking_are_solved_together_as_alone() {
         let train = rig.train();
         let motion = Motion::new(&train, &ports, &[0]).unwrap();
         let meshes: Vec<MeshRow> = rig.meshes.iter().map(|m| m.0).collect();
-        let flow = Flow::new(&train, meshes, Vec::new(), &motion.loops, vec![3], vec![0]).unwrap();
+        let flow = Flow::new(
+            &train,
+            meshes,
+            Vec::new(),
+            &motion.loops,
+            (vec![3], vec![0]),
+            Vec::new(),
+        )
+        .unwrap();
         let (mut all, mut alone) = (flow.work::<Lane>(), flow.work::<f64>());
         for speed in [100.0, 1000.0] {
             let torque = |i: usize| sense * (20.0 + i as f64) * if i == 3 { -1.0 } else { 1.0 };

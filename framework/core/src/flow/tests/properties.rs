@@ -28,7 +28,7 @@ fn stage() -> impl Strategy<Value = (Stage, [f64; 2], [f64; 2])> {
 }
 
 /// A random train of one to four stages with drags, and its output.
-fn train() -> impl Strategy<Value = (Rig, usize)> {
+pub(super) fn train() -> impl Strategy<Value = (Rig, usize)> {
     (proptest::collection::vec(stage(), 1..5), 0.0..0.3_f64).prop_map(|(stages, drag)| {
         let mut rig = Rig::new(1);
         let mut at = 0;

@@ -71,13 +71,29 @@ fn r_twin_countershaft() {
     }
     let train = rig(None).train();
     let motion = Motion::new(&train, &[0, 3], &[0]).unwrap();
-    let fault = Flow::new(&train, Vec::new(), Vec::new(), &motion.loops, vec![3], vec![0]).unwrap_err();
+    let fault = Flow::new(
+        &train,
+        Vec::new(),
+        Vec::new(),
+        &motion.loops,
+        (vec![3], vec![0]),
+        Vec::new(),
+    )
+    .unwrap_err();
     assert_eq!(
         fault,
         FlowFault::Redundant {
             loops: vec![vec![0, 1, 2, 3]]
         }
     );
-    let count = Flow::new(&train, Vec::new(), Vec::new(), &motion.loops, vec![], vec![0, 3]).unwrap_err();
+    let count = Flow::new(
+        &train,
+        Vec::new(),
+        Vec::new(),
+        &motion.loops,
+        (vec![], vec![0, 3]),
+        Vec::new(),
+    )
+    .unwrap_err();
     assert_eq!(count, FlowFault::Count { needed: 1, given: 2 });
 }

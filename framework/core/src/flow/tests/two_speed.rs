@@ -3,7 +3,7 @@
 use super::*;
 
 /// input 0, intermediate 1, output 2, G3 3, G5 4.
-fn two_speed(engaged: &[usize], zeta: [f64; 3]) -> Rig {
+pub(super) fn two_speed(engaged: &[usize], zeta: [f64; 3]) -> Rig {
     let rig = Rig::new(5)
         .mesh(0, 16.0, 1, 83.0, None, zeta[0])
         .mesh(3, 24.0, 2, 101.0, None, zeta[1])
@@ -150,13 +150,15 @@ fn measured(rig: &Rig, power: f64, torque: f64) -> Solved {
 }
 
 #[test]
-fn three_passes_agree_to_1e_9_for_laws_that_are_not_proportional() {
+fn two_or_three_passes_agree_to_1e_9_for_laws_that_are_not_proportional() {
     let rig = two_speed(&[3], [0.0; 3])
         .drag(Some(0), None, 0.02)
-        .drag(Some(2), None, 0.4);
+        .drag(Some(2), None, 0.4)
+        .loaded(1)
+        .loaded(2);
     for torque in [10.0, -10.0, 100.0] {
         let (quick, exact) = (measured(&rig, 1e-9, torque), measured(&rig, 1e-12, torque));
-        assert_eq!(quick.passes(), 3);
+        assert!((2..=3).contains(&quick.passes()), "{}", quick.passes());
         // The tolerance itself is the guarantee; the balance holds to rounding in both.
         assert!((quick.loss() - exact.loss()).abs() <= 1e-9 * exact.work.largest);
         for solved in [quick, exact] {
@@ -186,7 +188,7 @@ fn a_mesh_loss_without_load_is_carried_as_a_torque() {
 fn at_standstill_torques_flow_and_nothing_is_lost() {
     let solved = solve(&two_speed(&[3], [0.01; 3]), &[0, 2], &[(0, 0.0)], &[(0, 10.0)]);
     close(solved.work.ports[2], -218.307292, 218.0);
-    assert_eq!((solved.loss(), solved.passes()), (0.0, 2));
+    assert_eq!((solved.loss(), solved.passes()), (0.0, 1));
 }
 
 #[test]
@@ -194,7 +196,7 @@ fn answers_that_are_no_numbers_leave_none_in_the_flow() {
     let rig = two_speed(&[3], [0.0; 3]);
     for bad in [f64::NAN, f64::INFINITY] {
         let solved = solve_with(
-            &rig,
+            &rig.clone().loaded(1),
             &[0, 2],
             &[(0, 800.0)],
             &[(0, 10.0)],

@@ -31,13 +31,14 @@ pub struct Difference {
 }
 
 impl Around {
-    /// Differentiates several quantities; `None` where one is missing at any of the places.
+    /// Differentiates several quantities, of which the function returns the value and its error, which changes over the size of the
+    /// number as the value does; `None` where one is missing at any of the places.
     ///
     /// # Errors
     /// The first error of the function.
     pub fn differentiate<E>(
         &self,
-        mut function: impl FnMut(f64) -> Result<Vec<Option<f64>>, E>,
+        mut function: impl FnMut(f64) -> Result<Vec<Option<[f64; 2]>>, E>,
     ) -> Result<Vec<Option<Difference>>, E> {
         let here = function(self.value)?;
         let mut scales = Vec::new();
@@ -48,11 +49,11 @@ impl Around {
             scales.push((step, below, above));
         }
         let quantity = |k: usize| {
-            let here = here.get(k).copied().flatten()?;
+            let [here, error] = here.get(k).copied().flatten()?;
             let mut best: Option<Difference> = None;
             let mut kink = None;
             for (step, below, above) in &scales {
-                let number = |results: &Vec<Option<f64>>| results.get(k).copied().flatten();
+                let number = |results: &Vec<Option<[f64; 2]>>| Some(results.get(k).copied().flatten()?[0]);
                 let [below, above] = [below, above].map(|side| {
                     let [half, one, two] = side;
                     Some([number(half)?, number(one)?, number(two)?])
@@ -64,7 +65,11 @@ impl Around {
                     best = Some(found);
                 }
             }
-            best.map(|best| Difference { kink, ..best })
+            best.map(|best| Difference {
+                kink,
+                error: best.error + error / self.size,
+                ..best
+            })
         };
         Ok((0..here.len()).map(quantity).collect())
     }
@@ -118,7 +123,7 @@ mod tests {
             size: value.abs().max(1.0),
             range: [f64::NEG_INFINITY, f64::INFINITY],
         };
-        let found = around.differentiate(|x| Ok::<_, Infallible>(vec![Some(function(x))]));
+        let found = around.differentiate(|x| Ok::<_, Infallible>(vec![Some([function(x), 0.0])]));
         let Ok(found) = found;
         found[0].unwrap_or(Difference {
             value: f64::NAN,
@@ -156,7 +161,7 @@ mod tests {
         let mut places = Vec::new();
         let found = around.differentiate(|x| {
             places.push(x);
-            Ok::<_, Infallible>(vec![Some(x * x)])
+            Ok::<_, Infallible>(vec![Some([x * x, 0.0])])
         });
         let Ok(found) = found;
         assert!(places.iter().all(|x| (0.0..=1.0).contains(x)));
