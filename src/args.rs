@@ -354,8 +354,9 @@ pub struct CheckArgs {
     /// Prints the resolved document of a gearbox, with all defaults, catalogue values and models.
     #[arg(long)]
     pub resolved: bool,
-    /// Prints what each analysis of a study computes: points, cycles, searches.
-    #[arg(long)]
+    /// Prints what each analysis of a study computes: points, cycles, searches; of a gearbox the order in which torques and losses are
+    /// found.
+    #[arg(long, conflicts_with = "resolved")]
     pub plan: bool,
     /// Exit with code 1 if a result depends on evidence of this grade or lower, such as `recalled`.
     #[arg(long, value_name = "GRADE")]

@@ -8,7 +8,7 @@ use gearloss_framework::files::{Disk, LONGEST_TEXT, read_text};
 use gearloss_framework::gearbox::{Findings, Gearbox};
 use gearloss_framework::language::Language;
 use gearloss_framework::registry::Evidence;
-use gearloss_report::check::{CheckRecord, FileRecord, checked_text, resolved_text};
+use gearloss_report::check::{CheckRecord, FileRecord, checked_text, resolved_text, torque_orders_text};
 use gearloss_studies::analyses::Stopped;
 use gearloss_studies::analyses::progress::{Progress, Silent, Steps};
 use gearloss_studies::checked::CheckedGearbox;
@@ -57,7 +57,6 @@ pub fn run(args: &CheckArgs, out: &mut Out) -> Result<End, Failure> {
             }
             continue;
         }
-        belongs_to_study(args, file)?;
         match gearbox(language, file, args) {
             Ok((text, weakest)) => {
                 out.text(&text)?;
@@ -98,7 +97,6 @@ fn print_json(language: &Language, args: &CheckArgs, deny: Option<Evidence>, out
             }
             FileRecord::of_study(name, study)
         } else {
-            belongs_to_study(args, file)?;
             FileRecord::of_gearbox(name, checked(language, file, &args.choice), args.resolved, deny)
         };
         if record.is_denied() {
@@ -130,17 +128,6 @@ fn belongs_to_gearboxes(args: &CheckArgs, file: &Path) -> Result<(), Failure> {
         )),
         None => Ok(()),
     }
-}
-
-/// Rejects an option that does not apply to a gearbox.
-fn belongs_to_study(args: &CheckArgs, file: &Path) -> Result<(), Failure> {
-    if args.plan {
-        return Err(Failure::input(
-            format!("--plan does not apply to {}, which is a gearbox", file.display()),
-            "check a study with it",
-        ));
-    }
-    Ok(())
 }
 
 /// No progress, until Ctrl-C.
@@ -178,7 +165,12 @@ fn gearbox(language: &Language, file: &Path, args: &CheckArgs) -> Result<(String
     let text = if args.resolved {
         resolved_text(language, &name, &checked)?
     } else {
-        checked_text(&name, &checked)
+        let orders = if args.plan {
+            torque_orders_text(&checked)
+        } else {
+            String::new()
+        };
+        checked_text(&name, &checked) + &orders
     };
     Ok((text, checked.lowest_evidence()))
 }

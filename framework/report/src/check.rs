@@ -43,6 +43,17 @@ pub fn resolved_text(language: &Language, file: &str, checked: &CheckedGearbox) 
     Ok(text)
 }
 
+/// How torques and losses are found in each gear, indented as the text of a gearbox.
+pub fn torque_orders_text(checked: &CheckedGearbox) -> String {
+    let mut text = String::new();
+    for order in checked.transmission.torque_orders() {
+        for line in order.to_string().lines() {
+            text.push_str(&format!("  {line}\n"));
+        }
+    }
+    text
+}
+
 /// A gearbox at a glance: warnings, stages and ratios, overloaded bearings, notes; `file` is its name.
 pub fn checked_text(file: &str, checked: &CheckedGearbox) -> String {
     let CheckedGearbox {

@@ -5,7 +5,7 @@ use gearloss_framework::document::{Diagnostic, PlacedDiagnostic, Severity, Sourc
 use gearloss_framework::gearbox::Findings;
 use gearloss_framework::language::Language;
 use gearloss_framework::registry::{Evidence, Package};
-use gearloss_framework::transmission::{Stage, Transmission};
+use gearloss_framework::transmission::{Stage, TorqueOrder, Transmission};
 use gearloss_studies::analyses::Work;
 use gearloss_studies::bearings::{BearingCard, bearing_cards};
 use gearloss_studies::checked::CheckedGearbox;
@@ -82,6 +82,8 @@ struct BuiltRecord {
     oil: Option<OilRecord>,
     /// Speed ratios from the reference port to every other port, for each gear.
     ratios: Vec<RatioRecord>,
+    /// The order in which torques and losses are found in each gear.
+    torque_orders: Vec<TorqueOrder>,
     /// Models that no component uses, and components without a model.
     notes: Vec<String>,
     /// Coefficients of formulas that were changed from their source.
@@ -232,6 +234,7 @@ impl BuiltRecord {
             bearings: bearing_cards(&checked),
             oil,
             ratios: ratios(t),
+            torque_orders: t.torque_orders(),
             notes: notes.into_iter().flatten().cloned().collect(),
             weakest_evidence: checked.evidence.into_iter().next().map(|weak| EvidenceRecord {
                 grade: weak.grade,
