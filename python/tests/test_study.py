@@ -102,7 +102,7 @@ def test_figures_are_svg(small):
 
 def test_an_outcome_is_shown_in_a_notebook(small):
     html = small.analysis("stack")._repr_html_()
-    assert "<svg" in html and "loses" in html
+    assert "<svg" in html and "the loss is" in html
 
 
 def test_all_outcomes_in_their_order(small):
