@@ -497,7 +497,7 @@ pub struct Extent {
 /// A loss in whole nanowatts, whose sums do not depend on the order of the summands. \[nW\]
 pub fn nanowatts(watts: f64) -> i128 {
     let scaled = watts * 1e9;
-    // A conversion to 64 bits is one instruction, one to 128 bits a function of thirty.
+    // A conversion to 64 bits is one instruction, one to 128 bits a call.
     if scaled.abs() < 9e18 {
         i128::from(scaled as i64)
     } else {

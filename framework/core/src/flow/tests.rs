@@ -69,6 +69,24 @@ impl Rig {
         });
         drags.collect()
     }
+    /// Motion and flow with the ports of which some have a given speed and some a given torque.
+    fn flow(&self, ports: &[usize], speed_ports: &[usize], torque_ports: &[usize]) -> (Motion, Flow) {
+        let train = self.train();
+        let motion = Motion::new(&train, ports, speed_ports).unwrap();
+        let unknown = ports.iter().copied().filter(|p| !torque_ports.contains(p)).collect();
+        let meshes = self.meshes.iter().map(|m| m.0).collect();
+        let ports = (unknown, torque_ports.to_vec());
+        let flow = Flow::new(
+            &train,
+            meshes,
+            self.shares.clone(),
+            &motion.loops,
+            ports,
+            self.loaded_drags(),
+        )
+        .unwrap();
+        (motion, flow)
+    }
     fn train(&self) -> Train {
         Train {
             columns: self.columns,
@@ -127,24 +145,10 @@ fn solve_to(
     law: impl Fn(usize, f64, f64) -> f64,
     extra: impl Fn(&FlowState<'_>) -> Vec<f64>,
 ) -> Solved {
-    let train = rig.train();
-    let prescribed: Vec<usize> = speed_ports.iter().map(|p| p.0).collect();
-    let motion = Motion::new(&train, ports, &prescribed).unwrap();
+    let columns = |given: &[(usize, f64)]| -> Vec<usize> { given.iter().map(|p| p.0).collect() };
+    let (motion, flow) = rig.flow(ports, &columns(speed_ports), &columns(torque_ports));
     let mut speeds = vec![0.0; rig.columns];
     motion.speeds(&speed_ports.iter().map(|p| p.1).collect::<Vec<_>>(), &mut speeds);
-    let given: Vec<usize> = torque_ports.iter().map(|p| p.0).collect();
-    let unknown: Vec<usize> = ports.iter().copied().filter(|p| !given.contains(p)).collect();
-    let meshes: Vec<MeshRow> = rig.meshes.iter().map(|m| m.0).collect();
-    let ports = (unknown, given);
-    let flow = Flow::new(
-        &train,
-        meshes,
-        rig.shares.clone(),
-        &motion.loops,
-        ports,
-        rig.loaded_drags(),
-    )
-    .unwrap();
     let mut work = flow.work();
     work.given = torque_ports.iter().map(|p| p.1).collect();
     work.speeds.clone_from(&speeds);

@@ -391,18 +391,7 @@ fn points_of_a_set_near_self_locking_are_solved_together_as_alone() {
     let (ports, mut together, mut left) = ([0, 3], 0, 0);
     for (zeta, sense) in [(0.001, 1.0), (0.006, 1.0), (0.006, -1.0), (0.0105, -1.0), (0.012, 1.0)] {
         let rig = wolfrom(zeta);
-        let train = rig.train();
-        let motion = Motion::new(&train, &ports, &[0]).unwrap();
-        let meshes: Vec<MeshRow> = rig.meshes.iter().map(|m| m.0).collect();
-        let flow = Flow::new(
-            &train,
-            meshes,
-            Vec::new(),
-            &motion.loops,
-            (vec![3], vec![0]),
-            Vec::new(),
-        )
-        .unwrap();
+        let (motion, flow) = rig.flow(&ports, &[0], &[0]);
         let (mut all, mut alone) = (flow.work::<Lane>(), flow.work::<f64>());
         for speed in [100.0, 1000.0] {
             let torque = |i: usize| sense * (20.0 + i as f64) * if i == 3 { -1.0 } else { 1.0 };

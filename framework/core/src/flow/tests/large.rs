@@ -32,12 +32,7 @@ fn the_efficiency_of_a_chain_is_the_product_of_those_of_its_meshes() {
 #[test]
 fn the_work_for_a_chain_grows_with_its_length() {
     let entries = |shafts: usize| {
-        let rig = chain(shafts);
-        let train = rig.train();
-        let motion = Motion::new(&train, &[0, shafts - 1], &[0]).unwrap();
-        let meshes = rig.meshes.iter().map(|m| m.0).collect();
-        let ports = (vec![shafts - 1], vec![0]);
-        let flow = Flow::new(&train, meshes, Vec::new(), &motion.loops, ports, Vec::new()).unwrap();
+        let (_, flow) = chain(shafts).flow(&[0, shafts - 1], &[0], &[0]);
         let order = flow.order(&vec![Drive::First; shafts - 1]).unwrap();
         let blocks = order.blocks.iter();
         blocks

@@ -10,23 +10,6 @@ use super::two_speed::two_speed;
 use super::*;
 use crate::flow::order::Order;
 
-/// The flow of a train with a given speed and torque at its first port.
-fn flow(rig: &Rig, out: usize) -> Flow {
-    let train = rig.train();
-    let motion = Motion::new(&train, &[0, out], &[0]).unwrap();
-    let meshes = rig.meshes.iter().map(|m| m.0).collect();
-    let ports = (vec![out], vec![0]);
-    Flow::new(
-        &train,
-        meshes,
-        rig.shares.clone(),
-        &motion.loops,
-        ports,
-        rig.loaded_drags(),
-    )
-    .unwrap()
-}
-
 /// A pattern of driving gears from bits.
 fn pattern(flow: &Flow, bits: u32) -> Vec<Drive> {
     let second = |k: usize| bits >> (k % 32) & 1 == 1;
@@ -103,7 +86,7 @@ proptest! {
     #[test]
     fn blocks_read_only_what_is_known((rig, out) in train(), bits in any::<u32>(), loaded in any::<bool>()) {
         let rig = if loaded { rig.loaded(out).loaded(0) } else { rig };
-        let flow = flow(&rig, out);
+        let (_, flow) = rig.flow(&[0, out], &[0], &[0]);
         let order = flow.order(&pattern(&flow, bits)).unwrap();
         let (mut unknowns, mut laws) = (BTreeSet::new(), BTreeSet::new());
         for block in &order.blocks {
@@ -129,13 +112,9 @@ proptest! {
     fn loops_do_not_depend_on_numbers((rig, out) in train(), bits in any::<u32>()) {
         let rig = sorted(&rig.loaded(out));
         let back = reversed(&rig);
-        let train = back.train();
         let (first, last) = (rig.columns - 1, rig.columns - 1 - out);
-        let motion = Motion::new(&train, &[first, last], &[first]).unwrap();
-        let meshes = back.meshes.iter().map(|m| m.0).collect();
-        let ports = (vec![last], vec![first]);
-        let turned = Flow::new(&train, meshes, back.shares.clone(), &motion.loops, ports, back.loaded_drags()).unwrap();
-        let flow = flow(&rig, out);
+        let (_, turned) = back.flow(&[first, last], &[first], &[first]);
+        let (_, flow) = rig.flow(&[0, out], &[0], &[0]);
         let drives = pattern(&flow, bits);
         let reversed: Vec<Drive> = drives.iter().rev().copied().collect();
         let (meshes, rows) = (rig.meshes.len(), rig.rows.len());
