@@ -595,23 +595,22 @@ impl Transmission {
             Outcome::Converged { .. } => s.work.passes,
             _ => R::ZERO,
         };
-        for point in 0..R::COUNT {
-            let ports = self.ports.iter();
-            let powers = ports
-                .map(|p| s.work.ports[p.member].at_point(point) * s.models.conditions.speeds[p.member].at_point(point));
-            let balance = Balance::from_powers(powers.clone());
-            s.balance[point] = balance;
-            s.status[point] = match outcome {
+        let (work, speeds) = (&s.work, &s.models.conditions.speeds);
+        let powers = self
+            .ports
+            .iter()
+            .map(|port| work.ports[port.member] * speeds[port.member]);
+        s.balance = Balance::from_powers(powers.clone());
+        let regime = Status::from_powers(s.balance, powers, self.reference_port());
+        let exceeded = s.balance.input.is_above(R::ZERO) & s.sum.is_above(s.balance.input);
+        for (point, status) in s.status.iter_mut().enumerate() {
+            *status = match outcome {
                 Outcome::SelfLocking => Status::SelfLocking,
                 Outcome::NoConvergence => Status::NoConvergence,
                 Outcome::Converged { .. } if undefined.is_some() => Status::Undefined,
                 Outcome::Converged { .. } if s.standing => Status::Standstill,
-                Outcome::Converged { .. }
-                    if s.ideal && balance.input > 0.0 && s.sum.at_point(point) > balance.input =>
-                {
-                    Status::LossAboveInput
-                }
-                Outcome::Converged { .. } => Status::from_powers(powers, self.reference_port()),
+                Outcome::Converged { .. } if s.ideal && exceeded.at_point(point) => Status::LossAboveInput,
+                Outcome::Converged { .. } => regime(point),
             };
         }
     }

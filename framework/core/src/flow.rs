@@ -13,7 +13,7 @@ mod structure;
 mod system;
 mod work;
 
-use crate::real::Points;
+use crate::real::{Mask as _, Points};
 
 pub use order::{FlowBlock, Laws};
 pub use system::{Flow, FlowFault, LoadedDrag, MeshRow, Reading, Share};
@@ -30,19 +30,26 @@ pub struct Balance<R = f64> {
 }
 
 impl<R: Points> Balance<R> {
-    /// Power in and out over ports at one point; powers below 1e-12 of the input count as zero.
+    /// Power in and out over ports; powers below 1e-12 of the greatest input count as zero.
+    #[inline(always)]
     pub(crate) fn from_powers(powers: impl Iterator<Item = R> + Clone) -> Self {
-        let most = powers.clone().fold(0.0_f64, |most, power| most.max(power.at_point(0)));
+        let most = powers
+            .clone()
+            .fold(R::ZERO, |most, power| R::select(power.is_above(most), power, most));
         let (mut input, mut output) = (R::ZERO, R::ZERO);
         for power in powers {
-            let watts = power.at_point(0);
-            if watts > 1e-12 * most {
-                input += power;
-            } else if watts < -1e-12 * most {
-                output -= power;
-            }
+            input += R::select(power.is_above(most * 1e-12), power, R::ZERO);
+            output -= R::select(power.is_below(most * -1e-12), power, R::ZERO);
         }
         Self { input, output }
+    }
+
+    /// That of one point.
+    pub(crate) fn at_point(&self, point: usize) -> Balance {
+        Balance {
+            input: self.input.at_point(point),
+            output: self.output.at_point(point),
+        }
     }
 }
 
@@ -80,18 +87,32 @@ pub enum Status {
 }
 
 impl Status {
-    /// The regime of a rotating transmission from the powers of its ports; `reference` is the number of the reference port.
-    pub(crate) fn from_powers(powers: impl Iterator<Item = f64> + Clone, reference: usize) -> Self {
-        let Balance { input, output } = Balance::from_powers(powers.clone());
-        let mut pushing = powers
-            .enumerate()
-            .filter(|(_, power)| *power > 1e-12 * input)
-            .map(|(port, _)| port);
-        match (pushing.next(), pushing.next()) {
-            _ if output == 0.0 => Self::Dragged,
-            (_, Some(_)) => Self::Split,
-            (Some(port), None) if port == reference => Self::Drive,
-            _ => Self::Coast,
+    /// The regime of each point of a rotating transmission from the powers of its ports; `reference` is the number of the reference
+    /// port.
+    #[inline(always)]
+    pub(crate) fn from_powers<R: Points>(
+        Balance { input, output }: Balance<R>,
+        powers: impl Iterator<Item = R>,
+        reference: usize,
+    ) -> impl Fn(usize) -> Self {
+        let (mut any, mut several, mut by_reference) = (0, 0, 0);
+        for (port, power) in powers.enumerate() {
+            let pushes = power.is_above(input * 1e-12).bits();
+            several |= any & pushes;
+            any |= pushes;
+            if port == reference {
+                by_reference = pushes;
+            }
+        }
+        let dragged = output.is_zero().bits();
+        move |point| {
+            let holds = |bits: u32| bits >> point & 1 == 1;
+            match () {
+                () if holds(dragged) => Self::Dragged,
+                () if holds(several) => Self::Split,
+                () if holds(by_reference) => Self::Drive,
+                () => Self::Coast,
+            }
         }
     }
 

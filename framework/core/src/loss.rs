@@ -526,6 +526,19 @@ impl Extent {
         }
     }
 
+    /// Counts the points of an observation.
+    #[inline]
+    pub(crate) fn count(&mut self, seen: Seen) {
+        if seen.points == 0 {
+            return;
+        }
+        *self = Self {
+            seen: self.seen.saturating_add(seen.points.count_ones()),
+            outside: self.outside.saturating_add(seen.outside.count_ones()),
+            ..self.spanning(seen.least, seen.greatest)
+        };
+    }
+
     /// The same with further values; NaN is ignored, as in `min` and `max`, which promise more and cost more.
     #[inline]
     fn spanning(self, least: f64, greatest: f64) -> Self {

@@ -307,7 +307,7 @@ impl Block<'_> {
 
     /// Input and output power. \[W\]
     pub fn balance(&self, point: usize) -> Balance {
-        self.s.balance[point]
+        self.s.balance.at_point(point)
     }
 
     /// Output power, as [`Solution::output_power`]. \[W\]

@@ -116,8 +116,8 @@ pub struct Scratch<R: Points = f64> {
     pub(super) watts: Vec<R>,
     pub(super) sum: R,
     pub(super) undefined: Option<(usize, Undefined)>,
+    pub(super) balance: Balance<R>,
     /// Of each point.
-    pub(super) balance: Vec<Balance>,
     pub(super) status: Vec<Status>,
     /// True if nothing rotates.
     pub(super) standing: bool,
@@ -149,10 +149,7 @@ impl<R: Points> Scratch<R> {
         let c = &self.models.conditions;
         let solved = R::bits(c.live);
         for (total, seen) in self.totals.iter_mut().zip(&c.cells) {
-            let seen = seen.get().among(solved).extent();
-            if seen.seen > 0 {
-                *total = total.merge(seen);
-            }
+            total.count(seen.get().among(solved));
         }
         for (cell, part) in &*self.limited {
             let outside = c.cells[*cell].get().among(solved).outside();
@@ -166,7 +163,7 @@ impl<R: Points> Scratch<R> {
 
     /// Output power of a point with losses; with ideal power flow the input minus the losses, `None` if they exceed it. \[W\]
     pub(super) fn output_power(&self, point: usize) -> Option<f64> {
-        let balance = self.balance[point];
+        let balance = self.balance.at_point(point);
         match self.status[point] {
             Status::LossAboveInput => None,
             _ if self.ideal => Some((balance.input - self.sum.at_point(point)).max(0.0)),
@@ -216,13 +213,10 @@ impl<R: Points> Scratch<R> {
             watts: zeros(transmission.parts.len()),
             sum: R::ZERO,
             undefined: None,
-            balance: vec![
-                Balance {
-                    input: 0.0,
-                    output: 0.0,
-                };
-                R::COUNT
-            ],
+            balance: Balance {
+                input: R::ZERO,
+                output: R::ZERO,
+            },
             status: vec![Status::Standstill; R::COUNT],
             standing: false,
             ideal: false,
@@ -277,7 +271,7 @@ impl Scratch {
 
     /// Input and output power. \[W\]
     pub fn power(&self) -> [f64; 2] {
-        [self.balance[0].input, self.balance[0].output]
+        [self.balance.input, self.balance.output]
     }
 
     /// Torque that a port of a member applies. \[Nm\]

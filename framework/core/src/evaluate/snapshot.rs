@@ -59,10 +59,7 @@ impl Snapshot {
     /// Counts the observations among those of all points.
     pub fn count(&self, transmission: &Transmission, totals: &mut [Extent]) {
         for (total, seen) in totals.iter_mut().zip(&self.cells) {
-            let seen = seen.extent();
-            if seen.seen > 0 {
-                *total = total.merge(seen);
-            }
+            total.count(*seen);
         }
         for (cell, watts) in self.lost_outside(transmission) {
             let total = &mut totals[cell].lost_outside;
@@ -87,7 +84,7 @@ impl<R: Points> Scratch<R> {
         let share = |loss: &Loss<R>| loss.first_heat().at_point(point);
         to.first_heat
             .extend(shares.map(|loss| loss.as_ref().map_or(0.5, share)));
-        to.power = [self.balance[point].input, self.balance[point].output];
+        to.power = [self.balance.input.at_point(point), self.balance.output.at_point(point)];
         to.status = self.status[point];
         to.cells.clear();
         to.cells.extend(c.cells.iter().map(|cell| cell.get().at_point(point)));

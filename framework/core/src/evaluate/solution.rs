@@ -160,7 +160,7 @@ impl Solution<'_> {
 
     /// Input power; with ideal power flow that of the driving ports. \[W\]
     pub fn input_power(&self) -> Option<f64> {
-        self.is_complete().then_some(self.scratch.balance[0].input)
+        self.is_complete().then_some(self.scratch.balance.input)
     }
 
     /// Output power; with ideal power flow the input minus the losses, `None` if they exceed it. \[W\]

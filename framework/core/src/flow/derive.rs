@@ -5,6 +5,7 @@
 //! that a few reach rounding. Values and driving gears stay those of the point.
 
 use super::Flow;
+use super::equilibrium::bound;
 use super::order::Block;
 use super::work::{FlowState, Start, Work};
 use crate::real::{DIRECTIONS, Dual, Real as _};
@@ -78,6 +79,7 @@ impl Flow {
                 return (change <= ENOUGH * size).then(|| change / size.max(f64::MIN_POSITIVE));
             }
             change_before = change;
+            bound(block, work);
             let never = (Dual::constant(1.0), Dual::constant(-1.0));
             if !self.approach(block, (false, 1.0), never, work).0 {
                 return None;

@@ -175,7 +175,7 @@ impl Flow {
         for feedback in &block.feedback {
             let (law, lead) = (feedback.law, feedback.lead);
             let (x, y) = (work.unknown[lead_of(lead)], work.answers[law]);
-            let slope = bounded(work.slopes[law], x, y, feedback.gain);
+            let slope = work.followed[law];
             let bare = y - slope * x;
             for (i, &place) in block.leads.iter().enumerate() {
                 matrix[lead * leads + i] -= slope * feedback.response[place];
@@ -190,8 +190,7 @@ impl Flow {
         for feedback in &block.feedback {
             let (law, lead) = (feedback.law, feedback.lead);
             let (x, y) = (work.unknown[lead_of(lead)], work.answers[law]);
-            let slope = bounded(work.slopes[law], x, y, feedback.gain);
-            let answer = y + slope * (work.right[lead] - x);
+            let answer = y + work.followed[law] * (work.right[lead] - x);
             for (unknown, response) in block.unknowns.iter().zip(&feedback.response) {
                 work.next[*unknown] += answer * *response;
             }
@@ -274,6 +273,17 @@ pub(super) fn follow<R: Points>(block: &Block, first: bool, work: &mut Work<R>) 
             let secant = (y - work.answers_before[law]) / step;
             R::select(step.is_zero(), work.slopes[law], secant)
         };
+    }
+    bound(block, work);
+}
+
+/// The derivatives of the laws of a loop as far as a step follows them.
+#[inline(always)]
+pub(super) fn bound<R: Points>(block: &Block, work: &mut Work<R>) {
+    for feedback in &block.feedback {
+        let (law, lead) = (feedback.law, block.unknowns[block.leads[feedback.lead]]);
+        let (x, y) = (work.unknown[lead], work.answers[law]);
+        work.followed[law] = bounded(work.slopes[law], x, y, feedback.gain);
     }
 }
 

@@ -107,10 +107,13 @@ impl Solved {
         self.work.mesh_loss.iter().sum::<f64>() + self.drag_loss
     }
     fn balance(&self, ports: &[usize]) -> Balance {
-        Balance::from_powers(ports.iter().map(|p| self.work.ports[*p] * self.speeds[*p]))
+        Balance::from_powers(self.powers(ports))
     }
     fn status(&self, ports: &[usize]) -> Status {
-        Status::from_powers(ports.iter().map(|p| self.work.ports[*p] * self.speeds[*p]), 0)
+        Status::from_powers(self.balance(ports), self.powers(ports), 0)(0)
+    }
+    fn powers(&self, ports: &[usize]) -> impl Iterator<Item = f64> + Clone {
+        ports.iter().map(|p| self.work.ports[*p] * self.speeds[*p])
     }
     fn passes(&self) -> usize {
         match self.outcome {

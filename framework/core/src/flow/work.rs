@@ -181,6 +181,8 @@ pub struct Work<R: Points = f64> {
     pub(super) answers: Vec<R>,
     pub(super) answers_before: Vec<R>,
     pub(super) slopes: Vec<R>,
+    /// The same as far as a step follows them.
+    pub(super) followed: Vec<R>,
     pub(super) weights: Vec<R>,
     /// Right-hand side, matrix and unknowns of the leads of a loop.
     pub(super) right: Vec<R>,
@@ -292,6 +294,7 @@ impl Flow {
             answers: zeros(laws),
             answers_before: zeros(laws),
             slopes: zeros(laws),
+            followed: zeros(laws),
             weights: zeros(laws),
             right: zeros(size),
             factors: Vec::new(),
