@@ -2,7 +2,6 @@
 //!
 //! Source: Changenet, Leprince, Ville, Velex: A note on flow regimes and churning loss modeling, J. Mech. Des. 133 (2011)
 //! 121009: T = 1/2 rho w^2 R^3 S_m C_m; C_m by Reynolds number w R b/nu (4000) and speed parameter w^2 (R b m_n)^(1/3)
-//! (750 and 1250 m/s2, linear in between). Dip at the reference circle; wetted surface of faces, rim and teeth.
 //! (750 and 1250 m/s2, linear in between). Immersion depth at the reference circle; wetted surface of faces, rim and teeth. Single
 //! gear in a spacious case, automotive sizes (R 40 to 110 mm, module 1.5 to 5 mm, b 14 to 40 mm, to about 7000 rpm). A pair whose
 //! gears raise the oil towards the mesh loses more; no reliable formula is public, so the user states the increase `swell`, which
@@ -11,7 +10,7 @@
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
-use gearloss_framework::mechanism::gear_drag::{Covers, GearDrag, GearDragAt, GearDragModel};
+use gearloss_framework::mechanism::gear_drag::{Covers, GearBody, GearDrag, GearDragAt, GearDragModel};
 use gearloss_framework::registry::{Build, Check, Evidence, default_of, formula};
 use gearloss_framework::{coefficients, limits, observed, register, terms};
 use schemars::JsonSchema;
@@ -83,11 +82,26 @@ pub struct Changenet {
     coefficients: Constants,
 }
 
-/// With the oil volume prepared.
+/// One gear in its oil.
 struct Churning {
     coefficients: Constants,
     swell: f64,
-    volume: f64,
+    size: Size,
+}
+
+/// Powers of V/D^3 and b/D of a gear in C_m, which no operating point changes.
+struct Size {
+    slow: [f64; 2],
+    fast: [f64; 2],
+}
+
+impl Size {
+    fn new(c: &Constants, v: f64, b: f64) -> Self {
+        Self {
+            slow: [v.powf(c.slow_volume_exponent), b.powf(c.slow_width_exponent)],
+            fast: [v.powf(c.fast_volume_exponent), b.powf(c.fast_width_exponent)],
+        }
+    }
 }
 
 fn prepare(params: Changenet, cx: &mut Build<'_>) -> Result<Churning, Diagnostic> {
@@ -97,15 +111,11 @@ fn prepare(params: Changenet, cx: &mut Build<'_>) -> Result<Churning, Diagnostic
             .error("changenet_2011 requires the oil volume")
             .help("add `housing: { oil: { volume: 1.2 l } }` with your value"));
     };
-    Ok(Churning {
-        coefficients: params.coefficients,
-        swell: params.swell,
-        volume,
-    })
+    Ok(Churning::new(params.coefficients, params.swell, &part.gear, volume))
 }
 
-/// Dimensionless torque from Reynolds number, speed parameter, Froude number, h/D, V/D^3 and b/D.
-fn c_m(c: &Constants, re: f64, gamma: f64, fr: f64, h: f64, v: f64, b: f64) -> f64 {
+/// Dimensionless torque from the size of the gear, Reynolds number, speed parameter, Froude number and h/D.
+fn c_m(c: &Constants, size: &Size, re: f64, gamma: f64, fr: f64, h: f64) -> f64 {
     let viscous = re < c.viscous_reynolds;
     let front = |viscous_factor: f64, factor: f64| {
         if viscous {
@@ -117,16 +127,16 @@ fn c_m(c: &Constants, re: f64, gamma: f64, fr: f64, h: f64, v: f64, b: f64) -> f
     let slow = || {
         front(c.slow_viscous_factor, c.slow_factor)
             * h.powf(c.slow_dip_exponent)
-            * v.powf(c.slow_volume_exponent)
+            * size.slow[0]
             * fr.powf(c.slow_froude_exponent)
-            * b.powf(c.slow_width_exponent)
+            * size.slow[1]
     };
     let fast = || {
         front(c.fast_viscous_factor, c.fast_factor)
             * h.powf(c.fast_dip_exponent)
-            * v.powf(c.fast_volume_exponent)
+            * size.fast[0]
             * fr.powf(c.fast_froude_exponent)
-            * b.powf(c.fast_width_exponent)
+            * size.fast[1]
     };
     if gamma <= c.slow_speed_parameter {
         slow()
@@ -135,6 +145,19 @@ fn c_m(c: &Constants, re: f64, gamma: f64, fr: f64, h: f64, v: f64, b: f64) -> f
     } else {
         let t = (gamma - c.slow_speed_parameter) / (c.fast_speed_parameter - c.slow_speed_parameter);
         slow() * (1.0 - t) + fast() * t
+    }
+}
+
+impl Churning {
+    /// For a gear in a volume of oil. \[m3\]
+    fn new(coefficients: Constants, swell: f64, gear: &GearBody, volume: f64) -> Self {
+        let diameter = gear.reference_diameter;
+        let size = Size::new(&coefficients, volume / diameter.powi(3), gear.facewidth / diameter);
+        Self {
+            coefficients,
+            swell,
+            size,
+        }
     }
 }
 
@@ -173,18 +196,7 @@ impl GearDragModel for Churning {
         } else {
             "gamma between its limits"
         });
-        let c_m = at.observe(
-            &C_M,
-            c_m(
-                &self.coefficients,
-                re,
-                gamma,
-                fr,
-                dip / diameter,
-                self.volume / diameter.powi(3),
-                b / diameter,
-            ),
-        );
+        let c_m = at.observe(&C_M, c_m(&self.coefficients, &self.size, re, gamma, fr, dip / diameter));
         let torque = dipping.torque(at.rho, c_m);
         let swell = if at.towards_mesh > 0.0 && self.swell > 0.0 {
             at.branch("the lowest point moves towards the mate: swell applies");
@@ -220,7 +232,7 @@ mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
     use gearloss_framework::loss::Notes;
-    use gearloss_framework::mechanism::gear_drag::{DragPart, GearBody};
+    use gearloss_framework::mechanism::gear_drag::DragPart;
     use gearloss_framework::registry::{Files, Registry};
     use std::sync::Arc;
 
@@ -233,7 +245,8 @@ mod tests {
             (6000.0, 2000.0, 0.0280437),
             (6000.0, 1000.0, 0.017675),
         ] {
-            let value = c_m(&Constants::PUBLISHED, re, gamma, 60.0, 0.25, 0.5, 0.2);
+            let size = Size::new(&Constants::PUBLISHED, 0.5, 0.2);
+            let value = c_m(&Constants::PUBLISHED, &size, re, gamma, 60.0, 0.25);
             assert!((value / printed - 1.0).abs() < 1e-5, "{value} {printed}");
         }
     }
@@ -274,11 +287,7 @@ mod tests {
             to.rho = 842.0;
             to.towards_mesh = 0.0;
         });
-        let model = Churning {
-            coefficients: Constants::PUBLISHED,
-            swell: 0.3,
-            volume: 1.3e-3,
-        };
+        let model = Churning::new(Constants::PUBLISHED, 0.3, &part.gear, 1.3e-3);
         let moment = model.loss(&at).unwrap().total_moment(speed);
         let swollen = model
             .loss(&at.with(|to| to.towards_mesh = 1.0))
@@ -293,11 +302,7 @@ mod tests {
     #[test]
     fn deeper_than_covered_changes_nothing() {
         let part = wheel();
-        let model = Churning {
-            coefficients: Constants::PUBLISHED,
-            swell: 0.0,
-            volume: 1.3e-3,
-        };
+        let model = Churning::new(Constants::PUBLISHED, 0.0, &part.gear, 1.3e-3);
         let at = |dip| {
             GearDragAt::usual(&part, Notes::MUTED).with(|to| {
                 to.speed = 150.0;
