@@ -181,6 +181,24 @@ fn the_examples_have_the_same_bits_side_by_side_and_alone() {
     assert!(count.together > 3 * count.alone, "{count:?}");
 }
 
+/// Three pairs of tapered roller bearings, then one of them on a spring that is too weak at some of the points.
+#[test]
+fn pairs_of_bearings_have_the_same_bits_side_by_side_and_alone() {
+    let language = language();
+    let layout = file("framework/workbench/src/form/layouts/three-stage.yaml");
+    let gearbox = Gearbox::read(&language, &layout).unwrap();
+    let torques: Vec<f64> = (-20..=20).map(|i| 0.9 * f64::from(i)).chain([1e-6, 150.0]).collect();
+    let spring = Choice::default().with("bearings.B3.spring_preload", 300.0);
+    for (choice, sprung) in [(Choice::default(), 0), (spring, 1)] {
+        let t = gearbox.transmission(&language, &choice).unwrap();
+        assert_eq!(t.pairs().len(), 3);
+        assert_eq!(t.pairs().iter().filter(|pair| pair.spring.is_some()).count(), sprung);
+        let mut count = Count::default();
+        compare(&t, &[30.0 * RPM, 1500.0 * RPM], &torques, &[70.0, 20.0], &mut count);
+        assert!(count.together > count.alone, "{count:?}");
+    }
+}
+
 #[test]
 fn changed_coefficients_of_formulas_count_side_by_side_as_alone() {
     let language = language();

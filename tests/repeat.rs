@@ -2,9 +2,11 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use crate::common::{RPM, language, two_speed_with};
+use crate::common::{RPM, file, language, two_speed_with};
 use gearloss_framework::evaluate::{Point, PowerFlow};
 use gearloss_framework::flow::Tolerance;
+use gearloss_framework::gearbox::Gearbox;
+use gearloss_framework::resolve::Choice;
 use gearloss_studies::points::{Field, MOST_IN_FLIGHT, OilTemperature, Points, run_grid, solve_pieces, take_points};
 use serde_json::json;
 
@@ -40,6 +42,29 @@ fn a_point_allocates_nothing() {
         let info = allocation_counter::measure(through_zero);
         assert_eq!(info.count_total, 0, "{set:?}");
     }
+}
+
+#[test]
+fn pairs_of_bearings_allocate_nothing() {
+    let language = language();
+    let layout = file("framework/workbench/src/form/layouts/three-stage.yaml");
+    let gearbox = Gearbox::read(&language, &layout).unwrap();
+    let choice = Choice::default().with("bearings.B3.spring_preload", 300.0);
+    let t = gearbox.transmission(&language, &choice).unwrap();
+    let case = t.case("only", &[], &["input"]).unwrap();
+    let mut scratch = t.scratch(&case);
+    let mut through_zero = || {
+        for i in 0..100 {
+            let point = Point {
+                speeds: &[15.0 * f64::from(i) * RPM],
+                torques: &[0.2 * f64::from(i) - 10.0],
+                ..Point::default()
+            };
+            assert!(t.evaluate(&case, &point, &[70.0], &mut scratch).loss().is_some());
+        }
+    };
+    through_zero();
+    assert_eq!(allocation_counter::measure(through_zero).count_total, 0);
 }
 
 #[test]

@@ -7,6 +7,7 @@ mod files;
 mod imports;
 mod losses;
 mod mistakes;
+mod pairs;
 mod units;
 
 use std::path::{Path, PathBuf};

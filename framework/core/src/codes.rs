@@ -53,8 +53,9 @@ gearloss_document::codes! {
         cause: "A loaded shaft has no bearings, so its bearing losses would be missing from every sum.",
         help: "Add its bearings, with `model: none` where they have no loss, or write `bearings: none` at the shaft.";
     SUPPORT = "E0308", "invalid bearing arrangement",
-        cause: "A shaft can tilt or move on its bearings, several bearings take its thrust, or members support each other in a loop.",
-        help: "Correct the positions and the `axial` directions of the bearings.";
+        cause: "A shaft can tilt or move on its bearings, several bearings take its thrust, members support each other in a loop, or an `induced_thrust` or \
+                a spring does not fit a pair of bearings.",
+        help: "Correct the positions and the `axial` directions of the bearings, or `induced_thrust` and `spring_preload` of a pair.";
     COMPONENT = "E0309", "invalid position or model of a component",
         cause: "A component names the same member on both sides, or its model cannot be used there.",
         help: "Name different members, or choose another model.";
@@ -95,4 +96,8 @@ gearloss_document::codes! {
         cause: "`axial` or `spring_preload` of a bearing does not match its design: a needle roller cage or an NU bearing carries no thrust, a tapered roller \
                 bearing carries thrust in one direction, a thrust bearing nothing else.",
         help: "Change `axial`, assign the thrust to another bearing, or choose another bearing.";
+    INDUCED = "W0308", "induced thrust is not in the loads",
+        cause: "The radial load of an angular contact or tapered roller bearing pushes the shaft towards an opposed bearing, but there is none, or its data do \
+                not state how large this thrust is.",
+        help: "State `axial: left` and `right` of the two bearings, and `y`, `contact_angle` or `induced_thrust`; `induced_thrust: 0` leaves the thrust out.";
 }

@@ -267,6 +267,7 @@ impl Transmission {
         self.rest(case, s, notes);
         if notes && converged {
             self.note_static_safety(&mut s.models);
+            self.note_springs(case, &mut s.models);
         }
         self.finish(outcome, s);
         if noting == Noting::Counted && converged {
@@ -369,6 +370,27 @@ impl Transmission {
             let loaded = R::bits(c.live & safety.is_below(R::constant(f64::INFINITY)));
             let outside = loaded & safety.is_below(R::constant(LEAST_STATIC_SAFETY)).bits();
             cell.set(Seen::new(safety.extremes(loaded), loaded, outside));
+        }
+    }
+
+    /// Notes by how much the axial loads of pairs with a spring exceed the thrust that their radial loads induce; on planets with the mean
+    /// load. Imported loads do not follow from it.
+    fn note_springs<R: Points>(&self, case: &Case, m: &mut Models<R>) {
+        let c = &m.conditions;
+        let sprung = self.pairs.iter().filter_map(|pair| Some((pair, pair.spring?)));
+        for ((pair, spring), cells) in sprung.zip(c.cells[self.pair_cells()..].chunks(2)) {
+            let loads = self
+                .loads
+                .pair_loads(spring.support, &m.forces, &c.speeds, &mut m.passed);
+            let reserves = loads.map_or([R::ZERO; 2], |loads| loads.reserve(spring));
+            let imported = self.imported.as_ref();
+            for ((support, reserve), cell) in pair.noted().zip(reserves).zip(cells) {
+                if imported.is_none_or(|own| own.reads(case.state, support).is_none()) {
+                    let live = R::bits(c.live);
+                    let outside = live & reserve.is_below(R::ZERO).bits();
+                    cell.set(Seen::new(reserve.extremes(live), live, outside));
+                }
+            }
         }
     }
 

@@ -1,18 +1,23 @@
 //! Bearing loads from tooth forces, weights, external forces and preload.
 //!
 //! Radial reactions are linear in the tangential force of each mesh and in its magnitude, so unit cases are solved once; a point
-//! costs a few multiplications. The bearings that take thrust depend on its direction, so thrust is distributed at every point.
+//! costs a few multiplications. The bearings that take thrust depend on its direction, and those of a pair load each other, so thrust is
+//! distributed at every point.
 
 mod beam;
 mod carries;
+mod induced;
 mod layout;
+mod pair;
 mod shaft_loads;
 mod static_rating;
 mod statics;
 mod thrust;
 
 pub use carries::{Carries, Thrust};
+pub use induced::{Induced, InducedBasis, InducedThrust};
 pub use layout::{Layout, LoadFault, MemberLayout, MeshLayout, PlanetBody, Section, SupportLayout};
+pub use pair::{Pair, PairLoads, PairSpring, PairedSupport};
 pub use shaft_loads::{Group, ShaftLoads};
 pub use static_rating::{LEAST_STATIC_SAFETY, StaticFactors, StaticRating};
 

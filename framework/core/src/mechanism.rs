@@ -33,7 +33,7 @@ use serde::de::DeserializeOwned;
 
 use crate::attach::Attach;
 use crate::document::Unit;
-use crate::loads::{Carries, StaticRating};
+use crate::loads::{Carries, Induced, StaticRating};
 use crate::loss::{Loss, Notes, Term, Undefined};
 use crate::real::{Dual, Lane, Points, Real};
 
@@ -191,6 +191,10 @@ pub trait Component: Mechanism<Answer = Loss> {
     /// The loads that a part can carry by its design.
     fn carries(_part: &Self::Part) -> Carries {
         Carries::ANY
+    }
+    /// The thrust that a radial load induces by the design of a part.
+    fn induced(_part: &Self::Part) -> Induced {
+        Induced::None
     }
     /// Name of a part in messages about it, such as its designation.
     fn name(_part: &Self::Part) -> String {

@@ -8,6 +8,7 @@ mod gearing;
 mod members;
 mod nodes;
 mod oils;
+mod pairs;
 mod planets;
 mod plausible;
 mod seats;
@@ -22,6 +23,7 @@ pub use case::Case;
 pub(crate) use drags::DragSeat;
 pub use nodes::{AMBIENT, HeatPath};
 pub use oils::{Oils, Surface};
+pub use pairs::{BearingPair, Mounting, PairedBearing};
 pub use seats::GearSeat;
 pub(crate) use seats::MeshSeat;
 pub use stage::Stage;
@@ -178,12 +180,14 @@ pub struct Transmission {
     pub(crate) components: Vec<Component>,
     pub(crate) parts: Vec<PartInfo>,
     pub(crate) instances: Vec<Instance>,
-    /// Cells of notes: those of the models, then the static safety of each rated support.
+    /// Cells of notes: those of the models, then the static safety of each rated support, then two of each pair with a spring.
     pub(crate) cells: usize,
     /// As [`Self::limited`].
     pub(crate) limited: Arc<[(usize, usize)]>,
     /// Supports with a known static load rating.
     pub(crate) rated: Vec<RatedSupport>,
+    /// Opposed bearings that load each other.
+    pub(crate) pairs: Vec<BearingPair>,
     pub(crate) oils: Oils,
     pub(crate) loads: Arc<ShaftLoads>,
     /// Load correction factors of each support; empty if all are one.
@@ -241,9 +245,22 @@ impl Transmission {
     }
     /// Cell of notes of the first rated support; the cells of models precede it.
     pub fn rated_cells(&self) -> usize {
-        self.cells - self.rated.len()
+        self.pair_cells() - self.rated.len()
     }
-    /// Cells of notes of limits, each with a component that uses the model; those of a bearing's static safety with the bearing.
+    /// Cell of notes of the first pair with a spring; the cells of rated supports precede it.
+    pub fn pair_cells(&self) -> usize {
+        self.cells - self.pairs.iter().map(BearingPair::cells).sum::<usize>()
+    }
+    /// Number of cells of notes.
+    pub fn cells(&self) -> usize {
+        self.cells
+    }
+    /// Opposed bearings that load each other.
+    pub fn pairs(&self) -> &[BearingPair] {
+        &self.pairs
+    }
+    /// Cells of notes of limits, each with a component that uses the model; those of a bearing's static safety and spring with the
+    /// bearing.
     pub fn limited(&self) -> &[(usize, usize)] {
         &self.limited
     }

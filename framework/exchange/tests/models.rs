@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use gearloss_document::files::InMemory;
 use gearloss_exchange::rexs::{Imported, import};
+use gearloss_framework::transmission::Transmission;
 use gearloss_studies::analyses::cycle::CycleOutcome;
 use gearloss_studies::analyses::operating_points::{OperatingPoint, OperatingPointsOutcome};
 use gearloss_studies::points::{Field, Given, PointResult, Points, run_grid};
@@ -185,6 +186,29 @@ fn the_two_stage_gearbox_has_its_load_cases() {
         assert!(line.contains(&format!("share: {share},")), "{line}");
     }
     assert_eq!(shares.len(), 4);
+}
+
+/// The file states no axial factor of its tapered roller bearings.
+#[test]
+fn opposed_tapered_bearings_are_a_pair_once_their_axial_factor_is_stated() {
+    let text = imported(TWO_STAGE).gearbox;
+    let not_counted = |transmission: &Transmission| -> Vec<String> {
+        let warnings = transmission.warnings.iter();
+        let found = warnings.filter(|warning| warning.code.is_some_and(|code| code.id() == "W0308"));
+        found.map(|warning| warning.path.clone()).collect()
+    };
+    let (_, transmission) = gearbox(&text);
+    assert_eq!(
+        not_counted(&transmission),
+        ["bearings.bearing_34", "bearings.bearing_35"]
+    );
+    assert!(transmission.pairs().is_empty());
+    let stated = text.replace("kind: tapered_roller", "kind: tapered_roller, y: 1.6");
+    let (_, transmission) = gearbox(&stated);
+    assert!(not_counted(&transmission).is_empty());
+    let pairs = transmission.pairs();
+    assert_eq!(pairs.len(), 1);
+    assert!(pairs[0].bearings().all(|bearing| bearing.induced.ratio == 0.3125));
 }
 
 /// Speeds and torque stand in the components; three bearings on one shaft need its sections.

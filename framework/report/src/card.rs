@@ -1,8 +1,9 @@
-//! Key data of a gearbox: its stages and teeth, its bearings, the ratio of each gear, its oil.
+//! Key data of a gearbox: its stages and teeth, its bearings and their pairs, the ratio of each gear, its oil.
 
 use gearloss_framework::transmission::{Stage, Transmission};
 use gearloss_studies::bearings::{BearingCard, bearing_cards};
 use gearloss_studies::checked::CheckedGearbox;
+use gearloss_studies::pairs::pair_cards;
 use serde_json::Value;
 
 use crate::text::{TextTable, last_key, number, short, significant};
@@ -19,6 +20,10 @@ pub fn card(checked: &CheckedGearbox) -> String {
     let bearings = bearing_cards(checked);
     if !bearings.is_empty() {
         text.push_str(&bearing_table(&bearings));
+    }
+    for pair in pair_cards(transmission, &checked.resolved) {
+        text.push_str(&pair.sentence());
+        text.push('\n');
     }
     text.push_str(&ratio_lines(transmission));
     if let Some((volume, mass)) = transmission.oil_fill() {

@@ -4,6 +4,7 @@ mod derivatives;
 mod explain;
 mod explained;
 mod network;
+mod pair;
 mod ratings;
 mod record;
 
@@ -101,19 +102,29 @@ pub fn point_blocks(transmission: &Transmission, prepared: &PreparedPoint, solve
     // Without a power flow there are no loads and losses.
     let flow = solution.has_flow();
     if flow && !transmission.supports().is_empty() {
-        let mut loads = TextTable::new(&["bearing", "radial N", "axial N", "tilting Nm"]);
-        let row = |path: String, load: SupportLoad| {
-            vec![
+        let paired = transmission.pairs().iter().any(|pair| pair.spring.is_none());
+        let mut head = vec!["bearing", "radial N", "axial N", "tilting Nm"];
+        if paired {
+            head.insert(3, "of it induced N");
+        }
+        let mut loads = TextTable::new(&head);
+        let row = |path: String, load: SupportLoad, induced: Option<f64>| {
+            let mut row = vec![
                 path,
                 fixed(load.radial, 1),
                 fixed(load.axial, 1),
                 fixed(load.tilting, 3),
-            ]
+            ];
+            if paired {
+                row.insert(3, number(induced, 1));
+            }
+            row
         };
         for (i, path) in transmission.supports().iter().enumerate() {
-            loads.row(row(path.clone(), solution.load(i)));
+            loads.row(row(path.clone(), solution.load(i), solution.induced(i, false)));
             if let Some(load) = solution.most_loaded(i) {
-                loads.row(row(format!("{path}, most loaded planet"), load));
+                let induced = solution.induced(i, true);
+                loads.row(row(format!("{path}, most loaded planet"), load, induced));
             }
         }
         blocks.table(loads);

@@ -27,6 +27,7 @@ pub mod needs;
 pub mod distinct;
 pub mod fit;
 pub mod identify;
+pub mod pairs;
 pub mod points;
 pub mod ratings;
 pub mod varied;

@@ -29,15 +29,15 @@ pub struct SupportPlace {
     /// Share of the thrust if several bearings can take it. [-]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub axial_share: Option<f64>,
-    /// Axial preload by a spring; a positive force pushes the shaft towards +x. [N]
+    /// Axial preload by a spring; a positive force pushes the shaft towards +x. The bearing of a pair has the force of its spring as axial
+    /// load. [N]
     #[serde(default)]
     #[schemars(range(min = -1e6, max = 1e6))]
     pub spring_preload: f64,
-    /// Thrust induced by the radial load, per radial load: 1/(2 Y) for a tapered roller bearing, 1.14 for a 40 degree angular
-    /// contact ball bearing. Used for a pair of which one takes thrust to the left, one to the right. [-]
-    #[serde(default)]
+    /// Thrust induced by the radial load, per radial load. Default for tapered roller and angular contact ball bearings of which one takes
+    /// thrust to the left, one to the right: 0.5/Y, or by `contact_angle`. Zero: no induced thrust, as of a bearing without contact angle. [-]
     #[schemars(range(min = 0.0, max = 3.0))]
-    pub induced_thrust: f64,
+    pub induced_thrust: Option<f64>,
     /// The bearing takes the tilting moment of a shaft that it supports alone.
     #[serde(default)]
     pub takes_moment: bool,

@@ -2,7 +2,7 @@
 
 use super::Scratch;
 use crate::flow::Status;
-use crate::loads::SupportLoad;
+use crate::loads::{PairLoads, SupportLoad};
 use crate::loss::{Extent, Loss, Notebook, Trace, Undefined};
 use crate::mechanism::gear_mesh::GearMeshAt;
 use crate::real::{Points, Real};
@@ -239,6 +239,52 @@ impl Solution<'_> {
     /// Load of a support by number; the mean over the planets if it is on one.
     pub fn load(&self, support: usize) -> SupportLoad {
         self.scratch.models.conditions.loads[support]
+    }
+
+    /// Loads of a pair of the transmission by its number, before load factors; with the mean loads of planets, or with those of the most
+    /// loaded one.
+    pub fn pair_loads(&self, pair: usize, most_loaded: bool) -> Option<PairLoads> {
+        let t = self.transmission;
+        let models = &self.scratch.models;
+        let support = t.pairs.get(pair)?.supports().next()?;
+        let forces = models.forces.iter().zip(&t.meshes);
+        let forces: Vec<f64> = forces
+            .map(|(force, mesh)| match mesh.sharing.filter(|_| most_loaded) {
+                Some(sharing) => *force * sharing.factors()[0],
+                None => *force,
+            })
+            .collect();
+        let mut passed = vec![0.0; t.loads.scratch_len()];
+        t.loads
+            .pair_loads(support, &forces, &models.conditions.speeds, &mut passed)
+    }
+
+    /// The part of the axial load of a support that induced thrust adds, with its load factor; on the most loaded planet if this is
+    /// requested. `None` if the support is in no pair, in one with a spring, or if its load is imported. \[N\]
+    pub fn induced(&self, support: usize, most_loaded: bool) -> Option<f64> {
+        let t = self.transmission;
+        let number = t
+            .pairs
+            .iter()
+            .position(|pair| pair.supports().any(|own| own == support))?;
+        let pair = &t.pairs[number];
+        let imported = t.imported.as_ref();
+        if pair.spring.is_some() || imported.is_some_and(|own| own.reads(self.case.state, support).is_some()) {
+            return None;
+        }
+        let loads = self.pair_loads(number, most_loaded)?;
+        let side = pair.side_of(support)?;
+        let axial = if most_loaded {
+            self.most_loaded(support)?.axial
+        } else {
+            self.load(support).axial
+        };
+        // The same share and factor apply to both.
+        Some(if loads.axial[side] > 0.0 {
+            axial * (loads.mutual() / loads.axial[side])
+        } else {
+            0.0
+        })
     }
 
     /// The radial force of each support on its inner member, y and z, with its factor; the mean over the planets if it is on one, where y

@@ -68,8 +68,8 @@ pub struct SupportLayout {
     pub radial_stiffness: Option<f64>,
     /// Tilting stiffness; `None`: zero. \[Nm/rad\]
     pub tilting_stiffness: Option<f64>,
-    /// Thrust induced by a radial load, per radial load; zero for bearings without contact angle.
-    pub induced: f64,
+    /// Thrust induced by a radial load, per radial load; `None` if the bearing has no contact angle or it is not known.
+    pub induced: Option<f64>,
 }
 
 /// A mesh for statics.
@@ -130,6 +130,16 @@ pub struct Layout {
 }
 
 impl Layout {
+    /// The supported and the supporting member of a support: idler gears and planets are supported, else the inner member by the outer.
+    pub(crate) fn carried(&self, support: &SupportLayout) -> (usize, Option<usize>) {
+        match support.outer {
+            Some(outer) if self.members[outer].loose || self.members[outer].planet.is_some() => {
+                (outer, Some(support.inner))
+            }
+            outer => (support.inner, outer),
+        }
+    }
+
     /// Meshes with a gear on each member.
     pub(crate) fn meshes_by_member(&self) -> Vec<Vec<usize>> {
         let mut lists = vec![Vec::new(); self.members.len()];
@@ -179,6 +189,25 @@ pub enum LoadFault {
         supports: Vec<usize>,
         /// True for thrust towards +x.
         right: bool,
+    },
+    /// Springs press several rings of a pair.
+    SeveralSprings {
+        /// The member.
+        member: usize,
+        /// The supports with springs.
+        supports: Vec<usize>,
+    },
+    /// A spring presses one of several supports of a pair that take the same thrust.
+    SpringOfSeveral {
+        /// The support with the spring.
+        support: usize,
+        /// All supports of its side.
+        supports: Vec<usize>,
+    },
+    /// A spring lifts a ring of a pair off its rolling elements.
+    SpringLifts {
+        /// The support with the spring.
+        support: usize,
     },
     /// Diameters are missing although more than two supports carry a member.
     NoSection {

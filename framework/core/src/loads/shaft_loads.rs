@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::SupportLoad;
 use super::layout::{Layout, LoadFault, MemberLayout, SupportLayout};
+use super::pair::{Pair, PairLoads};
 use super::statics::{Action, Reaction, Statics};
 use super::thrust::Taking;
 use crate::real::Real;
@@ -81,6 +82,15 @@ impl Cases {
                 .into_iter()
                 .filter(|(_, reaction)| *reaction != nothing)
                 .collect(),
+        }
+    }
+
+    /// The radial load of the support.
+    #[inline(always)]
+    fn radial<R: Real>(&self, tangential: &[R], speeds: &[R]) -> R {
+        match &self.only {
+            Some((mesh, lengths)) => under(lengths, tangential[*mesh]),
+            None => length(self.sum(|reaction| reaction.force, tangential, speeds)),
         }
     }
 
@@ -197,7 +207,7 @@ impl ShaftLoads {
             .collect();
         let turned = layout.supports.iter();
         let turned = turned
-            .map(|support| carried(layout, support).0 != support.inner)
+            .map(|support| layout.carried(support).0 != support.inner)
             .collect();
         let order = passed_on(system.axial());
         let groups = Group::all(&cases, &order);
@@ -245,10 +255,7 @@ impl ShaftLoads {
         for &support in &group.supports {
             let cases = &self.cases[support];
             loads[support] = SupportLoad {
-                radial: match &cases.only {
-                    Some((mesh, lengths)) => under(lengths, tangential[*mesh]),
-                    None => length(cases.sum(|reaction| reaction.force, tangential, speeds)),
-                },
+                radial: cases.radial(tangential, speeds),
                 axial: R::ZERO,
                 // Few supports take a couple, and a square root is expensive.
                 tilting: if cases.couples {
@@ -259,15 +266,22 @@ impl ShaftLoads {
                 untaken: R::ZERO,
             };
         }
-        let Some((own, passing)) = group.members.split_last() else {
-            return;
-        };
+        if let Some(own) = group.members.last() {
+            let (thrust, scale) = self.thrust(group, *own, tangential, passed);
+            self.order[*own].taking.share(thrust, scale, loads);
+        }
+    }
+
+    /// The thrust towards +x of the last member of a group, with that which others pass on to it, and the magnitude of the forces in its
+    /// sum.
+    #[inline(always)]
+    fn thrust<R: Real>(&self, group: &Group, own: usize, tangential: &[R], passed: &mut [R]) -> (R, R) {
         // Thrust that members pass on, and the magnitude of the forces in its sum.
         let (passed, sizes) = passed.split_at_mut(self.order.len());
         for &place in &group.members {
             (passed[place], sizes[place]) = (R::ZERO, R::ZERO);
         }
-        for &place in passing {
+        for &place in group.members.iter().filter(|place| **place != own) {
             let member = &self.order[place];
             let (thrust, scale) = member.thrust(tangential, passed[place], sizes[place]);
             // However the supports share it, the net thrust goes to the supporting member.
@@ -276,9 +290,32 @@ impl ShaftLoads {
                 sizes[carrier] += scale * copies;
             }
         }
-        let member = &self.order[*own];
-        let (thrust, scale) = member.thrust(tangential, passed[*own], sizes[*own]);
-        member.taking.share(thrust, scale, loads);
+        self.order[own].thrust(tangential, passed[own], sizes[own])
+    }
+
+    /// Pairs of opposed bearings, each of one member.
+    pub fn pairs(&self) -> impl Iterator<Item = &Pair> {
+        self.order.iter().filter_map(|member| member.taking.pair())
+    }
+
+    /// The loads of a pair before load factors, by the number of one of its supports; the other arguments are those of
+    /// [`ShaftLoads::evaluate`]. `None` if the support is in no pair.
+    #[inline(always)]
+    pub fn pair_loads<R: Real>(
+        &self,
+        support: usize,
+        tangential: &[R],
+        speeds: &[R],
+        passed: &mut [R],
+    ) -> Option<PairLoads<R>> {
+        let group = &self.groups[self.group_of[support]];
+        let own = *group.members.last()?;
+        let taking = &self.order[own].taking;
+        let pair = taking.pair()?;
+        let (thrust, _) = self.thrust(group, own, tangential, passed);
+        Some(pair.loads(taking.with_springs(thrust), |support| {
+            self.cases[support].radial(tangential, speeds)
+        }))
     }
 
     /// The force of each support on its member, y and z, for given tangential forces at standstill. \[N\]
@@ -305,7 +342,7 @@ impl ShaftLoads {
 
 /// A support as the member that it carries sees it: thrust of a shaft towards +x is thrust towards -x of the members that it supports.
 fn from_the_carried(layout: &Layout, support: &SupportLayout) -> SupportLayout {
-    let (carried, carrier) = carried(layout, support);
+    let (carried, carrier) = layout.carried(support);
     let turned = carried != support.inner;
     SupportLayout {
         outer: carrier,
@@ -330,7 +367,7 @@ fn loaded_places(layout: &Layout, own: &[Vec<(usize, SupportLayout)>], meshes_of
         loaded.push(forces.chain(moments).chain(meshes).collect());
     }
     for support in &layout.supports {
-        if let Some(carrier) = carried(layout, support).1 {
+        if let Some(carrier) = layout.carried(support).1 {
             loaded[carrier].push(support.at);
         }
     }
@@ -365,16 +402,6 @@ fn add(sum: &mut Reaction, case: &Reaction, factor: f64) {
     sum.force[1] += factor * case.force[1];
     sum.couple[0] += factor * case.couple[0];
     sum.couple[1] += factor * case.couple[1];
-}
-
-/// The supported and the supporting member of a support: idler gears and planets are supported, else the inner member by the outer.
-fn carried(layout: &Layout, support: &SupportLayout) -> (usize, Option<usize>) {
-    match support.outer {
-        Some(outer) if layout.members[outer].loose || layout.members[outer].planet.is_some() => {
-            (outer, Some(support.inner))
-        }
-        outer => (support.inner, outer),
-    }
 }
 
 /// Members from the supported to the supporting, or those in a loop.
@@ -486,13 +513,9 @@ impl<'a> System<'a> {
                 Ok(found) => self.statics[m] = found,
                 Err(fault) => faults.push(fault),
             }
-            match Taking::new(own) {
+            match Taking::new(m, own) {
                 Ok(taking) => self.takings.push(taking),
-                Err(open) => faults.extend(open.into_iter().map(|(supports, right)| LoadFault::AxialIndeterminate {
-                    member: m,
-                    supports,
-                    right,
-                })),
+                Err(found) => faults.extend(found),
             }
         }
         faults

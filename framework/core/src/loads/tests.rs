@@ -25,7 +25,7 @@ fn support(inner: usize, at_mm: f64, axial: Axial) -> SupportLayout {
         takes_moment: false,
         radial_stiffness: None,
         tilting_stiffness: None,
-        induced: 0.0,
+        induced: None,
     }
 }
 
@@ -758,11 +758,11 @@ fn a1_thrust_finds_its_bearing() {
 fn a2_tapered_pair() {
     // The radial loads follow from forces that statics turns into 3000 N at R and 2000 N at L.
     let right = SupportLayout {
-        induced: 1.0 / (2.0 * 1.6),
+        induced: Some(1.0 / (2.0 * 1.6)),
         ..support(0, 0.0, Axial::Right)
     };
     let left = SupportLayout {
-        induced: 1.0 / (2.0 * 1.5),
+        induced: Some(1.0 / (2.0 * 1.5)),
         ..support(0, 100.0, Axial::Left)
     };
     for (thrust, at_right, at_left) in [
@@ -789,6 +789,227 @@ fn a2_tapered_pair() {
     }
 }
 
+/// A shaft on A, which takes thrust towards -x, and B, which takes thrust towards +x, under a thrust towards +x and radial loads of both.
+fn pair_case(a: SupportLayout, b: SupportLayout, radial: [f64; 2], thrust: f64) -> Result<[f64; 2], Vec<LoadFault>> {
+    let mut member = MemberLayout::default();
+    member.forces.push((0.0, [thrust, radial[0], 0.0]));
+    member.forces.push((0.1, [0.0, radial[1], 0.0]));
+    let layout = Layout {
+        members: vec![member],
+        supports: vec![a, b],
+        meshes: Vec::new(),
+    };
+    ShaftLoads::new(&layout)?;
+    let (loads, _) = loads_of(&layout, &[]);
+    close(loads[0].radial, radial[0], 3000.0);
+    close(loads[1].radial, radial[1], 3000.0);
+    assert_eq!((loads[0].untaken, loads[1].untaken), (0.0, 0.0));
+    Ok([loads[0].axial, loads[1].axial])
+}
+
+/// A and B with a thrust per radial load.
+fn opposed(induced: [f64; 2]) -> [SupportLayout; 2] {
+    [(0.0, Axial::Left, induced[0]), (100.0, Axial::Right, induced[1])].map(|(at, axial, induced)| SupportLayout {
+        induced: Some(induced),
+        ..support(0, at, axial)
+    })
+}
+
+#[test]
+fn a3_the_six_cases_of_the_catalogues() {
+    let [a, b] = opposed([0.3, 0.3]);
+    for (radial, thrust, at_a, at_b) in [
+        ([3000.0, 2000.0], 500.0, 900.0, 1400.0),
+        ([2000.0, 3000.0], 500.0, 600.0, 1100.0),
+        ([2000.0, 3000.0], 200.0, 700.0, 900.0),
+        ([2000.0, 3000.0], -500.0, 1400.0, 900.0),
+        ([3000.0, 2000.0], -500.0, 1100.0, 600.0),
+        ([3000.0, 2000.0], -200.0, 900.0, 700.0),
+    ] {
+        let [found_a, found_b] = pair_case(a, b, radial, thrust).unwrap();
+        close(found_a, at_a, at_a);
+        close(found_b, at_b, at_b);
+    }
+}
+
+#[test]
+fn a4_a_ring_on_a_spring_has_the_force_of_the_spring() {
+    let [a, b] = opposed([0.3, 0.3]);
+    let sprung_a = SupportLayout { spring: 800.0, ..a };
+    let sprung_b = SupportLayout { spring: -800.0, ..b };
+    for (thrust, at_a, at_b) in [
+        (0.0, 800.0, 800.0),
+        (500.0, 800.0, 1300.0),
+        (-500.0, 800.0, 300.0),
+        // Beyond the spring, the ring takes the thrust and the other bearing is free.
+        (-1000.0, 1000.0, 0.0),
+    ] {
+        for radial in [[0.0, 0.0], [2000.0, 1000.0]] {
+            assert_eq!(pair_case(sprung_a, b, radial, thrust).unwrap(), [at_a, at_b]);
+            // The mirror image.
+            assert_eq!(pair_case(a, sprung_b, radial, -thrust).unwrap(), [at_b, at_a]);
+        }
+    }
+    // A spring on a third bearing is a thrust on the shaft, and its own axial load.
+    let third = SupportLayout {
+        spring: 200.0,
+        ..support(0, 50.0, Axial::None)
+    };
+    let mut member = MemberLayout::default();
+    member.forces.push((0.0, [500.0, 3000.0, 0.0]));
+    member.forces.push((0.1, [0.0, 2000.0, 0.0]));
+    member.sections.push(Section {
+        range: [0.0, 0.1],
+        outer: 0.03,
+        inner: 0.0,
+    });
+    let layout = Layout {
+        members: vec![member],
+        supports: vec![a, b, third],
+        meshes: Vec::new(),
+    };
+    let (loads, _) = loads_of(&layout, &[]);
+    close(loads[0].axial, 900.0, 900.0);
+    close(loads[1].axial, 1600.0, 1600.0);
+    assert_eq!(loads[2].axial, 200.0);
+}
+
+#[test]
+fn a4_springs_that_do_not_fit_a_pair_are_refused() {
+    let [a, b] = opposed([0.3, 0.3]);
+    let spring = |seat: SupportLayout, spring: f64| SupportLayout { spring, ..seat };
+    let fault = |a, b| pair_case(a, b, [0.0, 0.0], 0.0).unwrap_err();
+    assert!(matches!(
+        &fault(spring(a, 800.0), spring(b, -800.0))[..],
+        [LoadFault::SeveralSprings { member: 0, supports }] if supports[..] == [0, 1]
+    ));
+    assert_eq!(fault(spring(a, -800.0), b), [LoadFault::SpringLifts { support: 0 }]);
+    assert_eq!(fault(a, spring(b, 800.0)), [LoadFault::SpringLifts { support: 1 }]);
+}
+
+#[test]
+fn a5_several_bearings_share_the_load_of_their_side() {
+    let [a, b] = opposed([0.3, 0.5]);
+    let shared = |at: f64, share: f64| SupportLayout {
+        at: 1e-3 * at,
+        share: Some(share),
+        ..a
+    };
+    let layout = |b| {
+        let mut member = MemberLayout::default();
+        member.forces.push((0.0, [500.0, 3000.0, 0.0]));
+        member.forces.push((0.05, [0.0, 1000.0, 0.0]));
+        member.forces.push((0.1, [0.0, 2000.0, 0.0]));
+        member.sections.push(Section {
+            range: [0.0, 0.1],
+            outer: 0.03,
+            inner: 0.0,
+        });
+        Layout {
+            members: vec![member],
+            supports: vec![shared(0.0, 0.5), shared(50.0, 0.5), b],
+            meshes: Vec::new(),
+        }
+    };
+    // 0.3 (3000 + 1000) = 1200 against 0.5 2000 = 1000.
+    let (loads, _) = loads_of(&layout(b), &[]);
+    for (load, axial) in loads.iter().zip([600.0, 600.0, 1700.0]) {
+        close(load.axial, axial, axial);
+    }
+    // Without a known thrust of one of them there is no pair.
+    let solved = ShaftLoads::new(&layout(SupportLayout { induced: None, ..b })).unwrap();
+    assert_eq!(solved.pairs().count(), 0);
+    let spring = |b: SupportLayout| {
+        let mut layout = layout(b);
+        layout.supports[1].spring = 100.0;
+        ShaftLoads::new(&layout).unwrap_err()
+    };
+    assert!(matches!(&spring(b)[..], [LoadFault::SpringOfSeveral { support: 1, supports }] if supports[..] == [0, 1]));
+}
+
+#[test]
+fn loads_of_a_pair_are_found_together() {
+    // Two spur meshes, each in the plane of one bearing.
+    let [a, b] = opposed([0.3, 0.3]);
+    let mesh = |at: f64, mate: usize| MeshLayout {
+        members: [0, mate],
+        at,
+        radius: [0.03, 0.09],
+        sign: 1.0,
+        direction: [1.0, 0.0],
+        tan_alpha: 0.4,
+        hand_tan_beta: 0.0,
+        count: 1.0,
+        central: [false; 2],
+    };
+    let mate = |inner: usize| SupportLayout {
+        takes_moment: true,
+        ..support(inner, 50.0, Axial::Both)
+    };
+    let layout = Layout {
+        members: vec![MemberLayout::default(); 3],
+        supports: vec![a, b, mate(1), mate(2)],
+        meshes: vec![mesh(0.0, 1), mesh(0.1, 2)],
+    };
+    let solved = ShaftLoads::new(&layout).unwrap();
+    let group = &solved.groups()[solved.group_of(0)];
+    let mut meshes = group.meshes.clone();
+    meshes.sort_unstable();
+    assert_eq!((&group.supports[..], &meshes[..]), (&[0, 1][..], &[0, 1][..]));
+    // Only the second mesh has a force, and A has its axial load from B.
+    let (loads, _) = loads_of(&layout, &[0.0, 1000.0]);
+    assert!(loads[0].radial < 1e-9 && loads[1].radial > 1000.0);
+    assert_eq!([loads[0].axial, loads[1].axial], [0.3 * loads[1].radial; 2]);
+    let mut passed = vec![0.0; solved.scratch_len()];
+    let pair = solved.pair_loads(1, &[0.0, 1000.0], &[0.0; 3], &mut passed).unwrap();
+    assert_eq!(pair.axial, [loads[0].axial, loads[1].axial]);
+    assert_eq!((pair.thrust, pair.mutual()), (0.0, loads[0].axial));
+    assert_eq!(solved.pair_loads(2, &[0.0, 1000.0], &[0.0; 3], &mut passed), None);
+}
+
+#[test]
+fn the_reserve_of_a_spring_is_what_it_has_over_the_induced_thrust() {
+    let side = |support: usize| {
+        vec![PairedSupport {
+            support,
+            induced: 0.3,
+            share: 1.0,
+        }]
+    };
+    let pair = |of: usize| Pair {
+        member: 0,
+        sides: [side(0), side(1)],
+        spring: Some(PairSpring {
+            side: of,
+            support: of,
+            force: 800.0,
+        }),
+    };
+    let reserve = |of: usize, thrust: f64| {
+        let pair = pair(of);
+        pair.loads(thrust, |support| [2000.0, 1000.0][support])
+            .reserve(pair.spring.unwrap())
+    };
+    // 600 N and 300 N are induced. A thrust towards +x loads the second bearing.
+    assert_eq!(reserve(0, 100.0), [200.0, 600.0]);
+    assert_eq!(reserve(0, -700.0), [200.0, -200.0]);
+    assert_eq!(reserve(1, 100.0), [100.0, 500.0]);
+    assert_eq!(reserve(1, 700.0), [-500.0, 500.0]);
+}
+
+/// The table of the catalogues, with the conditions that it prints: axial loads of A and B for a thrust that B takes if it is positive.
+fn catalogue_table(s_a: f64, s_b: f64, thrust: f64) -> [f64; 2] {
+    let magnitude = thrust.abs();
+    match (thrust >= 0.0, s_a >= s_b) {
+        (true, true) => [s_a, s_a + magnitude],
+        (true, false) if magnitude >= s_b - s_a => [s_a, s_a + magnitude],
+        (true, false) => [s_b - magnitude, s_b],
+        (false, false) => [s_b + magnitude, s_b],
+        (false, true) if magnitude >= s_a - s_b => [s_b + magnitude, s_b],
+        (false, true) => [s_a, s_a - magnitude],
+    }
+}
+
 proptest! {
     #[test]
     fn supports_balance_all_forces_and_moments(
@@ -812,6 +1033,26 @@ proptest! {
                 + a * vectors[0][axis] + b * vectors[1][axis];
             prop_assert!(sum.abs() < 1e-8 && moment.abs() < 1e-8, "{sum} {moment}");
         }
+    }
+
+    #[test]
+    fn a_pair_follows_the_table_of_the_catalogues(
+        r in proptest::array::uniform2(0.1..1.2_f64), radial in proptest::array::uniform2(0.0..5000.0_f64), thrust in -5000.0..5000.0_f64,
+    ) {
+        let [a, b] = opposed(r);
+        let found = pair_case(a, b, radial, thrust).unwrap();
+        let s = [r[0] * radial[0], r[1] * radial[1]];
+        let table = catalogue_table(s[0], s[1], thrust);
+        for side in 0..2 {
+            prop_assert!((found[side] - table[side]).abs() < 1e-8, "{found:?} {table:?}");
+            // Each bearing has at least the thrust that it induces, and they balance the thrust of the shaft.
+            prop_assert!(found[side] > s[side] - 1e-8);
+        }
+        prop_assert!((found[1] - found[0] - thrust).abs() < 1e-8);
+        // The mirror image has the mirrored loads.
+        let [a, b] = opposed([r[1], r[0]]);
+        let mirrored = pair_case(a, b, [radial[1], radial[0]], -thrust).unwrap();
+        prop_assert!((mirrored[0] - found[1]).abs() < 1e-8 && (mirrored[1] - found[0]).abs() < 1e-8);
     }
 
     #[test]

@@ -1,7 +1,8 @@
 //! Distribution of thrust over the supports of one member.
 
 use super::SupportLoad;
-use super::layout::SupportLayout;
+use super::layout::{LoadFault, SupportLayout};
+use super::pair::Pair;
 use crate::attach::Axial;
 use crate::real::Real;
 
@@ -9,10 +10,9 @@ use crate::real::Real;
 #[derive(Debug, Clone)]
 pub(crate) struct Taking {
     supports: Vec<usize>,
-    /// The two supports with a contact angle that load each other, which take thrust towards +x and -x, with their induced thrust
-    /// per radial load.
-    pair: Option<[(usize, f64); 2]>,
-    /// Supports with a spring and its force. \[N\]
+    /// Those with a contact angle that load each other.
+    pair: Option<Pair>,
+    /// Supports with a spring and its force, without the spring of the pair. \[N\]
     springs: Vec<(usize, f64)>,
     /// Supports that take thrust towards -x and towards +x, with their shares of it.
     takers: [Vec<(usize, f64)>; 2],
@@ -22,13 +22,17 @@ impl Taking {
     /// The arrangement of a member with these supports.
     ///
     /// # Errors
-    /// If several supports can take one thrust and no shares are stated: the supports, and true for a thrust towards +x.
-    pub fn new(supports: &[(usize, SupportLayout)]) -> Result<Self, Vec<(Vec<usize>, bool)>> {
+    /// If several supports can take one thrust and no shares are stated, or if springs do not fit a pair.
+    pub fn new(member: usize, supports: &[(usize, SupportLayout)]) -> Result<Self, Vec<LoadFault>> {
         let mut open = Vec::new();
         let takers = [false, true].map(|right| {
             let takers: Vec<&(usize, SupportLayout)> = supports.iter().filter(|(_, s)| takes(s, right)).collect();
             if takers.len() > 1 && takers.iter().any(|(_, s)| s.share.is_none()) {
-                open.push((takers.iter().map(|(i, _)| *i).collect(), right));
+                open.push(LoadFault::AxialIndeterminate {
+                    member,
+                    supports: takers.iter().map(|(i, _)| *i).collect(),
+                    right,
+                });
             }
             let whole: f64 = takers.iter().map(|(_, s)| s.share.unwrap_or(1.0)).sum();
             takers
@@ -41,18 +45,13 @@ impl Taking {
         if !open.is_empty() {
             return Err(open);
         }
-        let pushes = |side: Axial| {
-            let pushing = supports.iter().find(|(_, s)| s.axial == side && s.induced > 0.0);
-            pushing.map(|(i, s)| (*i, s.induced))
-        };
+        let pair = Pair::new(member, supports, &takers).map_err(|fault| vec![fault])?;
+        let of_pair = pair.as_ref().and_then(|pair| pair.spring).map(|spring| spring.support);
+        let springs = supports.iter().filter(|(i, s)| s.spring != 0.0 && Some(*i) != of_pair);
         Ok(Self {
             supports: supports.iter().map(|(i, _)| *i).collect(),
-            pair: pushes(Axial::Right).zip(pushes(Axial::Left)).map(|(r, l)| [r, l]),
-            springs: supports
-                .iter()
-                .filter(|(_, s)| s.spring != 0.0)
-                .map(|(i, s)| (*i, s.spring))
-                .collect(),
+            springs: springs.map(|(i, s)| (*i, s.spring)).collect(),
+            pair,
             takers,
         })
     }
@@ -60,6 +59,17 @@ impl Taking {
     /// Supports of the member.
     pub fn supports(&self) -> &[usize] {
         &self.supports
+    }
+
+    /// The supports that load each other.
+    pub fn pair(&self) -> Option<&Pair> {
+        self.pair.as_ref()
+    }
+
+    /// A thrust towards +x with the forces of springs on the member.
+    #[inline(always)]
+    pub fn with_springs<R: Real>(&self, thrust: R) -> R {
+        self.springs.iter().fold(thrust, |sum, (_, spring)| sum + *spring)
     }
 
     /// The thrust towards +x that no support takes. `scale` is the magnitude of the forces in the sum of the thrust.
@@ -81,7 +91,7 @@ impl Taking {
     /// The thrust that springs leave.
     #[inline(always)]
     fn rest<R: Real>(&self, thrust: R, scale: R) -> R {
-        let rest = self.springs.iter().fold(thrust, |rest, (_, spring)| rest + *spring);
+        let rest = self.with_springs(thrust);
         // What is rounding error is no thrust.
         R::select(rest.abs().is_above(scale * 1e-9), rest, R::ZERO)
     }
@@ -89,17 +99,19 @@ impl Taking {
     /// Adds the axial load of each support for a thrust towards +x, and the untaken thrust.
     #[inline(always)]
     pub fn share<R: Real>(&self, thrust: R, scale: R, loads: &mut [SupportLoad<R>]) {
-        // Bearings with a contact angle load each other: the pair balances K + S_L against S_R.
-        if let Some([(r, induced_r), (l, induced_l)]) = self.pair {
-            let (s_r, s_l) = (loads[r].radial * induced_r, loads[l].radial * induced_l);
-            let thrust = thrust + self.springs.iter().map(|s| s.1).sum::<f64>();
-            let left = (thrust + s_l).is_below(s_r);
-            loads[r].axial += R::select(left, s_r, thrust + s_l);
-            loads[l].axial += R::select(left, s_r - thrust, s_l);
-            return;
-        }
         for (i, spring) in &self.springs {
             loads[*i].axial += R::constant(spring.abs());
+        }
+        if let Some(pair) = &self.pair {
+            let totals = pair
+                .loads(self.with_springs(thrust), |support| loads[support].radial)
+                .axial;
+            for (side, total) in pair.sides.iter().zip(totals) {
+                for paired in side {
+                    loads[paired.support].axial += total * paired.share;
+                }
+            }
+            return;
         }
         let rest = self.rest(thrust, scale);
         for (takers, own) in self.takers.iter().zip([-rest, rest]) {

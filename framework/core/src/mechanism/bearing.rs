@@ -4,10 +4,11 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::attach::{Support, SupportSite};
-use crate::loads::{Carries, StaticFactors, StaticRating, Thrust};
+use crate::loads::{Carries, Induced, StaticFactors, StaticRating, Thrust};
 use crate::loss::{Loss, Notes, Term, Undefined};
 use crate::mechanism::{Component, Mechanism, Scalar};
 use crate::real::{Dual, Lane, Points, Real};
+use crate::resolve::basic_designation;
 use crate::{answered_by, context};
 
 /// Marker of the mechanism; never constructed.
@@ -209,6 +210,10 @@ pub struct BearingEntry {
     /// Axial factor of the static equivalent load. [-]
     #[schemars(range(min = 0.0, max = 10.0))]
     pub y0: Option<f64>,
+    /// Contact angle; default of an angular contact ball bearing: that of its designation. From it or from `y` follows the thrust that the
+    /// radial load of an angular contact ball or tapered roller bearing induces; no model uses that of other kinds. [deg]
+    #[schemars(range(min = 1.0, max = 89.0))]
+    pub contact_angle: Option<f64>,
     /// Fatigue load limit; for ratings. [N]
     #[schemars(range(min = 0.1, max = 1e8))]
     pub pu: Option<f64>,
@@ -266,6 +271,8 @@ pub struct BearingPart {
     pub y: Option<f64>,
     /// Axial factor Y0.
     pub y0: Option<f64>,
+    /// Contact angle. \[rad\]
+    pub contact_angle: Option<f64>,
     /// Fatigue load limit. \[N\]
     pub pu: Option<f64>,
     /// Calculation factor f0 of the catalogue.
@@ -365,6 +372,16 @@ impl BearingPart {
         }
     }
 
+    /// The thrust that a radial load induces. The rows of double-row bearings balance each other; spherical roller thrust bearings are not
+    /// known here.
+    pub fn induced(&self) -> Induced {
+        match self.kind {
+            BearingKind::TaperedRoller => Induced::of_tapered_roller(self.y, self.contact_angle),
+            BearingKind::AngularContactBall => Induced::of_angular_contact_ball(self.contact_angle),
+            _ => Induced::None,
+        }
+    }
+
     /// Static load rating with the factors of P0; `None` if one of them is not known.
     pub fn static_rating(&self) -> Option<StaticRating> {
         Some(StaticRating {
@@ -460,6 +477,11 @@ impl TryFrom<BearingEntry> for BearingPart {
                 0.5e3 * outside
             ));
         }
+        let designated = entry.designation.as_deref().and_then(basic_designation);
+        let designated =
+            designated.filter(|basic| kind == BearingKind::AngularContactBall && basic.kind == kind.name());
+        let designated = designated.and_then(|basic| basic.contact_angle);
+        let designated = designated.map(|degrees| f64::from(degrees).to_radians());
         Ok(Self {
             designation: entry.designation,
             kind,
@@ -472,6 +494,7 @@ impl TryFrom<BearingEntry> for BearingPart {
             e: entry.e,
             y: entry.y,
             y0: entry.y0,
+            contact_angle: entry.contact_angle.or(designated),
             pu: entry.pu,
             calculation_factor: entry.calculation_factor,
             minimum_load_factor: entry.minimum_load_factor,
@@ -495,7 +518,7 @@ context! {
         /// Radial load. [N]
         radial: 1000.0 in 0.0..=100000.0 from "statics of the shaft with tooth forces, weights, external forces and preload, times `radial_factor`",
         /// Axial load. [N]
-        axial: 300.0 in 0.0..=50000.0 from "the bearings of the shaft that take its thrust, with preload, times `axial_factor`",
+        axial: 300.0 in 0.0..=50000.0 from "the bearings of the shaft that take its thrust, with preload and the induced thrust of pairs, times `axial_factor`",
         /// Tilting moment. [Nm]
         tilting: 0.0 in 0.0..=1000.0 from "statics of a shaft supported by this bearing alone",
         /// Temperature of the oil at the bearing. [degC]
@@ -563,6 +586,10 @@ impl Component for Bearing {
 
     fn carries(part: &BearingPart) -> Carries {
         part.carries()
+    }
+
+    fn induced(part: &BearingPart) -> Induced {
+        part.induced()
     }
 
     fn name(part: &BearingPart) -> String {

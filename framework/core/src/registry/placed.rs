@@ -11,7 +11,7 @@ use super::{Entry, from_resolved};
 use crate::attach::{Attach, Common, Names, Spot, State};
 use crate::document::Diagnostic;
 use crate::evaluate::{Reading, readings};
-use crate::loads::{Carries, StaticRating};
+use crate::loads::{Carries, Induced, StaticRating};
 use crate::loss::{Loss, NoteBase, Notebook, Notes, Undefined};
 use crate::mechanism::{Answers, Component, Slot};
 use crate::rating::{Rated, RatingSlot};
@@ -53,6 +53,10 @@ pub trait Placed: sealed::Sealed + Send + Sync {
     /// The loads that it can carry by its design.
     fn carries(&self) -> Carries {
         Carries::ANY
+    }
+    /// The thrust that a radial load induces by its design.
+    fn induced(&self) -> Induced {
+        Induced::None
     }
     /// Its name in messages, such as its designation.
     fn name(&self) -> String {
@@ -140,6 +144,9 @@ impl<C: Component> Placed for PlacedAs<C> {
     }
     fn carries(&self) -> Carries {
         C::carries(&self.part)
+    }
+    fn induced(&self) -> Induced {
+        C::induced(&self.part)
     }
     fn name(&self) -> String {
         C::name(&self.part)

@@ -104,9 +104,10 @@ pub fn basic_designation(designation: &str) -> Option<BasicDesignation> {
         .find(|(_, all)| all.split(' ').any(|known| known == series))?;
     let starts = |letters: &[&'static str]| letters.iter().copied().find(|start| suffix.starts_with(start));
     let (letter, contact_angle) = match *kind {
-        "angular_contact_ball" => match starts(&["BE", "B", "AC", "A", "C"]) {
+        "angular_contact_ball" => match starts(&["BE", "B", "AC", "A5", "A", "C"]) {
             Some(letter @ ("BE" | "B")) => (Some(letter), Some(40)),
             Some("AC") => (Some("AC"), Some(25)),
+            Some("A5") => (Some("A"), Some(25)),
             Some("A") => (Some("A"), Some(30)),
             Some(letter) => (Some(letter), Some(15)),
             None => (None, None),
@@ -190,6 +191,16 @@ mod tests {
                 (kind, series, bore),
                 "{designation}"
             );
+        }
+        for (designation, degrees) in [
+            ("7208 C", 15),
+            ("7208 A5", 25),
+            ("7208 AC", 25),
+            ("7208 A", 30),
+            ("7208 B", 40),
+        ] {
+            let found = basic_designation(designation).unwrap();
+            assert_eq!(found.contact_angle, Some(degrees), "{designation}");
         }
         for other in ["1380/1328", "W 100", "62O5", "X", "", "LM11949", "2608"] {
             assert_eq!(basic_designation(other), None, "{other}");

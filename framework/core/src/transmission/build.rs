@@ -6,6 +6,7 @@ use super::gearing::gearing;
 use super::members::Members;
 use super::nodes::{HeatPath, NodeNames, unmet};
 use super::oils::OilNumbers;
+use super::pairs::{BearingPair, Design};
 use super::planets::{self, Held};
 use super::plausible;
 use super::seats::{GearSeat, MeshSeat};
@@ -17,7 +18,6 @@ use crate::codes;
 use crate::description::{GearboxEntry, NetworkChoice, ThermalMode};
 use crate::document::{Diagnostic, classify};
 use crate::language::Language;
-use crate::loads::Carries;
 use crate::mechanism::Mechanism;
 use crate::mechanism::ModelRef;
 use crate::mechanism::gear_mesh::{GearMesh, MeshPart};
@@ -92,11 +92,12 @@ impl Transmission {
             &mut found,
         );
         classify(&mut found, codes::POWER_FLOW);
+        let designs = models.designs();
         let loads = shaft_loads(
             entry,
             members,
             &frame.meshes,
-            (supports, &models.carries()),
+            (supports, &designs),
             &mut memory,
             &mut found,
             &mut warnings,
@@ -113,6 +114,7 @@ impl Transmission {
         };
         let (instances, cells) = build.finish();
         let rated: Vec<RatedSupport> = models.components.iter().filter_map(rated).collect();
+        let pairs = BearingPair::all(&loads, supports, &designs);
         let parts = in_document_order(resolved, models.parts);
         if let Some(network) = &mut network {
             warnings.extend(network.warnings());
@@ -134,11 +136,12 @@ impl Transmission {
             meshes: models.meshes,
             drags: models.drags,
             components: models.components,
-            limited: limited(&instances, &parts, &rated, (supports, cells)),
+            limited: limited(&instances, &parts, (&rated, &pairs), (supports, cells)),
             parts,
             instances,
-            cells: cells + rated.len(),
+            cells: cells + rated.len() + pairs.iter().map(BearingPair::cells).sum::<usize>(),
             rated,
+            pairs,
             oils,
             loads,
             load_factors,
@@ -169,11 +172,11 @@ fn in_document_order(resolved: &Resolved, mut parts: Vec<PartInfo>) -> Vec<PartI
     parts
 }
 
-/// As [`Transmission::limited`]; the cells of rated supports follow those of the models.
+/// As [`Transmission::limited`]; the cells of rated supports follow those of the models, and those of pairs with springs these.
 fn limited(
     instances: &[crate::registry::Instance],
     parts: &[PartInfo],
-    rated: &[RatedSupport],
+    (rated, pairs): (&[RatedSupport], &[BearingPair]),
     (supports, cells): (&[SeatedSupport], usize),
 ) -> std::sync::Arc<[(usize, usize)]> {
     let mut list = Vec::new();
@@ -186,8 +189,10 @@ fn limited(
         }
     }
     let places: HashMap<&str, usize> = parts.iter().map(|part| part.path.as_str()).zip(0..).collect();
-    for (i, rated) in rated.iter().enumerate() {
-        let bearing = places.get(supports[rated.support].path.as_str());
+    let noted = rated.iter().map(|rated| rated.support);
+    let noted = noted.chain(pairs.iter().flat_map(BearingPair::noted));
+    for (i, support) in noted.enumerate() {
+        let bearing = places.get(supports[support].path.as_str());
         list.extend(bearing.map(|part| (cells + i, *part)));
     }
     list.into()
@@ -289,15 +294,19 @@ struct Models {
 }
 
 impl Models {
-    /// What each support can carry, with its name.
-    fn carries(&self) -> Vec<(Carries, String)> {
-        let mut carries = vec![(Carries::ANY, String::new()); self.supports.len()];
+    /// The design of each support.
+    fn designs(&self) -> Vec<Design> {
+        let mut designs = vec![Design::default(); self.supports.len()];
         for placed in self.components.iter().map(|component| &component.placed) {
             if let Some(support) = placed.support() {
-                carries[usize::from(support)] = (placed.carries(), placed.name());
+                designs[usize::from(support)] = Design {
+                    name: placed.name(),
+                    carries: placed.carries(),
+                    induced: placed.induced(),
+                };
             }
         }
-        carries
+        designs
     }
 
     fn new(

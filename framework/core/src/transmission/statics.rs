@@ -4,13 +4,14 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::members::Members;
+use super::pairs::{Design, NotCounted};
 use super::seats::{MeshSeat, orbit};
 use crate::attach::{Axial, Factor, SeatedSupport, dangling};
 use crate::codes;
 use crate::description::{GearboxEntry, Unsupported};
 use crate::document::Diagnostic;
 use crate::loads::{
-    Carries, Layout, LoadFault, MemberLayout, MeshLayout, PlanetBody, Section, ShaftLoads, SupportLayout, SupportLoad,
+    Induced, Layout, LoadFault, MemberLayout, MeshLayout, PlanetBody, Section, ShaftLoads, SupportLayout, SupportLoad,
     Thrust,
 };
 use crate::real::Real;
@@ -102,7 +103,7 @@ pub fn shaft_loads(
     entry: &GearboxEntry,
     members: &Members,
     meshes: &[MeshSeat],
-    (supports, carries): (&[SeatedSupport], &[(Carries, String)]),
+    (supports, designs): (&[SeatedSupport], &[Design]),
     memory: &mut Memory,
     found: &mut Vec<Diagnostic>,
     warnings: &mut Vec<Diagnostic>,
@@ -113,8 +114,8 @@ pub fn shaft_loads(
             .collect(),
         supports: supports
             .iter()
-            .zip(carries)
-            .map(|(support, (carries, _))| support_layout(support, *carries, members, found))
+            .zip(designs)
+            .map(|(support, design)| support_layout(support, design, members, found))
             .collect(),
         meshes: meshes.iter().map(|mesh| mesh_layout(mesh, entry, members)).collect(),
     };
@@ -122,24 +123,38 @@ pub fn shaft_loads(
     warnings.extend(
         supports
             .iter()
-            .zip(carries)
-            .filter_map(|(support, (carries, name))| unsuited(support, *carries, name)),
+            .zip(designs)
+            .filter_map(|(support, design)| unsuited(support, design)),
     );
+    let not_counted = NotCounted::new(&layout, supports, designs);
     match memory.repeat("shaft loads", layout, |layout| ShaftLoads::new(layout).map(Arc::new)) {
-        Ok(loads) => Some(loads),
+        Ok(loads) => {
+            not_counted.report(&loads, members, found, warnings);
+            Some(loads)
+        }
         Err(faults) => {
             let path = |s: &usize| supports[*s].path.clone();
             let thrust_bearings = |member: usize| -> Vec<usize> {
                 let at = |support: &SeatedSupport| [Some(support.inner), support.outer].contains(&Some(member as u16));
-                let thrust = supports.iter().zip(carries).enumerate();
-                let thrust = thrust.filter(|(_, (support, (carries, _)))| !carries.radial && at(support));
+                let thrust = supports.iter().zip(designs).enumerate();
+                let thrust = thrust.filter(|(_, (support, design))| !design.carries.radial && at(support));
                 thrust.map(|(i, _)| i).collect()
             };
-            found.extend(
-                faults
-                    .iter()
-                    .map(|fault| explain(fault, members, &path, &thrust_bearings)),
-            );
+            found.extend(faults.iter().map(|fault| {
+                let finding = explain(fault, members, &path, &thrust_bearings);
+                match fault {
+                    LoadFault::AxialIndeterminate { supports, .. }
+                        if supports
+                            .iter()
+                            .any(|support| designs[*support].induced != Induced::None) =>
+                    {
+                        finding.note(
+                            "of opposed bearings with a contact angle, one takes `axial: left` and one `axial: right`",
+                        )
+                    }
+                    _ => finding,
+                }
+            }));
             None
         }
     }
@@ -205,7 +220,7 @@ fn member_layout(
 /// A support; the two members that it connects are on one axis.
 fn support_layout(
     support: &SeatedSupport,
-    carries: Carries,
+    design: &Design,
     members: &Members,
     found: &mut Vec<Diagnostic>,
 ) -> SupportLayout {
@@ -233,11 +248,11 @@ fn support_layout(
         axial: place.axial,
         share: place.axial_share,
         spring: place.spring_preload,
-        takes_radial: carries.radial,
+        takes_radial: design.carries.radial,
         takes_moment: place.takes_moment,
         radial_stiffness: place.radial_stiffness,
         tilting_stiffness: place.tilting_stiffness,
-        induced: place.induced_thrust,
+        induced: design.induced_thrust(place).map(|induced| induced.ratio),
     }
 }
 
@@ -356,8 +371,9 @@ fn unsupported(
 }
 
 /// Reports an assignment of thrust that does not match the design of a bearing.
-fn unsuited(support: &SeatedSupport, carries: Carries, name: &str) -> Option<Diagnostic> {
+fn unsuited(support: &SeatedSupport, design: &Design) -> Option<Diagnostic> {
     let (place, path) = (&support.place, &support.path);
+    let (carries, name) = (design.carries, &design.name);
     let axial = match place.axial {
         Axial::None => "none",
         Axial::Left => "left",
@@ -436,6 +452,24 @@ fn explain(
             )
             .help("assign it to one of them with `axial:`, or state `axial_share` of each")
         }
+        LoadFault::SeveralSprings { member, supports } => Diagnostic::error(
+            at(*member),
+            format!("springs press several bearings of a pair: {}", list(supports)),
+        )
+        .help("state `spring_preload` of one of them: through the shaft it loads the other one, too"),
+        LoadFault::SpringOfSeveral { support, supports } => Diagnostic::error(
+            format!("{}.spring_preload", path(support)),
+            format!(
+                "a spring presses one of several bearings that take the same thrust: {}",
+                list(supports)
+            ),
+        )
+        .help("assign the thrust to the bearing with the spring, with `axial: none` at the others"),
+        LoadFault::SpringLifts { support } => Diagnostic::error(
+            format!("{}.spring_preload", path(support)),
+            "the spring lifts this ring of a pair off its rolling elements",
+        )
+        .help("reverse the sign: a bearing with `axial: left` pushes the shaft towards +x only, which is positive"),
         LoadFault::NoSection { member, range } => Diagnostic::error(
             format!("{}.sections", at(*member)),
             format!(

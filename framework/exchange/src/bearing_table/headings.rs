@@ -23,7 +23,7 @@ pub(super) struct Key {
 }
 
 /// All keys, in the order of the catalogue.
-pub(super) const KEYS: [Key; 19] = [
+pub(super) const KEYS: [Key; 20] = [
     Key {
         name: "designation",
         unit: "",
@@ -124,6 +124,14 @@ pub(super) const KEYS: [Key; 19] = [
         purpose: "",
         symbols: "Y0 Yo",
         words: "calculationfactory0 axialfactory0 faktory0",
+    },
+    Key {
+        name: "contact_angle",
+        unit: "deg",
+        total: false,
+        purpose: "",
+        symbols: "α alpha α0 alpha0",
+        words: "contactangle nominalcontactangle druckwinkel nenndruckwinkel berührungswinkel",
     },
     Key {
         name: "pu",

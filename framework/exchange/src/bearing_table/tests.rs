@@ -222,6 +222,8 @@ fn headings_are_unambiguous() {
         ("Dynamische Tragzahl, radial", "c"),
         ("P_u", "pu"),
         ("C_0r", "c0"),
+        ("α", "contact_angle"),
+        ("Druckwinkel", "contact_angle"),
     ] {
         assert_eq!(headings::key(heading).map(|key| key.name), Some(name), "{heading}");
     }

@@ -10,6 +10,7 @@ use gearloss_studies::analyses::Work;
 use gearloss_studies::bearings::{BearingCard, bearing_cards};
 use gearloss_studies::checked::CheckedGearbox;
 use gearloss_studies::checked_study::CheckedStudy;
+use gearloss_studies::pairs::{PairCard, pair_cards};
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
@@ -78,6 +79,8 @@ struct BuiltRecord {
     stages: Vec<Stage>,
     /// Bearings, with their worst values at the rated torque and speed.
     bearings: Vec<BearingCard>,
+    /// Opposed bearings that load each other by induced thrust or a spring.
+    bearing_pairs: Vec<PairCard>,
     /// Oil in the housing; null if its volume is not stated.
     oil: Option<OilRecord>,
     /// Speed ratios from the reference port to every other port, for each gear.
@@ -232,6 +235,7 @@ impl BuiltRecord {
             gear_states: t.states().iter().map(|state| state.name.clone()).collect(),
             stages: t.stages().collect(),
             bearings: bearing_cards(&checked),
+            bearing_pairs: pair_cards(t, resolved),
             oil,
             ratios: ratios(t),
             torque_orders: t.torque_orders(),

@@ -10,6 +10,7 @@ use gearloss_framework::transmission::Transmission;
 use gearloss_studies::analyses::numbers::RPM;
 use serde_json::Value;
 
+use super::pair::explain_pair;
 use crate::card::stage_lines;
 use crate::text::{Lines, significant};
 
@@ -68,6 +69,7 @@ pub fn explain_part(
         };
         out.line(format!("    {} = {} {unit}", reading.name, significant(reading.value)).trim_end());
     }
+    explain_pair(transmission, resolved, solution, &info.path, out);
     if let Some(stage) = transmission.stages().find(|stage| stage.mesh == info.path) {
         out.line("  geometry:");
         for figure in stage_lines(&stage) {

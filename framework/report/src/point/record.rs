@@ -137,6 +137,8 @@ struct SupportRecord {
     radial_n: Option<f64>,
     /// Axial load; null if no flow was found. [N]
     axial_n: Option<f64>,
+    /// The part of it that induced thrust adds; null outside of pairs of bearings, for a pair with a spring, and if no flow was found. [N]
+    induced_n: Option<f64>,
     /// Tilting moment; null if no flow was found. [Nm]
     tilting_nm: Option<f64>,
     /// Load at the most loaded planet; null for equal load sharing and for other supports.
@@ -278,6 +280,7 @@ impl SupportRecord {
             support: path.to_owned(),
             radial_n: load.map(|load| load.radial),
             axial_n: load.map(|load| load.axial),
+            induced_n: solution.induced(number, false).filter(|_| flow),
             tilting_nm: load.map(|load| load.tilting),
             most_loaded_planet: most.map(LoadRecord::from),
             static_safety: solution.static_safety(number),

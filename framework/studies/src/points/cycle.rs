@@ -221,7 +221,7 @@ pub fn drive(
         brakes: 0.0,
         start,
         seen: Vec::new(),
-        lost_outside: vec![0.0; transmission.rated_cells() + transmission.rated().len()],
+        lost_outside: vec![0.0; transmission.cells()],
         evaluations: 0,
         calls: 0,
         steps: [0; 2],

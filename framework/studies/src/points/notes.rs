@@ -91,7 +91,7 @@ pub struct Stated {
     pub origin: &'static str,
 }
 
-/// Notes on all limits and observed quantities, and on bearings with insufficient static safety.
+/// Notes on all limits and observed quantities, on bearings with insufficient static safety, and on pairs with too weak a spring.
 pub fn notes(transmission: &Transmission, seen: &[Extent]) -> Vec<Note> {
     notes_of(transmission, seen, &|_| None)
 }
@@ -148,6 +148,37 @@ fn notes_of(transmission: &Transmission, seen: &[Extent], share: &dyn Fn(usize) 
                     least: LEAST_STATIC_SAFETY,
                     greatest: f64::INFINITY,
                     origin: "static safety, ISO 76",
+                }),
+                loss_share: share(cell),
+            }),
+    );
+    let first = transmission.pair_cells();
+    let sprung = transmission
+        .pairs()
+        .iter()
+        .filter_map(|pair| Some((pair, pair.spring?)));
+    let noted = sprung.flat_map(|(pair, spring)| pair.noted().map(move |support| (support, support == spring.support)));
+    let noted = noted.zip(&seen[first..]).zip(first..);
+    notes.extend(
+        noted
+            .filter(|((_, seen), _)| seen.outside > 0)
+            .map(|(((support, on_spring), seen), cell)| Note {
+                path: transmission.supports()[support].clone(),
+                name: if on_spring { "Fs - r Fr" } else { "Fs + Ka - r Fr" },
+                meaning: if on_spring {
+                    "spring force less the thrust that the radial load induces"
+                } else {
+                    "axial load less the thrust that the radial load induces"
+                },
+                unit: "N",
+                least: seen.least,
+                greatest: seen.greatest,
+                points: seen.seen,
+                outside: seen.outside,
+                range: Some(Stated {
+                    least: 0.0,
+                    greatest: f64::INFINITY,
+                    origin: "pair with a spring: below, less than half of the rolling elements carry",
                 }),
                 loss_share: share(cell),
             }),
@@ -236,6 +267,12 @@ pub fn evidence(transmission: &Transmission, resolved: &Resolved, written: &dyn 
     {
         let because = "capacities and conductances by size";
         add("network: auto".to_owned(), Evidence::Assumed, because, path);
+    }
+    for bearing in transmission.pairs().iter().flat_map(|pair| pair.bearings()) {
+        if let Some((grade, because)) = bearing.induced.basis.evidence() {
+            let what = format!("induced thrust by {}", bearing.induced.basis.words());
+            add(what, grade, because, &transmission.supports()[bearing.support]);
+        }
     }
     let mut seen = HashSet::new();
     for (path, came) in &resolved.sources {
